@@ -17,9 +17,9 @@ Words operator+(Words a, const Words& b) {
 
 const Words placementKeys{"at", "rpy_deg", "rpy", "quat_xyzw"};
 const Words poseKeys = placementKeys + Words{"yaw_deg", "yaw"};
-const Words shapeKeys =
-    Words{"mesh", "box", "sphere", "capsule", "cylinder", "convex", "unit", "up", "solid"} +
-    placementKeys;
+const Words shapeKeys = Words{"mesh",   "box",     "sphere", "capsule", "cylinder", "convex",
+                              "points", "octomap", "unit",   "up",      "solid"} +
+                        placementKeys;
 
 using Keys = std::map<std::string, MapKeys>;
 
@@ -29,6 +29,8 @@ void addShape(Keys& keys, const std::string& path, const Words& more) {
   keys[path + ".sphere"] = {{"radius"}, {}};
   keys[path + ".capsule"] = {{"radius", "length"}, {}};
   keys[path + ".cylinder"] = {{"radius", "length"}, {}};
+  keys[path + ".points"] = {{"file", "radius"}, {}};
+  keys[path + ".octomap"] = {{"file", "unknown", "threshold"}, {}};
 }
 
 Keys makeProblemKeys() {
@@ -99,6 +101,7 @@ const std::map<std::string, std::vector<std::string>>& problemChoices() {
   static const std::map<std::string, std::vector<std::string>> choices{
       {"world.*.unit", {"m", "cm", "mm", "in"}},
       {"world.*.up", {"x", "y", "z"}},
+      {"world.*.octomap.unknown", {"free", "occupied"}},
       {"planner.stop", {"first", "time"}},
       {"sampler", wordsFor<StateSampler>()},
       {"checker.edges", wordsFor<EdgeCheck>()},
@@ -117,6 +120,7 @@ const std::map<std::string, std::vector<std::string>>& robotChoices() {
       {"collada_up", {"ignore", "file"}},
       {"shapes[].unit", {"m", "cm", "mm", "in"}},
       {"shapes[].up", {"x", "y", "z"}},
+      {"shapes[].octomap.unknown", {"free", "occupied"}},
   };
   return choices;
 }

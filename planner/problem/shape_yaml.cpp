@@ -6,12 +6,14 @@
 #include "collision/core/read_file.h"
 #include "collision/core/spelling.h"
 #include "collision/geometry/mesh_health.h"
+#include "planner/problem/cloud_yaml.h"
 #include "planner/problem/keys.h"
 
 namespace corridor {
 namespace {
 
-const std::vector<std::string> kinds{"mesh", "box", "sphere", "capsule", "cylinder", "convex"};
+const std::vector<std::string> kinds{"mesh",     "box",    "sphere", "capsule",
+                                     "cylinder", "convex", "points", "octomap"};
 
 const MapKeys* keysOf(const char* primitive) {
   return &problemKeys().at(std::string("world.*.") + primitive);
@@ -26,6 +28,13 @@ MeshFileOptions readMeshOptions(const YamlMap& map) {
                                             : 0.0254;
   if (const auto up = map.choice("up", problemChoices().at("world.*.up"))) options.up = up->front();
   return options;
+}
+
+/// Returns whether a file that can't be read as a mesh is probably a point cloud.
+bool mayBeCloud(const std::filesystem::path& file, std::string_view why) {
+  const std::string extension = lowered(file.extension().string());
+  if (extension == ".ply") return why.find("face") != why.npos;
+  return extension == ".pcd" || extension == ".xyz" || extension == ".pts" || extension == ".asc";
 }
 
 /// Reads the mesh file that `key` names, and adds it to `files`. Returns nullopt if a fault was
@@ -46,6 +55,8 @@ std::optional<MeshFile> readMesh(const YamlMap& map, const char* key,
     return readMeshFile(file, options);
   } catch (const InputError& error) {
     map.source().faults.add(error);
+    if (mayBeCloud(file, error.what()))
+      map.fault(key, "for a cloud of points, write points: {file: " + *name + ", radius: 0.01}");
     return std::nullopt;
   }
 }
@@ -122,14 +133,18 @@ std::optional<Primitive> readPrimitive(const YamlMap& map, const std::string& ki
 
 /// Adds a fault for each key that does not apply to this kind of shape.
 void faultMisplacedKeys(const YamlMap& map, const std::string& kind) {
-  const bool isFile =
-      kind == "mesh" || (kind == "convex" && map.find("convex")->kind == YamlValue::Kind::Scalar);
+  const bool isFile = kind == "mesh" || kind == "points" ||
+                      (kind == "convex" && map.find("convex")->kind == YamlValue::Kind::Scalar);
   if (!isFile)
     for (const char* key : {"unit", "up"})
       if (map.find(key))
-        map.fault(key, "is for mesh files; lengths of a " + kind + " are in metres");
+        map.fault(key, kind == "octomap"
+                           ? "is for mesh files; an octomap is in metres, with z up"
+                           : "is for mesh files; lengths of a " + kind + " are in metres");
   if (kind != "mesh" && map.find("solid"))
-    map.fault("solid", "is for meshes; a " + kind + " is always solid");
+    map.fault("solid", kind == "points" || kind == "octomap"
+                           ? "is for meshes; balls and cubes are always solid"
+                           : "is for meshes; a " + kind + " is always solid");
 }
 
 bool moveMesh(TriangleMesh& mesh, const Transform& X) {
@@ -158,7 +173,8 @@ std::optional<PlacedShape> readShape(const YamlMap& map, const ShapePlace& place
                                      std::vector<std::filesystem::path>& files) {
   const auto kind = map.requireOne(kinds, "one shape",
                                    "mesh: FILE, box: [x, y, z], sphere: radius, capsule or "
-                                   "cylinder: {radius: …, length: …}, or convex: FILE");
+                                   "cylinder: {radius: …, length: …}, convex: FILE, points: "
+                                   "{file: …, radius: …}, or octomap: {file: …}");
   const bool solid = map.boolean("solid").value_or(false);
   const auto own = readPlacement(map);
   if (!kind) return std::nullopt;
@@ -166,26 +182,30 @@ std::optional<PlacedShape> readShape(const YamlMap& map, const ShapePlace& place
 
   PlacedShape shape;
   shape.name = place.name;
-  if (*kind == "mesh") {
+  const Placement whole = place.outer * own.value_or(Placement{});
+  shape.at = whole.pose;
+  bool inRange = true;
+  if (*kind == "points" || *kind == "octomap") {
+    if (!readCloud(map, *kind, *keysOf(kind->c_str()), place.folder, readMeshOptions(map), whole.X,
+                   shape, files) ||
+        !own)
+      return std::nullopt;
+    inRange = std::all_of(shape.parts.begin(), shape.parts.end(), isFinite);
+  } else if (*kind == "mesh") {
     shape.mesh = readMesh(map, "mesh", place.folder, shape.file, files);
     shape.solid = solid;
-  } else if ((shape.primitive = readPrimitive(map, *kind, place, shape.file, files))) {
+    if (!own || !shape.mesh || (solid && !checkSolid(map, shape))) return std::nullopt;
+    if (!whole.isIdentity()) inRange = moveMesh(shape.mesh->mesh, whole.X);
+  } else {
+    shape.primitive = readPrimitive(map, *kind, place, shape.file, files);
+    if (!shape.primitive) return std::nullopt;
     if (const auto why = checkPrimitive(*shape.primitive)) {
       map.fault(*kind, *why);
       return std::nullopt;
     }
-  }
-  if (!own || (!shape.mesh && !shape.primitive)) return std::nullopt;
-
-  const Placement whole = place.outer * *own;
-  shape.at = whole.pose;
-  bool inRange = true;
-  if (shape.mesh) {
-    if (shape.solid && !checkSolid(map, shape)) return std::nullopt;
-    if (!whole.isIdentity()) inRange = moveMesh(shape.mesh->mesh, whole.X);
-  } else {
-    shape.part = placed(*shape.primitive, whole.X);
-    inRange = isFinite(*shape.part);
+    if (!own) return std::nullopt;
+    shape.parts.push_back(placed(*shape.primitive, whole.X));
+    inRange = isFinite(shape.parts.front());
   }
   if (inRange) return shape;
   map.fault("at", "moves the shape out of the range of doubles");
@@ -224,8 +244,9 @@ bool shift(PlacedShape& shape, const Vec3& by) {
     return std::all_of(shape.mesh->mesh.vertices.begin(), shape.mesh->mesh.vertices.end(),
                        [](const Vec3& vertex) { return vertex.allFinite(); });
   }
-  for (Vec3& point : shape.part->points) point += by;
-  return isFinite(*shape.part);
+  for (ConvexPart& part : shape.parts)
+    for (Vec3& point : part.points) point += by;
+  return std::all_of(shape.parts.begin(), shape.parts.end(), isFinite);
 }
 
 void addFile(std::vector<std::filesystem::path>& files, const std::filesystem::path& file) {

@@ -11,8 +11,8 @@ namespace {
 
 /// Reads an obstacle of several shapes: {shapes: […], at: …}.
 std::vector<PlacedShape> readGroup(const YamlMap& map, ShapePlace place, Source& source) {
-  for (const char* key :
-       {"mesh", "box", "sphere", "capsule", "cylinder", "convex", "unit", "up", "solid"})
+  for (const char* key : {"mesh", "box", "sphere", "capsule", "cylinder", "convex", "points",
+                          "octomap", "unit", "up", "solid"})
     if (map.find(key)) map.fault(key, "belongs to one shape; put it into the items of shapes");
   const auto outer = readPlacement(map);
   place.outer = outer.value_or(Placement{});

@@ -12,6 +12,7 @@ words() {
   cd "$project"
   case $1 in
     read_mesh | read_assimp) set -- collision/geometry/{*_reader,ply_header,collada_asset}.cpp ;;
+    read_cloud) set -- collision/geometry/{pcd_reader,ply_header,occupancy_map}.cpp ;;
     read_urdf | read_srdf) set -- planner/robot/{urdf_*,srdf_file,joint_types}.cpp ;;
     read_campaign) set -- planner/{benchmark/campaign_yaml,problem/keys,problem/checker_yaml}.cpp ;;
     read_solution) set -- planner/solve/solution.cpp ;;

@@ -1,0 +1,87 @@
+#include "planner/problem/cloud_yaml.h"
+
+#include "collision/core/read_file.h"
+#include "collision/geometry/occupancy_map.h"
+#include "collision/geometry/point_cloud.h"
+#include "planner/problem/keys.h"
+
+namespace corridor {
+namespace {
+
+constexpr std::size_t kMostParts = 10'000'000;  // some 250 bytes each, trees included
+
+bool readPoints(const YamlMap& inner, const MeshFileOptions& options, const Transform& X,
+                PlacedShape& shape) {
+  inner.require("radius", "metres, such as 0.01: each point becomes a ball");
+  const auto radius = inner.number("radius", Range::Positive);
+  if (!radius) return false;
+  const PointCloud cloud = readPointCloud(shape.file, options);
+  if (cloud.points.size() > kMostParts) {
+    inner.fault("file", shape.file.string() + " has " + std::to_string(cloud.points.size()) +
+                            " points; at most 10000000 are handled: thin the cloud out");
+    return false;
+  }
+  shape.parts.reserve(cloud.points.size());
+  for (const Vec3& point : cloud.points) shape.parts.push_back({{X * point}, *radius, false});
+  if (cloud.notFinite > 0)
+    shape.note = shape.file.string() + ": " + std::to_string(cloud.notFinite) + " of " +
+                 std::to_string(cloud.points.size() + cloud.notFinite) +
+                 " points are not finite, and are left out";
+  return true;
+}
+
+bool readMap(const YamlMap& inner, const Transform& X, PlacedShape& shape) {
+  OccupancyRules rules;
+  if (const auto unknown = inner.choice("unknown", problemChoices().at("world.*.octomap.unknown")))
+    rules.unknownIsOccupied = *unknown == "occupied";
+  if (const auto threshold = inner.number("threshold", Range::Positive)) {
+    rules.threshold = *threshold;
+    if (!(*threshold < 1)) {
+      inner.fault("threshold", "a probability above 0 and below 1 is needed");
+      return false;
+    }
+  }
+  const OccupancyMap octree = readOccupancyMap(shape.file, rules);
+  if (octree.cubes.empty()) {
+    inner.fault("file", shape.file.string() + ": the map has no occupied cell");
+    return false;
+  }
+  shape.parts.reserve(octree.cubes.size());
+  for (const OccupancyMap::Cube& cube : octree.cubes) {
+    const Box box{Vec3::Constant(octree.sizeOf(cube))};
+    shape.parts.push_back(placed(box, X * Transform{Mat3::Identity(), octree.centerOf(cube)}));
+  }
+  return true;
+}
+
+}  // namespace
+
+bool readCloud(const YamlMap& map, const std::string& kind, const MapKeys& keys,
+               const std::filesystem::path& folder, const MeshFileOptions& options,
+               const Transform& X, PlacedShape& shape, std::vector<std::filesystem::path>& files) {
+  const YamlValue& value = *map.find(kind);
+  if (value.kind != YamlValue::Kind::Map) {
+    map.fault(kind, kind == "points" ? "write points: {file: cloud.ply, radius: 0.01}"
+                                     : "write octomap: {file: map.bt}");
+    return false;
+  }
+  const YamlMap inner(value, map.pathOf(kind), &keys, map.source());
+  inner.require("file", kind == "points" ? "the file of the points: .ply, .pcd or .xyz"
+                                         : "the map: .bt or .ot");
+  const auto name = inner.text("file");
+  if (!name) return false;
+  shape.file = folder / *name;
+  if (const std::string why = whyNoFile(shape.file); !why.empty()) {
+    inner.fault("file", shape.file.string() + ": " + why);
+    return false;
+  }
+  addFile(files, shape.file);
+  try {
+    return kind == "points" ? readPoints(inner, options, X, shape) : readMap(inner, X, shape);
+  } catch (const InputError& error) {
+    map.source().faults.add(error);
+    return false;
+  }
+}
+
+}  // namespace corridor

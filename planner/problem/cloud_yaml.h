@@ -1,0 +1,19 @@
+#pragma once
+
+#include "planner/problem/shape_yaml.h"
+
+namespace corridor {
+
+/// Reads `points: {file: cloud.ply, radius: 0.01}`: the union of balls about the points of a file,
+/// or `octomap: {file: map.bt}`: the union of a map's occupied cubes. Sets the file, the parts and
+/// the note of `shape`, and adds the file to `files`.
+/// @param kind     "points" or "octomap": the key in `map`
+/// @param keys     of the inner map
+/// @param options  unit and up-axis, for points only
+/// @param X        where the cloud or map is in the frame of its body
+/// @returns false if a fault was added.
+bool readCloud(const YamlMap& map, const std::string& kind, const MapKeys& keys,
+               const std::filesystem::path& folder, const MeshFileOptions& options,
+               const Transform& X, PlacedShape& shape, std::vector<std::filesystem::path>& files);
+
+}  // namespace corridor
