@@ -58,7 +58,7 @@ std::string largestAngle(const ConfigurationSpace& space, const Configuration& q
 }
 
 /// Checks a state as given: a continuous joint may have any angle, and no angle is wrapped.
-CheckedState checkState(const Checker& checker, Configuration q, std::vector<std::string>& notes) {
+CheckedState checkState(const Checker& checker, Configuration q, std::vector<Note>& notes) {
   CheckedState checked;
   for (const Coordinate& c : checker.space().coordinates()) {
     if (c.kind != Coordinate::Kind::line) continue;
@@ -86,7 +86,7 @@ int checkStates(const Problem& problem, const CheckArguments& a) {
   ordered_json states = ordered_json::array();
   if (!a.json) std::cout << "state,valid,pairs\n";
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    std::vector<std::string> notes;
+    std::vector<Note> notes;
     const CheckedState state = checkState(checker, rows[i].q, notes);
     noted += !notes.empty();
     all &= state.valid;
@@ -116,7 +116,7 @@ int checkStates(const Problem& problem, const CheckArguments& a) {
                               {"problem", a.problem},
                               {"numbers", problem.model.space.numberNames()},
                               {"valid", all},
-                              {"notes", problem.source.notes},
+                              {"notes", textsOf(problem.source.notes)},
                               {"states", states}}
                      .dump(2)
               << '\n';
@@ -139,13 +139,13 @@ int checkEnds(const Problem& problem, const CheckArguments& a) {
   const std::vector<Configuration> goals = goalsOf(problem);
   for (std::size_t i = 0; i < goals.size(); ++i)
     all &= checkEnd(goals.size() == 1 ? "goal" : "goal " + std::to_string(i + 1), goals[i]);
-  for (const std::string& note : condensed(problem.source.notes)) out.line("note", note);
+  for (const std::string& note : condensed(textsOf(problem.source.notes))) out.line("note", note);
   if (a.json)
     std::cout << ordered_json{{"format", "corridor-check-report-2"},
                               {"problem", a.problem},
                               {"valid", all},
                               {"ends", ends},
-                              {"notes", problem.source.notes}}
+                              {"notes", textsOf(problem.source.notes)}}
                      .dump(2)
               << '\n';
   return all ? kDone : kNegativeResult;

@@ -34,8 +34,9 @@ class ProblemReport {
     reportNumbers();
     reportBodies();
     reportPairs();
-    json_["notes"] = problem_.source.notes;
-    for (const std::string& note : problem_.source.notes) out_.line("note", note);
+    const std::vector<std::string> notes = textsOf(problem_.source.notes);
+    json_["notes"] = notes;
+    for (const std::string& note : notes) out_.line("note", note);
     const bool free = reportEnds();
     reportTrees();
     reportCosts();

@@ -3,7 +3,6 @@
 #include <iostream>
 #include <limits>
 
-#include "collision/core/fault_list.h"
 #include "planner/app/commands.h"
 #include "planner/app/inspect.h"
 #include "planner/app/output.h"
@@ -119,10 +118,9 @@ bool reportUnusable(const char* kind, const std::string& name, const std::string
 }
 
 int inspectRobot(const InspectArguments& a) {
-  FaultList faults(a.file);
-  const auto setup = readRobotFile(a.file, faults);
-  faults.throwIfAny();
-  const RobotModel& model = setup->robot.model;
+  const RobotSetup setup = readRobotAlone(a.file);
+  const RobotModel& model = setup.robot.model;
+  const std::vector<std::string> notes = textsOf(notesOf(setup));
   ordered_json j = {{"format", "corridor-inspect-robot-2"},
                     {"file", a.file},
                     {"name", model.name},
@@ -133,7 +131,7 @@ int inspectRobot(const InspectArguments& a) {
                     {"groups", ordered_json::object()},
                     {"states", ordered_json::object()},
                     {"unusable", ordered_json::array()},
-                    {"notes", notesOf(*setup)}};
+                    {"notes", notes}};
   const Lines out(a.json);
   out.line("robot", a.file);
   out.line("name", model.name);
@@ -174,7 +172,7 @@ int inspectRobot(const InspectArguments& a) {
       text += (text.empty() ? "" : ", ") + joint + ": " + rounded(value);
     out.line("state", quotedWord(name) + ": {" + text + "}");
   }
-  for (const std::string& note : notesOf(*setup)) out.line("note", note);
+  for (const std::string& note : notes) out.line("note", note);
   if (a.json) std::cout << j.dump(2) << '\n';
   return kDone;
 }

@@ -12,6 +12,7 @@
 #include "collision/core/floating_point.h"
 #include "planner/app/commands.h"
 #include "planner/app/options.h"
+#include "planner/app/output.h"
 #include "planner/app/standard_streams.h"
 #include "planner/app/usage.h"
 
@@ -52,7 +53,7 @@ int main(int argc, char** argv) {
     }
     requireResultsWritten();
   } catch (const corridor::InputError& error) {
-    std::cerr << error.what() << '\n';
+    printFaults(error);
     return kBadInput;
   } catch (const std::bad_alloc&) {
     std::cerr << "corridor: out of memory: too many bodies, pairs of bodies or triangles, or too "

@@ -129,7 +129,7 @@ VerifyReport verifyWithWarning(const Problem& problem, const Solution& solution,
   return report;
 }
 
-std::vector<std::string> condensed(const std::vector<std::string>& notes) {
+std::vector<std::string> condensed(const std::vector<std::string>& notes, const std::string& rest) {
   // Leaves out what is in quotes, and numbers. Digits after a letter belong to a name.
   const auto kindOf = [](const std::string& note) {
     std::string kind;
@@ -150,12 +150,19 @@ std::vector<std::string> condensed(const std::vector<std::string>& notes) {
   for (const std::string& note : notes) {
     std::size_t& count = counts[kindOf(note)];
     if (count == 0) continue;  // counted with an earlier one
-    lines.push_back(note + (count == 1 ? ""
-                                       : " (and " + std::to_string(count - 1) +
-                                             " more like this; inspect lists all)"));
+    lines.push_back(
+        note +
+        (count == 1 ? "" : " (and " + std::to_string(count - 1) + " more like this" + rest + ")"));
     count = 0;
   }
   return lines;
+}
+
+void printFaults(const InputError& error) {
+  std::cerr << error.what() << '\n';
+  if (const auto* const noted = dynamic_cast<const NotedInputError*>(&error))
+    for (const std::string& note : condensed(textsOf(noted->notes()), ""))
+      std::cerr << "note: " << note << '\n';
 }
 
 void requireWritable(const std::optional<std::string>& file, const char* option) {

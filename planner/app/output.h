@@ -31,7 +31,12 @@ class Lines {
 
 /// Returns the notes for people to read. If notes differ in names and numbers only, it returns the
 /// first of them, with the number of the others.
-std::vector<std::string> condensed(const std::vector<std::string>& notes);
+/// @param rest how to see the others, for the end of the note.
+std::vector<std::string> condensed(const std::vector<std::string>& notes,
+                                   const std::string& rest = "; inspect lists all");
+
+/// Prints the faults on stderr, one a line, and then the notes on what could be read.
+void printFaults(const InputError& error);
 
 /// Prints a warning on stderr. Callers warn before they print results on stdout.
 void warn(const std::string& text);

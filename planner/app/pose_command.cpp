@@ -67,15 +67,13 @@ Vec3 rpyDegrees(const Mat3& R) {
 int poseCommand(const PoseArguments& a) {
   std::filesystem::path file = a.file;
   if (std::filesystem::is_directory(file)) file /= "robot.yaml";
-  FaultList faults(file.string());
-  auto setup = readRobotFile(file, faults);
-  faults.throwIfAny();
-  if (setup->robot.isRigid())
+  RobotSetup setup = readRobotAlone(file);
+  if (setup.robot.isRigid())
     throw InputError(Fault{a.file, 0, "is a rigid robot; only a robot with joints has links"});
-  if (a.state) applyState(*a.state, *setup);
+  if (a.state) applyState(*a.state, setup);
   // All joints are held, so the configuration has no numbers.
-  chooseJoints(setup->robot, {});
-  const Model model = ModelBuilder().addRobot(std::move(setup->robot)).buildForReader();
+  chooseJoints(setup.robot, {});
+  const Model model = ModelBuilder().addRobot(std::move(setup.robot)).buildForReader();
   const ModelRobot& robot = model.robots.front();
   const std::vector<Transform> X_WF = framePoses(model.tree, Configuration());
 

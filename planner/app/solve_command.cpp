@@ -109,13 +109,14 @@ void print(const SolveReport& r, const Problem& p, const std::string& problem,
   const bool solved = r.outcome == SolveOutcome::solved;
   if (printsFile(a)) {
     if (!solved) warn(std::string(nameOf(r.outcome)) + ": " + r.why);
-    for (const std::string& note : condensed(p.source.notes)) std::cerr << "note: " << note << '\n';
+    for (const std::string& note : condensed(textsOf(p.source.notes)))
+      std::cerr << "note: " << note << '\n';
   }
   const Lines out(a.quiet || printsFile(a));
   out.line("problem", problem);
   out.line("result", nameOf(r.outcome), solved ? Tone::good : Tone::bad);
   if (!solved) out.line("why", r.why);
-  for (const std::string& note : condensed(p.source.notes)) out.line("note", note);
+  for (const std::string& note : condensed(textsOf(p.source.notes))) out.line("note", note);
   out.line("planner", r.planner);
   out.line("seed", std::to_string(r.seed));
   out.line("time", rounded(r.time) + " s, of which " + rounded(r.planningTime) +
@@ -162,7 +163,7 @@ ordered_json jsonOf(const SolveReport& r, const Problem& p, const std::string& p
                     {"tolerance_m", r.motion.tolerance},
                     {"margin_m", r.motion.margin},
                     {"tube", tubeJson(p.model.space, p.task.tube)}};
-  if (!p.source.notes.empty()) j["notes"] = p.source.notes;
+  if (!p.source.notes.empty()) j["notes"] = textsOf(p.source.notes);
   if (!r.warnings.empty()) {
     j["warnings"] = ordered_json::array();
     for (const Fault& fault : r.warnings) j["warnings"].push_back(fault.text);
@@ -249,7 +250,7 @@ int solveCommand(const SolveArguments& a) {
       if (report.outcome != SolveOutcome::solved) status = std::max(status, int{kNegativeResult});
     } catch (const InputError& error) {
       if (a.problems.size() == 1) throw;
-      std::cerr << error.what() << '\n';  // the other problems are still solved
+      printFaults(error);  // the other problems are still solved
       if (a.json)
         results.push_back({{"problem", file}, {"result", "bad input"}, {"why", error.what()}});
       status = kBadInput;

@@ -61,7 +61,7 @@ ordered_json jsonOf(const VerifyReport& r, const Problem& problem, const VerifyA
                     {"solution", a.solution},
                     {"verdict", verdictName(r)},
                     {"digest", nameOf(r.digest)},
-                    {"notes", problem.source.notes},
+                    {"notes", textsOf(problem.source.notes)},
                     {"edges", r.motion.edges},
                     {"edges_proved", r.motion.edgesProved},
                     {"proven_clearance_m", numberJson(r.motion.provenClearance)},
@@ -82,7 +82,7 @@ void print(const VerifyReport& r, const Problem& problem, const VerifyArguments&
   out.line("solution", a.solution);
   out.line("verdict", verdictName(r), r.verdict == PathVerdict::proved ? Tone::good : Tone::bad);
   if (r.otherProblem) return;
-  for (const std::string& note : condensed(problem.source.notes)) out.line("note", note);
+  for (const std::string& note : condensed(textsOf(problem.source.notes))) out.line("note", note);
   out.line("edges proved",
            std::to_string(r.motion.edgesProved) + " of " + std::to_string(r.motion.edges));
   if (r.motion.verdict == PathVerdict::proved)

@@ -39,16 +39,18 @@ void addNotesOnPairs(Problem& problem) {
     if (why == kNeverMove && bodies[a].robot != bodies[b].robot)
       still.push_back(bodies[a].name + " ~ " + bodies[b].name);
   });
-  std::vector<std::string>& notes = problem.source.notes;
+  std::vector<Note>& notes = problem.source.notes;
   if (hasObstaclesOutOfReachOnly(problem))
-    notes.push_back("no obstacle is within reach; are all lengths in metres?");
+    notes.push_back(
+        {"no obstacle is within reach; are all lengths in metres?", NoteWeight::coverage});
   if (!still.empty())
-    notes.push_back("not tested, since they never move against each other: " +
-                    joinedFirst(still, 4));
+    notes.push_back(
+        {"not tested, since they never move against each other: " + joinedFirst(still, 4),
+         NoteWeight::coverage});
   for (const ModelBody& body : problem.model.bodies)
     for (const PlacedShape& shape : body.shapes)
-      if (!shape.note.empty()) notes.push_back(shape.note);
-  if (nothingIsTested(problem)) notes.insert(notes.begin(), kNothingTested);
+      if (!shape.note.empty()) notes.push_back({shape.note, NoteWeight::detail});
+  if (nothingIsTested(problem)) notes.insert(notes.begin(), {kNothingTested, NoteWeight::coverage});
 }
 
 /// Lengths above this one, in metres, are refused: squares of sums of them must be finite.
@@ -98,18 +100,18 @@ void requireFiniteSizes(const Model& model, const std::string& file) {
 
 }  // namespace
 
-std::vector<std::string> notesOf(const RobotSetup& setup) {
-  std::vector<std::string> notes = setup.robot.model.notes;
+std::vector<Note> notesOf(const RobotSetup& setup) {
+  std::vector<Note> notes = setup.robot.model.notes;
   if (const std::string held = heldText(setup.robot); !held.empty())
-    notes.push_back("joints that are not planned for are held: " + held);
+    notes.push_back({"joints that are not planned for are held: " + held, NoteWeight::motion});
   return notes;
 }
 
 void addRobots(std::vector<RobotSetup> robots, ModelBuilder& builder, Source& source) {
   for (RobotSetup& setup : robots) {
     const std::string& name = setup.robot.name;
-    for (const std::string& note : notesOf(setup))
-      source.notes.push_back(name.empty() ? note : name + ": " + note);
+    for (const Note& note : notesOf(setup))
+      source.notes.push_back({name.empty() ? note.text : name + ": " + note.text, note.weight});
     for (const auto& file : setup.files) addFile(source.files, file);
     builder.addRobot(std::move(setup.robot));
   }

@@ -12,7 +12,7 @@ namespace corridor {
 
 /// Returns the robot's notes. The last one lists the joints that are held without a value in the
 /// robot's file.
-std::vector<std::string> notesOf(const RobotSetup& setup);
+std::vector<Note> notesOf(const RobotSetup& setup);
 
 /// Adds the robots to a model, and their notes and files to the source.
 void addRobots(std::vector<RobotSetup> robots, ModelBuilder& builder, Source& source);

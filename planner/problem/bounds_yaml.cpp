@@ -152,8 +152,10 @@ void setDefaultBounds(Problem& problem, YamlSource& source) {
     enlargeBounds(problem, group);
     const Corners corners = boundsOf(problem.model.space, group);
     if (whyBadBounds(corners, dimensionsOf(group)).empty()) {
-      problem.source.notes.push_back("bounds" + (alone ? "" : " of " + group.name) +
-                                     ": those of the world, start and goal, since none are given");
+      problem.source.notes.push_back(
+          {"bounds" + (alone ? "" : " of " + group.name) +
+               ": those of the world, start and goal, since none are given",
+           NoteWeight::motion});
       continue;
     }
     int flat = 0;

@@ -17,7 +17,7 @@ std::optional<std::string> readHold(const YamlMap& file, RobotSetup& setup) {
   if (value->kind == YamlValue::Kind::Scalar) return value->text;
   const RobotModel& model = setup.robot.model;
   const YamlMap map(*value, "hold", nullptr, file.source());
-  std::vector<std::string>& notes = setup.robot.model.notes;
+  std::vector<Note>& notes = setup.robot.model.notes;
   const auto read = [&](std::size_t j, const YamlValue::Entry& entry, bool degrees) {
     const JointModel& joint = model.joints[j];
     if (!movesItself(joint)) return map.fault(entry.key, whyNotActive(model, j));
@@ -104,8 +104,9 @@ void holdState(const std::string& name, const std::vector<std::size_t>& planned,
                          path + ": " + outsideLimits(value->second, joint.lower, joint.upper));
   }
   if (!holds && place.path == "hold")
-    robot.model.notes.push_back("hold: the state " + quotedWord(name) +
-                                " gives no joint that is held");
+    robot.model.notes.push_back(
+        {"hold: the state " + quotedWord(name) + " gives no joint that is held",
+         NoteWeight::motion});
 }
 
 void holdAsStart(const YamlMap& problem, std::vector<RobotSetup>& robots) {

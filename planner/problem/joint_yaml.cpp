@@ -66,7 +66,7 @@ void readJointValues(const YamlMap& map, const RobotModel& model,
 
 std::optional<PlanarOrSpatialPose> readJointPose(const YamlValue& value, const std::string& path,
                                                  const JointModel& joint, YamlSource& source,
-                                                 std::vector<std::string>& notes) {
+                                                 std::vector<Note>& notes) {
   const bool spatial = joint.type == JointType::floating;
   return readPose(value, path,
                   {spatial, "joint " + joint.name + (spatial ? " is floating" : " is planar"),

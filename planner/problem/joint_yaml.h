@@ -36,7 +36,7 @@ void readJointValues(
 /// Reads the pose of a planar or floating joint. Returns nullopt if a fault was added.
 std::optional<PlanarOrSpatialPose> readJointPose(const YamlValue& value, const std::string& path,
                                                  const JointModel& joint, YamlSource& source,
-                                                 std::vector<std::string>& notes);
+                                                 std::vector<Note>& notes);
 
 /// Returns the numbers of the pose of a planar or floating joint, by their names in states:
 /// "base/x", "base/y", "base/yaw", or "body/x" … "body/qw".

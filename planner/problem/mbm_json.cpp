@@ -34,6 +34,12 @@ class MbmReader {
       : file_(file), index_(index), faults_(file.string()) {}
 
   Problem read() {
+    readWithNotes(problem_.source.notes, [&] { readAll(); });
+    return std::move(problem_);
+  }
+
+ private:
+  void readAll() {
     const Json set = parse();
     const Json& problem = choose(set);
     problem_.source.file = file_.string() + "#" + index_;
@@ -51,10 +57,8 @@ class MbmReader {
     if (goals.empty()) fault("goals: at least one is needed");
     faults_.throwIfAny();
     finishProblem({}, {}, problem_);
-    return std::move(problem_);
   }
 
- private:
   void fault(const std::string& text) { faults_.add(file_.string(), 0, text); }
   [[noreturn]] void stop(const std::string& text) const {
     throw InputError(Fault{file_.string(), 0, text});
@@ -155,11 +159,12 @@ class MbmReader {
     std::vector<Fault> found;
     std::vector<std::filesystem::path> files;
     const auto urdf = dataFile(set, "urdf"), srdf = dataFile(set, "srdf");
-    auto model = readUrdf(urdf, {}, found, files);
+    auto model = readUrdf(urdf, {}, found, files, &problem_.source.notes);
     for (const auto& file : files) addFile(setup.files, file);
     addFile(setup.files, srdf);
     if (model) readSrdf(srdf, *model, found);
     faults_.add(found);
+    if (model && !found.empty()) problem_.source.notes = model->notes;
     faults_.throwIfAny();
     setup.robot.model = std::move(*model);
 

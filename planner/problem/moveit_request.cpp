@@ -102,8 +102,9 @@ void MoveitRequest::hold(RobotSetup& setup) {
       source_.fault(startLine_, path + ": " + outsideLimits(value, joint.lower, joint.upper));
   }
   if (!unknown.empty())
-    robot.model.notes.push_back(source_.file + ": start_state: the robot has no joint " +
-                                joinedFirst(unknown) + "; the values are not used");
+    robot.model.notes.push_back({source_.file + ": start_state: the robot has no joint " +
+                                     joinedFirst(unknown) + "; the values are not used",
+                                 NoteWeight::motion});
 }
 
 void MoveitRequest::checkHeld(const std::map<std::string, double>& values, int line,

@@ -242,13 +242,14 @@ void MoveitScene::addWorld(const std::string& root, const RigidPose& base, Model
   }
 }
 
-std::vector<std::string> MoveitScene::notesOn(const Model& model) {
-  std::vector<std::string> notes;
+std::vector<Note> MoveitScene::notesOn(const Model& model) {
+  std::vector<Note> notes;
   const RobotModel& robot = model.robots.front().model;
   const auto name = message().text("robot_model_name");
   if (name && !name->empty() && *name != robot.name && *name != robot.urdfName)
-    notes.push_back(source_.file + ": is for robot " + quotedWord(*name) + ", and is used for " +
-                    quotedWord(robot.urdfName.empty() ? robot.name : robot.urdfName));
+    notes.push_back({source_.file + ": is for robot " + quotedWord(*name) + ", and is used for " +
+                         quotedWord(robot.urdfName.empty() ? robot.name : robot.urdfName),
+                     NoteWeight::coverage});
   const YamlValue* const matrix = message().find("allowed_collision_matrix");
   if (!matrix || matrix->kind != Kind::Map) return notes;
   const YamlMap map(*matrix, "allowed_collision_matrix", nullptr, source_);
@@ -259,9 +260,9 @@ std::vector<std::string> MoveitScene::notesOn(const Model& model) {
   for (const YamlValue* const item : itemsOf(map, "entry_names"))
     if (!known.contains(item->text)) unknown.push_back(item->text);
   if (!unknown.empty())
-    notes.push_back(source_.file + ": its allowed_collision_matrix names " +
-                    std::to_string(unknown.size()) +
-                    " that are neither links nor obstacles: " + joinedFirst(unknown, 3));
+    notes.push_back({source_.file + ": its allowed_collision_matrix names " +
+                     std::to_string(unknown.size()) +
+                     " that are neither links nor obstacles: " + joinedFirst(unknown, 3)});
   return notes;
 }
 

@@ -27,7 +27,7 @@ class MoveitScene {
   /// matrix replaces the SRDF's pairs. Its default entries are not read; their pairs are tested.
   void applyAllowed(Model& model);
   /// Returns notes on a scene that seems to be of another robot.
-  std::vector<std::string> notesOn(const Model& model);
+  std::vector<Note> notesOn(const Model& model);
 
  private:
   YamlMap message() { return {document_, "", nullptr, source_}; }

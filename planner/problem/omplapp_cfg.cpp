@@ -81,8 +81,8 @@ Configuration readPose(const IniFile& ini, const std::string& what, Problem& pro
   }
   const double yaw = wrappedYaw(theta);
   if (yaw != theta)
-    problem.source.notes.push_back(what + ".theta: " + shortest(theta) + " is read as " +
-                                   shortest(yaw) + ", the same angle up to full turns");
+    problem.source.notes.push_back({what + ".theta: " + shortest(theta) + " is read as " +
+                                    shortest(yaw) + ", the same angle up to full turns"});
   return (Configuration(3) << x, y, yaw).finished();
 }
 
@@ -98,8 +98,9 @@ void readVolume(const IniFile& ini, Problem& problem) {
     }
   if (!all) {
     problem.source.notes.push_back(
-        std::string("bounds: those of the world") +
-        (any ? ", since volume is incomplete" : ", since no volume is given"));
+        {std::string("bounds: those of the world") +
+             (any ? ", since volume is incomplete" : ", since no volume is given"),
+         NoteWeight::motion});
     setBounds(problem.model.space, group, boundsOfWorld(problem.model).value());
   } else {
     problem.source.lines["bounds"] = ini.find("problem.volume.min.x")->line;
@@ -116,7 +117,8 @@ void readVolume(const IniFile& ini, Problem& problem) {
     setBounds(problem.model.space, group, corners);
   }
   if (enlargeBounds(problem, group))
-    problem.source.notes.push_back("bounds: enlarged to contain start and goal");
+    problem.source.notes.push_back(
+        {"bounds: enlarged to contain start and goal", NoteWeight::motion});
 }
 
 struct CfgMesh {
@@ -168,9 +170,9 @@ RobotSetup robotOf(CfgMesh mesh, JointType type) {
   const std::string name = mesh.shape.name;
   setup.robot.model = rigidModel(name, type, {std::move(mesh.shape)});
   setup.robot.model.notes.push_back(
-      "reference of the robot: (" + shortest(centre.x()) + ", " + shortest(centre.y()) + ", " +
-      shortest(centre.z()) + ") of its file, the average of its " +
-      std::to_string(mesh.read.importedVertices) + " imported vertices");
+      {"reference of the robot: (" + shortest(centre.x()) + ", " + shortest(centre.y()) + ", " +
+       shortest(centre.z()) + ") of its file, the average of its " +
+       std::to_string(mesh.read.importedVertices) + " imported vertices"});
   return setup;
 }
 
@@ -230,7 +232,7 @@ void noteUnused(const IniFile& ini, Problem& problem) {
   for (const IniFile::Entry& entry : ini.entries())
     if (!used.contains(entry.key) && !entry.key.starts_with("planner."))
       unused.push_back(entry.key);
-  if (!unused.empty()) problem.source.notes.push_back("not used: " + joined(unused));
+  if (!unused.empty()) problem.source.notes.push_back({"not used: " + joined(unused)});
 }
 
 void readSettings(const IniFile& ini, Problem& problem) {
@@ -250,16 +252,14 @@ void readSettings(const IniFile& ini, Problem& problem) {
     problem.settings.simplify = entry->value != "0" && entry->value != "false";
 }
 
-}  // namespace
-
-Problem readOmplAppCfg(const std::filesystem::path& file) {
+/// Reads the file. `problem` has its notes even if an exception is thrown.
+void readCfg(const std::filesystem::path& file, Problem& problem) {
   FaultList faults(file.string());
   const IniFile ini(file.string(),
                     readTextFile(file, "a problem ([problem], robot = …, world = …)"), faults);
   faultDuplicates(ini);
   rejectDynamics(ini);
 
-  Problem problem;
   problem.source.file = file;
   problem.source.files = {file};
   problem.source.name = file.stem().string();
@@ -288,6 +288,13 @@ Problem readOmplAppCfg(const std::filesystem::path& file) {
     throw InputError(problem.source.faultAt("bounds", "volume: " + why));
   noteUnused(ini, problem);
   finishProblem({}, {}, problem);
+}
+
+}  // namespace
+
+Problem readOmplAppCfg(const std::filesystem::path& file) {
+  Problem problem;
+  readWithNotes(problem.source.notes, [&] { readCfg(file, problem); });
   return problem;
 }
 

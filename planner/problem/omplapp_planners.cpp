@@ -88,13 +88,13 @@ void readOmplAppPlanners(const IniFile& ini, Problem& problem) {
     if (!param.empty() && param != "name") instance->params[param] = &entry;
   }
   if (!unknown.empty())
-    problem.source.notes.push_back("planners that OMPL does not have are skipped: " +
-                                   joined(unknown));
+    problem.source.notes.push_back(
+        {"planners that OMPL does not have are skipped: " + joined(unknown)});
   if (instances.size() > 1) {
     std::vector<std::string> names;
     for (const Instance& instance : instances) names.push_back(instance.name);
-    problem.source.notes.push_back("planner: " + problem.settings.planner.name +
-                                   ", since the file lists several (" + joined(names) + ")");
+    problem.source.notes.push_back({"planner: " + problem.settings.planner.name +
+                                    ", since the file lists several (" + joined(names) + ")"});
   }
   if (instances.size() != 1) return;
   const Instance& only = instances.front();

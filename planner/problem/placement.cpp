@@ -57,7 +57,7 @@ bool isWrongKind(const YamlValue& value, const PoseForm& form) {
 }
 
 /// Returns `yaw` or `yaw_deg` in radians, 0 if both are absent, or nullopt if a fault was added.
-std::optional<double> readYaw(const YamlMap& map, std::vector<std::string>& notes) {
+std::optional<double> readYaw(const YamlMap& map, std::vector<Note>& notes) {
   if (!map.find("yaw") && !map.find("yaw_deg")) return 0;
   if (map.find("yaw") && map.find("yaw_deg")) return map.angle("yaw");
   const bool degrees = map.find("yaw_deg");
@@ -66,8 +66,8 @@ std::optional<double> readYaw(const YamlMap& map, std::vector<std::string>& note
   if (!given) return std::nullopt;
   const double used = degrees ? wrappedYawDegrees(*given) : wrappedYaw(*given);
   if (used != *given)
-    notes.push_back(map.pathOf(key) + ": " + shortest(*given) + " is read as " + shortest(used) +
-                    ", the same angle up to full turns");
+    notes.push_back({map.pathOf(key) + ": " + shortest(*given) + " is read as " + shortest(used) +
+                     ", the same angle up to full turns"});
   return degrees ? used * (std::numbers::pi / 180) : used;
 }
 
@@ -128,7 +128,7 @@ std::optional<Placement> readPlacement(const YamlMap& map) {
 
 std::optional<PlanarOrSpatialPose> readPose(const YamlValue& value, const std::string& path,
                                             const PoseForm& form, YamlSource& source,
-                                            std::vector<std::string>& notes) {
+                                            std::vector<Note>& notes) {
   if (isWrongKind(value, form)) {
     source.fault(value.line, wrongKind(path, form));
     return std::nullopt;

@@ -5,6 +5,7 @@
 
 #include "collision/core/rigid_pose.h"
 #include "planner/problem/yaml_reader.h"
+#include "planner/robot/note.h"
 
 /// Readers of poses in problem and robot files.
 namespace corridor {
@@ -65,6 +66,6 @@ struct PoseForm {
 /// @param notes gets a note if whole turns were subtracted from a yaw.
 std::optional<PlanarOrSpatialPose> readPose(const YamlValue& value, const std::string& path,
                                             const PoseForm& form, YamlSource& source,
-                                            std::vector<std::string>& notes);
+                                            std::vector<Note>& notes);
 
 }  // namespace corridor

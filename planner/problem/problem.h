@@ -10,6 +10,7 @@
 #include "planner/model/model.h"
 #include "planner/model/settings.h"
 #include "planner/model/task.h"
+#include "planner/robot/note.h"
 
 namespace corridor {
 
@@ -22,7 +23,7 @@ struct Source {
   /// they are first named.
   std::vector<std::filesystem::path> files;
   /// Decisions of the reader that a user may want to know: units, wrapped angles, held joints, …
-  std::vector<std::string> notes;
+  std::vector<Note> notes;
   /// The line (from 1) of each key in the problem file, such as "planner.params.range", for faults
   /// that are found after reading. A `.cfg` uses the YAML key with the same meaning where there is
   /// one ("start", "planner.name", "planner.params.range", "sampler", …).
@@ -46,7 +47,8 @@ struct Problem {
 
 /// Reads a `problem.yaml`, a folder that holds one, an OMPL.app `.cfg`, or one problem of a
 /// MotionBenchMaker set, `FILE.json#INDEX`.
-/// @throws InputError with all faults of the file and of the files that it names.
+/// @throws InputError with all faults of the file and of the files that it names; with notes on
+/// what could be read it is a NotedInputError.
 Problem readProblem(const std::filesystem::path& path);
 
 }  // namespace corridor

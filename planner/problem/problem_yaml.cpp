@@ -31,7 +31,8 @@ const std::vector<std::string>& wordsOf(const char* key) {
 /// listed once.
 class RobotFiles {
  public:
-  explicit RobotFiles(FaultList& faults) : faults_(faults) {}
+  /// @param notes gets the notes of robots that can't be used.
+  RobotFiles(FaultList& faults, std::vector<Note>& notes) : faults_(faults), notes_(notes) {}
 
   /// @param group see readRobotFile.
   std::optional<RobotSetup> read(const YamlMap& map, const char* key,
@@ -47,11 +48,12 @@ class RobotFiles {
     const auto known = read_.find(path);
     return known != read_.end()
                ? known->second
-               : read_.emplace(path, readRobotFile(path, faults_, group)).first->second;
+               : read_.emplace(path, readRobotFile(path, faults_, notes_, group)).first->second;
   }
 
  private:
   FaultList& faults_;
+  std::vector<Note>& notes_;
   std::map<std::filesystem::path, std::optional<RobotSetup>> read_;
 };
 
@@ -69,10 +71,11 @@ void readBase(const YamlMap& map, std::optional<RobotSetup>& robot) {
 /// Reads `robot` or `robots`. Returns an empty list if there are no robots, or if `readRobotFile`
 /// returned nullopt for one of them.
 /// @param group the group of a single robot whose file chooses no joints; empty: none.
+/// @param notes gets the notes of robots that can't be used.
 std::vector<RobotSetup> readRobots(const YamlMap& file, const std::filesystem::path& folder,
-                                   const std::string& group) {
+                                   const std::string& group, std::vector<Note>& notes) {
   std::vector<RobotSetup> robots;
-  RobotFiles files(file.source().faults);
+  RobotFiles files(file.source().faults, notes);
   const auto key = file.requireOne({"robot", "robots"}, "one of robot and robots",
                                    "the robot's file, such as robot: "
                                    "../../robots/piano/robot.yaml");
@@ -101,7 +104,9 @@ std::vector<RobotSetup> readRobots(const YamlMap& file, const std::filesystem::p
   }
   if (known && robots.empty() && map.entries().empty())
     file.fault("robots", "at least one robot is needed, such as {left: {file: robot.yaml}}");
-  return known ? std::move(robots) : std::vector<RobotSetup>{};
+  if (known) return robots;
+  for (const RobotSetup& robot : robots) addAll(robot.robot.model.notes, notes);
+  return {};
 }
 
 void readPlanner(const YamlMap& file, PlannerSettings& planner) {
@@ -146,9 +151,9 @@ std::pair<std::optional<MoveitScene>, std::optional<MoveitRequest>> readMoveit(
   return found;
 }
 
-}  // namespace
-
-Problem readProblemYaml(const std::filesystem::path& file) {
+/// Reads the problem's file, and the files that it names. `problem` has its notes even if an
+/// exception is thrown.
+void readYaml(const std::filesystem::path& file, Problem& problem) {
   const YamlValue document =
       parseYaml(file.string(), readTextFile(file, "a problem (format: corridor-problem-1)"));
   FaultList faults(file.string());
@@ -156,13 +161,12 @@ Problem readProblemYaml(const std::filesystem::path& file) {
   if (!hasFormat(document, "corridor-problem-1", source)) faults.throwIfAny();
   const YamlMap map(document, "", &problemKeys().at(""), source);
 
-  Problem problem;
   problem.source.file = file;
   problem.source.name = nameOfFile(file, "problem");
   problem.source.files = {file};
   auto [scene, request] = readMoveit(map, file.parent_path(), problem.source.files);
   std::vector<RobotSetup> robots =
-      readRobots(map, file.parent_path(), request ? request->group() : "");
+      readRobots(map, file.parent_path(), request ? request->group() : "", problem.source.notes);
   const bool known = !robots.empty();
   const bool worldNeeded = !scene && !map.find("robots") &&
                            (!map.find("robot") || (known && robots.front().robot.isRigid()));
@@ -186,8 +190,7 @@ Problem readProblemYaml(const std::filesystem::path& file) {
   problem.model = builder.buildForReader();
   if (scene && known) {
     scene->applyAllowed(problem.model);
-    const std::vector<std::string> notes = scene->notesOn(problem.model);
-    problem.source.notes.insert(problem.source.notes.end(), notes.begin(), notes.end());
+    addAll(scene->notesOn(problem.model), problem.source.notes);
   }
   AllowedBodies allowed;
   if (known && faults.size() == 0) allowed = readAllow(map, problem.model);
@@ -211,6 +214,13 @@ Problem readProblemYaml(const std::filesystem::path& file) {
   faults.throwIfAny();
   finishProblem(allowed, tube, problem);
   problem.source.lines = std::move(source.lines);
+}
+
+}  // namespace
+
+Problem readProblemYaml(const std::filesystem::path& file) {
+  Problem problem;
+  readWithNotes(problem.source.notes, [&] { readYaml(file, problem); });
   return problem;
 }
 

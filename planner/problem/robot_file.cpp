@@ -46,9 +46,9 @@ void shiftToReference(const YamlMap& file, RobotModel& model, bool shapesAreSoun
     if (!shapesAreSound) return;
     reference = centroid(shapes);
     if (planar) reference.z() = 0;  // a planar robot keeps its height
-    model.notes.push_back("reference of " + model.name + ": the centroid (" +
-                          shortest(reference.x()) + ", " + shortest(reference.y()) + ", " +
-                          shortest(reference.z()) + ") of its distinct vertices");
+    model.notes.push_back({"reference of " + model.name + ": the centroid (" +
+                           shortest(reference.x()) + ", " + shortest(reference.y()) + ", " +
+                           shortest(reference.z()) + ") of its distinct vertices"});
   } else if (value->kind == YamlValue::Kind::List) {
     const std::size_t count = planar && value->items.size() == 2 ? 2 : 3;
     const auto numbers = file.numbers("reference", count);
@@ -94,9 +94,10 @@ std::optional<RobotSetup> readRigid(const YamlMap& map, const std::string& name,
 }  // namespace
 
 std::optional<RobotSetup> readRobotFile(const std::filesystem::path& file, FaultList& faults,
+                                        std::vector<Note>& notesOfFaulty,
                                         const std::string& group) {
   RobotSetup setup;
-  if (file.extension() == ".urdf") return readBareUrdf(file, faults);
+  if (file.extension() == ".urdf") return readBareUrdf(file, faults, notesOfFaulty);
 
   setup.files.push_back(file);
   YamlValue document;
@@ -113,9 +114,22 @@ std::optional<RobotSetup> readRobotFile(const std::filesystem::path& file, Fault
   const auto kind = map.requireOne({"rigid", "urdf"}, "one of rigid and urdf",
                                    "rigid: SE3 (moves and rotates freely), rigid: SE2 (moves in x "
                                    "and y, rotates about z), or urdf: arm.urdf (has joints)");
-  if (kind == "urdf") return readUrdfRobot(map, name, group, file.parent_path(), std::move(setup));
+  if (kind == "urdf")
+    return readUrdfRobot(map, name, group, file.parent_path(), std::move(setup), notesOfFaulty);
   if (kind == "rigid") return readRigid(map, name, file.parent_path(), std::move(setup));
   return std::nullopt;
+}
+
+RobotSetup readRobotAlone(const std::filesystem::path& file) {
+  std::optional<RobotSetup> setup;
+  std::vector<Note> notes;
+  readWithNotes(notes, [&] {
+    FaultList faults(file.string());
+    setup = readRobotFile(file, faults, notes);
+    if (setup) notes = setup->robot.model.notes;
+    faults.throwIfAny();
+  });
+  return std::move(*setup);
 }
 
 }  // namespace corridor

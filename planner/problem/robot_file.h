@@ -23,7 +23,12 @@ struct RobotSetup {
 /// even if shapes have faults; these shapes are left out.
 /// @param group the group that is planned for if the file has an SRDF, and neither `group` nor
 /// `joints`; empty: none.
+/// @param notesOfFaulty gets the notes if the result is nullopt; else its model has them.
 std::optional<RobotSetup> readRobotFile(const std::filesystem::path& file, FaultList& faults,
+                                        std::vector<Note>& notesOfFaulty,
                                         const std::string& group = "");
+
+/// Reads a robot's file that is no part of a problem. @throws NotedInputError with all faults.
+RobotSetup readRobotAlone(const std::filesystem::path& file);
 
 }  // namespace corridor

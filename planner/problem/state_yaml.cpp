@@ -27,7 +27,7 @@ struct StateReader::Given {
 };
 
 std::optional<double> coordinateValue(const Coordinate& coordinate, double value,
-                                      const std::string& path, std::vector<std::string>& notes,
+                                      const std::string& path, std::vector<Note>& notes,
                                       std::string& why) {
   const std::string angle =
       path.ends_with("_deg") ? "" : coordinate.name;  // a value in degrees needs no hint
@@ -35,11 +35,11 @@ std::optional<double> coordinateValue(const Coordinate& coordinate, double value
     if (-std::numbers::pi < value && value <= std::numbers::pi) return value;
     double wrapped = wrappedYaw(value);
     if (wrapped <= -std::numbers::pi) wrapped = std::numbers::pi;
-    notes.push_back(path + ": " + shortest(value) + " is read as " + shortest(wrapped) +
-                    ", the same angle up to full turns" +
-                    (angle.empty()
-                         ? ""
-                         : degreesHint(value, -2 * std::numbers::pi, 2 * std::numbers::pi, angle)));
+    notes.push_back(
+        {path + ": " + shortest(value) + " is read as " + shortest(wrapped) +
+         ", the same angle up to full turns" +
+         (angle.empty() ? ""
+                        : degreesHint(value, -2 * std::numbers::pi, 2 * std::numbers::pi, angle))});
     return wrapped;
   }
   const auto within = withinLimits(value, coordinate.lower, coordinate.upper, path, notes);
@@ -139,7 +139,7 @@ bool StateReader::checkHeld(std::size_t robot, const NamedState& state, const st
                         "; it is not planned for, so start and goal need one value: start from a "
                         "state with this value, or set it in hold");
     else
-      problem_.source.notes.push_back(text);
+      problem_.source.notes.push_back({text, NoteWeight::motion});
     sound &= !isFault;
   };
   for (const auto& [j, held] : robots()[robot].held) {
@@ -196,9 +196,9 @@ bool StateReader::readJoints(std::size_t robot, const YamlMap& map, Given& given
         if (degrees) {
           if (joint.type == JointType::continuous && wrappedYawDegrees(*number) != *number) {
             const double wrapped = wrappedYawDegrees(*number);
-            problem_.source.notes.push_back(path + ": " + shortest(*number) + " is read as " +
-                                            shortest(wrapped) +
-                                            ", the same angle up to full turns");
+            problem_.source.notes.push_back({path + ": " + shortest(*number) + " is read as " +
+                                             shortest(wrapped) +
+                                             ", the same angle up to full turns"});
             number = wrapped;
           }
           *number *= std::numbers::pi / 180;

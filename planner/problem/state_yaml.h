@@ -59,7 +59,7 @@ class StateReader {
 /// If a line's value is farther outside of its limits, returns nullopt and sets `why`.
 /// @param path the value's place in the file, for the note and for `why`.
 std::optional<double> coordinateValue(const Coordinate& coordinate, double value,
-                                      const std::string& path, std::vector<std::string>& notes,
+                                      const std::string& path, std::vector<Note>& notes,
                                       std::string& why);
 
 }  // namespace corridor

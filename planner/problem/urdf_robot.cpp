@@ -47,20 +47,24 @@ PackageMap readPackages(const YamlMap& file, const std::filesystem::path& folder
   return packages;
 }
 
-/// Reads URDF and SRDF. Returns nullopt if one of them has a fault.
+/// Reads URDF and SRDF. Returns nullopt if one of them has a fault; `notesOfFaulty` then gets the
+/// notes.
 std::optional<RobotModel> readModel(const std::filesystem::path& urdf, const UrdfRules& rules,
                                     const std::optional<std::filesystem::path>& srdf,
-                                    FaultList& faults, std::vector<std::filesystem::path>& files) {
+                                    FaultList& faults, std::vector<std::filesystem::path>& files,
+                                    std::vector<Note>& notesOfFaulty) {
   std::vector<Fault> found;
   std::vector<std::filesystem::path> named;
-  auto model = readUrdf(urdf, rules, found, named);
+  auto model = readUrdf(urdf, rules, found, named, &notesOfFaulty);
   for (const auto& file : named) addFile(files, file);
   if (srdf) {
     addFile(files, *srdf);
     if (model) readSrdf(*srdf, *model, found);
   }
   faults.add(found);
-  return found.empty() ? std::move(model) : std::nullopt;
+  if (found.empty()) return model;
+  if (model) addAll(model->notes, notesOfFaulty);
+  return std::nullopt;
 }
 
 using Joints = std::vector<std::size_t>;
@@ -95,8 +99,9 @@ Joints readGroup(const YamlMap& map, const std::string& byDefault, RobotModel& m
       if (const auto j = findJoint(model, joint); j && canMove(model.joints[*j]))
         active.push_back(*j);
     if (!group.missing.empty())
-      model.notes.push_back("the group " + quotedWord(*name) + " is used without " +
-                            joinedFirst(group.missing) + ", which the URDF lacks");
+      model.notes.push_back({"the group " + quotedWord(*name) + " is used without " +
+                                 joinedFirst(group.missing) + ", which the URDF lacks",
+                             NoteWeight::motion});
     addStatesOf(*name, model);
     if (active.empty())
       map.fault("group", "the group " + quotedWord(*name) + " has no joint that moves by itself");
@@ -146,7 +151,8 @@ void readStates(const YamlMap& file, RobotModel& model) {
       }
     });
     if (model.states.contains(named->key))
-      model.notes.push_back("state " + named->key + ": robot.yaml's is used, not the SRDF's");
+      model.notes.push_back(
+          {"state " + named->key + ": robot.yaml's is used, not the SRDF's", NoteWeight::motion});
     model.states[named->key] = std::move(state);
   }
 }
@@ -200,17 +206,19 @@ void readWeights(const YamlMap& file, RobotSetup& setup) {
 }  // namespace
 
 std::optional<double> withinLimits(double value, double lower, double upper,
-                                   const std::string& path, std::vector<std::string>& notes) {
+                                   const std::string& path, std::vector<Note>& notes) {
   if (lower <= value && value <= upper) return value;
   if (!(lower - limitSlack <= value && value <= upper + limitSlack)) return std::nullopt;
   const double limit = value < lower ? lower : upper;
-  notes.push_back(path + ": " + shortest(value) + " is read as its limit, " + shortest(limit));
+  notes.push_back({path + ": " + shortest(value) + " is read as its limit, " + shortest(limit),
+                   NoteWeight::motion});
   return limit;
 }
 
 std::optional<RobotSetup> readUrdfRobot(const YamlMap& map, const std::string& name,
                                         const std::string& group,
-                                        const std::filesystem::path& folder, RobotSetup setup) {
+                                        const std::filesystem::path& folder, RobotSetup setup,
+                                        std::vector<Note>& notesOfFaulty) {
   for (const char* key : {"shapes", "reference"})
     if (map.find(key)) map.fault(key, "is for rigid robots; this one's shapes are in its URDF");
   UrdfRules rules{.packages = readPackages(map, folder)};
@@ -220,7 +228,7 @@ std::optional<RobotSetup> readUrdfRobot(const YamlMap& map, const std::string& n
   const auto urdf = readFileName(map, "urdf", folder);
   const auto srdf = readFileName(map, "srdf", folder);
   if (!urdf || (map.find("srdf") && !srdf)) return std::nullopt;
-  auto model = readModel(*urdf, rules, srdf, map.source().faults, setup.files);
+  auto model = readModel(*urdf, rules, srdf, map.source().faults, setup.files, notesOfFaulty);
   if (!model) return std::nullopt;
 
   setup.robot.model = std::move(*model);
@@ -249,21 +257,26 @@ std::optional<RobotSetup> readUrdfRobot(const YamlMap& map, const std::string& n
       map.fault("hold", setup.robot.model.joints[j].name +
                             " is planned for, and can't be held; remove it from hold");
   if (heldState && isChosen) holdState(*heldState, active, hold, setup);
-  if (map.source().faults.size() != before) return std::nullopt;
+  if (map.source().faults.size() != before) {
+    addAll(setup.robot.model.notes, notesOfFaulty);
+    return std::nullopt;
+  }
   for (const auto& [j, value] : setup.robot.held) setup.robot.heldByFile.insert(j);
   for (const auto& [j, pose] : setup.robot.heldPoses) setup.robot.heldByFile.insert(j);
   chooseJoints(setup.robot, active);
   return setup;
 }
 
-std::optional<RobotSetup> readBareUrdf(const std::filesystem::path& file, FaultList& faults) {
+std::optional<RobotSetup> readBareUrdf(const std::filesystem::path& file, FaultList& faults,
+                                       std::vector<Note>& notesOfFaulty) {
   RobotSetup setup;
-  auto model = readModel(file, {}, std::nullopt, faults, setup.files);
+  auto model = readModel(file, {}, std::nullopt, faults, setup.files, notesOfFaulty);
   if (!model) return std::nullopt;
   setup.robot.model = std::move(*model);
   const Joints active = allMoving(setup.robot);
   if (active.empty()) {
     faults.add(file.string(), 0, "has no joint that moves by itself");
+    addAll(setup.robot.model.notes, notesOfFaulty);
     return std::nullopt;
   }
   chooseJoints(setup.robot, active);

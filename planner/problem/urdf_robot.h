@@ -11,14 +11,17 @@ namespace corridor {
 /// Reads a robot with joints: the keys of its robot.yaml, and the URDF and SRDF that it names.
 /// Returns nullopt if one of these files has a fault.
 /// @param group see readRobotFile.
+/// @param notesOfFaulty see readRobotFile.
 /// @param setup its `files` contain the robot.yaml; the result has the other members, too.
 std::optional<RobotSetup> readUrdfRobot(const YamlMap& map, const std::string& name,
                                         const std::string& group,
-                                        const std::filesystem::path& folder, RobotSetup setup);
+                                        const std::filesystem::path& folder, RobotSetup setup,
+                                        std::vector<Note>& notesOfFaulty);
 
 /// Reads a URDF without a robot.yaml: all its moving joints are planned for. Returns nullopt if the
-/// URDF has a fault.
-std::optional<RobotSetup> readBareUrdf(const std::filesystem::path& file, FaultList& faults);
+/// URDF has a fault. @param notesOfFaulty see readRobotFile.
+std::optional<RobotSetup> readBareUrdf(const std::filesystem::path& file, FaultList& faults,
+                                       std::vector<Note>& notesOfFaulty);
 
 /// A value that is beyond a limit by at most this, rad or m, is replaced by the limit, with a note.
 /// Limits and values are often written with π rounded to four digits or more: 3.1416 is 7.4e-6
@@ -29,6 +32,6 @@ inline constexpr double limitSlack = 1e-5;
 /// returns the limit and adds a note. Otherwise returns nullopt; the caller adds the fault.
 /// @param path for the note: "start.pan".
 std::optional<double> withinLimits(double value, double lower, double upper,
-                                   const std::string& path, std::vector<std::string>& notes);
+                                   const std::string& path, std::vector<Note>& notes);
 
 }  // namespace corridor

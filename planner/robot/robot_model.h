@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "planner/robot/note.h"
 #include "planner/robot/placed_shape.h"
 
 namespace corridor {
@@ -80,7 +81,7 @@ struct RobotModel {
   std::vector<AllowedPair> allowed;
   std::map<std::string, JointGroup> groups;  ///< of the SRDF
   std::map<std::string, NamedState> states;  ///< of the SRDF and of robot.yaml
-  std::vector<std::string> notes;
+  std::vector<Note> notes;
 };
 
 }  // namespace corridor

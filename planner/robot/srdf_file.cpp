@@ -80,9 +80,9 @@ class PairReader {
       disableDefaults(enabled);
     else if (const Element* first = root_.FirstChildElement("disable_default_collisions"))
       model_.notes.push_back(
-          file_.at(first->GetLineNum(),
-                   "<disable_default_collisions> is ignored, because not every "
-                   "<enable_collisions> can be read; all of its pairs are tested"));
+          {file_.at(first->GetLineNum(),
+                    "<disable_default_collisions> is ignored, because not every "
+                    "<enable_collisions> can be read; all of its pairs are tested")});
     names_.note(unknown_, "pair names links that the URDF lacks: ",
                 "pairs name links that the URDF lacks: ", model_.notes);
   }
@@ -136,9 +136,10 @@ void readAll(XmlFile& file, RobotModel& model) {
   const std::size_t before = model.notes.size();
   const char* const name = root.Attribute("name");
   if (name && name != model.name)
-    model.notes.push_back(file.at(
-        root.GetLineNum(),
-        "is for robot " + quotedWord(name) + ", and is used for " + quotedWord(model.name)));
+    model.notes.push_back(
+        {file.at(root.GetLineNum(), "is for robot " + quotedWord(name) + ", and is used for " +
+                                        quotedWord(model.name)),
+         NoteWeight::coverage});
   file.checkChildren(root,
                      {"group", "group_state", "virtual_joint", "passive_joint",
                       "disable_collisions", "enable_collisions", "disable_default_collisions"},
@@ -146,7 +147,8 @@ void readAll(XmlFile& file, RobotModel& model) {
                      owned("robot", model.name), model.notes);
   if (const Element* const link = root.FirstChildElement("link"))
     model.notes.push_back(
-        file.at(link->GetLineNum(), "it has <link> elements; it seems to be a URDF, not an SRDF"));
+        {file.at(link->GetLineNum(), "it has <link> elements; it seems to be a URDF, not an SRDF"),
+         NoteWeight::coverage});
   SrdfNames names(file, model);
   forEach(root, "virtual_joint", [&](Element& element) {
     if (const char* joint = element.Attribute("name")) names.addVirtual(joint);
@@ -158,10 +160,10 @@ void readAll(XmlFile& file, RobotModel& model) {
   names.note(passive, "passive joint is not in the URDF: ", "passive joints are not in the URDF: ",
              model.notes);
   PairReader(file, names, model).read();
-  for (const Fault& fault : file.takeFaults()) model.notes.push_back(fault.str());
+  for (const Fault& fault : file.takeFaults()) model.notes.push_back({fault.str()});
   if (const auto other = names.noteOnOtherRobot())
     model.notes.insert(model.notes.begin() + static_cast<std::ptrdiff_t>(before),
-                       file.at(root.GetLineNum(), *other));
+                       Note{file.at(root.GetLineNum(), *other), NoteWeight::coverage});
 }
 
 }  // namespace

@@ -41,13 +41,13 @@ class GroupReader {
 
  private:
   void note(const Element& element, const std::string& text) {
-    model_.notes.push_back(file_.at(element.GetLineNum(), text));
+    model_.notes.push_back({file_.at(element.GetLineNum(), text)});
   }
   /// Makes notes of the faults that were reported since the last call. Returns the first of them,
   /// or "".
   std::string noteFaults() {
     const std::vector<Fault> faults = file_.takeFaults();
-    for (const Fault& fault : faults) model_.notes.push_back(fault.str());
+    for (const Fault& fault : faults) model_.notes.push_back({fault.str()});
     return faults.empty() ? "" : faults.front().str();
   }
 
@@ -211,8 +211,8 @@ class GroupReader {
           count[state.name] > 1 && !group.empty() ? group + "/" + state.name : state.name;
       if (!group.empty() && !groupNames_.find(group)) group.clear();
       if (!model_.states.emplace(name, std::move(state.made)).second)
-        model_.notes.push_back(file_.at(state.line, "there is already a " + owned("state", name) +
-                                                        "; this definition is ignored"));
+        model_.notes.push_back({file_.at(state.line, "there is already a " + owned("state", name) +
+                                                         "; this definition is ignored")});
     }
   }
 

@@ -58,7 +58,7 @@ std::optional<std::size_t> SrdfNames::findJoint(const XmlFile::Element& element,
 }
 
 void SrdfNames::note(const UnknownNames& unknown, const std::string& one, const std::string& many,
-                     std::vector<std::string>& notes) const {
+                     std::vector<Note>& notes) const {
   if (unknown.names().empty()) return;
   std::string text =
       (unknown.count() == 1 ? "1 " + one : std::to_string(unknown.count()) + " " + many) +
@@ -68,7 +68,7 @@ void SrdfNames::note(const UnknownNames& unknown, const std::string& one, const 
     known.insert(known.end(), joints_.all().begin(), joints_.all().end());
     text += didYouMean(unknown.names()[0], known);
   }
-  notes.push_back(file_.at(unknown.line(), text));
+  notes.push_back({file_.at(unknown.line(), text)});
 }
 
 std::optional<std::string> SrdfNames::noteOnOtherRobot() const {

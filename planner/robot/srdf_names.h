@@ -73,7 +73,7 @@ class SrdfNames {
 
   /// Adds a note that names what is unknown: "3 " + `many` + "a, b and 1 more".
   void note(const UnknownNames& unknown, const std::string& one, const std::string& many,
-            std::vector<std::string>& notes) const;
+            std::vector<Note>& notes) const;
   /// Returns the note that the file seems to be made for another robot, or nullopt. It needs five
   /// unknown names, and they must be half of all names.
   std::optional<std::string> noteOnOtherRobot() const;

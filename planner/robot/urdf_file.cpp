@@ -154,9 +154,10 @@ class UrdfBuilder {
       upper = upper.cwiseMax(vertex);
     }
     if (const double length = (upper - lower).maxCoeff(); length > longest)
-      model_.notes.push_back(file_.at(line, owned("shape", shape) + " is " + shortest(length) +
-                                                " m long; if its mesh is in millimetres, it needs "
-                                                "scale=\"0.001 0.001 0.001\""));
+      model_.notes.push_back({file_.at(line, owned("shape", shape) + " is " + shortest(length) +
+                                                 " m long; if its mesh is in millimetres, it needs "
+                                                 "scale=\"0.001 0.001 0.001\""),
+                              NoteWeight::coverage});
   }
 
   void addJoint(const UrdfJoint& outline) {
@@ -192,20 +193,22 @@ class UrdfBuilder {
 
 std::optional<RobotModel> readUrdf(const std::filesystem::path& file, const UrdfRules& rules,
                                    std::vector<Fault>& faults,
-                                   std::vector<std::filesystem::path>& files) {
+                                   std::vector<std::filesystem::path>& files,
+                                   std::vector<Note>* notesOfFaulty) {
   files.push_back(file);
   XmlFile xml(file, "a robot (URDF)");
   MeshStore meshes(file, rules, files);
   std::optional<RobotModel> model;
-  std::vector<std::string> notes;
+  std::vector<Note> notes;
   if (XmlFile::Element* const root = xml.root()) {
     const UrdfOutline outline = readUrdfOutline(xml, rules, meshes, notes);
     const std::vector<std::size_t> order = checkUrdfTree(outline, xml);
     const std::vector<std::optional<Mimic>> mimics = resolveMimics(outline, xml, notes);
     if (const auto ignored = meshes.ignoredUpAxes(); !ignored.empty())
-      notes.push_back(file.string() + ": the up-axis of " + joinedFirst(ignored) +
-                      " is not z; it is not applied (ROS's rule), and collada_up: file in "
-                      "robot.yaml applies it");
+      notes.push_back({file.string() + ": the up-axis of " + joinedFirst(ignored) +
+                           " is not z; it is not applied (ROS's rule), and collada_up: file in "
+                           "robot.yaml applies it",
+                       NoteWeight::coverage});
     std::vector<std::string> errors;
     if (xml.sound()) {
       if (const auto urdf = parseByUrdfdom(*root, errors))
@@ -216,7 +219,10 @@ std::optional<RobotModel> readUrdf(const std::filesystem::path& file, const Urdf
   }
   const bool sound = xml.sound();
   for (Fault& fault : xml.takeFaults()) faults.push_back(std::move(fault));
-  if (!sound) return std::nullopt;
+  if (!sound) {
+    if (notesOfFaulty) addAll(notes, *notesOfFaulty);
+    return std::nullopt;
+  }
   model->notes.insert(model->notes.begin(), notes.begin(), notes.end());
   return model;
 }

@@ -35,9 +35,11 @@ struct UrdfRules {
 /// All faults are appended to `faults`, with file and line. The result is nullopt if the URDF has a
 /// fault. `files` receives the URDF and every mesh file, in the order in which they are first
 /// named.
+/// @param notesOfFaulty receives the notes if the result is nullopt; else the model has them.
 std::optional<RobotModel> readUrdf(const std::filesystem::path& file, const UrdfRules& rules,
                                    std::vector<Fault>& faults,
-                                   std::vector<std::filesystem::path>& files);
+                                   std::vector<std::filesystem::path>& files,
+                                   std::vector<Note>* notesOfFaulty = nullptr);
 
 /// Reads an SRDF into `model`: groups (joints, links, chains, subgroups), named states, and
 /// disabled collisions with their reasons. Virtual joints and end effectors are ignored.

@@ -29,7 +29,7 @@ bool hasRange(const UrdfJoint& joint) {
 
 class Mimics {
  public:
-  Mimics(const UrdfOutline& outline, XmlFile& file, std::vector<std::string>& notes)
+  Mimics(const UrdfOutline& outline, XmlFile& file, std::vector<Note>& notes)
       : joints_(outline.joints),
         file_(file),
         notes_(notes),
@@ -86,11 +86,12 @@ class Mimics {
                       "itself");
     else
       notes_.push_back(
-          file_.at(joint.mimic->line, text +
-                                          (needed && rangeOf(joint).lower == rangeOf(joint).upper
-                                               ? "; it can't move, since its own limits are equal"
-                                               : "; it moves by itself") +
-                                          hint));
+          {file_.at(joint.mimic->line, text +
+                                           (needed && rangeOf(joint).lower == rangeOf(joint).upper
+                                                ? "; it can't move, since its own limits are equal"
+                                                : "; it moves by itself") +
+                                           hint),
+           NoteWeight::motion});
   }
 
   /// Makes the rules of the joint and of those that lead it.
@@ -170,11 +171,13 @@ class Mimics {
                             " is above the upper limit " + shortest(range.upper));
     if (!lower && !upper && !joint.mimic)
       notes_.push_back(
-          file_.at(line, owner + ": <limit> has neither lower nor upper, so both are 0, and the "
-                                 "joint cannot move"));
+          {file_.at(line, owner + ": <limit> has neither lower nor upper, so both are 0, and the "
+                                  "joint cannot move"),
+           NoteWeight::motion});
     else if (!lower != !upper)
-      notes_.push_back(file_.at(
-          line, owner + ": <limit> has no " + (lower ? "upper" : "lower") + ", so it is 0"));
+      notes_.push_back({file_.at(line, owner + ": <limit> has no " + (lower ? "upper" : "lower") +
+                                           ", so it is 0"),
+                        NoteWeight::motion});
   }
 
   /// Adds a note if a follower leaves its own limits while its leader stays within its own.
@@ -188,7 +191,8 @@ class Mimics {
     const bool stands = rule.multiplier == 0;
     if (!stands && !hasRange(leader))
       return notes_.push_back(
-          file_.at(follower.mimic->line, text + "is continuous, without limits"));
+          {file_.at(follower.mimic->line, text + "is continuous, without limits"),
+           NoteWeight::motion});
     const Range limits = rangeOf(leader);
     const double a = stands ? rule.offset : rule.multiplier * limits.lower + rule.offset;
     const double b = stands ? rule.offset : rule.multiplier * limits.upper + rule.offset;
@@ -197,12 +201,13 @@ class Mimics {
     const double slack =
         0x1p-50 * (std::abs(rule.offset) + std::abs(own.lower) + std::abs(own.upper));
     if (range.lower >= own.lower - slack && range.upper <= own.upper + slack) return;
-    notes_.push_back(file_.at(follower.mimic->line, text + "moves it in " + range.text()));
+    notes_.push_back(
+        {file_.at(follower.mimic->line, text + "moves it in " + range.text()), NoteWeight::motion});
   }
 
   const std::vector<UrdfJoint>& joints_;
   XmlFile& file_;
-  std::vector<std::string>& notes_;
+  std::vector<Note>& notes_;
   std::unordered_map<std::string, std::size_t> indices_;
   std::vector<std::string> names_;
   std::vector<std::size_t> leader_;  // for each joint: the joint that it mimics
@@ -214,7 +219,7 @@ class Mimics {
 }  // namespace
 
 std::vector<std::optional<Mimic>> resolveMimics(const UrdfOutline& outline, XmlFile& file,
-                                                std::vector<std::string>& notes) {
+                                                std::vector<Note>& notes) {
   return Mimics(outline, file, notes).resolve();
 }
 

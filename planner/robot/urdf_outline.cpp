@@ -26,7 +26,7 @@ void checkSize(XmlFile& file, Element& shape, const char* attribute, std::size_t
 }
 
 void checkMesh(XmlFile& file, Element& shape, MeshStore& meshes, UrdfCollision& collision,
-               const std::string& owner, std::vector<std::string>& notes) {
+               const std::string& owner, std::vector<Note>& notes) {
   file.checkAttributes(shape, {"filename", "scale"}, owner, notes);
   const Numbers scale = file.numbers(shape, "scale", 3, owner);
   if (scale && std::find(scale->begin(), scale->end(), 0.0) != scale->end())
@@ -42,7 +42,7 @@ void checkMesh(XmlFile& file, Element& shape, MeshStore& meshes, UrdfCollision& 
 }
 
 void checkShape(XmlFile& file, Element& shape, MeshStore& meshes, UrdfCollision& collision,
-                const std::string& owner, std::vector<std::string>& notes) {
+                const std::string& owner, std::vector<Note>& notes) {
   const std::string kind = shape.Name();
   if (kind == "box") return checkSize(file, shape, "size", 3, owner);
   if (kind == "sphere") return checkSize(file, shape, "radius", 1, owner);
@@ -63,7 +63,7 @@ void checkShape(XmlFile& file, Element& shape, MeshStore& meshes, UrdfCollision&
 
 /// @returns roll, pitch and yaw.
 Vec3 readOrigin(XmlFile& file, Element& parent, const std::string& owner,
-                std::vector<std::string>& notes) {
+                std::vector<Note>& notes) {
   Element* const element = file.child(parent, "origin", owner);
   if (!element) return Vec3::Zero();
   if (const auto* quaternion = element->FindAttribute("quat_xyzw"))  // of URDF 1.2
@@ -76,7 +76,7 @@ Vec3 readOrigin(XmlFile& file, Element& parent, const std::string& owner,
 }
 
 UrdfCollision readCollision(XmlFile& file, Element& element, MeshStore& meshes,
-                            const std::string& owner, std::vector<std::string>& notes) {
+                            const std::string& owner, std::vector<Note>& notes) {
   UrdfCollision collision;
   collision.line = element.GetLineNum();
   file.checkChildren(element, {"origin", "geometry"},
@@ -98,7 +98,7 @@ UrdfCollision readCollision(XmlFile& file, Element& element, MeshStore& meshes,
 }
 
 UrdfLink readLink(XmlFile& file, Element& element, const UrdfRules& rules, MeshStore& meshes,
-                  std::vector<std::string>& visible, std::vector<std::string>& notes) {
+                  std::vector<std::string>& visible, std::vector<Note>& notes) {
   UrdfLink link{file.text(element, "name", "").value_or(""), element.GetLineNum(), {}};
   const std::string owner = owned("link", link.name);
   if (!element.FirstChildElement("collision") && element.FirstChildElement("visual")) {
@@ -151,7 +151,7 @@ void checkAxis(XmlFile& file, Element& joint, std::optional<JointType> type,
 /// Reads <limit>, and adds what urdfdom needs there and nothing uses: the element itself, effort
 /// and velocity. What the range means is checked by resolveMimics().
 std::optional<UrdfLimit> readLimit(XmlFile& file, Element& joint, std::optional<JointType> type,
-                                   const std::string& owner, std::vector<std::string>& notes) {
+                                   const std::string& owner, std::vector<Note>& notes) {
   const bool ranged = type == JointType::revolute || type == JointType::prismatic;
   Element* const element = file.child(joint, "limit", owner);
   if (!element) {
@@ -177,7 +177,7 @@ std::optional<UrdfLimit> readLimit(XmlFile& file, Element& joint, std::optional<
       element->SetAttribute(name, "0");
     }
   if (!missing.empty())
-    notes.push_back(file.at(limit.line, owner + ": <limit> has no " + joined(missing)));
+    notes.push_back({file.at(limit.line, owner + ": <limit> has no " + joined(missing))});
   if (ranged)
     file.checkAttributes(
         *element, {"lower", "upper", "effort", "velocity", "acceleration", "deceleration", "jerk"},
@@ -186,7 +186,7 @@ std::optional<UrdfLimit> readLimit(XmlFile& file, Element& joint, std::optional<
 }
 
 std::optional<UrdfMimic> readMimic(XmlFile& file, Element& joint, const std::string& owner,
-                                   std::vector<std::string>& notes) {
+                                   std::vector<Note>& notes) {
   Element* const element = file.child(joint, "mimic", owner);
   if (!element) return std::nullopt;
   file.checkAttributes(*element, {"joint", "multiplier", "offset"}, owner, notes);
@@ -225,7 +225,7 @@ bool narrow(XmlFile& file, Element& element, bool apply, const std::string& owne
 }
 
 UrdfJoint readJoint(XmlFile& file, Element& element, const UrdfRules& rules,
-                    std::vector<std::string>& soft, std::vector<std::string>& notes) {
+                    std::vector<std::string>& soft, std::vector<Note>& notes) {
   UrdfJoint joint;
   joint.name = file.text(element, "name", "").value_or("");
   joint.line = element.GetLineNum();
@@ -330,7 +330,7 @@ void checkTriangles(const UrdfOutline& outline, const MeshStore& meshes, XmlFile
 }  // namespace
 
 UrdfOutline readUrdfOutline(XmlFile& file, const UrdfRules& rules, MeshStore& meshes,
-                            std::vector<std::string>& notes) {
+                            std::vector<Note>& notes) {
   UrdfOutline outline;
   Element& root = *file.root();
   if (isXacro(file, root) || isTooLarge(file, rules, root)) return outline;
@@ -350,18 +350,24 @@ UrdfOutline readUrdfOutline(XmlFile& file, const UrdfRules& rules, MeshStore& me
       outline.complete &= addUnique(readJoint(file, *element, rules, soft, notes), "joint",
                                     outline.joints, joints, file);
   }
+  const auto lineOf = [&](const std::vector<std::string>& names, const Lines& lines) {
+    const auto first = lines.find(names.front());  // absent if it has no name
+    return first == lines.end() ? root.GetLineNum() : first->second;
+  };
   if (!visible.empty())
-    notes.push_back(file.at(root.GetLineNum(),
-                            counted(visible, "link") +
-                                " not tested, having a <visual> and no <collision> (visuals: "
-                                "collide in robot.yaml uses the visuals): " +
-                                joinedFirst(visible)));
+    notes.push_back({file.at(lineOf(visible, links),
+                             counted(visible, "link") +
+                                 " not tested, having a <visual> and no <collision> (visuals: "
+                                 "collide in robot.yaml uses the visuals): " +
+                                 joinedFirst(visible)),
+                     NoteWeight::coverage});
   if (!soft.empty())
-    notes.push_back(file.at(root.GetLineNum(),
-                            counted(soft, "joint") +
-                                " used without the soft limits, which are narrower (limits: soft "
-                                "in robot.yaml applies them): " +
-                                joinedFirst(soft)));
+    notes.push_back({file.at(lineOf(soft, joints),
+                             counted(soft, "joint") +
+                                 " used without the soft limits, which are narrower (limits: soft "
+                                 "in robot.yaml applies them): " +
+                                 joinedFirst(soft)),
+                     NoteWeight::motion});
   if (!root.FirstChildElement("link"))
     file.fault(root.GetLineNum(), "the robot has no <link>; at least one is needed");
   if (file.sound()) checkTriangles(outline, meshes, file);

@@ -58,7 +58,7 @@ struct UrdfOutline {
 /// decimals, for urdfdom. If visuals collide, the <visual> of a link without <collision> becomes a
 /// <collision>. @pre file.root() is not null.
 UrdfOutline readUrdfOutline(XmlFile& file, const UrdfRules& rules, MeshStore& meshes,
-                            std::vector<std::string>& notes);
+                            std::vector<Note>& notes);
 
 /// Reports links that don't form a tree with one root.
 /// @returns indices of the joints in the tree's order: depth first, siblings as in the file. Empty
@@ -73,6 +73,6 @@ std::vector<std::size_t> checkUrdfTree(const UrdfOutline& outline, XmlFile& file
 /// @returns the rule of each joint, in the outline's order; `Mimic::joint` is an index in the
 /// outline. nullopt: the joint follows no other.
 std::vector<std::optional<Mimic>> resolveMimics(const UrdfOutline& outline, XmlFile& file,
-                                                std::vector<std::string>& notes);
+                                                std::vector<Note>& notes);
 
 }  // namespace corridor

@@ -201,7 +201,7 @@ std::string XmlFile::at(int line, const std::string& text) const {
 
 void XmlFile::checkChildren(Element& parent, const std::vector<std::string>& read,
                             const std::vector<std::string>& ignored, const std::string& owner,
-                            std::vector<std::string>& notes) {
+                            std::vector<Note>& notes) {
   constexpr std::size_t mostNames = 100;
   std::vector<std::string> known = read;
   known.insert(known.end(), ignored.begin(), ignored.end());
@@ -219,12 +219,12 @@ void XmlFile::checkChildren(Element& parent, const std::vector<std::string>& rea
       fault(element->GetLineNum(),
             unknown + ", and the collision geometry in it would be lost" + hint);
     else if (name.find(':') == name.npos && noted.size() < mostNames && noted.insert(name).second)
-      notes.push_back(at(element->GetLineNum(), unknown + ", and is ignored" + hint));
+      notes.push_back({at(element->GetLineNum(), unknown + ", and is ignored" + hint)});
   }
 }
 
 void XmlFile::checkAttributes(const Element& element, const std::vector<std::string>& read,
-                              const std::string& owner, std::vector<std::string>& notes) {
+                              const std::string& owner, std::vector<Note>& notes) {
   for (const tinyxml2::XMLAttribute* attribute = element.FirstAttribute(); attribute;
        attribute = attribute->Next()) {
     const std::string name = attribute->Name();
@@ -233,7 +233,7 @@ void XmlFile::checkAttributes(const Element& element, const std::vector<std::str
     if (const std::string hint = didYouMean(name, read); !hint.empty())
       fault(attribute->GetLineNum(), unknown + hint);
     else
-      notes.push_back(at(attribute->GetLineNum(), unknown + ", and is ignored"));
+      notes.push_back({at(attribute->GetLineNum(), unknown + ", and is ignored")});
   }
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "collision/core/error.h"
+#include "planner/robot/note.h"
 
 /// Internal: this header includes TinyXML2, which users of the library don't need.
 namespace corridor {
@@ -57,11 +58,11 @@ class XmlFile {
   /// ignored.
   void checkChildren(Element& parent, const std::vector<std::string>& read,
                      const std::vector<std::string>& ignored, const std::string& owner,
-                     std::vector<std::string>& notes);
+                     std::vector<Note>& notes);
   /// Checks for attributes that are not in `read`. Such an attribute is a fault if its name is
   /// similar to one in `read`. For other attributes a note is added.
   void checkAttributes(const Element& element, const std::vector<std::string>& read,
-                       const std::string& owner, std::vector<std::string>& notes);
+                       const std::string& owner, std::vector<Note>& notes);
 
  private:
   void open(const std::string& what);

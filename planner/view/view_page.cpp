@@ -57,7 +57,7 @@ class PageData {
     addEnds();
     addPairs();
     addTrees();
-    json_["notes"] = problem_.source.notes;
+    json_["notes"] = textsOf(problem_.source.notes);
     if (path_) {
       addSolution();
       addPath();

@@ -119,6 +119,43 @@ TEST_F(CheckCommand, RepeatedNotesAreCounted) {
   EXPECT_EQ(nlohmann::json::parse(run("check arm.yaml --json").out)["notes"].size(), 2u);
 }
 
+/// A note on what a proof covers comes before the others, and notes are printed also if there are
+/// faults.
+TEST_F(CheckCommand, NotesAreSortedAndPrintedWithFaults) {
+  std::string urdf = read("arm.urdf");
+  const std::string effort = " effort=\"1\"";
+  for (auto at = urdf.find(effort); at != urdf.npos; at = urdf.find(effort))
+    urdf.erase(at, effort.size());
+  const std::string base = "<link name=\"base\"/>";
+  urdf.replace(urdf.find(base), base.size(), "<link name=\"base\"><visual/></link>");
+  write("arm.urdf", urdf);
+  const std::string first =
+      "arm.urdf:2: 1 link is not tested, having a <visual> and no <collision> (visuals: collide in "
+      "robot.yaml uses the visuals): base";
+  const std::string second = "arm.urdf:5: joint \"shoulder\": <limit> has no effort";
+  const auto notes = nlohmann::json::parse(run("check arm.yaml --json").out)["notes"];
+  ASSERT_EQ(notes.size(), 3u);
+  EXPECT_EQ(notes[0], first);
+  EXPECT_EQ(notes[1], second);
+
+  const std::string more = "note: " + first + "\nnote: " + second + " (and 1 more like this)\n";
+  write("faulty.yaml", read("arm.yaml") + "marginn: 1\n");
+  const Result faulty = run("check faulty.yaml");
+  EXPECT_EQ(faulty.status, 2);
+  EXPECT_THAT(faulty.err, testing::StartsWith("faulty.yaml:7: unknown key \"marginn\""));
+  EXPECT_THAT(faulty.err, testing::EndsWith("\n" + more));
+  EXPECT_EQ(lines(faulty.err).size(), 3u);
+  EXPECT_EQ(run("solve faulty.yaml faulty.yaml").err, faulty.err + faulty.err);
+
+  // The notes of a robot that can't be used.
+  write("robot.yaml", "format: corridor-robot-1\nurdf: arm.urdf\nhold: {nothing: 1}\n");
+  write("arm.urdf", urdf);
+  const Result robot = run("inspect robot.yaml");
+  EXPECT_EQ(robot.status, 2);
+  EXPECT_THAT(robot.err, testing::StartsWith("robot.yaml:3: "));
+  EXPECT_THAT(robot.err, testing::EndsWith(more));
+}
+
 TEST_F(CheckCommand, CheckQuotesNamesWithCommas) {
   write("commas.yaml",
         "format: corridor-problem-1\nrobot: arm.urdf\nworld: {'post \"a\", b': {sphere: 0.1, at: "

@@ -123,7 +123,7 @@ TEST_F(ArmFaults, AnglesInDegrees) {
   EXPECT_EQ(complaint("lift_deg: 400"),
             "problem.yaml:5: start.lift_deg: 6.981317007977318 is outside of its limits, "
             "[-3.14159, 3.14159]");
-  EXPECT_THAT(read(armHead + "start: {pan: 90, lift: 0}\ngoal: ready\n").source.notes,
+  EXPECT_THAT(textsOf(read(armHead + "start: {pan: 90, lift: 0}\ngoal: ready\n").source.notes),
               testing::Contains("start.pan: 90 is read as 2.035405699485789, the same angle up to "
                                 "full turns; in degrees, write pan_deg: 90"));
   EXPECT_THAT(complaintOf(armHead + "start: ready\ngoal: {pose: {at: [0, 0, 1]}}\n"),

@@ -42,9 +42,10 @@ TEST_F(ArmProblem, GroupStatesAndPairs) {
   EXPECT_EQ(skipped(p, "base", "post"), "never move against each other");
   EXPECT_EQ(skipped(p, "base", "finger"), "");
   EXPECT_EQ(skipped(p, "upper", "post"), "");
-  EXPECT_THAT(p.source.notes,
+  EXPECT_THAT(textsOf(p.source.notes),
               Contains("not tested, since they never move against each other: base ~ post"));
-  EXPECT_THAT(p.source.notes, Contains("joints that are not planned for are held: slide 0.01"))
+  EXPECT_THAT(textsOf(p.source.notes),
+              Contains("joints that are not planned for are held: slide 0.01"))
       << "the value nearest to 0 within its limits";
 }
 
@@ -134,7 +135,7 @@ TEST_F(ArmProblem, JointListKeepsItsOrderAndHoldIsHeld) {
   EXPECT_EQ(p.task.start, numbers({0.02, 1}));
   EXPECT_EQ(p.task.goals.at(0), numbers({0.02, 10 * degree}));
   EXPECT_EQ(skipped(p, "finger", "thumb"), "robot.yaml: allow");
-  EXPECT_THAT(p.source.notes,
+  EXPECT_THAT(textsOf(p.source.notes),
               Contains("start: lift is held at 1.5707963267948966, not at the 0 of state home"));
 }
 
@@ -150,7 +151,7 @@ TEST_F(ArmProblem, NamedStatesHoldJoints) {
     std::string text;
     for (const auto& [j, value] : p.model.robots[0].held)
       text += p.model.robots[0].model.joints[j].name + " " + shortest(value) + "; ";
-    for (const std::string& note : p.source.notes)
+    for (const std::string& note : textsOf(p.source.notes))
       if (note.find("held") != note.npos) text += note + "; ";
     return text;
   };
@@ -228,15 +229,16 @@ TEST_F(ArmProblem, ValuesARoundingBeyondTheirLimitAreClampedAndReported) {
   EXPECT_EQ(p.task.start, numbers({0, 3.14159}));
   EXPECT_DOUBLE_EQ(p.task.goals.at(0)[0], 4 - 2 * std::numbers::pi);
   EXPECT_EQ(p.task.goals.at(0)[1], -3.14159) << "limits are inclusive";
-  EXPECT_THAT(p.source.notes, Contains("start.lift: 3.1416 is read as its limit, 3.14159"));
+  EXPECT_THAT(textsOf(p.source.notes),
+              Contains("start.lift: 3.1416 is read as its limit, 3.14159"));
   EXPECT_THAT(
-      p.source.notes,
+      textsOf(p.source.notes),
       Contains("goal.pan: 4 is read as -2.2831853071795867, the same angle up to full turns"));
   const Problem d =
       read(armHead + "start: {pan_deg: -180, lift: 0}\ngoal: {pan_deg: 270, lift: 0}\n");
   EXPECT_EQ(d.task.start[0], std::numbers::pi);
   EXPECT_EQ(d.task.goals.at(0)[0], -90 * degree);
-  EXPECT_THAT(d.source.notes,
+  EXPECT_THAT(textsOf(d.source.notes),
               Contains("goal.pan_deg: 270 is read as -90, the same angle up to full turns"));
 }
 
@@ -295,7 +297,7 @@ TEST_F(ArmProblem, TwoRobotsAndTheirPairs) {
   const auto frames = framePoses(p.model.tree, p.task.start);
   EXPECT_EQ(frames[p.model.robots[1].linkFrames[0]].t, Vec3(1, 0, 0));
   EXPECT_EQ(frames[p.model.robots[2].linkFrames[0]].t, Vec3(9, 0, 0));
-  EXPECT_THAT(p.source.notes,
+  EXPECT_THAT(textsOf(p.source.notes),
               Contains("bounds of block: those of the world, start and goal, since none "
                        "are given"));
 }
@@ -362,7 +364,7 @@ TEST_F(ArmProblem, NotesThatNoPairIsTested) {
       "format: corridor-problem-1\nrobot: arm.yaml\nstart: ready\ngoal: ready\nallow: [[base, "
       "finger], [base, thumb], [upper, finger], [upper, thumb]]\n");
   ASSERT_FALSE(p.source.notes.empty());
-  EXPECT_THAT(p.source.notes.front(),
+  EXPECT_THAT(textsOf(p.source.notes).front(),
               testing::HasSubstr("no pair of bodies is tested, so nothing can collide"));
 }
 
@@ -383,8 +385,9 @@ TEST_F(ArmProblem, AnObstacleWithTheNameOfALink) {
   EXPECT_EQ(p.model.bodies.back().name, "world/lower");
   EXPECT_EQ(skipped(p, "upper", "world/lower"), "allow");
   EXPECT_EQ(skipped(p, "lower", "world/lower"), "");
-  EXPECT_THAT(p.source.notes, Contains("no obstacle is within reach; are all lengths in metres?"));
-  EXPECT_THAT(read(armHead + armStates).source.notes,
+  EXPECT_THAT(textsOf(p.source.notes),
+              Contains("no obstacle is within reach; are all lengths in metres?"));
+  EXPECT_THAT(textsOf(read(armHead + armStates).source.notes),
               testing::Not(Contains(testing::HasSubstr("within reach"))));
 }
 

@@ -307,10 +307,10 @@ TEST_F(Moveit, ASceneOfAnotherRobotIsNoted) {
   text.replace(text.find("[base, lower, crate, finger]"), 28, "[base, lower, crate, fingre]");
   write("scene.yaml", text);
   const Problem p = read(head);
-  EXPECT_THAT(p.source.notes,
+  EXPECT_THAT(textsOf(p.source.notes),
               testing::Contains(testing::EndsWith(
                   "scene.yaml: is for robot \"fetch\", and is used for \"armbot\"")));
-  EXPECT_THAT(p.source.notes,
+  EXPECT_THAT(textsOf(p.source.notes),
               testing::Contains(testing::EndsWith("names 1 that are neither links nor obstacles: "
                                                   "fingre")));
 }

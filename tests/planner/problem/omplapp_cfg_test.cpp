@@ -66,7 +66,7 @@ TEST_F(OmplAppCfg, SpatialProblemWithEverything) {
   EXPECT_EQ(p.settings.planner.name, "RRT");
   EXPECT_EQ(p.settings.planner.params, (std::map<std::string, std::string>{{"range", "0.25"}}));
   EXPECT_EQ(p.source.lines.at("planner.params.range"), 37);
-  EXPECT_THAT(p.source.notes,
+  EXPECT_THAT(textsOf(p.source.notes),
               testing::IsSupersetOf(
                   {testing::Eq("bounds: enlarged to contain start and goal"),
                    testing::Eq("not used: problem.projection.cellsize_factor, benchmark.mem_limit"),
@@ -79,14 +79,14 @@ TEST_F(OmplAppCfg, DefaultPlannerIfTheFileListsSeveral) {
   EXPECT_EQ(p.settings.planner.name, "RRTConnect");
   EXPECT_TRUE(p.settings.planner.params.empty());
   EXPECT_THAT(
-      p.source.notes,
+      textsOf(p.source.notes),
       testing::Contains("planner: RRTConnect, since the file lists several (prm, rrt, rrt)"));
 }
 
 TEST_F(OmplAppCfg, IncompleteVolumeIsIgnored) {
   const Problem p = readProblem(cfg(meshes + planar + "volume.min.x = -100\n"));
   EXPECT_EQ(lowerOf(p), Vec3(0, 0, 0));
-  EXPECT_THAT(p.source.notes,
+  EXPECT_THAT(textsOf(p.source.notes),
               testing::Contains("bounds: those of the world, since volume is incomplete"));
 }
 

@@ -112,7 +112,7 @@ TEST_F(ProblemYaml, Defaults) {
   EXPECT_EQ(p.model.space.coordinates().at(3).weight, 1);
   EXPECT_EQ(lowerOf(p), Vec3(0, 0, 0));
   EXPECT_EQ(upperOf(p), Vec3(5, 5, 3));
-  EXPECT_THAT(p.source.notes,
+  EXPECT_THAT(textsOf(p.source.notes),
               ElementsAre("bounds: those of the world, start and goal, since none are given"));
   EXPECT_EQ(digestOf(readProblem(folder_)), digestOf(p))
       << "the folder stands for its problem.yaml";
@@ -151,7 +151,7 @@ TEST_F(ProblemYaml, PlanarPosesAndWrappedYaws) {
   EXPECT_EQ(p.task.start, numbers({5, 0, -90 * degree}));
   EXPECT_EQ(p.task.goals[0], numbers({0, 5, -1}));
   EXPECT_EQ(p.model.space.coordinates().at(2).weight, 0.5);
-  EXPECT_THAT(p.source.notes,
+  EXPECT_THAT(textsOf(p.source.notes),
               ElementsAre("start.yaw_deg: 270 is read as -90, the same angle up to full turns"));
   p = read(planarHead + "start: {at: [5, 0], yaw_deg: -180}\ngoal: {at: [0, 5], yaw: 10}\n" +
            bounds);
@@ -184,7 +184,7 @@ weights: {rotation: 3}
   EXPECT_EQ(p.model.space.coordinates().at(3).weight, 6)
       << "3 metres per radian of rotation, twice the quaternion angle";
   EXPECT_THAT(
-      p.source.notes,
+      textsOf(p.source.notes),
       ElementsAre("reference of twins: the centroid (2.25, 0.5, 0.75) of its distinct vertices"));
 }
 

@@ -28,7 +28,7 @@ class SrdfFile : public UrdfTest {
     model_.notes.clear();
     EXPECT_EQ(complaintOfSrdf(parts, name), "no complaint");
     std::string text;
-    for (const std::string& note : model_.notes)
+    for (const std::string& note : textsOf(model_.notes))
       text += note.substr(folder_.string().size() + 1) + "\n";
     return text;
   }
@@ -76,7 +76,7 @@ TEST_F(SrdfFile, States) {
             (std::map<std::string, double>{{"base/x", 1}, {"base/y", 2}, {"base/yaw", 3}}));
   EXPECT_EQ(model_.states.at("there").group, "");
   const std::string file = (folder_ / "r.srdf").string();
-  EXPECT_THAT(model_.notes,
+  EXPECT_THAT(textsOf(model_.notes),
               testing::ElementsAre(
                   file + ":5: state \"up\": the values of joints that do not move by themselves "
                          "are ignored: weld",
@@ -105,8 +105,9 @@ TEST_F(SrdfFile, Pairs) {
 
 TEST_F(SrdfFile, OfAnotherRobotIsReported) {
   EXPECT_EQ(complaintOfSrdf("", "q"), "no complaint");
-  EXPECT_THAT(model_.notes, testing::ElementsAre((folder_ / "r.srdf").string() +
-                                                 ":1: is for robot \"q\", and is used for \"r\""));
+  EXPECT_THAT(textsOf(model_.notes),
+              testing::ElementsAre((folder_ / "r.srdf").string() +
+                                   ":1: is for robot \"q\", and is used for \"r\""));
 }
 
 TEST_F(SrdfFile, UnknownElements) {

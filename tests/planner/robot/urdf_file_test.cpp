@@ -81,7 +81,7 @@ TEST_F(UrdfFile, OnlyTheLeadersLimitsCountForAMimic) {
                           mimic + "/>"));
     std::string text =
         std::to_string(model.joints[0].lower) + " to " + std::to_string(model.joints[0].upper);
-    for (const std::string& note : model.notes)
+    for (const std::string& note : textsOf(model.notes))
       text += "; " + note.substr(folder_.string().size() + 1);
     return text;
   };
@@ -117,10 +117,10 @@ TEST_F(UrdfFile, EffortAndVelocityMayBeMissing) {
   EXPECT_EQ(model.joints[0].upper, 2);
   EXPECT_TRUE(model.joints[1].mimic) << "a mimic needs no <limit>";
   EXPECT_THAT(
-      model.notes,
+      textsOf(model.notes),
       testing::ElementsAre(
-          (folder_ / "r.urdf").string() + ":5: joint \"j\": <limit> has no effort, velocity",
-          (folder_ / "r.urdf").string() + ":5: joint \"j\": <limit> has no lower, so it is 0"));
+          (folder_ / "r.urdf").string() + ":5: joint \"j\": <limit> has no lower, so it is 0",
+          (folder_ / "r.urdf").string() + ":5: joint \"j\": <limit> has no effort, velocity"));
 }
 
 TEST_F(UrdfFile, AMimicOfAnUnknownJointMovesByItself) {
@@ -128,10 +128,11 @@ TEST_F(UrdfFile, AMimicOfAnUnknownJointMovesByItself) {
       link("a") + link("b") + link("c") + joint("pan", "revolute", "a", "b", limit) +
       joint("tilt", "revolute", "b", "c", limit + "<mimic joint=\"pam\" multiplier=\"2\"/>"));
   EXPECT_FALSE(model.joints[1].mimic);
-  EXPECT_THAT(model.notes, testing::ElementsAre(
-                               (folder_ / "r.urdf").string() +
-                               ":6: joint \"tilt\" mimics \"pam\", which is not a joint of this "
-                               "file; it moves by itself (did you mean \"pan\"?)"));
+  EXPECT_THAT(
+      textsOf(model.notes),
+      testing::ElementsAre((folder_ / "r.urdf").string() +
+                           ":6: joint \"tilt\" mimics \"pam\", which is not a joint of this "
+                           "file; it moves by itself (did you mean \"pan\"?)"));
 }
 
 TEST_F(UrdfFile, AJointThatCannotLeadIsNoLeader) {
@@ -141,7 +142,7 @@ TEST_F(UrdfFile, AJointThatCannotLeadIsNoLeader) {
                 joint("tilt", "revolute", "b", "c", limit + "<mimic joint=\"pan\"/>"));
     EXPECT_FALSE(model.joints[1].mimic);
     EXPECT_EQ(model.joints[1].upper, 2);
-    EXPECT_THAT(model.notes,
+    EXPECT_THAT(textsOf(model.notes),
                 testing::ElementsAre((folder_ / "r.urdf").string() + ":6: joint \"tilt\" mimics " +
                                      "\"pan\", which is " + type +
                                      ", not a joint of one variable; it moves by itself"));
@@ -269,7 +270,7 @@ TEST_F(UrdfFile, MeshesAreFoundInTheFoldersOfRos) {
 TEST_F(UrdfFile, MeshesInMillimetresAreNoted) {
   write("big.obj", "v 0 0 0\nv 1000 0 0\nv 0 200 0\nf 1 2 3\n");
   const RobotModel model = modelOf(link("a", collision("<mesh filename=\"big.obj\"/>")));
-  EXPECT_THAT(model.notes,
+  EXPECT_THAT(textsOf(model.notes),
               testing::ElementsAre((folder_ / "r.urdf").string() +
                                    ":2: shape \"a\" is 1000 m long; if its mesh is in "
                                    "millimetres, it needs scale=\"0.001 0.001 0.001\""));
@@ -289,9 +290,9 @@ TEST_F(UrdfFile, Visuals) {
       link("c") + joint("j", "fixed", "a", "b") + joint("k", "fixed", "b", "c");
   const RobotModel ignored = modelOf(parts);
   EXPECT_EQ(ignored.links[1].shapes.size(), 0u);
-  EXPECT_THAT(ignored.notes,
+  EXPECT_THAT(textsOf(ignored.notes),
               testing::ElementsAre((folder_ / "r.urdf").string() +
-                                   ":1: 1 link is not tested, having a <visual> and no "
+                                   ":3: 1 link is not tested, having a <visual> and no "
                                    "<collision> (visuals: collide in robot.yaml uses the visuals): "
                                    "b"));
   rules_.visualsCollide = true;
@@ -322,9 +323,9 @@ TEST_F(UrdfFile, SoftLimits) {
   const RobotModel hard = modelOf(parts);
   EXPECT_EQ(hard.joints[0].lower, -1);
   EXPECT_EQ(hard.joints[1].upper, 2);
-  EXPECT_THAT(hard.notes,
+  EXPECT_THAT(textsOf(hard.notes),
               testing::ElementsAre((folder_ / "r.urdf").string() +
-                                   ":1: 2 joints are used without the soft limits, which are "
+                                   ":7: 2 joints are used without the soft limits, which are "
                                    "narrower (limits: soft in robot.yaml applies them): both, "
                                    "one"));
   rules_.softLimits = true;
@@ -366,7 +367,7 @@ TEST_F(UrdfFile, UpAxesOfColladaFiles) {
       link("a", collision("<mesh filename=\"y.dae\"/>") + collision("<mesh filename=\"z.dae\"/>"));
   const RobotModel ros = modelOf(parts);
   EXPECT_EQ(ros.links[0].shapes[0].mesh->mesh.vertices[2], Vec3(0, 2, 0));
-  EXPECT_THAT(ros.notes,
+  EXPECT_THAT(textsOf(ros.notes),
               testing::ElementsAre((folder_ / "r.urdf").string() +
                                    ": the up-axis of y.dae is not z; it is not applied (ROS's "
                                    "rule), and collada_up: file in robot.yaml applies it"));
@@ -388,7 +389,7 @@ TEST_F(UrdfFile, ReportsIgnoredElements) {
           "j", "prismatic", "a", "b",
           R"(<limit effort="0" velocity="0"/><origin at="1"/><hardware/><safety_controller k_velocity="1"/>)"));
   const std::string file = (folder_ / "r.urdf").string();
-  EXPECT_THAT(model.notes,
+  EXPECT_THAT(textsOf(model.notes),
               testing::UnorderedElementsAre(
                   file + ":4: link \"a\": <vsual> is not known, and is ignored (did you mean "
                          "<visual>?)",

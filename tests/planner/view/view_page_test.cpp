@@ -327,7 +327,7 @@ TEST_F(HostileNames, AreShownAsText) {
   problem.source.name = name;
   problem.model.bodies[0].name = name;
   problem.model.bodies[1].name = "\xff not UTF-8 \x80";
-  problem.source.notes.push_back("<!-- <script>");
+  problem.source.notes.push_back({"<!-- <script>"});
   const std::string page = viewPage(problem, viewed(problem, straight(problem)));
   EXPECT_EQ(page.find("<img"), std::string::npos);
   EXPECT_EQ(page.find("<!-- <script>"), std::string::npos);

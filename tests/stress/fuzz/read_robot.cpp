@@ -10,7 +10,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto file = folder.write("robots/p/robot.yaml", fuzz::textOf(data, ready ? size : 0));
   fuzz::readsOrRefuses([&] {
     FaultList faults(file.string());
-    const auto robot = readRobotFile(file, faults);
+    std::vector<Note> notes;
+    const auto robot = readRobotFile(file, faults, notes);
     if (!robot && faults.size() == 0) fuzz::fail("no robot, and no fault");
     faults.throwIfAny();
   });

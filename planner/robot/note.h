@@ -1,0 +1,54 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "collision/core/error.h"
+
+namespace corridor {
+
+/// What a note is about, the most important first.
+enum class NoteWeight {
+  coverage,  ///< a proof may cover less, or something else, than the user expects
+  motion,    ///< values, limits or joints differ from what a file says
+  detail     ///< what the reader decided otherwise, or ignored without harm
+};
+
+/// A decision of a reader that a user may want to know.
+struct Note {
+  std::string text;
+  NoteWeight weight = NoteWeight::detail;
+};
+
+/// Returns the texts of the notes, the most important first. Notes of one weight keep their order.
+std::vector<std::string> textsOf(const std::vector<Note>& notes);
+
+/// Appends the notes.
+inline void addAll(const std::vector<Note>& from, std::vector<Note>& to) {
+  to.insert(to.end(), from.begin(), from.end());
+}
+
+/// Bad input, with the notes on what was read before.
+class NotedInputError : public InputError {
+ public:
+  NotedInputError(std::vector<Fault> faults, std::vector<Note> notes)
+      : InputError(std::move(faults)), notes_(std::move(notes)) {}
+
+  const std::vector<Note>& notes() const { return notes_; }
+
+ private:
+  std::vector<Note> notes_;
+};
+
+/// Calls `read`, which adds to `notes`. If it throws an InputError, throws a NotedInputError with
+/// the same faults and the notes so far.
+template <class Read>
+void readWithNotes(const std::vector<Note>& notes, const Read& read) {
+  try {
+    read();
+  } catch (const InputError& error) {
+    throw NotedInputError(error.faults(), notes);
+  }
+}
+
+}  // namespace corridor
