@@ -33,6 +33,15 @@ void addQuiet(CLI::App& command, bool& quiet, const char* heading) {
   command.add_flag("--quiet", quiet, "no results on stdout")->group(heading);
 }
 
+void addFrom(CLI::App& command, std::optional<std::string>& from, const char* heading) {
+  command
+      .add_option("--from", from,
+                  "direction from which the picture is seen: front (the viewer is at +x), back, "
+                  "left (+y), right, top, bottom, or AZIMUTH,ELEVATION in degrees, such as "
+                  "--from=-60,38")
+      ->group(heading);
+}
+
 void addIgnoreDigest(CLI::App& command, bool& ignore) {
   command.add_flag(
       "--ignore-digest", ignore,

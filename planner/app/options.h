@@ -1,6 +1,7 @@
 #pragma once
 
 #include <charconv>
+#include <optional>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -38,6 +39,7 @@ inline constexpr const char* kOptions = "Options";
 
 void addJson(CLI::App& command, bool& json, const char* heading = kOptions);
 void addQuiet(CLI::App& command, bool& quiet, const char* heading = kOptions);
+void addFrom(CLI::App& command, std::optional<std::string>& from, const char* heading);
 void addIgnoreDigest(CLI::App& command, bool& ignore);
 
 }  // namespace corridor::app

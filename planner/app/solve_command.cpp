@@ -36,7 +36,7 @@ struct SolveArguments {
   std::optional<double> time, resolution;
   std::optional<std::uint64_t> seed;
   std::vector<std::string> set;  ///< key=value
-  std::optional<std::string> output, picture;
+  std::optional<std::string> output, picture, from;
   bool json = false, quiet = false, noSimplify = false;
 };
 
@@ -207,6 +207,8 @@ Solved solveOne(const std::string& file, const SolveArguments& a,
                    counted(p.edges, "edge").c_str());
     };
   }
+  std::optional<ViewDirection> from;
+  if (a.from) from = viewDirection(*a.from, "--from");
   SolveReport report = solveProblem(problem, options);
   if (show) std::fputs("\r\033[K", stderr);
   for (const Fault& fault : report.warnings) warn(fault.str());
@@ -216,9 +218,9 @@ Solved solveOne(const std::string& file, const SolveArguments& a,
     else if (a.output)
       writeSolution(makeSolution(problem, report, digest), *a.output);
     if (a.picture == "-")
-      std::cout << svgPicture(problem, report.path);
+      std::cout << svgPicture(problem, report.path, from);
     else if (a.picture)
-      writeWhole(*a.picture, svgPicture(problem, report.path));
+      writeWhole(*a.picture, svgPicture(problem, report.path, from));
   }
   return {std::move(problem), std::move(report)};
 }
@@ -228,6 +230,9 @@ int solveCommand(const SolveArguments& a) {
     throw InputError(
         Fault{a.output ? "--output" : "--picture", 0,
               "names one file, but there are " + counted(a.problems.size(), "problem")});
+  if (a.from && !a.picture)
+    throw InputError(Fault{"--from", 0, "needs --picture, which is not given"});
+  if (a.from) viewDirection(*a.from, "--from");
   if (a.output != "-") requireWritable(a.output, "--output");
   if (a.picture != "-") requireWritable(a.picture, "--picture");
   if (a.json && printsFile(a))
@@ -330,6 +335,7 @@ void addSolve(CLI::App& program, int& status) {
       ->add_option("--picture", a.picture,
                    "write an SVG of the scene and the path to this file (-: standard output)")
       ->group(results);
+  addFrom(*command, a.from, results);
   addJson(*command, a.json, results);
   addQuiet(*command, a.quiet, results);
   command->footer(

@@ -25,7 +25,7 @@ namespace {
 struct ViewArguments {
   std::string problem;
   std::optional<std::string> solution;
-  std::optional<std::string> output, image, size;
+  std::optional<std::string> output, image, size, from;
   bool ignoreDigest = false;  ///< as in `VerifyArguments`
   bool quiet = false;
 };
@@ -57,6 +57,8 @@ int viewCommand(const ViewArguments& a) {
   requireExtension(a.output, "--output", "pages are HTML", {".html", ".htm"});
   requireExtension(a.image, "--image", "pictures are PNG", {".png"});
   if (a.size && !a.image) throw InputError(Fault{"--size", 0, "needs --image, which is not given"});
+  std::optional<ViewDirection> from;
+  if (a.from) from = viewDirection(*a.from, "--from");
   const PictureSize size = a.size ? pictureSize(*a.size, "--size") : PictureSize();
   const std::optional<std::filesystem::path> browser =
       a.image ? std::optional(requireBrowser("--image")) : std::nullopt;
@@ -78,7 +80,7 @@ int viewCommand(const ViewArguments& a) {
     path->report =
         verifyWithWarning(problem, path->solution, a.problem, *a.solution, a.ignoreDigest);
   }
-  const std::string page = viewPage(problem, path);
+  const std::string page = viewPage(problem, path, from);
   const Lines out(a.quiet);
   out.line("problem", a.problem);
   if (path) {
@@ -124,6 +126,7 @@ void addView(CLI::App& program, int& status) {
   command
       ->add_option("--size", a.size, "size of the image: WIDTHxHEIGHT, pixels (default 1366x768)")
       ->group(results);
+  addFrom(*command, a.from, results);
   addQuiet(*command, a.quiet, results);
   command->footer(
       std::string(

@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "planner/view/tessellate.h"
+#include "planner/view/tip_frames.h"
 
 namespace corridor::view {
 namespace {
@@ -110,20 +111,17 @@ DisplayScene displayScene(const Problem& problem) {
   MeshList meshes;
   const std::vector<Transform> poses = framePoses(problem.model.tree, problem.task.start);
   Bounds bounds;
-  std::vector<std::size_t> lastFrames(problem.model.robots.size(), 0);
   for (const ModelBody& body : problem.model.bodies) {
     DisplayMesh mesh = displayMesh(body);
     bounds.include(poses[body.frame] * mesh.origin);
     if (body.frame != 0) scene.frames.push_back(body.frame);
-    if (body.robot) lastFrames[*body.robot] = std::max(lastFrames[*body.robot], body.frame);
     scene.bodies.push_back({body.name, body.frame, body.robot, meshes.add(std::move(mesh))});
   }
   scene.meshes = meshes.take();
   if (!scene.bodies.empty()) scene.origin = bounds.middle();
   std::sort(scene.frames.begin(), scene.frames.end());
   scene.frames.erase(std::unique(scene.frames.begin(), scene.frames.end()), scene.frames.end());
-  for (const std::size_t frame : lastFrames)
-    if (frame != 0) scene.lastFrames.push_back(frame);
+  scene.tips = tipFrames(problem.model);
   scene.planar = isPlanar(problem);
   return scene;
 }

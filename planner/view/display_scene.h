@@ -36,9 +36,7 @@ struct DisplayScene {
   Vec3 origin = Vec3::Zero();
   /// Frames with bodies, except the world's, in ascending order.
   std::vector<std::size_t> frames;
-  /// For each robot, the last frame that has a body: a rigid body's own frame, or an arm's hand.
-  /// Robots without such a frame are left out.
-  std::vector<std::size_t> lastFrames;
+  std::vector<std::size_t> tips;  ///< see tipFrames
   /// True if all joints rotate about vertical axes or translate horizontally: then the scene is
   /// best seen from above.
   bool planar = false;

@@ -12,6 +12,7 @@
 
 #include "planner/view/projection.h"
 #include "planner/view/tessellate.h"
+#include "planner/view/tip_frames.h"
 
 namespace corridor {
 namespace {
@@ -38,6 +39,7 @@ constexpr double kCell = 1.0 / 250, kLargestCell = 1.0 / 60;
 /// A triangle of the picture, projected.
 struct Face {
   Corners corners;
+  char palette = 'w';
   int shade = 0;  ///< 0 dark … kShades − 1 light
   double depth() const { return corners[0].z() + corners[1].z() + corners[2].z(); }
 };
@@ -46,13 +48,13 @@ using Triangle3 = std::array<Vec3, 3>;
 
 /// Returns the distinct triangles of a body, in its frame's coordinates: many mesh files have both
 /// sides of every face.
+/// @param cell see view::coarsened; 0: the mesh as it is.
 std::vector<Triangle3> distinctTriangles(const ModelBody& body, double cell) {
   std::set<std::array<std::array<double, 3>, 3>> seen;
   std::vector<Triangle3> triangles;
   for (const PlacedShape& shape : body.shapes) {
     TriangleMesh mesh = shape.mesh ? shape.mesh->mesh : view::tessellated(shape.parts);
-    if (body.frame != 0 && mesh.triangles.size() > kFewTriangles)
-      mesh = view::coarsened(mesh, cell);
+    if (cell > 0 && mesh.triangles.size() > kFewTriangles) mesh = view::coarsened(mesh, cell);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       std::array<std::array<double, 3>, 3> key;
       Triangle3 triangle;
@@ -77,10 +79,11 @@ struct Moving {
 /// that.
 /// @param size the scene's diagonal, metres.
 Moving movingBodies(const Problem& problem, double size) {
+  const std::vector<std::size_t> movers = moversOf(problem.model.tree);
   for (double cell = kCell * size;; cell *= 1.25) {
     Moving moving;
     for (const ModelBody& body : problem.model.bodies) {
-      if (body.frame == 0) continue;
+      if (movers[body.frame] == 0) continue;
       const std::vector<Triangle3> triangles = distinctTriangles(body, cell);
       moving.triangles.insert(moving.triangles.end(), triangles.begin(), triangles.end());
       moving.frames.insert(moving.frames.end(), triangles.size(), body.frame);
@@ -98,13 +101,27 @@ std::vector<Triangle3> placedAt(const Problem& problem, const Moving& moving,
   return placed;
 }
 
-/// Returns for each robot the last frame that has a body (a rigid body's own frame, or an arm's
-/// hand), or 0 if no frame has one.
-std::vector<std::size_t> lastFrames(const Problem& problem) {
-  std::vector<std::size_t> last(problem.model.robots.size(), 0);
-  for (const ModelBody& body : problem.model.bodies)
-    if (body.robot) last[*body.robot] = std::max(last[*body.robot], body.frame);
-  return last;
+/// The triangles of all bodies that stand still, in the world's coordinates, and for each its body.
+struct Standing {
+  std::vector<Triangle3> triangles;
+  std::vector<std::size_t> bodies;
+};
+
+/// @param size as for `movingBodies`.
+Standing standingBodies(const Problem& problem, double size, const Configuration& q) {
+  const std::vector<std::size_t> movers = moversOf(problem.model.tree);
+  const std::vector<Transform> poses = framePoses(problem.model.tree, q);
+  Standing standing;
+  for (std::size_t b = 0; b < problem.model.bodies.size(); ++b) {
+    const ModelBody& body = problem.model.bodies[b];
+    if (movers[body.frame] != 0) continue;
+    for (Triangle3 triangle : distinctTriangles(body, body.robot ? kCell * size : 0)) {
+      for (Vec3& p : triangle) p = poses[body.frame] * p;
+      standing.triangles.push_back(triangle);
+      standing.bodies.push_back(b);
+    }
+  }
+  return standing;
 }
 
 /// Returns the diagonal of the bounds of all bodies, for configuration q, metres.
@@ -135,11 +152,12 @@ PlaneKey planeOf(std::size_t body, const Triangle3& triangle, double pixel) {
           std::lround(normal.dot(triangle[0]) / (2 * pixel))};
 }
 
-Face makeFace(const Camera& camera, const Triangle3& triangle) {
+Face makeFace(const Camera& camera, const Triangle3& triangle, char palette) {
   Vec3 normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).stableNormalized();
   if (normal.dot(camera.towardsViewer()) < 0) normal = -normal;
   const double light = std::max(0.0, normal.dot(Vec3(0.35, -0.45, 0.82)));
   Face face{{camera.project(triangle[0]), camera.project(triangle[1]), camera.project(triangle[2])},
+            palette,
             0};
   face.shade = std::clamp(static_cast<int>((0.15 + 0.85 * light) * kShades), 0, kShades - 1);
   return face;
@@ -182,15 +200,15 @@ std::vector<Face> visible(const Camera& camera, const std::vector<Face>& faces, 
 
 /// Returns SVG paths with coordinates in whole pixels. Consecutive faces of equal shade share a
 /// path.
-std::string draw(const std::vector<Face>& faces, char palette) {
+std::string draw(const std::vector<Face>& faces) {
   std::string svg;
-  int shade = -1;
+  const Face* last = nullptr;
   for (const Face& face : faces) {
-    if (face.shade != shade) {
-      if (shade >= 0) svg += "\"/>\n";
-      shade = face.shade;
-      svg += std::string("<path class=\"") + palette + std::to_string(shade) + "\" d=\"";
+    if (!last || face.shade != last->shade || face.palette != last->palette) {
+      if (last) svg += "\"/>\n";
+      svg += std::string("<path class=\"") + face.palette + std::to_string(face.shade) + "\" d=\"";
     }
+    last = &face;
     long x[3], y[3];
     for (int i = 0; i < 3; ++i) {
       x[i] = std::lround(face.corners[i].x());
@@ -201,15 +219,14 @@ std::string draw(const std::vector<Face>& faces, char palette) {
                   y[1] - y[0], x[2] - x[1], y[2] - y[1]);
     svg += text;
   }
-  return shade >= 0 ? svg + "\"/>\n" : svg;
+  return last ? svg + "\"/>\n" : svg;
 }
 
 /// Like `draw`, but leaves out faces with few visible pixels, until the text has at most `limit`
 /// bytes or only large faces are left.
-std::string drawVisible(const Camera& camera, const std::vector<Face>& faces, char palette,
-                        std::size_t limit) {
+std::string drawVisible(const Camera& camera, const std::vector<Face>& faces, std::size_t limit) {
   for (int least = 0;; least = 2 * least + 1) {
-    std::string svg = draw(visible(camera, faces, least), palette);
+    std::string svg = draw(visible(camera, faces, least));
     if (svg.size() <= limit || least > 2000) return svg;
   }
 }
@@ -285,19 +302,16 @@ bool isPlan(const Problem& problem) {
 
 }  // namespace
 
-std::string svgPicture(const Problem& problem, const Path& path) {
+std::string svgPicture(const Problem& problem, const Path& path,
+                       const std::optional<ViewDirection>& from) {
   constexpr double degree = std::numbers::pi / 180;
-  const bool plan = isPlan(problem);
-  Camera camera = plan ? Camera(-90 * degree, 90 * degree) : Camera(-60 * degree, 38 * degree);
-  std::vector<Triangle3> world;
-  std::vector<std::size_t> worldBodies;  // the body of each triangle
-  for (std::size_t b = 0; b < problem.model.bodies.size(); ++b)
-    if (problem.model.bodies[b].frame == 0) {
-      const std::vector<Triangle3> triangles = distinctTriangles(problem.model.bodies[b], 0);
-      world.insert(world.end(), triangles.begin(), triangles.end());
-      worldBodies.insert(worldBodies.end(), triangles.size(), b);
-    }
-  const Moving robot = movingBodies(problem, sceneSize(problem, path.front()));
+  const bool plan = !from && isPlan(problem);
+  const auto [azimuth, elevation] = from.value_or(plan ? ViewDirection{-90 * degree, 90 * degree}
+                                                       : ViewDirection{-60 * degree, 38 * degree});
+  Camera camera(azimuth, elevation);
+  const double size = sceneSize(problem, path.front());
+  const auto [world, worldBodies] = standingBodies(problem, size, path.front());
+  const Moving robot = movingBodies(problem, size);
   // About half of a robot's triangles are visible, at about 28 bytes each: 14 bytes per triangle.
   const int ghostCount =
       static_cast<int>(std::clamp(kGhostsLimit / (14 * robot.triangles.size() + 1),
@@ -318,7 +332,8 @@ std::string svgPicture(const Problem& problem, const Path& path) {
   std::vector<std::vector<Face>> ghosts;
   for (const auto& copy : placed) {
     auto& faces = ghosts.emplace_back();
-    for (const auto& triangle : copy) faces.push_back(makeFace(camera, triangle));
+    const char palette = ghosts.size() == 1 ? 's' : ghosts.size() == placed.size() ? 'g' : 'r';
+    for (const auto& triangle : copy) faces.push_back(makeFace(camera, triangle, palette));
     for (const Face& face : faces) robots.draw(face.corners, 0);
   }
   std::vector<Face> faces;
@@ -327,7 +342,8 @@ std::string svgPicture(const Problem& problem, const Path& path) {
   std::map<PlaneKey, int> hides;
   for (std::size_t i = 0; i < world.size(); ++i) {
     const Triangle3& triangle = world[i];
-    faces.push_back(makeFace(camera, triangle));
+    faces.push_back(
+        makeFace(camera, triangle, problem.model.bodies[worldBodies[i]].robot ? 'f' : 'w'));
     // Seen from above, walls have no visible sides that distinguish them from the ground. So
     // everything that is higher than the robot's lowest point is drawn dark.
     if (plan)
@@ -353,17 +369,17 @@ std::string svgPicture(const Problem& problem, const Path& path) {
                 camera.width(), camera.height());
   std::string svg =
       std::string(head) + "<style>\n" + palette('w', {112, 118, 130}, {233, 232, 226}) +
-      palette('r', {150, 96, 20}, {255, 196, 84}) + palette('s', {22, 110, 50}, {92, 214, 128}) +
-      palette('g', {150, 28, 28}, {246, 108, 92}) +
+      palette('f', {74, 96, 132}, {186, 202, 226}) + palette('r', {150, 96, 20}, {255, 196, 84}) +
+      palette('s', {22, 110, 50}, {92, 214, 128}) + palette('g', {150, 28, 28}, {246, 108, 92}) +
       "</style>\n<rect width=\"100%\" height=\"100%\" fill=\"#fbfaf7\"/>\n";
-  svg += drawVisible(camera, solid, 'w', kWorldLimit);
+  svg += drawVisible(camera, solid, kWorldLimit);
   for (std::size_t i = 1; i + 1 < ghosts.size(); ++i)
-    svg += "<g opacity=\".5\">\n" + drawVisible(camera, ghosts[i], 'r', kRobotLimit) + "</g>\n";
-  if (ghosts.size() > 1) svg += drawVisible(camera, ghosts.back(), 'g', kRobotLimit);
-  svg += drawVisible(camera, ghosts.front(), 's', kRobotLimit);
-  svg += "<g opacity=\".2\">\n" + drawVisible(camera, glass, 'w', kWorldLimit / 4) + "</g>\n";
-  for (const std::size_t frame : lastFrames(problem))
-    if (frame != 0) svg += polyline(camera, problem, path, frame);
+    svg += "<g opacity=\".5\">\n" + drawVisible(camera, ghosts[i], kRobotLimit) + "</g>\n";
+  if (ghosts.size() > 1) svg += drawVisible(camera, ghosts.back(), kRobotLimit);
+  svg += drawVisible(camera, ghosts.front(), kRobotLimit);
+  svg += "<g opacity=\".2\">\n" + drawVisible(camera, glass, kWorldLimit / 4) + "</g>\n";
+  for (const std::size_t frame : view::tipFrames(problem.model))
+    svg += polyline(camera, problem, path, frame);
   return svg + "</svg>\n";
 }
 

@@ -44,8 +44,13 @@ ordered_json jsonOf(const Vec3& v) {
 /// Builds the data of a page: JSON, and the arrays that it refers to.
 class PageData {
  public:
-  PageData(const Problem& problem, const std::optional<ViewedPath>& path)
-      : problem_(problem), path_(path), scene_(displayScene(problem)), checker_(problem) {}
+  PageData(const Problem& problem, const std::optional<ViewedPath>& path,
+           const std::optional<ViewDirection>& from)
+      : problem_(problem),
+        path_(path),
+        from_(from),
+        scene_(displayScene(problem)),
+        checker_(problem) {}
 
   ordered_json make() {
     json_ = {{"format", "corridor-view-1"},
@@ -53,6 +58,7 @@ class PageData {
              {"file", problem_.source.file.filename().string()},
              {"origin", jsonOf(scene_.origin)},
              {"planar", scene_.planar}};
+    if (from_) json_["from"] = {from_->azimuth, from_->elevation};
     addScene();
     addEnds();
     addPairs();
@@ -210,7 +216,7 @@ class PageData {
       poses.insert(poses.end(), pose.begin(), pose.end());
     }
     std::vector<int> trace;
-    for (const std::size_t frame : scene_.lastFrames) trace.push_back(frameNumber(frame));
+    for (const std::size_t frame : scene_.tips) trace.push_back(frameNumber(frame));
     json_["path"] = {{"at", jsonOf(buffers_.add(at))},
                      {"edge", jsonOf(buffers_.add(edges))},
                      {"t", jsonOf(buffers_.add(t))},
@@ -255,6 +261,7 @@ class PageData {
 
   const Problem& problem_;
   const std::optional<ViewedPath>& path_;
+  const std::optional<ViewDirection>& from_;
   DisplayScene scene_;
   Checker checker_;
   PageBuffers buffers_;
@@ -268,9 +275,10 @@ constexpr std::array kScripts = {"data.js",   "shapes.js", "stage.js", "robots.j
 }  // namespace
 }  // namespace view
 
-std::string viewPage(const Problem& problem, const std::optional<ViewedPath>& path) {
+std::string viewPage(const Problem& problem, const std::optional<ViewedPath>& path,
+                     const std::optional<ViewDirection>& from) {
   using namespace view;
-  PageData data(problem, path);
+  PageData data(problem, path, from);
   // Names in files need not be UTF-8: invalid bytes become replacement characters.
   const std::string json =
       data.make().dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);

@@ -35,7 +35,7 @@ function start() {
     console.warn('corridor: no picture: there is no WebGL');
     return;
   }
-  const stage = new Stage(byId('canvas'), {top: data.planar}), {scene} = stage;
+  const stage = new Stage(byId('canvas'), {top: kTopFirst}), {scene} = stage;
   const motion = new Motion(scene, image);
   const robotPoints = motion.points();
   const robotBox = new THREE.Box3().setFromPoints(robotPoints);
@@ -45,7 +45,7 @@ function start() {
   if (ringed && ringed.a !== null) points.push(new THREE.Vector3(...ringed.point));
   stage.show(points, bounds);
   const triangles = data.bodies.reduce((sum, body) => sum + shapes[body.mesh].triangles, 0);
-  if (!data.planar && triangles <= kShadowTriangles) stage.castShadows();
+  if (!kTopFirst && triangles <= kShadowTriangles) stage.castShadows();
 
   // Buttons: obstacles solid or like glass, and the view.
   const glass = (mode) => {
@@ -135,7 +135,7 @@ function start() {
 
   Panel.legend(stage);
   if (image) stage.below = byId('stage').clientHeight - byId('legend').offsetTop + 6;
-  view(data.planar);
+  view(kTopFirst);
   glass('auto');
   if (path) seek(0);
   if (image && path) motion.hideNow();

@@ -1,7 +1,12 @@
 'use strict';
 
-/** The viewer's first direction: azimuth about z, as in `corridor solve --picture`, and elevation. */
-const kAzimuth = -60 * Math.PI / 180, kElevation = 32 * Math.PI / 180;
+const kDegree = Math.PI / 180;
+/** Whether the first view is from above, in parallel projection with y upwards. */
+const kTopFirst = data.from ? data.from[1] > 89.9 * kDegree && Math.abs(data.from[0] + 90 * kDegree) < 0.1 * kDegree : data.planar;
+/** The first direction of the viewer in 3D: azimuth about z, as in `corridor solve --picture`, and elevation. */
+const kAzimuth = data.from && !kTopFirst ? data.from[0] : -60 * kDegree;
+/** Not vertical, since the camera keeps z upwards. */
+const kElevation = data.from && !kTopFirst ? Math.min(Math.max(data.from[1], -89.9 * kDegree), 89.9 * kDegree) : 32 * kDegree;
 const kFieldOfView = 30;  // degrees, vertical: little perspective, so that sizes can be compared
 
 /** The canvas with cameras, lights and ground; redraws when something has changed. */

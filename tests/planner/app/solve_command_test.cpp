@@ -185,6 +185,12 @@ TEST_F(SolveCommand, BadInputIsOneLineAndExit2) {
       expectFault(std::string("solve problem.yaml ") + option + " " + file,
                   std::string(option) + ": " + file +
                       " belongs to the problem and would be overwritten; name another file");
+  expectFault("solve problem.yaml --from top", "--from: needs --picture, which is not given");
+  expectFault(
+      "solve problem.yaml --picture p.svg --from tap",
+      "--from: one of front, back, left, right, top, bottom, or AZIMUTH,ELEVATION in degrees "
+      "(-360 to 360, -90 to 90; such as -60,38) is needed, not \"tap\" (did you mean "
+      "\"top\"?)");
   expectFault("solve problem.yaml --picture .",
               "--picture: . is a folder; a file's name is needed");
   expectFaultThatBegins("solve problem.yaml --edges discrete --resolution 1",

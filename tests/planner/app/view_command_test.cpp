@@ -106,7 +106,22 @@ TEST_F(ViewCommand, Faults) {
                 std::string("--size: WIDTHxHEIGHT is needed, 100 to 8000 pixels each, as 1366x768, "
                             "not \"") +
                     size + "\"");
+  for (const std::string from : {"frnt", "1", "0,91", "361,0", "1,2,3", "nan,0"})
+    expectFault("view " + plate + " --from=" + from,
+                "--from: one of front, back, left, right, top, bottom, or AZIMUTH,ELEVATION in "
+                "degrees (-360 to 360, -90 to 90; such as -60,38) is needed, not \"" +
+                    from + "\"" + (from == "frnt" ? " (did you mean \"front\"?)" : ""));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "page.html"));
+}
+
+TEST_F(ViewCommand, FromChoosesTheFirstView) {
+  EXPECT_EQ(run("view " + plate + " -o page.html --from left").status, 0);
+  EXPECT_THAT(read("page.html"), HasSubstr("\"from\":[1.57079632679"));
+  for (const char* from : {" --from=-60,38", " --from -60,38"})
+    EXPECT_EQ(run("view " + plate + " -o page.html" + from).status, 0) << from;
+  EXPECT_THAT(read("page.html"), HasSubstr("\"from\":[-1.0471975511"));
+  EXPECT_EQ(run("view " + plate + " -o page.html").status, 0);
+  EXPECT_THAT(read("page.html"), testing::Not(HasSubstr("\"from\":[")));
 }
 
 TEST_F(ViewCommand, WithoutChromiumThereIsNoPicture) {

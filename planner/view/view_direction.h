@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+namespace corridor {
+
+/// Where the viewer of a picture stands, seen from the scene.
+struct ViewDirection {
+  double azimuth = 0;    ///< about z, from x towards y, rad
+  double elevation = 0;  ///< above the ground, rad
+};
+
+/// Reads a direction: front (the viewer is at +x), back, left (at +y), right, top, bottom, or
+/// AZIMUTH,ELEVATION in degrees, such as "-60,38". @param option its name in the error message.
+/// @throws InputError.
+ViewDirection viewDirection(const std::string& text, const std::string& option);
+
+}  // namespace corridor

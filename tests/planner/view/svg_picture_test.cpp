@@ -1,0 +1,97 @@
+// Tests of which frame is the tip, of the direction of view, and of how the SVG paints them.
+#include "planner/view/svg_picture.h"
+
+#include <numbers>
+
+#include "planner/view/tip_frames.h"
+#include "tests/planner/problem/arm_fixture.h"
+
+namespace corridor {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+class SvgPicture : public test::ArmTest {
+ protected:
+  static std::string nameOf(const Model& model, std::size_t frame) {
+    return model.tree.frames[frame].name;
+  }
+  /// Returns the picture of a straight path from start to goal.
+  static std::string picture(const Problem& problem,
+                             const std::optional<ViewDirection>& from = {}) {
+    return svgPicture(problem, {problem.task.start, problem.task.goals.at(0)}, from);
+  }
+};
+
+/// The last frame of the arm is a finger, which is held, and moves with the arm. The last frame of
+/// the file may also be held beside the arm: then the tip is another.
+TEST_F(SvgPicture, TheTipIsTheFrameWithMostMovingJointsBefore) {
+  const Problem held = read(armHead + armStates);
+  ASSERT_THAT(view::tipFrames(held.model), testing::SizeIs(1));
+  EXPECT_EQ(nameOf(held.model, view::tipFrames(held.model)[0]), "thumb");
+
+  std::string more = urdf;  // a camera on the base, on a joint that is held
+  const std::string end = "</robot>\n";
+  more.replace(more.find(end), end.size(),
+               link("camera", "<sphere radius='0.02'/>", 0) +
+                   joint("tilt", "revolute", "base", "camera",
+                         "<axis xyz='0 1 0'/><limit lower='-1' upper='1' effort='1' "
+                         "velocity='1'/>") +
+                   end);
+  write("arm.urdf", more);
+  const Problem camera = read(armHead + armStates);
+  EXPECT_EQ(camera.model.tree.frames.back().name, "camera");
+  EXPECT_EQ(nameOf(camera.model, view::tipFrames(camera.model).at(0)), "thumb");
+
+  const Problem two = read(
+      "format: corridor-problem-1\nrobots:\n  left: {file: arm.yaml}\n  right: {file: arm.yaml, "
+      "base: {at: [2, 0, 0]}}\nstart: {left: ready, right: ready}\ngoal: {left: {pan: 1, lift: "
+      "0.3}, right: ready}\n");
+  const auto tips = view::tipFrames(two.model);
+  ASSERT_EQ(tips.size(), 2u);
+  EXPECT_EQ(nameOf(two.model, tips[0]), "left/thumb");
+  EXPECT_EQ(nameOf(two.model, tips[1]), "right/thumb");
+}
+
+/// Links that stand still have the palette f, the robots at start and goal s and g.
+TEST_F(SvgPicture, LinksThatStandStillAreDrawnOnce) {
+  const std::string whole = picture(read(armHead + armStates));
+  for (const char* palette : {"class=\"w", "class=\"f", "class=\"s", "class=\"g"})
+    EXPECT_THAT(whole, HasSubstr(palette));
+  // Only the base has a shape. It is drawn once: the moving robot has nothing to draw.
+  std::string bare = urdf;
+  for (const std::string name : {"upper", "lower", "finger", "thumb"}) {
+    const auto at = bare.find("<collision>", bare.find("<link name='" + name));
+    bare.erase(at, bare.find("</link>", at) - at);
+  }
+  write("arm.urdf", bare);
+  const std::string base = picture(read(armHead + armStates));
+  EXPECT_THAT(base, HasSubstr("class=\"f"));
+  for (const char* palette : {"class=\"s", "class=\"g", "class=\"r"})
+    EXPECT_THAT(base, Not(HasSubstr(palette)));
+}
+
+TEST_F(SvgPicture, DirectionOfView) {
+  const auto degrees = [](const std::string& text) {
+    const auto [azimuth, elevation] = viewDirection(text, "--from");
+    const auto rounded = [](double radians) {
+      return std::round(radians * 180 / std::numbers::pi * 1e6) / 1e6;
+    };
+    return std::vector<double>{rounded(azimuth), rounded(elevation)};
+  };
+  EXPECT_THAT(degrees("front"), ElementsAre(0, 0));
+  EXPECT_THAT(degrees("back"), ElementsAre(180, 0));
+  EXPECT_THAT(degrees("left"), ElementsAre(90, 0));
+  EXPECT_THAT(degrees("right"), ElementsAre(-90, 0));
+  EXPECT_THAT(degrees("top"), ElementsAre(-90, 90));
+  EXPECT_THAT(degrees("bottom"), ElementsAre(-90, -90));
+  EXPECT_THAT(degrees("-60,38.5"), ElementsAre(-60, 38.5));
+  const Problem problem = read(armHead + armStates);
+  EXPECT_EQ(picture(problem), picture(problem, viewDirection("-60,38", "--from")));
+  EXPECT_NE(picture(problem), picture(problem, viewDirection("front", "--from")));
+}
+
+}  // namespace
+}  // namespace corridor
