@@ -14,6 +14,7 @@
 #include "collision/core/error.h"
 #include "collision/core/shortest.h"
 #include "planner/problem/nothing_tested.h"
+#include "planner/solve/finish_path.h"
 
 namespace corridor::app {
 
@@ -82,7 +83,9 @@ std::string lengthText(const ConfigurationSpace& space, double metres, double ra
   const bool hasPose = std::any_of(
       space.groups().begin(), space.groups().end(),
       [](const CoordinateGroup& group) { return group.kind != CoordinateGroup::Kind::joints; });
-  return amountText(space, {metres, radians}, hasPose ? ", turning " : ", ");
+  const std::string sum = summands(space);
+  return amountText(space, {metres, radians}, hasPose ? ", turning " : ", ") +
+         (sum.empty() ? "" : " (" + sum + ")");
 }
 
 std::string tubeText(const ConfigurationSpace& space, const Configuration& tube) {

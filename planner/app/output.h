@@ -66,7 +66,9 @@ void requireNotAnInput(const std::optional<std::string>& file, const char* optio
 std::string rounded(double value);
 std::string rounded(const Vec3& v, int dimension = 3);  ///< "[1, 2, 3]"
 /// Returns a path's length: "2 m, turning 3 rad" if the space has a planar or floating joint, else
-/// "2 m, 3 rad". Leaves out metres or radians if no coordinate of the space has that unit.
+/// "2 m, 3 rad". Leaves out metres or radians if no coordinate of the space has that unit. Ends
+/// with
+/// "(sum over the joints)" if the space has several joints.
 std::string lengthText(const ConfigurationSpace& space, double metres, double radians);
 /// Returns "1e-12 m, 6e-12 rad": the largest half width of a tube in lengths and in angles. Leaves
 /// out the unit that no coordinate of the space has.

@@ -97,4 +97,17 @@ PathLength lengthOf(const ConfigurationSpace& space, const Path& path) {
   return length;
 }
 
+std::string summands(const ConfigurationSpace& space) {
+  std::size_t joints = 0, bodies = 0;
+  for (const CoordinateGroup& group : space.groups())
+    if (group.kind == CoordinateGroup::Kind::joints)
+      joints += group.coordinates.size();
+    else
+      ++bodies;
+  if (joints + bodies < 2) return "";
+  return bodies == 0   ? "sum over the joints"
+         : joints == 0 ? "sum over the bodies"
+                       : "sum over joints and bodies";
+}
+
 }  // namespace corridor

@@ -44,4 +44,8 @@ struct PathLength {
 };
 PathLength lengthOf(const ConfigurationSpace& space, const Path& path);
 
+/// Returns what the lengths are sums over, besides the edges, for messages: "sum over the joints".
+/// "" if the space has only one joint or body.
+std::string summands(const ConfigurationSpace& space);
+
 }  // namespace corridor

@@ -173,6 +173,7 @@ class PageData {
         {"states", s.path.size()},
         {"length_m", lengths ? ordered_json(length.metres) : ordered_json()},
         {"rotation_rad", angles ? ordered_json(length.radians) : ordered_json()},
+        {"length_of", summands(problem_.model.space)},
         {"other_files", r.digest == DigestState::differs},
         {"margin_m", r.margin}};
     if (!s.digest.empty()) solution["seed"] = s.seed;

@@ -17,7 +17,7 @@ const Panel = {
       if (s.planner) facts.push(['Planner', s.planner + (s.seed === undefined ? '' : `, seed ${s.seed}`)]);
       if (s.checker) facts.push(['Certified', s.certified ? 'yes' : `no (${s.checker})`]);
       const length = [s.length_m === null ? '' : metres(s.length_m), s.rotation_rad === null ? '' : `${digits(s.rotation_rad)} rad`];
-      facts.push(['Path length', length.filter(Boolean).join(', ')]);
+      facts.push(['Path length', length.filter(Boolean).join(', ') + (s.length_of ? ` (${s.length_of})` : '')]);
       facts.push(['States', s.states.toLocaleString('en')]);
       if (v.verdict !== 'other problem') facts.push(['Edges proved', `${v.edges_proved.toLocaleString('en')} of ${v.edges.toLocaleString('en')}`]);
       if (v.clearance_m !== undefined && v.clearance_m !== null) facts.push(['Clearance', `at least ${metres(v.clearance_m)}`]);

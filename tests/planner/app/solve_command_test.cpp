@@ -35,7 +35,8 @@ TEST_F(SolveArm, SolveThenVerify) {
   const Result solved = run("solve arm.yaml -o s.yaml --picture p.svg");
   EXPECT_EQ(solved.status, 0) << solved.err;
   EXPECT_THAT(solved.out, HasSubstr("certified: yes\n"));
-  EXPECT_THAT(solved.out, testing::ContainsRegex("path length: [0-9.]+ rad\n"));
+  EXPECT_THAT(solved.out,
+              testing::ContainsRegex("path length: [0-9.]+ rad \\(sum over the joints\\)\n"));
   EXPECT_THAT(read("s.yaml"), HasSubstr("joints: [\"shoulder\", \"elbow\"]\n"));
   EXPECT_THAT(read("p.svg"), StartsWith("<svg"));
   const Result verified = run("verify arm.yaml s.yaml");
