@@ -112,16 +112,23 @@ Problem readProblemOf(const std::string& file) {
   return problem;
 }
 
-VerifyReport verifyWithWarning(const Problem& problem, const Solution& solution,
-                               const std::string& problemFile, const std::string& solutionFile,
-                               bool ignoreDigest) {
-  VerifyReport report = verifySolution(
-      problem, solution, ignoreDigest ? DigestMismatch::ignored : DigestMismatch::refused);
+Verified verifyWithWarning(const Problem& problem, const Solution& solution,
+                           const std::string& problemFile, const std::string& solutionFile,
+                           bool ignoreDigest) {
+  Verified verified{
+      verifySolution(problem, solution,
+                     ignoreDigest ? DigestMismatch::ignored : DigestMismatch::refused),
+      {}};
+  const VerifyReport& report = verified.report;
+  const auto warn = [&](const std::string& text) {
+    app::warn(text);
+    verified.warnings.push_back(text);
+  };
   if (report.digest == DigestState::differs)
     warn(solutionFile + ": made for other files than those of " + problemFile +
          " (the digests differ)" +
          (ignoreDigest ? "" : "; it is not verified: --ignore-digest verifies it anyway"));
-  if (report.otherProblem) return report;
+  if (report.otherProblem) return verified;
   if (solution.margin > problem.task.margin)
     warn(solutionFile + ": it claims a margin of " + shortest(solution.margin) +
          " m; it is verified with the problem's, " + shortest(problem.task.margin) + " m");
@@ -129,7 +136,7 @@ VerifyReport verifyWithWarning(const Problem& problem, const Solution& solution,
       (solution.tube.array() > problem.task.tube.array()).any())
     warn(solutionFile +
          ": it claims a larger tube than the problem's; it is verified with the problem's");
-  return report;
+  return verified;
 }
 
 std::vector<std::string> condensed(const std::vector<std::string>& notes, const std::string& rest) {

@@ -45,11 +45,17 @@ void warn(const std::string& text);
 /// any other output; the problem's `notes` say so, too. @throws InputError as readProblem.
 Problem readProblemOf(const std::string& file);
 
+struct Verified {
+  VerifyReport report;
+  std::vector<std::string> warnings;  ///< they are printed already
+};
+
 /// Verifies a solution. If its digest differs from the problem's, prints a warning, and verifies
-/// nothing unless `ignoreDigest` is set.
-VerifyReport verifyWithWarning(const Problem& problem, const Solution& solution,
-                               const std::string& problemFile, const std::string& solutionFile,
-                               bool ignoreDigest);
+/// nothing unless `ignoreDigest` is set. Prints warnings if the solution claims more than is
+/// verified.
+Verified verifyWithWarning(const Problem& problem, const Solution& solution,
+                           const std::string& problemFile, const std::string& solutionFile,
+                           bool ignoreDigest);
 
 /// Tests that a file can be written: its folder exists, and files can be made in it. Commands call
 /// this before they spend time on the file's contents.

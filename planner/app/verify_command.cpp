@@ -55,13 +55,15 @@ ordered_json jsonOf(const PathFinding& f) {
           {"gap_m", f.gap}};
 }
 
-ordered_json jsonOf(const VerifyReport& r, const Problem& problem, const VerifyArguments& a) {
+ordered_json jsonOf(const Verified& verified, const Problem& problem, const VerifyArguments& a) {
+  const VerifyReport& r = verified.report;
   ordered_json j = {{"format", "corridor-verify-report-3"},
                     {"problem", a.problem},
                     {"solution", a.solution},
                     {"verdict", verdictName(r)},
                     {"digest", nameOf(r.digest)},
                     {"notes", textsOf(problem.source.notes)},
+                    {"warnings", verified.warnings},
                     {"edges", r.motion.edges},
                     {"edges_proved", r.motion.edgesProved},
                     {"proven_clearance_m", numberJson(r.motion.provenClearance)},
@@ -102,14 +104,14 @@ void print(const VerifyReport& r, const Problem& problem, const VerifyArguments&
 int verifyCommand(const VerifyArguments& a) {
   const Problem problem = readProblemOf(a.problem);
   const Solution solution = readSolution(a.solution, problem.model.space);
-  const VerifyReport report =
+  const Verified verified =
       verifyWithWarning(problem, solution, a.problem, a.solution, a.ignoreDigest);
   if (!a.json) {
-    print(report, problem, a);
+    print(verified.report, problem, a);
   } else if (!a.quiet) {
-    std::cout << jsonOf(report, problem, a).dump(2) << '\n';
+    std::cout << jsonOf(verified, problem, a).dump(2) << '\n';
   }
-  return report.verdict == PathVerdict::proved ? kDone : kNegativeResult;
+  return verified.report.verdict == PathVerdict::proved ? kDone : kNegativeResult;
 }
 
 }  // namespace
@@ -121,8 +123,10 @@ void addVerify(CLI::App& program, int& status) {
       "verify", "Prove or refute a path, independently of the checker that planned it");
   command->add_option("PROBLEM", a.problem, "the problem, as for solve")->required();
   command
-      ->add_option("SOLUTION", a.solution,
-                   "a solution file, or an OMPL.app .path file with one state per line")
+      ->add_option(
+          "SOLUTION", a.solution,
+          "a solution file (-: standard input), or an OMPL.app .path file with one state per "
+          "line")
       ->required();
   addIgnoreDigest(*command, a.ignoreDigest);
   addJson(*command, a.json);

@@ -78,7 +78,7 @@ int viewCommand(const ViewArguments& a) {
     path.emplace();
     path->solution = readSolution(*a.solution, problem.model.space);
     path->report =
-        verifyWithWarning(problem, path->solution, a.problem, *a.solution, a.ignoreDigest);
+        verifyWithWarning(problem, path->solution, a.problem, *a.solution, a.ignoreDigest).report;
   }
   const std::string page = viewPage(problem, path, from);
   const Lines out(a.quiet);

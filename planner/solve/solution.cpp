@@ -94,7 +94,9 @@ Configuration fromRow(const std::vector<double>& row) {
 
 void readStates(const YamlValue& list, const ConfigurationSpace& space, Solution& solution,
                 YamlSource& source) {
-  if (list.kind != YamlValue::Kind::List || list.items.empty()) {
+  if (list.kind == YamlValue::Kind::List && list.items.empty())
+    return source.fault(list.line, "path: has no states; at least one is needed");
+  if (list.kind != YamlValue::Kind::List) {
     source.fault(list.line, "path: a list of states is needed, not " + described(list));
     return;
   }
@@ -155,8 +157,16 @@ bool sameSpace(const YamlMap& map, const Solution& solution, YamlSource& source)
   return stated && *stated == numbers;
 }
 
+std::string readText(const std::filesystem::path& file) {
+  if (file != "-") return readTextFile(file, "a solution");
+  std::string text = readTextStream(file, "a solution");
+  if (text.size() > kMostDocumentBytes)
+    throw InputError(Fault{"-", 0, "is larger than 256 MiB, the limit for a solution"});
+  return text;
+}
+
 Solution readYaml(const std::filesystem::path& file, const ConfigurationSpace& space) {
-  const YamlValue document = parseYaml(file.string(), readTextFile(file, "a solution"));
+  const YamlValue document = parseYaml(file.string(), readText(file));
   FaultList faults(file.string());
   YamlSource source{file.string(), faults, {}};
   Solution solution;

@@ -36,7 +36,8 @@ void writeSolution(const Solution& solution, const std::filesystem::path& file);
 /// Returns the text of a solution file in the current folder.
 std::string solutionText(const Solution& solution);
 
-/// Reads a solution file strictly, or an OMPL.app `.path` file, which has one state per line.
+/// Reads a solution file (-: the standard input) strictly, or an OMPL.app `.path` file, which has
+/// one state per line.
 /// @throws InputError with all faults: wrong format; unknown, missing or repeated keys; states of
 /// another space.
 Solution readSolution(const std::filesystem::path& file, const ConfigurationSpace& space);

@@ -69,6 +69,12 @@ TEST_F(OtherProblem, LargerClaimsOfTheSolutionAreNoted) {
             "problem's, 0 m\n"
             "corridor: warning: bold.yaml: it claims a larger tube than the problem's; it is "
             "verified with the problem's\n");
+  const json warnings = json::parse(run("verify hall.yaml bold.yaml --json").out)["warnings"];
+  ASSERT_EQ(warnings.size(), 2u);
+  EXPECT_EQ(warnings[0],
+            "bold.yaml: it claims a margin of 0.5 m; it is verified with the "
+            "problem's, 0 m");
+  EXPECT_EQ(json::parse(run("verify hall.yaml s.yaml --json").out)["warnings"].size(), 1u);
 }
 
 TEST_F(OtherProblem, SameDigestOrNoDigestIsVerified) {

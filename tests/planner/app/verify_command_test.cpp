@@ -25,7 +25,21 @@ TEST_F(VerifyCommand, VerifyRefutes) {
   EXPECT_EQ(verified.err, "");
 }
 
+TEST_F(VerifyCommand, ReadsTheSolutionFromStandardInput) {
+  write("s.yaml",
+        "format: corridor-solution-1\nspace: SE3\npath:\n- [-2, 0, 0, 0, 0, 0, "
+        "1]\n- [2, 0, 0, 0, 0, 0, 1]\n");
+  const Result piped = run("verify problem.yaml -", "cat s.yaml | ");
+  EXPECT_EQ(piped.status, 1) << piped.err;
+  EXPECT_THAT(piped.out, HasSubstr("solution: -\nverdict: refuted\n"));
+  EXPECT_EQ(run("verify problem.yaml - </dev/null").err, "-: is empty; a solution is needed\n");
+  EXPECT_EQ(run("verify problem.yaml -", "echo x | ").status, 2);
+}
+
 TEST_F(VerifyCommand, BadInputIsOneLineAndExit2) {
+  write("empty.yaml", "format: corridor-solution-1\nspace: SE3\npath: []\n");
+  expectFault("verify problem.yaml empty.yaml",
+              "empty.yaml:3: path: has no states; at least one is needed");
   expectFaultThatBegins("verify problem.yaml none.yaml", "none.yaml: ");
 }
 
