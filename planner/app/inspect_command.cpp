@@ -219,9 +219,9 @@ void addInspect(CLI::App& program, int& status) {
                    "problem or a robot")
       ->required();
   command->add_option("--unit", a.unit, "for a mesh file: the unit of its coordinates")
-      ->check(CLI::IsMember({"m", "cm", "mm", "in"}));
+      ->check(isOneOf({"m", "cm", "mm", "in"}));
   command->add_option("--up", a.up, "for a mesh file: its up-axis, which is rotated to z")
-      ->check(CLI::IsMember({"x", "y", "z"}));
+      ->check(isOneOf({"x", "y", "z"}));
   command->add_flag(
       "--self-intersections", a.selfIntersections,
       "for a mesh file: count the pairs of its triangles that intersect elsewhere than in the "

@@ -1,11 +1,24 @@
 #include "planner/app/options.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 #include "planner/problem/yaml_reader.h"
 
 namespace corridor::app {
+
+CLI::Validator isOneOf(std::vector<std::string> words) {
+  std::string list;
+  for (const std::string& word : words) list += (list.empty() ? "{" : ",") + word;
+  return {[words = std::move(words)](std::string& text) {
+            return std::find(words.begin(), words.end(), text) != words.end()
+                       ? std::string()
+                       : notOneOf(text, words);
+          },
+          list + "}"};
+}
 
 CLI::Validator isSeconds() {
   return isWithin(std::numeric_limits<double>::min(), std::numeric_limits<double>::max(),

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -29,6 +30,8 @@ CLI::Validator isWithin(Number low, Number high, const std::string& needed) {
   };
   return {complaint, ""};
 }
+/// Accepts these words; the error suggests the one that may be meant.
+CLI::Validator isOneOf(std::vector<std::string> words);
 CLI::Validator isSeconds();  ///< a number above 0
 CLI::Validator isSeed();     ///< a whole number of 64 bits
 /// The range of `checker: {resolution: …}` in problem files, with the same message.

@@ -302,7 +302,7 @@ void addSolve(CLI::App& program, int& status) {
       ->add_option("--stop", a.stop,
                    "first: stop at the first solution; time: use all the time (default: time for "
                    "planners that optimise, first for all others)")
-      ->check(CLI::IsMember({"first", "time"}))
+      ->check(isOneOf({"first", "time"}))
       ->group(planning);
   command
       ->add_option("--seed", a.seed,
@@ -317,7 +317,7 @@ void addSolve(CLI::App& program, int& status) {
       ->add_option("--edges", a.edges,
                    "how edges are checked: certified (default); adaptive or advancement: proved by "
                    "distances, for comparison; discrete: tested at samples only, as a baseline")
-      ->check(CLI::IsMember(problemChoices().at("checker.edges")))
+      ->check(isOneOf(problemChoices().at("checker.edges")))
       ->group(checking);
   command
       ->add_option("--resolution", a.resolution,

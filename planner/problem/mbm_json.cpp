@@ -197,7 +197,7 @@ class MbmReader {
     } else if (type == "sphere") {
       primitive = Sphere{number(object, id, "radius")};
     } else {
-      return fault(id + ".type: one of box, cylinder, sphere is needed, not " + quotedWord(type));
+      return fault(id + ".type: " + notOneOf(type, {"box", "cylinder", "sphere"}));
     }
     if (const auto why = checkPrimitive(primitive)) return fault(id + ": " + *why);
     const auto p = numbers(field(object, "position"), 3, id + ".position");

@@ -78,7 +78,7 @@ std::optional<Primitive> readPrimitive(const YamlValue& value, const std::string
   const std::map<std::string, std::size_t> counts{{"box", 3}, {"sphere", 1}, {"cylinder", 2}};
   const auto count = counts.find(*type);
   if (count == counts.end()) {
-    map.fault("type", "one of box, sphere, cylinder is needed, not " + quotedWord(*type));
+    map.fault("type", notOneOf(*type, {"box", "sphere", "cylinder"}));
     return std::nullopt;
   }
   const auto d = map.numbers("dimensions", count->second);

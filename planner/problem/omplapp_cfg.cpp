@@ -182,8 +182,7 @@ void readObjective(const IniFile& ini, Problem& problem) {
     const Keys& known = wordsFor<Objective>();
     for (const std::string& name : known)
       if (entry->value.starts_with(name)) problem.settings.objective = choiceNamed<Objective>(name);
-    if (!problem.settings.objective)
-      ini.fault(*entry, "one of " + joined(known) + " is needed, not " + quotedWord(entry->value));
+    if (!problem.settings.objective) ini.fault(*entry, notOneOf(entry->value, known));
   }
   problem.settings.objectiveThreshold = ini.number("problem.objective.threshold").value_or(0);
   problem.task.goalThreshold =

@@ -97,6 +97,12 @@ TEST_F(CommandLine, ReportsUnknownWordsAndOptions) {
   fault("solve problem.yaml -o a.yaml -o a.yaml", "--output is given 2 times; once is enough");
   fault("solve problem.yaml -o ''", "--output: is empty");
   fault("solve ''", "PROBLEM: is empty");
+  fault("solve problem.yaml --edges certifed",
+        "--edges: one of certified, adaptive, advancement, discrete is needed, not \"certifed\" "
+        "(did you mean \"certified\"?)");
+  fault("solve problem.yaml --stop frist",
+        "--stop: one of first, time is needed, not \"frist\" (did you mean \"first\"?)");
+  fault("inspect cube.obj --unit inch", "--unit: one of m, cm, mm, in is needed, not \"inch\"");
   for (const char* edges : {"certified", "adaptive"})
     expectFault(std::string("solve problem.yaml --resolution 0.1 --edges ") + edges,
                 std::string("--resolution: needs --edges discrete, and edges are ") + edges);
