@@ -50,6 +50,12 @@ const NamedState* findState(const RobotModel& model, const std::string& name,
   const auto state = model.states.find(name);
   if (state == model.states.end()) {
     const std::vector<std::string> known = usableNames(model.states);
+    std::vector<std::string> ofGroups;  // states of this name that several groups have
+    for (const auto& [full, found] : model.states)
+      if (!found.group.empty() && full == found.group + "/" + name) ofGroups.push_back(full);
+    if (!ofGroups.empty())
+      return fault("several groups have a state " + quotedWord(name) +
+                   "; write the group, too: " + joined(ofGroups));
     return fault("there is no state " + quotedWord(name) + didYouMean(name, known) +
                  (known.empty() ? " (neither robot.yaml nor SRDF names any)" : knownWords(known)));
   }

@@ -77,6 +77,11 @@ std::map<std::string, double> jointValues(const YamlMap& request) {
 MoveitRequest::MoveitRequest(const std::filesystem::path& file, FaultList& faults)
     : document_(parseYaml(file.string(), readTextFile(file, "a motion plan request of MoveIt"))),
       source_{file.string(), faults, {}} {
+  for (const char* key : {"world", "robot_state", "allowed_collision_matrix", "robot_model_name"})
+    if (hasKey(document_, key))
+      throw InputError(Fault{file.string(), 0,
+                             "is a planning scene, not a motion plan request (it has " +
+                                 std::string(key) + "); write moveit: {scene: FILE}"});
   const std::size_t before = faults.size();
   start_ = jointValues(YamlMap(document_, "", &kRequest, source_));
   startIsRead_ = faults.size() == before;

@@ -160,7 +160,13 @@ void requirePlainLinks(const YamlMap& scene) {
 
 MoveitScene::MoveitScene(const std::filesystem::path& file, FaultList& faults)
     : document_(parseYaml(file.string(), readTextFile(file, "a planning scene of MoveIt"))),
-      source_{file.string(), faults, {}} {}
+      source_{file.string(), faults, {}} {
+  for (const char* key : {"group_name", "goal_constraints", "start_state", "workspace_parameters"})
+    if (hasKey(document_, key))
+      throw InputError(Fault{file.string(), 0,
+                             "is a motion plan request, not a planning scene (it has " +
+                                 std::string(key) + "); write moveit: {request: FILE}"});
+}
 
 void MoveitScene::addWorld(const std::string& root, const RigidPose& base, ModelBuilder& builder) {
   const YamlMap scene(document_, "", &kScene, source_);

@@ -90,8 +90,12 @@ Joints readGroup(const YamlMap& map, const std::string& byDefault, RobotModel& m
     map.fault("group", "a group needs an SRDF; add srdf: FILE, or use joints: [NAME, …]");
   } else if (found == model.groups.end()) {
     const std::vector<std::string> known = usableNames(model.groups);
-    map.fault("group", "there is no group " + quotedWord(*name) + " in the SRDF" +
-                           didYouMean(*name, known) + knownWords(known));
+    if (model.groups.empty())
+      map.fault("group", map.find("srdf")->text + " names no group, so there is no " +
+                             quotedWord(*name) + "; use joints: [NAME, …]");
+    else
+      map.fault("group", "there is no group " + quotedWord(*name) + " in the SRDF" +
+                             didYouMean(*name, known) + knownWords(known));
   } else if (const JointGroup& group = found->second; !group.unusable.empty()) {
     map.fault("group", "the group " + quotedWord(*name) + " can't be used: " + group.unusable);
   } else {

@@ -11,6 +11,11 @@
 
 namespace corridor {
 
+bool hasKey(const YamlValue& value, std::string_view key) {
+  return std::any_of(value.entries.begin(), value.entries.end(),
+                     [&](const YamlValue::Entry& entry) { return entry.key == key; });
+}
+
 bool isEmpty(const YamlMap& map, std::string_view key) {
   const YamlValue* const value = map.find(key);
   return !value || (value->items.empty() && value->entries.empty() && value->text.empty());

@@ -123,6 +123,9 @@ std::optional<std::vector<std::string>> readWords(const YamlValue& value, const 
 std::optional<std::vector<double>> readNumbers(const YamlValue& value, std::size_t count,
                                                const std::string& path, const YamlSource& source);
 
+/// Returns whether the value is a map with this key.
+bool hasKey(const YamlValue& value, std::string_view key);
+
 /// Returns whether a key is absent, or its value is an empty list, map or text.
 bool isEmpty(const YamlMap& map, std::string_view key);
 

@@ -173,6 +173,21 @@ TEST_F(ArmFaults, SizesBeyondAllArithmetic) {
             "allowed");
 }
 
+TEST_F(ArmFaults, AStateThatSeveralGroupsHave) {
+  const auto home = [](const std::string& group, const std::string& joint) {
+    return "<group name='" + group + "'><joint name='" + joint +
+           "'/></group>\n<group_state name='home' group='" + group + "'><joint name='" + joint +
+           "' value='0.02'/></group_state>\n";
+  };
+  write("two.srdf",
+        "<robot name='armbot'>\n" + home("lower", "lift") + home("hand", "slide") + "</robot>\n");
+  write("arm.yaml", "format: corridor-robot-1\nurdf: arm.urdf\nsrdf: two.srdf\njoints: [lift]\n");
+  EXPECT_EQ(complaintOf(armHead + "start: home\ngoal: lower/home\n"),
+            "problem.yaml:5: start: several groups have a state \"home\"; write the group, too: "
+            "hand/home, lower/home");
+  EXPECT_EQ(complaintOf(armHead + "start: lower/home\ngoal: lower/home\n"), "no complaint");
+}
+
 TEST_F(ArmFaults, RobotFiles) {
   EXPECT_EQ(robot("joints: [pan, lfit, wrist, follow, pan]\n"),
             "arm.yaml:3: joints: there is no joint \"lfit\" (did you mean \"lift\"?) (known: pan, "
@@ -187,6 +202,10 @@ TEST_F(ArmFaults, RobotFiles) {
   EXPECT_EQ(robot("srdf: arm.srdf\ngroup: amr\n"),
             "arm.yaml:4: group: there is no group \"amr\" in the SRDF (did you mean \"arm\"?) "
             "(known: arm, nothing)");
+  write("bare.srdf", "<robot name='armbot'/>\n");
+  EXPECT_EQ(robot("srdf: bare.srdf\ngroup: amr\n"),
+            "arm.yaml:4: group: bare.srdf names no group, so there is no \"amr\"; use joints: "
+            "[NAME, …]");
   EXPECT_EQ(robot("srdf: arm.srdf\ngroup: nothing\n"),
             "arm.yaml:4: group: the group \"nothing\" has no joint that moves by itself");
   EXPECT_EQ(robot("srdf: arm.srdf\ngroup: arm\njoints: [pan]\n"),

@@ -193,6 +193,17 @@ TEST_F(Moveit, FaultsOfTheScene) {
   EXPECT_THAT(complaint("{"), HasSubstr("scene.yaml:"));
 }
 
+TEST_F(Moveit, SwappedFiles) {
+  const std::string said = complaintOf(
+      "format: corridor-problem-1\nrobot: arm.yaml\nmoveit: {scene: request.yaml, request: "
+      "scene.yaml}\n");
+  EXPECT_THAT(said,
+              HasSubstr("request.yaml: is a motion plan request, not a planning scene (it has "
+                        "group_name); write moveit: {request: FILE}"));
+  EXPECT_THAT(said, HasSubstr("scene.yaml: is a planning scene, not a motion plan request (it has "
+                              "world); write moveit: {scene: FILE}"));
+}
+
 TEST_F(Moveit, FaultsOfTheRequest) {
   const auto complaint = [&](const std::string& text) {
     write("request.yaml", text);
