@@ -8,6 +8,7 @@
 #include "planner/problem/joint_yaml.h"
 #include "planner/problem/keys.h"
 #include "planner/problem/urdf_robot.h"
+#include "planner/robot/turns.h"
 
 namespace corridor {
 namespace {
@@ -58,6 +59,12 @@ void narrow(const YamlMap& map, const std::string& key, bool degrees, const Plan
   if (!(lower < upper) || !std::isfinite(upper - lower))
     return map.fault(key, "the lower bound first, then the upper one: " + shortest((*given)[0]) +
                               " is not below " + shortest((*given)[1]));
+  if (!degrees && planned.type != JointType::prismatic &&
+      (seemsDegrees(lower) || seemsDegrees(upper)))
+    problem.source.notes.push_back({map.pathOf(key) + ": [" + shortest(lower) + ", " +
+                                        shortest(upper) + "] is in radians; for degrees, write " +
+                                        key + "_deg",
+                                    NoteWeight::motion});
   if (c.kind == Coordinate::Kind::circle) {  // with bounds, a continuous joint is no circle
     c.kind = Coordinate::Kind::line;
     c.lower = lower;

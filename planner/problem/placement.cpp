@@ -66,8 +66,12 @@ std::optional<double> readYaw(const YamlMap& map, std::vector<Note>& notes) {
   if (!given) return std::nullopt;
   const double used = degrees ? wrappedYawDegrees(*given) : wrappedYaw(*given);
   if (used != *given)
-    notes.push_back({map.pathOf(key) + ": " + shortest(*given) + " is read as " + shortest(used) +
-                     ", the same angle up to full turns"});
+    notes.push_back(
+        {map.pathOf(key) + ": " + shortest(*given) + " is read as " + shortest(used) +
+             ", the same angle up to full turns" +
+             (!degrees && seemsDegrees(*given) ? "; for degrees, write yaw_deg: " + shortest(*given)
+                                               : ""),
+         !degrees && seemsDegrees(*given) ? NoteWeight::coverage : NoteWeight::detail});
   return degrees ? used * (std::numbers::pi / 180) : used;
 }
 
@@ -110,6 +114,13 @@ std::optional<Orientation> readOrientation(const YamlMap& map) {
   const auto angles = map.numbers(key, 3);
   if (!angles) return std::nullopt;
   const Vec3 rpy((*angles)[0], (*angles)[1], (*angles)[2]);
+  if (key == "rpy" && std::any_of(angles->begin(), angles->end(), seemsDegrees)) {
+    const std::string text =
+        "[" + shortest(rpy.x()) + ", " + shortest(rpy.y()) + ", " + shortest(rpy.z()) + "]";
+    map.source().notes.push_back(
+        {map.pathOf(key) + ": " + text + " is in radians; for degrees, write rpy_deg: " + text,
+         NoteWeight::coverage});
+  }
   return key == "rpy" ? fromRpy(rpy) : fromRpyDegrees(rpy);
 }
 

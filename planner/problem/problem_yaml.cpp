@@ -211,6 +211,7 @@ void readYaml(const std::filesystem::path& file, Problem& problem) {
     readStartAndGoals(map, source.lines.contains("moveit.request"), problem);
     if (faults.size() == 0) setDefaultBounds(problem, source);
   }
+  addAll(source.notes, problem.source.notes);
   faults.throwIfAny();
   finishProblem(allowed, tube, problem);
   problem.source.lines = std::move(source.lines);

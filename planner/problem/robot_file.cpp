@@ -114,10 +114,12 @@ std::optional<RobotSetup> readRobotFile(const std::filesystem::path& file, Fault
   const auto kind = map.requireOne({"rigid", "urdf"}, "one of rigid and urdf",
                                    "rigid: SE3 (moves and rotates freely), rigid: SE2 (moves in x "
                                    "and y, rotates about z), or urdf: arm.urdf (has joints)");
+  std::optional<RobotSetup> read;
   if (kind == "urdf")
-    return readUrdfRobot(map, name, group, file.parent_path(), std::move(setup), notesOfFaulty);
-  if (kind == "rigid") return readRigid(map, name, file.parent_path(), std::move(setup));
-  return std::nullopt;
+    read = readUrdfRobot(map, name, group, file.parent_path(), std::move(setup), notesOfFaulty);
+  if (kind == "rigid") read = readRigid(map, name, file.parent_path(), std::move(setup));
+  addAll(source.notes, read ? read->robot.model.notes : notesOfFaulty);
+  return read;
 }
 
 RobotSetup readRobotAlone(const std::filesystem::path& file) {

@@ -14,6 +14,7 @@
 #include "collision/core/fault_list.h"
 #include "collision/core/spelling.h"
 #include "planner/problem/yaml_value.h"
+#include "planner/robot/note.h"
 
 /// A strict reader of YAML files. It adds every fault to a list with its line, and reads on, so
 /// that a user sees all faults at once.
@@ -37,6 +38,7 @@ struct YamlSource {
   FaultList& faults;
   /// The line of every legal key that was read, by its path ("checker.edges").
   std::map<std::string, int> lines;
+  std::vector<Note> notes = {};  ///< on single values; the reader of the file takes them
 
   void fault(int line, std::string text) const { faults.add(file, line, std::move(text)); }
 };

@@ -10,6 +10,12 @@
 
 namespace corridor {
 
+/// Returns whether an angle that is given in radians is meant in degrees: a multiple of 15 that is
+/// more than a full turn in radians, such as 90 or -180.
+inline bool seemsDegrees(double radians) {
+  return std::abs(radians) > 2 * std::numbers::pi && std::remainder(radians, 15) == 0;
+}
+
 /// Returns the normalised quaternion, without overflow or underflow for coefficients of any size.
 /// @pre finite, not zero.
 inline Eigen::Quaterniond unitQuaternion(const Eigen::Quaterniond& q) {

@@ -5,6 +5,7 @@
 #include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
 #include "planner/robot/joint_types.h"
+#include "planner/robot/turns.h"
 #include "planner/robot/urdf_outline.h"
 
 namespace corridor {
@@ -163,6 +164,12 @@ class Mimics {
     }
     const auto& [lower, upper, line] = *joint.limit;
     const Range range = rangeOf(joint);
+    if (joint.type == JointType::revolute &&
+        (seemsDegrees(range.lower) || seemsDegrees(range.upper)))
+      notes_.push_back({file_.at(line, owner + ": its limits, " + range.text() +
+                                           ", are in radians, as URDF requires; are these "
+                                           "degrees?"),
+                        NoteWeight::motion});
     if (std::isinf(range.upper - range.lower))
       file_.fault(line, owner + ": the range from " + shortest(range.lower) + " to " +
                             shortest(range.upper) + " is larger than any double");

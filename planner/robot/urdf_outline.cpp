@@ -7,6 +7,7 @@
 #include "collision/core/spelling.h"
 #include "collision/geometry/mesh_limits.h"
 #include "planner/robot/joint_types.h"
+#include "planner/robot/turns.h"
 
 namespace corridor {
 namespace {
@@ -72,6 +73,12 @@ Vec3 readOrigin(XmlFile& file, Element& parent, const std::string& owner,
     file.checkAttributes(*element, {"xyz", "rpy"}, owner, notes);
   file.numbers(*element, "xyz", 3, owner);
   const Numbers rpy = file.numbers(*element, "rpy", 3, owner);
+  if (rpy && std::any_of(rpy->begin(), rpy->end(), seemsDegrees))
+    notes.push_back(
+        {file.at(element->GetLineNum(), owner + ": origin rpy=\"" + element->Attribute("rpy") +
+                                            "\" is in radians, as URDF requires; are "
+                                            "these degrees?"),
+         NoteWeight::coverage});
   return rpy ? Vec3((*rpy)[0], (*rpy)[1], (*rpy)[2]) : Vec3::Zero();
 }
 
