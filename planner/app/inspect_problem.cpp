@@ -2,6 +2,7 @@
 #include <iostream>
 #include <map>
 
+#include "collision/core/spelling.h"
 #include "planner/app/commands.h"
 #include "planner/app/inspect.h"
 #include "planner/app/output.h"
@@ -31,6 +32,7 @@ class ProblemReport {
     out_.line("problem", a_.file);
     out_.line("name", problem_.source.name);
     reportSpace();
+    reportHeld();
     reportNumbers();
     reportBodies();
     reportPairs();
@@ -70,6 +72,32 @@ class ProblemReport {
     }
   }
 
+  /// Reports the joints that are not planned for, and where their values come from.
+  void reportHeld() {
+    json_["held"] = ordered_json::array();
+    for (const ModelRobot& robot : problem_.model.robots)
+      for (std::size_t k = 0; k < robot.model.joints.size(); ++k) {
+        const JointModel& joint = robot.model.joints[k];
+        const auto value = robot.held.find(k);
+        const auto pose = robot.heldPoses.find(k);
+        if (value == robot.held.end() && pose == robot.heldPoses.end()) continue;
+        const auto from = robot.heldFrom.find(k);
+        const std::string source = from == robot.heldFrom.end() ? "default" : from->second;
+        ordered_json j = {{"name", (robot.name.empty() ? "" : robot.name + "/") + joint.name},
+                          {"from", source}};
+        std::string text = quotedWord(j["name"].get<std::string>()) + ": ";
+        if (value != robot.held.end()) {
+          j["value"] = value->second;
+          text += rounded(value->second) + (joint.type == JointType::prismatic ? " m" : " rad");
+        } else {
+          j.update(poseJson(pose->second));
+          text += poseText(pose->second);
+        }
+        json_["held"].push_back(j);
+        out_.line("held", text + " (" + source + ")");
+      }
+  }
+
   void reportNumbers() {
     json_["tolerance_m"] = checker_.options().tolerance;
     json_["margin_m"] = problem_.task.margin;
@@ -86,8 +114,11 @@ class ProblemReport {
           {"name", body.name}, {"moves", body.frame != 0}, {"shapes", ordered_json::array()}};
       std::string text;
       for (const PlacedShape& shape : body.shapes) {
-        j["shapes"].push_back(shapeJson(shape));
+        ordered_json& one = j["shapes"].emplace_back(shapeJson(shape));
         text += (text.empty() ? "" : "; ") + shapeText(shape);
+        if (body.robot) continue;
+        one.update(poseJson(shape.at));
+        text += ", " + poseText(shape.at);
       }
       json_["bodies"].push_back(j);
       out_.line(body.robot ? "robot" : "world", "\"" + body.name + "\": " + text);

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <iostream>
 #include <map>
+#include <numbers>
 #include <system_error>
 #include <unistd.h>
 
@@ -46,6 +47,24 @@ std::string rounded(const Vec3& v, int dimension) {
   std::string text = "[";
   for (int i = 0; i < dimension; ++i) text += (i ? ", " : "") + rounded(v[i]);
   return text + "]";
+}
+
+Vec3 rpyDegrees(const Mat3& R) {
+  const double flat = std::hypot(R(0, 0), R(1, 0));
+  return Vec3(std::atan2(R(2, 1), R(2, 2)), std::atan2(0.0 - R(2, 0), flat),
+              std::atan2(R(1, 0), R(0, 0))) *
+         (180 / std::numbers::pi);
+}
+
+std::string poseText(const RigidPose& pose) {
+  const Vec3 rpy = rpyDegrees(pose.q.normalized().toRotationMatrix());
+  return "at " + rounded(pose.p) + (rpy.isZero(0) ? "" : ", rpy_deg " + rounded(rpy));
+}
+
+nlohmann::ordered_json poseJson(const RigidPose& pose) {
+  const Eigen::Quaterniond q = pose.q.normalized();
+  return {{"position", numbersJson(pose.p)},
+          {"quat_xyzw", std::vector<double>{q.x(), q.y(), q.z(), q.w()}}};
 }
 
 namespace {

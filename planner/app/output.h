@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "collision/core/rigid_pose.h"
 #include "collision/core/transform.h"
 #include "planner/problem/problem.h"
 #include "planner/robot/configuration_space.h"
@@ -71,6 +72,11 @@ void requireNotAnInput(const std::optional<std::string>& file, const char* optio
 /// Returns four significant digits, for people to read.
 std::string rounded(double value);
 std::string rounded(const Vec3& v, int dimension = 3);  ///< "[1, 2, 3]"
+/// Returns roll, pitch and yaw in degrees.
+Vec3 rpyDegrees(const Mat3& R);
+/// Returns "at [1, 2, 3], rpy_deg [0, 0, 90]", without the rotation if there is none.
+std::string poseText(const RigidPose& pose);
+nlohmann::ordered_json poseJson(const RigidPose& pose);  ///< position, quat_xyzw
 /// Returns a path's length: "2 m, turning 3 rad" if the space has a planar or floating joint, else
 /// "2 m, 3 rad". Leaves out metres or radians if no coordinate of the space has that unit. Ends
 /// with

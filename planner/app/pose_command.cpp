@@ -56,14 +56,6 @@ void applyState(const std::string& state, RobotSetup& setup) {
   }
 }
 
-/// Returns roll, pitch and yaw in degrees.
-Vec3 rpyDegrees(const Mat3& R) {
-  const double flat = std::hypot(R(0, 0), R(1, 0));
-  return Vec3(std::atan2(R(2, 1), R(2, 2)), std::atan2(0.0 - R(2, 0), flat),
-              std::atan2(R(1, 0), R(0, 0))) *
-         (180 / std::numbers::pi);
-}
-
 int poseCommand(const PoseArguments& a) {
   std::filesystem::path file = a.file;
   if (std::filesystem::is_directory(file)) file /= "robot.yaml";

@@ -34,6 +34,9 @@ struct ModelRobot {
   std::vector<std::size_t> planned;            ///< joints that are planned for, in order
   std::map<std::size_t, double> held;          ///< values of the other single joints, rad or m
   std::map<std::size_t, RigidPose> heldPoses;  ///< poses of the other planar and floating joints
+  /// Where held values come from, for people: "hold", "start: ready". Other joints are at 0, or at
+  /// the limit nearest to it.
+  std::map<std::size_t, std::string> heldFrom;
   std::set<std::size_t> heldByFile;  ///< joints whose held value the robot's file gives (`hold`)
   std::map<std::string, double> jointWeights;  ///< joints that are not listed have weight 1
   double rotationWeight = 0.5;  ///< metres per radian of rotation; OMPL's default for SE2 and SE3

@@ -24,14 +24,16 @@ std::optional<std::string> readHold(const YamlMap& file, RobotSetup& setup) {
     const std::string path = map.pathOf(entry.key);
     if (isPoseJoint(joint.type)) {
       if (const auto pose = readJointPose(entry.value, path, joint, file.source(), notes))
-        setup.robot.heldPoses[j] = pose->pose, setup.robot.heldByFile.insert(j);
+        setup.robot.heldPoses[j] = pose->pose, setup.robot.heldByFile.insert(j),
+        setup.robot.heldFrom[j] = "hold";
       return;
     }
     const auto number = map.number(entry.key);
     if (!number) return;
     const double radians = degrees ? *number * (std::numbers::pi / 180) : *number;
     if (const auto held = withinLimits(radians, joint.lower, joint.upper, path, notes))
-      setup.robot.held[j] = *held, setup.robot.heldByFile.insert(j);
+      setup.robot.held[j] = *held, setup.robot.heldByFile.insert(j),
+      setup.robot.heldFrom[j] = "hold";
     else
       map.fault(entry.key,
                 outsideLimits(radians, joint.lower, joint.upper,
@@ -92,7 +94,7 @@ void holdState(const std::string& name, const std::vector<std::size_t>& planned,
       const auto pose = poseIn(*state, joint);
       holds |= pose.has_value();
       if (pose && pose->q.squaredNorm() > 0)
-        robot.heldPoses[j] = *pose;
+        robot.heldPoses[j] = *pose, robot.heldFrom[j] = place.path + ": " + name;
       else if (pose)
         place.source.fault(
             place.line, place.path + " (" + name + "): " + joint.name + ": the quaternion is zero");
@@ -104,7 +106,7 @@ void holdState(const std::string& name, const std::vector<std::size_t>& planned,
     const std::string path = place.path + " (" + name + "): " + joint.name;
     if (const auto held =
             withinLimits(value->second, joint.lower, joint.upper, path, robot.model.notes))
-      robot.held[j] = *held;
+      robot.held[j] = *held, robot.heldFrom[j] = place.path + ": " + name;
     else
       place.source.fault(place.line,
                          path + ": " + outsideLimits(value->second, joint.lower, joint.upper));

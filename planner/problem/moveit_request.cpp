@@ -102,7 +102,7 @@ void MoveitRequest::hold(RobotSetup& setup) {
     const JointModel& joint = robot.model.joints[*j];
     const std::string path = "start_state: " + name;
     if (const auto held = withinLimits(value, joint.lower, joint.upper, path, robot.model.notes))
-      robot.held[*j] = *held;
+      robot.held[*j] = *held, robot.heldFrom[*j] = "start_state of the request";
     else
       source_.fault(startLine_, path + ": " + outsideLimits(value, joint.lower, joint.upper));
   }

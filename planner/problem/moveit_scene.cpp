@@ -241,6 +241,7 @@ void MoveitScene::addWorld(const std::string& root, const RigidPose& base, Model
               if (!at.isIdentity())
                 for (Vec3& vertex : mesh->vertices) vertex = at.X * vertex;
               shapes.push_back(shapeOf(*id, std::move(*mesh)));
+              shapes.back().at = at.pose;
             });
     if (shapes.empty() && isEmpty(object, "primitives") && isEmpty(object, "meshes"))
       object.fault("primitives", "the object has neither primitives nor meshes");

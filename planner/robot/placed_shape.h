@@ -21,7 +21,7 @@ struct PlacedShape {
   std::vector<ConvexPart> parts;  ///< one for a primitive; many for a point cloud or an octree
   std::filesystem::path file;     ///< of a mesh, a cloud or an octree
   std::optional<Primitive> primitive;  ///< of one part: as the user wrote it
-  RigidPose at;                        ///< parts only: their pose as the user wrote it
+  RigidPose at;                        ///< its pose as the user wrote it; in a URDF parts only
   bool solid = false;                  ///< mesh only; a part is always solid
   std::string note = {};               ///< for the user, about how the file was read; "": none
 };

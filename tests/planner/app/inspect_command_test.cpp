@@ -48,6 +48,40 @@ TEST_F(InspectCommand, ReportsTheReachWithMimicJoints) {
   EXPECT_EQ(links[5]["reach_m"], links[4]["reach_m"]);
 }
 
+TEST_F(InspectProblem, ReportsPosesOfObstaclesAndHeldJoints) {
+  write(
+      "robot.yaml",
+      "format: corridor-robot-1\nurdf: arm.urdf\njoints: [shoulder]\nstates: {home: {shoulder: 0, "
+      "elbow: 0.5}}\n");
+  const auto problem = [&](const std::string& start) {
+    write("held.yaml",
+          "format: corridor-problem-1\nrobot: robot.yaml\nworld:\n  post: {box: [1, 1, 1], at: [5, "
+          "6, "
+          "7], rpy_deg: [0, 0, 90]}\nstart: " +
+              start + "\ngoal: {shoulder: 1}\n");
+    return run("inspect held.yaml").out;
+  };
+  EXPECT_THAT(problem("{shoulder: 0}"),
+              HasSubstr("world: \"post\": box, at [5, 6, 7], rpy_deg [0, 0, 90]\n"));
+  EXPECT_THAT(problem("{shoulder: 0}"), HasSubstr("held: \"elbow\": 0 rad (default)\n"));
+  EXPECT_THAT(problem("home"), HasSubstr("held: \"elbow\": 0.5 rad (start: home)\n"));
+  const auto json = nlohmann::json::parse(run("inspect held.yaml --json").out);
+  EXPECT_EQ(json["held"][0]["name"], "elbow");
+  EXPECT_EQ(json["held"][0]["value"], 0.5);
+  EXPECT_EQ(json["held"][0]["from"], "start: home");
+  EXPECT_EQ(json["bodies"].back()["shapes"][0]["position"], nlohmann::json({5, 6, 7}));
+  for (const std::string hold : {"{elbow: 0.25}", "home"}) {
+    write("robot.yaml",
+          "format: corridor-robot-1\nurdf: arm.urdf\njoints: [shoulder]\nstates: {home: {shoulder: "
+          "0, "
+          "elbow: 0.5}}\nhold: " +
+              hold + "\n");
+    EXPECT_THAT(problem("{shoulder: 0}"),
+                HasSubstr(hold == "home" ? "held: \"elbow\": 0.5 rad (hold: home)\n"
+                                         : "held: \"elbow\": 0.25 rad (hold)\n"));
+  }
+}
+
 TEST_F(InspectCommand, SelectsTheFileOfAFolder) {
   const std::string arm6 = CORRIDOR_SOURCE_DIR "/robots/arm6";
   const Result named = run("inspect " + arm6 + "/robot.yaml"), found = run("inspect " + arm6);
