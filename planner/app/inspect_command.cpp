@@ -173,7 +173,8 @@ std::string robotInFolder(const std::filesystem::path& folder) {
 int inspectFile(const InspectArguments& a, bool inFolder) {
   const std::string extension = std::filesystem::path(a.file).extension().string();
   const bool yaml = extension == ".yaml" || extension == ".yml";
-  const bool robot = inFolder || extension == ".urdf" || (yaml && isRobotFile(a.file));
+  const bool robot =
+      inFolder || extension == ".urdf" || extension == ".xacro" || (yaml && isRobotFile(a.file));
   const bool problem = yaml || std::filesystem::is_directory(a.file) || extension == ".cfg" ||
                        a.file.find(".json") != a.file.npos;
   if (a.poses && !a.against)

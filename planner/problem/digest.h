@@ -10,8 +10,11 @@ namespace corridor {
 /// its files (32 bytes each, one after the other). In a shell: sha256sum FILES | cut -c-64 | xxd -r
 /// -p | sha256sum.
 ///
-/// The function reads the files again. If no file has changed since `readProblem`, the digest is
-/// that of the problem that was read. Callers should therefore compute it directly after
+/// In place of a xacro file, the texts count that xacro made of it when the problem was read: they
+/// contain what the file includes, and depend on its arguments.
+///
+/// The function reads the other files again. If no file has changed since `readProblem`, the digest
+/// is that of the problem that was read. Callers should therefore compute it directly after
 /// `readProblem`, not at the end of their work, when a file may have changed.
 /// @throws InputError if a file can't be read.
 std::string digestOf(const Problem& problem);

@@ -61,8 +61,8 @@ Keys makeProblemKeys() {
 Keys makeRobotKeys() {
   Keys keys{
       {"",
-       {{"format", "name", "urdf", "srdf", "packages", "visuals", "limits", "collada_up", "group",
-         "joints", "hold", "states", "allow", "rigid", "shapes", "reference", "weights"},
+       {{"format", "name", "urdf", "srdf", "xacro", "packages", "visuals", "limits", "collada_up",
+         "group", "joints", "hold", "states", "allow", "rigid", "shapes", "reference", "weights"},
         {}}},
       {"weights", {{"joints", "rotation"}, {}}},
   };

@@ -10,6 +10,7 @@
 #include "planner/problem/keys.h"
 #include "planner/problem/shape_yaml.h"
 #include "planner/problem/urdf_robot.h"
+#include "planner/robot/xacro.h"
 
 namespace corridor {
 namespace {
@@ -69,8 +70,8 @@ void shiftToReference(const YamlMap& file, RobotModel& model, bool shapesAreSoun
 /// Returns nullopt if the value of `rigid` is neither SE2 nor SE3.
 std::optional<RobotSetup> readRigid(const YamlMap& map, const std::string& name,
                                     const std::filesystem::path& folder, RobotSetup setup) {
-  for (const char* key : {"srdf", "packages", "visuals", "limits", "collada_up", "group", "joints",
-                          "hold", "states", "allow"})
+  for (const char* key : {"srdf", "xacro", "packages", "visuals", "limits", "collada_up", "group",
+                          "joints", "hold", "states", "allow"})
     if (map.find(key)) map.fault(key, "is for robots with joints (urdf: FILE); this one is rigid");
   const auto rigid = map.choice("rigid", robotChoices().at("rigid"));
   const std::size_t before = map.source().faults.size();
@@ -97,7 +98,8 @@ std::optional<RobotSetup> readRobotFile(const std::filesystem::path& file, Fault
                                         std::vector<Note>& notesOfFaulty,
                                         const std::string& group) {
   RobotSetup setup;
-  if (file.extension() == ".urdf") return readBareUrdf(file, faults, notesOfFaulty);
+  if (file.extension() == ".urdf" || isXacro(file))
+    return readBareUrdf(file, faults, notesOfFaulty);
 
   setup.files.push_back(file);
   YamlValue document;

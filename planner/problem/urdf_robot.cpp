@@ -13,6 +13,7 @@
 #include "planner/problem/keys.h"
 #include "planner/problem/shape_yaml.h"
 #include "planner/robot/urdf_file.h"
+#include "planner/robot/xacro.h"
 
 namespace corridor {
 namespace {
@@ -47,6 +48,22 @@ PackageMap readPackages(const YamlMap& file, const std::filesystem::path& folder
   return packages;
 }
 
+/// Reads `xacro: {prefix: left_}` as arguments of xacro: "prefix:=left_".
+std::vector<std::string> readXacro(const YamlMap& file) {
+  std::vector<std::string> arguments;
+  const YamlValue* value = file.find("xacro");
+  if (!value) return arguments;
+  const YamlMap map(*value, "xacro", nullptr, file.source());
+  for (const YamlValue::Entry* entry : map.entries()) {
+    const auto text = map.text(entry->key);
+    if (text && (entry->key.starts_with('-') || entry->key.find(":=") != std::string::npos))
+      map.fault(entry->key, "is no name of an argument of xacro");
+    else if (text)
+      arguments.push_back(entry->key + ":=" + *text);
+  }
+  return arguments;
+}
+
 /// Reads URDF and SRDF. Returns nullopt if one of them has a fault; `notesOfFaulty` then gets the
 /// notes.
 std::optional<RobotModel> readModel(const std::filesystem::path& urdf, const UrdfRules& rules,
@@ -59,7 +76,7 @@ std::optional<RobotModel> readModel(const std::filesystem::path& urdf, const Urd
   for (const auto& file : named) addFile(files, file);
   if (srdf) {
     addFile(files, *srdf);
-    if (model) readSrdf(*srdf, *model, found);
+    if (model) readSrdf(*srdf, *model, found, rules.xacro);
   }
   faults.add(found);
   if (found.empty()) return model;
@@ -229,9 +246,12 @@ std::optional<RobotSetup> readUrdfRobot(const YamlMap& map, const std::string& n
   rules.visualsCollide = map.choice("visuals", robotChoices().at("visuals")) == "collide";
   rules.softLimits = map.choice("limits", robotChoices().at("limits")) == "soft";
   rules.colladaUp = map.choice("collada_up", robotChoices().at("collada_up")) == "file";
+  rules.xacro = readXacro(map);
   const auto urdf = readFileName(map, "urdf", folder);
   const auto srdf = readFileName(map, "srdf", folder);
   if (!urdf || (map.find("srdf") && !srdf)) return std::nullopt;
+  if (map.find("xacro") && !isXacro(*urdf) && !(srdf && isXacro(*srdf)))
+    map.fault("xacro", "is for a URDF or SRDF whose name ends in .xacro; leave it out");
   auto model = readModel(*urdf, rules, srdf, map.source().faults, setup.files, notesOfFaulty);
   if (!model) return std::nullopt;
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <limits>
 #include <map>
 #include <optional>
@@ -82,6 +83,8 @@ struct RobotModel {
   std::map<std::string, JointGroup> groups;  ///< of the SRDF
   std::map<std::string, NamedState> states;  ///< of the SRDF and of robot.yaml
   std::vector<Note> notes;
+  /// The texts that xacro made of the URDF or SRDF, by their files. A problem's digest covers them.
+  std::map<std::filesystem::path, std::string> expanded;
 };
 
 }  // namespace corridor

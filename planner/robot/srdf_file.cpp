@@ -168,8 +168,10 @@ void readAll(XmlFile& file, RobotModel& model) {
 
 }  // namespace
 
-void readSrdf(const std::filesystem::path& file, RobotModel& model, std::vector<Fault>& faults) {
-  XmlFile xml(file, "a robot's groups and pairs (SRDF)");
+void readSrdf(const std::filesystem::path& file, RobotModel& model, std::vector<Fault>& faults,
+              const std::vector<std::string>& xacro) {
+  XmlFile xml(file, "a robot's groups and pairs (SRDF)", xacro);
+  if (!xml.expanded().empty()) model.expanded[file] = xml.expanded();
   if (xml.root()) readAll(xml, model);
   for (Fault& fault : xml.takeFaults()) faults.push_back(std::move(fault));
 }

@@ -196,7 +196,7 @@ std::optional<RobotModel> readUrdf(const std::filesystem::path& file, const Urdf
                                    std::vector<std::filesystem::path>& files,
                                    std::vector<Note>* notesOfFaulty) {
   files.push_back(file);
-  XmlFile xml(file, "a robot (URDF)");
+  XmlFile xml(file, "a robot (URDF)", rules.xacro);
   MeshStore meshes(file, rules, files);
   std::optional<RobotModel> model;
   std::vector<Note> notes;
@@ -224,6 +224,7 @@ std::optional<RobotModel> readUrdf(const std::filesystem::path& file, const Urdf
     return std::nullopt;
   }
   model->notes.insert(model->notes.begin(), notes.begin(), notes.end());
+  if (!xml.expanded().empty()) model->expanded[file] = xml.expanded();
   return model;
 }
 

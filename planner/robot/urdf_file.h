@@ -28,6 +28,7 @@ struct UrdfRules {
   /// The <up_axis> of Collada files is applied. Otherwise it is ignored, which is ROS's rule, and a
   /// note names the files whose up-axis is not z.
   bool colladaUp = false;
+  std::vector<std::string> xacro = {};  ///< arguments for a .xacro file: "prefix:=left_"
 };
 
 /// Reads a URDF with its collision geometry, by urdfdom, and checks what urdfdom doesn't.
@@ -48,6 +49,8 @@ std::optional<RobotModel> readUrdf(const std::filesystem::path& file, const Urdf
 /// make no sense are notes, as for other readers of SRDF. A group without its unknown members is
 /// made from the others (`JointGroup::missing`). A group or state that can't be made is kept with
 /// the reason (`unusable`); it is a fault only for a problem that names it.
-void readSrdf(const std::filesystem::path& file, RobotModel& model, std::vector<Fault>& faults);
+/// @param xacro arguments for a .xacro file.
+void readSrdf(const std::filesystem::path& file, RobotModel& model, std::vector<Fault>& faults,
+              const std::vector<std::string>& xacro = {});
 
 }  // namespace corridor

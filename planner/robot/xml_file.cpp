@@ -10,6 +10,7 @@
 #include "collision/core/read_file.h"
 #include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
+#include "planner/robot/xacro.h"
 
 namespace corridor {
 namespace {
@@ -105,14 +106,23 @@ std::string owned(const std::string& kind, std::string_view name) {
   return kind + " " + quotedWord(name);
 }
 
-XmlFile::XmlFile(std::filesystem::path file, const std::string& what) : path_(std::move(file)) {
-  open(what);
+XmlFile::XmlFile(std::filesystem::path file, const std::string& what,
+                 const std::vector<std::string>& xacro)
+    : path_(std::move(file)) {
+  open(what, xacro);
 }
 
-void XmlFile::open(const std::string& what) {
+std::string XmlFile::label() const {
+  return path_.string() + (expanded_.empty() ? "" : ", expanded by xacro");
+}
+
+void XmlFile::open(const std::string& what, const std::vector<std::string>& xacro) {
   std::string text;
   try {
-    text = readTextFile(path_, what);
+    if (isXacro(path_))
+      text = expanded_ = expandXacro(path_, xacro);
+    else
+      text = readTextFile(path_, what);
   } catch (const InputError& error) {
     faults_ = error.faults();
     faultCount_ = faults_.size();
@@ -136,15 +146,15 @@ void XmlFile::fault(int line, std::string text) {
   // Names in the file may contain control characters, which would garble the message.
   std::replace_if(
       text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, '?');
-  if (++faultCount_ <= FaultList::kMost) faults_.push_back({path_.string(), line, std::move(text)});
+  if (++faultCount_ <= FaultList::kMost) faults_.push_back({label(), line, std::move(text)});
 }
 
 std::vector<Fault> XmlFile::takeFaults() {
   std::stable_sort(faults_.begin(), faults_.end(),
                    [](const Fault& a, const Fault& b) { return a.line < b.line; });
   if (faultCount_ > faults_.size())
-    faults_.push_back({path_.string(), 0,
-                       "and " + std::to_string(faultCount_ - faults_.size()) + " more faults"});
+    faults_.push_back(
+        {label(), 0, "and " + std::to_string(faultCount_ - faults_.size()) + " more faults"});
   faultCount_ = 0;
   return std::exchange(faults_, {});
 }
@@ -196,7 +206,7 @@ XmlFile::Element* XmlFile::child(Element& parent, const char* name, const std::s
 }
 
 std::string XmlFile::at(int line, const std::string& text) const {
-  return path_.string() + ":" + std::to_string(line) + ": " + text;
+  return label() + ":" + std::to_string(line) + ": " + text;
 }
 
 void XmlFile::checkChildren(Element& parent, const std::vector<std::string>& read,

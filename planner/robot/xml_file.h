@@ -20,13 +20,19 @@ class XmlFile {
  public:
   using Element = tinyxml2::XMLElement;
 
+  /// A file whose name ends in .xacro is expanded first (xacro.h). Lines are then those of the
+  /// expanded text.
   /// @param what describes the expected file in messages: "a robot (URDF)".
-  XmlFile(std::filesystem::path file, const std::string& what);
+  /// @param xacro arguments of xacro.
+  XmlFile(std::filesystem::path file, const std::string& what,
+          const std::vector<std::string>& xacro = {});
 
   /// Returns the root element. nullptr if the file couldn't be read or has another root; a fault
   /// was then reported.
   Element* root() { return root_; }
   const std::filesystem::path& path() const { return path_; }
+  /// Returns the text that xacro made of the file, or "" if it was read as it is.
+  const std::string& expanded() const { return expanded_; }
 
   void fault(int line, std::string text);
   /// Formats "file:line: text", for notes.
@@ -65,9 +71,11 @@ class XmlFile {
                        const std::string& owner, std::vector<Note>& notes);
 
  private:
-  void open(const std::string& what);
+  void open(const std::string& what, const std::vector<std::string>& xacro);
+  std::string label() const;  ///< the file's name in messages
 
   std::filesystem::path path_;
+  std::string expanded_;
   std::vector<Fault> faults_;
   std::size_t faultCount_ = 0;
   tinyxml2::XMLDocument document_;

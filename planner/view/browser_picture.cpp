@@ -5,14 +5,9 @@
 #include <cerrno>
 #include <charconv>
 #include <chrono>
-#include <csignal>
 #include <cstdlib>
 #include <cstring>
-#include <fcntl.h>
-#include <spawn.h>
-#include <sstream>
 #include <string_view>
-#include <sys/wait.h>
 #include <system_error>
 #include <thread>
 #include <unistd.h>
@@ -21,6 +16,7 @@
 #include "collision/core/error.h"
 #include "collision/core/read_file.h"
 #include "collision/core/spelling.h"
+#include "planner/robot/run_program.h"
 #include "planner/solve/whole_file.h"
 
 extern char** environ;
@@ -106,55 +102,6 @@ std::vector<std::string> environmentIn(const std::filesystem::path& folder) {
   return words;
 }
 
-/// Returns pointers to the words, and a null pointer at the end. Valid as long as `words`.
-std::vector<char*> pointersTo(std::vector<std::string>& words) {
-  std::vector<char*> pointers;
-  for (std::string& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
-  return pointers;
-}
-
-enum class End { itself, late, interrupted };
-
-/// Runs a program with its own folder for temporary files; its output goes to `log`.
-End run(std::vector<std::string> words, const std::filesystem::path& folder,
-        const std::filesystem::path& log, const std::atomic<bool>& interrupted) {
-  std::vector<std::string> environment = environmentIn(std::filesystem::absolute(folder));
-  posix_spawn_file_actions_t files;
-  posix_spawn_file_actions_init(&files);
-  posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC,
-                                   0600);
-  posix_spawn_file_actions_adddup2(&files, STDOUT_FILENO, STDERR_FILENO);
-  posix_spawnattr_t
-      attributes;  // in a process group of its own, so that its children can be killed with it
-  posix_spawnattr_init(&attributes);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF);
-  posix_spawnattr_setpgroup(&attributes, 0);
-  // SIGXFSZ must end the browser if a file exceeds `ulimit -f`. This program ignores that signal;
-  // if the browser inherited this, it would hang.
-  sigset_t usual;
-  sigemptyset(&usual);
-  sigaddset(&usual, SIGXFSZ);
-  posix_spawnattr_setsigdefault(&attributes, &usual);
-  pid_t child = 0;
-  const int failure = ::posix_spawn(&child, words[0].c_str(), &files, &attributes,
-                                    pointersTo(words).data(), pointersTo(environment).data());
-  posix_spawn_file_actions_destroy(&files);
-  posix_spawnattr_destroy(&attributes);
-  if (failure != 0) throw std::system_error(failure, std::generic_category(), words[0]);
-  const auto latest = std::chrono::steady_clock::now() + std::chrono::seconds(kPatience);
-  End end = End::itself;
-  while (end == End::itself && ::waitpid(child, nullptr, WNOHANG) == 0) {
-    if (interrupted) end = End::interrupted;
-    if (std::chrono::steady_clock::now() > latest) end = End::late;
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  }
-  ::kill(-child, SIGKILL);  // the whole group: the program, or children that it has left behind
-  if (end != End::itself) ::waitpid(child, nullptr, 0);
-  return end;
-}
-
 }  // namespace
 
 PictureSize pictureSize(const std::string& text, const std::string& option) {
@@ -177,17 +124,8 @@ PictureSize pictureSize(const std::string& text, const std::string& option) {
 
 std::filesystem::path requireBrowser(const std::string& option) {
   constexpr std::array names = {"chromium", "chromium-browser", "google-chrome", "chrome"};
-  const char* variable = std::getenv("PATH");
-  std::error_code none;
-  for (const char* name : names) {
-    std::istringstream folders(variable ? variable : "");
-    for (std::string folder; std::getline(folders, folder, ':');) {
-      std::filesystem::path program = std::filesystem::path(folder) / name;
-      if (!folder.empty() && std::filesystem::is_regular_file(program, none) &&
-          ::access(program.c_str(), X_OK) == 0)
-        return program;
-    }
-  }
+  for (const char* name : names)
+    if (auto program = findProgram(name); !program.empty()) return program;
   throw InputError(Fault{option, 0,
                          "needs Chromium, and there is no chromium in PATH (Debian: apt-get "
                          "install chromium); -o writes the page without it"});
@@ -197,7 +135,7 @@ bool writePicture(const std::string& page, const std::filesystem::path& browser,
                   const PictureSize& size, const std::filesystem::path& file,
                   const std::atomic<bool>& interrupted) {
   const WorkFolder folder;
-  const std::filesystem::path html = folder.path() / "page.html", log = folder.path() / "log",
+  const std::filesystem::path html = folder.path() / "page.html",
                               picture = folder.path() / "picture.png";
   writeWhole(html, page);
   std::vector<std::string> words = {
@@ -211,13 +149,17 @@ bool writePicture(const std::string& page, const std::filesystem::path& browser,
   if (::geteuid() == 0)
     words.emplace_back("--no-sandbox");  // Chromium refuses to run as root with its sandbox
   words.push_back(fileUrl(html) + "#image");
-  const End end = run(std::move(words), folder.path(), log, interrupted);
-  if (end == End::interrupted) return false;
-  const std::string said = contents(log), png = contents(picture);
+  const ProgramEnd end =
+      runProgram({.words = std::move(words),
+                  .environment = environmentIn(std::filesystem::absolute(folder.path())),
+                  .seconds = kPatience,
+                  .interrupted = &interrupted});
+  if (end.why == ProgramEnd::Why::interrupted) return false;
+  const std::string said = end.out + end.err, png = contents(picture);
   const bool drawn = said.find("corridor: the picture is drawn") != std::string::npos;
   if (!drawn || !isWholePng(png)) {
     std::string why = "has not drawn the picture";
-    if (end == End::late) why += " in " + std::to_string(kPatience) + " s";
+    if (end.why == ProgramEnd::Why::late) why += " in " + std::to_string(kPatience) + " s";
     if (drawn)
       why = "has not written the whole picture to " + folder.path().parent_path().string() +
             "; free some space there, or set TMPDIR to another folder";

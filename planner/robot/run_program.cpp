@@ -1,0 +1,127 @@
+#include "planner/robot/run_program.h"
+
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <fcntl.h>
+#include <sstream>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <system_error>
+#include <thread>
+#include <unistd.h>
+
+namespace corridor {
+namespace {
+
+/// A file in memory for a program's output. Unlike a pipe, it is never full, so the two outputs can
+/// be read one after the other when the program has ended.
+class Output {
+ public:
+  Output() : file_(::memfd_create("output", MFD_CLOEXEC)) {
+    if (file_ < 0) throw std::system_error(errno, std::generic_category());
+  }
+  ~Output() { ::close(file_); }
+  Output(const Output&) = delete;
+  Output& operator=(const Output&) = delete;
+
+  int file() const { return file_; }
+  std::size_t size() const {
+    struct stat now {};
+    return ::fstat(file_, &now) == 0 ? static_cast<std::size_t>(now.st_size) : 0;
+  }
+  std::string text() const {
+    std::string bytes(size(), '\0');
+    std::size_t read = 0;
+    while (read < bytes.size()) {
+      const ssize_t n =
+          ::pread(file_, bytes.data() + read, bytes.size() - read, static_cast<off_t>(read));
+      if (n < 0 && errno == EINTR) continue;
+      if (n <= 0) break;
+      read += static_cast<std::size_t>(n);
+    }
+    bytes.resize(read);
+    return bytes;
+  }
+
+ private:
+  int file_;
+};
+
+/// Returns pointers to the words, and a null pointer at the end. Valid as long as `words`.
+std::vector<char*> pointersTo(const std::vector<std::string>& words) {
+  std::vector<char*> pointers;
+  for (const std::string& word : words) pointers.push_back(const_cast<char*>(word.c_str()));
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
+}  // namespace
+
+ProgramEnd runProgram(const ProgramCall& call) {
+  const Output out, err;
+  const std::vector<char*> words = pointersTo(call.words), own = pointersTo(call.environment);
+  char* const* const environment = call.environment.empty() ? environ : own.data();
+  const char* const folder = call.folder.empty() ? "." : call.folder.c_str();
+  const pid_t parent = ::getpid();
+  const pid_t child = ::fork();
+  if (child < 0) throw std::system_error(errno, std::generic_category(), call.words[0]);
+  if (child == 0) {  // only functions that are safe after fork() in a process with threads
+    ::setpgid(0, 0);
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (::getppid() != parent) ::_exit(127);
+    // This program ignores SIGXFSZ. A program that inherits this may hang at `ulimit -f`.
+    ::signal(SIGXFSZ, SIG_DFL);
+    const int nothing = ::open("/dev/null", O_RDONLY);
+    if (nothing < 0 || ::dup2(nothing, STDIN_FILENO) < 0 || ::dup2(out.file(), STDOUT_FILENO) < 0 ||
+        ::dup2(err.file(), STDERR_FILENO) < 0 || ::chdir(folder) != 0)
+      ::_exit(127);
+    ::execve(words[0], words.data(), environment);
+    ::_exit(127);
+  }
+  ::setpgid(child, child);  // as the child does: whichever is first
+  const auto latest =
+      std::chrono::steady_clock::now() + std::chrono::duration<double>(call.seconds);
+  ProgramEnd end;
+  int status = 0;
+  bool ended = false;
+  while (!ended && end.why == ProgramEnd::Why::itself) {
+    ended = ::waitpid(child, &status, WNOHANG) != 0;
+    if (ended) break;
+    if (call.interrupted && *call.interrupted) end.why = ProgramEnd::Why::interrupted;
+    if (std::chrono::steady_clock::now() > latest) end.why = ProgramEnd::Why::late;
+    if (out.size() > call.bytes || err.size() > call.bytes)
+      end.why = ProgramEnd::Why::tooMuchOutput;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  ::kill(-child, SIGKILL);  // the whole group: the program, or children that it has left behind
+  if (!ended)
+    while (::waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
+    }
+  if (ended && WIFEXITED(status)) end.exitStatus = WEXITSTATUS(status);
+  if (out.size() > call.bytes || err.size() > call.bytes) {
+    end.why = ProgramEnd::Why::tooMuchOutput;
+    return end;
+  }
+  end.out = out.text();
+  end.err = err.text();
+  return end;
+}
+
+std::filesystem::path findProgram(const std::string& name) {
+  const char* const variable = std::getenv("PATH");
+  std::istringstream folders(variable ? variable : "");
+  std::error_code none;
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    if (folder.empty()) continue;
+    std::filesystem::path program = std::filesystem::absolute(folder, none) / name;
+    if (std::filesystem::is_regular_file(program, none) && ::access(program.c_str(), X_OK) == 0)
+      return program;
+  }
+  return {};
+}
+
+}  // namespace corridor

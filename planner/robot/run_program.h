@@ -1,0 +1,39 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace corridor {
+
+/// A program to run, without a shell.
+struct ProgramCall {
+  std::vector<std::string> words;             ///< the program's path, then its arguments
+  std::filesystem::path folder = {};          ///< where it runs; empty: the current folder
+  std::vector<std::string> environment = {};  ///< "NAME=value"; empty: that of this process
+  double seconds = 60;                        ///< time limit
+  /// Limit of each output. The outputs are in memory, so it keeps a program from using all of it.
+  std::size_t bytes = std::size_t{1} << 28;
+  const std::atomic<bool>* interrupted = nullptr;  ///< stops the program when it becomes true
+};
+
+/// How a program ended. Except for `itself`, it was killed with all processes of its group.
+struct ProgramEnd {
+  enum class Why { itself, late, interrupted, tooMuchOutput };
+  Why why = Why::itself;
+  int exitStatus = -1;   ///< −1: it did not end itself, or by a signal
+  std::string out, err;  ///< what it has written
+};
+
+/// Runs a program to its end. Its standard input is empty. It runs in a process group of its own,
+/// and is killed when the calling thread ends.
+/// @throws std::system_error if no process can be created. If the program can't be started, its
+/// exit status is 127.
+ProgramEnd runProgram(const ProgramCall& call);
+
+/// Searches PATH for a program. Returns "" if there is none of this name.
+std::filesystem::path findProgram(const std::string& name);
+
+}  // namespace corridor
