@@ -1,0 +1,283 @@
+#include "planner/checker/never_in_contact.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <deque>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <stdexcept>
+
+#include "collision/core/rounding.h"
+#include "collision/motion/certify_motion.h"
+#include "collision/queries/surface_distance.h"
+#include "planner/robot/edge_motion.h"
+
+namespace corridor {
+namespace {
+
+using Verdict = NeverInContactResult::Verdict;
+
+/// Returns the frames from `f` up to, but without, its ancestor `top`.
+std::vector<std::size_t> upTo(const KinematicTree& tree, std::size_t f, std::size_t top) {
+  std::vector<std::size_t> frames;
+  for (; f != top; f = tree.frames[f].parent) frames.push_back(f);
+  return frames;
+}
+
+std::size_t commonAncestor(const KinematicTree& tree, std::size_t a, std::size_t b) {
+  while (a != b) (a > b ? a : b) = tree.frames[std::max(a, b)].parent;  // parents come first
+  return a;
+}
+
+bool moves(const Frame& frame) {
+  return frame.joint != Frame::Joint::none && frame.variable != Frame::noVariable;
+}
+
+bool isSolidMesh(const Body& body) {
+  return body.solid() && !body.part();
+}
+
+struct Range {
+  double lower = 0, upper = 0;
+};
+
+/// Returns the values of a variable that a proof must cover; nullopt if they are not bounded.
+/// @param wholeTurns every joint that the variable moves returns to the same pose after a full turn
+/// of the variable.
+std::optional<Range> rangeOf(const ConfigurationSpace& space, std::size_t variable, bool wholeTurns,
+                             double beyond) {
+  const auto found =
+      std::find_if(space.coordinates().begin(), space.coordinates().end(),
+                   [&](const Coordinate& c) { return c.first == variable && c.size() == 1; });
+  if (found == space.coordinates().end()) return std::nullopt;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const bool circle = found->kind == Coordinate::Kind::circle;
+  // The next double above π: the interval covers the whole circle in real arithmetic.
+  const double pi = std::nextafter(std::numbers::pi, 4);
+  if (wholeTurns && (circle || !(found->upper - found->lower < 2 * pi))) return Range{-pi, pi};
+  if (circle || !(std::isfinite(found->lower) && std::isfinite(found->upper))) return std::nullopt;
+  if (beyond == 0) return Range{found->lower, found->upper};
+  return Range{std::nextafter(found->lower - beyond, -infinity),
+               std::nextafter(found->upper + beyond, infinity)};
+}
+
+/// The frames between two bodies, as a tree of their own, whose root is their lowest common
+/// ancestor. Its variables are lines, numbered by their first use.
+struct Between {
+  KinematicTree tree;
+  ConfigurationSpace space;
+  Scene::FramePair pair;
+  std::vector<std::size_t> variables;  // of the moving frames, in order from a to b
+  std::vector<Range> box;              // for each variable
+};
+
+/// Returns nullopt if the proof can't be tried.
+std::optional<Between> framesBetween(const Model& model, std::size_t a, std::size_t b,
+                                     double beyond) {
+  Between between;
+  const std::vector<Frame>& frames = model.tree.frames;
+  const std::size_t top = commonAncestor(model.tree, a, b);
+  const std::vector<std::size_t> toA = upTo(model.tree, a, top), toB = upTo(model.tree, b, top);
+  std::vector<std::size_t> given;  // the model's variables
+  const auto add = [&](const std::vector<std::size_t>& path) {
+    std::size_t last = 0;
+    for (auto f = path.rbegin(); f != path.rend(); ++f) {
+      Frame frame = frames[*f];
+      frame.parent = last;
+      if (moves(frame)) {
+        auto known = std::find(given.begin(), given.end(), frame.variable);
+        if (known == given.end()) known = given.insert(known, frame.variable);
+        frame.variable = static_cast<std::size_t>(known - given.begin());
+      }
+      last = between.tree.add(std::move(frame));
+    }
+    return last;
+  };
+  between.pair.a = add(toA);
+  const std::size_t branch = between.tree.frames.size();
+  between.pair.b = add(toB);
+  if (given.empty()) return std::nullopt;
+  std::vector<char> wholeTurns(given.size(), true);
+  for (const Frame& frame : between.tree.frames) {
+    if (!moves(frame)) continue;
+    if (frame.joint != Frame::Joint::revolute && frame.joint != Frame::Joint::prismatic)
+      return std::nullopt;
+    if (frame.joint == Frame::Joint::prismatic || frame.multiplier != std::trunc(frame.multiplier))
+      wholeTurns[frame.variable] = false;
+  }
+  for (std::size_t v = 0; v < given.size(); ++v) {
+    const auto range = rangeOf(model.space, given[v], wholeTurns[v], beyond);
+    if (!range) return std::nullopt;
+    between.box.push_back(*range);
+    between.space.add({Coordinate::Kind::line, "", 0, range->lower, range->upper, false, 1});
+  }
+  // A frame's children come after it: the path from a upwards is the first branch in reverse.
+  for (std::size_t f = branch; f-- > 1;)
+    if (moves(between.tree.frames[f])) between.variables.push_back(between.tree.frames[f].variable);
+  for (std::size_t f = branch; f < between.tree.frames.size(); ++f)
+    if (moves(between.tree.frames[f])) between.variables.push_back(between.tree.frames[f].variable);
+  return between;
+}
+
+/// A box of joint values that is not proved yet.
+struct Box {
+  std::vector<Range> ranges;
+  std::vector<MotionPair> open;  // the pairs of shapes that are not separated yet
+};
+
+class Subdivision {
+ public:
+  Subdivision(const Between& between, const NeverInContactOptions& options, QueryContext& context)
+      : between_(between), options_(options), context_(context) {}
+
+  NeverInContactResult run(std::vector<MotionPair> pairs) {
+    setQuery(pairs);
+    std::deque<Box> boxes;
+    boxes.push_back({between_.box, std::move(pairs)});
+    while (!boxes.empty()) {
+      if (result_.boxes >= options_.boxes || context_.counters.work() >= workEnd_)
+        return answer(Verdict::workLimit);
+      ++result_.boxes;
+      Box box = std::move(boxes.front());
+      boxes.pop_front();
+      const std::size_t widest = test(box);
+      if (tooClose_) return answer(Verdict::tooClose);
+      if (box.open.empty()) continue;
+      // Both halves have the same middle value as a limit, so they cover the whole box.
+      const auto [lower, upper] = box.ranges[widest];
+      const double middle = lower + (upper - lower) / 2;
+      if (!(lower < middle && middle < upper)) return answer(Verdict::workLimit);
+      boxes.push_back(box);
+      boxes.back().ranges[widest].upper = middle;
+      box.ranges[widest].lower = middle;
+      boxes.push_back(std::move(box));
+    }
+    return answer(Verdict::proved);
+  }
+
+ private:
+  NeverInContactResult answer(Verdict verdict) {
+    result_.verdict = verdict;
+    return result_;
+  }
+
+  /// Each box may take 1000 tests of bounding volumes and triangles on average. Without this
+  /// limit, a pair of detailed meshes could take a thousand times as long as a pair of boxes.
+  void setQuery(const std::vector<MotionPair>& pairs) {
+    constexpr std::uint64_t testsPerBox = 1000;
+    const std::uint64_t begin = context_.counters.work(),
+                        most = std::numeric_limits<std::uint64_t>::max() - begin;
+    workEnd_ = begin + (options_.boxes < most / testsPerBox ? options_.boxes * testsPerBox : most);
+    // Nothing moves in the queries, so they never halve a time interval, which is all that the
+    // tolerance decides. Any positive one will do: 1e-7 of the bodies' size, as usual.
+    double radius = std::numeric_limits<double>::infinity();
+    for (const MotionPair& pair : pairs)
+      radius = std::min({radius, pair.a->sphereRadius(), pair.b->sphereRadius()});
+    query_.tolerance = std::max(1e-7 * radius, std::numeric_limits<double>::min());
+    query_.margin = options_.margin;
+  }
+
+  /// Removes from `box.open` the pairs that are separated throughout the box. Sets `tooClose_` if
+  /// some pair cannot be separated in any smaller box.
+  /// @returns the variable along which the box should be halved, if pairs are left.
+  std::size_t test(Box& box) {
+    const auto count = static_cast<Eigen::Index>(box.ranges.size());
+    Configuration middle(count), halfWidths(count);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const auto [lower, upper] = box.ranges[static_cast<std::size_t>(i)];
+      middle[i] = lower + (upper - lower) / 2;
+      halfWidths[i] = roundedUp(std::max(upper - middle[i], middle[i] - lower));
+    }
+    EdgeMotion motion(between_.tree, between_.space, {&between_.pair, 1}, halfWidths);
+    motion.set(middle, middle);
+    std::erase_if(box.open, [&](const MotionPair& pair) {
+      if (context_.counters.work() >= workEnd_) return false;
+      query_.workLimit = workEnd_ - context_.counters.work();
+      return certifyMotion(motion, {&pair, 1}, query_, context_).verdict == MotionVerdict::free;
+    });
+    std::vector<double> displacements(box.ranges.size(), 0.0);
+    if (box.open.empty()) return 0;
+    const RelativeMotion relative = motion.relativeMotion(0, 0.5, 0);
+    for (const MotionPair& pair : box.open) {
+      tooClose_ = tooClose_ || surfacesCloserThan(Posed(*pair.a), Posed(*pair.b, relative.X_AB),
+                                                  options_.margin, context_);
+      addDisplacements(relative, *pair.b, displacements);
+    }
+    return static_cast<std::size_t>(std::max_element(displacements.begin(), displacements.end()) -
+                                    displacements.begin());
+  }
+
+  /// Adds to each variable roughly how far it can displace points of b in the box, metres. Only the
+  /// choice of the joint that is halved depends on it, no verdict.
+  void addDisplacements(const RelativeMotion& relative, const Body& b,
+                        std::vector<double>& displacements) const {
+    const Vec3 center = relative.X_AB.m * b.sphereCenter() + relative.X_AB.t;
+    // All half widths are positive, so each moving frame has a screw.
+    for (std::size_t i = 0; i < std::min(relative.screws.size(), between_.variables.size()); ++i) {
+      const ScrewMotion& screw = relative.screws[i];
+      const bool turns = screw.kind == ScrewMotion::Kind::revolute;
+      const double lever =
+          turns ? screw.axis.cross(center - screw.point).norm() + b.sphereRadius() : 1;
+      displacements[between_.variables[i]] += screw.tube * lever;
+    }
+  }
+
+  const Between& between_;
+  const NeverInContactOptions& options_;
+  QueryContext& context_;
+  MotionOptions query_;
+  std::uint64_t workEnd_ = 0;
+  NeverInContactResult result_;
+  bool tooClose_ = false;
+};
+
+}  // namespace
+
+NeverInContact::NeverInContact(const Model& model, const Scene& scene)
+    : model_(model), scene_(scene) {
+  std::size_t shapes = 0;
+  for (const ModelBody& body : model.bodies) {
+    firstShape_.push_back(shapes);
+    shapes += body.shapes.size();
+  }
+  firstShape_.push_back(shapes);
+  if (shapes != scene.bodies().size())
+    throw std::invalid_argument("NeverInContact: the scene is not made from the model");
+}
+
+NeverInContactResult NeverInContact::prove(std::size_t a, std::size_t b,
+                                           const NeverInContactOptions& options,
+                                           QueryContext& context) const {
+  for (const double x : {options.margin, options.beyondLimits})
+    if (!(x >= 0 && std::isfinite(x)))
+      throw std::invalid_argument(
+          "NeverInContactOptions: margin and beyondLimits must be finite and not negative");
+  const auto between =
+      framesBetween(model_, model_.bodies[a].frame, model_.bodies[b].frame, options.beyondLimits);
+  if (!between) return {};
+  std::vector<MotionPair> pairs;
+  for (std::size_t i = firstShape_[a]; i < firstShape_[a + 1]; ++i)
+    for (std::size_t k = firstShape_[b]; k < firstShape_[b + 1]; ++k) {
+      const Body &first = scene_.bodies()[i].body, &second = scene_.bodies()[k].body;
+      if (isSolidMesh(first) || isSolidMesh(second)) return {};
+      pairs.push_back({&first, &second, 0, i, k});
+    }
+  return Subdivision(*between, options, context).run(std::move(pairs));
+}
+
+bool movesFreely(const Model& model, std::size_t a, std::size_t b) {
+  const std::size_t first = model.bodies[a].frame, second = model.bodies[b].frame,
+                    top = commonAncestor(model.tree, first, second);
+  for (const std::size_t end : {first, second})
+    for (const std::size_t f : upTo(model.tree, end, top)) {
+      const Frame& frame = model.tree.frames[f];
+      if (moves(frame) &&
+          (frame.joint == Frame::Joint::translation || frame.joint == Frame::Joint::rotation))
+        return true;
+    }
+  return false;
+}
+
+}  // namespace corridor

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "collision/core/query_context.h"
+#include "collision/world/scene.h"
+#include "planner/model/model.h"
+
+namespace corridor {
+
+/// What a proof that two bodies never come into contact must cover, and how much work it may take.
+struct NeverInContactOptions {
+  double margin = 0;  ///< metres that the two bodies must keep apart; 0: they must not touch
+  /// How far the proof reaches beyond each limit of a joint, so that it also covers a tube around
+  /// paths: rad, or m for a prismatic joint. A joint that covers the whole circle needs none.
+  double beyondLimits = 0;
+  /// Work limit: the number of boxes of joint values that are tested.
+  std::uint64_t boxes = 20000;
+};
+
+/// The answer of a proof, and its work.
+struct NeverInContactResult {
+  enum class Verdict {
+    proved,     ///< the bodies never come into contact, and always keep the margin
+    tooClose,   ///< at a joint value that was tested they touch, or are closer than the margin
+    workLimit,  ///< the work limit was reached
+    /// Nothing was tried: a planar or floating joint, a joint without limits, or a joint that
+    /// mimics a continuous one other than by a whole multiplier moves one body against the other;
+    /// or a body has a solid mesh; or both are on frames with the same mover.
+    unbounded,
+  };
+  Verdict verdict = Verdict::unbounded;
+  std::uint64_t boxes = 0;  ///< number of boxes of joint values that were tested
+};
+
+/// Proves for pairs of bodies of a model that they never come into contact, whatever the values of
+/// the joints.
+///
+/// `proved` is never wrong: for all joint values within the limits (and by `beyondLimits` beyond
+/// them), in real arithmetic, the two bodies keep more than the margin. This holds for each link
+/// as the model describes it. It does not depend on the pose of the robot's base. A joint with a
+/// range of a full turn or more is proved for all angles. The other verdicts prove nothing.
+///
+/// Only joints between the two bodies count: those on the path through the tree of frames. Their
+/// ranges form a box of joint values. A box is proved by one motion query that nothing moves in,
+/// at the middle of the box, with the half widths of the box as its tube (collision/PROMISES.md,
+/// promise 2: `free` holds for every configuration within the tube, with all rounding). A box that
+/// is not proved is halved along the joint that can displace the second body the most. Only the
+/// pairs of shapes that were not separated are tested in the halves. The boxes are tested breadth
+/// first, so that a contact is soon found at the middle of a box.
+///
+/// The search for `proved` needs the more boxes, the more joints are between the bodies and the
+/// closer they come. If they come as close as the margin anywhere, it never succeeds.
+///
+/// Thread safety: `prove` may be called from several threads, each with its own context.
+class NeverInContact {
+ public:
+  /// @param model its planned joints move; all others are held. Must outlive the object.
+  /// @param scene as `makeScene` makes it from the model (`Checker::scene`). Its pairs do not
+  /// count. Must outlive the object.
+  NeverInContact(const Model& model, const Scene& scene);
+
+  /// @param a, b bodies of the model, by index, in either order.
+  /// @throws std::invalid_argument if an option is negative or not finite.
+  NeverInContactResult prove(std::size_t a, std::size_t b, const NeverInContactOptions& options,
+                             QueryContext& context) const;
+
+ private:
+  const Model& model_;
+  const Scene& scene_;
+  std::vector<std::size_t> firstShape_;  // for each body of the model, its first body in the scene
+};
+
+/// Returns whether a planar or floating joint that moves lies between the frames of two bodies.
+/// Then any pose of one body relative to the other is possible.
+bool movesFreely(const Model& model, std::size_t a, std::size_t b);
+
+}  // namespace corridor
