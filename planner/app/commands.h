@@ -23,5 +23,6 @@ void addCheck(CLI::App& program, int& status);
 void addInspect(CLI::App& program, int& status);
 void addPose(CLI::App& program, int& status);
 void addQuery(CLI::App& program, int& status);
+void addNew(CLI::App& program, int& status);
 
 }  // namespace corridor::app

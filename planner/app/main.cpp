@@ -37,8 +37,8 @@ int main(int argc, char** argv) {
                              "In a checkout, ./corridor also has the commands test and fuzz.\n") +
                  kExitStatus);
   int status = kDone;
-  for (const auto add :
-       {addSolve, addVerify, addView, addBenchmark, addCheck, addInspect, addPose, addQuery})
+  for (const auto add : {addSolve, addVerify, addView, addBenchmark, addCheck, addInspect, addPose,
+                         addQuery, addNew})
     add(program, status);
   refuseEmptyValues(program);
   try {

@@ -34,33 +34,49 @@ std::string repeatedOption(const CLI::App& command) {
   return "";
 }
 
+/// Returns a message on a word that is no command of `app`, and lists the commands.
+std::string unknownCommand(const CLI::App& app, const std::string& word) {
+  std::vector<std::string> commands;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    commands.push_back(command->get_name());
+  return "unknown command " + quotedWord(word) + didYouMean(word, commands) +
+         "; there are: " + joined(commands);
+}
+
 }  // namespace
 
 void refuseEmptyValues(CLI::App& program) {
-  for (CLI::App* command : program.get_subcommands({}))
+  for (CLI::App* command : program.get_subcommands({})) {
     for (CLI::Option* option : command->get_options())
       if (option->get_items_expected_max() > 0)
         option->check(CLI::Validator(
             [](std::string& text) { return text.empty() ? std::string("is empty") : ""; }, ""));
+    refuseEmptyValues(*command);
+  }
 }
 
 std::string usageFault(const CLI::App& program, const CLI::ParseError& error,
                        const std::string& firstWord) {
-  const auto given = program.get_subcommands();
+  auto given = program.get_subcommands();
   if (!given.empty()) {
-    std::string fault;
-    if (dynamic_cast<const CLI::ExtrasError*>(&error)) fault = unknownWord(program, *given[0]);
-    if (dynamic_cast<const CLI::ArgumentMismatch*>(&error)) fault = repeatedOption(*given[0]);
+    const CLI::App* command = given[0];
+    std::string name = command->get_name(), fault;
+    while (!(given = command->get_subcommands()).empty()) {  // a command of a command: new robot
+      command = given[0];
+      name += " " + command->get_name();
+    }
+    const std::vector<std::string> words = command->remaining();
+    const bool isKind = !command->get_subcommands([](const CLI::App*) { return true; }).empty();
+    if (dynamic_cast<const CLI::ExtrasError*>(&error)) fault = unknownWord(program, *command);
+    if (dynamic_cast<const CLI::ArgumentMismatch*>(&error)) fault = repeatedOption(*command);
+    if (isKind && !words.empty() && !words.front().starts_with('-'))
+      fault = unknownCommand(*command, words.front());
     if (fault.empty()) fault = error.what();
-    return fault + "; see corridor " + given[0]->get_name() + " --help";
+    return fault + "; see corridor " + name + " --help";
   }
   if (firstWord.empty() || firstWord[0] == '-')
     return error.what() + std::string("; see corridor --help");
-  std::vector<std::string> commands;
-  for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; }))
-    commands.push_back(command->get_name());
-  return "unknown command " + quotedWord(firstWord) + didYouMean(firstWord, commands) +
-         "; there are: " + joined(commands);
+  return unknownCommand(program, firstWord);
 }
 
 }  // namespace corridor::app

@@ -50,6 +50,7 @@ TEST_F(NothingTested, EveryCommandWarnsFirst) {
       {"inspect", {"inspect alone.yaml", "inspect alone.yaml --json"}},
       {"query", {}},  // takes two meshes, no problem
       {"pose", {}},   // takes a robot, no problem
+      {"new", {}},    // takes a robot, no problem
   };
   for (const std::string& command : commands()) EXPECT_EQ(uses.count(command), 1u) << command;
   for (const auto& [command, all] : uses)

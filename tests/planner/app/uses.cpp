@@ -139,6 +139,15 @@ const std::vector<Use>& uses() {
        "query cube.obj cube.obj --grid 10x10x10 --save-poses out/grid.txt --repeat 1000000",
        "out/grid.txt",
        true},
+      {"NewRobot", "new robot arm.urdf", {}, "new robot vast.urdf --samples 1000000000"},
+      {"NewRobotOutput",
+       "new robot arm.urdf --force --output out/robot.yaml",
+       {"robot.yaml"},
+       "new robot vast.urdf --samples 1000000000 --output out/robot.yaml"},
+      {"NewProblemOutput",
+       "new problem robot.yaml --force --output out/problem.yaml",
+       {"problem.yaml"},
+       "new problem vast.urdf --output out/problem.yaml"},
   };
   return all;
 }

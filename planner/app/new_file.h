@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// The parts of `corridor new`, one per kind of file, and what they share.
+namespace corridor::app {
+
+/// Where a new file is written.
+struct NewFileArguments {
+  std::optional<std::string> output;  ///< unset, or "-": the standard output
+  bool force = false;                 ///< an existing file may be replaced
+
+  bool toStdout() const { return !output || *output == "-"; }
+};
+
+struct NewRobotArguments {
+  std::string urdf;
+  std::optional<std::string> srdf;
+  std::vector<std::string> packages;  ///< NAME=FOLDER
+  std::optional<std::string> visuals, limits, colladaUp;
+  double margin = 0.01;        ///< metres that a pair must keep to count as never in contact
+  double beyondLimits = 0.01;  ///< rad or m
+  std::uint64_t work = 20000;  ///< boxes of joint values tested per pair
+  std::uint64_t samples = 1000;
+  std::uint64_t seed = 1;
+  NewFileArguments file;
+};
+
+struct NewProblemArguments {
+  std::string robot;
+  std::uint64_t seed = 1;
+  NewFileArguments file;
+};
+
+int newRobot(const NewRobotArguments& arguments);
+int newProblem(const NewProblemArguments& arguments);
+
+/// Tests that the new file can be written, and replaces no file unless `force` is set. Commands
+/// call this before they spend time on the file's contents.
+/// @throws InputError that names the option.
+void requireNewFile(const NewFileArguments& file);
+/// Writes the text to the file, whole or not at all, or to the standard output.
+void writeNewFile(const NewFileArguments& file, const std::string& text);
+
+/// Returns a path as the new file has to name it: relative to the new file's folder. With the
+/// standard output, relative to the current folder.
+std::string pathFrom(const NewFileArguments& file, const std::filesystem::path& path);
+
+/// Returns a YAML scalar that the reader takes as this text: plain if possible, else in quotes.
+std::string yamlWord(const std::string& text);
+/// Returns "[a, b]".
+std::string yamlList(const std::vector<std::string>& words);
+/// Returns the text as a comment: each line has `indent` blanks, "# ", and at most 100 characters
+/// if its words allow it. Further lines of an item ("- …") or a key ("joints: …") are indented by
+/// two more blanks.
+std::string comment(const std::string& text, int indent = 0);
+
+}  // namespace corridor::app

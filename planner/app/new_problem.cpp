@@ -1,0 +1,299 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <utility>
+
+#include "collision/core/fault_list.h"
+#include "collision/core/shortest.h"
+#include "planner/app/commands.h"
+#include "planner/app/new_file.h"
+#include "planner/app/output.h"
+#include "planner/checker/pair_survey.h"
+#include "planner/model/model_builder.h"
+#include "planner/problem/robot_file.h"
+#include "planner/robot/joint_types.h"
+
+namespace corridor::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// How many random states are tried.
+constexpr int kRandomStates = 1000;
+
+/// A valid state, how it is written, and where it comes from.
+struct FoundState {
+  Configuration q;
+  std::string text;    ///< as the value of `start` or `goal`
+  std::string origin;  ///< for a comment
+};
+
+/// The model of a problem that has the robot only. Its bodies that move as a whole may be anywhere
+/// in a cube of a few times the robot's size.
+struct Alone {
+  Model model;
+  double size = 1;  ///< metres
+};
+
+/// Returns the longest edge of the box around the robot's shapes, each in its own link; 1 if there
+/// are none. Only a scale for examples.
+double sizeOf(const RobotModel& description) {
+  double size = 0;
+  for (const LinkModel& link : description.links)
+    for (const PlacedShape& shape : link.shapes)
+      for (const Vec3& p : shape.part ? shape.part->points : shape.mesh->mesh.vertices)
+        size = std::max(size, p.cwiseAbs().maxCoeff() + (shape.part ? shape.part->radius : 0));
+  // Two digits are enough, and easy to edit.
+  if (!(size > 0)) return 1;
+  const double unit = std::pow(10, std::floor(std::log10(size)) - 1);
+  return std::ceil(size / unit) * unit;
+}
+
+Alone modelOf(ModelRobot robot) {
+  Alone alone;
+  alone.size = sizeOf(robot.model);
+  const Corners bounds{Vec3::Constant(-4 * alone.size), Vec3::Constant(4 * alone.size)};
+  ModelBuilder builder;
+  if (robot.isRigid()) builder.bound(robot.model.name, bounds);
+  for (const std::size_t j : robot.planned)
+    if (isPoseJoint(robot.model.joints[j].type)) builder.bound(robot.model.joints[j].name, bounds);
+  alone.model = builder.addRobot(std::move(robot)).build();
+  return alone;
+}
+
+std::string pointText(const Vec3& p, std::size_t count) {
+  std::string text = "[";
+  for (std::size_t i = 0; i < count; ++i)
+    text += (i ? ", " : "") + shortest(p[static_cast<Eigen::Index>(i)]);
+  return text + "]";
+}
+
+/// Returns the pose of a planar or floating joint as `at: …`, with its rotation.
+std::string poseText(const Configuration& q, std::size_t first, bool planar) {
+  const auto i = static_cast<Eigen::Index>(first);
+  if (planar) return "at: " + pointText({q[i], q[i + 1], 0}, 2) + ", yaw: " + shortest(q[i + 2]);
+  return "at: " + pointText(q.segment<3>(i), 3);
+}
+
+/// Returns a configuration as a problem file writes it.
+std::string stateText(const Model& model, const Configuration& q) {
+  const ModelRobot& robot = model.robots.front();
+  std::string text;
+  for (const PlannedJoint& planned : robot.plannedJoints) {
+    const std::size_t first = model.space.coordinates()[planned.coordinate].first;
+    const bool pose = isPoseJoint(planned.type);
+    const std::string value = pose ? poseText(q, first, planned.type == JointType::planar)
+                                   : shortest(q[static_cast<Eigen::Index>(first)]);
+    if (robot.isRigid()) return "{" + value + "}";
+    text += (text.empty() ? "" : ", ") + yamlWord(planned.name) + ": " +
+            (pose ? "{" + value + "}" : value);
+  }
+  return "{" + text + "}";
+}
+
+/// Returns the configuration of a named state, or nullopt if it does not name all joints that are
+/// planned for, or only in a form that is rarely used: a planar or floating joint.
+std::optional<Configuration> configurationOf(const Model& model, const NamedState& state) {
+  Configuration q = Configuration::Zero(static_cast<Eigen::Index>(model.space.size()));
+  for (const PlannedJoint& planned : model.robots.front().plannedJoints) {
+    const auto value = state.values.find(planned.name);
+    if (isPoseJoint(planned.type) || value == state.values.end()) return std::nullopt;
+    const std::size_t first = model.space.coordinates()[planned.coordinate].first;
+    q[static_cast<Eigen::Index>(first)] = value->second;
+  }
+  model.space.normalise(q);
+  return q;
+}
+
+/// Returns whether a problem may name the state: it gives no other value to a joint that is held.
+bool holdsAgree(const ModelRobot& robot, const NamedState& state) {
+  return std::all_of(state.values.begin(), state.values.end(), [&](const auto& value) {
+    const auto j = findJoint(robot.model, value.first);
+    if (!j) return false;
+    const auto held = robot.held.find(*j);
+    return held == robot.held.end() || held->second == value.second;
+  });
+}
+
+/// Finds valid states of a robot alone.
+class StateFinder {
+ public:
+  StateFinder(const Checker& checker, std::uint64_t seed)
+      : checker_(checker), model_(checker.model()), random_(seed) {}
+
+  /// Returns up to two different valid states, the start first.
+  std::vector<FoundState> find() {
+    addNamed();
+    if (found_.size() < 2) addResting();
+    for (int i = 0; found_.size() < 2 && i < kRandomStates; ++i) addRandom();
+    if (found_.size() < 2 && spare_) found_.push_back(std::move(*spare_));
+    return std::move(found_);
+  }
+
+ private:
+  /// Returns whether the state is valid, and none of those found.
+  bool isNew(const Configuration& q) const {
+    return std::none_of(found_.begin(), found_.end(),
+                        [&](const FoundState& f) { return model_.space.equal(f.q, q); }) &&
+           checker_.certifiedState(q);
+  }
+
+  void addNamed() {
+    const ModelRobot& robot = model_.robots.front();
+    for (const auto& [name, state] : robot.model.states) {
+      if (found_.size() == 2) return;
+      if (!state.unusable.empty()) continue;
+      const auto q = configurationOf(model_, state);
+      if (!q || !isNew(*q)) continue;
+      const bool byName = holdsAgree(robot, state);
+      found_.push_back(
+          {*q, byName ? yamlWord(name) : stateText(model_, *q),
+           byName ? "a named state of the robot"
+                  : "the named state " + yamlWord(name) + ", without the joints that are held"});
+    }
+  }
+
+  void addResting() {
+    Configuration zero = Configuration::Zero(static_cast<Eigen::Index>(model_.space.size())),
+                  middle = zero;
+    for (const Coordinate& c : model_.space.coordinates()) {
+      const auto i = static_cast<Eigen::Index>(c.first);
+      if (c.kind == Coordinate::Kind::rotation) zero[i + 3] = middle[i + 3] = 1;
+      if (c.kind != Coordinate::Kind::line) continue;
+      zero[i] = std::clamp(0.0, c.lower, c.upper);
+      if (std::isfinite(c.upper - c.lower)) middle[i] = c.lower + (c.upper - c.lower) / 2;
+    }
+    add(zero, "every joint at 0, or at the limit nearest to 0");
+    if (found_.size() < 2) add(middle, "every joint in the middle of its limits");
+  }
+
+  /// A random state is the goal only if the straight edge from the start is proved free, so that a
+  /// path exists. The first other valid state is kept, in case there is none.
+  void addRandom() {
+    const Configuration q = randomConfiguration(model_.space, [&] { return random_(); });
+    if (!isNew(q)) return;
+    FoundState state{q, stateText(model_, q), "a random valid state"};
+    if (found_.empty() || checker_.certifiedEdge(found_.front().q, q))
+      found_.push_back(std::move(state));
+    else if (!spare_)
+      spare_ = std::move(state);
+  }
+
+  void add(const Configuration& q, const std::string& origin) {
+    if (!isNew(q)) return;
+    FoundState state{q, stateText(model_, q), origin};
+    if (found_.empty() || checker_.certifiedEdge(found_.front().q, q))
+      found_.push_back(std::move(state));
+  }
+
+  const Checker& checker_;
+  const Model& model_;
+  std::mt19937_64 random_;
+  std::vector<FoundState> found_;
+  std::optional<FoundState> spare_;
+};
+
+/// Returns `bounds` for all bodies that move as a whole, or "".
+std::string boundsText(const Alone& alone) {
+  const ModelRobot& robot = alone.model.robots.front();
+  std::string text;
+  for (const PlannedJoint& planned : robot.plannedJoints) {
+    if (!isPoseJoint(planned.type)) continue;
+    const std::size_t count = planned.type == JointType::planar ? 2 : 3;
+    const double far = 4 * alone.size;
+    const std::string box = "{at: [" + pointText(Vec3::Constant(-far), count) + ", " +
+                            pointText(Vec3::Constant(far), count) + "]}";
+    if (robot.isRigid()) return "bounds: " + box + "  # m: where the reference point may be\n";
+    text += (text.empty() ? "" : ", ") + yamlWord(planned.name) + ": " + box;
+  }
+  return text.empty() ? "" : "bounds: {" + text + "}  # m\n";
+}
+
+std::string worldText(const Alone& alone) {
+  const double s = alone.size;
+  const std::string wall = "wall: {box: " + pointText({0.2 * s, 2 * s, 2 * s}, 3) +
+                           ", at: " + pointText({2 * s, 0, 0}, 3) + "}";
+  std::string text = comment(
+      "Obstacles, by names of your choice; lengths in metres. Also sphere, "
+      "capsule, convex, and mesh: {mesh: shelf.stl, unit: mm, at: […]}");
+  if (alone.model.robots.front().isRigid())
+    return text + "world:\n  " + wall + "  # full edge lengths, centre\n";
+  return text +
+         "# world:\n#   table: {box: [1.2, 0.8, 0.04], at: [0.6, 0, -0.2]}  # full edge "
+         "lengths, centre\n#   post: {cylinder: {radius: 0.03, length: 1.5}, at: [0.4, -0.3, "
+         "0.75]}\n";
+}
+
+/// Start and goal of a rigid robot: on both sides of the wall of `worldText`.
+std::vector<FoundState> rigidStates(const Alone& alone, const Checker& checker) {
+  std::vector<FoundState> found;
+  for (const double x : {0.0, 3.9 * alone.size}) {
+    Configuration q = Configuration::Zero(static_cast<Eigen::Index>(alone.model.space.size()));
+    q[0] = x;
+    if (alone.model.robots.front().model.mount == JointType::floating) q[6] = 1;
+    if (checker.certifiedState(q)) found.push_back({q, stateText(alone.model, q), "an example"});
+  }
+  return found;
+}
+
+constexpr const char* kMore = R"(
+# Common keys, with their defaults:
+# margin: 0                # m, kept between all bodies; 0: touching is contact
+# tube: {joints: 0.001}    # the tracking error that the proof covers, too; default: rounding only
+# allow: [[hand, table]]   # pairs of bodies that may touch; default: none
+# planner: {name: RRTConnect, time: 20}   # s; if no path is found, try params: {range: 0.5}
+# simplify: true           # the path is shortened
+# seed: 1
+)";
+
+}  // namespace
+
+int newProblem(const NewProblemArguments& a) {
+  requireNewFile(a.file);
+  fs::path file = a.robot;
+  std::error_code none;
+  if (fs::is_directory(file, none)) file /= "robot.yaml";
+  FaultList faults(file.string());
+  auto setup = readRobotFile(file, faults);
+  faults.throwIfAny();
+  if (!a.file.toStdout()) requireNotAnInput(a.file.output, "--output", setup->files, "the robot");
+  const Alone alone = modelOf(std::move(setup->robot));
+  const Checker checker(alone.model);
+  const bool rigid = alone.model.robots.front().isRigid();
+  const std::vector<FoundState> found =
+      rigid ? rigidStates(alone, checker) : StateFinder(checker, a.seed).find();
+
+  std::string text = comment("A problem, written by corridor new problem. Edit it, then:");
+  text +=
+      "#   corridor check FILE                  # every fault; what start and goal touch\n"
+      "#   corridor solve FILE -o path.yaml     # plans, and proves the path\n"
+      "format: corridor-problem-1\nrobot: " +
+      yamlWord(pathFrom(a.file, file)) + "\n";
+  if (!rigid)
+    text += "# base: {at: [0, 0, 0], rpy_deg: [0, 0, 0]}  # m: the pose of the robot's root link\n";
+  text += "\n" + worldText(alone) + "\n";
+  const auto end = [&](const char* key, std::size_t i) {
+    if (i < found.size()) return comment(found[i].origin) + key + ": " + found[i].text + "\n";
+    const Configuration q = randomConfiguration(alone.model.space, [] { return ~0ull >> 1; });
+    return comment(
+               "NOT VALID: no valid state was found among the named states, the state with "
+               "every joint at 0, and " +
+               std::to_string(kRandomStates) +
+               " random states. corridor check names the links that touch.") +
+           key + ": " + stateText(alone.model, q) + "\n";
+  };
+  text += end("start", 0) + end("goal", 1) + boundsText(alone) + kMore;
+  writeNewFile(a.file, text);
+
+  const Lines out(a.file.toStdout());
+  if (a.file.output) out.line("problem", *a.file.output);
+  for (std::size_t i = 0; i < 2; ++i)
+    if (i < found.size())
+      out.line(i == 0 ? "start" : "goal", found[i].origin);
+    else
+      out.line(i == 0 ? "start" : "goal", "no valid state was found", Tone::bad);
+  return found.size() == 2 ? kDone : kNegativeResult;
+}
+
+}  // namespace corridor::app

@@ -1,0 +1,333 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "collision/core/fault_list.h"
+#include "collision/core/shortest.h"
+#include "collision/core/spelling.h"
+#include "planner/app/commands.h"
+#include "planner/app/new_file.h"
+#include "planner/app/output.h"
+#include "planner/checker/pair_survey.h"
+#include "planner/model/model_builder.h"
+#include "planner/model/planned_joints.h"
+#include "planner/robot/joint_types.h"
+#include "planner/robot/urdf_file.h"
+
+namespace corridor::app {
+namespace {
+
+namespace fs = std::filesystem;
+using Verdict = NeverInContactResult::Verdict;
+
+/// Half of the box in which random states place a planar or floating joint, metres. The pairs that
+/// such a joint moves against each other don't count, so any length will do.
+constexpr double kAnywhere = 1;
+
+/// A URDF, and the SRDF if one is given.
+struct RobotFiles {
+  RobotModel model;                  ///< without the SRDF's pairs
+  std::vector<AllowedPair> allowed;  ///< the SRDF's pairs
+};
+
+PackageMap packagesOf(const NewRobotArguments& a) {
+  PackageMap packages;
+  for (const std::string& package : a.packages) {
+    const std::size_t sign = package.find('=');
+    if (sign == package.npos || sign == 0 || sign + 1 == package.size())
+      throw InputError(Fault{"--package", 0, "NAME=FOLDER is needed, not " + quotedWord(package)});
+    const std::string folder = package.substr(sign + 1);
+    std::error_code none;
+    if (!fs::is_directory(folder, none))
+      throw InputError(Fault{"--package", 0, folder + ": no such folder"});
+    packages[package.substr(0, sign)] = folder;
+  }
+  return packages;
+}
+
+RobotFiles readFiles(const NewRobotArguments& a) {
+  const UrdfRules rules{packagesOf(a), a.visuals == "collide", a.limits == "soft",
+                        a.colladaUp == "file"};
+  std::vector<Fault> faults;
+  std::vector<fs::path> files;
+  auto model = readUrdf(a.urdf, rules, faults, files);
+  const auto ownPairs = model ? std::exchange(model->allowed, {}) : std::vector<AllowedPair>();
+  if (model && a.srdf) readSrdf(*a.srdf, *model, faults);
+  if (!faults.empty()) throw InputError(std::move(faults));
+  files.emplace_back(a.urdf);
+  if (a.srdf) files.emplace_back(*a.srdf);
+  if (!a.file.toStdout()) requireNotAnInput(a.file.output, "--output", files, "the robot");
+  RobotFiles read{std::move(*model), {}};
+  read.allowed = std::exchange(read.model.allowed, ownPairs);
+  return read;
+}
+
+/// Returns the model in which every joint moves that can.
+Model modelOf(RobotModel description, const std::string& urdf) {
+  ModelRobot robot;
+  robot.model = std::move(description);
+  const std::vector<std::size_t> moving = allMoving(robot);
+  if (moving.empty()) throw InputError(Fault{urdf, 0, "has no joint that moves by itself"});
+  ModelBuilder builder;
+  for (const std::size_t j : moving)
+    if (isPoseJoint(robot.model.joints[j].type))
+      builder.bound(robot.model.joints[j].name,
+                    {Vec3::Constant(-kAnywhere), Vec3::Constant(kAnywhere)});
+  chooseJoints(robot, moving);
+  return builder.addRobot(std::move(robot)).build();
+}
+
+/// The pairs of links, by what is known about them.
+struct Pairs {
+  std::vector<SurveyedPair> proved, always, tested;
+  /// Pairs that the SRDF allows to touch, though they were in contact in some random states only.
+  std::vector<std::pair<SurveyedPair, std::string>> contradicted;
+  std::size_t adjacent = 0, bySrdf = 0;
+};
+
+Pairs sortedPairs(const Checker& checker, const std::vector<AllowedPair>& allowed,
+                  const NewRobotArguments& a) {
+  const Model& model = checker.model();
+  std::map<std::pair<std::string, std::string>, std::string> reasons;
+  for (const AllowedPair& pair : allowed)
+    reasons.emplace(std::minmax(pair.a, pair.b), pair.reason);  // the first reason counts
+  const auto reasonOf = [&](std::size_t i, std::size_t k) {
+    const auto found = reasons.find(std::minmax(model.bodies[i].name, model.bodies[k].name));
+    return found == reasons.end() ? std::string() : found->second;
+  };
+  Pairs pairs;
+  forEachPair(model, [&](std::size_t, std::size_t, std::string_view why) {
+    pairs.adjacent += why == "adjacent";
+  });
+  const auto surveyed = surveyPairs(
+      checker, {{a.margin, a.beyondLimits, a.work}, a.samples, a.seed},
+      [&](std::size_t i, std::size_t k) { return a.work > 0 && reasonOf(i, k).empty(); });
+  for (const SurveyedPair& pair : surveyed) {
+    if (const std::string reason = reasonOf(pair.a, pair.b); !reason.empty()) {
+      ++pairs.bySrdf;
+      if (!pair.movesFreely && 0 < pair.contacts && pair.contacts < a.samples)
+        pairs.contradicted.emplace_back(pair, reason);
+    } else if (pair.proof && pair.proof->verdict == Verdict::proved) {
+      pairs.proved.push_back(pair);
+    } else if (!pair.movesFreely && a.samples > 0 && pair.contacts == a.samples) {
+      pairs.always.push_back(pair);
+    } else {
+      pairs.tested.push_back(pair);
+    }
+  }
+  return pairs;
+}
+
+std::string jointText(const RobotModel& model, const JointModel& joint) {
+  std::string text = yamlWord(joint.name) + ": " + nameOf(joint.type);
+  if (joint.mimic) return text + ", follows " + yamlWord(model.joints[joint.mimic->joint].name);
+  if (std::isfinite(joint.lower) || std::isfinite(joint.upper))
+    text += ", " + rounded(joint.lower) + " to " + rounded(joint.upper) +
+            (joint.type == JointType::prismatic ? " m" : " rad");
+  return text;
+}
+
+/// Returns the joints, groups and states as comments. A group is a key if it is the only one.
+std::string jointsText(const RobotModel& model, bool hasSrdf) {
+  std::string text = "\n" + comment("Joints:");
+  for (const JointModel& joint : model.joints)
+    if (joint.type != JointType::fixed) text += comment("- " + jointText(model, joint));
+  std::vector<std::pair<std::string, std::vector<std::string>>> groups;
+  for (const auto& [name, group] : model.groups) {
+    std::vector<std::string> moving;
+    for (const std::string& joint : group.joints)
+      if (const auto j = findJoint(model, joint); j && canMove(model.joints[*j]))
+        moving.push_back(joint);
+    if (group.unusable.empty() && !moving.empty()) groups.emplace_back(name, std::move(moving));
+  }
+  std::vector<std::string> all;
+  std::string zero;
+  for (const JointModel& joint : model.joints) {
+    if (!canMove(joint)) continue;
+    all.push_back(joint.name);
+    if (isPoseJoint(joint.type)) continue;
+    const double value =
+        joint.type == JointType::continuous ? 0 : std::clamp(0.0, joint.lower, joint.upper);
+    zero += (zero.empty() ? "" : ", ") + yamlWord(joint.name) + ": " + shortest(value);
+  }
+  text += "\n" + comment(
+                     "The joints that are planned for. Without group and joints: all that can "
+                     "move. The others are held.");
+  for (const auto& [name, joints] : groups)
+    if (groups.size() == 1)
+      text += "group: " + yamlWord(name) + "\n" +
+              comment(counted(joints.size(), "joint") + ": " + joined(joints));
+    else
+      text += comment("group: " + yamlWord(name) + "  # " + counted(joints.size(), "joint") + ": " +
+                      joined(joints));
+  text += comment("joints: " + yamlList(all));
+  text +=
+      comment("hold: {NAME: 0}  # values of joints that are not planned for, or a state's name");
+  text += "\n" + comment(hasSrdf ? "Named states of the SRDF, for start and goal of problems:"
+                                 : "Named states, for start and goal of problems, such as:");
+  bool any = false;
+  for (const auto& [name, state] : model.states) {
+    std::string values;
+    for (const auto& [joint, value] : state.values)
+      values += (values.empty() ? "" : ", ") + yamlWord(joint) + ": " + shortest(value);
+    text +=
+        comment("- " + yamlWord(name) + ": " +
+                (state.unusable.empty() ? "{" + values + "}" : "can't be used: " + state.unusable));
+    any = true;
+  }
+  if (hasSrdf && !any) text += comment("none");
+  text += comment("states: {zero: {" + zero + "}}");
+  return text;
+}
+
+/// Returns the links without shapes, the reader's notes, and the keys that change how the URDF is
+/// read.
+std::string readingText(const NewRobotArguments& a, const RobotModel& model,
+                        const std::vector<std::string>& noShapes) {
+  std::string text = "\n";
+  if (!a.packages.empty()) {
+    text += "packages: {";
+    bool first = true;
+    for (const auto& [name, folder] : packagesOf(a)) {
+      text += (first ? "" : ", ") + yamlWord(name) + ": " + yamlWord(pathFrom(a.file, folder));
+      first = false;
+    }
+    text += "}\n";
+  } else {
+    text += comment("packages: {NAME: FOLDER}  # package://NAME/…; default: searched for");
+  }
+  const auto choice = [&](const char* key, const std::optional<std::string>& value,
+                          const char* byDefault, const std::string& help) {
+    text += (value.value_or(byDefault) == byDefault ? "# " : "") + std::string(key) + ": " +
+            value.value_or(byDefault) + "  # " + help + "\n";
+  };
+  choice("visuals", a.visuals, "ignore", "collide: links without <collision> get their <visual>");
+  choice("limits", a.limits, "hard", "soft: the limits of <safety_controller> count, too");
+  choice("collada_up", a.colladaUp, "ignore", "file: the up-axis of Collada files is applied");
+  if (!noShapes.empty())
+    text += comment("Links without shapes, which are in no test: " + joined(noShapes));
+  for (const std::string& note : condensed(model.notes)) text += comment("Note: " + note);
+  return text;
+}
+
+std::string pairText(const Model& model, const SurveyedPair& pair) {
+  return yamlList({model.bodies[pair.a].name, model.bodies[pair.b].name});
+}
+
+/// Returns how many pairs are tested, and why, as a comment below `allow`.
+std::string testedText(const NewRobotArguments& a, const Model& model,
+                       const std::vector<SurveyedPair>& tested) {
+  std::size_t inContact = 0, close = 0, others = 0;
+  std::vector<const SurveyedPair*> undecided;
+  for (const SurveyedPair& pair : tested)
+    if (pair.movesFreely)
+      ++others;
+    else if (pair.contacts > 0)
+      ++inContact;
+    else if (pair.proof && pair.proof->verdict == Verdict::tooClose)
+      ++close;
+    else if (pair.proof && pair.proof->verdict == Verdict::workLimit)
+      undecided.push_back(&pair);
+    else
+      ++others;
+  std::string text = comment("Tested: " + counted(tested.size(), "pair") +
+                                 ". In contact in some of " + counted(a.samples, "random state") +
+                                 ": " + grouped(inContact) + ". Closer than " + shortest(a.margin) +
+                                 " m at some joint values: " + grouped(close) +
+                                 ". Without bounds, or not tried: " + grouped(others) +
+                                 ". Not decided within --work " + std::to_string(a.work) + ": " +
+                                 grouped(undecided.size()) + (undecided.empty() ? "." : ":"),
+                             2);
+  for (const SurveyedPair* pair : undecided) text += "  # - " + pairText(model, *pair) + "\n";
+  return text;
+}
+
+std::string pairsText(const NewRobotArguments& a, const Model& model, const Pairs& pairs) {
+  std::string text =
+      "\n" +
+      comment("Pairs of links that are not tested, besides adjacent links (" +
+              grouped(pairs.adjacent) + ")" +
+              (a.srdf ? " and those of the SRDF (" + grouped(pairs.bySrdf) + ")" : "") + ":");
+  text += pairs.proved.empty() ? "# allow:\n" : "allow:\n";
+  text +=
+      comment(pairs.proved.empty()
+                  ? std::string("No pair was proved never in contact.")
+                  : counted(pairs.proved.size(), "pair") +
+                        " proved never in contact: for all joint values within the limits, and " +
+                        shortest(a.beyondLimits) + " rad or m beyond them, the two links keep " +
+                        shortest(a.margin) +
+                        " m. If a problem has a larger margin or tube, or if the URDF, a mesh or a "
+                        "key above changes, write this file again.",
+              2);
+  for (const SurveyedPair& pair : pairs.proved) text += "  - " + pairText(model, pair) + "\n";
+  if (!pairs.always.empty()) {
+    text += comment("DECIDE: " + counted(pairs.always.size(), "pair") + " in contact in all of " +
+                        counted(a.samples, "random state") +
+                        ", so that no state may ever be valid. If the shapes overlap by design, "
+                        "remove the #; if not, correct the URDF.",
+                    2);
+    for (const SurveyedPair& pair : pairs.always) text += "  # - " + pairText(model, pair) + "\n";
+  }
+  text += testedText(a, model, pairs.tested);
+  if (!pairs.contradicted.empty()) {
+    text += "\n" + comment(
+                       "CHECK: the SRDF excludes these pairs from all tests, but they were in "
+                       "contact in some of the random states, and free in others. A path may "
+                       "lead through such a contact unnoticed.");
+    for (const auto& [pair, reason] : pairs.contradicted)
+      text += comment("- " + pairText(model, pair) + ": in " + grouped(pair.contacts) + " of " +
+                      grouped(a.samples) + " (" + reason + ")");
+  }
+  return text;
+}
+
+}  // namespace
+
+int newRobot(const NewRobotArguments& a) {
+  requireNewFile(a.file);
+  RobotFiles files = readFiles(a);
+  RobotModel description = files.model;  // keeps what the text needs
+  std::vector<std::string> noShapes;
+  for (LinkModel& link : description.links) {
+    if (link.shapes.empty()) noShapes.push_back(link.name);
+    link.shapes.clear();
+  }
+  const Model model = modelOf(std::move(files.model), a.urdf);
+  const Checker checker(model);
+  const Pairs pairs = sortedPairs(checker, files.allowed, a);
+
+  std::string text = comment(
+      "A robot with joints, written by corridor new robot. Edit it as you "
+      "like: what follows a # is a comment.");
+  text += comment(
+      "corridor inspect FILE shows what this file says; corridor new problem FILE "
+      "writes a problem for it.");
+  text += "format: corridor-robot-1\nname: " + yamlWord(description.name) +
+          "\nurdf: " + yamlWord(pathFrom(a.file, a.urdf)) + "\n";
+  text += a.srdf ? "srdf: " + yamlWord(pathFrom(a.file, *a.srdf)) + "\n"
+                 : comment("srdf: FILE  # groups, named states, pairs of links that may touch");
+  text += readingText(a, description, noShapes);
+  text += jointsText(description, a.srdf.has_value());
+  text += pairsText(a, model, pairs);
+  writeNewFile(a.file, text);
+
+  const Lines out(a.file.toStdout());
+  if (a.file.output) out.line("robot", *a.file.output);
+  out.line("pairs", grouped(pairs.adjacent) + " adjacent" +
+                        (a.srdf ? ", " + grouped(pairs.bySrdf) + " by the SRDF" : "") + ", " +
+                        grouped(pairs.proved.size()) + " proved never in contact, " +
+                        grouped(pairs.always.size()) + " in contact in all random states, " +
+                        grouped(pairs.tested.size()) + " others");
+  if (!pairs.always.empty())
+    out.line("decide", "the pairs that are marked DECIDE in the file: no state may ever be valid",
+             Tone::bad);
+  if (!pairs.contradicted.empty())
+    out.line("check",
+             counted(pairs.contradicted.size(), "pair") +
+                 " of the SRDF that touched in some random states only: marked CHECK in the file",
+             Tone::bad);
+  return kDone;
+}
+
+}  // namespace corridor::app

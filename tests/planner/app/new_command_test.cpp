@@ -1,0 +1,250 @@
+// Tests of the program `corridor new`.
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/planner/app/program_fixtures.h"
+
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::Not;
+
+/// A base with four balls about an arm whose elbow is between two fixed stops. In joint values:
+/// - far is never near the hand;
+/// - inner is in contact with the hand in every state, by design;
+/// - side is in contact with the hand in some states.
+class NewCommand : public corridor::test::ArmTest {
+ protected:
+  NewCommand() {
+    const auto ball = [](const std::string& name, const std::string& at, double radius) {
+      return "<link name=\"" + name + "\"><collision><origin xyz=\"" + at +
+             "\"/><geometry><sphere radius=\"" + std::to_string(radius) +
+             "\"/></geometry></collision></link>\n";
+    };
+    const auto joint = [](const std::string& name, const std::string& parent,
+                          const std::string& child, const std::string& at, double limit) {
+      return "<joint name=\"" + name + "\" type=\"revolute\"><parent link=\"" + parent +
+             "\"/><child link=\"" + child + "\"/><origin xyz=\"" + at +
+             "\"/><axis xyz=\"0 0 1\"/><limit lower=\"-" + std::to_string(limit) + "\" upper=\"" +
+             std::to_string(limit) + "\" effort=\"1\" velocity=\"1\"/></joint>\n";
+    };
+    const auto fixed = [](const std::string& child) {
+      return "<joint name=\"to " + child +
+             "\" type=\"fixed\"><parent link=\"base\"/><child link=\"" + child + "\"/></joint>\n";
+    };
+    write("reach.urdf",
+          "<robot name=\"reach\">\n<link name=\"base\"/>\n<link name=\"upper\"/>\n"
+          "<link name=\"skin\"><visual><geometry><sphere "
+          "radius=\"1\"/></geometry></visual></link>\n" +
+              ball("far", "-3 0 0", 0.5) + ball("inner", "1 0 0", 1.05) +
+              ball("side", "1.9 0.5 0", 0.1) + ball("hand", "0.9 0 0", 0.2) + fixed("far") +
+              fixed("inner") + fixed("side") + fixed("skin") +
+              joint("shoulder", "base", "upper", "0 0 0", 0.4) +
+              joint("elbow", "upper", "hand", "1 0 0", 0.2) + "</robot>\n");
+    write(
+        "reach.srdf",
+        "<robot name=\"reach\">\n<group name=\"arm\"><joint name=\"shoulder\"/><joint "
+        "name=\"elbow\"/></group>\n"
+        "<group_state name=\"left\" group=\"arm\"><joint name=\"shoulder\" value=\"-0.3\"/><joint "
+        "name=\"elbow\" value=\"-0.1\"/></group_state>\n"
+        "<disable_collisions link1=\"inner\" link2=\"hand\" reason=\"Always\"/>\n"
+        "<disable_collisions link1=\"side\" link2=\"hand\" reason=\"Never\"/>\n</robot>\n");
+  }
+
+  /// Returns the pairs that a robot's file allows, besides adjacent links, with the reasons.
+  std::vector<std::string> allowedPairs(const std::string& robot) const {
+    std::vector<std::string> pairs;
+    const json report = json::parse(run("inspect " + robot + " --json").out);
+    for (const json& pair : report["allowed"])
+      if (pair["reason"] != "adjacent")
+        pairs.push_back(pair["a"].get<std::string>() + ", " + pair["b"].get<std::string>() + ": " +
+                        pair["reason"].get<std::string>());
+    return pairs;
+  }
+};
+
+TEST_F(NewCommand, WritesARobotWithItsPairs) {
+  const Result result = run("new robot reach.urdf -o reach.yaml");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.out,
+            "robot: reach.yaml\n"
+            "pairs: 0 adjacent, 1 proved never in contact, 1 in contact in all random states, 1 "
+            "others\n"
+            "decide: the pairs that are marked DECIDE in the file: no state may ever be valid\n");
+  const std::string file = read("reach.yaml");
+  EXPECT_THAT(file, HasSubstr("format: corridor-robot-1\nname: reach\nurdf: reach.urdf\n"));
+  EXPECT_THAT(file, HasSubstr("\nallow:\n  # 1 pair proved never in contact"));
+  EXPECT_THAT(file, HasSubstr("\n  - [far, hand]\n"));
+  EXPECT_THAT(file, HasSubstr("  # DECIDE: 1 pair in contact in all of 1,000 random states"));
+  EXPECT_THAT(file, HasSubstr("\n  # - [inner, hand]\n"));
+  EXPECT_THAT(file, Not(HasSubstr("[side, hand]")));
+  EXPECT_THAT(file, HasSubstr("# - shoulder: revolute, -0.4 to 0.4 rad\n"));
+  EXPECT_THAT(file, HasSubstr("# Note: ")) << "the link with a <visual> only";
+
+  // It loads at once, and excludes the pair that was proved, and no other.
+  EXPECT_EQ(allowedPairs("reach.yaml"), std::vector<std::string>({"far, hand: robot.yaml: allow"}));
+}
+
+TEST_F(NewCommand, ReadsAnSrdfAndChecksItsPairs) {
+  const Result result = run("new robot reach.urdf --srdf reach.srdf -o reach.yaml");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.out,
+              HasSubstr("pairs: 0 adjacent, 2 by the SRDF, 1 proved never in contact, 0 "
+                        "in contact in all random states, 0 others\n"));
+  EXPECT_THAT(result.out,
+              HasSubstr("check: 1 pair of the SRDF that touched in some random states"));
+  const std::string file = read("reach.yaml");
+  EXPECT_THAT(file, HasSubstr("\nsrdf: reach.srdf\n"));
+  EXPECT_THAT(file, HasSubstr("\ngroup: arm\n"));
+  EXPECT_THAT(file, HasSubstr("# - left: {elbow: -0.1, shoulder: -0.3}\n"));
+  EXPECT_THAT(file, HasSubstr("# CHECK: the SRDF excludes these pairs"));
+  EXPECT_THAT(file, testing::ContainsRegex("# - \\[side, hand\\]: in [0-9]+ of 1,000 \\(SRDF: "
+                                           "Never\\)\n"));
+  EXPECT_THAT(file, Not(HasSubstr("[inner, hand]"))) << "the SRDF allows it, rightly";
+  EXPECT_EQ(allowedPairs("reach.yaml"),
+            std::vector<std::string>({"inner, hand: SRDF: Always", "side, hand: SRDF: Never",
+                                      "far, hand: robot.yaml: allow"}));
+}
+
+TEST_F(NewCommand, WritesTheSameFileEachTime) {
+  const std::string first = run("new robot reach.urdf").out;
+  EXPECT_EQ(run("new robot reach.urdf -o -").out, first);
+  EXPECT_EQ(run("new robot reach.urdf --seed 1").out, first);
+  ASSERT_EQ(run("new robot reach.urdf -o reach.yaml").status, 0);
+  EXPECT_EQ(read("reach.yaml"), first);
+  EXPECT_EQ(run("new problem reach.urdf --seed 3").out, run("new problem reach.urdf --seed 3").out);
+}
+
+TEST_F(NewCommand, ProvesWithTheGivenMarginLimitsAndWork) {
+  const auto proves = [&](const std::string& options) {
+    return read("out.txt").empty()
+               ? false
+               : run("new robot reach.urdf " + options).out.find("\n  - [far, hand]\n") !=
+                     std::string::npos;
+  };
+  run("--version");
+  EXPECT_TRUE(proves("--margin 1 --beyond-limits 0.1"));
+  // The hand is 1.9 m from the shoulder, far is 3 m from it: at most 4.9 m are between centres.
+  EXPECT_FALSE(proves("--margin 4.3"));
+  EXPECT_FALSE(proves("--margin 1 --beyond-limits 4")) << "the arm turns right round";
+  EXPECT_FALSE(proves("--work 0"));
+  EXPECT_FALSE(proves("--work 0 --samples 0"));
+  EXPECT_THAT(run("new robot reach.urdf --samples 0").out, Not(HasSubstr("DECIDE")));
+}
+
+TEST_F(NewCommand, WritesHowTheUrdfIsRead) {
+  std::filesystem::create_directory(folder_ / "parts");
+  const Result result =
+      run("new robot reach.urdf --visuals collide --limits soft --collada-up file --package "
+          "parts=parts -o reach.yaml");
+  ASSERT_EQ(result.status, 0) << result.err;
+  const std::string file = read("reach.yaml");
+  for (const char* line : {"\nvisuals: collide  #", "\nlimits: soft  #", "\ncollada_up: file  #",
+                           "\npackages: {parts: parts}\n"})
+    EXPECT_THAT(file, HasSubstr(line));
+  EXPECT_EQ(run("inspect reach.yaml").status, 0);
+}
+
+/// File names in the new file are relative to its folder.
+TEST_F(NewCommand, NamesFilesFromTheNewFilesFolder) {
+  std::filesystem::create_directory(folder_ / "robots");
+  ASSERT_EQ(run("new robot reach.urdf --srdf reach.srdf -o robots/robot.yaml").status, 0);
+  EXPECT_THAT(read("robots/robot.yaml"), HasSubstr("urdf: ../reach.urdf\nsrdf: ../reach.srdf\n"));
+  EXPECT_EQ(run("inspect robots").status, 0);
+  ASSERT_EQ(run("new problem robots -o problem2.yaml").status, 0);
+  EXPECT_THAT(read("problem2.yaml"), HasSubstr("robot: robots/robot.yaml\n"));
+}
+
+TEST_F(NewCommand, WritesAProblemThatCanBeSolved) {
+  // Named states, which the problem names.
+  write("arm-robot.yaml",
+        "format: corridor-robot-1\nurdf: arm.urdf\nstates:\n  a: {shoulder: 0, elbow: 0}\n  b: "
+        "{shoulder: 1, elbow: 1}\n");
+  Result result = run("new problem arm-robot.yaml -o named.yaml");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.out,
+            "problem: named.yaml\nstart: a named state of the robot\ngoal: a named state of the "
+            "robot\n");
+  EXPECT_THAT(read("named.yaml"), HasSubstr("\nstart: a\n"));
+  EXPECT_THAT(read("named.yaml"), HasSubstr("\ngoal: b\n"));
+  // No named states.
+  ASSERT_EQ(run("new problem reach.urdf -o x.yaml").status, 1);
+  EXPECT_THAT(read("x.yaml"), HasSubstr("# NOT VALID: "));
+  ASSERT_EQ(run("new robot reach.urdf --srdf reach.srdf -o reach.yaml").status, 0);
+  ASSERT_EQ(run("new problem reach.yaml -o one.yaml").status, 0);
+  EXPECT_THAT(read("one.yaml"), HasSubstr("\nstart: left\n"));
+  ASSERT_EQ(run("new problem arm.urdf -o none.yaml").status, 0);
+  EXPECT_THAT(read("none.yaml"), HasSubstr("# every joint at 0, or at the limit nearest to 0\n"));
+  for (const char* problem : {"named.yaml", "one.yaml", "none.yaml"}) {
+    EXPECT_EQ(run("check " + std::string(problem)).status, 0) << problem;
+    result = run("solve " + std::string(problem) + " -o s.yaml");
+    EXPECT_EQ(result.status, 0) << problem << result.out << result.err;
+    EXPECT_EQ(run("verify " + std::string(problem) + " s.yaml").status, 0) << problem;
+  }
+}
+
+TEST_F(NewCommand, WritesProblemsOfBodiesThatMoveAsAWhole) {
+  write(
+      "cart.urdf",
+      "<robot name='cart'><link name='world'/><link name='cart'><collision><geometry><box size='1 "
+      "1 1'/></geometry></collision></link><joint name='drive' type='planar'><parent "
+      "link='world'/><child link='cart'/><axis xyz='0 0 1'/></joint></robot>");
+  write("flyer.urdf",
+        "<robot name='flyer'><link name='world'/><link name='body'><collision><geometry><box "
+        "size='1 1 1'/></geometry></collision></link><joint name='fly' type='floating'><parent "
+        "link='world'/><child link='body'/></joint></robot>");
+  write("plane.yaml",
+        "format: corridor-robot-1\nname: cube\nrigid: SE2\nshapes: [{box: [0.2, 0.2, 0.2]}]\n");
+  for (const char* robot : {"robot.yaml", "plane.yaml", "cart.urdf", "flyer.urdf"}) {
+    const Result result = run("new problem " + std::string(robot) + " -o p.yaml --force");
+    ASSERT_EQ(result.status, 0) << robot << result.err;
+    const Result solved = run("solve p.yaml -o s.yaml");
+    EXPECT_EQ(solved.status, 0) << robot << solved.out << solved.err << read("p.yaml");
+  }
+}
+
+TEST_F(NewCommand, ReplacesNoFile) {
+  write("robot2.yaml", "mine\n");
+  expectFault("new robot reach.urdf -o robot2.yaml",
+              "--output: robot2.yaml exists; name another file, or replace it by --force");
+  expectFault("new problem reach.urdf -o robot2.yaml",
+              "--output: robot2.yaml exists; name another file, or replace it by --force");
+  EXPECT_EQ(read("robot2.yaml"), "mine\n");
+  EXPECT_EQ(run("new robot reach.urdf -o robot2.yaml --force").status, 0);
+  EXPECT_THAT(read("robot2.yaml"), HasSubstr("format: corridor-robot-1"));
+  expectFault("new robot reach.urdf -o reach.urdf --force",
+              "--output: reach.urdf belongs to the robot and would be overwritten; name another "
+              "file");
+  expectFault("new problem reach.urdf -o reach.urdf --force",
+              "--output: reach.urdf belongs to the robot and would be overwritten; name another "
+              "file");
+}
+
+TEST_F(NewCommand, BadInputIsOneLineAndExit2) {
+  expectFault("new", "A subcommand is required; see corridor new --help");
+  expectFault("new robt reach.urdf",
+              "unknown command \"robt\" (did you mean \"robot\"?); there are: robot, problem; see "
+              "corridor new --help");
+  expectFault("new robot", "URDF is required; see corridor new robot --help");
+  expectFault(
+      "new robot reach.urdf --sdrf x",
+      "unknown option \"--sdrf\" (did you mean \"--srdf\"?); see corridor new robot --help");
+  expectFault("new robot reach.urdf -o ''", "--output: is empty; see corridor new robot --help");
+  expectFault("new robot none.urdf", "none.urdf: no such file");
+  expectFault("new robot reach.urdf --srdf none.srdf", "none.srdf: no such file");
+  expectFault("new robot reach.urdf --package a", "--package: NAME=FOLDER is needed, not \"a\"");
+  expectFault("new robot reach.urdf --package a=none", "--package: none: no such folder");
+  expectFault("new robot reach.urdf --margin -1",
+              "--margin: a number from 0 to 1000000 is needed, not \"-1\"; see corridor new robot "
+              "--help");
+  expectFault("new robot reach.urdf -o none/robot.yaml", "--output: there is no folder none");
+  expectFault("new problem none.yaml", "none.yaml: no such file");
+  write("still.urdf", "<robot name='still'><link name='a'/></robot>");
+  expectFault("new robot still.urdf", "still.urdf: has no joint that moves by itself");
+}
+
+}  // namespace
