@@ -171,7 +171,9 @@ class StateFinder {
   /// A random state is the goal only if the straight edge from the start is proved free, so that a
   /// path exists. The first other valid state is kept, in case there is none.
   void addRandom() {
-    const Configuration q = randomConfiguration(model_.space, [&] { return random_(); });
+    Configuration q = randomConfiguration(model_.space, [&] { return random_(); });
+    // Three decimals are easy to read and to edit. The state is tested as it is written.
+    q = (q * 1000).array().round() / 1000;
     if (!isNew(q)) return;
     FoundState state{q, stateText(model_, q), "a random valid state"};
     if (found_.empty() || checker_.certifiedEdge(found_.front().q, q))
