@@ -42,8 +42,9 @@ double sizeOf(const RobotModel& description) {
   double size = 0;
   for (const LinkModel& link : description.links)
     for (const PlacedShape& shape : link.shapes)
-      for (const Vec3& p : shape.part ? shape.part->points : shape.mesh->mesh.vertices)
-        size = std::max(size, p.cwiseAbs().maxCoeff() + (shape.part ? shape.part->radius : 0));
+      forEachPoint(shape, [&](const Vec3& p, double radius) {
+        size = std::max(size, p.cwiseAbs().maxCoeff() + radius);
+      });
   // Two digits are enough, and easy to edit.
   if (!(size > 0)) return 1;
   const double unit = std::pow(10, std::floor(std::log10(size)) - 1);
@@ -256,11 +257,9 @@ int newProblem(const NewProblemArguments& a) {
   fs::path file = a.robot;
   std::error_code none;
   if (fs::is_directory(file, none)) file /= "robot.yaml";
-  FaultList faults(file.string());
-  auto setup = readRobotFile(file, faults);
-  faults.throwIfAny();
-  if (!a.file.toStdout()) requireNotAnInput(a.file.output, "--output", setup->files, "the robot");
-  const Alone alone = modelOf(std::move(setup->robot));
+  RobotSetup setup = readRobotAlone(file);
+  if (!a.file.toStdout()) requireNotAnInput(a.file.output, "--output", setup.files, "the robot");
+  const Alone alone = modelOf(std::move(setup.robot));
   const Checker checker(alone.model);
   const bool rigid = alone.model.robots.front().isRigid();
   const std::vector<FoundState> found =

@@ -207,7 +207,7 @@ std::string readingText(const NewRobotArguments& a, const RobotModel& model,
   choice("collada_up", a.colladaUp, "ignore", "file: the up-axis of Collada files is applied");
   if (!noShapes.empty())
     text += comment("Links without shapes, which are in no test: " + joined(noShapes));
-  for (const std::string& note : condensed(model.notes)) text += comment("Note: " + note);
+  for (const std::string& note : condensed(textsOf(model.notes))) text += comment("Note: " + note);
   return text;
 }
 

@@ -36,7 +36,7 @@ bool moves(const Frame& frame) {
 }
 
 bool isSolidMesh(const Body& body) {
-  return body.solid() && !body.part();
+  return body.solid() && body.isMesh();
 }
 
 struct Range {

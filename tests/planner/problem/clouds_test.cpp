@@ -46,8 +46,9 @@ TEST_F(Clouds, Points) {
       << "y up: (1, 1, 1) becomes (1, -1, 1), and is turned by 90 degrees";
   EXPECT_EQ(shape.parts[2].radius, 0.25) << "metres, whatever the file's unit";
   EXPECT_EQ(shape.file.filename(), "cloud.xyz");
-  EXPECT_THAT(p.source.notes, testing::Contains(testing::HasSubstr(
-                                  "cloud.xyz: 1 of 4 points are not finite, and are left out")));
+  EXPECT_THAT(textsOf(p.source.notes),
+              testing::Contains(
+                  testing::HasSubstr("cloud.xyz: 1 of 4 points are not finite, and are left out")));
   EXPECT_THAT(p.source.files, testing::Contains(folder_ / "cloud.xyz"));
   const std::string digest = digestOf(p);
   write("cloud.xyz", "1 0 0\n");
