@@ -47,7 +47,8 @@ struct Chain {
     problem.tube = Configuration::Zero(joints);
     problem.bodies.push_back({"obstacle", nullptr, {&obstacle, 1}, false, 0});
     for (std::size_t j = 0; j < rods.size(); ++j) {
-      problem.bodies.push_back({"rod" + std::to_string(j + 1), nullptr, {&rods[j], 1}, false, j + 1});
+      problem.bodies.push_back(
+          {"rod" + std::to_string(j + 1), nullptr, {&rods[j], 1}, false, j + 1});
       problem.pairs.push_back({0, j + 1});
       for (std::size_t i = 0; i + 1 < j; ++i) problem.pairs.push_back({i + 1, j + 1});
     }

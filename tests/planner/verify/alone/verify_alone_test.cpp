@@ -22,7 +22,8 @@ TEST(VerifyAlone, ProvesAndRefutes) {
   PathProblem problem;
   problem.tree = &tree;
   problem.space = &space;
-  problem.bodies = {{"ball", nullptr, {&ball, 1}, false, 1}, {"post", nullptr, {&post, 1}, false, 0}};
+  problem.bodies = {{"ball", nullptr, {&ball, 1}, false, 1},
+                    {"post", nullptr, {&post, 1}, false, 0}};
   problem.pairs = {{0, 1}};
   problem.tube = Configuration::Constant(1, 1e-9);
   problem.tolerance = 1e-6;
