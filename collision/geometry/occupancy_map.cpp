@@ -28,7 +28,11 @@ enum class NodeKind { none, free, occupied, inner };
 class MapReader {
  public:
   MapReader(std::string_view bytes, const OccupancyRules& rules, const std::string& file)
-      : cursor_(bytes), bytes_(bytes), rules_(rules), faults_(file) {}
+      : cursor_(bytes),
+        bytes_(bytes),
+        rules_(rules),
+        least_(static_cast<float>(std::log(rules.threshold / (1 - rules.threshold)))),
+        faults_(file) {}
 
   OccupancyMap read() {
     if (!(rules_.threshold > 0 && rules_.threshold < 1))
@@ -67,6 +71,7 @@ class MapReader {
       faults_.fail(1, "a map of OctoMap begins with \"" + std::string(kBinary) + "\" or \"" +
                           std::string(kFull) + "\"");
     map_.format = binary_ ? "OctoMap (.bt)" : "OctoMap (.ot)";
+    map_.hasProbabilities = !binary_;
     std::string id;
     std::optional<std::int64_t> size;
     for (;;) {
@@ -95,7 +100,7 @@ class MapReader {
     color_ = id == "ColorOcTree";
     // The largest coordinate, 2^15 times the resolution, must be finite.
     if (!(map_.resolution > 0 && map_.resolution < 1e100))
-      faults_.fail(0, "res: the edge length of a cell, in metres, must be positive");
+      faults_.fail(0, "res: the edge length of a cell, in metres, must be above 0 and below 1e100");
     if (!size) faults_.fail(0, "the header has no line \"size\"");
     promised_ = *size;
     at_ = bytes_.size() - cursor_.bytesLeft();
@@ -143,7 +148,7 @@ class MapReader {
       } else if (kind == NodeKind::free) {
         addFree(own);
       } else if (kind == NodeKind::none) {
-        missing_.push_back(own);
+        addMissing(own);
       } else if (readChildren(own, depth + 1)) {
         ++full;
       }
@@ -173,7 +178,7 @@ class MapReader {
     const auto children = take<std::uint8_t>();
     if (children == 0) {
       // NaN counts as occupied.
-      const bool isFree = logOdds < std::log(rules_.threshold / (1 - rules_.threshold));
+      const bool isFree = logOdds < least_;
       if (isFree)
         addFree(cube);
       else
@@ -188,7 +193,7 @@ class MapReader {
       if (children >> child & 1)
         full += readNode(childOf(cube, child), depth + 1);
       else
-        missing_.push_back(childOf(cube, child));
+        addMissing(childOf(cube, child));
     }
     return joined(cube, full, before);
   }
@@ -204,15 +209,25 @@ class MapReader {
     add(cube);
     measured(cube);
   }
+  void addMissing(const Cube& cube) {
+    if (!rules_.unknownIsOccupied) return;
+    if (missing_.size() == kMostCubes) failCount();
+    missing_.push_back(cube);
+  }
   void addFree(const Cube& cube) {
     ++map_.free;
     measured(cube);
   }
   void add(const Cube& cube) {
-    if (map_.cubes.size() == kMostCubes)
-      faults_.fail(0, "has more than " + std::to_string(kMostCubes) +
-                          " occupied cubes; use a coarser resolution");
+    if (map_.cubes.size() == kMostCubes) failCount();
     map_.cubes.push_back(cube);
+  }
+  [[noreturn]] void failCount() {
+    faults_.fail(0, "has more than " + std::to_string(kMostCubes) +
+                        (rules_.unknownIsOccupied ? " unknown or occupied cubes; use unknown: free"
+                                                  : " occupied cubes") +
+                        (rules_.unknownIsOccupied ? ", or a coarser resolution"
+                                                  : "; use a coarser resolution"));
   }
   void measured(const Cube& cube) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -243,6 +258,7 @@ class MapReader {
   TextCursor cursor_;
   std::string_view bytes_;
   const OccupancyRules& rules_;
+  float least_;  // log-odds of the threshold, in float, as OctoMap stores and compares them
   MeshFaults faults_;
   OccupancyMap map_;
   std::vector<Cube> missing_;  // children that inner nodes don't have

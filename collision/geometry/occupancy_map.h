@@ -16,8 +16,9 @@ struct OccupancyRules {
   /// Cells of which the file has no measurement are obstacles, too, as far as the box around all
   /// measured cells reaches.
   bool unknownIsOccupied = false;
-  /// A cell is occupied if its probability is at least this one, in (0, 1). Files of .bt have no
-  /// probabilities: their cells are either free or occupied.
+  /// A cell is occupied if its probability is at least this one, in (0, 1). Both are compared as
+  /// log-odds in float, as OctoMap does. Files of .bt have no probabilities: their cells are either
+  /// free or occupied.
   double threshold = 0.5;
 };
 
@@ -32,7 +33,8 @@ struct OccupancyMap {
   double resolution = 0;    ///< edge length of the smallest cell, metres
   std::vector<Cube> cubes;  ///< occupied, or unknown if requested. Eight equal cubes are joined
   std::size_t free = 0;     ///< number of free cubes
-  std::string format;       ///< "OctoMap (.bt)", "OctoMap (.ot)"
+  bool hasProbabilities = false;  ///< true for .ot
+  std::string format;             ///< "OctoMap (.bt)", "OctoMap (.ot)"
 
   Vec3 centerOf(const Cube& cube) const;
   double sizeOf(const Cube& cube) const { return cube.size * resolution; }

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "collision/geometry/point_readers.h"
@@ -29,7 +30,17 @@ struct Header {
   std::size_t size = 0;  ///< bytes before the data
   int lines = 0;
   std::array<std::size_t, 3> xyz{};  ///< fields
+  bool hasViewpoint = false;
 };
+
+/// Returns whether a viewpoint, tx ty tz qw qx qy qz, is the identity.
+bool isIdentity(const std::vector<std::string>& viewpoint) {
+  for (std::size_t i = 0; i < viewpoint.size(); ++i) {
+    double value = 0;
+    if (parseCoordinate(viewpoint[i], value) || value != (i == 3 ? 1 : 0)) return false;
+  }
+  return true;
+}
 
 /// Reads the header: lines of a keyword and words, until the line DATA.
 class HeaderReader {
@@ -38,8 +49,7 @@ class HeaderReader {
       : cursor_(bytes), bytes_(bytes), faults_(faults) {}
 
   Header read() {
-    std::uint64_t width = 0, height = 1;
-    std::optional<std::uint64_t> points;
+    std::optional<std::uint64_t> width, height, points;
     do {
       const std::string_view keyword = cursor_.wordInLine();
       if (keyword.empty() || keyword.front() == '#') continue;
@@ -57,19 +67,25 @@ class HeaderReader {
         forEachField(keyword,
                      [&](Field& f, const std::string& w) { f.count = number(w, 100'000); });
       } else if (keyword == "WIDTH") {
-        width = number(one(keyword), kMaxMeshElements);
+        width = number(one(keyword), 1'000'000'000);
       } else if (keyword == "HEIGHT") {
-        height = number(one(keyword), kMaxMeshElements);
+        height = number(one(keyword), 1'000'000'000);
       } else if (keyword == "POINTS") {
-        points = number(one(keyword), kMaxMeshElements);
+        points = number(one(keyword), 1'000'000'000);
       } else if (keyword == "DATA") {
         header_.data = one(keyword);
-      } else if (keyword != "VERSION" && keyword != "VIEWPOINT") {
+      } else if (keyword == "VIEWPOINT") {
+        header_.hasViewpoint = !isIdentity(words());
+      } else if (keyword != "VERSION") {
         fail(inQuotes(keyword) + " is no line of a PCD header");
       }
     } while (header_.data.empty() && cursor_.nextLine());
     if (header_.data.empty()) fail("the header has no line DATA; a PCD file needs one");
-    finish(points.value_or(width * height));
+    const std::uint64_t product = width.value_or(0) * height.value_or(1);
+    if (points && width && *points != product)
+      faults_.fail(0, "POINTS is " + std::to_string(*points) + ", but WIDTH times HEIGHT is " +
+                          std::to_string(product));
+    finish(points.value_or(product));
     return std::move(header_);
   }
 
@@ -109,7 +125,7 @@ class HeaderReader {
   }
 
   void finish(std::uint64_t points) {
-    faults_.requireFew(points, "points", 0);
+    requireFewPoints(points, 0, faults_);
     header_.points = points;
     for (Field& field : header_.fields) {
       if (field.type == 'F' && field.size < 4)
@@ -174,34 +190,54 @@ void requireBytes(const Header& header, std::uint64_t available, MeshFaults& fau
                      std::to_string(available) + " bytes are left: the file is cut short");
 }
 
+/// One point per line; blank lines are skipped.
 std::vector<Vec3> readAscii(std::string_view body, const Header& header, MeshFaults& faults) {
   std::uint64_t words = 0;
   for (const Field& field : header.fields) words += field.count;
+  std::array<std::uint64_t, 3> places{};  // of x, y and z among the words of a line
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (std::size_t f = 0; f < header.xyz[axis]; ++f) places[axis] += header.fields[f].count;
   if (header.points > (body.size() + 1) / (2 * words))  // a digit and a blank per number
     faults.fail(0, "the header promises " + std::to_string(header.points) + " points of " +
                        std::to_string(words) + " numbers; the file is cut short");
+  std::vector<Vec3> points;
+  points.reserve(header.points);
   TextCursor cursor(body, header.lines + 1);
-  std::vector<Vec3> points(header.points);
-  for (std::uint64_t i = 0; i < header.points; ++i)
-    for (std::size_t f = 0; f < header.fields.size(); ++f)
-      for (std::uint64_t k = 0; k < header.fields[f].count; ++k) {
-        const std::string_view word = cursor.word();
-        if (word.empty())
-          faults.fail(cursor.line(), "point " + std::to_string(i + 1) + " of " +
-                                         std::to_string(header.points) +
-                                         ": the file ends here: it is cut short");
-        for (std::size_t axis = 0; axis < 3; ++axis)
-          if (header.xyz[axis] == f)
-            if (const auto why =
-                    parseCoordinate(word, points[i][static_cast<Eigen::Index>(axis)], true))
-              faults.add(cursor.line(), *why);
-      }
+  do {
+    std::uint64_t count = 0;
+    Vec3 point = Vec3::Zero();
+    for (std::string_view word = cursor.wordInLine(); !word.empty(); word = cursor.wordInLine()) {
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        if (places[axis] == count)
+          if (const auto why = parseCoordinate(word, point[static_cast<Eigen::Index>(axis)], true))
+            faults.add(cursor.line(), *why);
+      ++count;
+    }
+    if (count == 0) continue;
+    if (count != words)
+      faults.fail(cursor.line(), "a line has " + std::to_string(count) +
+                                     " numbers; by FIELDS and COUNT a point has " +
+                                     std::to_string(words));
+    if (points.size() == header.points)
+      faults.fail(cursor.line(), "more points than the " + std::to_string(header.points) +
+                                     " that the header promises");
+    points.push_back(point);
+  } while (cursor.nextLine());
+  if (points.size() < header.points)
+    faults.fail(0, "the header promises " + std::to_string(header.points) +
+                       " points, but the file has " + std::to_string(points.size()) +
+                       ": it is cut short");
   return points;
 }
 
 /// The points one after another, each with all of its fields.
 std::vector<Vec3> readBinary(std::string_view body, const Header& header, MeshFaults& faults) {
   requireBytes(header, body.size(), faults);
+  const std::string_view rest = body.substr(header.points * header.pointBytes);
+  // Some writers fill the file up with zeros or line ends.
+  if (rest.find_first_not_of(std::string_view("\0 \t\r\n", 5)) != rest.npos)
+    faults.fail(0, std::to_string(rest.size()) +
+                       " bytes come after the last point: the header's counts are wrong");
   std::vector<Vec3> points(header.points);
   for (std::uint64_t i = 0; i < header.points; ++i)
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -270,10 +306,13 @@ std::vector<Vec3> readCompressed(std::string_view body, const Header& header, Me
 PointCloud readPcd(std::string_view bytes, MeshFaults& faults) {
   const Header header = HeaderReader(bytes, faults).read();
   const std::string_view body = bytes.substr(header.size);
-  if (header.data == "ascii") return {readAscii(body, header, faults), "PCD (ASCII)"};
-  if (header.data == "binary") return {readBinary(body, header, faults), "PCD (binary)"};
+  const auto cloud = [&](std::vector<Vec3> points, const char* format) {
+    return PointCloud{std::move(points), format, 0, header.hasViewpoint};
+  };
+  if (header.data == "ascii") return cloud(readAscii(body, header, faults), "PCD (ASCII)");
+  if (header.data == "binary") return cloud(readBinary(body, header, faults), "PCD (binary)");
   if (header.data == "binary_compressed")
-    return {readCompressed(body, header, faults), "PCD (compressed)"};
+    return cloud(readCompressed(body, header, faults), "PCD (compressed)");
   faults.fail(header.lines,
               "DATA " + inQuotes(header.data) + " is not ascii, binary or binary_compressed");
 }

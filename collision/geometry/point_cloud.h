@@ -18,6 +18,9 @@ struct PointCloud {
   /// Number of points that were left out because a coordinate is NaN or infinite. Sensors mark
   /// directions without a measurement in this way.
   std::size_t notFinite = 0;
+  /// True if a PCD file has a viewpoint (the pose of the sensor) other than the identity. It is not
+  /// applied.
+  bool hasViewpoint = false;
 };
 
 /// Reads the points of a file: the vertices of PLY; PCD (ASCII, binary and compressed); or a text

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <string>
 #include <string_view>
 
 #include "collision/geometry/mesh_text.h"
@@ -9,6 +11,15 @@
 /// coordinates as stored, those included that are not finite. Readers add every fault to `faults`,
 /// and throw InputError if there is one.
 namespace corridor {
+
+/// The largest number of points of a file.
+constexpr std::uint64_t kMostPoints = 10'000'000;
+/// Fails for more points, before memory is allocated for them.
+inline void requireFewPoints(std::uint64_t count, int line, MeshFaults& faults) {
+  if (count > kMostPoints)
+    faults.fail(line, "has " + std::to_string(count) + " points or more; at most " +
+                          std::to_string(kMostPoints) + " are read: thin the cloud out");
+}
 
 PointCloud readPlyPoints(std::string_view bytes, MeshFaults& faults);
 PointCloud readPcd(std::string_view bytes, MeshFaults& faults);

@@ -1,41 +1,82 @@
 #include <algorithm>
+#include <utility>
 
+#include "collision/core/spelling.h"
 #include "collision/geometry/point_readers.h"
 
 namespace corridor {
 namespace {
 
-/// Returns the next word of the line. Commas and semicolons separate words, too.
-std::string_view nextWord(std::string_view& line) {
-  constexpr std::string_view separators = " \t\r\v\f,;";
-  const std::size_t begin = std::min(line.find_first_not_of(separators), line.size());
-  line.remove_prefix(begin);
-  const std::size_t end = std::min(line.find_first_of(separators), line.size());
-  const std::string_view word = line.substr(0, end);
-  line.remove_prefix(end);
+constexpr std::string_view kBlanks = " \t\r\v\f";
+
+/// Returns the next word of the line, which blanks and the characters of `marks` separate.
+std::string_view nextWord(std::string_view& line, std::string_view marks) {
+  const auto separates = [&](char c) {
+    return kBlanks.find(c) != kBlanks.npos || marks.find(c) != marks.npos;
+  };
+  const auto begin = std::find_if_not(line.begin(), line.end(), separates);
+  const auto end = std::find_if(begin, line.end(), separates);
+  const std::string_view word(begin, end);
+  line = std::string_view(end, line.end());
   return word;
+}
+
+/// Returns the marks that separate the numbers of a line, beside blanks. A comma beside semicolons
+/// separates nothing: it is a decimal mark, which is refused where the number is read.
+std::string_view marksOf(std::string_view line) {
+  return line.find(';') != line.npos ? ";" : ",";
+}
+
+/// Returns whether a comma within a word may be a decimal mark, as in "1,5 2,5 3,5": some commas
+/// touch both of their neighbours, and some numbers are separated by blanks alone.
+bool mixesCommasAndBlanks(std::string_view line) {
+  const auto isBlank = [](char c) { return kBlanks.find(c) != kBlanks.npos; };
+  bool alone = false, tight = false;
+  for (std::size_t i = 1; i + 1 < line.size(); ++i) {
+    if (line[i] == ',') tight = tight || (!isBlank(line[i - 1]) && !isBlank(line[i + 1]));
+    if (!isBlank(line[i])) continue;
+    const std::size_t before = line.find_last_not_of(kBlanks, i),
+                      after = line.find_first_not_of(kBlanks, i);
+    alone = alone || (before != line.npos && after != line.npos && line[before] != ',' &&
+                      line[after] != ',');
+  }
+  return alone && tight;
+}
+
+/// Returns whether these words name the columns: x, y, z in upper or lower case.
+bool areNames(std::string_view x, std::string_view y, std::string_view z) {
+  return lowered(std::string(x)) == "x" && lowered(std::string(y)) == "y" &&
+         lowered(std::string(z)) == "z";
 }
 
 }  // namespace
 
 PointCloud readXyz(std::string_view text, MeshFaults& faults) {
   PointCloud cloud{{}, "text"};
+  std::int64_t promised = -1;  // .pts: the number of points comes first
   int number = 0;
   while (!text.empty()) {
     ++number;
     const std::size_t end = std::min(text.find('\n'), text.size());
     std::string_view line = text.substr(0, end);
     text.remove_prefix(std::min(end + 1, text.size()));
-    const std::string_view first = nextWord(line);
+    const std::string_view whole = line, marks = marksOf(line);
+    const std::string_view first = nextWord(line, marks);
     if (first.empty() || first.front() == '#' || first.starts_with("//")) continue;
-    const std::string_view second = nextWord(line), third = nextWord(line);
-    if (second.empty() && cloud.points.empty()) {
-      std::int64_t count = 0;
-      if (parseInteger(first, count)) continue;  // .pts: the number of points comes first
+    const std::string_view second = nextWord(line, marks), third = nextWord(line, marks);
+    if (cloud.points.empty() && promised < 0) {
+      if (second.empty() && parseInteger(first, promised)) continue;
+      if (areNames(first, second, third)) continue;
     }
     if (third.empty()) {
       faults.add(number,
                  "a point has 3 coordinates, found " + std::to_string(second.empty() ? 1 : 2));
+      continue;
+    }
+    if (marks == "," && mixesCommasAndBlanks(whole)) {
+      faults.add(number,
+                 "has commas and blanks between numbers; use one of them, and write "
+                 "decimals with a point");
       continue;
     }
     Vec3& point = cloud.points.emplace_back();
@@ -45,8 +86,11 @@ PointCloud readXyz(std::string_view text, MeshFaults& faults) {
         faults.add(number, *why);
         break;
       }
-    faults.requireFew(cloud.points.size(), "points", number);
+    requireFewPoints(cloud.points.size(), number, faults);
   }
+  if (promised >= 0 && static_cast<std::uint64_t>(promised) != cloud.points.size())
+    faults.add(0, "its first line promises " + std::to_string(promised) + " points, but it has " +
+                      std::to_string(cloud.points.size()));
   return cloud;
 }
 

@@ -67,6 +67,7 @@ class BuildItems {
       own_[k] = (balls[k].center - origin) * scale;
       radii_[k] = balls[k].radius * scale;
     }
+    std::vector<Ball>().swap(balls);  // the tree is built in less memory
     record(threads, [&](std::size_t begin, std::size_t end) { return recordParts(begin, end); });
   }
 
@@ -147,7 +148,8 @@ class BuildItems {
     });
     origin = 0.5 * lower + 0.5 * upper;
     double most = std::max((upper - origin).maxCoeff(), (origin - lower).maxCoeff());
-    if (areParts()) most *= 1 + 0x1p-50;  // rounding of the differences with the radius
+    // For balls, the sums with the radius and the differences round by 4u of the coordinates.
+    if (areParts()) most += 4 * kUnit * (upper.cwiseAbs() + lower.cwiseAbs()).maxCoeff();
     // Above 2^1000 m some points are outside [−1, 1], and boxes may be too small. No query uses
     // such boxes (`Obb4TreePose`).
     const bool usable = most > 0 && std::isfinite(most);

@@ -6,6 +6,7 @@
 #include "planner/app/commands.h"
 #include "planner/app/inspect.h"
 #include "planner/app/output.h"
+#include "planner/model/bounds.h"
 #include "planner/problem/assembly.h"
 #include "planner/problem/robot_file.h"
 #include "planner/robot/joint_types.h"
@@ -85,13 +86,40 @@ std::vector<double> reachOfLinks(const RobotModel& model) {
   return reach;
 }
 
+/// Returns the bounds of a shape's points, with their radii, in its frame; metres.
+Corners boundsOf(const PlacedShape& shape) {
+  Corners box{Vec3::Constant(std::numeric_limits<double>::infinity()),
+              Vec3::Constant(-std::numeric_limits<double>::infinity())};
+  forEachPoint(shape, [&](const Vec3& p, double radius) {
+    box.lower = box.lower.cwiseMin(p - Vec3::Constant(radius));
+    box.upper = box.upper.cwiseMax(p + Vec3::Constant(radius));
+  });
+  return box;
+}
+
+/// Describes a point cloud or an octree.
+ordered_json partsJson(const PlacedShape& shape) {
+  const double radius = shape.parts.front().radius;
+  const auto [lower, upper] = boundsOf(shape);
+  ordered_json j;
+  j[radius > 0 ? "balls" : "cubes"] = shape.parts.size();
+  if (radius > 0) j["radius_m"] = radius;
+  j["lower_m"] = {lower.x(), lower.y(), lower.z()};
+  j["upper_m"] = {upper.x(), upper.y(), upper.z()};
+  return j;
+}
+
 }  // namespace
 
 std::string shapeText(const PlacedShape& shape) {
   if (!shape.mesh && shape.primitive) return nameOf(*shape.primitive);
-  if (!shape.mesh)
-    return counted(shape.parts.size(), shape.parts.front().radius > 0 ? "ball" : "cube") + ", " +
-           shape.file.string();
+  if (!shape.mesh) {
+    const bool balls = shape.parts.front().radius > 0;
+    const auto [lower, upper] = boundsOf(shape);
+    return counted(shape.parts.size(), balls ? "ball" : "cube") +
+           (balls ? " of radius " + rounded(shape.parts.front().radius) + " m, " : ", ") +
+           shape.file.string() + ", from " + rounded(lower) + " to " + rounded(upper);
+  }
   return counted(shape.mesh->mesh.triangles.size(), "triangle") +
          (shape.solid ? " (solid), " : ", ") + shape.file.string();
 }
@@ -101,7 +129,7 @@ ordered_json shapeJson(const PlacedShape& shape) {
   if (shape.primitive)
     j["primitive"] = nameOf(*shape.primitive);
   else if (!shape.mesh)
-    j[shape.parts.front().radius > 0 ? "balls" : "cubes"] = shape.parts.size();
+    j.update(partsJson(shape));
   j["name"] = shape.name;
   if (!shape.primitive) j["file"] = shape.file.string();
   j["solid"] = shape.solid || !shape.mesh;

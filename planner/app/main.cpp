@@ -23,6 +23,8 @@ int main(int argc, char** argv) {
   // By default SIGXFSZ ends the program when a file reaches the size limit (ulimit -f). If the
   // signal is ignored, writing fails instead, and is reported like a full disk.
   std::signal(SIGXFSZ, SIG_IGN);
+  // Where a parent ignores SIGCHLD, the exit status of a child process would be lost.
+  std::signal(SIGCHLD, SIG_DFL);
   if (const auto arithmetic = corridor::floatingPoint();
       arithmetic != corridor::FloatingPoint::standard) {
     std::cerr << "corridor: nothing can be proved with these floating-point settings: "

@@ -36,10 +36,10 @@ void writeNewFile(const NewFileArguments& file, const std::string& text) {
 }
 
 std::string pathFrom(const NewFileArguments& file, const fs::path& path) {
-  // weakly_canonical leaves the relative name of a file that does not exist as it is.
+  // The output replaces a link, and not the file that the link names: only the folder is resolved.
   const fs::path folder = file.toStdout()
                               ? fs::current_path()
-                              : fs::weakly_canonical(fs::absolute(*file.output)).parent_path();
+                              : fs::weakly_canonical(fs::absolute(*file.output).parent_path());
   const fs::path target = fs::weakly_canonical(path);
   const fs::path relative = target.lexically_relative(folder);
   return relative.empty() ? target.string() : relative.string();
@@ -81,7 +81,7 @@ std::string comment(const std::string& text, int indent) {
       begin = margin + (hangs ? "  " : "");
       line = begin;
     }
-    line += (line.size() > begin.size() ? (word == "#" ? "  " : " ") : "") + word;
+    line += (line.size() > begin.size() ? " " : "") + word;
     isFirst = false;
   }
   return all + line + "\n";

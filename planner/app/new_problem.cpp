@@ -277,11 +277,11 @@ int newProblem(const NewProblemArguments& a) {
   const auto end = [&](const char* key, std::size_t i) {
     if (i < found.size()) return comment(found[i].origin) + key + ": " + found[i].text + "\n";
     const Configuration q = randomConfiguration(alone.model.space, [] { return ~0ull >> 1; });
-    return comment(
-               "NOT VALID: no valid state was found among the named states, the state with "
-               "every joint at 0, and " +
-               std::to_string(kRandomStates) +
-               " random states. corridor check names the links that touch.") +
+    return comment(std::string("NOT VALID: no ") + (i ? "other " : "") + "valid state was found" +
+                   (rigid ? ""
+                          : " among the named states, the state with every joint at 0, and " +
+                                std::to_string(kRandomStates) + " random states") +
+                   ". corridor check names the links that touch.") +
            key + ": " + stateText(alone.model, q) + "\n";
   };
   text += end("start", 0) + end("goal", 1) + boundsText(alone) + kMore;

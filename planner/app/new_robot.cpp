@@ -215,7 +215,7 @@ std::string pairText(const Model& model, const SurveyedPair& pair) {
   return yamlList({model.bodies[pair.a].name, model.bodies[pair.b].name});
 }
 
-/// Returns how many pairs are tested, and why, as a comment below `allow`.
+/// Returns how many pairs are tested, and why, as a comment.
 std::string testedText(const NewRobotArguments& a, const Model& model,
                        const std::vector<SurveyedPair>& tested) {
   std::size_t inContact = 0, close = 0, others = 0;
@@ -249,25 +249,28 @@ std::string pairsText(const NewRobotArguments& a, const Model& model, const Pair
       comment("Pairs of links that are not tested, besides adjacent links (" +
               grouped(pairs.adjacent) + ")" +
               (a.srdf ? " and those of the SRDF (" + grouped(pairs.bySrdf) + ")" : "") + ":");
-  text += pairs.proved.empty() ? "# allow:\n" : "allow:\n";
-  text +=
-      comment(pairs.proved.empty()
-                  ? std::string("No pair was proved never in contact.")
-                  : counted(pairs.proved.size(), "pair") +
-                        " proved never in contact: for all joint values within the limits, and " +
-                        shortest(a.beyondLimits) + " rad or m beyond them, the two links keep " +
-                        shortest(a.margin) +
-                        " m. If a problem has a larger margin or tube, or if the URDF, a mesh or a "
-                        "key above changes, write this file again.",
-              2);
-  for (const SurveyedPair& pair : pairs.proved) text += "  - " + pairText(model, pair) + "\n";
+  if (pairs.proved.empty()) {
+    text += comment("No pair was proved never in contact.");
+  } else {
+    text +=
+        "never_in_contact:\n" +
+        comment(counted(pairs.proved.size(), "pair") +
+                    " proved: for all joint values within the limits, and beyond_limits (rad or "
+                    "m) beyond them, the two links keep the margin (m). Problems with a larger "
+                    "margin or tube test these pairs. If the URDF, a mesh or a key above changes, "
+                    "write this file again.",
+                2) +
+        "  margin: " + shortest(a.margin) + "\n  beyond_limits: " + shortest(a.beyondLimits) +
+        "\n  pairs:\n";
+    for (const SurveyedPair& pair : pairs.proved) text += "  - " + pairText(model, pair) + "\n";
+  }
   if (!pairs.always.empty()) {
     text += comment("DECIDE: " + counted(pairs.always.size(), "pair") + " in contact in all of " +
-                        counted(a.samples, "random state") +
-                        ", so that no state may ever be valid. If the shapes overlap by design, "
-                        "remove the #; if not, correct the URDF.",
-                    2);
-    for (const SurveyedPair& pair : pairs.always) text += "  # - " + pairText(model, pair) + "\n";
+                    counted(a.samples, "random state") +
+                    ", so that no state may ever be valid. If the shapes overlap by design, "
+                    "remove the # of allow and of these pairs; if not, correct the URDF.");
+    text += "# allow:\n";
+    for (const SurveyedPair& pair : pairs.always) text += "#   - " + pairText(model, pair) + "\n";
   }
   text += testedText(a, model, pairs.tested);
   if (!pairs.contradicted.empty()) {

@@ -240,6 +240,11 @@ int solveCommand(const SolveArguments& a) {
                            "the standard output has the report of --json already; name a file"});
   if (a.output == "-" && a.picture == "-")
     throw InputError(Fault{"--picture", 0, "the standard output has the solution already"});
+  const auto whole = [](const std::string& file) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(file));
+  };
+  if (a.output && a.picture && *a.output != "-" && whole(*a.output) == whole(*a.picture))
+    throw InputError(Fault{"--picture", 0, "is the file of --output; name another one"});
   const std::atomic<bool>& interrupted = listenForInterrupts();
   int status = kDone;
   ordered_json results = ordered_json::array();

@@ -21,12 +21,16 @@ struct VerifyArguments {
 
 using nlohmann::ordered_json;
 
-/// Returns "shelf" (triangle 3), without the triangle if the body is made of convex parts.
+/// Returns "shelf" (triangle 3), or "cloud" (part 7), or the name alone for a single convex part.
 std::string sideText(const std::string& name, std::uint32_t triangle, const Problem& problem) {
-  bool meshes = false;
-  for (const ModelBody& body : problem.model.bodies)
-    if (body.name == name) meshes = body.shapes.front().mesh.has_value();
-  return "\"" + name + "\"" + (meshes ? " (triangle " + std::to_string(triangle) + ")" : "");
+  std::string kind;
+  for (const ModelBody& body : problem.model.bodies) {
+    if (body.name != name) continue;
+    const PlacedShape& shape = body.shapes.front();
+    kind = shape.mesh ? "triangle" : shape.parts.size() > 1 ? "part" : "";
+  }
+  return "\"" + name + "\"" +
+         (kind.empty() ? "" : " (" + kind + " " + std::to_string(triangle) + ")");
 }
 
 std::string text(const PathFinding& f, const Problem& problem) {

@@ -134,14 +134,18 @@ class Subdivision {
 
   NeverInContactResult run(std::vector<MotionPair> pairs) {
     setQuery(pairs);
+    constexpr std::size_t kMostHeld = 2'000'000;  // pairs of shapes in the queue: some 150 MB
+    std::size_t held = pairs.size();
     std::deque<Box> boxes;
     boxes.push_back({between_.box, std::move(pairs)});
     while (!boxes.empty()) {
-      if (result_.boxes >= options_.boxes || context_.counters.work() >= workEnd_)
+      if (result_.boxes >= options_.boxes || context_.counters.work() >= workEnd_ ||
+          held > kMostHeld)
         return answer(Verdict::workLimit);
       ++result_.boxes;
       Box box = std::move(boxes.front());
       boxes.pop_front();
+      held -= box.open.size();
       const std::size_t widest = test(box);
       if (tooClose_) return answer(Verdict::tooClose);
       if (box.open.empty()) continue;
@@ -152,6 +156,7 @@ class Subdivision {
       boxes.push_back(box);
       boxes.back().ranges[widest].upper = middle;
       box.ranges[widest].lower = middle;
+      held += 2 * box.open.size();
       boxes.push_back(std::move(box));
     }
     return answer(Verdict::proved);
@@ -214,7 +219,8 @@ class Subdivision {
   void addDisplacements(const RelativeMotion& relative, const Body& b,
                         std::vector<double>& displacements) const {
     const Vec3 center = relative.X_AB.m * b.sphereCenter() + relative.X_AB.t;
-    // All half widths are positive, so each moving frame has a screw.
+    // Each moving frame has a screw if its half width is positive. (It is 0 for a mimic of
+    // multiplier 0: then the choice may be a poor one.)
     for (std::size_t i = 0; i < std::min(relative.screws.size(), between_.variables.size()); ++i) {
       const ScrewMotion& screw = relative.screws[i];
       const bool turns = screw.kind == ScrewMotion::Kind::revolute;

@@ -36,11 +36,14 @@ void skipLinks(Model& model, std::size_t robot) {
   std::map<std::string, std::size_t> linkNamed;
   for (std::size_t link = 0; link < description.links.size(); ++link)
     linkNamed[description.links[link].name] = link;
-  for (const AllowedPair& pair : description.allowed) {
-    const auto a = linkNamed.find(pair.a), b = linkNamed.find(pair.b);
-    if (a != linkNamed.end() && b != linkNamed.end())
-      skip(bodyOf(a->second), bodyOf(b->second), pair.reason);
-  }
+  const auto skipAllowed = [&](bool proved) {
+    for (const AllowedPair& pair : description.allowed) {
+      const auto a = linkNamed.find(pair.a), b = linkNamed.find(pair.b);
+      if (pair.proof.has_value() == proved && a != linkNamed.end() && b != linkNamed.end())
+        skip(bodyOf(a->second), bodyOf(b->second), pair.reason);
+    }
+  };
+  skipAllowed(false);
   std::vector<const JointModel*> above(description.links.size(), nullptr);
   for (const JointModel& joint : description.joints) above[joint.child] = &joint;
   for (std::size_t link = 0; link < description.links.size(); ++link) {
@@ -54,6 +57,7 @@ void skipLinks(Model& model, std::size_t robot) {
       break;
     }
   }
+  skipAllowed(true);  // last: a pair with another reason, too, is never tested
 }
 
 }  // namespace

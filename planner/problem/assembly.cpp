@@ -10,6 +10,7 @@
 #include "planner/model/reach.h"
 #include "planner/problem/nothing_tested.h"
 #include "planner/problem/shape_yaml.h"
+#include "planner/robot/joint_types.h"
 
 namespace corridor {
 namespace {
@@ -48,9 +49,56 @@ void addNotesOnPairs(Problem& problem) {
         {"not tested, since they never move against each other: " + joinedFirst(still, 4),
          NoteWeight::coverage});
   for (const ModelBody& body : problem.model.bodies)
-    for (const PlacedShape& shape : body.shapes)
-      if (!shape.note.empty()) notes.push_back({shape.note, NoteWeight::detail});
+    for (const PlacedShape& shape : body.shapes) addAll(shape.notes, notes);
   if (nothingIsTested(problem)) notes.insert(notes.begin(), {kNothingTested, NoteWeight::coverage});
+}
+
+/// Returns the largest tube of the robot's single joints, rad or m.
+double largestTube(const ModelRobot& robot, const Problem& problem) {
+  double largest = 0;
+  for (const PlannedJoint& joint : robot.plannedJoints) {
+    if (isPoseJoint(joint.type)) continue;
+    const Coordinate& coordinate = problem.model.space.coordinates()[joint.coordinate];
+    largest = std::max(largest, problem.task.tube[static_cast<Eigen::Index>(coordinate.first)]);
+  }
+  return largest;
+}
+
+/// Tests the pairs of links again that were proved never in contact, but for a smaller margin or
+/// tube than the problem's. Adds a note.
+void testBeyondProofs(Problem& problem) {
+  std::size_t tested = 0;
+  AllowedPair::Proof covered;
+  for (std::size_t r = 0; r < problem.model.robots.size(); ++r) {
+    const ModelRobot& robot = problem.model.robots[r];
+    const double tube = largestTube(robot, problem);
+    const auto bodyOf = [&](const std::string& link) {
+      const std::string name = robot.name.empty() ? link : robot.name + "/" + link;
+      return std::find_if(
+          problem.model.bodies.begin(), problem.model.bodies.end(),
+          [&](const ModelBody& body) { return body.robot == r && body.name == name; });
+    };
+    for (const AllowedPair& pair : robot.model.allowed) {
+      if (!pair.proof ||
+          (problem.task.margin <= pair.proof->margin && tube <= pair.proof->beyondLimits))
+        continue;
+      const auto a = bodyOf(pair.a), b = bodyOf(pair.b), end = problem.model.bodies.end();
+      if (a == end || b == end) continue;
+      const auto i = static_cast<std::size_t>(a - problem.model.bodies.begin()),
+                 k = static_cast<std::size_t>(b - problem.model.bodies.begin());
+      if (problem.model.filter.whyNotTested(i, k) != kNeverInContact) continue;
+      problem.model.filter.test(i, k);
+      covered = *pair.proof;
+      ++tested;
+    }
+  }
+  if (tested > 0)
+    problem.source.notes.push_back(
+        {std::to_string(tested) +
+             (tested == 1 ? " pair of never_in_contact is" : " pairs of never_in_contact are") +
+             " tested: that proof covers a margin of up to " + shortest(covered.margin) +
+             " m and a tube of up to " + shortest(covered.beyondLimits) + " rad or m",
+         NoteWeight::detail});
 }
 
 /// Lengths above this one, in metres, are refused: squares of sums of them must be finite.
@@ -122,6 +170,7 @@ void finishProblem(const AllowedBodies& allowed, const TubeSpec& tube, Problem& 
   requireFiniteSizes(problem.model, problem.source.file.string());
   for (const auto& [a, b] : allowed) problem.model.filter.skip(a, b, "allow");
   problem.task.tube = tubeOf(problem.model.space, tube);
+  testBeyondProofs(problem);
   addNotesOnPairs(problem);
 }
 

@@ -8,25 +8,24 @@
 namespace corridor {
 namespace {
 
-constexpr std::size_t kMostParts = 10'000'000;  // some 250 bytes each, trees included
-
 bool readPoints(const YamlMap& inner, const MeshFileOptions& options, const Transform& X,
                 PlacedShape& shape) {
   inner.require("radius", "metres, such as 0.01: each point becomes a ball");
   const auto radius = inner.number("radius", Range::Positive);
   if (!radius) return false;
   const PointCloud cloud = readPointCloud(shape.file, options);
-  if (cloud.points.size() > kMostParts) {
-    inner.fault("file", shape.file.string() + " has " + std::to_string(cloud.points.size()) +
-                            " points; at most 10000000 are handled: thin the cloud out");
-    return false;
-  }
   shape.parts.reserve(cloud.points.size());
   for (const Vec3& point : cloud.points) shape.parts.push_back({{X * point}, *radius, false});
   if (cloud.notFinite > 0)
-    shape.note = shape.file.string() + ": " + std::to_string(cloud.notFinite) + " of " +
-                 std::to_string(cloud.points.size() + cloud.notFinite) +
-                 " points are not finite, and are left out";
+    shape.notes.push_back({shape.file.string() + ": " + std::to_string(cloud.notFinite) + " of " +
+                               std::to_string(cloud.points.size() + cloud.notFinite) +
+                               " points are not finite, and are left out",
+                           NoteWeight::coverage});
+  if (cloud.hasViewpoint)
+    shape.notes.push_back({shape.file.string() +
+                               ": its viewpoint (the sensor's pose) is not applied; at and a "
+                               "rotation place the points",
+                           NoteWeight::coverage});
   return true;
 }
 
@@ -42,6 +41,15 @@ bool readMap(const YamlMap& inner, const Transform& X, PlacedShape& shape) {
     }
   }
   const OccupancyMap octree = readOccupancyMap(shape.file, rules);
+  if (!inner.find("unknown"))
+    shape.notes.push_back({shape.file.string() +
+                               ": cells without a measurement count as free (unknown: occupied "
+                               "makes obstacles of them)",
+                           NoteWeight::coverage});
+  if (inner.find("threshold") && !octree.hasProbabilities)
+    shape.notes.push_back(
+        {shape.file.string() + ": threshold has no effect, since a .bt file has no probabilities",
+         NoteWeight::detail});
   if (octree.cubes.empty()) {
     inner.fault("file", shape.file.string() + ": the map has no occupied cell");
     return false;

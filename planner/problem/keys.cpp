@@ -62,9 +62,11 @@ Keys makeRobotKeys() {
   Keys keys{
       {"",
        {{"format", "name", "urdf", "srdf", "xacro", "packages", "visuals", "limits", "collada_up",
-         "group", "joints", "hold", "states", "allow", "rigid", "shapes", "reference", "weights"},
+         "group", "joints", "hold", "states", "allow", "never_in_contact", "rigid", "shapes",
+         "reference", "weights"},
         {}}},
       {"weights", {{"joints", "rotation"}, {}}},
+      {"never_in_contact", {{"margin", "beyond_limits", "pairs"}, {}}},
   };
   addShape(keys, "shapes[]", {"name"});
   return keys;

@@ -71,7 +71,7 @@ void shiftToReference(const YamlMap& file, RobotModel& model, bool shapesAreSoun
 std::optional<RobotSetup> readRigid(const YamlMap& map, const std::string& name,
                                     const std::filesystem::path& folder, RobotSetup setup) {
   for (const char* key : {"srdf", "xacro", "packages", "visuals", "limits", "collada_up", "group",
-                          "joints", "hold", "states", "allow"})
+                          "joints", "hold", "states", "allow", "never_in_contact"})
     if (map.find(key)) map.fault(key, "is for robots with joints (urdf: FILE); this one is rigid");
   const auto rigid = map.choice("rigid", robotChoices().at("rigid"));
   const std::size_t before = map.source().faults.size();

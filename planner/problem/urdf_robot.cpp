@@ -178,32 +178,49 @@ void readStates(const YamlMap& file, RobotModel& model) {
   }
 }
 
-void readAllow(const YamlMap& file, RobotModel& model) {
-  const YamlValue* value = file.find("allow");
-  if (!value) return;
+/// Reads a list of pairs of links, and adds them to the model.
+void readLinkPairs(const YamlMap& map, const char* key, const AllowedPair& kind,
+                   RobotModel& model) {
+  const YamlValue& value = *map.find(key);
   std::vector<std::string> links;
   for (const LinkModel& link : model.links) links.push_back(link.name);
-  if (value->kind != YamlValue::Kind::List)
-    return file.fault(
-        "allow",
-        "a list of pairs of links is needed, such as [[hand, finger]], not " + described(*value));
-  for (const YamlValue& item : value->items) {
-    const auto pair = readWords(item, "such as [hand, finger]", "allow", file.source());
+  if (value.kind != YamlValue::Kind::List)
+    return map.fault(key, "a list of pairs of links is needed, such as [[hand, finger]], not " +
+                              described(value));
+  const std::string path = map.pathOf(key);
+  for (const YamlValue& item : value.items) {
+    const auto pair = readWords(item, "such as [hand, finger]", path, map.source());
     if (!pair) continue;
     if (pair->size() != 2) {
-      file.source().fault(item.line, "allow: two links are needed, such as [hand, finger], not " +
-                                         std::to_string(pair->size()));
+      map.source().fault(item.line, path + ": two links are needed, such as [hand, finger], not " +
+                                        std::to_string(pair->size()));
       continue;
     }
     bool known = true;
     for (const std::string& name : *pair)
       if (std::find(links.begin(), links.end(), name) == links.end()) {
-        file.source().fault(item.line, "allow: there is no link " + quotedWord(name) +
-                                           didYouMean(name, links) + knownWords(links));
+        map.source().fault(item.line, path + ": there is no link " + quotedWord(name) +
+                                          didYouMean(name, links) + knownWords(links));
         known = false;
       }
-    if (known) model.allowed.push_back({(*pair)[0], (*pair)[1], "robot.yaml: allow"});
+    if (known) model.allowed.push_back({(*pair)[0], (*pair)[1], kind.reason, kind.proof});
   }
+}
+
+void readAllow(const YamlMap& file, RobotModel& model) {
+  if (file.find("allow")) readLinkPairs(file, "allow", {"", "", "robot.yaml: allow"}, model);
+  const YamlValue* value = file.find("never_in_contact");
+  if (!value) return;
+  const YamlMap map(*value, "never_in_contact", &robotKeys().at("never_in_contact"), file.source());
+  map.require("margin", "metres: what the proof of these pairs covers");
+  map.require("beyond_limits", "rad or m: by how much the proof goes beyond the limits of joints");
+  map.require("pairs", "pairs of links, such as [[hand, foot]]");
+  const auto margin = map.number("margin", Range::NotNegative),
+             beyond = map.number("beyond_limits", Range::NotNegative);
+  if (margin && beyond && map.find("pairs"))
+    readLinkPairs(map, "pairs",
+                  {"", "", std::string(kNeverInContact), AllowedPair::Proof{*margin, *beyond}},
+                  model);
 }
 
 void readWeights(const YamlMap& file, RobotSetup& setup) {

@@ -8,6 +8,7 @@
 #include "collision/core/rigid_pose.h"
 #include "collision/geometry/convex_part.h"
 #include "collision/geometry/mesh_file.h"
+#include "planner/robot/note.h"
 
 namespace corridor {
 
@@ -23,7 +24,7 @@ struct PlacedShape {
   std::optional<Primitive> primitive;  ///< of one part: as the user wrote it
   RigidPose at;                        ///< its pose as the user wrote it; in a URDF parts only
   bool solid = false;                  ///< mesh only; a part is always solid
-  std::string note = {};               ///< for the user, about how the file was read; "": none
+  std::vector<Note> notes = {};        ///< about how the file was read
 };
 
 /// Calls visit(p, radius) for each vertex of the mesh, with radius 0, and for each point of the

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "planner/robot/note.h"
@@ -43,8 +44,18 @@ struct LinkModel {
 /// A pair of links that is never tested, and the reason: "adjacent", "SRDF: Never", "robot.yaml:
 /// allow".
 struct AllowedPair {
+  /// What a proof that the pair is never in contact covers.
+  struct Proof {
+    double margin = 0;        ///< metres that the links keep apart
+    double beyondLimits = 0;  ///< rad or m by which joint values may be beyond their limits
+  };
+
   std::string a, b, reason;
+  /// If set, the pair is tested in problems whose margin or tube is larger.
+  std::optional<Proof> proof = {};
 };
+/// The reason of pairs with a proof.
+inline constexpr std::string_view kNeverInContact = "robot.yaml: never_in_contact";
 
 /// A group of joints that an SRDF names.
 struct JointGroup {

@@ -89,7 +89,11 @@ ProgramEnd runProgram(const ProgramCall& call) {
   int status = 0;
   bool ended = false;
   while (!ended && end.why == ProgramEnd::Why::itself) {
-    ended = ::waitpid(child, &status, WNOHANG) != 0;
+    const pid_t found = ::waitpid(child, &status, WNOHANG);
+    if (found < 0 && errno == EINTR) continue;
+    // Where SIGCHLD is ignored, the status of a child is lost, so nothing is known of its success.
+    if (found < 0) throw std::system_error(errno, std::generic_category(), call.words[0]);
+    ended = found != 0;
     if (ended) break;
     if (call.interrupted && *call.interrupted) end.why = ProgramEnd::Why::interrupted;
     if (std::chrono::steady_clock::now() > latest) end.why = ProgramEnd::Why::late;

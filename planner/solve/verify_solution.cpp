@@ -167,13 +167,17 @@ double sizeOf(const VerifyBody& body) {
 /// smallest tested body, or for a body of 1 m if all are larger.
 double toleranceOf(const Model& model, const PathProblem& plain,
                    const std::optional<double>& checkers) {
-  if (checkers) return 0.1 * *checkers;
+  // The verifier needs a positive tolerance.
+  const auto tenth = [](double tolerance) {
+    return std::max(0.1 * tolerance, std::numeric_limits<double>::min());
+  };
+  if (checkers) return tenth(*checkers);
   double smallest = 1;
   for (const VerifyPair& pair : plain.pairs)
     for (const std::size_t body : {pair.a, pair.b})
       if (const double size = sizeOf(plain.bodies[body]); size > 0)
         smallest = std::min(smallest, size);
-  return 0.1 * defaultTolerance(model, 1e-7 * smallest);
+  return tenth(defaultTolerance(model, 1e-7 * smallest));
 }
 
 DigestState digestState(const Problem& problem, const Solution& solution) {

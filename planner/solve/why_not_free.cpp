@@ -36,7 +36,7 @@ std::string position(const Configuration& q, const CoordinateGroup& pose, int di
 }
 
 /// Returns for example `"shelf" (shape 2, triangle 12)`. The shape number is left out for a body of
-/// one shape, and the triangle for a convex part.
+/// one shape, and the triangle for a single convex part.
 std::string described(const Checker& checker, std::size_t shape, std::uint32_t triangle) {
   const std::size_t owner = checker.bodyOf(shape);
   const ModelBody& body = checker.model().bodies[owner];
@@ -46,8 +46,10 @@ std::string described(const Checker& checker, std::size_t shape, std::uint32_t t
     while (first > 0 && checker.bodyOf(first - 1) == owner) --first;
     details = "shape " + std::to_string(shape - first + 1);
   }
-  if (checker.scene().bodies()[shape].body.isMesh())
-    details += (details.empty() ? "" : ", ") + ("triangle " + std::to_string(triangle));
+  const Body& own = checker.scene().bodies()[shape].body;
+  if (own.isMesh() || own.parts().size() > 1)
+    details += (details.empty() ? "" : ", ") +
+               ((own.isMesh() ? "triangle " : "part ") + std::to_string(triangle));
   return quotedWord(body.name) + (details.empty() ? "" : " (" + details + ")");
 }
 

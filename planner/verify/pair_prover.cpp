@@ -263,8 +263,17 @@ std::optional<Vec3> PairProver::pointInside(std::size_t solid, std::size_t other
     for (const auto& component : componentsOf(*o.mesh))
       points.push_back(o.mesh->corner(component[0], 0));
   }
+  RealVec lower = s.mesh->vertices[0].cast<Real>(), upper = lower;
+  for (const Vec3& vertex : s.mesh->vertices) {
+    lower = lower.cwiseMin(vertex.cast<Real>());
+    upper = upper.cwiseMax(vertex.cast<Real>());
+  }
+  // A point outside of the box is outside of the mesh. The margin is far above all rounding.
+  const Real size = lower.norm() + upper.norm() + X_SolidOther.position.norm();
   for (const Vec3& point : points) {
     const RealVec p = X_SolidOther.rotation * point.cast<Real>() + X_SolidOther.position;
+    const Real margin = 0x1p-30L * (size + p.norm());
+    if ((lower - p).maxCoeff() > margin || (p - upper).maxCoeff() > margin) continue;
     if (insideAny(*s.mesh, shells, p)) return Vec3(p.cast<double>());
   }
   return std::nullopt;

@@ -91,7 +91,7 @@ TEST(OccupancyMap, Faults) {
   EXPECT_EQ(with("size 17", "size 18"),
             "map.bt: the header promises 18 nodes, but the data have 17: the file is damaged");
   EXPECT_EQ(with("res 0.1", "res 0"),
-            "map.bt: res: the edge length of a cell, in metres, must be positive");
+            "map.bt: res: the edge length of a cell, in metres, must be above 0 and below 1e100");
   EXPECT_EQ(with("res 0.1", "res small"),
             "map.bt:6: res: coordinate \"small\" is not a number; write decimal numbers such as "
             "-1.25e-3");
@@ -100,6 +100,22 @@ TEST(OccupancyMap, Faults) {
             "map.bt:7: the header has no line \"data\"");
   EXPECT_EQ(complaintOf(good, {.threshold = 1}),
             "map.bt: threshold: a probability above 0 and below 1 is needed, not 1");
+}
+
+/// A cell whose probability is the threshold is occupied, although float(ln(p/(1 − p))) may be
+/// below the real number.
+TEST(OccupancyMap, TheThresholdItselfIsOccupied) {
+  for (const double p : {0.1, 0.5, 0.51, 0.55, 0.6, 0.7, 0.85, 0.97}) {
+    const auto logOdds = static_cast<float>(std::log(p / (1 - p)));
+    const auto cubes = [&](float value) {
+      return parseOccupancyMap("# Octomap OcTree file\nid OcTree\nsize 2\nres 0.1\ndata\n" +
+                                   bytesOf(1.0F) + '\x01' + bytesOf(value) + '\0',
+                               {.threshold = p}, "map.ot")
+          .cubes.size();
+    };
+    EXPECT_EQ(cubes(logOdds), 1u) << p;
+    EXPECT_EQ(cubes(std::nextafter(logOdds, -HUGE_VALF)), 0u) << p;
+  }
 }
 
 #ifdef CORRIDOR_WITH_OCTOMAP

@@ -166,6 +166,21 @@ TEST_F(PointCloudTest, Text) {
               kThree)
         << name;
   EXPECT_EQ(read("b.pts", "3\n1 2 3\n-0.5 0 4e-3\n7 8 9\n").points, kThree);
+  EXPECT_EQ(complaint("b.pts", "4\n1 2 3\n-0.5 0 4e-3\n7 8 9\n"),
+            "b.pts: its first line promises 4 points, but it has 3");
+  EXPECT_EQ(read("c.txt", "X Y Z intensity\n1 2 3 7\n-0.5 0 4e-3 7\n7 8 9 7\n").points, kThree);
+}
+
+/// Commas are decimal marks in many countries. Where they may be, nothing is guessed.
+TEST_F(PointCloudTest, DecimalCommas) {
+  EXPECT_EQ(read("a.xyz", "1, 2, 3\n-0.5,0,4e-3\n7,8 , 9 \n").points, kThree);
+  EXPECT_EQ(read("a.xyz", "1; 2; 3\n-0.5;0;4e-3\n7 ;8;9\n").points, kThree);
+  for (const char* line : {"1,5 2,5 3,5\n", "1,5\t2,5\t3,5\n", "  1,5 2 3\n"})
+    EXPECT_EQ(complaint("b.xyz", line),
+              "b.xyz:1: has commas and blanks between numbers; use one of them, and write decimals "
+              "with a point");
+  EXPECT_EQ(complaint("c.xyz", "1,5;2;3\n"),
+            "c.xyz:1: coordinate \"1,5\" is not a number; write decimal numbers such as -1.25e-3");
 }
 
 TEST_F(PointCloudTest, UnitUpAndPointsThatAreNotFinite) {
@@ -194,7 +209,7 @@ TEST_F(PointCloudTest, Faults) {
   EXPECT_EQ(complaint("g.pcd", "FIELDS x y z\nSIZE 4 4 3\n"),
             "g.pcd:2: SIZE \"3\" is not 1, 2, 4 or 8");
   EXPECT_EQ(complaint("h.pcd", "FIELDS x y z\nPOINTS -1\n"),
-            "h.pcd:2: \"-1\" is not an integer from 0 to 100000000");
+            "h.pcd:2: \"-1\" is not an integer from 0 to 1000000000");
   EXPECT_EQ(complaint("i.pcd", "FIELDS x y z\nPOINTS 1\n"),
             "i.pcd:3: the header has no line DATA; a PCD file needs one");
   EXPECT_EQ(complaint("j.pcd", "FIELDS x y z\nPOINTS 1\nDATA zip\n1 2 3\n"),
@@ -202,10 +217,37 @@ TEST_F(PointCloudTest, Faults) {
   EXPECT_EQ(complaint("k.pcd", pcdHeader("2", "binary") + pcdPoint({1, 2, 3})),
             "k.pcd: the header promises 2 points of 21 bytes, but 21 bytes are left: the file is "
             "cut short");
-  EXPECT_EQ(complaint("l.pcd", "FIELDS x y z\nPOINTS 2\nDATA ascii\n1.5 2.5 3.5\n1.5 2.5"),
-            "l.pcd:5: point 2 of 2: the file ends here: it is cut short");
+  const std::string two = "FIELDS x y z\nPOINTS 2\nDATA ascii\n1.5 2.5 3.5\n";
+  EXPECT_EQ(complaint("l.pcd", two + "1.5 2.5"),
+            "l.pcd:5: a line has 2 numbers; by FIELDS and COUNT a point has 3");
+  EXPECT_EQ(complaint("l.pcd", two + "1.5 2.5 3.5 255"),
+            "l.pcd:5: a line has 4 numbers; by FIELDS and COUNT a point has 3");
+  EXPECT_EQ(complaint("l.pcd", two + "# no point"),
+            "l.pcd:5: coordinate \"#\" is not a number; write decimal numbers such as -1.25e-3\n"
+            "l.pcd:5: coordinate \"no\" is not a number; write decimal numbers such as -1.25e-3\n"
+            "l.pcd:5: coordinate \"point\" is not a number; write decimal numbers such as "
+            "-1.25e-3");
+  EXPECT_EQ(complaint("l.pcd", two + "1 2 3\n\n4 5 6\n"),
+            "l.pcd:7: more points than the 2 that the header promises");
+  EXPECT_EQ(complaint("l.pcd", two + "\n\n\n\n"),
+            "l.pcd: the header promises 2 points, but the file has 1: it is cut short");
+  EXPECT_EQ(complaint("m.pcd", "FIELDS x y z\nPOINTS 9000000\nDATA ascii\n1 2 3\n"),
+            "m.pcd: the header promises 9000000 points of 3 numbers; the file is cut short");
   EXPECT_EQ(complaint("m.pcd", "FIELDS x y z\nPOINTS 90000000\nDATA ascii\n1 2 3\n"),
-            "m.pcd: the header promises 90000000 points of 3 numbers; the file is cut short");
+            "m.pcd: has 90000000 points or more; at most 10000000 are read: thin the cloud out");
+  EXPECT_EQ(complaint("m.ply",
+                      "ply\nformat ascii 1.0\nelement vertex 90000000\nproperty float x\nproperty "
+                      "float y\nproperty float z\nend_header\n1 2 3\n"),
+            "m.ply: has 90000000 points or more; at most 10000000 are read: thin the cloud out");
+  EXPECT_EQ(complaint("p.pcd", "FIELDS x y z\nWIDTH 3\nHEIGHT 1\nPOINTS 1\nDATA ascii\n1 2 3\n"),
+            "p.pcd: POINTS is 1, but WIDTH times HEIGHT is 3");
+  EXPECT_EQ(
+      complaint("q.pcd", pcdHeader("1", "binary") + pcdPoint({1, 2, 3}) + pcdPoint({1, 2, 3})),
+      "q.pcd: 21 bytes come after the last point: the header's counts are wrong");
+  EXPECT_EQ(read("r.pcd", pcdHeader("1", "binary") + pcdPoint({1, 2, 3}) + std::string(9, '\0'))
+                .points.size(),
+            1u)
+      << "filled up with zeros";
   EXPECT_EQ(complaint("n.pcd", "hello\n"), "n.pcd:1: \"hello\" is no line of a PCD header");
   EXPECT_EQ(complaint("o.ply", "ply\nformat ascii 1.0\nelement face 0\nend_header\n"),
             "o.ply: the header has no element \"vertex\"");

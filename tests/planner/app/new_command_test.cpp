@@ -77,16 +77,18 @@ TEST_F(NewCommand, WritesARobotWithItsPairs) {
             "decide: the pairs that are marked DECIDE in the file: no state may ever be valid\n");
   const std::string file = read("reach.yaml");
   EXPECT_THAT(file, HasSubstr("format: corridor-robot-1\nname: reach\nurdf: reach.urdf\n"));
-  EXPECT_THAT(file, HasSubstr("\nallow:\n  # 1 pair proved never in contact"));
+  EXPECT_THAT(file, HasSubstr("\nnever_in_contact:\n  # 1 pair proved: "));
   EXPECT_THAT(file, HasSubstr("\n  - [far, hand]\n"));
-  EXPECT_THAT(file, HasSubstr("  # DECIDE: 1 pair in contact in all of 1,000 random states"));
-  EXPECT_THAT(file, HasSubstr("\n  # - [inner, hand]\n"));
+  EXPECT_THAT(file, HasSubstr("\n  margin: 0.01\n  beyond_limits: 0.01\n  pairs:\n"));
+  EXPECT_THAT(file, HasSubstr("\n# DECIDE: 1 pair in contact in all of 1,000 random states"));
+  EXPECT_THAT(file, HasSubstr("\n# allow:\n#   - [inner, hand]\n"));
   EXPECT_THAT(file, Not(HasSubstr("[side, hand]")));
   EXPECT_THAT(file, HasSubstr("# - shoulder: revolute, -0.4 to 0.4 rad\n"));
   EXPECT_THAT(file, HasSubstr("# Note: ")) << "the link with a <visual> only";
 
   // It loads at once, and excludes the pair that was proved, and no other.
-  EXPECT_EQ(allowedPairs("reach.yaml"), std::vector<std::string>({"far, hand: robot.yaml: allow"}));
+  EXPECT_EQ(allowedPairs("reach.yaml"),
+            std::vector<std::string>({"far, hand: robot.yaml: never_in_contact"}));
 }
 
 TEST_F(NewCommand, ReadsAnSrdfAndChecksItsPairs) {
@@ -107,7 +109,7 @@ TEST_F(NewCommand, ReadsAnSrdfAndChecksItsPairs) {
   EXPECT_THAT(file, Not(HasSubstr("[inner, hand]"))) << "the SRDF allows it, rightly";
   EXPECT_EQ(allowedPairs("reach.yaml"),
             std::vector<std::string>({"inner, hand: SRDF: Always", "side, hand: SRDF: Never",
-                                      "far, hand: robot.yaml: allow"}));
+                                      "far, hand: robot.yaml: never_in_contact"}));
 }
 
 TEST_F(NewCommand, WritesTheSameFileEachTime) {
@@ -157,6 +159,10 @@ TEST_F(NewCommand, NamesFilesFromTheNewFilesFolder) {
   EXPECT_EQ(run("inspect robots").status, 0);
   ASSERT_EQ(run("new problem robots -o problem2.yaml").status, 0);
   EXPECT_THAT(read("problem2.yaml"), HasSubstr("robot: robots/robot.yaml\n"));
+  // A link is replaced, so names are relative to the link's folder.
+  std::filesystem::create_symlink("robots/robot.yaml", folder_ / "link.yaml");
+  ASSERT_EQ(run("new robot reach.urdf --srdf reach.srdf -o link.yaml --force").status, 0);
+  EXPECT_EQ(run("inspect link.yaml").status, 0);
 }
 
 TEST_F(NewCommand, WritesAProblemThatCanBeSolved) {

@@ -72,6 +72,24 @@ TEST_F(Clouds, Octomap) {
   EXPECT_EQ(parts("{octomap: {file: map.bt, unknown: occupied}}").size(), 7u);
 }
 
+TEST_F(Clouds, NotesOnWhatIsNotAnObstacle) {
+  const auto notesOf = [&](const std::string& entry) {
+    return textsOf(read(problem(entry)).source.notes);
+  };
+  using testing::Contains;
+  using testing::HasSubstr;
+  EXPECT_THAT(notesOf("{octomap: {file: map.bt, threshold: 0.9}}"),
+              testing::AllOf(Contains(HasSubstr("cells without a measurement count as free")),
+                             Contains(HasSubstr("threshold has no effect"))));
+  EXPECT_THAT(notesOf("{octomap: {file: map.bt, unknown: free}}"),
+              Not(Contains(HasSubstr("map.bt"))));
+  write("a.pcd", "FIELDS x y z\nVIEWPOINT 1 0 0 1 0 0 0\nPOINTS 1\nDATA ascii\n1 2 3\n");
+  EXPECT_THAT(notesOf("{points: {file: a.pcd, radius: 0.1}}"),
+              Contains(HasSubstr("its viewpoint (the sensor's pose) is not applied")));
+  write("a.pcd", "FIELDS x y z\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 1\nDATA ascii\n1 2 3\n");
+  EXPECT_THAT(notesOf("{points: {file: a.pcd, radius: 0.1}}"), Not(Contains(HasSubstr("a.pcd"))));
+}
+
 TEST_F(Clouds, OfARobot) {
   write("robot.yaml",
         "format: corridor-robot-1\nname: scan\nrigid: SE3\nshapes:\n"

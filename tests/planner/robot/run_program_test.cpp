@@ -1,7 +1,9 @@
 #include "planner/robot/run_program.h"
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <system_error>
 
 #include <gtest/gtest.h>
 
@@ -37,6 +39,14 @@ TEST(RunProgram, Limits) {
   const std::atomic<bool> interrupted = true;
   EXPECT_EQ(runProgram({.words = {"/bin/sleep", "600"}, .interrupted = &interrupted}).why,
             Why::interrupted);
+}
+
+/// Without its status, a program must not count as successful.
+TEST(RunProgram, ThrowsIfTheStatusIsLost) {
+  std::signal(SIGCHLD, SIG_IGN);
+  EXPECT_THROW(shell("exit 1"), std::system_error);
+  std::signal(SIGCHLD, SIG_DFL);
+  EXPECT_EQ(shell("exit 1").exitStatus, 1);
 }
 
 TEST(RunProgram, FindsProgramsInPath) {

@@ -7,6 +7,7 @@
 #include "planner/checker/checker.h"
 #include "planner/problem/problem.h"
 #include "planner/solve/verify_solution.h"
+#include "planner/solve/why_not_free.h"
 #include "planner/verify/verify_path.h"
 #include "planner/view/tessellate.h"
 #include "tests/support/support.h"
@@ -58,6 +59,20 @@ TEST_F(WallOfPoints, CheckerAndVerifierAgreeWithTheClosedForm) {
     EXPECT_LE(report.provenClearance, 0.35 - 0.14 - y + 1e-9);
     EXPECT_GE(report.provenClearance, 0.8 * (0.35 - 0.14 - y) - 1e-5);
   }
+}
+
+/// A contact names the ball.
+TEST_F(WallOfPoints, ContactsNameTheBall) {
+  const Problem problem = readProblem(folder_ / "problem.yaml");
+  const Checker checker(problem);
+  const std::string why = whyNotFree(at(0, 0.6, 0.6), checker).value_or("free");
+  EXPECT_NE(why.find("\"wall\" (part "), std::string::npos) << why;
+}
+
+/// Tolerances that a tenth would make 0 are legal.
+TEST_F(WallOfPoints, TheSmallestTolerance) {
+  const Problem problem = readProblem(folder_ / "problem.yaml");
+  EXPECT_GT(plainProblem(problem.model, problem.task, 5e-324).tolerance, 0);
 }
 
 TEST_F(WallOfPoints, RandomEdges) {
