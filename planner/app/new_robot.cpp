@@ -49,6 +49,11 @@ PackageMap packagesOf(const NewRobotArguments& a) {
 RobotFiles readFiles(const NewRobotArguments& a) {
   const UrdfRules rules{packagesOf(a), a.visuals == "collide", a.limits == "soft",
                         a.colladaUp == "file"};
+  std::error_code none;
+  if (fs::is_directory(a.urdf, none) || lowered(fs::path(a.urdf).extension().string()) == ".yaml")
+    throw InputError(Fault{a.urdf, 0,
+                           "a URDF is needed; corridor new problem takes a robot.yaml or its "
+                           "folder"});
   std::vector<Fault> faults;
   std::vector<fs::path> files;
   auto model = readUrdf(a.urdf, rules, faults, files);

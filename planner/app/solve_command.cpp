@@ -234,6 +234,10 @@ int solveCommand(const SolveArguments& a) {
     throw InputError(Fault{"--from", 0, "needs --picture, which is not given"});
   if (a.from) viewDirection(*a.from, "--from");
   if (a.output != "-") requireWritable(a.output, "--output");
+  if (a.picture && lowered(std::filesystem::path(*a.picture).extension().string()) == ".png")
+    throw InputError(Fault{"--picture", 0,
+                           "pictures are SVG: a name that ends in .svg is needed; corridor view "
+                           "--image draws PNG"});
   if (a.picture != "-") requireWritable(a.picture, "--picture");
   if (a.json && printsFile(a))
     throw InputError(Fault{a.output == "-" ? "--output" : "--picture", 0,

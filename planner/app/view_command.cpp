@@ -43,6 +43,8 @@ std::string pageName(const Problem& problem) {
 void requireExtension(const std::optional<std::string>& file, const char* option,
                       const std::string& kind, const std::vector<std::string>& extensions) {
   if (!file) return;
+  if (*file == "-")
+    throw InputError(Fault{option, 0, "is not written to the standard output; name a file"});
   const std::string extension = lowered(std::filesystem::path(*file).extension().string());
   if (!extension.empty() &&
       std::find(extensions.begin(), extensions.end(), extension) == extensions.end())
@@ -52,10 +54,10 @@ void requireExtension(const std::optional<std::string>& file, const char* option
 }
 
 int viewCommand(const ViewArguments& a) {
-  requireWritable(a.output, "--output");
-  requireWritable(a.image, "--image");
   requireExtension(a.output, "--output", "pages are HTML", {".html", ".htm"});
   requireExtension(a.image, "--image", "pictures are PNG", {".png"});
+  requireWritable(a.output, "--output");
+  requireWritable(a.image, "--image");
   if (a.size && !a.image) throw InputError(Fault{"--size", 0, "needs --image, which is not given"});
   std::optional<ViewDirection> from;
   if (a.from) from = viewDirection(*a.from, "--from");

@@ -249,6 +249,11 @@ TEST_F(NewCommand, BadInputIsOneLineAndExit2) {
               "--help");
   expectFault("new robot reach.urdf -o none/robot.yaml", "--output: there is no folder none");
   expectFault("new problem none.yaml", "none.yaml: no such file");
+  write("robot.yaml", "format: corridor-robot-1\n");
+  for (const std::string robot : {"robot.yaml", "."})
+    expectFault(
+        "new robot " + robot,
+        robot + ": a URDF is needed; corridor new problem takes a robot.yaml or its folder");
   write("still.urdf", "<robot name='still'><link name='a'/></robot>");
   expectFault("new robot still.urdf", "still.urdf: has no joint that moves by itself");
 }

@@ -65,6 +65,9 @@ TEST_F(SolveArm, WritesTheSolutionToStandardOutput) {
             "--output: the standard output has the report of --json already; name a file\n");
   EXPECT_EQ(run("solve arm.yaml -o - --picture -").err,
             "--picture: the standard output has the solution already\n");
+  EXPECT_EQ(run("solve arm.yaml --picture a.png").err,
+            "--picture: pictures are SVG: a name that ends in .svg is needed; corridor view "
+            "--image draws PNG\n");
   const Result same = run("solve arm.yaml -o one.svg --picture ./one.svg");
   EXPECT_EQ(same.status, 2);
   EXPECT_EQ(same.err, "--picture: is the file of --output; name another one\n");

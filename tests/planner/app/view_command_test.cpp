@@ -89,6 +89,9 @@ TEST_F(ViewCommand, Faults) {
     expectFault("view none.yaml --image " + std::string(name), "none.yaml: no such file");
   expectFault("view none.yaml -o a.png",
               "--output: pages are HTML: a name that ends in .html is needed, not \"a.png\"");
+  for (const char* option : {"--output", "--image"})
+    expectFault(std::string("view none.yaml ") + option + " -",
+                std::string(option) + ": is not written to the standard output; name a file");
   // Input files are not overwritten.
   std::filesystem::copy_file(folder_ / "path.yaml", folder_ / "path");
   std::filesystem::create_symlink(plate + "/problem.yaml", folder_ / "problem.png");
