@@ -18,7 +18,7 @@ class FileFrame {
   /// Rotates so that the up-axis becomes z. As in Collada, its "right" axis becomes x and its "in"
   /// axis -y.
   Vec3 operator*(const Vec3& p) const {
-    const Vec3 q = scale_ * p;
+    Vec3 q = scale_ * p;
     switch (up_) {
       case 'x':
         return {-q.y(), -q.z(), q.x()};
