@@ -226,9 +226,7 @@ std::string testedText(const NewRobotArguments& a, const Model& model,
   std::size_t inContact = 0, close = 0, others = 0;
   std::vector<const SurveyedPair*> undecided;
   for (const SurveyedPair& pair : tested)
-    if (pair.movesFreely)
-      ++others;
-    else if (pair.contacts > 0)
+    if (pair.contacts > 0 && !pair.movesFreely)
       ++inContact;
     else if (pair.proof && pair.proof->verdict == Verdict::tooClose)
       ++close;
