@@ -64,7 +64,7 @@ double largestTube(const ModelRobot& robot, const Problem& problem) {
   return largest;
 }
 
-/// Tests the pairs of links again that were proved never in contact, but for a smaller margin or
+/// Tests the pairs of links again that were proved never in contact with a smaller margin or
 /// tube than the problem's. Adds a note.
 void testBeyondProofs(Problem& problem) {
   std::size_t tested = 0;
