@@ -39,7 +39,9 @@ class Body {
   const TriangleMesh& mesh() const;              ///< empty for convex parts
   const std::vector<ConvexPart>& parts() const;  ///< empty for a mesh
   bool solid() const;                            ///< true for convex parts
-  const Obb4Tree& tree() const;                  ///< builds the tree if necessary
+  /// Only for these bodies, containment is more than contact of surfaces.
+  bool isSolidMesh() const { return solid() && isMesh(); }
+  const Obb4Tree& tree() const;  ///< builds the tree if necessary
   /// Returns the binary tree of one kind of volume. Builds it if necessary.
   template <BoundingVolume Volume>
   const VolumeTree<Volume>& volumeTree() const;

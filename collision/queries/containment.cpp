@@ -179,7 +179,7 @@ std::optional<PrimitivePair> findEnclosedPart(const Posed<MeshWithComponents>& a
 
 std::optional<PrimitivePair> findEnclosed(const Posed<Body>& solid, const Posed<Body>& inner,
                                           QueryContext& context) {
-  if (!solid.shape.solid() || !solid.shape.isMesh()) return std::nullopt;
+  if (!solid.shape.isSolidMesh()) return std::nullopt;
   const auto meshOf = [](const Body& body) {
     return MeshWithComponents{body.binaryTree(), body.components()};
   };

@@ -53,10 +53,6 @@ RelativeMotion atRest(const Transform& X_WA, const Transform& X_WB) {
   return still;
 }
 
-bool isSolidMesh(const Body& body) {
-  return body.solid() && body.isMesh();
-}
-
 /// Checks the numbers of every motion query. With a negative margin, for example, `free` would be
 /// possible although bodies touch.
 void require(const MotionOptions& options) {
@@ -93,7 +89,7 @@ Scene::Scene(std::vector<Placed> bodies, std::vector<Pair> pairs)
     return std::pair(motionOf[i], pairs_[i].b) < std::pair(motionOf[k], pairs_[k].b);
   });
   solidMeshes_ = std::any_of(pairs_.begin(), pairs_.end(), [&](const Pair& pair) {
-    return isSolidMesh(bodies_[pair.a].body) || isSolidMesh(bodies_[pair.b].body);
+    return bodies_[pair.a].body.isSolidMesh() || bodies_[pair.b].body.isSolidMesh();
   });
   const auto motionFromWorld = [&](std::size_t frame) {
     const auto [found, added] = motions.try_emplace({0, frame}, framePairs_.size());
@@ -260,7 +256,7 @@ MotionResult Scene::withContainment(MotionResult result, std::span<const std::ui
   for (const std::uint32_t k : pairs) {
     const MotionPair& pair = motionPairs_[k];
     // No test is needed for a convex part: it is solid, so the motion query finds bodies inside it.
-    if (!isSolidMesh(*pair.a) && !isSolidMesh(*pair.b)) continue;
+    if (!pair.a->isSolidMesh() && !pair.b->isSolidMesh()) continue;
     if (!mayMeet(*pair.a, sweptSphere(*pair.b, motion.relativeMotion(pair.motion, 0, 0)), 0))
       continue;
     const auto X_AB = poseApart(pair, motion, until, context);

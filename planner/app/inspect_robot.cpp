@@ -86,17 +86,6 @@ std::vector<double> reachOfLinks(const RobotModel& model) {
   return reach;
 }
 
-/// Returns the bounds of a shape's points, with their radii, in its frame; metres.
-Corners boundsOf(const PlacedShape& shape) {
-  Corners box{Vec3::Constant(std::numeric_limits<double>::infinity()),
-              Vec3::Constant(-std::numeric_limits<double>::infinity())};
-  forEachPoint(shape, [&](const Vec3& p, double radius) {
-    box.lower = box.lower.cwiseMin(p - Vec3::Constant(radius));
-    box.upper = box.upper.cwiseMax(p + Vec3::Constant(radius));
-  });
-  return box;
-}
-
 /// Describes a point cloud or an octree.
 ordered_json partsJson(const PlacedShape& shape) {
   const double radius = shape.parts.front().radius;

@@ -26,19 +26,6 @@ std::vector<std::size_t> upTo(const KinematicTree& tree, std::size_t f, std::siz
   return frames;
 }
 
-std::size_t commonAncestor(const KinematicTree& tree, std::size_t a, std::size_t b) {
-  while (a != b) (a > b ? a : b) = tree.frames[std::max(a, b)].parent;  // parents come first
-  return a;
-}
-
-bool moves(const Frame& frame) {
-  return frame.joint != Frame::Joint::none && frame.variable != Frame::noVariable;
-}
-
-bool isSolidMesh(const Body& body) {
-  return body.solid() && body.isMesh();
-}
-
 struct Range {
   double lower = 0, upper = 0;
 };
@@ -78,7 +65,7 @@ std::optional<Between> framesBetween(const Model& model, std::size_t a, std::siz
                                      double beyond) {
   Between between;
   const std::vector<Frame>& frames = model.tree.frames;
-  const std::size_t top = commonAncestor(model.tree, a, b);
+  const std::size_t top = model.tree.commonAncestor(a, b);
   const std::vector<std::size_t> toA = upTo(model.tree, a, top), toB = upTo(model.tree, b, top);
   std::vector<std::size_t> given;  // the model's variables
   const auto add = [&](const std::vector<std::size_t>& path) {
@@ -86,7 +73,7 @@ std::optional<Between> framesBetween(const Model& model, std::size_t a, std::siz
     for (auto f = path.rbegin(); f != path.rend(); ++f) {
       Frame frame = frames[*f];
       frame.parent = last;
-      if (moves(frame)) {
+      if (frame.moves()) {
         auto known = std::find(given.begin(), given.end(), frame.variable);
         if (known == given.end()) known = given.insert(known, frame.variable);
         frame.variable = static_cast<std::size_t>(known - given.begin());
@@ -101,7 +88,7 @@ std::optional<Between> framesBetween(const Model& model, std::size_t a, std::siz
   if (given.empty()) return std::nullopt;
   std::vector<char> wholeTurns(given.size(), true);
   for (const Frame& frame : between.tree.frames) {
-    if (!moves(frame)) continue;
+    if (!frame.moves()) continue;
     if (frame.joint != Frame::Joint::revolute && frame.joint != Frame::Joint::prismatic)
       return std::nullopt;
     if (frame.joint == Frame::Joint::prismatic || frame.multiplier != std::trunc(frame.multiplier))
@@ -115,9 +102,11 @@ std::optional<Between> framesBetween(const Model& model, std::size_t a, std::siz
   }
   // A frame's children come after it: the path from a upwards is the first branch in reverse.
   for (std::size_t f = branch; f-- > 1;)
-    if (moves(between.tree.frames[f])) between.variables.push_back(between.tree.frames[f].variable);
+    if (between.tree.frames[f].moves())
+      between.variables.push_back(between.tree.frames[f].variable);
   for (std::size_t f = branch; f < between.tree.frames.size(); ++f)
-    if (moves(between.tree.frames[f])) between.variables.push_back(between.tree.frames[f].variable);
+    if (between.tree.frames[f].moves())
+      between.variables.push_back(between.tree.frames[f].variable);
   return between;
 }
 
@@ -267,7 +256,7 @@ NeverInContactResult NeverInContact::prove(std::size_t a, std::size_t b,
   for (std::size_t i = firstShape_[a]; i < firstShape_[a + 1]; ++i)
     for (std::size_t k = firstShape_[b]; k < firstShape_[b + 1]; ++k) {
       const Body &first = scene_.bodies()[i].body, &second = scene_.bodies()[k].body;
-      if (isSolidMesh(first) || isSolidMesh(second)) return {};
+      if (first.isSolidMesh() || second.isSolidMesh()) return {};
       pairs.push_back({&first, &second, 0, i, k});
     }
   return Subdivision(*between, options, context).run(std::move(pairs));
@@ -275,11 +264,11 @@ NeverInContactResult NeverInContact::prove(std::size_t a, std::size_t b,
 
 bool movesFreely(const Model& model, std::size_t a, std::size_t b) {
   const std::size_t first = model.bodies[a].frame, second = model.bodies[b].frame,
-                    top = commonAncestor(model.tree, first, second);
+                    top = model.tree.commonAncestor(first, second);
   for (const std::size_t end : {first, second})
     for (const std::size_t f : upTo(model.tree, end, top)) {
       const Frame& frame = model.tree.frames[f];
-      if (moves(frame) &&
+      if (frame.moves() &&
           (frame.joint == Frame::Joint::translation || frame.joint == Frame::Joint::rotation))
         return true;
     }

@@ -67,14 +67,23 @@ std::string whyBadBounds(const Corners& corners, std::size_t dimensions) {
   return "";
 }
 
+Corners boundsOf(const PlacedShape& shape) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Corners box{Vec3::Constant(infinity), Vec3::Constant(-infinity)};
+  for (const ConvexPart& part : shape.parts) include(part, box);
+  if (shape.mesh) include(shape.mesh->mesh, box);
+  return box;
+}
+
 std::optional<Corners> boundsOfWorld(const Model& model) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Corners box{Vec3::Constant(infinity), Vec3::Constant(-infinity)};
   for (const ModelBody& body : model.bodies) {
     if (body.robot) continue;
     for (const PlacedShape& shape : body.shapes) {
-      for (const ConvexPart& part : shape.parts) include(part, box);
-      if (shape.mesh) include(shape.mesh->mesh, box);
+      const Corners own = boundsOf(shape);
+      box.lower = box.lower.cwiseMin(own.lower);
+      box.upper = box.upper.cwiseMax(own.upper);
     }
   }
   return box.lower.x() <= box.upper.x() ? std::optional(box) : std::nullopt;

@@ -24,6 +24,8 @@ void setBounds(ConfigurationSpace& space, const CoordinateGroup& group, const Co
 /// infinite), or "".
 std::string whyBadBounds(const Corners& corners, std::size_t dimensions);
 
+/// Returns the bounding box of a shape in its frame, metres; rounded, for people.
+Corners boundsOf(const PlacedShape& shape);
 /// Returns the bounding box of the obstacles, or nullopt if there are none.
 std::optional<Corners> boundsOfWorld(const Model& model);
 

@@ -82,15 +82,6 @@ struct EdgeMotion::Impl {
 
 namespace {
 
-std::size_t commonAncestor(const KinematicTree& tree, std::size_t a, std::size_t b) {
-  while (a != b) (a > b ? a : b) = tree.frames[std::max(a, b)].parent;  // parents come first
-  return a;
-}
-
-bool moves(const Frame& frame) {
-  return frame.joint != Frame::Joint::none && frame.variable != Frame::noVariable;
-}
-
 bool turns(Frame::Joint joint) {
   return joint == Frame::Joint::revolute || joint == Frame::Joint::rotation;
 }
@@ -111,10 +102,10 @@ EdgeMotion::Impl::Impl(const KinematicTree& tree, const ConfigurationSpace& move
   // Keep the world, the frames of pairs, their common ancestors, and all frames whose joint moves.
   // The constant poses of the other frames are multiplied into those of their descendants.
   std::vector<char> kept(count);
-  for (std::size_t f = 0; f < count; ++f) kept[f] = f == 0 || moves(tree.frames[f]);
+  for (std::size_t f = 0; f < count; ++f) kept[f] = f == 0 || tree.frames[f].moves();
   std::vector<std::size_t> ancestors;
   for (const Scene::FramePair& pair : pairs) {
-    ancestors.push_back(commonAncestor(tree, pair.a, pair.b));
+    ancestors.push_back(tree.commonAncestor(pair.a, pair.b));
     kept[pair.a] = kept[pair.b] = kept[ancestors.back()] = true;
   }
   std::vector<std::size_t> parents(count), placeOf(count);
@@ -128,8 +119,8 @@ EdgeMotion::Impl::Impl(const KinematicTree& tree, const ConfigurationSpace& move
     for (; !folded.empty(); folded.pop_back()) fixed = fixed.then(tree.frames[folded.back()]);
     const Frame& frame = tree.frames[f];
     placeOf[f] = places.size();
-    places.push_back({moves(frame) ? MovingJoint(frame, fixed, kindOf(space, frame.variable), tube)
-                                   : MovingJoint(fixed),
+    places.push_back({frame.moves() ? MovingJoint(frame, fixed, kindOf(space, frame.variable), tube)
+                                    : MovingJoint(fixed),
                       {},
                       0});
     places.back().X = places.back().joint.at(0);

@@ -38,6 +38,8 @@ struct Frame {
   std::size_t variable = noVariable;
   std::size_t count = 1;              ///< `translation` only: how many numbers, 2 or 3
   double multiplier = 1, offset = 0;  ///< `revolute`, `prismatic`: value = multiplier·q + offset
+
+  bool moves() const { return joint != Joint::none && variable != noVariable; }
 };
 
 /// The frames of all robots, and of the world. Frame 0 is the world; parents come before their
@@ -49,6 +51,14 @@ struct KinematicTree {
   std::size_t add(Frame frame) {
     frames.push_back(std::move(frame));
     return frames.size() - 1;
+  }
+  /// Returns the lowest frame that is a or above it, and b or above it.
+  std::size_t commonAncestor(std::size_t a, std::size_t b) const {
+    while (a != b) {  // the later frame is not above the other one
+      std::size_t& later = a > b ? a : b;
+      later = frames[later].parent;
+    }
+    return a;
   }
 };
 

@@ -263,11 +263,8 @@ std::optional<Vec3> PairProver::pointInside(std::size_t solid, std::size_t other
     for (const auto& component : componentsOf(*o.mesh))
       points.push_back(o.mesh->corner(component[0], 0));
   }
-  RealVec lower = s.mesh->vertices[0].cast<Real>(), upper = lower;
-  for (const Vec3& vertex : s.mesh->vertices) {
-    lower = lower.cwiseMin(vertex.cast<Real>());
-    upper = upper.cwiseMax(vertex.cast<Real>());
-  }
+  const BoxTree::Node& box = trees_[solid].node(0);
+  const RealVec lower = box.lower.cast<Real>(), upper = box.upper.cast<Real>();
   // A point outside of the box is outside of the mesh. The margin is far above all rounding.
   const Real size = lower.norm() + upper.norm() + X_SolidOther.position.norm();
   for (const Vec3& point : points) {

@@ -9,8 +9,7 @@ std::vector<std::size_t> tipFrames(const Model& model) {
   std::vector<std::size_t> joints(model.tree.frames.size(), 0);  // moving joints up to each frame
   for (std::size_t i = 1; i < joints.size(); ++i) {
     const Frame& frame = model.tree.frames[i];
-    const bool moves = frame.joint != Frame::Joint::none && frame.variable != Frame::noVariable;
-    joints[i] = joints[frame.parent] + (moves ? 1 : 0);
+    joints[i] = joints[frame.parent] + (frame.moves() ? 1 : 0);
   }
   std::map<std::size_t, std::size_t> tips;  // by robot
   for (const ModelBody& body : model.bodies) {

@@ -15,7 +15,6 @@
 #include <iostream>
 #include <set>
 
-#include "collision/core/quantiles.h"
 #include "planner/checker/checker.h"
 #include "planner/model/model_builder.h"
 #include "planner/problem/problem.h"
@@ -26,6 +25,7 @@
 #endif
 #endif
 #include "tests/benchmark/arguments.h"
+#include "tests/benchmark/median_time.h"
 #include "tests/benchmark/plot.h"
 #include "tests/benchmark/random_edges.h"
 
@@ -37,19 +37,6 @@ using Clock = std::chrono::steady_clock;
 
 double millisecondsSince(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
-/// Returns the median time of a call in µs, over all items, each the least of three rounds.
-template <class Call>
-double medianMicroseconds(std::size_t count, const Call& call) {
-  std::vector<double> least(count, HUGE_VAL);
-  for (int round = 0; round < 3; ++round)
-    for (std::size_t i = 0; i < count; ++i) {
-      const auto before = Clock::now();
-      call(i);
-      least[i] = std::min(least[i], 1e3 * millisecondsSince(before));
-    }
-  return medianOf(least);
 }
 
 /// The four walls.

@@ -9,15 +9,16 @@
 /// with the broad phase (what the planner does), and by a test of each pair of bodies.
 ///
 /// Prints CSV on stdout; the plot is written to FOLDER.
+#include <chrono>
 #include <cmath>
 #include <iostream>
 
-#include "collision/core/quantiles.h"
 #include "planner/checker/checker.h"
 #include "planner/model/model_builder.h"
 #include "planner/problem/problem.h"
 #include "planner/robot/edge_motion.h"
 #include "tests/benchmark/arguments.h"
+#include "tests/benchmark/median_time.h"
 #include "tests/benchmark/plot.h"
 #include "tests/benchmark/random_edges.h"
 
@@ -62,21 +63,6 @@ void addFar(std::size_t count, ModelBuilder& builder) {
     builder.addObstacle("far" + std::to_string(i), Box{Vec3(0.1, 0.1, 0.1)},
                         {Vec3(x, y, z), Eigen::Quaterniond::Identity()});
   }
-}
-
-/// Returns the median time of a call in µs, over all items, each the least of three rounds.
-template <class Call>
-double medianMicroseconds(std::size_t count, const Call& call) {
-  std::vector<double> least(count, HUGE_VAL);
-  for (int round = 0; round < 3; ++round)
-    for (std::size_t i = 0; i < count; ++i) {
-      const auto before = std::chrono::steady_clock::now();
-      call(i);
-      const std::chrono::duration<double, std::micro> time =
-          std::chrono::steady_clock::now() - before;
-      least[i] = std::min(least[i], time.count());
-    }
-  return medianOf(least);
 }
 
 struct Curves {

@@ -29,11 +29,11 @@ class MeshFileTest : public testing::Test {
     return readMeshFile(write(name, bytes), options);
   }
 
-  /// Returns the message of the InputError that reading throws, without the folder's path.
-  std::string complaint(const std::filesystem::path& file,
-                        const MeshFileOptions& options = {}) const {
+  /// Returns the message of the InputError that `read` throws, without the folder's path.
+  template <class Read>
+  std::string complaintOf(const Read& read) const {
     try {
-      readMeshFile(file, options);
+      read();
     } catch (const InputError& error) {
       std::string text = error.what();
       const std::string prefix = folder_.string() + '/';
@@ -42,6 +42,11 @@ class MeshFileTest : public testing::Test {
       return text;
     }
     return "no complaint";
+  }
+
+  std::string complaint(const std::filesystem::path& file,
+                        const MeshFileOptions& options = {}) const {
+    return complaintOf([&] { readMeshFile(file, options); });
   }
 
   std::string complaint(const std::string& name, const std::string& bytes,

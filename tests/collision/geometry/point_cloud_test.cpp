@@ -16,16 +16,7 @@ class PointCloudTest : public MeshFileTest {
   }
   std::string complaint(const std::string& name, const std::string& bytes,
                         const MeshFileOptions& options = {}) const {
-    try {
-      readPointCloud(write(name, bytes), options);
-    } catch (const InputError& error) {
-      std::string text = error.what();
-      const std::string prefix = folder_.string() + '/';
-      for (auto at = text.find(prefix); at != text.npos; at = text.find(prefix))
-        text.erase(at, prefix.size());
-      return text;
-    }
-    return "no complaint";
+    return complaintOf([&] { readPointCloud(write(name, bytes), options); });
   }
 };
 
