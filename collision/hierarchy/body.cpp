@@ -26,8 +26,8 @@ struct LazyTree {
 };
 
 struct Body::Impl {
-  std::string name;
-  TriangleMesh mesh;
+  /// Not owned alone: a model's shapes and several bodies may share it.
+  std::shared_ptr<const TriangleMesh> mesh = noMesh();
   /// Shared with the 4-wide tree, which refers to the parts by number.
   std::shared_ptr<const std::vector<ConvexPart>> parts = noParts();
   bool solid = false;
@@ -41,6 +41,9 @@ struct Body::Impl {
   mutable MeshComponents components;
   mutable std::optional<BoxTree> partBoxes;
 
+  static std::shared_ptr<const TriangleMesh> noMesh() {
+    return std::make_shared<const TriangleMesh>();
+  }
   static std::shared_ptr<const std::vector<ConvexPart>> noParts() {
     return std::make_shared<const std::vector<ConvexPart>>();
   }
@@ -102,33 +105,36 @@ void Body::Bounds::around(const Each& each) {
 }
 
 Body::Body(std::string name, TriangleMesh mesh, bool solid, const TreeParams& params)
-    : impl_(std::make_unique<Impl>()) {
+    : Body(std::move(name), std::make_shared<const TriangleMesh>(std::move(mesh)), solid, params) {}
+
+Body::Body(std::string name, std::shared_ptr<const TriangleMesh> mesh, bool solid,
+           const TreeParams& params)
+    : name_(std::move(name)), impl_(std::make_shared<Impl>()) {
   requireStandardFloatingPoint();
-  if (mesh.triangles.empty()) throw std::invalid_argument("body " + name + " has no triangle");
-  if (const auto complaint = checkMesh(mesh))
-    throw std::invalid_argument("body " + name + ": " + *complaint);
-  impl_->name = std::move(name);
+  if (mesh->triangles.empty()) throw std::invalid_argument("body " + name_ + " has no triangle");
+  if (const auto complaint = checkMesh(*mesh))
+    throw std::invalid_argument("body " + name_ + ": " + *complaint);
   impl_->mesh = std::move(mesh);
   impl_->solid = solid;
   if (solid)
     for (const MeshComponents::Component& component : components().components)
       if (!component.watertight)
-        throw std::invalid_argument("body " + impl_->name + " is not watertight; a solid must be");
+        throw std::invalid_argument("body " + name_ + " is not watertight; a solid must be");
   impl_->params = params;
   bounds_.around([&](auto take) {
-    for (std::size_t t = 0; t < impl_->mesh.triangles.size(); ++t)
-      for (int i = 0; i < 3; ++i) take(impl_->mesh.corner(t, i), 0, Vec3::Zero());
+    for (std::size_t t = 0; t < impl_->mesh->triangles.size(); ++t)
+      for (int i = 0; i < 3; ++i) take(impl_->mesh->corner(t, i), 0, Vec3::Zero());
   });
 }
 
 Body::Body(std::string name, ConvexPart part)
     : Body(std::move(name), std::vector<ConvexPart>{std::move(part)}) {}
 
-Body::Body(std::string name, std::vector<ConvexPart> parts) : impl_(std::make_unique<Impl>()) {
+Body::Body(std::string name, std::vector<ConvexPart> parts)
+    : name_(std::move(name)), impl_(std::make_shared<Impl>()) {
   requireStandardFloatingPoint();
-  if (parts.empty()) throw std::invalid_argument("body " + name + " has no parts");
-  for (const ConvexPart& part : parts) require(part, name);
-  impl_->name = std::move(name);
+  if (parts.empty()) throw std::invalid_argument("body " + name_ + " has no parts");
+  for (const ConvexPart& part : parts) require(part, name_);
   impl_->solid = true;
   impl_->parts = std::make_shared<const std::vector<ConvexPart>>(std::move(parts));
   bounds_.around([&](auto take) {
@@ -139,15 +145,19 @@ Body::Body(std::string name, std::vector<ConvexPart> parts) : impl_(std::make_un
   });
 }
 
+Body::Body(std::string name, const Bounds& bounds, std::shared_ptr<Impl> impl)
+    : name_(std::move(name)), bounds_(bounds), impl_(std::move(impl)) {}
+
 Body::~Body() = default;
 Body::Body(Body&&) noexcept = default;
 Body& Body::operator=(Body&&) noexcept = default;
 
-const std::string& Body::name() const {
-  return impl_->name;
+Body Body::renamed(std::string name) const {
+  return {std::move(name), bounds_, impl_};
 }
+
 const TriangleMesh& Body::mesh() const {
-  return impl_->mesh;
+  return *impl_->mesh;
 }
 const std::vector<ConvexPart>& Body::parts() const {
   return *impl_->parts;
@@ -161,7 +171,7 @@ bool Body::treeBuilt() const {
 
 const MeshComponents& Body::components() const {
   std::call_once(impl_->componentsOnce,
-                 [this] { impl_->components = findComponents(impl_->mesh); });
+                 [this] { impl_->components = findComponents(*impl_->mesh); });
   return impl_->components;
 }
 
@@ -183,7 +193,7 @@ const BoxTree& Body::partBoxes() const {
 const Obb4Tree& Body::tree() const {
   std::call_once(impl_->once, [this] {
     if (isMesh())
-      impl_->tree.emplace(impl_->mesh, impl_->params.fit);
+      impl_->tree.emplace(*impl_->mesh, impl_->params.fit);
     else
       impl_->tree.emplace(impl_->parts);
     impl_->built = true;
@@ -196,7 +206,7 @@ const VolumeTree<Volume>& Body::volumeTree() const {
   using Tree = VolumeTree<Volume>;
   auto& lazy = std::get<LazyTree<Tree>>(impl_->volumeTrees);
   std::call_once(lazy.once, [&] {
-    lazy.tree = isMesh() ? std::make_unique<const Tree>(impl_->mesh, impl_->params)
+    lazy.tree = isMesh() ? std::make_unique<const Tree>(*impl_->mesh, impl_->params)
                          : std::make_unique<const Tree>(*impl_->parts, impl_->params);
     impl_->built = true;
   });

@@ -15,13 +15,16 @@ namespace corridor {
 
 /// A named mesh, or a union of convex parts, in the coordinates of the frame that it is fixed to.
 /// Each tree is built when a query first needs it; this is thread-safe. Otherwise a body is
-/// immutable.
+/// immutable. Equal bodies at different places can share one mesh and its trees (`renamed`).
 class Body {
  public:
   /// A mesh: its surface, or with `solid` also everything that it encloses.
   /// @throws std::invalid_argument if the mesh has no triangle, if `checkMesh` finds a fault, or if
   /// `solid` is set and a component isn't watertight.
   Body(std::string name, TriangleMesh mesh, bool solid = false, const TreeParams& params = {});
+  /// The same, without a copy of the mesh. @pre `mesh` is not null.
+  Body(std::string name, std::shared_ptr<const TriangleMesh> mesh, bool solid = false,
+       const TreeParams& params = {});
   /// A convex part, which is solid. (`checkPrimitive` checks a primitive before it is made a part.)
   /// @throws std::invalid_argument if the part has no point, or a point that is not finite; if its
   /// radius is negative or not finite; or if it has flat ends and not exactly two points.
@@ -33,8 +36,11 @@ class Body {
   ~Body();
   Body(Body&&) noexcept;
   Body& operator=(Body&&) noexcept;
+  /// Returns a body of another name that shares this body's mesh or parts, and all trees. A tree
+  /// that one of them builds serves both.
+  Body renamed(std::string name) const;
 
-  const std::string& name() const;
+  const std::string& name() const { return name_; }
   bool isMesh() const { return parts().empty(); }
   const TriangleMesh& mesh() const;              ///< empty for convex parts
   const std::vector<ConvexPart>& parts() const;  ///< empty for a mesh
@@ -70,8 +76,11 @@ class Body {
     void around(const Each& each);
   };
   struct Impl;
+  Body(std::string name, const Bounds& bounds, std::shared_ptr<Impl> impl);
+
+  std::string name_;
   Bounds bounds_;
-  std::unique_ptr<Impl> impl_;
+  std::shared_ptr<Impl> impl_;
 };
 
 }  // namespace corridor

@@ -22,13 +22,16 @@ BroadPhase::BroadPhase(std::span<const MotionPair> pairs) : pairs_(pairs) {
     if (pair.worldB != MotionPair::kNone)
       bodies_ = std::max({bodies_, pair.bodyA + 1, pair.bodyB + 1});
   const auto isTested = [&](const MotionPair& pair) {
-    return pair.worldA == MotionPair::kNone && pair.worldB == pair.motion;
+    return pair.restBox && pair.worldB != MotionPair::kNone;
+  };
+  const auto followsIn = [&](const MotionPair& first, const MotionPair& pair) {
+    return isTested(first) ? isTested(pair) && pair.bodyB == first.bodyB
+                           : pair.motion == first.motion && pair.bodyB == first.bodyB;
   };
   std::size_t lastTree = runs_.size();  // the index of the last run with a tree
   for (std::size_t begin = 0, end = 0; begin < pairs.size(); begin = end) {
     const MotionPair& first = pairs[begin];
-    for (end = begin + 1; end < pairs.size(); ++end)
-      if (pairs[end].motion != first.motion || pairs[end].bodyB != first.bodyB) break;
+    for (end = begin + 1; end < pairs.size() && followsIn(first, pairs[end]);) ++end;
     std::shared_ptr<const BoxTree> tree;
     if (isTested(first) && end - begin >= kLeastPairs) {
       const auto own = pairs.subspan(begin, end - begin);
@@ -37,7 +40,7 @@ BroadPhase::BroadPhase(std::span<const MotionPair> pairs) : pairs_(pairs) {
         tree = last->tree;
       } else {
         std::vector<BoundingBox> boxes;
-        for (const MotionPair& pair : own) boxes.push_back(pair.a->box());
+        for (const MotionPair& pair : own) boxes.push_back(*pair.restBox);
         tree = std::make_shared<const BoxTree>(boxes);
       }
       lastTree = runs_.size();

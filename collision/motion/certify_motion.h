@@ -118,6 +118,9 @@ struct MotionPair {
   /// * If the motions are not known, both are `kNone`.
   /// * If they are known, a body has the same index and the same motion in all pairs of a query.
   std::size_t worldA = kNone, worldB = kNone;
+  /// A box around a in the world, if a is at rest there; else null. With the box and `worldB`, a
+  /// broad phase can find the pair.
+  const BoundingBox* restBox = nullptr;
 };
 
 /// A proved statement: on all of [t0, t1], and for the whole tube around the motion, pair number

@@ -29,8 +29,10 @@ IntervalMotions::Separation IntervalMotions::separation(const MotionPair& pair, 
                                                         bool best) {
   const double enough = best ? HUGE_VAL : asked;
   if (pair.worldA != MotionPair::kNone) {
-    const double clearance = clearanceBound(worldSphere(pair.worldA, *pair.a, pair.bodyA),
-                                            worldSphere(pair.worldB, *pair.b, pair.bodyB), enough);
+    const SweptSphere& b = worldSphere(pair);
+    const double clearance =
+        pair.restBox ? clearanceBound(*pair.restBox, b, enough)
+                     : clearanceBound(worldSphere(pair.worldA, *pair.a, pair.bodyA), b, enough);
     if (clearance > asked) return {clearance};
   }
   // A sphere can be shared by several pairs only if its motion is seen from the world.

@@ -6,6 +6,7 @@
 #include <map>
 #include <numeric>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -53,6 +54,27 @@ RelativeMotion atRest(const Transform& X_WA, const Transform& X_WB) {
   return still;
 }
 
+/// Returns a box around the body under the maps that differ from X by as much as `Scene::Placed`
+/// allows.
+BoundingBox boxUnder(const Body& body, const Transform& X) {
+  BoundingBox box;
+  const auto add = [&](const Vec3& p, double radius) {
+    box.lower = box.lower.cwiseMin(X * p - Vec3::Constant(radius));
+    box.upper = box.upper.cwiseMax(X * p + Vec3::Constant(radius));
+  };
+  for (const Vec3& vertex : body.mesh().vertices) add(vertex, 0);
+  for (const ConvexPart& part : body.parts())
+    for (const Vec3& point : part.points) add(point, part.radius);
+  // A map of norm 1 + η moves a ball's surface by η times its radius more. Each coordinate of the
+  // product is off by at most 4u(√3(1 + η)r + |t|), and u = 2^-53.
+  const double error =
+      roundedUp((orthonormalityDefect(X.m) + 0x1p-45) * body.radius() + 0x1p-45 * X.t.stableNorm());
+  box.lower.array() -= error;
+  box.upper.array() += error;
+  box.terms = box.lower.cwiseAbs().sum() + box.upper.cwiseAbs().sum();
+  return box;
+}
+
 /// Checks the numbers of every motion query. With a negative margin, for example, `free` would be
 /// possible although bodies touch.
 void require(const MotionOptions& options) {
@@ -71,39 +93,49 @@ void require(const MotionOptions& options) {
 
 Scene::Scene(std::vector<Placed> bodies, std::vector<Pair> pairs)
     : bodies_(std::move(bodies)), pairs_(std::move(pairs)) {
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    if (const auto& X_WF = bodies_[i].restX_WF) restBoxes_[i] = boxUnder(bodies_[i].body, *X_WF);
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> motions;
-  std::vector<std::size_t> motionOf;
-  motionOf.reserve(pairs_.size());
+  const auto motionOf = [&](std::size_t frameA, std::size_t frameB) {
+    const auto [found, added] = motions.try_emplace({frameA, frameB}, framePairs_.size());
+    if (added) framePairs_.push_back({frameA, frameB});
+    return found->second;
+  };
+  std::vector<std::size_t> motionsOfPairs;
+  motionsOfPairs.reserve(pairs_.size());
   for (Pair& pair : pairs_) {
     if (pair.a >= bodies_.size() || pair.b >= bodies_.size())
       throw std::invalid_argument("a pair names a body that the scene does not have");
     if (bodies_[pair.b].frame < bodies_[pair.a].frame) std::swap(pair.a, pair.b);
-    const FramePair frames{bodies_[pair.a].frame, bodies_[pair.b].frame};
-    const auto [found, added] = motions.try_emplace({frames.a, frames.b}, framePairs_.size());
-    if (added) framePairs_.push_back(frames);
-    motionOf.push_back(found->second);
+    if (bodies_[pair.b].restX_WF && bodies_[pair.a].frame != 0) std::swap(pair.a, pair.b);
+    motionsOfPairs.push_back(motionOf(bodies_[pair.a].frame, bodies_[pair.b].frame));
   }
-  order_.resize(pairs_.size());
-  std::iota(order_.begin(), order_.end(), std::size_t{0});
-  std::stable_sort(order_.begin(), order_.end(), [&](std::size_t i, std::size_t k) {
-    return std::pair(motionOf[i], pairs_[i].b) < std::pair(motionOf[k], pairs_[k].b);
-  });
   solidMeshes_ = std::any_of(pairs_.begin(), pairs_.end(), [&](const Pair& pair) {
     return bodies_[pair.a].body.isSolidMesh() || bodies_[pair.b].body.isSolidMesh();
   });
-  const auto motionFromWorld = [&](std::size_t frame) {
-    const auto [found, added] = motions.try_emplace({0, frame}, framePairs_.size());
-    if (added) framePairs_.push_back({0, frame});
-    return found->second;
-  };
-  for (const std::size_t i : order_) {
-    MotionPair pair{&bodies_[pairs_[i].a].body, &bodies_[pairs_[i].b].body, motionOf[i],
-                    pairs_[i].a, pairs_[i].b};
-    const std::size_t a = bodies_[pair.bodyA].frame, b = bodies_[pair.bodyB].frame;
-    if (b != 0) pair.worldB = motionFromWorld(b);
-    if (a != 0) pair.worldA = motionFromWorld(a);
-    motionPairs_.push_back(pair);
+  std::vector<MotionPair> motionPairs;
+  motionPairs.reserve(pairs_.size());
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    const Placed &a = bodies_[pairs_[i].a], &b = bodies_[pairs_[i].b];
+    MotionPair pair{&a.body, &b.body, motionsOfPairs[i], pairs_[i].a, pairs_[i].b};
+    if (b.frame != 0) pair.worldB = motionOf(0, b.frame);
+    if (a.frame != 0) pair.worldA = motionOf(0, a.frame);
+    if (a.frame == 0) pair.restBox = &a.body.box();
+    if (a.restX_WF) pair.restBox = &restBoxes_.at(pair.bodyA);
+    motionPairs.push_back(pair);
   }
+  // The pairs of a body with all bodies at rest are adjacent, although their motions may differ.
+  const auto keyOf = [&](std::size_t i) {
+    const MotionPair& pair = motionPairs[i];
+    const bool atRest = pair.restBox && pair.worldB != MotionPair::kNone;
+    return std::tuple(atRest ? pair.worldB : pair.motion, pair.bodyB, pair.motion);
+  };
+  order_.resize(pairs_.size());
+  std::iota(order_.begin(), order_.end(), std::size_t{0});
+  std::stable_sort(order_.begin(), order_.end(),
+                   [&](std::size_t i, std::size_t k) { return keyOf(i) < keyOf(k); });
+  motionPairs_.reserve(pairs_.size());
+  for (const std::size_t i : order_) motionPairs_.push_back(motionPairs[i]);
   broadPhase_ = std::make_unique<const BroadPhase>(motionPairs_);
 }
 
@@ -144,6 +176,11 @@ void Scene::forNearPairs(std::span<const Transform> X_WF, const double& within,
     for (const std::size_t frame : {pair.a, pair.b})
       if (frame >= X_WF.size() || !X_WF[frame].isFinite())
         throw std::invalid_argument("every frame must have a finite pose");
+  for (const auto& [body, box] : restBoxes_) {
+    const std::size_t frame = bodies_[body].frame;
+    if (frame >= X_WF.size() || !(X_WF[frame] == bodies_[body].restX_WF))
+      throw std::invalid_argument("a frame at rest must have the map that the scene was given");
+  }
   auto& spheres = context.scratch.of<SweptSpheres>();
   spheres.makeRoom(bodies_.size());
   spheres.forget();
@@ -158,7 +195,11 @@ void Scene::forNearPairs(std::span<const Transform> X_WF, const double& within,
     if (X_WA == Transform()) {
       if (!mayMeet(*pair.a, worldSphere(pair.bodyB), within)) return false;
     } else {
-      if (clearanceBound(worldSphere(pair.bodyA), worldSphere(pair.bodyB), within) > within)
+      const SweptSphere& b = worldSphere(pair.bodyB);
+      // (The box of a body on frame 0 doesn't move with the world.)
+      const bool boxed = pair.restBox && frames.a != 0;
+      if ((boxed ? clearanceBound(*pair.restBox, b, within)
+                 : clearanceBound(worldSphere(pair.bodyA), b, within)) > within)
         return false;
       // The sphere and the box are measured in A's frame, whose map need not preserve lengths.
       const double inA =

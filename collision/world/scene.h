@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -25,6 +26,11 @@ class Scene {
   struct Placed {
     Body body;
     std::size_t frame = 0;
+    /// The map of the frame, if the frame is at rest in the world; else empty. The broad phase then
+    /// finds the body as it finds bodies on frame 0. Queries of states must be given this map. In
+    /// queries of motions, the frame's pose must take each point of the body to within 2^-46·(r +
+    /// |t|) metres of where this map takes it; r is the body's radius.
+    std::optional<Transform> restX_WF = std::nullopt;
   };
   struct Pair {
     std::size_t a = 0, b = 0;  ///< bodies, by index
@@ -35,8 +41,9 @@ class Scene {
     std::size_t a = 0, b = 0;
   };
 
-  /// Only `pairs` are ever tested. In `pairs()`, a is the body on the frame of lower index: the
-  /// constructor exchanges the two bodies of a pair if necessary.
+  /// Only `pairs` are ever tested. In `pairs()`, a is the body on the world or at rest, if one of
+  /// the two is, or else the body on the frame of lower index: the constructor exchanges the two
+  /// bodies of a pair if necessary.
   /// @throws std::invalid_argument if a pair names a body that does not exist.
   Scene(std::vector<Placed> bodies, std::vector<Pair> pairs);
   ~Scene();
@@ -55,9 +62,10 @@ class Scene {
   /// @param farthest metres; the poses of frames are at most this far from the origin.
   double defaultTolerance(double farthest = 0) const;
 
-  /// All queries throw std::invalid_argument for options that are not finite or out of range, and
-  /// if the transform of the world (frame 0) or of a frame in a pair is missing or not finite. They
-  /// build the trees that they need.
+  /// All queries throw std::invalid_argument for options that are not finite or out of range; if
+  /// the transform of the world (frame 0) or of a frame in a pair is missing or not finite; or if
+  /// that of a frame at rest is not the map that was given for it. They build the trees that they
+  /// need.
 
   /// Returns the first contact found under the maps X_WF of the frames, or nullopt. Exact for
   /// meshes (collision/PROMISES.md, promise 1); with a convex part, contact may be reported for
@@ -107,8 +115,9 @@ class Scene {
 
   std::vector<Placed> bodies_;
   std::vector<Pair> pairs_;
-  std::vector<std::size_t> order_;  // indices of `pairs_`; pairs of the same motion are adjacent
-  std::vector<MotionPair> motionPairs_;  // in that order
+  std::map<std::size_t, BoundingBox> restBoxes_;  // in the world, for each body with `restX_WF`
+  std::vector<std::size_t> order_;  // indices of `pairs_`, in the order of `motionPairs_`
+  std::vector<MotionPair> motionPairs_;
   std::vector<FramePair> framePairs_;
   std::unique_ptr<const BroadPhase> broadPhase_;  // of `motionPairs_`
   bool solidMeshes_ = false;  // a pair has a solid mesh, so containment must be decided

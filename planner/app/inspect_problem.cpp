@@ -110,8 +110,9 @@ class ProblemReport {
   void reportBodies() {
     json_["bodies"] = ordered_json::array();
     for (const ModelBody& body : problem_.model.bodies) {
-      ordered_json j = {
-          {"name", body.name}, {"moves", body.frame != 0}, {"shapes", ordered_json::array()}};
+      ordered_json j = {{"name", body.name},
+                        {"moves", body.robot.has_value()},
+                        {"shapes", ordered_json::array()}};
       std::string text;
       for (const PlacedShape& shape : body.shapes) {
         ordered_json& one = j["shapes"].emplace_back(shapeJson(shape));

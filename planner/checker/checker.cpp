@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <mutex>
 #include <stdexcept>
 #include <thread>
@@ -54,12 +55,20 @@ Scene makeScene(const Model& model, ObbFit fit) {
   params.fit = fit;
   std::vector<Scene::Placed> placed;
   std::vector<std::size_t> firstShape;
+  std::map<std::pair<const MeshFile*, bool>, std::size_t> known;  // by mesh and `solid`
+  const auto bodyOf = [&](const PlacedShape& shape) {
+    if (!shape.mesh) return Body(shape.name, shape.parts);
+    const auto [same, isNew] = known.try_emplace({shape.mesh.get(), shape.solid}, placed.size());
+    if (!isNew) return placed[same->second].body.renamed(shape.name);
+    return Body(shape.name, {shape.mesh, &shape.mesh->mesh}, shape.solid, params);
+  };
+  const std::vector<Transform> X_WF = framesAtRest(model);
   for (const ModelBody& body : model.bodies) {
     firstShape.push_back(placed.size());
+    const bool ownFrame = !body.robot && body.frame != 0;
     for (const PlacedShape& shape : body.shapes)
-      placed.push_back({shape.mesh ? Body(shape.name, shape.mesh->mesh, shape.solid, params)
-                                   : Body(shape.name, shape.parts),
-                        body.frame});
+      placed.push_back(
+          {bodyOf(shape), body.frame, ownFrame ? std::optional(X_WF[body.frame]) : std::nullopt});
   }
   firstShape.push_back(placed.size());
   std::vector<Scene::Pair> pairs;

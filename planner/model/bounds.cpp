@@ -24,11 +24,12 @@ void include(const ConvexPart& part, Corners& box) {
   }
 }
 
-void include(const TriangleMesh& mesh, Corners& box) {
+void include(const TriangleMesh& mesh, const Transform& X, Corners& box) {
   for (const auto& triangle : mesh.triangles)
     for (const std::uint32_t i : triangle) {
-      box.lower = box.lower.cwiseMin(mesh.vertices[i]);
-      box.upper = box.upper.cwiseMax(mesh.vertices[i]);
+      const Vec3 p = X * mesh.vertices[i];
+      box.lower = box.lower.cwiseMin(p);
+      box.upper = box.upper.cwiseMax(p);
     }
 }
 
@@ -67,21 +68,25 @@ std::string whyBadBounds(const Corners& corners, std::size_t dimensions) {
   return "";
 }
 
-Corners boundsOf(const PlacedShape& shape) {
+Corners boundsOf(const PlacedShape& shape, const Transform& X) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Corners box{Vec3::Constant(infinity), Vec3::Constant(-infinity)};
-  for (const ConvexPart& part : shape.parts) include(part, box);
-  if (shape.mesh) include(shape.mesh->mesh, box);
+  for (ConvexPart part : shape.parts) {
+    for (Vec3& point : part.points) point = X * point;
+    include(part, box);
+  }
+  if (shape.mesh) include(shape.mesh->mesh, X, box);
   return box;
 }
 
 std::optional<Corners> boundsOfWorld(const Model& model) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Corners box{Vec3::Constant(infinity), Vec3::Constant(-infinity)};
+  const std::vector<Transform> X_WF = framesAtRest(model);
   for (const ModelBody& body : model.bodies) {
     if (body.robot) continue;
     for (const PlacedShape& shape : body.shapes) {
-      const Corners own = boundsOf(shape);
+      const Corners own = boundsOf(shape, X_WF[body.frame]);
       box.lower = box.lower.cwiseMin(own.lower);
       box.upper = box.upper.cwiseMax(own.upper);
     }

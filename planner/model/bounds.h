@@ -25,7 +25,8 @@ void setBounds(ConfigurationSpace& space, const CoordinateGroup& group, const Co
 std::string whyBadBounds(const Corners& corners, std::size_t dimensions);
 
 /// Returns the bounding box of a shape in its frame, metres; rounded, for people.
-Corners boundsOf(const PlacedShape& shape);
+/// @param X of the shape in the frame of the box.
+Corners boundsOf(const PlacedShape& shape, const Transform& X = {});
 /// Returns the bounding box of the obstacles, or nullopt if there are none.
 std::optional<Corners> boundsOfWorld(const Model& model);
 

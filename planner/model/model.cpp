@@ -33,6 +33,11 @@ std::vector<std::size_t> moversOf(const KinematicTree& tree) {
   return mover;
 }
 
+std::vector<Transform> framesAtRest(const Model& model) {
+  const auto size = static_cast<Eigen::Index>(model.space.size());
+  return framePoses(model.tree, Configuration::Zero(size));
+}
+
 bool hasPoseJoints(const ConfigurationSpace& space) {
   const auto& groups = space.groups();
   return std::any_of(groups.begin(), groups.end(), [](const CoordinateGroup& group) {

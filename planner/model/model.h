@@ -50,8 +50,9 @@ struct ModelRobot {
 
 /// A link or an obstacle: all shapes that are tested under one name.
 struct ModelBody {
-  std::string name;       ///< "hand", "left/hand", "table"; for a rigid robot, the robot's name
-  std::size_t frame = 0;  ///< in Model::tree; 0 (the world) for an obstacle
+  std::string name;  ///< "hand", "left/hand", "table"; for a rigid robot, the robot's name
+  /// In Model::tree. An obstacle's is 0 (the world), or a frame of its own that is fixed to it.
+  std::size_t frame = 0;
   std::optional<std::size_t> robot;  ///< index in Model::robots; empty for an obstacle
   std::vector<PlacedShape> shapes;   ///< at least one, in the coordinates of `frame`
 };
@@ -128,6 +129,10 @@ double pairCount(const Model& model);
 /// among the frame itself and its ancestors. If there is none, the mover is the world. Two frames
 /// with the same mover never move against each other.
 std::vector<std::size_t> moversOf(const KinematicTree& tree);
+
+/// Returns the map of each frame, as `framePoses` does. Only those of frames that never move (all
+/// frames of obstacles) are of use; the others may even be NaN.
+std::vector<Transform> framesAtRest(const Model& model);
 
 /// Returns whether the model has a planar or floating joint, or a rigid robot.
 bool hasPoseJoints(const ConfigurationSpace& space);

@@ -113,13 +113,16 @@ ModelBuilder& ModelBuilder::addRigidBody(const std::string& name, JointType type
   return addRobot(std::move(robot)).bound(name, bounds);
 }
 
-ModelBuilder& ModelBuilder::addObstacle(std::string name, std::vector<PlacedShape> shapes) {
+ModelBuilder& ModelBuilder::addObstacle(std::string name, std::vector<PlacedShape> shapes,
+                                        const std::optional<RigidPose>& X_WO) {
+  if (shapes.empty()) return *this;
   const bool isLink =
       std::any_of(model_.bodies.begin(), model_.bodies.end(),
                   [&](const ModelBody& body) { return body.robot && body.name == name; });
   if (isLink) name.insert(0, "world/");
-  if (!shapes.empty())
-    model_.bodies.push_back({std::move(name), 0, std::nullopt, std::move(shapes)});
+  std::size_t frame = 0;
+  if (X_WO) frame = model_.tree.add({.name = name, .fixed = *X_WO});
+  model_.bodies.push_back({std::move(name), frame, std::nullopt, std::move(shapes)});
   return *this;
 }
 
@@ -232,7 +235,9 @@ PlacedShape shapeOf(std::string name, const Primitive& primitive, const RigidPos
 PlacedShape shapeOf(std::string name, TriangleMesh mesh, bool solid) {
   PlacedShape shape;
   shape.name = std::move(name);
-  shape.mesh.emplace().mesh = std::move(mesh);
+  MeshFile file;
+  file.mesh = std::move(mesh);
+  shape.mesh = std::make_shared<const MeshFile>(std::move(file));
   shape.solid = solid;
   return shape;
 }

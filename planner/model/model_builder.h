@@ -2,6 +2,7 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,7 +41,10 @@ class ModelBuilder {
                              std::vector<PlacedShape> shapes, const Corners& bounds);
   /// Adds an obstacle. Its shapes (`shapeOf`) are in world coordinates. Without shapes, adds
   /// nothing. If a link has the same name, the obstacle's becomes "world/NAME".
-  ModelBuilder& addObstacle(std::string name, std::vector<PlacedShape> shapes);
+  /// @param X_WO if given, the shapes are in the coordinates of a frame of the obstacle's own, at
+  /// this pose. Obstacles can then share one mesh, and its trees, at different poses.
+  ModelBuilder& addObstacle(std::string name, std::vector<PlacedShape> shapes,
+                            const std::optional<RigidPose>& X_WO = std::nullopt);
   ModelBuilder& addObstacle(const std::string& name, const Primitive& primitive,
                             const RigidPose& at = {});
 

@@ -146,13 +146,14 @@ std::optional<CfgMesh> readMesh(const IniFile& ini, const std::string& key, Prob
     CfgMesh mesh{readOmplAppMesh(path), {}};
     mesh.shape.name = path.stem().string();
     mesh.shape.file = path;
-    MeshFile& file = mesh.shape.mesh.emplace();
+    MeshFile file;
     file.mesh = mesh.read.mesh;
     file.format =
         path.extension().string().substr(path.has_extension() ? 1 : 0) + ", as OMPL.app reads it";
     file.unitRule = "1 m per unit (OMPL.app knows no units)";
     file.upRule = "rotated to y up by assimp's rule, as in OMPL.app";
     file.floatVertices = true;
+    mesh.shape.mesh = std::make_shared<const MeshFile>(std::move(file));
     return mesh;
   } catch (const InputError& error) {
     faults.add(error);

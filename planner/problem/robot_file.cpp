@@ -76,8 +76,9 @@ std::optional<RobotSetup> readRigid(const YamlMap& map, const std::string& name,
   const auto rigid = map.choice("rigid", robotChoices().at("rigid"));
   const std::size_t before = map.source().faults.size();
   std::vector<PlacedShape> shapes;
+  ShapeFiles files{setup.files};
   if (map.require("shapes", "the robot's shapes, such as shapes: [{mesh: piano.obj, unit: m}]"))
-    shapes = readShapes(map, robotKeys().at("shapes[]"), {name, folder, {}}, setup.files);
+    shapes = readShapes(map, robotKeys().at("shapes[]"), {name, folder, {}}, files);
   const bool sound = map.source().faults.size() == before && !shapes.empty();
   if (const YamlValue* weights = map.find("weights")) {
     const YamlMap inner(*weights, "weights", &robotKeys().at("weights"), map.source());

@@ -37,28 +37,19 @@ bool mayBeCloud(const std::filesystem::path& file, std::string_view why) {
   return extension == ".pcd" || extension == ".xyz" || extension == ".pts" || extension == ".asc";
 }
 
-/// Reads the mesh file that `key` names, and adds it to `files`. Returns nullopt if a fault was
-/// added.
-std::optional<MeshFile> readMesh(const YamlMap& map, const char* key,
-                                 const std::filesystem::path& folder, std::filesystem::path& file,
-                                 std::vector<std::filesystem::path>& files) {
-  const MeshFileOptions options = readMeshOptions(map);
+/// Reads the mesh file that `key` names, and adds it to `files`. Returns null if a fault was added.
+std::shared_ptr<const MeshFile> readMesh(const YamlMap& map, const char* key,
+                                         const std::filesystem::path& folder,
+                                         std::filesystem::path& file, ShapeFiles& files) {
   const auto name = map.text(key);
-  if (!name) return std::nullopt;
+  if (!name) return nullptr;
   file = folder / *name;
   if (const std::string why = whyNoFile(file); !why.empty()) {
     map.fault(key, file.string() + ": " + why);
-    return std::nullopt;
+    return nullptr;
   }
-  addFile(files, file);
-  try {
-    return readMeshFile(file, options);
-  } catch (const InputError& error) {
-    map.source().faults.add(error);
-    if (mayBeCloud(file, error.what()))
-      map.fault(key, "for a cloud of points, write points: {file: " + *name + ", radius: 0.01}");
-    return std::nullopt;
-  }
+  addFile(files.files, file);
+  return files.meshes.read(map, key, file);
 }
 
 std::optional<Primitive> readBox(const YamlMap& map) {
@@ -98,8 +89,7 @@ std::optional<Primitive> readRound(const YamlMap& map, const char* key, const ch
 }
 
 std::optional<Primitive> readConvex(const YamlMap& map, const ShapePlace& place,
-                                    std::filesystem::path& file,
-                                    std::vector<std::filesystem::path>& files) {
+                                    std::filesystem::path& file, ShapeFiles& files) {
   const YamlValue& value = *map.find("convex");
   Convex convex;
   if (value.kind == YamlValue::Kind::List) {
@@ -114,15 +104,15 @@ std::optional<Primitive> readConvex(const YamlMap& map, const ShapePlace& place,
     map.fault("convex", "a mesh file or points [[x, y, z], …] are needed, not " + described(value));
     return std::nullopt;
   }
-  auto mesh = readMesh(map, "convex", place.folder, file, files);
+  const auto mesh = readMesh(map, "convex", place.folder, file, files);
   if (!mesh) return std::nullopt;
-  convex.points = std::move(mesh->mesh.vertices);
+  convex.points = mesh->mesh.vertices;
   return convex;
 }
 
 std::optional<Primitive> readPrimitive(const YamlMap& map, const std::string& kind,
                                        const ShapePlace& place, std::filesystem::path& file,
-                                       std::vector<std::filesystem::path>& files) {
+                                       ShapeFiles& files) {
   if (kind == "box") return readBox(map);
   if (kind == "sphere") return readSphere(map);
   if (kind == "capsule")
@@ -147,10 +137,18 @@ void faultMisplacedKeys(const YamlMap& map, const std::string& kind) {
                            : "is for meshes; a " + kind + " is always solid");
 }
 
-bool moveMesh(TriangleMesh& mesh, const Transform& X) {
-  for (Vec3& vertex : mesh.vertices) vertex = X * vertex;
-  return std::all_of(mesh.vertices.begin(), mesh.vertices.end(),
-                     [](const Vec3& vertex) { return vertex.allFinite(); });
+/// Moves the vertices of a mesh, which other shapes may share. Returns whether they are still
+/// finite.
+template <class Move>
+bool moveMesh(PlacedShape& shape, const Move& move) {
+  MeshFile moved = *shape.mesh;
+  bool finite = true;
+  for (Vec3& vertex : moved.mesh.vertices) {
+    vertex = move(vertex);
+    finite &= vertex.allFinite();
+  }
+  shape.mesh = std::make_shared<const MeshFile>(std::move(moved));
+  return finite;
 }
 
 bool isFinite(const ConvexPart& part) {
@@ -158,19 +156,40 @@ bool isFinite(const ConvexPart& part) {
                      [](const Vec3& point) { return point.allFinite(); });
 }
 
-/// Returns whether the mesh is watertight, as a solid mesh must be. If not, adds a fault.
-bool checkSolid(const YamlMap& map, const PlacedShape& shape) {
-  const MeshHealth health = inspectMesh(shape.mesh->mesh);
-  if (health.watertight) return true;
-  map.fault("solid", "needs a watertight mesh, and " + shape.file.string() +
-                         " is not watertight: " + health.whyNotWatertight);
+/// Adds a fault, and returns false: a shape is out of the range of doubles.
+bool faultRange(const YamlMap& map) {
+  map.fault("at", "moves the shape out of the range of doubles");
   return false;
 }
 
 }  // namespace
 
-std::optional<PlacedShape> readShape(const YamlMap& map, const ShapePlace& place,
-                                     std::vector<std::filesystem::path>& files) {
+std::shared_ptr<const MeshFile> ShapeMeshes::read(const YamlMap& map, const char* key,
+                                                  const std::filesystem::path& file) {
+  const MeshFileOptions options = readMeshOptions(map);
+  const auto [known, isNew] = meshes_.try_emplace({file, {options.metresPerUnit, options.up}});
+  if (!isNew) return known->second;
+  try {
+    known->second = std::make_shared<const MeshFile>(readMeshFile(file, options));
+  } catch (const InputError& error) {
+    map.source().faults.add(error);
+    if (mayBeCloud(file, error.what()))
+      map.fault(
+          key, "for a cloud of points, write points: {file: " + *map.text(key) + ", radius: 0.01}");
+  }
+  return known->second;
+}
+
+const std::string& ShapeMeshes::whyNotWatertight(const std::shared_ptr<const MeshFile>& mesh) {
+  const auto [known, isNew] = whyNotWatertight_.try_emplace(mesh);
+  if (!isNew) return known->second;
+  const MeshHealth health = inspectMesh(mesh->mesh);
+  if (!health.watertight) known->second = health.whyNotWatertight;
+  return known->second;
+}
+
+std::optional<PlacedShape> readShape(const YamlMap& map, const ShapePlace& place, ShapeFiles& files,
+                                     Placement* notApplied) {
   const auto kind = map.requireOne(kinds, "one shape",
                                    "mesh: FILE, box: [x, y, z], sphere: radius, capsule or "
                                    "cylinder: {radius: …, length: …}, convex: FILE, points: "
@@ -187,15 +206,25 @@ std::optional<PlacedShape> readShape(const YamlMap& map, const ShapePlace& place
   bool inRange = true;
   if (*kind == "points" || *kind == "octomap") {
     if (!readCloud(map, *kind, *keysOf(kind->c_str()), place.folder, readMeshOptions(map), whole.X,
-                   shape, files) ||
+                   shape, files.files) ||
         !own)
       return std::nullopt;
     inRange = std::all_of(shape.parts.begin(), shape.parts.end(), isFinite);
   } else if (*kind == "mesh") {
     shape.mesh = readMesh(map, "mesh", place.folder, shape.file, files);
     shape.solid = solid;
-    if (!own || !shape.mesh || (solid && !checkSolid(map, shape))) return std::nullopt;
-    if (!whole.isIdentity()) inRange = moveMesh(shape.mesh->mesh, whole.X);
+    if (!own || !shape.mesh) return std::nullopt;
+    if (solid) {
+      if (const std::string& why = files.meshes.whyNotWatertight(shape.mesh); !why.empty()) {
+        map.fault("solid", "needs a watertight mesh, and " + shape.file.string() +
+                               " is not watertight: " + why);
+        return std::nullopt;
+      }
+    }
+    if (notApplied)
+      *notApplied = whole;
+    else if (!applyPlacement(map, whole, shape))
+      return std::nullopt;
   } else {
     shape.primitive = readPrimitive(map, *kind, place, shape.file, files);
     if (!shape.primitive) return std::nullopt;
@@ -207,14 +236,18 @@ std::optional<PlacedShape> readShape(const YamlMap& map, const ShapePlace& place
     shape.parts.push_back(placed(*shape.primitive, whole.X));
     inRange = isFinite(shape.parts.front());
   }
-  if (inRange) return shape;
-  map.fault("at", "moves the shape out of the range of doubles");
-  return std::nullopt;
+  if (!inRange && !faultRange(map)) return std::nullopt;
+  return shape;
+}
+
+bool applyPlacement(const YamlMap& map, const Placement& placement, PlacedShape& shape) {
+  if (placement.isIdentity()) return true;
+  return moveMesh(shape, [&](const Vec3& vertex) { return placement.X * vertex; }) ||
+         faultRange(map);
 }
 
 std::vector<PlacedShape> readShapes(const YamlMap& map, const MapKeys& keys,
-                                    const ShapePlace& place,
-                                    std::vector<std::filesystem::path>& files) {
+                                    const ShapePlace& place, ShapeFiles& files) {
   std::vector<PlacedShape> shapes;
   const YamlValue& list = *map.find("shapes");
   if (list.kind != YamlValue::Kind::List || list.items.empty()) {
@@ -239,11 +272,7 @@ std::vector<PlacedShape> readShapes(const YamlMap& map, const MapKeys& keys,
 
 bool shift(PlacedShape& shape, const Vec3& by) {
   shape.at.p += by;
-  if (shape.mesh) {
-    for (Vec3& vertex : shape.mesh->mesh.vertices) vertex += by;
-    return std::all_of(shape.mesh->mesh.vertices.begin(), shape.mesh->mesh.vertices.end(),
-                       [](const Vec3& vertex) { return vertex.allFinite(); });
-  }
+  if (shape.mesh) return moveMesh(shape, [&](const Vec3& vertex) { return Vec3(vertex + by); });
   for (ConvexPart& part : shape.parts)
     for (Vec3& point : part.points) point += by;
   return std::all_of(shape.parts.begin(), shape.parts.end(), isFinite);

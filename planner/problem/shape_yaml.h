@@ -1,8 +1,11 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "planner/problem/placement.h"
@@ -18,19 +21,45 @@ struct ShapePlace {
   Placement outer = {};          ///< placement of the obstacle that lists the shape in `shapes`
 };
 
+/// Reads meshes for shapes, each file once.
+class ShapeMeshes {
+ public:
+  /// Returns the mesh that `key` names, with unit and up-axis applied. Returns null if a fault was
+  /// added for it, now or before.
+  std::shared_ptr<const MeshFile> read(const YamlMap& map, const char* key,
+                                       const std::filesystem::path& file);
+  /// Returns why the mesh can't be solid, or "".
+  const std::string& whyNotWatertight(const std::shared_ptr<const MeshFile>& mesh);
+
+ private:
+  using Options = std::pair<std::optional<double>, std::optional<char>>;  // unit and up-axis
+  std::map<std::pair<std::filesystem::path, Options>, std::shared_ptr<const MeshFile>> meshes_;
+  std::map<std::shared_ptr<const MeshFile>, std::string> whyNotWatertight_;
+};
+
+/// The files that shapes name.
+struct ShapeFiles {
+  std::vector<std::filesystem::path>& files;  ///< in the order in which shapes name them
+  ShapeMeshes meshes = {};
+};
+
 /// Reads a mesh or a primitive, and applies unit, up-axis and placement. Returns nullopt if a fault
 /// was added.
 /// @param files gets the shape's file, if it has one.
-std::optional<PlacedShape> readShape(const YamlMap& map, const ShapePlace& place,
-                                     std::vector<std::filesystem::path>& files);
+/// @param notApplied if not null, receives the placement of a mesh, which is then not applied to
+/// its vertices.
+std::optional<PlacedShape> readShape(const YamlMap& map, const ShapePlace& place, ShapeFiles& files,
+                                     Placement* notApplied = nullptr);
+
+/// Applies a placement to the vertices of a mesh. Returns false if a fault was added.
+bool applyPlacement(const YamlMap& map, const Placement& placement, PlacedShape& shape);
 
 /// Reads the list `shapes` of a robot or an obstacle. A single shape gets the name `place.name`.
 /// Each of several shapes gets this name, a slash, and its own name or its number from 1. Shapes
 /// with faults are left out. @pre the map has `shapes`.
 /// @param keys the legal keys of one shape.
 std::vector<PlacedShape> readShapes(const YamlMap& map, const MapKeys& keys,
-                                    const ShapePlace& place,
-                                    std::vector<std::filesystem::path>& files);
+                                    const ShapePlace& place, ShapeFiles& files);
 
 /// Translates a shape. @returns whether all its coordinates are still finite.
 bool shift(PlacedShape& shape, const Vec3& by);

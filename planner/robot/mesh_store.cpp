@@ -127,11 +127,12 @@ MeshStore::Place MeshStore::add(const std::string& name) {
   if (!place.file.empty() && std::find(files_.begin(), files_.end(), place.file) == files_.end())
     files_.push_back(place.file);
   if (!place.complaint.empty() || meshes_.contains(place.file)) return place;
-  std::optional<MeshFile>& mesh = meshes_[place.file];
+  std::shared_ptr<const MeshFile>& mesh = meshes_[place.file];
   try {
-    mesh = readMeshFile(place.file);
-    if (const char up = mesh->fileUp.value_or('z'); rules_.colladaUp && up != 'z')
-      mesh = readMeshFile(place.file, {.up = up});
+    MeshFile read = readMeshFile(place.file);
+    if (const char up = read.fileUp.value_or('z'); rules_.colladaUp && up != 'z')
+      read = readMeshFile(place.file, {.up = up});
+    mesh = std::make_shared<const MeshFile>(std::move(read));
   } catch (const InputError& error) {
     place.complaint = error.faults().front().str();
     if (const std::size_t more = error.faults().size() - 1)

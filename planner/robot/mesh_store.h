@@ -2,7 +2,7 @@
 
 #include <filesystem>
 #include <map>
-#include <optional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -30,7 +30,9 @@ class MeshStore {
   /// Returns the Collada files whose up-axis is not z, and was not applied.
   std::vector<std::string> ignoredUpAxes() const;
   /// @pre `file` was returned by add(), and it was readable.
-  const MeshFile& get(const std::filesystem::path& file) const { return *meshes_.at(file); }
+  const std::shared_ptr<const MeshFile>& get(const std::filesystem::path& file) const {
+    return meshes_.at(file);
+  }
 
  private:
   Place locate(const std::string& name);
@@ -40,7 +42,7 @@ class MeshStore {
   const UrdfRules& rules_;
   std::vector<std::filesystem::path>& files_;
   std::map<std::string, std::vector<std::filesystem::path>> rosFolders_;  // by package, once found
-  std::map<std::filesystem::path, std::optional<MeshFile>> meshes_;       // nullopt: unreadable
+  std::map<std::filesystem::path, std::shared_ptr<const MeshFile>> meshes_;  // null: unreadable
 };
 
 }  // namespace corridor

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,9 +19,11 @@ namespace corridor {
 struct PlacedShape {
   std::string name;  ///< "table"; if a link has several shapes, "hand/2"
   /// Either `mesh` is set, or there are parts.
-  std::optional<MeshFile> mesh;   ///< with how the file was read; vertices in final coordinates
-  std::vector<ConvexPart> parts;  ///< one for a primitive; many for a point cloud or an octree
-  std::filesystem::path file;     ///< of a mesh, a cloud or an octree
+  /// With how the file was read; vertices in final coordinates. Shapes may share it: their bodies
+  /// then share its trees.
+  std::shared_ptr<const MeshFile> mesh;
+  std::vector<ConvexPart> parts;       ///< one for a primitive; many for a point cloud or an octree
+  std::filesystem::path file;          ///< of a mesh, a cloud or an octree
   std::optional<Primitive> primitive;  ///< of one part: as the user wrote it
   RigidPose at;                        ///< its pose as the user wrote it; in a URDF parts only
   bool solid = false;                  ///< mesh only; a part is always solid

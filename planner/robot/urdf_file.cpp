@@ -1,7 +1,9 @@
 #include "planner/robot/urdf_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <numbers>
 #include <unordered_map>
@@ -58,8 +60,7 @@ std::optional<Primitive> primitiveOf(const urdf::Geometry& geometry) {
   return std::nullopt;
 }
 
-MeshFile placedMesh(const MeshFile& source, const Vec3& scale, const Transform& X) {
-  MeshFile result = source;
+MeshFile placedMesh(MeshFile result, const Vec3& scale, const Transform& X) {
   if (scale != Vec3::Ones()) {
     for (Vec3& vertex : result.mesh.vertices) vertex = vertex.cwiseProduct(scale);
     result.unitRule += "; times the URDF's scale " + shortest(scale.x()) + " " +
@@ -128,8 +129,7 @@ class UrdfBuilder {
     bool finite = true;
     if (const auto* mesh = dynamic_cast<const urdf::Mesh*>(source.geometry.get())) {
       shape.file = outline.mesh;
-      shape.mesh = placedMesh(meshes_.get(outline.mesh),
-                              Vec3(mesh->scale.x, mesh->scale.y, mesh->scale.z), X);
+      shape.mesh = meshAt(outline.mesh, Vec3(mesh->scale.x, mesh->scale.y, mesh->scale.z), X);
       for (const Vec3& vertex : shape.mesh->mesh.vertices) finite &= vertex.allFinite();
     } else {
       shape.primitive = primitiveOf(*source.geometry);
@@ -142,6 +142,20 @@ class UrdfBuilder {
       file_.fault(outline.line, owned("shape", shape.name) +
                                     ": its origin, size or scale is out of the range of doubles");
     model_.links.back().shapes.push_back(std::move(shape));
+  }
+
+  /// Returns the mesh of a file in the link's coordinates. Equal ones are made once.
+  const std::shared_ptr<const MeshFile>& meshAt(const std::filesystem::path& file,
+                                                const Vec3& scale, const Transform& X) {
+    const auto& source = meshes_.get(file);
+    if (scale == Vec3::Ones() && X == Transform{}) return source;
+    std::array<double, 15> numbers;
+    std::copy_n(scale.data(), 3, numbers.begin());
+    std::copy_n(X.m.data(), 9, numbers.begin() + 3);
+    std::copy_n(X.t.data(), 3, numbers.begin() + 12);
+    std::shared_ptr<const MeshFile>& mesh = placed_[{file, numbers}];
+    if (!mesh) mesh = std::make_shared<const MeshFile>(placedMesh(*source, scale, X));
+    return mesh;
   }
 
   /// Adds a note for a mesh that is probably in millimetres: links of robots are at least 2 cm
@@ -187,6 +201,10 @@ class UrdfBuilder {
   XmlFile& file_;
   RobotModel model_;
   std::unordered_map<std::string, std::size_t> linkIndex_;
+  /// By the file, and the numbers of scale and placement.
+  std::map<std::pair<std::filesystem::path, std::array<double, 15>>,
+           std::shared_ptr<const MeshFile>>
+      placed_;
 };
 
 }  // namespace

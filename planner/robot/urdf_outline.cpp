@@ -325,7 +325,7 @@ void checkTriangles(const UrdfOutline& outline, const MeshStore& meshes, XmlFile
   for (const UrdfLink& link : outline.links)
     for (const UrdfCollision& collision : link.collisions) {
       if (collision.mesh.empty()) continue;
-      triangles += meshes.get(collision.mesh).mesh.triangles.size();
+      triangles += meshes.get(collision.mesh)->mesh.triangles.size();
       if (triangles > kMaxMeshElements)
         return file.fault(collision.line, owned("link", link.name) +
                                               ": the shapes up to this one have more than " +

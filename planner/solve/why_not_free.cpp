@@ -169,7 +169,7 @@ std::optional<NearestFree> nearestFree(const Configuration& q, const Checker& ch
   if (onlyPose(checker.space())) {
     size = 0;
     for (const Scene::Placed& placed : checker.scene().bodies())
-      if (placed.frame != 0) size = std::max(size, placed.body.radius());
+      if (placed.frame != 0 && !placed.restX_WF) size = std::max(size, placed.body.radius());
     farthest = 10 * size;
   }
   const std::vector<Configuration> rays = directions(checker.space());

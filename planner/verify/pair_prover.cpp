@@ -41,13 +41,20 @@ void require(const PathProblem& problem, const std::vector<Configuration>& state
 PairProver::PairProver(const PathProblem& problem, const std::vector<Configuration>& states)
     : problem_(problem) {
   require(problem, states);
-  trees_.reserve(problem.bodies.size());
-  for (const VerifyBody& body : problem.bodies)
+  std::map<const TriangleMesh*, std::size_t> known;
+  for (const VerifyBody& body : problem.bodies) {
+    const auto [same, isNew] = known.try_emplace(body.mesh, trees_.size());
+    if (body.mesh && !isNew) {
+      treeOf_.push_back(same->second);
+      continue;
+    }
+    treeOf_.push_back(trees_.size());
     body.mesh ? trees_.emplace_back(*body.mesh) : trees_.emplace_back(body.parts);
+  }
   for (const VerifyPair& pair : problem.pairs) {
     const std::size_t fa = problem.bodies[pair.a].frame, fb = problem.bodies[pair.b].frame;
     const std::size_t base = commonAncestor(*problem.tree, fa, fb);
-    pairs_.push_back({pair.a, pair.b, chainIndex(base, fa), chainIndex(base, fb)});
+    pairs_.push_back({pair.a, pair.b, addChain(base, fa), addChain(base, fb)});
   }
   frameStates_.resize(chains_.size());
   const std::size_t edges = std::max<std::size_t>(states.size() - 1, 1);
@@ -88,11 +95,10 @@ bool PairProver::isState(const Configuration& state) const {
   return true;
 }
 
-std::size_t PairProver::chainIndex(std::size_t base, std::size_t frame) {
-  for (std::size_t i = 0; i < chains_.size(); ++i)
-    if (chains_[i].base == base && chains_[i].frame == frame) return i;
-  chains_.push_back(chainOf(*problem_.tree, base, frame));
-  return chains_.size() - 1;
+std::size_t PairProver::addChain(std::size_t base, std::size_t frame) {
+  const auto [known, isNew] = chainIndex_.try_emplace({base, frame}, chains_.size());
+  if (isNew) chains_.push_back(chainOf(*problem_.tree, base, frame));
+  return known->second;
 }
 
 PairProver::PairReach PairProver::reachOf(std::size_t edge, std::size_t pair) const {
@@ -101,7 +107,7 @@ PairProver::PairReach PairProver::reachOf(std::size_t edge, std::size_t pair) co
   Reach& sum = reach.sum;
   for (const auto& [chainIndex, body] : {std::pair{p.chainA, p.a}, std::pair{p.chainB, p.b}}) {
     const Reach one =
-        curves_[edge].reach(chains_[chainIndex], trees_[body].radius(), problem_.tube);
+        curves_[edge].reach(chains_[chainIndex], treeOf(body).radius(), problem_.tube);
     sum.speed += one.speed;
     sum.bend += one.bend;
     sum.tube += one.tube;
@@ -182,10 +188,10 @@ PairProver::Measured PairProver::measure(const TimeInterval& interval, std::size
   m.b = stateOf(interval.edge, p.chainB, interval.middle);
   const RealMat back = m.a.at.rotation.transpose();
   const Placement X_AB{back * m.b.at.rotation, back * (m.b.at.position - m.a.at.position)};
-  distance_.place(trees_[p.a], trees_[p.b], X_AB);
+  distance_.place(treeOf(p.a), treeOf(p.b), X_AB);
   const auto touches = [&](PiecePair pieces) {
     if (!reach.sharp) return false;
-    const Piece &a = trees_[p.a].piece(pieces.a), &b = trees_[p.b].piece(pieces.b);
+    const Piece &a = treeOf(p.a).piece(pieces.a), &b = treeOf(p.b).piece(pieces.b);
     if (a.part || b.part) return distance_.gap(pieces).upper <= reach.rounding;
     RigidPose pose;
     pose.p = X_AB.position.cast<double>();
@@ -263,7 +269,7 @@ std::optional<Vec3> PairProver::pointInside(std::size_t solid, std::size_t other
     for (const auto& component : componentsOf(*o.mesh))
       points.push_back(o.mesh->corner(component[0], 0));
   }
-  const BoxTree::Node& box = trees_[solid].node(0);
+  const BoxTree::Node& box = treeOf(solid).node(0);
   const RealVec lower = box.lower.cast<Real>(), upper = box.upper.cast<Real>();
   // A point outside of the box is outside of the mesh. The margin is far above all rounding.
   const Real size = lower.norm() + upper.norm() + X_SolidOther.position.norm();
@@ -306,8 +312,8 @@ PathFinding PairProver::finding(const TimeInterval& interval, std::size_t pair,
   finding.configuration = curve.configuration(interval.middle);
   finding.a = problem_.bodies[p.a].name;
   finding.b = problem_.bodies[p.b].name;
-  finding.triangleA = trees_[p.a].piece(answer.closest.a).triangle;
-  finding.triangleB = trees_[p.b].piece(answer.closest.b).triangle;
+  finding.triangleA = treeOf(p.a).piece(answer.closest.a).triangle;
+  finding.triangleB = treeOf(p.b).piece(answer.closest.b).triangle;
   const KinematicChain fromRoot = chainOf(*problem_.tree, 0, problem_.bodies[p.a].frame);
   const Placement X_WA = curve.at(fromRoot, interval.middle).at;
   finding.point = (X_WA.rotation * answer.point + X_WA.position).cast<double>();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -92,7 +93,8 @@ class PairProver {
 
   bool isState(const Configuration& state) const;
   void addEdge(const Configuration& from, const Configuration& to);
-  std::size_t chainIndex(std::size_t base, std::size_t frame);
+  std::size_t addChain(std::size_t base, std::size_t frame);
+  const BoxTree& treeOf(std::size_t body) const { return trees_[treeOf_[body]]; }
   PairReach reachOf(std::size_t edge, std::size_t pair) const;
   const FrameState& stateOf(std::size_t edge, std::size_t chainIndex, Real t);
   Measured measure(const TimeInterval& interval, std::size_t pair, PiecePair guess, Real stop);
@@ -109,8 +111,10 @@ class PairProver {
   bool tubeMatters(const PairReach& reach) const { return reach.sum.tube > problem_.tolerance; }
 
   const PathProblem& problem_;
-  std::vector<BoxTree> trees_;
+  std::vector<BoxTree> trees_;       // one per mesh; one per body of parts
+  std::vector<std::size_t> treeOf_;  // for each body, its tree in `trees_`
   std::vector<KinematicChain> chains_;
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> chainIndex_;  // by base and frame
   std::vector<Pair> pairs_;
   std::vector<EdgeCurve> curves_;
   std::vector<std::optional<PathFinding>> noCurve_;       // one per edge

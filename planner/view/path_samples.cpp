@@ -20,7 +20,7 @@ class Travel {
  public:
   explicit Travel(const Problem& problem) {
     for (const ModelBody& body : problem.model.bodies) {
-      if (body.frame == 0) continue;
+      if (!body.robot) continue;
       Vec3 lower = Vec3::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
       for (const PlacedShape& shape : body.shapes)
         forEachPoint(shape, [&](const Vec3& p, double radius) {

@@ -32,7 +32,7 @@ using testing::IsEmpty;
 Campaign hallCampaign(const std::vector<std::string>& variants) {
   Campaign campaign;
   campaign.problems = {test::hallProblem(test::Rigid::SE3)};
-  campaign.problems[0].model.bodies[0].shapes[0].mesh->mesh = test::boxMesh({0.1, 0.1, 0.1});
+  campaign.problems[0].model.bodies[0].shapes[0] = shapeOf("box", test::boxMesh({0.1, 0.1, 0.1}));
   for (const std::string& variant : variants) campaign.variants.push_back(readVariant(variant));
   campaign.runs = 2;
   campaign.time = 2.0 * test::kSlowdown;

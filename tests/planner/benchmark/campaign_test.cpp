@@ -138,7 +138,7 @@ TEST(Campaign, ARunEqualsASolve) {
 TEST(Campaign, TheSameSeedsGiveTheSameRows) {
   Campaign campaign = campaignOf({"certified", "discrete:0.2"}, 3);
   campaign.time = 20.0 * test::kSlowdown;
-  campaign.problems[0].model.bodies[0].shapes[0].mesh->mesh = test::boxMesh({0.1, 0.1, 0.1});
+  campaign.problems[0].model.bodies[0].shapes[0] = shapeOf("box", test::boxMesh({0.1, 0.1, 0.1}));
   const CampaignResult first = runCampaign(campaign), second = runCampaign(campaign);
   const std::vector<Row> rows = repeatable(campaign, first);
   ASSERT_EQ(rows.size(), 6u);
@@ -210,7 +210,7 @@ TEST(Campaign, OmplsLogHasOmplsColumnsAndOurs) {
   Problem& problem = campaign.problems[0];
   problem.source.name = "a hall";
   identifyProblems(campaign);
-  problem.model.bodies[0].shapes[0].mesh->mesh = test::boxMesh({0.1, 0.1, 0.1});
+  problem.model.bodies[0].shapes[0] = shapeOf("box", test::boxMesh({0.1, 0.1, 0.1}));
   campaign.planners = named({"RRTConnect", "RRTstar"});  // RRTstar reports its progress
   campaign.time = 2.0 * test::kSlowdown;
   const CampaignResult result = runCampaign(campaign);

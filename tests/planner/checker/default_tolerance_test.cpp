@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "collision/world/rigid_scene.h"
+#include "planner/model/model_builder.h"
 #include "planner/problem/problem.h"
 #include "planner/robot/edge_motion.h"
 #include "tests/support/meshes.h"
@@ -120,8 +121,8 @@ TEST(DefaultTolerance, ChainsFarFromTheOrigin) {
     TriangleMesh floor = floorOf(100 * size);
     for (Vec3& p : floor.vertices) p = Vec3(p.x() + tip.x(), p.y() + tip.y(), from[2]);
     PlacedShape under, over;
-    under.mesh.emplace().mesh = floor;
-    over.mesh.emplace().mesh = topOf(size);
+    under = shapeOf("floor", floor);
+    over = shapeOf("top", topOf(size));
     problem.model.bodies = {{"top", parent, 0, {over}}, {"floor", 0, {}, {under}}};
 
     std::vector<Scene::Placed> placed;
@@ -184,8 +185,8 @@ TEST(DefaultTolerance, BranchesFarFromTheOrigin) {
       TriangleMesh top = topOf(size);
       for (Vec3& p : top.vertices) p.z() += gap;
       PlacedShape under, over;
-      under.mesh.emplace().mesh = floor;
-      over.mesh.emplace().mesh = top;
+      under = shapeOf("floor", floor);
+      over = shapeOf("top", top);
       problem.model.bodies = {{"floor", left, 0, {under}}, {"top", right, 0, {over}}};
       std::vector<Scene::Placed> placed;
       placed.push_back({Body("floor", floor), left});

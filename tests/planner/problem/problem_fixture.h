@@ -21,7 +21,9 @@ inline const ModelBody& bodyOf(const Problem& problem, const std::string& name) 
 /// Returns the mesh of shape i of a body.
 inline const TriangleMesh& meshOf(const Problem& problem, const std::string& name,
                                   std::size_t i = 0) {
-  return bodyOf(problem, name).shapes.at(i).mesh.value().mesh;
+  const auto& mesh = bodyOf(problem, name).shapes.at(i).mesh;
+  if (!mesh) throw std::runtime_error(name + " is no mesh");
+  return mesh->mesh;
 }
 /// Returns the lower corner of the bounds of a rigid robot's position.
 inline Vec3 lowerOf(const Problem& problem) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -211,6 +212,110 @@ TEST(SceneMotion, StatesOfRandomTrees) {
   std::cout << touching << " touching, " << apart << " apart\n";
   EXPECT_GT(touching, count / 10);
   EXPECT_GT(apart, count / 10);
+}
+
+/// Obstacles on frames of their own, which share one mesh. Whether or not the scene knows that
+/// these frames are at rest, all answers must be the same.
+struct Crowd {
+  std::vector<RigidPose> poses;
+  TriangleMesh mesh;
+  std::vector<TriangleMesh> links;
+};
+
+Scene crowded(const RandomTrees& random, const Crowd& crowd, std::size_t firstOwn, bool known) {
+  const Body first("", crowd.mesh, true);
+  const std::vector<Transform> X_WF = framePoses(random.tree, random.from);
+  std::vector<Scene::Placed> bodies;
+  for (std::size_t i = 0; i < crowd.poses.size(); ++i) {
+    const std::size_t frame = firstOwn + i;
+    bodies.push_back(
+        {first.renamed("obstacle"), frame, known ? std::optional(X_WF[frame]) : std::nullopt});
+  }
+  for (std::size_t i = 0; i < crowd.links.size(); ++i)
+    bodies.push_back({Body("", crowd.links[i]), i + 1});
+  const TriangleMesh ground = test::box(Vec3(-9, -9, -2.1), Vec3(9, 9, -2));
+  for (int i = 0; i < 3; ++i) bodies.push_back({Body("", ground), 0});
+  std::vector<Scene::Pair> pairs;
+  const std::size_t own = crowd.poses.size(), links = crowd.links.size();
+  for (std::size_t b = own; b < own + links; ++b)
+    for (std::size_t a = 0; a < bodies.size(); ++a)
+      if (a < b || a >= own + links) pairs.push_back({a, b});
+  return {std::move(bodies), std::move(pairs)};
+}
+
+TEST(SceneMotion, FramesAtRestChangeNoAnswer) {
+  RandomTrees random(test::testSeed(84));
+  QueryContext context, other;
+  std::map<MotionVerdict, int> verdicts;
+  int touching = 0, apart = 0;
+  std::uint64_t poses = 0, posesOther = 0;
+  const int count = (test::isStressRun() ? 4'000 : 400) / test::kSlowdown;
+  for (int n = 0; n < count; ++n) {
+    random.makeTree(1 + random.index(4), 0.3);
+    Crowd crowd;
+    const Vec3 half(random.real(0.05, 0.3), random.real(0.05, 0.3), random.real(0.05, 0.3));
+    crowd.mesh = test::box(-half, half);
+    for (std::size_t f = 1; f < random.tree.frames.size(); ++f)
+      crowd.links.push_back(test::box(Vec3(-0.1, -0.05, -0.05), Vec3(0.1, 0.05, 0.05)));
+    const std::size_t firstOwn = random.tree.frames.size();
+    // With 32 obstacles or more, the broad phase has a tree of their boxes.
+    for (const std::size_t many = random.oneIn(2) ? 4 : 40; crowd.poses.size() < many;) {
+      const double size = std::pow(10.0, random.real(-1, 1));
+      const Eigen::Quaterniond q(size * random.real(), size * random.real(), size * random.real(),
+                                 size * random.real());
+      crowd.poses.push_back({random.vector(4), q});
+      Frame frame;
+      frame.fixed = crowd.poses.back();
+      random.tree.add(frame);
+    }
+    random.makeEdge(std::pow(10.0, random.real(-2, 0.5)));
+    const Scene scene = crowded(random, crowd, firstOwn, true),
+                plain = crowded(random, crowd, firstOwn, false);
+    EXPECT_EQ(&scene.bodies()[0].body.tree(), &scene.bodies()[3].body.tree());
+    EdgeMotion motion(random.tree, random.space, scene.framePairs(), random.noTube()),
+        plainMotion(random.tree, random.space, plain.framePairs(), random.noTube());
+    MotionOptions options;
+    options.tolerance = 1e-8;
+    options.margin = n % 3 ? 0 : random.real(0, 0.1);
+    options.earliest = n % 5 == 0;
+    motion.set(random.from, random.to);
+    plainMotion.set(random.from, random.to);
+    const std::uint64_t before = context.counters.poses, beforeOther = other.counters.poses;
+    const MotionVerdict verdict = scene.certify(motion, options, context).verdict,
+                        expected = plain.certify(plainMotion, options, other).verdict;
+    poses += context.counters.poses - before;
+    posesOther += other.counters.poses - beforeOther;
+    ++verdicts[expected];
+    const auto decided = [](MotionVerdict v) { return v != MotionVerdict::undecided; };
+    if (decided(verdict) && decided(expected)) {
+      ASSERT_EQ(verdict, expected) << n;
+    }
+    MotionCertificate certificate;
+    EXPECT_EQ(scene.certify(motion, options, context, certificate).verdict, verdict) << n;
+    const auto each = scene.certifyEachPair(motion, options, context),
+               plainEach = plain.certifyEachPair(plainMotion, options, other);
+    for (std::size_t k = 0; k < each.size(); ++k)
+      if (decided(each[k].verdict) && decided(plainEach[k].verdict)) {
+        ASSERT_EQ(each[k].verdict, plainEach[k].verdict) << n << ", pair " << k;
+      }
+    std::vector<Transform> X_WF = framePoses(random.tree, random.to);
+    const auto hit = scene.interference(X_WF, context), plainHit = plain.interference(X_WF, other);
+    ASSERT_EQ(hit.has_value(), plainHit.has_value()) << n;
+    ++(hit ? touching : apart);
+    const double clearance = scene.clearance(X_WF, context);
+    EXPECT_NEAR(clearance, plain.clearance(X_WF, other), 1e-12 * clearance + 1e-13) << n;
+    X_WF[firstOwn].t.x() += 1e-9;
+    EXPECT_THROW(scene.interference(X_WF, context), std::invalid_argument) << "not at rest";
+  }
+  std::cout << "free " << verdicts[MotionVerdict::free] << ", contact "
+            << verdicts[MotionVerdict::contact] << ", undecided "
+            << verdicts[MotionVerdict::undecided] << "; states: " << touching << " touching, "
+            << apart << " apart; motions " << poses << ", else " << posesOther << "\n";
+  EXPECT_GT(verdicts[MotionVerdict::free], count / 10);
+  EXPECT_GT(verdicts[MotionVerdict::contact], count / 10);
+  EXPECT_GT(touching, count / 10);
+  EXPECT_GT(apart, count / 10);
+  EXPECT_LT(2 * poses, posesOther);
 }
 
 }  // namespace

@@ -70,7 +70,7 @@ TEST_F(SharedRobots, HaveTheGuidesFigures) {
     std::size_t meshes = 0, boxes = 0;
     for (const LinkModel& link : model.links)
       for (const PlacedShape& shape : link.shapes) {
-        meshes += shape.mesh.has_value();
+        meshes += shape.mesh != nullptr;
         boxes += shape.primitive && std::holds_alternative<Box>(*shape.primitive);
       }
     EXPECT_EQ(meshes, row.meshes);

@@ -127,7 +127,7 @@ TEST_P(Spaces, DiscreteStepsThroughTheWallAndVerifyRefutesIt) {
   Problem problem = hallProblem(GetParam());
   problem.settings.checker.edges = EdgeCheck::discrete;
   problem.settings.checker.resolution = 0.2;
-  problem.model.bodies[0].shapes[0].mesh->mesh = test::boxMesh({0.1, 0.1, 0.1});
+  problem.model.bodies[0].shapes[0] = shapeOf("box", test::boxMesh({0.1, 0.1, 0.1}));
   const SolveReport report = solveProblem(problem);
   ASSERT_EQ(report.outcome, SolveOutcome::solved);
   EXPECT_FALSE(report.certified);
@@ -461,8 +461,8 @@ TEST(Arm, StartInSelfContactNamesTheLinks) {
 
 TEST(Solve, KeepsTheTimeLimitAndReportsNothingFound) {
   Problem problem = hallProblem(Rigid::SE3);
-  problem.model.bodies[1].shapes[0].mesh->mesh =
-      test::boxMesh({0.001, 20, 20});  // a wall without gap
+  // A wall without a gap.
+  problem.model.bodies[1].shapes[0] = shapeOf("box", test::boxMesh({0.001, 20, 20}));
   for (const char* planner : {"RRTConnect", "RRT", "PRM", "RRTstar", "KPIECE1"}) {
     problem.settings.planner.name = planner;
     problem.settings.planner.time = 0.5;
@@ -477,7 +477,7 @@ TEST(Solve, KeepsTheTimeLimitAndReportsNothingFound) {
 
 TEST(Solve, StopsWhenInterrupted) {
   Problem problem = hallProblem(Rigid::SE3);
-  problem.model.bodies[1].shapes[0].mesh->mesh = test::boxMesh({0.001, 20, 20});
+  problem.model.bodies[1].shapes[0] = shapeOf("box", test::boxMesh({0.001, 20, 20}));
   std::atomic<bool> interrupted = false;
   SolveOptions options;
   options.interrupted = &interrupted;

@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "planner/checker/checker.h"
+#include "planner/model/model_builder.h"
 #include "planner/view/path_samples.h"
 #include "tests/planner/problem/problem_fixture.h"
 #include "tests/planner/view/page_reader.h"
@@ -100,8 +101,11 @@ TEST(ViewPage, FarFromTheOriginNoPrecisionIsLost) {
   const Vec3 far(3e6, -2e6, 1e5);
   for (ModelBody& body : problem.model.bodies)
     if (body.frame == 0)
-      for (PlacedShape& shape : body.shapes)
-        for (Vec3& p : shape.mesh->mesh.vertices) p += far;
+      for (PlacedShape& shape : body.shapes) {
+        TriangleMesh moved = shape.mesh->mesh;
+        for (Vec3& p : moved.vertices) p += far;
+        shape = shapeOf(shape.name, std::move(moved));
+      }
   problem.task.start.head<3>() += far;
   for (Configuration& goal : problem.task.goals) goal.head<3>() += far;
   const PageReader page(viewPage(problem, std::nullopt));
