@@ -12,8 +12,8 @@ PredicateResult convexSetsTouch(const PosedSet& a, const PosedSet& b) {
   const auto apart = [&](const Vec3& n, double gap) {
     return gap > radii && -b.highest(-n) - a.highest(n) > slack;
   };
-  // `size` is below (1 + √3)·2√3 < 9.5 times the largest coordinate: `near` is well within the
-  // band.
+  // `near` is well within the band, because `size` is below (1 + √3)·2√3 < 9.5 times the largest
+  // coordinate.
   double near = radii + 0x1p-49 * size;
   gjk::Answer quick = gjk::search<double>(a, b, size, near, apart);
   if (quick.accepted) return {false, false};
