@@ -22,8 +22,8 @@ struct ConvexDistance {
 ///   the sets overlap by less than 2^-30·S.
 /// * Otherwise `distance` exceeds the true distance by at most relative·true + absolute +
 /// 1e-12·true + 4·2^-53·S.
-/// * `lower` is at most the true distance, proved in real arithmetic. The error of `distance` is at
-///   most `distance` − `lower`.
+/// * `lower` is at most the true distance, proved in real arithmetic. Up to rounding, the error of
+///   `distance` is at most `distance` − `lower`.
 /// * The witness points are on the surfaces of the sets, up to 2^-50·S.
 ///
 /// Any finite map is allowed. Under a map that is not rigid a sphere is an ellipsoid, which costs

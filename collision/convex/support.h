@@ -19,7 +19,7 @@ namespace corridor::gjk {
 /// format). The search ends when upper and lower bound differ by less than `agreed` times the
 /// distance. If closer bounds than those of double are needed, a search in double-double follows.
 /// `rounds` is the maximum number of rounds. Polytopes need about as many rounds as they have faces
-/// towards each other. Rims of discs needed at most a hundred in tests.
+/// that point towards the other polytope. Rims of discs needed at most a hundred in tests.
 template <class Real>
 struct Effort;
 template <>

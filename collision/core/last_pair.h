@@ -18,8 +18,8 @@ class LastPair {
  public:
   std::uint32_t a = 0xffffffff, b = 0xffffffff;  ///< numbers in the two trees, in leaf order
 
-  /// Returns whether both numbers are in range. They are out of range if the last query was of
-  /// other, larger trees.
+  /// Returns whether both numbers are in range. They are out of range if there was no query, and
+  /// may be if the last query was of other trees.
   bool isIn(std::size_t countA, std::size_t countB) const { return a < countA && b < countB; }
   bool trusted() const { return trust_ > 0; }
   /// Records the result of testing the guess: whether this pair decided the query.

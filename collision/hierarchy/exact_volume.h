@@ -11,7 +11,7 @@
 #include "collision/volumes/obb.h"
 #include "collision/volumes/rss.h"
 
-/// Volumes as rational sets. With them `check()` of the trees proves containment.
+/// Volumes as sets with rational coordinates. `check()` of the trees proves containment with them.
 namespace corridor::exact {
 
 using Rational = boost::multiprecision::cpp_rational;

@@ -44,7 +44,7 @@ struct Lanes {
 /// Traverses node pairs of two trees. An item is a node of a, a node of b, and some of the sixteen
 /// pairs of their boxes (bit 4·i + j). These pairs are tested at once. Below each pair that is not
 /// separated, the walk descends both nodes, or only the one with clearly larger boxes, or only the
-/// one that is no leaf.
+/// one that is not a leaf.
 ///
 /// A Query has
 ///   bool skip(const Item&): returns true to drop an item. The item's `key` is already set.

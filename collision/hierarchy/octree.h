@@ -11,7 +11,8 @@
 namespace corridor {
 
 struct OctreeParams {
-  /// A cell with more triangles is divided, unless its children would list far more in all.
+  /// A cell with more triangles than this is divided, unless its children together would list far
+  /// more triangles than the cell.
   std::uint32_t leafTriangles = 8;
   std::uint32_t depth = 10;  ///< cells at this level are not divided
 };

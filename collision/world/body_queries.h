@@ -31,8 +31,8 @@ namespace corridor {
 
 /// Returns a pair of triangles or convex parts that touch, or a triangle of a solid mesh together
 /// with a triangle or convex part of the body inside it. Returns nullopt if the bodies are
-/// separated. Exact for meshes; with a convex part, in the band of `convexSetsTouch` the answer may
-/// be contact.
+/// separated. Exact for meshes. With a convex part, contact may also be reported for bodies that
+/// are apart by less than the band of `convexSetsTouch`.
 std::optional<PrimitivePair> interference(const Posed<Body>& a, const Posed<Body>& b,
                                           QueryContext& context, TreeKind trees = TreeKind::obb4,
                                           LastPair* last = nullptr);

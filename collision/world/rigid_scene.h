@@ -6,8 +6,8 @@
 namespace corridor {
 
 /// A `Scene` of one rigid body, made of the bodies `moving`, among the bodies `fixed`, whose frame
-/// is the world. Like `Scene` it is const after construction, and threads may share it with a
-/// `QueryContext` each.
+/// is the world. Like a `Scene`, it is const after construction. Threads may share it, each with
+/// its own `QueryContext`.
 class RigidScene {
  public:
   /// In `scene()` the fixed bodies come first, on frame 0; the moving ones follow, on frame 1.
@@ -20,7 +20,7 @@ class RigidScene {
     return std::span(scene_.bodies()).subspan(fixedCount_);
   }
   /// Returns `Scene::defaultTolerance`.
-  /// @param farthest metres; the poses of edges are at most this far from the origin.
+  /// @param farthest the largest distance of edges' poses from the origin, metres.
   double defaultTolerance(double farthest = 0) const { return scene_.defaultTolerance(farthest); }
 
   /// All queries throw std::invalid_argument for poses that are not finite, a zero quaternion, and

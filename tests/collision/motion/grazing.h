@@ -17,7 +17,8 @@ struct Grazing {
   enum Feature { cornerOnFace, faceOnCorner, edgeOnEdge, features };
   TriangleMesh fixed, moving;
   RigidPose from, to;
-  bool known = false;  ///< no corner gets below its height at the end, so the verdict is known
+  bool known =
+      false;  ///< true: no corner is ever below its height at the end, so the verdict is known
 
   Grazing(std::mt19937_64& random, Feature feature, bool slides, double gap, double size) {
     const auto real = [&](double low = -1, double high = 1) {
@@ -33,8 +34,8 @@ struct Grazing {
       return inPlane(2.1 * i, real(0.3, 1));
     };  // three of these surround the origin
     const Vec3 x = 3 * Vec3(real(), real(), real());
-    // In the plane's frame about x, heights along n: the fixed triangle is at ≤ 0, the moving one
-    // at ≥ 0 (plus `gap`).
+    // Points are relative to x, and heights are along n. Heights are at most 0 on the fixed
+    // triangle, and at least 0 (plus `gap`) on the moving one.
     Triangle a, b;
     if (feature == cornerOnFace) {
       for (int i = 0; i < 3; ++i) a[i] = around(i);
