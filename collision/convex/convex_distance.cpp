@@ -212,8 +212,8 @@ ConvexDistance convexDistance(const PosedSet& a, const PosedSet& b, double relat
   };
 
   gjk::Search<double> quick(a, b, pair.size());
-  // The search ends at a difference of 2^-50·size: in double the two bounds cannot come closer to
-  // each other.
+  // No difference below 2^-50·size is required: in double the two bounds cannot come closer to each
+  // other.
   const gjk::Answer found =
       quick.run(gjk::Simplex<double>(),
                 agreed(pair.radii(), pair.touchDistance(), 0x1p-50 * pair.size()), never);

@@ -190,8 +190,8 @@ class Search {
   /// has the gradient w_i and the Hessian −H, where H is the sum of the Hessians of both sets
   /// (`addCurvature`). To second order in a tangent δ, f_i at the normalised n + δ is f_i + w_i·δ −
   /// δᵀ(H + f I)δ/2. At the widest gap all f_i are equal. With one, two or three corners, this
-  /// condition leaves δ two, one or no degrees of freedom. In the remaining degrees of freedom, (H
-  /// + f I)δ = w.
+  /// condition leaves δ two, one or no degrees of freedom. In these degrees of freedom,
+  /// (H + f I)δ = w.
   bool newton(Vector<Real>& n, Nearest<Real>& face, Answer& answer) {
     const Simplex<Real> corners = cornersFor(n);
     if (corners.count == 0) return false;

@@ -131,8 +131,8 @@ class MapReader {
     if (depth == kDepth) faults_.fail(0, "the tree is deeper than 16 levels: the file is damaged");
   }
 
-  /// .bt: an inner node has two bits for each child, and then its inner children follow. @returns
-  /// whether the whole cube is occupied; it is then stored as one cube.
+  /// .bt: an inner node has two bits for each child, and then its inner children follow.
+  /// @returns whether the whole cube is occupied; it is then stored as one cube.
   bool readChildren(const Cube& cube, int depth) {
     requireDepth(depth);
     const auto bits = take<std::uint16_t>();

@@ -119,9 +119,9 @@ class Worker {
     // differs from U⁻¹d in two ways:
     // * As in `enclosingObb`, |U⁻¹d − Uᵀd| ≤ η·Σ|y|/(1 − 3η) per component, η ≤ 2.1·2^-24 (obb4.h).
     // * y and c are rounded sums of three products of numbers ≤ 1 and ≤ √3, and x itself has two
-    //   roundings. Together these errors are below 16u, with u of double. The last term of the pad
-    //   covers flush-to-zero: a difference from the origin that is flushed loses less than 2^-1022
-    //   m.
+    //   roundings. Together these errors are below 16u, with u of double.
+    // The last term of the pad covers flush-to-zero: a difference from the origin that is flushed
+    // loses less than 2^-1022 m.
     const double pad = 2 * 2.1 * 0x1p-24 * (reach[0] + reach[1] + reach[2]) + 32 * kUnit +
                        0x1p-1020 * items_.scale;
     // The longest side comes first, so that this side alone gives the size of a box.

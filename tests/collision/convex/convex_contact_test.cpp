@@ -24,8 +24,8 @@ TEST(ConvexContact, RightOutsideTheBandNeverFalselyFree) {
   int moreDigits = 0;
   for (const Shape sa : test::kShapes)
     for (const Shape sb : test::kShapes) {
-      if (sa == Shape::triangle && sb == Shape::triangle)
-        continue;  // triangles have an exact predicate
+      // Two triangles have an exact predicate.
+      if (sa == Shape::triangle && sb == Shape::triangle) continue;
       for (int n = 0; n < 600; ++n) {
         const Feature a = make.feature(sa), b = make.feature(sb);
         const Vec3 normal = n % 5 == 0 ? Vec3(Vec3::Unit(n / 5 % 3)) : make.vector().normalized();

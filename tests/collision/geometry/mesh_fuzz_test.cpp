@@ -124,8 +124,7 @@ TEST_F(MeshFuzz, EveryTruncationIsNoticed) {
   noticed("a.ply", binaryPlyTetrahedron(true), 0);
   noticed("a.stl", asciiStlTetrahedron(), std::string(" a tetrahedron\n").size());
   noticed("a.ply", asciiPlyTetrahedron,
-          std::string("an\n")
-              .size());  // the last word is "nan", which readers do not use: it may be cut
+          std::string("an\n").size());  // readers do not use the last word, "nan": it may be cut
 }
 
 }  // namespace

@@ -17,8 +17,8 @@ struct Grazing {
   enum Feature { cornerOnFace, faceOnCorner, edgeOnEdge, features };
   TriangleMesh fixed, moving;
   RigidPose from, to;
-  bool known =
-      false;  ///< true: no corner is ever below its height at the end, so the verdict is known
+  /// True if no corner is ever below its height at the end. The verdict is then known.
+  bool known = false;
 
   Grazing(std::mt19937_64& random, Feature feature, bool slides, double gap, double size) {
     const auto real = [&](double low = -1, double high = 1) {

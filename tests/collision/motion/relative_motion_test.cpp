@@ -256,8 +256,8 @@ TEST(MotionBounds, SlideAfterATurn) {
   const ScrewMotion screws[] = {{Kind::revolute, Vec3::UnitZ(), Vec3::Zero(), 0.1, 0},
                                 {Kind::prismatic, Vec3::UnitX(), Vec3::Zero(), 0.2, 0}};
   const RelativeMotion w = relativeMotionOf(screws, Vec3(0.2, 0, 0), Vec3(0, 0, 0.1));
-  const MotionBound bound =
-      motionBound(w, Vec3::Zero(), 0);  // a point on the axis, which the translation moves off it
+  // The point is on the axis, and the translation moves it off the axis.
+  const MotionBound bound = motionBound(w, Vec3::Zero(), 0);
   EXPECT_EQ(bound.secondOrderAcross, 0);
   EXPECT_NEAR(bound.secondOrder, 0.5 * (0.2 * 0.1 * 0.1 + 2 * 0.1 * 0.2), 1e-15);
   EXPECT_NEAR(bound.isotropic, 0.2, 1e-14);

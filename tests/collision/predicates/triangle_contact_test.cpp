@@ -67,8 +67,7 @@ TEST_P(RandomTriangles, AgreesWithRationals) {
       for (Vec3& v : *t)
         v = kind == "grid" ? Vec3(integer(2), integer(2), integer(2))
                            : Vec3(real(), real(), real());
-    if (kind ==
-        "common corner, moved together") {  // both triangles get the same map, so they still touch
+    if (kind == "common corner, moved together") {  // by the same map, so they still touch
       b[0] = a[0];
       X_WA = X_WB = {rotation(), {real() * 1e6, real(), real()}};
     } else if (kind == "maps nearly rigid") {

@@ -271,8 +271,7 @@ TEST(ObbOverlapsAgainstRationals, AgreeUpToTheMargin) {
         EXPECT_TRUE(separated) << names[which] << ", case " << n << ", " << gap / x.scale;
       }
     };
-    look(0, PairTest<Obb>(a, b, x.X_AB, 0),
-         truth.raw);  // this test's cross axes are not unit vectors
+    look(0, PairTest<Obb>(a, b, x.X_AB, 0), truth.raw);  // cross axes are not unit vectors here
     look(1, PairTest<Obb, Gjk>(a, b, x.X_AB, 0), truth.widest);
     look(2, PairTest<Obb, LinearProgram>(a, b, x.X_AB, 0), truth.widest);
     look(3, PairTest<Obb, EdgeFace>(a, b, x.X_AB, 0), truth.widest);
