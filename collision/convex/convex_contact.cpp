@@ -7,7 +7,8 @@ namespace corridor {
 PredicateResult convexSetsTouch(const PosedSet& a, const PosedSet& b) {
   const double size = a.reach() + a.pose().t.norm() + b.reach() + b.pose().t.norm();
   double radii = a.set().ball + b.set().ball;
-  // The errors of both projections and of their sum; each projection is below `size`.
+  // `slack` bounds the errors of both projections and of their sum; each projection is below
+  // `size`.
   const double slack = roundedUp(a.error() + b.error() + 2 * kUnit * size);
   const auto apart = [&](const Vec3& n, double gap) {
     return gap > radii && -b.highest(-n) - a.highest(n) > slack;

@@ -32,7 +32,7 @@ class RigidScene {
 
   /// Decides whether the motion from `from` to `to` is free: a straight line, and slerp along the
   /// shorter arc (collision/PROMISES.md, "What an edge is").
-  /// @param tube the deviations from the nominal curve for which the proof holds, too.
+  /// @param tube the deviations from the nominal curve that the proof covers.
   MotionResult certifyEdge(const RigidPose& from, const RigidPose& to, const MotionOptions& options,
                            QueryContext& context, const Tube& tube = {}) const;
   /// The same for a motion in the plane z = 0. Poses are (x, y, yaw), in metres and radians; the
