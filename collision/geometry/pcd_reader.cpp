@@ -29,7 +29,7 @@ struct Header {
   std::string data;      ///< ascii, binary, binary_compressed
   std::size_t size = 0;  ///< bytes before the data
   int lines = 0;
-  std::array<std::size_t, 3> xyz{};  ///< fields
+  std::array<std::size_t, 3> xyz{};  ///< numbers of the fields x, y and z
   bool hasViewpoint = false;
 };
 

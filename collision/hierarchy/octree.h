@@ -30,7 +30,7 @@ class Octree {
     Aabb box;  ///< contains the cell
     double radius = 0;
     std::uint32_t first = 0, count = 0;          ///< for a leaf: its range of `triangles()`
-    std::uint32_t firstChild = 0, children = 0;  ///< inner node; without empty cells
+    std::uint32_t firstChild = 0, children = 0;  ///< inner node: its cells that are not empty
     bool isLeaf() const { return children == 0; }
   };
 

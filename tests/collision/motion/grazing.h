@@ -11,8 +11,8 @@ namespace corridor::test {
 
 /// A fixed mesh below the plane through x with normal n, and a moving mesh above it, at height
 /// `gap` at t = 1 (or throughout). The verdict is known by construction. If the gap is negative,
-/// the features penetrate each other in their interior; if it is positive, it is the distance of
-/// the meshes.
+/// the features penetrate each other in their interior; otherwise the gap is
+/// the distance of the meshes.
 struct Grazing {
   enum Feature { cornerOnFace, faceOnCorner, edgeOnEdge, features };
   TriangleMesh fixed, moving;
