@@ -10,9 +10,9 @@
 ///
 /// * `Transform`: an affine map x ↦ m·x + t. It is used exactly as it is stored: a map that scales,
 ///   shears or mirrors is legal.
-/// * `TriangleMesh`: its triangles, with their interiors, as a point set. `readMeshFile` reads OBJ,
-///   STL, PLY, OFF, Collada, glTF and more. It throws InputError, which names the file and the
-///   line.
+/// * `TriangleMesh`: a point set, the union of its triangles with their interiors. `readMeshFile`
+///   reads OBJ, STL, PLY, OFF, Collada, glTF and more. It throws InputError, which names the file
+///   and the line.
 /// * `ConvexPart`: a convex solid that is never tessellated: `placed(Box{size}, X)`, and Sphere,
 ///   Capsule, Cylinder, Convex.
 /// * `Body`: a named mesh (its surface, or with `solid` also what it encloses), a convex part, or
@@ -25,8 +25,8 @@
 /// * `Posed`: a body or tree with its pose: `Posed(cup, X_WCup)`. `Posed(table)` is at the origin.
 /// * `QueryContext`: counters and scratch memory. Each thread needs its own.
 /// * `LastPair`: the pair of triangles that decided the last query of two bodies. If the bodies are
-///   meshes and move in small steps, passing it to the next query saves a tenth to two thirds of
-///   the time.
+///   meshes and move in small steps, passing the pair to the next query saves a tenth to two thirds
+///   of the time.
 ///
 /// # Six questions about two bodies
 ///
@@ -44,8 +44,8 @@
 /// 1. Do they touch? The answer is exact: the verdict is that of real arithmetic on the stored
 ///    numbers, and touching is contact. With a convex part, a gap below 2^-44 of the largest
 ///    coordinate may be reported as contact. This is the cheapest question. It takes a few
-///    microseconds for most pairs of meshes, and a hundred if two surfaces of 20,000 triangles run
-///    side by side.
+///    microseconds for most pairs of meshes, and a hundred microseconds if two surfaces of 20,000
+///    triangles run side by side.
 ///
 ///        if (const auto hit = interference(a, b, context)) …        // hit->a, hit->b: triangles
 ///
@@ -54,30 +54,30 @@
 ///
 ///        for (const TriangleContact& c : contacts(a, b, context)) …  // c.a, c.b, c.p_W, c.q_W
 ///
-/// 3. How far apart are they, and where are they closest? The distance is 0 if and only if they
-///    touch. Otherwise the error is at most 1e-12 of the distance + 4·2^-53·S + the error that the
-///    options allow. S is the largest Σ|m||v| + |t| of the corners. This question costs 10 to 70
-///    times as much as the first one.
+/// 3. How far apart are they, and where are they closest to each other? The distance is 0 if and
+///    only if they touch. Otherwise the error is at most 1e-12 of the distance + 4·2^-53·S + the
+///    error that the options allow. S is the largest Σ|m||v| + |t| over the corners v of both
+///    bodies, with their map x ↦ m·x + t. This question costs 10 to 70 times as much as the first
+///    one.
 ///
 ///        const Distance d = distance(a, b, {}, context);             // d.distance, d.p_WA, d.p_WB
 ///
 /// 4. Are they at most d apart? `false` is a proof that they are farther apart. This question costs
-///    about as much as the first one. If d is close to the distance, it costs as much as the third
-///    one.
+///    about as much as the first one, or, if d is close to the distance, as much as the third one.
 ///
 ///        if (closerThan(a, b, 0.05, context)) …
 ///
 /// 5. Is one body inside the other, which is a solid mesh? Questions 1, 3, 4 and 6 include this
-///    question. It requires that the surfaces do not touch. "No" is a proof. "Yes" is exact, except
-///    that a point counts as inside if none of 64 rays can decide.
+///    question. If asked alone, it requires that the surfaces do not touch. "No" is a proof. "Yes"
+///    is exact, except that a point counts as inside if none of 64 rays can decide.
 ///
 ///        if (findOneInsideOther(a, b, context)) …
 ///
-/// 6. Do they touch along a motion, and when first? `free` is never wrong: it is proved for every t
-///    in [0, 1], rounding included. `contact`: at the rounded pose at `contactTime` the bodies
-///    touch, or are within the margin. `undecided`: neither is proved, and `reason` says why. The
-///    usual reason is a clearance below twice the tolerance (PROMISES.md, promise 2). This question
-///    costs 10 to 20 times as much as the first one.
+/// 6. Do they touch along a motion, and when for the first time? `free` is never wrong: it is
+///    proved for every t in [0, 1], rounding included. `contact`: at the rounded pose at
+///    `contactTime` the bodies touch, or are within the margin. `undecided`: neither is proved, and
+///    `reason` says why. The usual reason is a clearance below twice the tolerance (PROMISES.md,
+///    promise 2). This question costs 10 to 20 times as much as the first one.
 ///
 ///        std::vector<Body> moving, fixed;        // bodies are moved into the scene
 ///        moving.emplace_back("piano", piano);

@@ -7,13 +7,14 @@ namespace corridor {
 PredicateResult convexSetsTouch(const PosedSet& a, const PosedSet& b) {
   const double size = a.reach() + a.pose().t.norm() + b.reach() + b.pose().t.norm();
   double radii = a.set().ball + b.set().ball;
-  // The errors of both projections and of their sum; each projection is below `size`.
+  // `slack` bounds the errors of both projections and of their sum; each projection is below
+  // `size`.
   const double slack = roundedUp(a.error() + b.error() + 2 * kUnit * size);
   const auto apart = [&](const Vec3& n, double gap) {
     return gap > radii && -b.highest(-n) - a.highest(n) > slack;
   };
-  // `size` is below (1 + √3)·2√3 < 9.5 times the largest coordinate: `near` is well within the
-  // band.
+  // `near` is well within the band, because `size` is below (1 + √3)·2√3 < 9.5 times the largest
+  // coordinate.
   double near = radii + 0x1p-49 * size;
   gjk::Answer quick = gjk::search<double>(a, b, size, near, apart);
   if (quick.accepted) return {false, false};

@@ -11,18 +11,18 @@
 /// The bounds. Let g_A and g_B be the closest points of the cores, d = g_B − g_A, n = d/|d|, and r
 /// the radii of the swept spheres.
 /// * Upper bound: g_A + r_A·M_A m_A/|m_A| and g_B − r_B·M_B m_B/|m_B|, with m = Mᵀn, are points of
-/// the sets for any n and M.
-/// * Lower bound: the widest gap that GJK has found, minus r_A|m_A| + r_B|m_B| for the direction of
-///   that gap.
+/// the sets for any n and M. The distance of these two points is the upper bound.
+/// * Lower bound: the widest gap of the cores that GJK has found, minus r_A|m_A| + r_B|m_B| for the
+///   direction of that gap.
 ///
 /// Under rotations both bounds agree when the search ends. Under a map of defect η they differ by
 /// up to some 3η·r, because the closest points of the ellipsoids are not on the line through the
-/// closest points of the cores. If that exceeds the requested error, the search is repeated with
-/// the spheres as parts of the cores.
+/// closest points of the cores. If this difference exceeds the requested error, the search is
+/// repeated with the spheres as parts of the cores.
 ///
-/// Rounding, in units of 2^-53 (double) or 2^-98 (double-double) of `size`: `PosedSet` has its own
-/// bound of projections. A corner of a simplex is a mapped point with its disc, and its error is
-/// within the same derivation (three products and sums per coordinate, 6u for the disc). A convex
+/// Rounding, in units of 2^-53 (double) or 2^-98 (double-double) of `size`: `PosedSet` bounds the
+/// error of its projections. A corner of a simplex is a mapped point with its disc, and the same
+/// derivation bounds its error (three products and sums per coordinate, 6u for the disc). A convex
 /// combination of three corners has 8 roundings. The errors of both witness points together are
 /// below twice the errors of the sets.
 namespace corridor {
@@ -111,15 +111,15 @@ class Pair {
         size_(a.reach() + a.pose().t.norm() + b.reach() + b.pose().t.norm()),
         radii_(a.set().ball + b.set().ball),
         // The first two terms are the errors of the projections. The third covers the rounding of
-        // their sum and of subtracting this bound. It also covers a gap below `size` along a
-        // direction whose length is up to 1 + 5u.
+        // their sum and of subtracting this bound. It also covers that n is not a unit vector: |n|
+        // ≤ 1 + 5u scales a gap, which is below `size`, by that factor.
         error_(roundedUp(a.error() + b.error() + 7 * kUnit * size_)) {}
 
   double size() const { return size_; }
   double radii() const { return radii_; }
-  /// Returns the core distance up to which the sets touch, if the maps take spheres to spheres
-  /// (`convexSetsTouch`).
-  double near() const { return radii_ + 0x1p-49 * size_; }
+  /// Returns the distance of the cores up to which the sets count as touching, if the maps take
+  /// spheres to spheres (`convexSetsTouch`).
+  double touchDistance() const { return radii_ + 0x1p-49 * size_; }
   /// Returns the band: if the sets are farther apart than this, `convexSetsTouch` returns false.
   double band() const { return 0x1p-44 * size_; }
 
@@ -133,7 +133,8 @@ class Pair {
   /// in one plane: then the weights of the corners are noise.
   template <class Real>
   bool met(const gjk::Search<Real>& search) const {
-    return search.unit * static_cast<double>(gjk::length(closest(search.simplex).w)) <= near();
+    return search.unit * static_cast<double>(gjk::length(closest(search.simplex).w)) <=
+           touchDistance();
   }
 
   /// Returns the result for sets that touch: a common point, up to rounding.
@@ -194,8 +195,9 @@ ConvexDistance convexDistance(const PosedSet& a, const PosedSet& b, double relat
                               double absolute) {
   const Pair pair(a, b);
   // Searches end when half of the allowed error is reached; rounding may take the other half. 1e-12
-  // > 2^-40, so the relative half is 2^-41. Half of 2^-51·S is above 2^-55·`size`: ‖M‖|p| + |t| is
-  // below 3 S, and `size`, the sum over both sets, below 6 S.
+  // > 2^-40, so the relative half is 2^-41. The promised absolute error is 4·2^-53·S = 2^-51·S.
+  // Half of it is above 2^-55·`size`, because ‖M‖|p| + |t| is below 3 S, and `size`, the sum over
+  // both sets, below 6 S.
   const double share = relative / 2 + 0x1p-41, least = absolute / 2 + 0x1p-55 * pair.size();
   const auto never = [](const Vec3&, double) { return false; };
   const auto agreed = [&](double radii, double near, double finest) {
@@ -205,15 +207,17 @@ ConvexDistance convexDistance(const PosedSet& a, const PosedSet& b, double relat
                  std::max(finest, share * (static_cast<double>(lower) - radii) + least);
     };
   };
-  const auto fine = [&](const ConvexDistance& d, double error) {
+  const auto accurateEnough = [&](const ConvexDistance& d, double error) {
     return d.distance + error - d.lower <= 2 * (share * d.lower + least);
   };
 
   gjk::Search<double> quick(a, b, pair.size());
-  // 2^-50·size: in double the two bounds cannot come closer to each other.
-  const gjk::Answer found = quick.run(
-      gjk::Simplex<double>(), agreed(pair.radii(), pair.near(), 0x1p-50 * pair.size()), never);
-  const bool met = found.overlap || found.upper <= pair.near();
+  // No difference below 2^-50·size is required: in double the two bounds cannot come closer to each
+  // other.
+  const gjk::Answer found =
+      quick.run(gjk::Simplex<double>(),
+                agreed(pair.radii(), pair.touchDistance(), 0x1p-50 * pair.size()), never);
+  const bool met = found.overlap || found.upper <= pair.touchDistance();
   const double gap = pair.gap(found.direction);
   bool exact = false;
   if (!(gap > pair.band())) {
@@ -228,7 +232,7 @@ ConvexDistance convexDistance(const PosedSet& a, const PosedSet& b, double relat
         return contact;
       }
       gjk::Search<DoubleDouble> finer(a, b, pair.size(), !balls);
-      const double near = pair.near() - (balls ? 0 : pair.radii());
+      const double near = pair.touchDistance() - (balls ? 0 : pair.radii());
       finer.run(quick.simplex, agreed(HUGE_VAL, near, 0x1p-50 * pair.size()), never);
       ConvexDistance contact = pair.contact(finer, !balls);
       contact.exact = true;
@@ -241,13 +245,13 @@ ConvexDistance convexDistance(const PosedSet& a, const PosedSet& b, double relat
     result = pair.apart(quick, false);
     result.lower = gap;
     result.exact = exact;
-    if (fine(result, pair.error())) return result;
+    if (accurateEnough(result, pair.error())) return result;
   }
   gjk::Search<DoubleDouble> finer(a, b, pair.size());
   finer.run(quick.simplex, agreed(pair.radii(), -1, 0), never);
   result = pair.apart(finer, false);
   result.exact = true;
-  if (fine(result, 0) || pair.radii() == 0) return result;
+  if (accurateEnough(result, 0) || pair.radii() == 0) return result;
   gjk::Search<DoubleDouble> withBalls(a, b, pair.size(), true);
   withBalls.run(finer.simplex, agreed(0, -1, 0), never);
   ConvexDistance other = pair.apart(withBalls, true);
@@ -262,7 +266,7 @@ ConvexRange convexDistanceRange(const PosedSet& a, const PosedSet& b, double bey
   const gjk::Answer found = search.run(
       gjk::Simplex<double>(),
       [&](double upper, double gap) {
-        return upper <= pair.near() || upper - pair.radii() + pair.error() <= near ||
+        return upper <= pair.touchDistance() || upper - pair.radii() + pair.error() <= near ||
                upper - gap <= std::max(0x1p-50 * pair.size(), 0x1p-20 * (gap - pair.radii()));
       },
       [&](const Vec3& n, double gap) {
@@ -275,7 +279,7 @@ ConvexRange convexDistanceRange(const PosedSet& a, const PosedSet& b, double bey
   // Points of the cores are points of the sets, so their distance is an upper bound.
   ConvexRange range{0, found.upper + pair.error()};
   if (lower > pair.band()) range.lower = lower;
-  if (search.simplex.count > 0 && found.upper > pair.near())
+  if (search.simplex.count > 0 && found.upper > pair.touchDistance())
     range.upper = std::min(range.upper, pair.apart(search, false).distance + pair.error());
   if (!(range.upper >= 0)) range.upper = HUGE_VAL;  // NaN after overflow: no upper bound
   return range;

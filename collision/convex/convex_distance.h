@@ -18,12 +18,12 @@ struct ConvexDistance {
 /// Let S be the largest Σ|m||p| + |t| over the mapped points p of both sets, radii included. (For
 /// maps that are not rigid: the largest ‖M‖|p| + |t|, with ‖M‖ at least 1.) Guaranteed:
 /// * `distance` is 0 if and only if `convexSetsTouch` returns true. Then both witness points are
-///   the same point, which lies in both sets up to the band of that predicate, or up to 2^-30·S if
+///   the same point. It lies in both sets, up to the band of that predicate, or up to 2^-30·S if
 ///   the sets overlap by less than 2^-30·S.
 /// * Otherwise `distance` exceeds the true distance by at most relative·true + absolute +
 /// 1e-12·true + 4·2^-53·S.
-/// * `lower` is at most the true distance, proved in real arithmetic. The difference of `distance`
-///   and `lower` shows how accurate the result is.
+/// * `lower` is at most the true distance, proved in real arithmetic. Up to rounding, the error of
+///   `distance` is at most `distance` − `lower`.
 /// * The witness points are on the surfaces of the sets, up to 2^-50·S.
 ///
 /// Any finite map is allowed. Under a map that is not rigid a sphere is an ellipsoid, which costs

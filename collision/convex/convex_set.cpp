@@ -14,7 +14,7 @@ ConvexSet::ConvexSet(const ConvexPart& part) : points(part.points), ball(part.ra
   if (!part.flatEnds) return;
   const Vec3 d = part.points[1] - part.points[0];
   const double square = d.squaredNorm();
-  // If the axis is lost by rounding, the set becomes the capsule, which contains the cylinder.
+  // If the axis cannot be normalised, the set becomes the capsule, which contains the cylinder.
   if (!(square > 0x1p-900 && square < 0x1p900)) return;
   axis = d / std::sqrt(square);
   std::swap(ball, disc);

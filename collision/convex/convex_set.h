@@ -26,8 +26,8 @@ struct ConvexSet {
 /// onto n is that of the set onto Mᵀn, so orthogonality of M is not used.
 ///
 /// Error of a projection. Let F = ‖M‖_F, |n|₂ ≤ 1 + 4u and ρ ≥ |p| + ball + disc for all points.
-/// * Mᵀn has three roundings per component: off by at most γ3·‖|M|‖₂·|n| < 3.1uF; times
-/// |p|: 3.1uFρ.
+/// * Mᵀn has three roundings per component, so it is off by at most γ3·‖|M|‖₂·|n| < 3.1uF. In the
+/// product with p this is 3.1uFρ.
 /// * The product with p: γ3·|Mᵀn||p| < 3.1uFρ. The product n·t: 3.1u|t|.
 /// * The sum of these two and of the sphere's or the disc's share: 2u(Fρ + |t|).
 /// * The sphere's share |Mᵀn|: 3.1uF and 4uF.
@@ -38,9 +38,9 @@ struct ConvexSet {
 /// the disc below 17uF·disc. As |p| + ball + disc ≤ ρ, these three together are below 17uFρ. With
 /// the sum and n·t the total is below u(20Fρ + 6|t|).
 ///
-/// Sizes and coordinates should be 0 or within 2^±440 m. Beyond, squares overflow or vanish. Then
-/// contact queries may report a contact that does not exist, and distances may be too small. A
-/// contact is never missed, and a distance is never too large.
+/// Sizes and coordinates should be 0 or within 2^±440 m. Outside this range, squares overflow or
+/// vanish. Then contact queries may report a contact that does not exist, and distances may be too
+/// small. A contact is never missed, and a distance is never too large.
 class PosedSet {
  public:
   PosedSet(const ConvexSet& set, const Transform& X);

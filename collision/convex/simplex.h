@@ -71,14 +71,14 @@ template <class Real>
 Nearest<Real> nearest(const Vector<Real>& a, const Vector<Real>& b, const Vector<Real>& c) {
   const Vector<Real> ab = b - a, bc = c - b, ca = a - c, n = cross(ab, bc);
   const Real square = dot(n, n), zero(0);
-  // Tests for each edge whether the foot of the origin is outside of it; true for all edges if the
-  // triangle is degenerate.
+  // Tests for each edge whether the projection of the origin onto the triangle's plane is on the
+  // outer side of the edge; true for all edges if the triangle is degenerate.
   const Real areaC = dot(n, cross(a, ab)), areaA = dot(n, cross(b, bc)),
              areaB = dot(n, cross(c, ca));
   const bool outAB = !(areaC > zero), outBC = !(areaA > zero), outCA = !(areaB > zero);
   if (square > zero && !outAB && !outBC && !outCA) {
-    // The distance is that of a convex combination of the corners: it is a point of the triangle,
-    // whatever the rounding of the weights. The direction is the normal.
+    // The distance is that of `foot`, a convex combination of the corners. It is a point of the
+    // triangle, whatever the rounding of the weights. The direction is the normal.
     const Vector<Real> foot =
         (a * areaA + b * areaB + c * areaC) * (Real(1) / (areaA + areaB + areaC));
     return {n * (dot(n, a) / square), dot(foot, foot), 3, {a, b, c}};

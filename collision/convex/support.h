@@ -15,11 +15,11 @@ namespace corridor::gjk {
 
 /// Precision and limits of a search in one scalar type.
 ///
-/// `unit` is the relative error assumed per operation (for DoubleDouble more than its format's).
-/// The search ends when upper and lower bound differ by less than `agreed` times the distance. If
-/// closer bounds than those of double are needed, a search in double-double follows. `rounds` is
-/// the maximum number of rounds. Polytopes need about as many rounds as the number of their faces
-/// that face the other polytope. Rims of discs needed at most a hundred in tests.
+/// `unit` is the relative error assumed per operation (for DoubleDouble, more than the error of the
+/// format). The search ends when upper and lower bound differ by less than `agreed` times the
+/// distance. If closer bounds than those of double are needed, a search in double-double follows.
+/// `rounds` is the maximum number of rounds. Polytopes need about as many rounds as they have faces
+/// that point towards the other polytope. Rims of discs needed at most a hundred in tests.
 template <class Real>
 struct Effort;
 template <>

@@ -6,7 +6,7 @@
 
 namespace corridor {
 
-/// One fault in a user's input: its place, what is wrong, and what would be right.
+/// One fault in a user's input: the place of the fault, what is wrong, and what would be right.
 struct Fault {
   std::string file;  ///< as the user named it; empty: not in a file, for example in an option
   int line = 0;      ///< counted from 1; 0: the file as a whole

@@ -11,15 +11,15 @@ namespace corridor {
 /// The pair is only a guess: queries test it like any other pair, so no result relies on it.
 /// Distance queries on 4-wide trees always start from it. Distance queries on binary trees, and all
 /// queries with a convex part, ignore it. Other queries test it first only while it is `trusted`.
-/// Trust begins when two searches in a row find the same pair. It ends when the test of the guess
-/// fails `kTrust` times in a row. Therefore unrelated queries waste at most a few tests. A new
-/// object has no pair.
+/// The pair becomes trusted when two searches in a row find it. It is trusted until the test of the
+/// guess fails `kTrust` times in a row. Therefore unrelated queries waste at most a few tests. A
+/// new object has no pair.
 class LastPair {
  public:
   std::uint32_t a = 0xffffffff, b = 0xffffffff;  ///< numbers in the two trees, in leaf order
 
-  /// Returns whether both numbers are in range. They may be out of range, because the last query
-  /// may have been of other trees.
+  /// Returns whether both numbers are in range. They are out of range if there was no query, and
+  /// may be if the last query was of other trees.
   bool isIn(std::size_t countA, std::size_t countB) const { return a < countA && b < countB; }
   bool trusted() const { return trust_ > 0; }
   /// Records the result of testing the guess: whether this pair decided the query.

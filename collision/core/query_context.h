@@ -9,11 +9,11 @@
 namespace corridor {
 
 /// All that a query may write apart from its result. Each thread needs its own context. The
-/// contents never change a verdict, nor a distance beyond its error bound.
+/// context's contents never change a verdict, nor a distance beyond its error bound.
 struct QueryContext {
   Counters counters;  ///< the work of all queries since it was last cleared
   /// The pairs of triangles from which queries of scenes and motions start. Entry k belongs to pair
-  /// k of the query's bodies. Queries enlarge the list. The entries may change the counts, and
+  /// k of the query's bodies. Queries enlarge the list. The entries may change the counters, and
   /// which of several closest or touching triangles is reported.
   std::vector<LastPair> lastPairs;
   Scratch scratch;

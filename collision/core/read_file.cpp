@@ -75,7 +75,7 @@ class OrdinaryFile : public OpenFile {
  public:
   // O_NONBLOCK: if a pipe replaces the file after the first check, opening does not wait for it.
   OrdinaryFile(const std::filesystem::path& file, const std::string& what, std::uint64_t most)
-      : OpenFile(looked(file), O_NONBLOCK) {
+      : OpenFile(checkedPath(file), O_NONBLOCK) {
     const std::string name = file.string();
     struct stat status {};
     if (::fstat(descriptor(), &status) != 0 || !S_ISREG(status.st_mode))
@@ -91,12 +91,13 @@ class OrdinaryFile : public OpenFile {
   std::uint64_t size() const { return size_; }
 
  private:
-  static const std::filesystem::path& looked(const std::filesystem::path& file) {
+  static const std::filesystem::path& checkedPath(const std::filesystem::path& file) {
     if (const std::string why = whyNoFile(file); !why.empty()) fail(file.string(), why);
     return file;
   }
 
-  /// Repositories with large meshes are often cloned without them.
+  /// Returns whether the file is a Git LFS pointer: repositories are often cloned without their
+  /// large files.
   bool isLfsPointer() const {
     constexpr std::string_view begin = "version https://git-lfs.github.com/spec/";
     std::array<char, begin.size()> bytes{};

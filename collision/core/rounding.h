@@ -21,7 +21,7 @@ inline double roundedUp(double bound) {
   return bound * (1 + 0x1p-48) + kTiny;
 }
 
-/// Returns a lower bound of the real value of `bound`, under the same condition.
+/// Returns a lower bound of the real value of `bound`, under the condition of `roundedUp`.
 inline double roundedDown(double bound) {
   return bound * (1 - 0x1p-48) - kTiny;
 }

@@ -15,8 +15,8 @@ std::string lowered(std::string_view word);
 std::size_t editDistance(std::string_view a, std::string_view b);
 
 /// Returns the candidate that a user may have meant: the first with the least edit distance,
-/// ignoring case. The distance must be at most a third of the longer word's length, or 1, and less
-/// than the length of `word`. Words of more than 100 bytes get no suggestion.
+/// ignoring case. The distance must be at most 1 or at most a third of the longer word's length,
+/// and less than the length of `word`. Words of more than 100 bytes get no suggestion.
 std::optional<std::string> mostSimilar(std::string_view word,
                                        const std::vector<std::string>& candidates);
 

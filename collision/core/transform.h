@@ -12,8 +12,8 @@ using Mat3 = Eigen::Matrix3d;
 /// The affine map x ↦ m·x + t. Named X_AB if it maps coordinates of frame B to frame A.
 ///
 /// The twelve doubles *are* the map: queries use precisely these numbers, in real arithmetic,
-/// whether or not m is exactly a rotation. (No matrix of doubles is, except the 24 signed
-/// permutations.) Lengths in metres.
+/// whether or not m is exactly a rotation. (Only 24 matrices of doubles are exact rotations: the
+/// signed permutations.) Lengths in metres.
 struct Transform {
   Mat3 m = Mat3::Identity();
   Vec3 t = Vec3::Zero();

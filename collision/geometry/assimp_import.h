@@ -17,11 +17,12 @@ enum class AssimpRules {
   OmplApp,
 };
 
-/// The formats that assimp reads for Corridor (README.md says why these). assimp has dozens more,
-/// most of them unmaintained formats of old games, which robots do not use.
+/// The formats that assimp reads for Corridor (README.md gives the reason for each). assimp has
+/// dozens more, most of them unmaintained formats of old games, which robots do not use.
 constexpr std::array<std::string_view, 8> kAssimpFormats{".dae", ".gltf", ".glb", ".fbx",
                                                          ".3ds", ".x3d",  ".3mf", ".amf"};
-/// The formats of Corridor's own readers. Under `AssimpRules::OmplApp` assimp reads these, too.
+/// The formats of Corridor's own readers. Under `AssimpRules::OmplApp` assimp reads these formats,
+/// too.
 constexpr std::array<std::string_view, 4> kOwnFormats{".obj", ".stl", ".ply", ".off"};
 
 struct AssimpImport {
@@ -34,8 +35,8 @@ struct AssimpImport {
   std::string error;  ///< one line; empty: success
 };
 
-/// Reads a file by assimp in this process. A damaged file may crash the process, or take all of its
-/// time and memory. Throws nothing. Defined in the helper program only.
+/// Reads a file by assimp in this process. A damaged file may crash the process, or make it take
+/// unlimited time and memory. Throws nothing. Defined in the helper program only.
 AssimpImport importByAssimp(const std::string& file, AssimpRules rules);
 
 /// The helper's exit status when its memory limit is reached. (An exception would reach assimp,

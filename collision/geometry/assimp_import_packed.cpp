@@ -56,7 +56,7 @@ bool unpack(std::string_view bytes, AssimpImport& import) {
   Head head;
   if (bytes.size() < sizeof head) return false;
   take(bytes, &head, 1);
-  // Counts are limited first, so that their products cannot overflow.
+  // The counts are compared with the size first, so that their products cannot overflow.
   if (head.magic != kMagic || head.vertices > bytes.size() || head.triangles > bytes.size() ||
       head.format > bytes.size() || head.error > bytes.size() ||
       bytes.size() != head.vertices * sizeof(Vec3) + head.triangles * sizeof(Triangle) +

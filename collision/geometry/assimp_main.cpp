@@ -13,7 +13,7 @@
 #include "collision/geometry/assimp_import.h"
 
 int main(int count, char** words) {
-  // FILE RULES SECONDS BYTES PARENT
+  // The arguments are FILE RULES SECONDS BYTES PARENT.
   if (count != 6) return 2;
   const std::string file = words[1];
   const auto rules = static_cast<corridor::AssimpRules>(std::atoi(words[2]));

@@ -8,7 +8,7 @@
 
 namespace corridor {
 
-/// Limits for reading one file by assimp, and the helper program that reads it.
+/// Limits for reading one file by assimp, and the path of the helper program that reads the file.
 struct AssimpLimits {
   double seconds = 60;                              ///< time from the helper's start to its answer
   std::uint64_t bytes = std::uint64_t{1} << 32;     ///< memory of the helper

@@ -34,8 +34,8 @@ std::optional<std::string> checkPrimitive(const Primitive& primitive);
 /// Returns "box", "sphere", …
 std::string nameOf(const Primitive& primitive);
 
-/// A convex part: a convex solid in the frame of its body. The stored doubles are the model, in
-/// real arithmetic; curved surfaces are not tessellated.
+/// A convex part: a convex solid in the frame of its body. Queries treat the stored doubles as
+/// exact; curved surfaces are not tessellated.
 /// * Without `flatEnds`: the hull of `points` swept by a sphere of `radius`. A sphere has one
 /// point, a capsule two, a box eight and radius 0.
 /// * With `flatEnds`: a cylinder, the segment between two points swept by a disc of `radius`
@@ -46,8 +46,8 @@ struct ConvexPart {
   bool flatEnds = false;
 };
 
-/// Returns the primitive in the frame of a body. The pose is applied once and rounded: the result
-/// is the model. Points are mapped; radii stay the same, even under a pose that is not rigid.
+/// Returns the primitive in the frame of a body. The pose is applied once, here. Queries use the
+/// rounded result. Points are mapped; radii stay the same, even under a pose that is not rigid.
 /// @pre `checkPrimitive` reports nothing; `placed` does not call it.
 ConvexPart placed(const Primitive& primitive, const Transform& X_BodyPrimitive);
 

@@ -9,14 +9,14 @@ namespace corridor {
 /// Maps the coordinates of a file to metres, with z up (`MeshFileOptions`).
 class FileFrame {
  public:
-  /// @param metresPerUnit  if the options don't state a unit.
+  /// @param metresPerUnit the unit to use if the options don't state one.
   FileFrame(const MeshFileOptions& options, double metresPerUnit)
       : scale_(options.metresPerUnit.value_or(metresPerUnit)), up_(options.up.value_or('z')) {}
 
   bool isIdentity() const { return scale_ == 1 && up_ == 'z'; }
   double scale() const { return scale_; }
-  /// Rotates so that the up-axis becomes z. As in Collada, its "right" axis becomes x and its "in"
-  /// axis -y.
+  /// Rotates so that the up-axis becomes z. The axes that Collada calls "right" and "in" for this
+  /// up-axis become x and -y.
   Vec3 operator*(const Vec3& p) const {
     Vec3 q = scale_ * p;
     switch (up_) {

@@ -39,7 +39,8 @@ MeshComponents findComponents(const TriangleMesh& mesh) {
   VertexWelder welder(mesh.vertices.size());
   std::vector<Use> uses;
   const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
-  std::vector<bool> folded(count);  // two equal corners: does not count for watertightness
+  // Triangles with two equal corners do not count for watertightness.
+  std::vector<bool> folded(count);
   for (std::uint32_t t = 0; t < count; ++t) {
     std::uint32_t corner[3];
     for (int i = 0; i < 3; ++i) corner[i] = welder.index(mesh.corner(t, i));

@@ -87,7 +87,8 @@ std::string notRead(const std::string& extension) {
          " is not supported; save the mesh as " + formats;
 }
 
-/// 1 GiB: for a larger file assimp would need more than its 4 GiB of memory.
+/// The maximum size of a file for assimp, 1 GiB: for a larger file assimp would need more than its
+/// 4 GiB of memory.
 constexpr std::uint64_t kMostAssimpBytes = std::uint64_t{1} << 30;
 
 /// Checks that need no assimp: size, kind of file, and Collada's unit and up-axis.

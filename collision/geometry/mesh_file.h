@@ -24,7 +24,8 @@ struct MeshFile {
   std::string unitRule;  ///< one line for people: which unit was used, and why
   std::string upRule;    ///< one line for people: which rotation was applied, and why
   /// The up-axis that a Collada file states ('x', 'y' or 'z'; 'y' if it states none). Unset: not
-  /// Collada. It is not applied, which is ROS's rule; set MeshFileOptions::up to apply it.
+  /// Collada. `readMeshFile` does not apply it, which is ROS's rule; set MeshFileOptions::up to
+  /// apply it.
   std::optional<char> fileUp = {};
   /// True if assimp read the file, and therefore rounded the vertices to float.
   bool floatVertices = false;
@@ -32,7 +33,8 @@ struct MeshFile {
 
 /// Reads a mesh file. The extension decides how: Corridor's own readers read OBJ, STL, PLY and OFF
 /// in double. assimp reads Collada, glTF, FBX, 3DS, X3D, 3MF and AMF, in a process of its own with
-/// limits of time and memory. Scale and rotation are applied here, once; the result is the model.
+/// limits of time and memory. Scale and rotation are applied here, once; queries use the rounded
+/// result.
 /// @throws InputError that names the file and the line, face or byte: unreadable, no faces, not
 /// finite, index out of range, truncated, too large, unknown extension, …
 MeshFile readMeshFile(const std::filesystem::path& file, const MeshFileOptions& options = {});

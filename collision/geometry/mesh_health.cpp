@@ -17,8 +17,9 @@ using Triangle = std::array<std::uint32_t, 3>;
 /// neither overflow nor underflow, whatever the mesh's size.
 struct Bounds {
   Vec3 min, max;
-  double scale = 1;  ///< 1/4 if the diagonal overflows (else 1: 1/4 would cost subnormals bits)
-  double diagonal;   ///< times `scale`
+  /// 1/4 if the diagonal overflows; else 1, because subnormals times 1/4 would lose bits.
+  double scale = 1;
+  double diagonal;  ///< times `scale`
 
   explicit Bounds(const TriangleMesh& mesh) : min(mesh.corner(0, 0)), max(min) {
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
@@ -111,7 +112,8 @@ struct EdgeUses {
   bool areWatertight() const { return sound > 0 && open + turned + many == 0; }
 };
 
-/// Returns the first reason. @pre the edges are not watertight.
+/// Returns the first reason why a mesh is not watertight. @pre The mesh is not
+/// watertight.
 std::string whyNotWatertight(const EdgeUses& edges, bool repeated) {
   const auto ofEdges = [](std::size_t count) { return std::to_string(count) + " of its edges"; };
   if (edges.open > 0) return ofEdges(edges.open) + " have a triangle on one side only";

@@ -26,8 +26,8 @@ struct MeshHealth {
   std::size_t turnedEdges = 0;
   /// Sets of triangles connected through shared corners. (`findComponents` requires shared edges.)
   std::size_t components = 0;
-  /// True if every edge is used by exactly two triangles, in opposite directions (not counting
-  /// triangles with two equal corners).
+  /// True if every edge is used by exactly two triangles, in opposite directions. Triangles with
+  /// two equal corners do not count.
   bool watertight = false;
   std::string whyNotWatertight;  ///< the first reason, for messages; "" if it is watertight
   /// The volume in m³, rounded; negative if the triangles face inwards. Set only for a watertight

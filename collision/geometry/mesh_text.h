@@ -46,7 +46,8 @@ class MeshFaults {
 
 /// Reads a whole word as a finite coordinate into `value`. Numbers too small for a double become 0,
 /// the nearest double. @returns a complaint, or nullopt on success.
-/// @param notFiniteToo  "nan" and "inf" are no fault, as for points without a measurement.
+/// @param notFiniteToo true: "nan" and "inf" are no faults; sensors write them for directions
+/// without a measurement.
 std::optional<std::string> parseCoordinate(std::string_view word, double& value,
                                            bool notFiniteToo = false);
 

@@ -113,8 +113,8 @@ class ObjReader {
 }  // namespace
 
 ReadMesh readObj(std::string_view text, MeshFaults& faults) {
-  // A byte-order mark would hide the first keyword. If that is `v`, all vertex numbers would be off
-  // by one.
+  // A byte-order mark would hide the first keyword. If the hidden keyword is `v`, all vertex
+  // numbers would be off by one.
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   return ObjReader(text, faults).read();
 }

@@ -132,7 +132,7 @@ class MapReader {
   }
 
   /// .bt: an inner node has two bits for each child, and then its inner children follow.
-  /// @returns whether the whole cube is occupied; then it is one cube.
+  /// @returns whether the whole cube is occupied; it is then stored as one cube.
   bool readChildren(const Cube& cube, int depth) {
     requireDepth(depth);
     const auto bits = take<std::uint16_t>();
@@ -170,7 +170,7 @@ class MapReader {
   }
 
   /// .ot: a node has its log-odds, its colour in a ColorOcTree, and a bit for each child.
-  /// @returns whether the whole cube is occupied; then it is one cube.
+  /// @returns whether the whole cube is occupied; it is then stored as one cube.
   bool readNode(const Cube& cube, int depth) {
     const auto logOdds = take<float>();
     if (color_)

@@ -13,12 +13,12 @@ namespace corridor {
 
 /// Which cells of a map are obstacles.
 struct OccupancyRules {
-  /// Cells of which the file has no measurement are obstacles, too, as far as the box around all
-  /// measured cells reaches.
+  /// If true, cells without a measurement count as obstacles, too, within the bounding box of the
+  /// measured cells.
   bool unknownIsOccupied = false;
-  /// A cell is occupied if its probability is at least this one, in (0, 1). Both are compared as
-  /// log-odds in float, as OctoMap does. Files of .bt have no probabilities: their cells are either
-  /// free or occupied.
+  /// A cell is occupied if its probability is at least `threshold`, which must be in (0, 1). Both
+  /// are compared as log-odds in float, as OctoMap does. Files of .bt have no probabilities: their
+  /// cells are either free or occupied.
   double threshold = 0.5;
 };
 
@@ -30,9 +30,11 @@ struct OccupancyMap {
     std::array<std::int32_t, 3> corner{};
     std::int32_t size = 1;
   };
-  double resolution = 0;    ///< edge length of the smallest cell, metres
-  std::vector<Cube> cubes;  ///< occupied, or unknown if requested. Eight equal cubes are joined
-  std::size_t free = 0;     ///< number of free cubes
+  double resolution = 0;  ///< edge length of the smallest cell, metres
+  /// The occupied cubes, and the unknown ones if requested. Eight occupied children of one octree
+  /// node are joined into one cube.
+  std::vector<Cube> cubes;
+  std::size_t free = 0;           ///< number of free cubes
   bool hasProbabilities = false;  ///< true for .ot
   std::string format;             ///< "OctoMap (.bt)", "OctoMap (.ot)"
 

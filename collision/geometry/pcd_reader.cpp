@@ -29,7 +29,7 @@ struct Header {
   std::string data;      ///< ascii, binary, binary_compressed
   std::size_t size = 0;  ///< bytes before the data
   int lines = 0;
-  std::array<std::size_t, 3> xyz{};  ///< fields
+  std::array<std::size_t, 3> xyz{};  ///< numbers of the fields x, y and z
   bool hasViewpoint = false;
 };
 
@@ -190,7 +190,7 @@ void requireBytes(const Header& header, std::uint64_t available, MeshFaults& fau
                      std::to_string(available) + " bytes are left: the file is cut short");
 }
 
-/// One point per line; blank lines are skipped.
+/// Reads ASCII data: one point per line; blank lines are skipped.
 std::vector<Vec3> readAscii(std::string_view body, const Header& header, MeshFaults& faults) {
   std::uint64_t words = 0;
   for (const Field& field : header.fields) words += field.count;
@@ -230,7 +230,7 @@ std::vector<Vec3> readAscii(std::string_view body, const Header& header, MeshFau
   return points;
 }
 
-/// The points one after another, each with all of its fields.
+/// Reads binary data: the points one after another, each with all of its fields.
 std::vector<Vec3> readBinary(std::string_view body, const Header& header, MeshFaults& faults) {
   requireBytes(header, body.size(), faults);
   const std::string_view rest = body.substr(header.points * header.pointBytes);
@@ -248,9 +248,10 @@ std::vector<Vec3> readBinary(std::string_view body, const Header& header, MeshFa
   return points;
 }
 
-/// Expands LZF (liblzf's format). A control byte c below 32 is followed by c + 1 literal bytes.
-/// Otherwise a copy of (c >> 5) + 2 bytes of the output follows, from the distance in its low 5
-/// bits and the next byte, plus 1. If c >> 5 is 7, a byte before that one adds to the length.
+/// Expands LZF (liblzf's format). A control byte c below 32 is followed by c + 1 literal bytes. Any
+/// other c stands for a copy of (c >> 5) + 2 bytes of the output written so far. The copy starts
+/// d + 1 bytes before the output's end, where the low 5 bits of c and the next byte give d. If c >>
+/// 5 is 7, one more byte comes before the byte of d, and adds to the length.
 /// @returns nullopt if the data are not sound or give another size.
 std::optional<std::string> expanded(std::string_view in, std::uint64_t size) {
   std::string out;
@@ -278,7 +279,7 @@ std::optional<std::string> expanded(std::string_view in, std::uint64_t size) {
   return out.size() == size ? std::optional(std::move(out)) : std::nullopt;
 }
 
-/// Compressed data: two sizes, then all values of the first field, of the second field, ….
+/// Reads compressed data: two sizes, then all values of the first field, of the second field, ….
 std::vector<Vec3> readCompressed(std::string_view body, const Header& header, MeshFaults& faults) {
   if (body.size() < 8) faults.fail(0, "the file ends before its data: it is cut short");
   std::uint32_t packed = 0, size = 0;
@@ -286,7 +287,7 @@ std::vector<Vec3> readCompressed(std::string_view body, const Header& header, Me
   std::memcpy(&size, body.data() + 4, 4);
   body.remove_prefix(8);
   requireBytes(header, size, faults);
-  // A copy of 3 bytes makes at most 264 of them.
+  // Three packed bytes expand to at most 264 bytes.
   if (packed > body.size() || size / 264 > packed)
     faults.fail(0, "the data's sizes do not fit the file: it is cut short");
   const auto data = expanded(body.substr(0, packed), size);

@@ -14,7 +14,8 @@ namespace corridor {
 
 /// The largest number of points of a file.
 constexpr std::uint64_t kMostPoints = 10'000'000;
-/// Fails for more points, before memory is allocated for them.
+/// Fails if `count` exceeds `kMostPoints`. Readers call it before they allocate memory for the
+/// points.
 inline void requireFewPoints(std::uint64_t count, int line, MeshFaults& faults) {
   if (count > kMostPoints)
     faults.fail(line, "has " + std::to_string(count) + " points or more; at most " +

@@ -22,7 +22,8 @@ class VertexWelder {
  private:
   static constexpr std::uint32_t none_ = UINT32_MAX;
 
-  std::size_t slotOf(const Vec3& point) const;  ///< where the point is or is to be inserted
+  /// Returns the slot that holds the point, or into which it is to be inserted.
+  std::size_t slotOf(const Vec3& point) const;
   void grow();
 
   std::vector<Vec3> points_;

@@ -21,14 +21,14 @@ std::string_view nextWord(std::string_view& line, std::string_view marks) {
   return word;
 }
 
-/// Returns the marks that separate the numbers of a line, beside blanks. A comma beside semicolons
-/// separates nothing: it is a decimal mark, which is refused where the number is read.
+/// Returns the marks that separate the numbers of a line, beside blanks. In a line with semicolons,
+/// a comma separates nothing: it is a decimal mark, and reading the number then reports a fault.
 std::string_view marksOf(std::string_view line) {
   return line.find(';') != line.npos ? ";" : ",";
 }
 
 /// Returns whether a comma within a word may be a decimal mark, as in "1,5 2,5 3,5": some commas
-/// touch both of their neighbours, and some numbers are separated by blanks alone.
+/// have no blank on either side, and some numbers are separated by blanks alone.
 bool mixesCommasAndBlanks(std::string_view line) {
   const auto isBlank = [](char c) { return kBlanks.find(c) != kBlanks.npos; };
   bool alone = false, tight = false;

@@ -39,7 +39,8 @@ std::uint32_t BoxTree::build(std::span<const BoundingBox> boxes, std::span<std::
   std::nth_element(items.begin(), half, items.end(), [&](std::uint32_t a, std::uint32_t b) {
     const double x = boxes[a].lower[axis] + boxes[a].upper[axis],
                  y = boxes[b].lower[axis] + boxes[b].upper[axis];
-    return x < y || (x == y && a < b);  // one order with every library
+    // Ties are broken by index, so that every standard library builds the same tree.
+    return x < y || (x == y && a < b);
   });
   box.terms = std::max(box.terms, box.lower.cwiseAbs().sum() + box.upper.cwiseAbs().sum());
   nodes_[index].box = box;

@@ -27,9 +27,9 @@ class BoxTree {
   /// Builds the tree. Box number k is item k. Takes O(n log n) time.
   explicit BoxTree(std::span<const BoundingBox> boxes);
 
-  /// Calls visit(item) for each item whose boxes, from the root to the leaf, satisfy
-  /// bound(box) ≤ within. The side with the lower bound comes first. Stops if `visit` returns true.
-  /// @param bound  a lower bound of a distance from the box, metres
+  /// Calls visit(item) for each item whose boxes, from the root to the leaf, satisfy bound(box) ≤
+  /// within. The child with the lower bound is visited first. Stops if `visit` returns true.
+  /// @param bound returns a lower bound of the distance from a box, metres
   /// @param within may be lowered by `visit`
   /// @returns whether `visit` stopped the walk.
   template <class Bound, class Visit>
@@ -39,7 +39,7 @@ class BoxTree {
       std::uint32_t node;
       double bound;
     };
-    std::array<Open, kMaxDepth + 1> open;  // one sibling a level, and the node itself
+    std::array<Open, kMaxDepth + 1> open;  // one sibling per level, and the node itself
     std::size_t count = 0;
     open[count++] = {0, bound(nodes_[0].box)};
     while (count > 0) {
@@ -60,7 +60,7 @@ class BoxTree {
   }
 
  private:
-  static constexpr std::size_t kMaxDepth = 32;  ///< of 2^31 items
+  static constexpr std::size_t kMaxDepth = 32;  ///< the depth of a tree of 2^31 items
 
   struct Node {
     BoundingBox box;

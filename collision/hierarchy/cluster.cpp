@@ -10,7 +10,8 @@ namespace corridor {
 namespace {
 
 constexpr std::size_t kSearch = 10;
-/// A round has few merges if it has fewer than one per this many clusters.
+/// A round has few merges if it has fewer than n / kFewMerges of them, where n is the number of
+/// clusters.
 constexpr std::size_t kFewMerges = 16;
 
 struct Extent {

@@ -22,8 +22,9 @@ struct Cluster {
 /// at most `kSearch` places away: the one with which it makes the box of least surface. Two
 /// clusters that chose each other merge.
 ///
-/// If a round has few merges, adjacent clusters are merged in pairs instead. (Sizes in a geometric
-/// sequence are an example. The cost would otherwise be quadratic.) The cost is O(n log n).
+/// If a round has few merges, as for boxes whose sizes are a geometric sequence, adjacent clusters
+/// are merged in pairs instead. The cost is therefore O(n log n); without this rule it could be
+/// quadratic.
 std::vector<Cluster> clustered(std::span<const Obb> boxes);
 
 }  // namespace corridor

@@ -11,7 +11,7 @@
 #include "collision/volumes/obb.h"
 #include "collision/volumes/rss.h"
 
-/// Volumes as rational sets. With them `check()` of the trees proves containment.
+/// Volumes as sets with rational coordinates. `check()` of the trees proves containment with them.
 namespace corridor::exact {
 
 using Rational = boost::multiprecision::cpp_rational;
@@ -46,10 +46,10 @@ class ExactVolume<Obb> {
     volume_ = abs(dot(u_[0], crosses_[0]));
   }
   bool contains(const Row& p, const Rational& radius) const { return contains(p, radius, {}); }
-  /// The same for a disc orthogonal to `axis` instead of the sphere, if `axis` is not zero. Let d
-  /// be the axis, and g_i = crosses_i/volume, which is row i of U⁻¹. Along coordinate i of the box
-  /// a sphere extends r|g_i| from its centre, and a disc r|g_i × d|/|d|. The squares of these
-  /// conditions are rational.
+  /// The same for a disc of this radius that is orthogonal to `axis`. If `axis` is zero, it is the
+  /// sphere. Let d be the axis, and g_i = crosses_i/volume, which is row i of U⁻¹.
+  /// Along coordinate i of the box a sphere extends r|g_i| from its centre, and a disc r|g_i ×
+  /// d|/|d|. The squares of these conditions are rational.
   bool contains(const Row& p, const Rational& radius, const Row& axis) const {
     const Row d = minus(p, center_);
     for (int k = 0; k < 3; ++k) {

@@ -23,7 +23,7 @@ namespace corridor::HWY_NAMESPACE {
 
 /// A cache of the corners of a tree's leaves, mapped by x ↦ matrix·(x − origin) + offset, for the
 /// nodes that were requested most recently. The corners of a node's leaves are floats relative to
-/// one of these corners. Their rounding is therefore 2^-24 of the node's size, not of the mesh's
+/// one of these corners. They are therefore rounded by 2^-24 of the node's size, not of the mesh's
 /// size.
 class LeafCache {
  public:

@@ -35,7 +35,7 @@ struct Cluster {
   std::uint32_t first = 0, count = 0;
   float mean[3] = {};
   float axes[3][3] = {};  // [j][k]: component k of axis j, largest variance first
-  float size = 0;         // trace of the summed second moments; the largest cluster is split first
+  float size = 0;  // trace of the summed second moments; the cluster of largest size is split first
 };
 using Parts = std::array<Cluster, kWidth>;
 
@@ -116,10 +116,10 @@ class Worker {
       reach[j] = std::max(high[j] - c, c - low[j]);
     }
     // The half extents must bound U⁻¹d with d = x − center. The code computes y = Uᵀd, which
-    // differs from it in two ways:
+    // differs from U⁻¹d in two ways:
     // * As in `enclosingObb`, |U⁻¹d − Uᵀd| ≤ η·Σ|y|/(1 − 3η) per component, η ≤ 2.1·2^-24 (obb4.h).
     // * y and c are rounded sums of three products of numbers ≤ 1 and ≤ √3, and x itself has two
-    //   roundings. Together this is below 16u of double.
+    //   roundings. Together these errors are below 16u, with u of double.
     // The last term of the pad covers flush-to-zero: a difference from the origin that is flushed
     // loses less than 2^-1022 m.
     const double pad = 2 * 2.1 * 0x1p-24 * (reach[0] + reach[1] + reach[2]) + 32 * kUnit +
@@ -147,10 +147,10 @@ class Worker {
     for (std::uint32_t count = 1; count < kWidth; ++count) {
       fits_.clear();
       for (Parts& parts : parts_) {
-        // The last step found nothing to split, so this step would find nothing either.
+        // The last step found no cluster to split, so this step would find none either.
         if (parts[count - 1].count == 0) continue;
-        // If all clusters are small enough for leaves, they are split further. The lanes would
-        // otherwise stay empty, so this costs nothing.
+        // If all clusters are small enough for leaves, they are split further. This costs no
+        // memory, because the lanes would otherwise stay empty.
         const bool leavesOnly =
             std::all_of(parts.begin(), parts.begin() + count,
                         [&](const Cluster& c) { return c.count <= items_.mostPerLeaf(); });

@@ -67,7 +67,7 @@ class BuildItems {
       own_[k] = (balls[k].center - origin) * scale;
       radii_[k] = balls[k].radius * scale;
     }
-    std::vector<Ball>().swap(balls);  // the tree is built in less memory
+    std::vector<Ball>().swap(balls);  // frees the memory before the tree is built
     record(threads, [&](std::size_t begin, std::size_t end) { return recordParts(begin, end); });
   }
 

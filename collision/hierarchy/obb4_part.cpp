@@ -49,7 +49,8 @@ Obb4Layout layOutObb4(const ConvexPart& part) {
   const double pad = 2 * 2.1 * 0x1p-24 * sum + 64 * kUnit;
   for (int j = 0; j < 3; ++j) {
     node.half[j][0] = static_cast<float>((reach[j] + pad) * (1 + 0x1p-23));
-    // Side 0 must be the longest (`Obb4Tree::Node`). Rounding may have made another side longer.
+    // Side 0 must be the longest (`Obb4Tree::Node`), but rounding may have made another side
+    // longer.
     node.half[0][0] = std::max(node.half[0][0], node.half[j][0]);
   }
   tree.root = boxOf(node, 0);

@@ -22,11 +22,12 @@ struct Obb4Layout;
 /// most four triangles. Most pairs of triangles are decided in float, the others in double or
 /// exactly.
 ///
-/// The tree is a binary top-down tree of which about every second level is kept. With the default
-/// fit, clusters are split by planes through the area-weighted mean, orthogonal to the direction of
-/// the largest area-weighted variance. All boxes are in the tree's own frame and unit, x = (p −
-/// origin)·2^-unit. Everywhere on the mesh |x_i| ≤ 1, so float's error is 2^-24 of the mesh. For
-/// meshes above 2^960 m no box is used: queries test all triangles.
+/// The tree is a binary tree, built top-down, of which about every second level is kept. With the
+/// default fit, clusters are split by planes through the area-weighted mean, orthogonal to the
+/// direction of the largest area-weighted variance. All boxes are in the tree's own frame and unit,
+/// x = (p − origin)·2^-unit. Everywhere on the mesh |x_i| ≤ 1, so rounding to float moves a
+/// coordinate by at most 2^-24 of the mesh's size. For meshes above 2^960 m no box is used: queries
+/// test all triangles.
 ///
 /// Immutable. The tree keeps a copy of the mesh's vertices, so the mesh need not outlive it.
 class Obb4Tree {
@@ -88,7 +89,7 @@ class Obb4Tree {
 
   /// Proves these invariants in rational arithmetic. Every box contains every triangle or part
   /// below it. Each triangle or part is in exactly one leaf. Every node except the root is the
-  /// child of exactly one box. Also checks that boxes are as obb4.h assumes. Returns the first
+  /// child of exactly one box. Also checks what obb4.h assumes about boxes. Returns the first
   /// violation, or nothing.
   std::optional<std::string> check() const;
 

@@ -77,7 +77,7 @@ std::optional<std::string> Obb4Tree::check() const {
   };
   const std::size_t count = meshTriangle_.size();
   const char* const kind = hasParts() ? "part" : "triangle";
-  // Each item is a node, with all boxes above it.
+  // Each item is a node, with the volumes of all boxes above it.
   std::vector<int> visited(nodes_.size(), 0), seen(count, 0);
   struct Item {
     std::uint32_t node;

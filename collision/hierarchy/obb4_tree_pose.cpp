@@ -134,11 +134,11 @@ void relate(const Obb4Tree& a, const Transform& X_WA, const Obb4Tree& b, const T
                    tA.plus(A.col[0], oA[0]).plus(A.col[1], oA[1]).plus(A.col[2], oA[2]);
   const double defectA = defectOf(X_WA.m, A), defectB = defectOf(X_WB.m, B);
   constexpr double kUsable = 0x1p-6;
-  // Nothing is pruned in two cases:
-  // * The defect of a map is larger, or NaN.
+  // No pair of boxes is pruned in two cases:
+  // * The defect of a map is `kUsable` or more, or NaN.
   // * A mesh is above 2^960 m. From 2^1000 m on, the tree's unit doesn't bring the mesh into [−1,
-  //   1]. And if an entry of m·unitA were flushed to zero, a point of b would move by up to
-  //   2^-1022·unitA⁻¹ of its coordinates. The margins don't cover this.
+  //   1]. Moreover, if an entry of m·unitA were flushed to zero, a point of b would move by up to
+  //   2^-1022·unitA⁻¹ times its coordinates. The margins don't cover this.
   const bool usable =
       defectA < kUsable && defectB < kUsable && a.length() <= 0x1p960 && b.length() <= 0x1p960;
   // D has at most five roundings per coordinate. `terms` bounds the sum of all terms of its
@@ -146,7 +146,7 @@ void relate(const Obb4Tree& a, const Transform& X_WA, const Obb4Tree& b, const T
   const double terms = ((Triple::load(oA.data()).abs() + Triple::load(oB.data()).abs()) * 3.4 +
                         (tA.abs() + tB.abs()))
                            .sum();
-  // |M x| ≤ √(1 + ν)|x|. The code takes the largest usable ν. This test then need not wait for the
+  // |M x| ≤ √(1 + ν)|x|. The code takes kUsable for ν, so that this test need not wait for the
   // computation of the defects.
   const double spheres =
       roundedUp((a.radius() + b.radius()) * (1 + kUsable) + 6 * kUnit * terms + pad);
@@ -161,7 +161,7 @@ void relate(const Obb4Tree& a, const Transform& X_WA, const Obb4Tree& b, const T
                   At.times(X_WB.m(0, 1), X_WB.m(1, 1), X_WB.m(2, 1)),
                   At.times(X_WB.m(0, 2), X_WB.m(1, 2), X_WB.m(2, 2)));
   // For M = M_AᵀM_B, ‖MᵀM − I‖ ≤ ‖M_BᵀM_B − I‖ + ‖M_B‖²‖M_A M_Aᵀ − I‖. The rounding of m, 3.1u·√3
-  // per entry, adds at most 2·√3 times this amount.
+  // per entry, adds at most 2·√3 times as much.
   const double defect = defectB + 1.1 * defectA + 24 * kUnit;
   // Entries of m and of the offset take three products and two sums each. As a norm their error is
   // 3.1u·3.

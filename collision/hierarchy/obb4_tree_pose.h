@@ -17,8 +17,8 @@ struct Obb4TreePose {
   double scale = 1;
   double unitA = 1;   ///< 2^-unit of a
   double shrink = 0;  ///< a distance in a's frame, times `shrink`, is at most that in the world
-  /// Error of the pose in a's unit, rounded up. Under the rounded pose, two triangles that touch
-  /// may be this far apart.
+  /// Error of the pose in a's unit, rounded up: two triangles that touch may be this far apart
+  /// under the rounded pose.
   float leafError = 0;
   Obb4Pose floats;
 

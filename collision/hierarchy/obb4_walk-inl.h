@@ -44,7 +44,7 @@ struct Lanes {
 /// Traverses node pairs of two trees. An item is a node of a, a node of b, and some of the sixteen
 /// pairs of their boxes (bit 4·i + j). These pairs are tested at once. Below each pair that is not
 /// separated, the walk descends both nodes, or only the one with clearly larger boxes, or only the
-/// one that is no leaf.
+/// one that is not a leaf.
 ///
 /// A Query has
 ///   bool skip(const Item&): returns true to drop an item. The item's `key` is already set.
@@ -68,7 +68,7 @@ std::span<const NodePair4> walkObb4(const Obb4Tree& a, const Obb4Tree& b, float 
                                     Counters& counters, Query& query) {
   using Item = NodePair4;
   constexpr unsigned kAll = 15, kAllPairs = 0xffff;
-  constexpr std::size_t kMostPushed = 16 + 1;  // the last one is written but not kept
+  constexpr std::size_t kMostPushed = 16 + 1;  // the last item is written but not kept
   // Two nodes whose sizes differ by less than this factor are descended together. Measured: near
   // contact, 1.3 to 2.5 cost the same. For a small body far inside a large one, a smaller factor is
   // better.

@@ -34,7 +34,7 @@ struct Cell {
 
 /// A cell is not divided if its children would list each triangle more often than this on average.
 /// A surface of small triangles crosses about four of the eight children. Large triangles would be
-/// listed in up to eight.
+/// listed in up to eight children.
 constexpr std::size_t kSpread = 3;
 
 Cell boundsOf(const Triangle& t) {

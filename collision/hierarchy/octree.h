@@ -11,7 +11,8 @@
 namespace corridor {
 
 struct OctreeParams {
-  /// A cell with more triangles is divided, unless its children would list far more in all.
+  /// A cell with more triangles than this is divided, unless its children together would list far
+  /// more triangles than the cell.
   std::uint32_t leafTriangles = 8;
   std::uint32_t depth = 10;  ///< cells at this level are not divided
 };
@@ -29,7 +30,7 @@ class Octree {
     Aabb box;  ///< contains the cell
     double radius = 0;
     std::uint32_t first = 0, count = 0;          ///< for a leaf: its range of `triangles()`
-    std::uint32_t firstChild = 0, children = 0;  ///< inner node; without empty cells
+    std::uint32_t firstChild = 0, children = 0;  ///< inner node: its cells that are not empty
     bool isLeaf() const { return children == 0; }
   };
 

@@ -36,7 +36,6 @@ inline void fillStack(std::span<const NodePair4> start, NodePairs& stack) {
 /// * `void opened(std::vector<Item>&, std::size_t first)` is called after all children of one node
 ///   were pushed, the last child first. It may reorder the items from `first` on. The item on top
 ///   is visited first.
-///   first.
 template <class TreeA, class TreeB, class Item, class Query>
 void traverseFrom(const TreeA& a, const TreeB& b, std::vector<Item>& stack, Query& query) {
   while (!stack.empty()) {

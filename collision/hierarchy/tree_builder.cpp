@@ -29,7 +29,7 @@ Framed framed(const TreePrimitives& items, std::uint32_t first, std::uint32_t co
 }
 
 /// Reorders [first, first + count) so that the leaf primitives below the plane come first. Returns
-/// the number of those below.
+/// the number of leaf primitives below the plane.
 std::uint32_t splitAtMean(TreePrimitives& items, std::uint32_t first, std::uint32_t count,
                           const Vec3& mean, const Vec3& normal) {
   std::uint32_t below = first;
@@ -38,8 +38,8 @@ std::uint32_t splitAtMean(TreePrimitives& items, std::uint32_t first, std::uint3
   return below - first;
 }
 
-/// The same, but the leaf primitives with the lower half of the centroids come first. Returns 0 if
-/// all centroids are at the same height.
+/// The same with the plane through the median centroid: the lower half of the leaf primitives comes
+/// first. Returns 0 if all centroids are at the same height.
 std::uint32_t splitAtMedian(TreePrimitives& items, std::uint32_t first, std::uint32_t count,
                             const Vec3& mean, const Vec3& normal) {
   struct Side {
@@ -52,7 +52,7 @@ std::uint32_t splitAtMedian(TreePrimitives& items, std::uint32_t first, std::uin
   const auto [low, high] = std::ranges::minmax(sides, {}, &Side::value);
   if (!(low.value < high.value)) return 0;
   std::ranges::nth_element(sides, sides.begin() + count / 2, {}, &Side::value);
-  // Swaps the leaf primitives that are in the wrong half. Both halves have equally many of them.
+  // Swaps the leaf primitives that are in the wrong half. Both halves have equally many of these.
   const std::uint32_t half = first + count / 2;
   std::vector<std::uint32_t> up, down;
   for (std::uint32_t i = 0; i < count / 2; ++i)

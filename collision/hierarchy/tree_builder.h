@@ -8,7 +8,8 @@
 
 namespace corridor {
 
-/// A node before its volume is fitted: its leaf primitives, and the box that frames them.
+/// A node before its volume is fitted: its leaf primitives, and a box around them. The volume is
+/// then fitted in the coordinate frame of this box.
 struct SkeletonNode {
   Obb box;
   std::uint32_t first = 0;  ///< its leaf primitives: [first, first + count)

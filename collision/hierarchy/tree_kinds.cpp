@@ -92,8 +92,8 @@ TreeChoice treesNamed(const TreeNames& words) {
   const VolumeKind& volume = *kindNamed(all.volume);
   const auto overlap = std::find(volume.overlaps.begin(), volume.overlaps.end(), all.overlap);
   const auto after = static_cast<int>(overlap - volume.overlaps.begin());
-  // A volume without axes of its own has one fit, "plain". This is no `ObbFit`, so any value is
-  // right.
+  // A volume without axes of its own has one fit, "plain". This is no `ObbFit`, so the fit below is
+  // not used.
   return {static_cast<TreeKind>(static_cast<int>(volume.trees) + after),
           obbFitNamed(all.fit).value_or(ObbFit::triangles)};
 }

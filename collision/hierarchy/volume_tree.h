@@ -17,8 +17,8 @@ namespace corridor {
 
 /// A binary tree of bounding volumes over the triangles of a mesh, or over convex parts. Top-down
 /// building splits a node's leaf primitives (`SplitRule`) across the longest axis of the node's
-/// box. If this separates none, it tries the second and then the third axis. If no axis separates
-/// any, the node is a leaf. All other leaves hold one leaf primitive.
+/// box. If this axis does not separate any, the second and then the third axis is tried. If no axis
+/// separates any, the node is a leaf. All other leaves hold one leaf primitive.
 ///
 /// Immutable except for `refit`. The tree keeps a copy of the corners, in leaf order, so the mesh
 /// need not outlive it. The depth is not bounded: triangles of the sizes 2^-i around a point give a

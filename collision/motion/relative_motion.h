@@ -98,8 +98,8 @@ inline double chord(double amount) {
 }
 
 /// Returns the motion bound of all points of b within `radius` metres of the point `x_A`. The
-/// derivation is in relative_motion.cpp (see also collision/NUMERICS.md, "Chain bound, no
-/// enlargement" and "Directional bounds").
+/// derivation is in relative_motion.cpp (see also collision/NUMERICS.md, "The motion bound of a
+/// kinematic chain needs no enlarged radii" and "Directional bounds").
 /// @param x_A the point at the interval's middle, in A, metres.
 MotionBound motionBound(const RelativeMotion& relative, const Vec3& x_A, double radius);
 

@@ -26,13 +26,14 @@ namespace corridor {
 ///
 /// `last`, if not null, is a guess from the last query of the same two bodies with the same kind of
 /// trees. Queries test it first, and store the pair that they find. If bodies move in small steps,
-/// the guess saves a tenth to two thirds of the time (hierarchy/MEASURED.md). With convex parts it
-/// has no effect. It never changes a verdict, nor a distance beyond its error bound.
+/// the guess saves a tenth to two thirds of the time (hierarchy/MEASURED.md). With convex parts the
+/// guess has no effect. It never changes a verdict, nor a distance beyond the distance's error
+/// bound.
 
 /// Returns a pair of triangles or convex parts that touch, or a triangle of a solid mesh together
 /// with a triangle or convex part of the body inside it. Returns nullopt if the bodies are
-/// separated. Exact for meshes; with a convex part, in the band of `convexSetsTouch` the answer may
-/// be contact.
+/// separated. Exact for meshes. With a convex part, contact may also be reported for bodies that
+/// are apart by less than the band of `convexSetsTouch`.
 std::optional<PrimitivePair> interference(const Posed<Body>& a, const Posed<Body>& b,
                                           QueryContext& context, TreeKind trees = TreeKind::obb4,
                                           LastPair* last = nullptr);

@@ -6,8 +6,8 @@
 namespace corridor {
 
 /// A `Scene` of one rigid body, made of the bodies `moving`, among the bodies `fixed`, whose frame
-/// is the world. Like `Scene` it is const after construction, and threads may share it with a
-/// `QueryContext` each.
+/// is the world. Like a `Scene`, it is const after construction. Threads may share it, each with
+/// its own `QueryContext`.
 class RigidScene {
  public:
   /// In `scene()` the fixed bodies come first, on frame 0; the moving ones follow, on frame 1.
@@ -20,7 +20,7 @@ class RigidScene {
     return std::span(scene_.bodies()).subspan(fixedCount_);
   }
   /// Returns `Scene::defaultTolerance`.
-  /// @param farthest metres; the poses of edges are at most this far from the origin.
+  /// @param farthest the largest distance of edges' poses from the origin, metres.
   double defaultTolerance(double farthest = 0) const { return scene_.defaultTolerance(farthest); }
 
   /// All queries throw std::invalid_argument for poses that are not finite, a zero quaternion, and
@@ -32,7 +32,7 @@ class RigidScene {
 
   /// Decides whether the motion from `from` to `to` is free: a straight line, and slerp along the
   /// shorter arc (collision/PROMISES.md, "What an edge is").
-  /// @param tube the deviations from the nominal curve for which the proof holds, too.
+  /// @param tube the deviations from the nominal curve that the proof covers.
   MotionResult certifyEdge(const RigidPose& from, const RigidPose& to, const MotionOptions& options,
                            QueryContext& context, const Tube& tube = {}) const;
   /// The same for a motion in the plane z = 0. Poses are (x, y, yaw), in metres and radians; the

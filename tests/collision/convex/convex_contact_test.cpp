@@ -24,7 +24,8 @@ TEST(ConvexContact, RightOutsideTheBandNeverFalselyFree) {
   int moreDigits = 0;
   for (const Shape sa : test::kShapes)
     for (const Shape sb : test::kShapes) {
-      if (sa == Shape::triangle && sb == Shape::triangle) continue;  // has an exact predicate
+      // Two triangles have an exact predicate.
+      if (sa == Shape::triangle && sb == Shape::triangle) continue;
       for (int n = 0; n < 600; ++n) {
         const Feature a = make.feature(sa), b = make.feature(sb);
         const Vec3 normal = n % 5 == 0 ? Vec3(Vec3::Unit(n / 5 % 3)) : make.vector().normalized();
@@ -32,7 +33,7 @@ TEST(ConvexContact, RightOutsideTheBandNeverFalselyFree) {
         const Transform X_WA = make.pose(a, x, normal), touching = make.pose(b, x, -normal);
         const double size = std::max(test::largestCoordinate(a.set(), X_WA),
                                      test::largestCoordinate(b.set(), touching));
-        // The depth is limited by the least thickness of the shapes.
+        // The least thickness of the shapes limits the depth.
         for (const double factor : factors)
           for (const int sign : {-1, 1}) {
             const double gap = sign * factor * size;
@@ -52,8 +53,8 @@ TEST(ConvexContact, RightOutsideTheBandNeverFalselyFree) {
             }
             ++cases;
           }
-        // This depth is within the band. 2^-48·size exceeds the rounding of the poses, 2^-53·size
-        // each, so the sets touch.
+        // At a depth within the band the sets must touch: 2^-48·size exceeds the rounding of the
+        // poses, 2^-53·size each.
         Transform X_WB = touching;
         X_WB.t -= normal * (0x1p-48 * size);
         falseFree += !convexSetsTouch({a.set(), X_WA}, {b.set(), X_WB});
@@ -155,7 +156,8 @@ TEST(ConvexContact, PolytopesAgainstIntegers) {
     for (int s = 0; s < 2; ++s)
       for (const IntVec& e : edges[s]) axes.push_back(e.cross(corners[1][0] - corners[0][0]));
     // If both sets lie in one plane, all these axes are parallel to its normal. So the test also
-    // uses the normals of edges within the plane, and the directions of lines.
+    // uses the normals of the edges within this plane, and, for sets on a line, the line's
+    // direction.
     const auto normal =
         std::find_if(axes.begin(), axes.end(), [](const IntVec& axis) { return !axis.isZero(); });
     if (normal != axes.end()) {

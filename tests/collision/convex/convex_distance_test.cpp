@@ -78,8 +78,8 @@ double checked(const PosedPart& a, const PosedPart& b, const std::string& what) 
 }
 
 /// The distance is right for all pairs of shapes and features, at gaps known by construction. Gaps
-/// go from ten times the shapes' size to below the rounding of their positions; some shapes are far
-/// from the origin, small, or large.
+/// go from ten times the shapes' size to less than the rounding of their positions. Some shapes are
+/// far from the origin, small, or large.
 TEST(ConvexDistance, KnownGaps) {
   Touching make(test::testSeed(31));
   std::cout << std::setprecision(2);
@@ -173,7 +173,7 @@ TEST(ConvexDistance, PolytopesAgainstAllTheirTriangles) {
     PosedPart a, b;
     for (int i = 0; i < 3 + n % 3; ++i) a.part.points.push_back(make.vector());
     for (int i = 0; i < 3 + n / 3 % 3; ++i) b.part.points.push_back(make.vector());
-    if (n % 2) {  // a face nearly parallel to one of a
+    if (n % 2) {  // b gets a face that is nearly parallel to one of a
       for (int i = 0; i < 3; ++i)
         b.part.points[i] = a.part.points[i] + std::pow(10.0, -n % 13) * make.vector();
     }
@@ -295,8 +295,8 @@ TEST(ConvexDistance, FlatThinAndPointShapes) {
   }
 }
 
-/// A sphere under a map that is not rigid is an ellipsoid, for distances and for verdicts. This one
-/// has half axes (2, 1, 0.1), and is above a plate, tilted.
+/// Both distances and verdicts treat a sphere under a map that is not rigid as an ellipsoid. This
+/// ellipsoid has half axes (2, 1, 0.1), and is above a plate, tilted.
 TEST(ConvexDistance, AnyAffineMap) {
   const ConvexPart plate = placed(Box{Vec3(20, 20, 1)}, {});
   const ConvexPart ball = placed(Sphere{1}, {});

@@ -15,17 +15,17 @@ using test::Feature;
 using test::Shape;
 using test::Touching;
 
-/// Characterisation: prints and limits the number of rounds of a search. It does the same for the
-/// difference between the upper and the lower bound of the cores' distance at the end of the
-/// search, relative to the size.
+/// Prints two figures of a search, and limits them: the number of rounds, and the difference
+/// between the upper and the lower bound of the cores' distance at the end of the search, relative
+/// to the size.
 TEST(Gjk, WorstErrors) {
   Touching make(test::testSeed(24));
   const char* names[] = {"box", "sphere", "capsule", "cylinder", "convex", "triangle"};
   for (const Shape sa : test::kShapes)
     for (const Shape sb : test::kShapes) {
       if (sb < sa) continue;
-      double plain = 0, fine = 0;
-      int plainRounds = 0, fineRounds = 0;
+      double inDouble = 0, inDoubleDouble = 0;
+      int roundsInDouble = 0, roundsInDoubleDouble = 0;
       for (int n = 0; n < 2'000; ++n) {
         const Feature a = make.feature(sa), b = make.feature(sb);
         const Vec3 normal = n % 5 == 0 ? Vec3(Vec3::Unit(n / 5 % 3)) : make.vector().normalized();
@@ -41,23 +41,24 @@ TEST(Gjk, WorstErrors) {
         const double near = 0x1p-49 * size;
         const gjk::Answer d = gjk::search<double>(setA, setB, size, near, never);
         const gjk::Answer dd = gjk::search<DoubleDouble>(setA, setB, size, near, never);
-        plain = std::max(plain, error(d));
-        plainRounds = std::max(plainRounds, d.rounds);
+        inDouble = std::max(inDouble, error(d));
+        roundsInDouble = std::max(roundsInDouble, d.rounds);
         if (dd.overlap || dd.upper <= near) continue;
         // The difference that is allowed is 2^-36 of the distance, or 2^-50 of the size.
-        fine = std::max(fine, (dd.upper - dd.lower) / std::max(size, 0x1p14 * dd.upper));
-        fineRounds = std::max(fineRounds, dd.rounds);
+        inDoubleDouble =
+            std::max(inDoubleDouble, (dd.upper - dd.lower) / std::max(size, 0x1p14 * dd.upper));
+        roundsInDoubleDouble = std::max(roundsInDoubleDouble, dd.rounds);
       }
       std::cout << "///   " << std::left << std::setw(9) << names[int(sa)] << std::setw(9)
-                << names[int(sb)] << std::setprecision(1) << std::scientific << plain
-                << std::setw(4) << std::right << plainRounds << "   " << fine << std::setw(4)
-                << fineRounds << "\n";
-      EXPECT_LE(fine, 0x1.01p-50) << names[int(sa)] << " " << names[int(sb)];
-      EXPECT_LT(fineRounds, 200);
+                << names[int(sb)] << std::setprecision(1) << std::scientific << inDouble
+                << std::setw(4) << std::right << roundsInDouble << "   " << inDoubleDouble
+                << std::setw(4) << roundsInDoubleDouble << "\n";
+      EXPECT_LE(inDoubleDouble, 0x1.01p-50) << names[int(sa)] << " " << names[int(sb)];
+      EXPECT_LT(roundsInDoubleDouble, 200);
     }
 }
 
-/// The search also ends for sets that overlap by less than the rounding of the corners.
+/// The search must end even for sets that overlap by less than the rounding of the corners.
 TEST(Gjk, BarelyOverlappingSetsEnd) {
   Touching make(test::testSeed(25));
   int most = 0;

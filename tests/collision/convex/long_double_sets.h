@@ -32,8 +32,9 @@ inline long double toTriangle(const Vec3L& p, const Vec3L& a, const Vec3L& b, co
 }
 
 /// Returns the distance of a point from a convex part, in the part's frame; 0 inside. For a hull of
-/// four points or more: the distance from the nearest triangle of its points. Inside the hull this
-/// is the distance from some triangle, so it may be above 0.
+/// four points or more: the distance from the nearest triangle of its points. Exception: if the
+/// point is inside a hull of four points or more, the result is its distance from some triangle,
+/// which may be above 0.
 inline long double outside(const ConvexPart& part, const Vec3L& q) {
   const auto at = [&](std::size_t i) -> Vec3L { return part.points[i].cast<long double>(); };
   const std::size_t n = part.points.size();

@@ -88,7 +88,8 @@ class Touching {
         for (int i = 0; i < n; ++i) hull.points.push_back(size * vector().normalized());
         f.part = placed(hull, {});
         f.x = f.m = hull.points[0];  // a corner, with the direction from the centre as its normal
-        for (const double side : {-0.1 * size, 0.1 * size}) {  // makes the inside lie along −m
+        // Two points that make the hull's inside lie along −m.
+        for (const double side : {-0.1 * size, 0.1 * size}) {
           const Vec3 u = f.x.unitOrthogonal();
           f.part.points.push_back(-0.5 * f.x + side * u);
           f.part.points.push_back(-0.5 * f.x + side * f.x.cross(u).normalized());

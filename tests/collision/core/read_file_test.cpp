@@ -139,8 +139,8 @@ TEST_F(ReadFile, RefusesAStreamOfZerosAtOnce) {
   EXPECT_EQ(complaintOf([] { readTextStream("-", "a thing"); }),
             "-:2: is not text: it has a byte 0; UTF-8 is needed");
   ::dup2(before, STDIN_FILENO);
-  writer.join();  // joins although the write end is still open: the reader did not wait for the
-                  // stream's end
+  writer.join();  // returns although the pipe is still open for writing: the reader did not wait
+                  // for the end
   for (const int end : {pipe[0], pipe[1], before}) ::close(end);
 }
 

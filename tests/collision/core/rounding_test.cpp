@@ -18,8 +18,8 @@ namespace {
 #define CORRIDOR_APART
 #endif
 
-/// Rounds two doubles to float. g++ 12 vectorised this at -O2 and then did not round, so the build
-/// uses -fno-tree-vectorize.
+/// Rounds two doubles to float. g++ 12 vectorised this function at -O2, and the result did not
+/// round. The build therefore uses -fno-tree-vectorize.
 CORRIDOR_APART void throughFloat(const double* from, double* to) {
   const float x = static_cast<float>(from[0]), y = static_cast<float>(from[1]);
   to[0] = x;
@@ -34,8 +34,7 @@ CORRIDOR_APART void throughFloats(const double* from, double* to, float* kept, i
   }
 }
 
-/// Returns a·b + c with two roundings, if the compiler does not contract it to a fused
-/// multiply-add.
+/// Returns a·b + c. There are two roundings if the compiler does not use a fused multiply-add.
 CORRIDOR_APART double multiplyAdd(double a, double b, double c) {
   return a * b + c;
 }

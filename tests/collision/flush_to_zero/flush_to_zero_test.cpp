@@ -28,8 +28,8 @@ TEST(FlushToZero, GrazingEdgesAreRight) {
   int known = 0, audited = 0;
   for (int n = 0; n < 3'000; ++n) {
     const double gap = (n % 2 ? 1 : -1) * std::pow(10.0, -2 - n % 12);
-    // Every tenth case is so small that squares, or even lengths, become 0. Then `free` is not
-    // required.
+    // Every tenth case is so small that squares, or even lengths, become 0. For these cases `free`
+    // is not required.
     const double size = std::pow(10.0, n % 10 ? 6 - n % 13 : -100 - n % 210);
     const auto feature = static_cast<test::Grazing::Feature>(n % test::Grazing::features);
     const test::Grazing g(random, feature, n % 5 == 0, gap, size);

@@ -53,7 +53,7 @@ std::string grid(int n) {
 
 class AssimpProcess : public MeshFileTest {
  protected:
-  /// Returns the message of readWithAssimp if a shell script replaces the helper program.
+  /// Returns the message of readWithAssimp with a shell script in place of the helper program.
   std::string complaintWith(const std::string& script, double seconds = 600) const {
     const auto program = write("helper", "#!/bin/sh\n" + script + "\n");
     std::filesystem::permissions(program, std::filesystem::perms::owner_all);

@@ -82,7 +82,7 @@ class MeshFuzz : public MeshFileTest {
         ++refused;
       }
     }
-    EXPECT_GT(sound, mutations / 100);  // otherwise the mutations are too wild to test much
+    EXPECT_GT(sound, mutations / 100);  // otherwise nearly all mutations are refused at once
     EXPECT_GT(refused, mutations / 10);
   }
 };
@@ -124,7 +124,7 @@ TEST_F(MeshFuzz, EveryTruncationIsNoticed) {
   noticed("a.ply", binaryPlyTetrahedron(true), 0);
   noticed("a.stl", asciiStlTetrahedron(), std::string(" a tetrahedron\n").size());
   noticed("a.ply", asciiPlyTetrahedron,
-          std::string("an\n").size());  // the last word, "nan", may be cut: readers do not use it
+          std::string("an\n").size());  // readers do not use the last word, "nan": it may be cut
 }
 
 }  // namespace

@@ -83,7 +83,7 @@ TEST(InspectMesh, OpenTurnedAndDoubledMeshes) {
   EXPECT_EQ(health.whyNotWatertight,
             "6 of its edges have three triangles or more, repeated ones included");
 
-  TriangleMesh finned = tetrahedron();  // closed, and a collinear triangle at the edge 0-1
+  TriangleMesh finned = tetrahedron();  // closed; has also a collinear triangle at the edge 0-1
   finned.vertices.push_back({2, 0, 0});
   finned.triangles.push_back({0, 1, 4});
   EXPECT_EQ(inspectMesh(finned).whyNotWatertight,
@@ -159,7 +159,7 @@ TEST(InspectMesh, DefectsAreCounted) {
   mesh.vertices.push_back({6, 0, 0});     // 5
   mesh.vertices.push_back({5, 1e-4, 0});  // 6: a sliver with 4, 5
   mesh.vertices.push_back({7, 0, 0});     // 7: collinear with 4, 5
-  mesh.vertices.push_back({-1, -1, 0});   // 8: a third wing on the edge 0-1
+  mesh.vertices.push_back({-1, -1, 0});   // 8: corner of a third triangle at the edge 0-1
   mesh.vertices.push_back({99, 99, 99});  // no triangle uses it: not in the bounds
   mesh.triangles.push_back({4, 5, 6});
   mesh.triangles.push_back({4, 5, 7});

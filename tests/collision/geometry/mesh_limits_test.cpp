@@ -53,7 +53,7 @@ TEST_F(MeshLimits, PlyCounts) {
           ": the header promises 90000000 of element \"vertex\", at least " +
               std::string(format[0] == 'a' ? "6" : "3") + " bytes each, but 10" +
               (format[0] == 'a' ? "1" : "0") + " bytes are left: the file is cut short");
-    // An element without properties takes no bytes, so a large count of it is no fault.
+    // An element without properties takes no bytes, so a large count of such elements is no fault.
     fault("element dust 9000000000000000000\nelement vertex 9\n" + xyz + "element face 99\n" +
               corners,
           format[0] == 'a' ? ":11: vertex 1 of 9: the file ends here: it is cut short"
@@ -108,8 +108,8 @@ TEST_F(MeshLimits, StlOffAndObj) {
          ":2: face corner \"99999999999999999999\" is not of the form 1, 1/2, 1/2/3 or 1//3");
 }
 
-/// The count of triangles is limited even if the file really has them: one face of more than 10^8
-/// corners.
+/// The count of triangles is limited even if the file really has that many: one face has more than
+/// 10^8 corners.
 TEST_F(MeshLimits, PolygonsOfTooManyTriangles) {
   if (!isStressRun()) GTEST_SKIP() << "2 GB of memory: set CORRIDOR_STRESS";
   std::string face = "v 0 0 0\nf";

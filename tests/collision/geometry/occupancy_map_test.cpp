@@ -24,8 +24,8 @@ std::string header(int nodes) {
          std::to_string(nodes) + "\nres 0.1\ndata\n";
 }
 
-/// The data of a .bt file: 15 inner nodes, each the only child of the one above, in direction
-/// `child`; then the 16 bits of the last node.
+/// Returns the data of a .bt file: `levels` inner nodes, each the only child, number `child`, of
+/// the one above; then `last`, the 16 bits of the last node.
 std::string chain(int child, std::uint16_t last, int levels = 15) {
   std::string data;
   for (int i = 0; i < levels; ++i) data += bytesOf(static_cast<std::uint16_t>(3 << 2 * child));
@@ -42,7 +42,8 @@ std::string complaintOf(const std::string& bytes, const OccupancyRules& rules = 
 }
 
 TEST(OccupancyMap, SmallCells) {
-  // Child 7 of the root is +++; below it always child 0: the cells next to the origin.
+  // Child 7 of the root has positive coordinates. Below it, child 0 is chosen at every level: it is
+  // next to the origin.
   std::string data = bytesOf(std::uint16_t(3 << 14)) + chain(0, 2 << 0 | 1 << 2 | 2 << 4, 14);
   const OccupancyMap map = parseOccupancyMap(header(19) + data, {}, "map.bt");
   EXPECT_EQ(map.format, "OctoMap (.bt)");
@@ -54,7 +55,7 @@ TEST(OccupancyMap, SmallCells) {
   EXPECT_LT((map.centerOf(map.cubes[1]) - Vec3(0.05, 0.15, 0.05)).norm(), 1e-15) << "bit 1 is y";
   EXPECT_EQ(map.sizeOf(map.cubes[0]), 0.1);
 
-  // Unknown cells inside of the box of the three cells: one.
+  // The box of the three cells has one unknown cell inside.
   const OccupancyMap all =
       parseOccupancyMap(header(19) + data, {.unknownIsOccupied = true}, "map.bt");
   ASSERT_EQ(all.cubes.size(), 3u);
@@ -102,8 +103,8 @@ TEST(OccupancyMap, Faults) {
             "map.bt: threshold: a probability above 0 and below 1 is needed, not 1");
 }
 
-/// A cell whose probability is the threshold is occupied, although float(ln(p/(1 − p))) may be
-/// below the real number.
+/// A cell whose probability p is the threshold is occupied, although float(ln(p/(1 − p))) may be
+/// below ln(p/(1 − p)).
 TEST(OccupancyMap, TheThresholdItselfIsOccupied) {
   for (const double p : {0.1, 0.5, 0.51, 0.55, 0.6, 0.7, 0.85, 0.97}) {
     const auto logOdds = static_cast<float>(std::log(p / (1 - p)));

@@ -72,7 +72,7 @@ TEST_F(PointCloudTest, Pcd) {
   const PointCloud binary = read("b.pcd", pcdHeader("3", "binary") + bytes);
   ASSERT_EQ(binary.points.size(), 3u);
   EXPECT_EQ(binary.points[1], Vec3(-0.5, 0, 4e-3F)) << "x and z are floats, y is a double";
-  // Without COUNT, and with POINTS derived from WIDTH and HEIGHT.
+  // The header has no COUNT, and no POINTS: the number of points follows from WIDTH and HEIGHT.
   EXPECT_EQ(read("c.pcd",
                  "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 3\nHEIGHT 2\nDATA ascii\n"
                  "1 2 3\n4 5 6\n7 8 9\nnan nan nan\n1 1 1\n-inf 0 0")
@@ -162,7 +162,8 @@ TEST_F(PointCloudTest, Text) {
   EXPECT_EQ(read("c.txt", "X Y Z intensity\n1 2 3 7\n-0.5 0 4e-3 7\n7 8 9 7\n").points, kThree);
 }
 
-/// Commas are decimal marks in many countries. Where they may be, nothing is guessed.
+/// Commas are decimal marks in many countries. If a comma may be a decimal mark, the reader refuses
+/// the line instead of guessing.
 TEST_F(PointCloudTest, DecimalCommas) {
   EXPECT_EQ(read("a.xyz", "1, 2, 3\n-0.5,0,4e-3\n7,8 , 9 \n").points, kThree);
   EXPECT_EQ(read("a.xyz", "1; 2; 3\n-0.5;0;4e-3\n7 ;8;9\n").points, kThree);

@@ -52,7 +52,7 @@ TEST(BoxTree, FindsWhatATestOfAllBoxesFinds) {
         EXPECT_LT(tests, 500u);
       }
 
-      // The nearest box, by lowering the distance.
+      // Finds the nearest box by lowering `within` to each smaller distance found.
       double least = 1e9;
       tree.walk([&](const BoundingBox& box) { return gap(box, p); }, least,
                 [&](std::size_t i) {

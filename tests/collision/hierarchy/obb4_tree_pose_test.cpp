@@ -70,7 +70,7 @@ TEST_P(Obb4TreePoses, CornersAtFaces) {
          half[0][face] * Vec3::Unit(face));
     const Vec3 corner = (X[1].m.transpose() * normal)
                             .cwiseSign()
-                            .cwiseProduct(half[1]);  // the farthest along the normal
+                            .cwiseProduct(half[1]);  // the corner farthest along the normal
     const Vec3 center = onFace + (gap / unit) * normal + X[1].m * corner;
     X[0].t = vector();
     X[1].t = X[0].t + center;
@@ -87,8 +87,8 @@ TEST_P(Obb4TreePoses, CornersAtFaces) {
       ASSERT_FALSE(apart(mesh[a], X[a], mesh[b], X[b], 0)) << n;
     }
     // For rotations, margins are 180 unit roundoffs of the sizes and of the centres' distance. A
-    // gap of more than eight times that must be detected, and its lower bound must exceed half of
-    // it.
+    // gap of more than eight times these margins must be detected, and its lower bound must exceed
+    // half of the gap.
     if (noise == 0 && d > 8 * 180 * 0x1p-24 * size) {
       ASSERT_TRUE(apart(mesh[a], X[a], mesh[b], X[b], d / 2)) << n << ": " << d;
       ASSERT_TRUE(apart(mesh[a], X[a], mesh[b], X[b], 0)) << n << ": " << d;

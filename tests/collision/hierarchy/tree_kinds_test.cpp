@@ -92,7 +92,8 @@ TEST(TreeKinds, WrongNamesAreReportedWithTheValidOnes) {
   EXPECT_THROW(withDefaults({"cone", "", ""}), std::invalid_argument);
 }
 
-/// A body's trees are built at first need, each exactly once, whichever thread comes first.
+/// Each of a body's trees is built when a query first needs it, and only once, even if several
+/// threads need it at the same time.
 TEST(TreeKinds, BodiesBuildTheChosenTrees) {
   std::mt19937_64 random(test::testSeed(51));
   const Body mesh("mesh", test::soup(random, 500, 0.2)), part("part", placed(Sphere{1}, {}));

@@ -112,7 +112,7 @@ TYPED_TEST(VolumeTrees, MedianSplitsAreBalanced) {
   const TriangleMesh mesh = soup(random, 1'000, 0.01);
   TreeParams params;
   params.split = SplitRule::median;
-  // ⌈log2 n⌉ + 1: halves differ by one at most.
+  // The depth is ⌈log2 n⌉ + 1, because the sizes of two halves differ by at most one.
   EXPECT_EQ(VolumeTree<TypeParam>(mesh, params).depth(),
             std::ceil(std::log2(static_cast<double>(mesh.triangles.size()))) + 1);
 }

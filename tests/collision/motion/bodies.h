@@ -67,8 +67,8 @@ inline std::string proofName(const testing::TestParamInfo<Proof>& proof) {
          treeName(proof.param.trees);
 }
 
-/// Draws a vector whose coordinates are in [-1, 1]. The order of the calls is fixed. As arguments
-/// of one call they would have another order with another compiler.
+/// Draws a vector whose coordinates are in [-1, 1]. The order in which the coordinates are drawn is
+/// fixed. If they were drawn in the arguments of one call, the order would depend on the compiler.
 inline Vec3 randomInCube(std::mt19937_64& random) {
   std::uniform_real_distribution<double> real(-1, 1);
   const double z = real(random), y = real(random), x = real(random);

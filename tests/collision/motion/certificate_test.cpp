@@ -70,7 +70,8 @@ TEST_P(Certificate, ASlideHasTheClearanceOfItsGap) {
     ASSERT_EQ(slide.result.verdict, MotionVerdict::free);
     EXPECT_FALSE(slide.certificate.point_A);
     EXPECT_LE(slide.leastClearance(), gap * (1 + 1e-12));
-    // The axis of two edges is not of unit length, so it may prove only a fraction of the gap.
+    // The cross product of two edges is not of unit length, so it may prove only a fraction of the
+    // gap.
     EXPECT_GE(slide.leastClearance(), 0.1 * gap);
     EXPECT_FALSE(slide.check());
   }
@@ -119,7 +120,7 @@ TEST_P(Certificate, TamperedWithItFails) {
   auto least = std::min_element(
       swing.certificate.free.begin(), swing.certificate.free.end(),
       [](const FreeInterval& x, const FreeInterval& y) { return x.clearance < y.clearance; });
-  least->clearance = 1;  // too much: the bar comes closer than half of that
+  least->clearance = 1;  // a false claim: the bar comes closer than half of this clearance
   EXPECT_EQ(fault(), Kind::refuted);
   swing.certificate.free[0].pair = 1;
   EXPECT_EQ(fault(), Kind::malformed);
@@ -137,7 +138,7 @@ TEST_P(Certificate, TamperedWithItFails) {
   EXPECT_EQ(fault(), Kind::malformed) << "less than the required clearance";
 }
 
-/// If the distance is below the margin, however little, no claim is accepted.
+/// If the distance is below the margin, even by little, no claim may be accepted.
 TEST_P(Certificate, AMarginIsProvedInFull) {
   const Body wall = bodyOf(box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))),
              cube = bodyOf(box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5)));
@@ -202,7 +203,7 @@ TEST_P(Certificate, WhatIsInsideASolidIsNotFree) {
       if (fault) {
         EXPECT_EQ(fault->kind, Kind::refuted);
       }
-      // The other way round: the shell moves around the body inside it.
+      // Now the shell moves, and the body inside it is at rest.
       Case around(*moving, *fixed, RigidMotion::spatial(at(Vec3(-1, 0, 0)), at(Vec3(1, 0, 0)), {}));
       around.result.certifiedUntil = 1;
       around.certificate.free = {{0, 0, 1, 0.5}};
@@ -234,7 +235,7 @@ TEST_P(Certificate, AcceptedClaimsHold) {
     const Tube tube{n % 2 ? 0.01 : 0, n % 4 / 2 ? 0.01 : 0};
     Case c(fixed, moving, RigidMotion::spatial(a, b, tube), 1e-6);
     c.options.margin = n % 3 ? 0.1 * std::uniform_real_distribution(0.0, 1.0)(random) : 0;
-    // At samples of the nominal motion, and of motions at the edge of the tube.
+    // Computes distances at samples of the nominal motion, and of motions at the edge of the tube.
     double least = HUGE_VAL, leastInTube = HUGE_VAL;
     for (int k = 0; k <= 64; ++k) {
       Transform X = c.motion.at(k / 64.0);
@@ -282,8 +283,8 @@ TEST_P(Certificate, TubesRefuteNoTrueClaim) {
   }
 }
 
-/// Two bodies pass through each other. No claim, however small, may be accepted, even if products
-/// of lengths overflow. The check must also end in these cases.
+/// Two bodies pass through each other. No claim may be accepted, not even a claim of a tiny
+/// clearance, and not even if products of lengths overflow. The check must also end in these cases.
 TEST_P(Certificate, FalseClaimsAreNotBelieved) {
   for (const double size : {1.0, 1e160}) {
     const Body fixed = bodyOf(box(-size * Vec3::Ones(), size * Vec3::Ones())),
@@ -307,7 +308,7 @@ TEST_P(Certificate, RandomMotions) {
   std::mt19937_64 random(test::testSeed(41));
   int free = 0, contact = 0;
   for (int n = 0; n < 200; ++n) {
-    // Every third time a convex part instead of a mesh, on either side.
+    // In two of three rounds, one of the bodies is a convex part instead of a mesh.
     const auto make = [&](int which, int count, double spread) {
       return n % 3 == which ? Body("", ConvexPart{{Vec3::Zero(), spread * Vec3(0.3, 0.2, 0.1)},
                                                   0.2 * spread,

@@ -41,9 +41,9 @@ TEST(CertifyMotion, BoxPastAWall) {
   }
 }
 
-/// A cube moves 10 m along a wall, at a distance of 1e-10 m or less: along an edge of the cube,
-/// diagonally, and with everything rotated, so that no coordinate is exact (off by 1e-15 m). The
-/// cost is measured by counters, not by time.
+/// A cube moves 10 m along a wall, at a distance of 1e-10 m or less. It moves along one of its
+/// edges, or diagonally. Each motion is also tested with everything rotated, so that coordinates
+/// are off by 1e-15 m. The cost is measured by counters, not by time.
 TEST(CertifyMotion, BoxPastAWallAlmostTouching) {
   const Mat3 turn = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
   for (const Mat3& R : {Mat3(Mat3::Identity()), turn}) {
@@ -74,7 +74,7 @@ TEST(CertifyMotion, NeedleThroughAHole) {
   const double hole = 0.1, thick = 0.05;
   TriangleMesh plate;
   const int n = 64;
-  // Both faces and the rim of a round hole in a plate, z ∈ [0, thick].
+  // Adds both faces and the rim of a round hole in a plate, z ∈ [0, thick].
   for (int i = 0; i < n; ++i) {
     const double a = 2 * std::numbers::pi * i / n, b = 2 * std::numbers::pi * (i + 1) / n;
     const Vec3 p(hole * std::cos(a), hole * std::sin(a), 0),
@@ -178,9 +178,9 @@ TEST(CertifyMotion, GapWhoseSquareUnderflows) {
 
 /// Between large yaws the body must take the way round that is shorter in real arithmetic. A
 /// remainder by 2π in double would give the longer way here: 2π in double is off by 2.4e-16, and
-/// after 10^8 revolutions this error decides which way is shorter.
+/// over 10^8 revolutions this error adds up to enough to decide which way is shorter.
 TEST(CertifyMotion, LargeYawsTakeTheShorterWay) {
-  const double yaw = 628318558.99229252;  // 3.141592647 and whole turns
+  const double yaw = 628318558.99229252;  // 3.141592647 plus whole turns
   const RigidMotion turn = RigidMotion::planar(Vec3::Zero(), Vec3(0, 0, yaw), {});
   EXPECT_FALSE(turn.ambiguous());
   EXPECT_NEAR(turn.at(1).m(0, 0), std::cos(yaw), 1e-14);
@@ -188,8 +188,9 @@ TEST(CertifyMotion, LargeYawsTakeTheShorterWay) {
   EXPECT_GT(turn.at(0.5).m(1, 0), 0.99) << "counterclockwise";
 }
 
-/// One triangle is far larger than the other. Closest points are rounded to 1e-16 of the larger
-/// one, so that a direction taken from them is tilted by more than the gap.
+/// One triangle is far larger than the other. Closest points are off by 1e-16 of the size of the
+/// larger triangle. A direction computed from them is therefore tilted so much that the gap along
+/// it is lost.
 TEST(CertifyMotion, ClearanceOverTwiceTheToleranceIsFreeBesideLargeTriangles) {
   std::mt19937_64 random(test::testSeed(5));
   std::uniform_real_distribution<double> u(-1, 1);
@@ -215,7 +216,7 @@ TEST(CertifyMotion, ClearanceOverTwiceTheToleranceIsFreeBesideLargeTriangles) {
 }
 
 /// Tests of leaf pairs, and tests for contact at single poses, must count as work, too. The largest
-/// value of the limit means no limit.
+/// value of the limit stands for no limit.
 TEST(CertifyMotion, WorkLimitHoldsInLeavesAndProbes) {
   TriangleMesh many;
   for (int i = 0; i < 300; ++i) add(many, Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0));
@@ -262,8 +263,8 @@ TEST(CertifyMotion, WorkLimitHoldsInLeavesAndProbes) {
 }
 
 /// The body hits a wall at t = 0.29, and at t = 3/4 a tip is within the tube. The second half
-/// becomes undecided before the first half is divided. Then the query must not claim anything about
-/// the first half.
+/// becomes undecided before the first half is divided. The query must then not claim that a part of
+/// the first half is certified.
 TEST(CertifyMotion, NothingIsClaimedOfUndividedIntervals) {
   TriangleMesh robot, tip, wall;
   add(robot, Vec3(-0.01, 0, 0), Vec3(0.01, 0, 0), Vec3(0, 0.01, 0));
@@ -312,8 +313,8 @@ TEST(CertifyMotion, ContactsThatBeginWithAnInterval) {
         }
 }
 
-/// Many bodies are not separated in the interval of the whole motion; others are far away. For the
-/// far bodies no tree may be built, neither by walks nor by samples.
+/// Many bodies are not separated in the interval of the whole motion; others are far away. Neither
+/// walks of trees nor static samples may build a tree of a far body.
 TEST(CertifyMotion, FarBodiesGetNoTree) {
   const Body mover = bodyOf(box(-0.5 * Vec3::Ones(), 0.5 * Vec3::Ones()));
   std::vector<Body> near, far;

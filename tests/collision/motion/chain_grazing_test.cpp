@@ -112,7 +112,7 @@ TEST(CertifyMotion, ChainsThatGrazeByConstruction) {
   std::cout << context.counters.boxTests / (apart + together) << " box tests an edge\n";
 }
 
-/// Random chains: if a motion is called free, no sampled pose may have a contact.
+/// Random chains: if the verdict is `free`, no sampled pose may have a contact.
 TEST(CertifyMotion, RandomChainsAgainstSamples) {
   std::mt19937_64 random(test::testSeed(24));
   const auto real = [&](double low = -1, double high = 1) {

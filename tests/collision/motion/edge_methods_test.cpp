@@ -60,8 +60,9 @@ TEST_P(EdgeMethods, SlideBesideAWall) {
     EXPECT_EQ(context_.counters.edges, 1u);
     EXPECT_EQ(context_.counters.states, 0u) << "queries within an edge must not count as states";
     if (gap > 0) {
-      // Intervals move the body by at most twice the gap, and are halved at most once too often.
-      // `advancement` computes up to three motion bounds per step.
+      // In an interval that is proved the body may move by up to twice the gap. Halving makes
+      // intervals shorter than necessary by a factor of two at most. `advancement` computes up to
+      // three motion bounds per step.
       EXPECT_LE(static_cast<double>(context_.counters.poses), 64 + 4 * 10 / gap) << gap;
     }
   }
@@ -78,7 +79,8 @@ TEST_P(EdgeMethods, DisplacementsThatOverflowAreUndecided) {
   }
 }
 
-/// With other rounding modes no bound holds. The query must report this, and give no other answer.
+/// With other rounding modes no bound holds. The query must report this, and must not answer `free`
+/// or `contact`.
 TEST_P(EdgeMethods, OtherArithmeticIsRefused) {
   const Body wall = bodyOf(box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))),
              cube = bodyOf(box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5)));
@@ -109,7 +111,7 @@ TEST_P(EdgeMethods, FirstContactOfATranslation) {
   options_.earliest = true;
   for (const double clearanceSlack : {0.0, 1e-3, 1e-2}) {
     if (clearanceSlack > 0 && GetParam().method == EdgeMethod::directional)
-      continue;  // stops at whole intervals
+      continue;  // `directional` stops at whole intervals
     options_.clearanceSlack = clearanceSlack;
     const MotionResult r =
         ask(cube, wall, RigidMotion::spatial(at(Vec3(0, -5, 0)), at(Vec3(0, 5, 0)), {}));
@@ -126,8 +128,8 @@ TEST_P(EdgeMethods, FirstContactOfATranslation) {
 }
 
 /// A blade of length 1 rotates about z; a point is at the distance 1 + gap from the axis. A point
-/// has no interior. So no sampled time shows a contact when the blade's edge sweeps over it, only a
-/// clearance below the tolerance. If the gap is negative, the verdict must not be `free`.
+/// has no interior. When the blade's edge sweeps over the point, no sampled time shows a contact,
+/// only a clearance below the tolerance. If the gap is negative, the verdict must not be `free`.
 TEST_P(EdgeMethods, BladeAgainstAPoint) {
   TriangleMesh blade;
   add(blade, Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0.2, 0, 0.1));
@@ -173,8 +175,8 @@ TEST_P(EdgeMethods, ThinPlateIsNotJumped) {
 TEST_P(EdgeMethods, MarginTubeSlackAndWorkLimit) {
   const Body wall = bodyOf(box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))),
              cube = bodyOf(box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5)));
-  // The clearance is 0.1. The other methods get a shorter way, since they take small steps if the
-  // margin is nearly the clearance.
+  // The clearance is 0.1. Methods other than `directional` get a shorter way, since they take small
+  // steps if the margin is nearly as large as the clearance.
   const double way = GetParam().method == EdgeMethod::directional ? 5 : 0.01;
   const RigidPose a = at(Vec3(-way, 0.4, 0)), b = at(Vec3(way, 0.4, 0));
   Tube tube;
@@ -208,7 +210,8 @@ TEST_P(EdgeMethods, MarginTubeSlackAndWorkLimit) {
   for (const std::uint64_t limit : {3, 100'000}) {
     options_.workLimit = limit;
     context_.counters = {};
-    if (limit > 3 && GetParam().method == EdgeMethod::directional) continue;  // enough for it
+    // `directional` needs less work than the larger limit.
+    if (limit > 3 && GetParam().method == EdgeMethod::directional) continue;
     const MotionResult beside = verdict(at(Vec3(-5, 0.5 - 1e-6, 0)), at(Vec3(5, 0.5 - 1e-6, 0)));
     EXPECT_EQ(beside.reason, UndecidedReason::workLimit) << limit;
     EXPECT_LT(context_.counters.poses, limit / 10 + 10) << "it ends soon after";
@@ -241,10 +244,11 @@ TEST_P(EdgeMethods, LeavesOfManyTriangles) {
   TriangleMesh nested, needle;
   for (const double s : {1.0, 2.0, 4.0, 8.0})
     add(nested, s * Vec3(-1, -1, 0), s * Vec3(2, -1, 0), s * Vec3(-1, 2, 0));
-  for (const double s : {0.01, 0.02, 0.5})  // pointing down, longer and longer
+  for (const double s : {0.01, 0.02, 0.5})  // triangles that point down, each longer than the last
     add(needle, s * Vec3(0, 0, -2), s * Vec3(0.1, 0, 1), s * Vec3(-0.1, 0, 1));
   const Body plate = bodyOf(nested), tip = bodyOf(needle);
-  for (const double x : {0.0, 3.0, 10.0, 13.0}) {  // above the first, …, the last; beside all
+  // Above the first, …, the last, or beside all triangles of the plate.
+  for (const double x : {0.0, 3.0, 10.0, 13.0}) {
     const bool hits = x < 12;
     const auto through = [&](double sign) {  // the tips are 1 below the origin: at −1.5 in the end
       return RigidMotion::spatial(at(sign * Vec3(x, -4 + x / 64, 2)),
@@ -314,7 +318,8 @@ TEST_P(EdgeMethods, GrazingIsReportedOnlyForNarrowGaps) {
   EXPECT_EQ(r.verdict, MotionVerdict::undecided);
   EXPECT_FALSE(r.grazing);
   EXPECT_LE(r.certifiedUntil, 0.25);
-  if (GetParam().method != EdgeMethod::directional) {  // stops where an interval cannot be proved
+  // All other methods stop where an interval cannot be proved.
+  if (GetParam().method != EdgeMethod::directional) {
     EXPECT_GT(r.certifiedUntil, 0.2);
     EXPECT_EQ(r.pair->bodyA, 0u);
   }

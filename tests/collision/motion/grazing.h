@@ -11,13 +11,14 @@ namespace corridor::test {
 
 /// A fixed mesh below the plane through x with normal n, and a moving mesh above it, at height
 /// `gap` at t = 1 (or throughout). The verdict is known by construction. If the gap is negative,
-/// the features penetrate each other in their interior; if it is positive, it is the distance of
-/// the meshes.
+/// the features penetrate each other in their interior; otherwise the gap is
+/// the distance of the meshes.
 struct Grazing {
   enum Feature { cornerOnFace, faceOnCorner, edgeOnEdge, features };
   TriangleMesh fixed, moving;
   RigidPose from, to;
-  bool known = false;  ///< no corner gets below its height at the end, so the verdict is known
+  /// True if no corner is ever below its height at the end. The verdict is then known.
+  bool known = false;
 
   Grazing(std::mt19937_64& random, Feature feature, bool slides, double gap, double size) {
     const auto real = [&](double low = -1, double high = 1) {
@@ -33,8 +34,8 @@ struct Grazing {
       return inPlane(2.1 * i, real(0.3, 1));
     };  // three of these surround the origin
     const Vec3 x = 3 * Vec3(real(), real(), real());
-    // In the plane's frame about x, heights along n: the fixed triangle is at ≤ 0, the moving one
-    // at ≥ 0 (plus `gap`).
+    // Points are relative to x, and heights are along n. Heights are at most 0 on the fixed
+    // triangle, and at least 0 (plus `gap`) on the moving one.
     Triangle a, b;
     if (feature == cornerOnFace) {
       for (int i = 0; i < 3; ++i) a[i] = around(i);

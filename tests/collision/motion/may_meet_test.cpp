@@ -30,8 +30,8 @@ TEST(MayMeet, GapWhoseSquareIsSubnormal) {
   EXPECT_TRUE(mayMeet(bodyOf(a), sweptSphere(bodyOf(b), still), 0));
 }
 
-/// A motion along a wall that is ten times as long as the gap is wide. Only its component across
-/// the gap may count.
+/// A motion along a wall that is ten times as long as the gap is wide. Only the motion's component
+/// across the gap may count.
 TEST(MayMeet, ASlideKeepsItsGap) {
   const Body wall = bodyOf(box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))),
              bar = bodyOf(box(Vec3(-0.5, 0, 0), Vec3(0.5, 0, 0)));

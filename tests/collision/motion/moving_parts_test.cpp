@@ -83,8 +83,8 @@ long double lowest(const Feature& b, const LineAndTurn& motion, long double t, c
 }
 
 /// Grazing by construction. a is below a plane and touches it at one place. b is above the plane,
-/// and its lowest place is exactly above the place of a, at a distance `gap`. This holds at the end
-/// of the motion. It holds throughout if b slides along the plane and rotates about its normal.
+/// and its lowest point is exactly above that place, at a distance `gap`. This holds at the end of
+/// the motion, and throughout the motion if b slides along the plane and rotates about its normal.
 TEST(MovingParts, GrazingByConstruction) {
   Touching make(test::testSeed(25));
   const int count = (test::isStressRun() ? 100'000 : 20'000) / test::kSlowdown;
@@ -122,7 +122,8 @@ TEST(MovingParts, GrazingByConstruction) {
     (gap > 0 ? apart : together)++;
     std::uint64_t decided = 0;
     const Verdict verdict = certify(a, b, motion, 0.5, 0.5, 1e-7, 0, decided);
-    // The pose at the end is rounded again, so its error is added to the bands below.
+    // The motion's pose at its end is rounded again, so the bands below include the error of that
+    // pose.
     if (gap < 0) {
       falseFree += verdict == Verdict::free && amount > 1e-14;
       notFound += verdict == Verdict::free;

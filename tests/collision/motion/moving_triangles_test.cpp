@@ -36,7 +36,7 @@ TEST(MovingTriangles, ASlideThatIsTurnedRises) {
 }
 
 /// a is a large triangle across the way of b. Along the normal of a, b moves farther than its
-/// distance from a. So they meet, and must not be called separated.
+/// distance from a. So the two triangles meet, and must not be reported as separated.
 TEST(MovingTriangles, TrianglesThatMeetAreNotSeparated) {
   std::mt19937_64 random(test::testSeed(26));
   const auto real = [&](double low = -1, double high = 1) {

@@ -17,14 +17,14 @@ struct RationalScene {
   enum Kind {
     nearby,    ///< the fixed triangle is near the path of the moving one
     coplanar,  ///< both triangles and the motion are in one plane
-    /// Features meet exactly at some time, with one triangle on either side of a plane.
+    /// Features meet exactly at some time. The two triangles are then on opposite sides of a plane.
     meeting,
     tangential,  ///< like `meeting`, and at that time the velocity is along the plane
     kinds
   };
   Triangle fixed, moving;
   RationalMotion motion = RationalMotion::line({}, Vec3::Zero());
-  int push = 0;  ///< the body is moved by 2^-push of the unit; 0: not at all
+  int push = 0;  ///< the fixed triangle is moved by 2^-push of the unit; 0: it is not moved
 
   RationalScene(std::mt19937_64& random, Kind kind, bool turns)
       : random_(random), flat_(kind == coplanar) {
@@ -81,7 +81,8 @@ struct RationalScene {
   }
 
   /// Places the fixed triangle so that it meets a feature of b, if possible on the other side of a
-  /// plane than b. If `velocity` is not zero, it is along the plane. Then pushes the triangle.
+  /// plane than b. If `velocity` is not zero, the plane contains its direction. Then moves the
+  /// fixed triangle by 2^-push.
   void meet(const Triangle& b, const Vec3& velocity) {
     Vec3 n = nonZero(3);
     const int feature = whole(0, 4);
@@ -142,8 +143,8 @@ struct ClosedForm {
 inline std::vector<ClosedForm> closedForms() {
   const double little = 0x1p-40;
   const auto along = [](const Vec3& p) { return RationalMotion::line({}, p); };
-  // About z, from the x-axis to the y-axis: tan(θ/2) = s, cos θ = (1 − s²)/(1 + s²) and sin θ =
-  // 2s/(1 + s²). At s = 1/3 a rod of length 5 ends at (4, 3).
+  // A rotation about z, from the x-axis to the y-axis: tan(θ/2) = s, cos θ = (1 − s²)/(1 + s²) and
+  // sin θ = 2s/(1 + s²). At s = 1/3 a rod of length 5 ends at (4, 3).
   const auto turn = RationalMotion::turn({}, Vec3::UnitZ()),
              farther = RationalMotion::turn({}, 2 * Vec3::UnitZ());
   const Triangle blade = {Vec3(0, 0, 0), Vec3(5, 0, 0), Vec3(0, 0, 1)},
@@ -155,7 +156,7 @@ inline std::vector<ClosedForm> closedForms() {
   const auto mast = [](double r) {  // an edge along z at r·(4, 3); the rest is behind it
     return Triangle{Vec3(4 * r, 3 * r, -9), Vec3(4 * r, 3 * r, 9), Vec3(8, 60, 0)};
   };
-  // Parallel to the xy-plane, with its tip at (2, 1.5); the rest is behind the tip.
+  // A triangle parallel to the xy-plane, with its tip at (2, 1.5); the rest is behind the tip.
   const auto thorn = [](double z) {
     return Triangle{Vec3(2, 1.5, z), Vec3(8, 60, z), Vec3(9, 60, z)};
   };

@@ -24,15 +24,15 @@ Vec3 vector(Random& random) {
   return Vec3(real(random), real(random), real(random));
 }
 
-/// All data on which a motion bound depends, at the middle of an interval. Also the point, place
-/// and direction at which the bound is evaluated.
+/// All data at the middle of an interval on which a motion bound depends; also the point, place and
+/// direction for which the bound is evaluated.
 struct Trial {
   struct Joint {
     ScrewMotion::Kind kind;
     Vec3 axis, point;
     double amount;  // signed
     double tube;    // ≥ 0
-    double strays;  // in [−1, 1], as a share of the tube
+    double strays;  // deviation from the nominal motion, in [−1, 1], as a share of the tube
     Vec3 about;     // pivot rotations: the axis of the perturbation
   };
   std::vector<Joint> joints;
@@ -88,7 +88,7 @@ Ratios ratios(const Trial& trial) {
   const double secondOrderAcross =
       bound.secondOrderAcross * static_cast<double>(n.cross(w.angular.cast<long double>()).norm()) +
       bound.secondOrder;
-  // Only for lengths that rounding does not dominate.
+  // Returns the ratio only for lengths that rounding does not dominate.
   const auto ratio = [](long double is, double allowed) {
     return allowed > 1e-9 ? static_cast<double>(is) / allowed : 0;
   };
@@ -154,7 +154,7 @@ Trial perturbed(Random& random, Trial trial, double step) {
 }
 
 /// Adversarial search: hill climbing for the chain that attains the largest share of each bound.
-/// The share must never exceed 1, and must come close to 1 somewhere.
+/// The share must never exceed 1, and the search must find a chain whose share is close to 1.
 TEST(MotionBounds, IsNeverExceededAndAttained) {
   Random random(test::testSeed(21));
   const int starts = test::isStressRun() ? 5000 : 300;
@@ -240,7 +240,8 @@ TEST(MotionBounds, OneRotationWithARoundedRate) {
       w.angle = w.angular.norm();
       w.reachError = error;
       const MotionBound bound = motionBound(w, Vec3::UnitX(), 0);
-      // Towards the axis the point moves by 1 − cos, of which the first-order term is 0.
+      // Towards the axis the point moves by 1 − cos of the angle; the first-order term of this is
+      // 0.
       const Vec3 n = Vec3::UnitX();
       EXPECT_GE(bound.secondOrderAcross * n.cross(w.angular).norm() + bound.secondOrder,
                 1 - std::cos(amount))
@@ -255,7 +256,8 @@ TEST(MotionBounds, SlideAfterATurn) {
   const ScrewMotion screws[] = {{Kind::revolute, Vec3::UnitZ(), Vec3::Zero(), 0.1, 0},
                                 {Kind::prismatic, Vec3::UnitX(), Vec3::Zero(), 0.2, 0}};
   const RelativeMotion w = relativeMotionOf(screws, Vec3(0.2, 0, 0), Vec3(0, 0, 0.1));
-  const MotionBound bound = motionBound(w, Vec3::Zero(), 0);  // on the axis, but carried off it
+  // The point is on the axis, and the translation moves it off the axis.
+  const MotionBound bound = motionBound(w, Vec3::Zero(), 0);
   EXPECT_EQ(bound.secondOrderAcross, 0);
   EXPECT_NEAR(bound.secondOrder, 0.5 * (0.2 * 0.1 * 0.1 + 2 * 0.1 * 0.2), 1e-15);
   EXPECT_NEAR(bound.isotropic, 0.2, 1e-14);

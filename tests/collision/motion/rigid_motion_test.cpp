@@ -65,7 +65,7 @@ TEST(RigidMotion, PosesAreWithinTheirStatedError) {
 }
 
 /// For random points, times and directions in random intervals, the bound is never below the
-/// displacement. Somewhere it is attained.
+/// displacement. In some interval the displacement attains the bound.
 TEST(RigidMotion, IntervalsBoundTheDisplacement) {
   Cases cases(test::testSeed(2));
   double tightest = 0, tightestDirectional = 0;
@@ -108,7 +108,7 @@ TEST(RigidMotion, PlanarIsTheShorterWayRound) {
   };
   EXPECT_NEAR(yawAt(Vec3(0, 0, 3), Vec3(0, 0, -3), 0.5), pi, 1e-15);
   EXPECT_NEAR(yawAt(Vec3(0, 0, 0.5), Vec3(0, 0, 1.5), 0.25), 0.75, 1e-15);
-  EXPECT_NEAR(yawAt(Vec3(0, 0, 7), Vec3(0, 0, 1), 1), 1, 1e-14);  // beyond one turn
+  EXPECT_NEAR(yawAt(Vec3(0, 0, 7), Vec3(0, 0, 1), 1), 1, 1e-14);  // a yaw of more than one turn
   EXPECT_TRUE(RigidMotion::planar(Vec3(0, 0, 0), Vec3(0, 0, pi), {}).ambiguous());
   EXPECT_TRUE(RigidMotion::planar(Vec3(0, 0, pi / 2), Vec3(0, 0, -pi / 2 + 1e-10), {}).ambiguous());
   EXPECT_FALSE(RigidMotion::planar(Vec3(0, 0, pi / 2), Vec3(0, 0, -pi / 2 + 1e-8), {}).ambiguous());
@@ -120,7 +120,7 @@ TEST(RigidMotion, PlanarPosesAreWithinTheirStatedError) {
   for (int n = 0; n < 20'000; ++n) {
     const double range = n % 2 ? 3 : 300;
     Vec3 a = cases.vector(range), b = cases.vector(range);
-    if (n % 4 == 0) b[2] = a[2];  // only the rounding of a fixed rotation is left
+    if (n % 4 == 0) b[2] = a[2];  // a fixed rotation, which is only rounded
     const RelativeMotion w = RigidEdge(RigidMotion::planar(a, b, {})).relativeMotion(0, 0.375, 0);
     const long double twoPi = 2 * std::numbers::pi_v<long double>;
     const long double turn =

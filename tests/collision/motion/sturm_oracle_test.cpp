@@ -1,6 +1,6 @@
-// Tests of the oracle for motions itself (tests/support/sturm_contact.h): known roots, first
-// contacts in closed form, static samples by rational linear programming, and equivalent
-// descriptions of the same motion.
+// Tests the oracle for motions (tests/support/sturm_contact.h) by known roots, by first contacts in
+// closed form, by static samples with rational linear programming, and by equivalent descriptions
+// of the same motion.
 #include <random>
 
 #include <gtest/gtest.h>
@@ -75,8 +75,8 @@ RationalScene sceneNumber(int n, std::mt19937_64& random) {
                        n % 5 != 0);
 }
 
-/// The oracle's motion must be that of the edge, which the test computes from its definition in
-/// long double.
+/// The oracle's motion must be that of the edge. The test computes the edge's motion from its
+/// definition, in long double.
 TEST(SturmContact, MotionIsTheEdges) {
   std::mt19937_64 random(testSeed(43));
   for (int n = 0; n < 300; ++n) {
@@ -90,8 +90,8 @@ TEST(SturmContact, MotionIsTheEdges) {
             ((pose.X.m.cast<long double>() * p.cast<long double>() + pose.X.t.cast<long double>()) /
              weight)
                 .eval();
-        // Some ten roundings to 2^-64: of quaternions, of angles up to π, and of products with
-        // them.
+        // Quaternions, angles up to π, and products with both are rounded by 2^-64, some ten times
+        // in all.
         ASSERT_LE((at - edge.point(t, p)).norm(), 0x1p-57L * (p.norm() + at.norm())) << n;
       }
     }
@@ -140,7 +140,8 @@ TEST(SturmContact, Samples) {
     double size = from.p.norm() + to.p.norm();
     for (const Vec3& p : scene.moving) size = std::max(size, p.norm());
     if (!rationalContact(scene.fixed, {}, scene.moving, X)) {
-      // The error of the pose (rigid_motion.cpp) and of the time, times angles up to π.
+      // The bound covers the error of the pose (rigid_motion.cpp), and the error of the time,
+      // multiplied by angles up to π.
       ASSERT_LE(referenceDistance(scene.fixed, {}, scene.moving, X), 0x1p-42 * size) << n;
     }
   }
@@ -148,7 +149,7 @@ TEST(SturmContact, Samples) {
             << " of them, and missed " << missed << "\n";
   EXPECT_GT(contacts, count / 3);
   EXPECT_GT(count - contacts, count / 5);
-  if (count >= 400) {  // the fewer cases under sanitizers may have none
+  if (count >= 400) {  // with sanitizers there are fewer cases, and maybe none of these
     EXPECT_GT(missed, count / 200) << "samples must miss some contacts";
   }
 }
@@ -180,7 +181,7 @@ TEST(SturmContact, InvariantUnderOtherDescriptions) {
         p[k] -= from.p[k];
         exact = exact && p[k] == difference;
       }
-    if (!exact) continue;  // pushed by 2^-40, a coordinate may have no spare bit
+    if (!exact) continue;  // a coordinate that was pushed by 2^-40 may have no spare bit
     ++swapped;
     const FirstContact other = sturmContact(
         scene.moving, fixed,

@@ -24,9 +24,9 @@ using test::RationalMotion;
 using test::RationalScene;
 using test::ReferenceMotion;
 
-/// A query and its tolerances. The bracket of a first contact must be at most `timeTolerance` wide
-/// if the body moves by more than the tolerance in that time. Otherwise the answer may be
-/// `undecided`.
+/// A query and its tolerances. The interval [certifiedUntil, contactTime] of a first contact must
+/// be at most `timeTolerance` wide if the body moves by more than the tolerance in that time.
+/// Otherwise the answer may be `undecided`.
 struct Question {
   bool earliest;
   double tolerance, timeTolerance;
@@ -87,8 +87,9 @@ class Sturm : public testing::TestWithParam<Proof> {
         for (const Vec3& p : moving)
           ASSERT_LE((real.point(r.contactTime, p) - (X.m * p + X.t).cast<long double>()).norm(),
                     poseError(moving, from, to) + 0x1p-50 * p.norm() + 0x1p-50 * X.t.norm());
-        // So the motion itself comes as close as the rounding of the pose, at the latest at this
-        // time. It also touches, unless the contact exists only within that rounding.
+        // So at this time, at the latest, the distance of the exact motion is at most the rounding
+        // of the pose. The exact motion also has a contact until then, unless the contact exists
+        // only because of that rounding.
         counts_.onlyRounded += !known.contact || r.contactTime < path.time(known.low) - kTimeError;
         if (!earliest) break;
         if (!r.grazing) {
@@ -134,8 +135,8 @@ TEST_P(Sturm, ClosedForms) {
     }
 }
 
-/// The random scenes are hard on purpose. But scenes that were not constructed as near misses must
-/// be decided.
+/// The random scenes are hard on purpose. But queries must decide those that were not constructed
+/// as near misses.
 TEST_P(Sturm, Motions) {
   std::mt19937_64 random(test::testSeed(41));
   const int count = (test::isStressRun() ? 40'000 : 2'000) / test::kSlowdown;

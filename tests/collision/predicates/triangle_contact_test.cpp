@@ -44,11 +44,11 @@ TEST(TriangleContact, SharedData) {
   std::cout << files.size() << " files, " << count << " pairs\n";
 }
 
-/// Compares triangles and maps that are often in degenerate positions with rational arithmetic that
-/// shares no code with the predicates.
-class Random : public testing::TestWithParam<const char*> {};
+/// Checks the predicates against rational arithmetic that shares no code with them, on triangles
+/// and maps that are often degenerate.
+class RandomTriangles : public testing::TestWithParam<const char*> {};
 
-TEST_P(Random, AgreesWithRationals) {
+TEST_P(RandomTriangles, AgreesWithRationals) {
   const std::string kind = GetParam();
   std::mt19937_64 random(test::testSeed(20261121));
   const auto integer = [&](int n) {
@@ -67,7 +67,7 @@ TEST_P(Random, AgreesWithRationals) {
       for (Vec3& v : *t)
         v = kind == "grid" ? Vec3(integer(2), integer(2), integer(2))
                            : Vec3(real(), real(), real());
-    if (kind == "common corner, moved together") {  // one exact map for both: they still touch
+    if (kind == "common corner, moved together") {  // by the same map, so they still touch
       b[0] = a[0];
       X_WA = X_WB = {rotation(), {real() * 1e6, real(), real()}};
     } else if (kind == "maps nearly rigid") {
@@ -99,10 +99,10 @@ TEST_P(Random, AgreesWithRationals) {
     touching += expected;
     ASSERT_EQ(touch(a, b, X_WA, X_WB), expected) << kind << ", case " << n;
   }
-  EXPECT_GT(touching, cases / 100) << "the generator must make both answers";
+  EXPECT_GT(touching, cases / 100) << "the generator must produce touching and separate pairs";
   EXPECT_LT(touching, kind == "common corner, moved together" ? cases + 1 : cases);
 }
-INSTANTIATE_TEST_SUITE_P(Kinds, Random,
+INSTANTIATE_TEST_SUITE_P(Kinds, RandomTriangles,
                          testing::Values("grid", "common corner, moved together",
                                          "maps nearly rigid", "grazing, mapped far out",
                                          "flat and far", "exponents apart", "denormal"),
@@ -158,27 +158,28 @@ TEST(TriangleContact, SubnormalsThatAreReadAsZero) {
 #endif
 
 /// Corners are off the other triangle's plane by the smallest step of a grid, for grids of 4 to 200
-/// bits. So each integer type is used up to its last bit, and an overflow would be detected.
+/// bits. Each integer type is therefore used up to its last bit, so that an overflow would be
+/// detected.
 TEST(TriangleContact, GridsOfAnyNumberOfBits) {
   std::mt19937_64 random(test::testSeed(53));
   int touching = 0, cases = 0;
   for (int bits = 4; bits <= 200; bits += bits < 90 ? 1 : 10)
     for (int n = 0; n < 60 / test::kSlowdown + 2; ++n, ++cases) {
       // A coordinate has at most 50 bits. All corners use the grid's highest bits; b[1], scaled by
-      // `fine`, uses the lowest.
+      // `gridStep`, uses the lowest.
       const auto integer = [&] {
         const int used = std::min(bits, 50);
         return static_cast<double>(static_cast<std::int64_t>(random() >> (64 - used)) -
                                    (std::int64_t{1} << (used - 1)));
       };
       const auto point = [&] { return Vec3(integer(), integer(), integer()); };
-      const double fine = std::exp2(-std::max(bits - 50, 0));
+      const double gridStep = std::exp2(-std::max(bits - 50, 0));
       Triangle a = {point(), point(), point()}, b = {point(), point(), point()};
       const double s = 0.25, t = 0.375;
       b[0] = (a[0] + s * (a[1] - a[0]) + t * (a[2] - a[0])).array().round();
       if (n % 3 == 1) b[0] = a[n % 2];  // touches exactly
       if (n % 3 == 2) b[0][n % 3] += n % 2 ? 1 : -1;
-      if (bits > 50) b[1] *= fine;  // corners on a coarse and on a fine grid
+      if (bits > 50) b[1] *= gridStep;  // corners on a coarse and on a fine grid
       Transform X_WB;
       if (n % 2) X_WB.m << 0, -1, 0, 1, 0, 0, 0, 0, 1;
       for (Vec3& p : b) p = X_WB.m.transpose() * p;

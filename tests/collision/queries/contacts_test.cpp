@@ -57,7 +57,7 @@ void expectSound(const Segment& s, const Triangle& a, const Transform& X_WA, con
                  const Transform& X_WB) {
   const double scale = errorScale(a, X_WA, b, X_WB);
   for (const Vec3& end : {s.p, s.q}) {
-    // √3·2^-50, doubled for the rounding of long double on badly shaped triangles.
+    // The guaranteed √3·2^-50, doubled for the rounding of long double on badly shaped triangles.
     EXPECT_LE(distanceToTriangle(end, a, X_WA), 4 * 0x1p-50 * scale);
     EXPECT_LE(distanceToTriangle(end, b, X_WB), 4 * 0x1p-50 * scale);
   }
@@ -115,20 +115,21 @@ void expectEnds(const Triangle& a, const Triangle& b, const Vec3& p, const Vec3&
 
 TEST(TriangleIntersection, ClosedForms) {
   const Triangle flat{Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0)};
-  // Crossing: the whole of one triangle's cut, a piece of each cut, a corner inside.
+  // Triangles that cross. The shared segment is the whole cut through one triangle, a piece of both
+  // cuts, or ends at a corner inside the other triangle.
   expectEnds(flat, {Vec3(1, 1, -1), Vec3(1, 1, 1), Vec3(3, 1, 1)}, {1, 1, 0}, {2, 1, 0});
   expectEnds(flat, {Vec3(1, 1, -1), Vec3(1, 1, 1), Vec3(9, 1, 1)}, {1, 1, 0}, {3, 1, 0});
   expectEnds(flat, {Vec3(1, 1, 0), Vec3(1, 1, 1), Vec3(2, 1, 1)}, {1, 1, 0}, {1, 1, 0});
-  // An edge in the plane; an edge that crosses a corner; corner on corner.
+  // An edge in the plane of the other triangle; an edge that crosses a corner; corner on corner.
   expectEnds(flat, {Vec3(1, 1, 0), Vec3(9, 1, 0), Vec3(2, 1, 1)}, {1, 1, 0}, {3, 1, 0});
   expectEnds(flat, {Vec3(0, 0, -1), Vec3(0, 0, 1), Vec3(-1, -1, 0)}, {0, 0, 0}, {0, 0, 0});
   expectEnds(flat, {Vec3(4, 0, 0), Vec3(5, 0, 1), Vec3(5, 1, 2)}, {4, 0, 0}, {4, 0, 0});
-  // One plane: the same triangle, an overlap, a common edge, a common point.
+  // Both triangles in one plane: the same triangle, an overlap, a common edge, a common point.
   expectEnds(flat, flat, {4, 0, 0}, {0, 4, 0});
   expectEnds(flat, {Vec3(1, 1, 0), Vec3(-7, 1, 0), Vec3(1, -7, 0)}, {1, 0, 0}, {0, 1, 0});
   expectEnds(flat, {Vec3(1, 0, 0), Vec3(9, 0, 0), Vec3(1, -4, 0)}, {1, 0, 0}, {4, 0, 0});
   expectEnds(flat, {Vec3(0, 0, 0), Vec3(-1, 0, 0), Vec3(0, -1, 0)}, {0, 0, 0}, {0, 0, 0});
-  // Segments and points.
+  // Triangles that degenerate to segments and points.
   expectEnds(flat, {Vec3(1, 1, 0), Vec3(9, 1, 0), Vec3(2, 1, 0)}, {1, 1, 0}, {3, 1, 0});
   expectEnds(flat, {Vec3(1, 1, 1), Vec3(1, 1, -1), Vec3(1, 1, -1)}, {1, 1, 0}, {1, 1, 0});
   expectEnds(flat, {Vec3(1, 2, 0), Vec3(1, 2, 0), Vec3(1, 2, 0)}, {1, 2, 0}, {1, 2, 0});

@@ -48,7 +48,7 @@ TEST(Containment, PointsOfAGridInTwoOverlappingShells) {
   test::addBox(mesh, Vec3(0, -0.5, -0.5), Vec3(2, 0.5, 0.5));
   const Solid solid(mesh);
   int inside = 0;
-  // The points are 1/8 off the faces, and the grid has the mesh's own symmetries.
+  // The points are 1/8 off the faces, and the grid has the same symmetries as the mesh.
   for (double x = -1.875; x < 3; x += 0.25)
     for (double y = -1.875; y < 2; y += 0.25)
       for (double z = -1.875; z < 2; z += 0.25) {
@@ -125,7 +125,7 @@ bool inComb(int plates, int width, int x, int y, int z) {
 }
 
 /// Returns the surface of a comb: plates of thickness 1 along `axis`, 1 apart, that a spine holds
-/// together. It is the boundary of unit cells, so that it has a vertex at every corner of a cell.
+/// together. The surface is the boundary of unit cells, with a vertex at every corner of a cell.
 TriangleMesh comb(int axis, int plates, int width) {
   const int length = 2 * plates - 1;
   const auto filled = [&](const Eigen::Vector3i& cell) {

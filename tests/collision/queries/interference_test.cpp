@@ -52,7 +52,7 @@ TEST_P(Fits, AgreesWithBruteForceUnderTwoMaps) {
     const TriangleMesh meshA = soup(random, 25, 0.2), meshB = soup(random, 25, 0.2);
     const ObbTree a(meshA, {GetParam()}), b(meshB, {GetParam()});
     const double defect =
-        n % 4 == 0 ? 0 : std::pow(10.0, -3 * (n % 4));  // up to 1e-3: not rigid at all
+        n % 4 == 0 ? 0 : std::pow(10.0, -3 * (n % 4));  // defects up to 1e-3: clearly not rigid
     const double offset = n % 3 == 0 ? 1e6 : 1;
     Transform X_WA, X_WB;
     const Vec3 common = offset * Vec3(real(), real(), real());
@@ -100,7 +100,7 @@ TEST_P(Fits, ExactMapDecidesDeepInATree) {
     const ObbTree b(tip, {GetParam()});
     QueryContext context;
     EXPECT_TRUE(interference(Posed(a, X_WA), Posed(b, X_WA), context))
-        << k;  // equal maps: the shared corner is shared exactly
+        << k;  // the maps are equal, so the images of the shared corner are, too
     Transform X_WB = X_WA;
     X_WB.t[0] += k % 2 ? 1e-3 : 0;
     EXPECT_EQ(interference(Posed(a, X_WA), Posed(b, X_WB), context).has_value(),

@@ -1,5 +1,5 @@
 // Tests how a distance query chooses among its last pairs. The test makes up ranges and measured
-// distances, with errors as large as those of triangles and convex parts may be.
+// distances. Their errors are as large as those of triangles and convex parts can be.
 #include "collision/queries/nearest_pairs.h"
 
 #include <random>

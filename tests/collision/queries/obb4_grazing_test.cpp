@@ -35,7 +35,7 @@ Vec3 anyVector(Random& random, double size) {
 TriangleMesh boxes(Random& random, double size, const Vec3& place) {
   TriangleMesh mesh;
   for (auto more = random() % 3; mesh.triangles.empty() || more-- > 0;) {
-    // Small boxes keep their shape only near the origin.
+    // Boxes are small only near the origin, because rounding would change their shape elsewhere.
     const double s = std::pow(10.0, real(random, random() % 2 || !place.isZero() ? -3 : -10, 0));
     const Vec3 half = s * (Vec3::Constant(0.55) + anyVector(random, 0.45));
     const Mat3 turn = random() % 4 ? anyPose(random, 0).m : Mat3::Identity();
@@ -63,8 +63,8 @@ struct Placed {
 };
 
 /// Places two bodies so that a corner of a is `gap` away from a face of b, or an edge of a is `gap`
-/// away from an edge of b. All other points are farther apart. `deeper` moves the bodies together
-/// by this multiple of u·S.
+/// away from an edge of b. All other points are farther apart. The bodies are then moved together
+/// by `deeper`·u·S.
 Placed apartBy(Random& random, int n, double gap, double deeper = 0) {
   constexpr double kDefects[] = {0, 1e-12, 1e-7, 1e-5, 1e-3, 0.015};
   Placed p;

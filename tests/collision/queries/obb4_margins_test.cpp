@@ -34,7 +34,7 @@ INSTANTIATE_TEST_SUITE_P(Simd, Obb4Margins, testing::ValuesIn(test::simdTargets(
 /// both would round alike.
 TEST_P(Obb4Margins, SmallTrianglesInARow) {
   QueryContext context;
-  const double s = 1e-4;  // not a multiple of those floats' spacing
+  const double s = 1e-4;  // not a multiple of the spacing of floats of the row's length
   TriangleMesh row;
   for (int i = 0; i < 15; ++i) {
     const Vec3 p(1.1 * i, 0, 0);
@@ -141,13 +141,13 @@ TEST_P(Obb4Margins, RadiusWhoseSquareIsFlushed) {
   EXPECT_TRUE(interference(Posed(b, X), Posed(a), context));
 }
 
-/// Small entries of a rotation are flushed to 0, although they are multiplied by the unit of a
-/// large mesh.
+/// Small entries of a rotation are flushed to 0. Their effect is not negligible, because they are
+/// multiplied by the unit of a large mesh.
 TEST_P(Obb4Margins, EntriesThatAreFlushed) {
   std::mt19937_64 random(test::testSeed(62));
   int touching = 0;
   for (const int exponent : {960, 985, 995, 999, 1022})
-    for (int n = 3; n < 600; n += 12) {  // rotated by little, and both meshes large
+    for (int n = 3; n < 600; n += 12) {  // small rotations, and two large meshes
       const FarCorner c(random, exponent, n);
       if (!c.touch) continue;
       ++touching;
@@ -198,7 +198,8 @@ TEST_P(Obb4Margins, DifferencesThatAreFlushed) {
 }
 
 /// Edges of 2^-124 of the mesh against edges of 2^14. Some products of floats underflow and are
-/// flushed, others are not. The sum of those that are left is multiplied by the large edge.
+/// flushed, others are not. The sum of the products that are not flushed is multiplied by the large
+/// edge.
 TEST_P(Obb4Margins, ProductsThatAreFlushed) {
   std::mt19937_64 random(test::testSeed(19));
   const auto sparse = [&](int exponent) {  // floats of very different sizes

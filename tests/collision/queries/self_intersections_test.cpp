@@ -105,8 +105,8 @@ TEST(SelfIntersections, CollinearTrianglesAreIgnored) {
 }
 
 /// Returns a triangle without the part near its shared corner or edge, which is cut off at 2^-12 of
-/// the way to the other corners. The rest is two triangles for a shared corner, and one triangle
-/// for a shared edge.
+/// the way to the other corners. What remains is two triangles if a corner is shared, and one
+/// triangle if an edge is shared.
 std::vector<Triangle> without(const Triangle& t, const std::vector<int>& shared) {
   const auto toward = [](const Vec3& from, const Vec3& to) {
     return Vec3(from + 0x1p-12 * (to - from));

@@ -10,16 +10,16 @@
 #include "tests/support/soups.h"
 #include "tests/support/support.h"
 
-/// Volumes are tested in the first body's frame. If its map shrinks, distances there are larger
-/// than in the world. Here the second map stretches by the same factor, so that the relative map is
-/// a rotation and its margins cover none of the shrinkage.
+/// Volumes are tested in the first body's frame. If this body's map shrinks, distances in its frame
+/// are larger than in the world. Here the second map stretches by the same factor, so that the
+/// relative map is a rotation and its margins cover none of the shrinkage.
 namespace corridor {
 namespace {
 
 constexpr double kShrink = 1e-4;
 
-/// Triangles around a tiny mesh at the origin. Their distances from it differ by less than the map
-/// shrinks lengths.
+/// Triangles around a tiny mesh at the origin. Their distances from the tiny mesh differ by less
+/// than the amount by which the map shrinks lengths.
 struct Shell {
   TriangleMesh around, speck;
   Transform X_WA, X_WB;

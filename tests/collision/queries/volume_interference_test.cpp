@@ -117,7 +117,7 @@ TYPED_TEST(VolumeInterference, ManyConvexParts) {
     const auto found = interference(Posed(a, X_WA), Posed(b, X_WB), context);
     EXPECT_EQ(found.has_value(), parts) << n;
     EXPECT_EQ(interference(Posed(mesh, X_WB), Posed(a, X_WA), context).has_value(), soupHit) << n;
-    if (found) {  // the reported numbers must be those of the list
+    if (found) {  // the reported numbers must be those of the list of parts
       bool same = false;
       for (std::size_t i = 0; i < a.parts().size(); ++i)
         same = same || (a.meshTriangle(static_cast<std::uint32_t>(i)) == found->a &&

@@ -66,7 +66,7 @@ struct Pairs {
   Obb4 a = {}, b = {};
   Obb4Pose pose = {};
   Obb4MotionBound bound = {};
-  bool steady = true;  // no cross axis is short
+  bool steady = true;  // true: no cross axis is short
 
   Pairs(Random& random, int n, By by, double gap, bool beyond, double most = 2) {
     const auto f = [](double x) { return static_cast<float>(x); };

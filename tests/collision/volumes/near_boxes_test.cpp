@@ -47,8 +47,8 @@ class NearBoxes : public test::EveryTarget {
     return std::uniform_real_distribution(low, high)(random_);
   }
 
-  /// Returns four boxes of very different sizes, about the frame's origin, or if `upright` upright
-  /// ones about the z-axis.
+  /// Returns four boxes of very different sizes, about the frame's origin. If `upright`, their axes
+  /// are those of the frame, and their centres are on the z-axis.
   Obb4 boxes(bool upright) {
     Obb4 four = {};
     for (int l = 0; l < 4; ++l) {
@@ -86,9 +86,9 @@ INSTANTIATE_TEST_SUITE_P(Targets, NearBoxes, testing::ValuesIn(test::simdTargets
                          test::targetName);
 
 /// The bound must never be above the distance d, and no pair within the limit may be separated. The
-/// bound must also not be below the gap along the line between the centres. The points of both
-/// boxes that are farthest along that line differ by this gap along the line, and by at most the
-/// sum r of both radii across it, so gap² ≥ d² − r².
+/// bound must also not be below the gap along the line between the centres. Take the two extreme
+/// points of the boxes along that line. They differ by this gap along the line, and by at most the
+/// sum r of both radii across the line. So gap² ≥ d² − r².
 TEST_P(NearBoxes, BoundTheirDistances) {
   QueryContext context;
   int apart = 0, within = 0;

@@ -22,7 +22,7 @@ using exact::Row;
 
 /// The exact answer, in rationals, for two boxes as the sets that their doubles define. If two
 /// parallelepipeds are apart, a face normal or a common normal of two edges separates them. A flat
-/// one is the limit of thicker ones with the same axes, so none of the 15 axes may be left out.
+/// box is the limit of thicker boxes with the same axes, so none of the 15 axes may be left out.
 struct Truth {
   bool touch = true;
   double widest = -HUGE_VAL;  ///< largest gap, metres
@@ -68,8 +68,9 @@ struct Boxes {
   double step = 0;
 };
 
-/// Makes supporting features that meet along one of the 15 axes, then moves them by 10^-2 to 10^-17
-/// of the size. Boxes are parallel, nearly parallel, flat, very unequal, far away, huge and tiny.
+/// Makes two boxes whose supporting features meet along one of the 15 axes, then moves them apart
+/// or together by 10^-2 to 10^-17 of the size. Boxes are parallel, nearly parallel, flat, very
+/// unequal, far away, huge and tiny.
 Boxes nearTouching(std::mt19937_64& random, int n) {
   const auto uniform = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
@@ -157,7 +158,7 @@ struct OverlapNames {
 };
 TYPED_TEST_SUITE(ObbOverlaps, Overlaps, OverlapNames);
 
-/// Without rationals, so that many more pairs can be tested. If the separating-axis theorem
+/// This test uses no rationals, so that it can test many more pairs. If the separating-axis theorem
 /// separates a pair by several times its rounding margin, every test must separate it.
 TYPED_TEST(ObbOverlaps, SeparateBoxesThatAreClearlyApart) {
   std::mt19937_64 random(test::testSeed(64));
@@ -203,7 +204,7 @@ TYPED_TEST(ObbOverlaps, ExactlyTouching) {
     x.X_AB.t = (1 + 0x1p-30) * t;
     EXPECT_EQ(TestFixture::of(x).separated(x.a, x.b, 0), t.norm() > 1) << t.transpose();
   }
-  x.X_AB.t = Vec3(0.5, 0, 0);  // one box inside the other, either way, and flat
+  x.X_AB.t = Vec3(0.5, 0, 0);  // one box inside the other, or the other way round, or flat
   for (const double size : {0.0, 0.25, 100.0}) {
     x.b.half = Vec3::Constant(size);
     EXPECT_FALSE(TestFixture::of(x).separated(x.a, x.b, 0)) << size;
@@ -247,7 +248,8 @@ TYPED_TEST(ObbOverlaps, NonFiniteBoxesAreNotSeparated) {
   }
 }
 
-/// All tests in one loop, since rationals are slow.
+/// One loop runs all four overlap tests, so that the slow rational answer is computed once per
+/// pair.
 TEST(ObbOverlapsAgainstRationals, AgreeUpToTheMargin) {
   std::mt19937_64 random(test::testSeed(61));
   const int rounds = (test::isStressRun() ? 100'000 : 2'000) / test::kSlowdown;
@@ -269,7 +271,7 @@ TEST(ObbOverlapsAgainstRationals, AgreeUpToTheMargin) {
         EXPECT_TRUE(separated) << names[which] << ", case " << n << ", " << gap / x.scale;
       }
     };
-    look(0, PairTest<Obb>(a, b, x.X_AB, 0), truth.raw);  // its cross axes are no unit vectors
+    look(0, PairTest<Obb>(a, b, x.X_AB, 0), truth.raw);  // cross axes are not unit vectors here
     look(1, PairTest<Obb, Gjk>(a, b, x.X_AB, 0), truth.widest);
     look(2, PairTest<Obb, LinearProgram>(a, b, x.X_AB, 0), truth.widest);
     look(3, PairTest<Obb, EdgeFace>(a, b, x.X_AB, 0), truth.widest);

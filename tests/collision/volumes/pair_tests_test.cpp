@@ -13,13 +13,13 @@
 namespace corridor {
 namespace {
 
-/// Two point clouds on opposite sides of a plane. They meet in one point of the plane, or are g
-/// apart there.
+/// Two point clouds on opposite sides of a plane. They meet in one point of the plane, or are `gap`
+/// apart at that point.
 struct Meeting {
   std::vector<Triangle> a, b;
   Transform X_AB;
-  /// The distance of the two points at that place, rounded up. The distance of the clouds is not
-  /// larger.
+  /// The distance of the two points that meet or are `gap` apart, rounded up. The distance of the
+  /// clouds is not larger.
   double distance = 0;
 };
 
@@ -139,8 +139,8 @@ TYPED_TEST(PairTests, NoFalseSeparationUnderMapsFarFromRigid) {
 }
 
 /// This shear keeps the lengths of all three axes, and only changes the angles between them. It
-/// tilts b, which is a needle. The needle's end touches a. The needle's box has no width along the
-/// normal of a face that the shear also tilts.
+/// tilts b, which is a needle whose end touches a. The needle's box has no width along the normal
+/// of a face that the shear also tilts.
 TYPED_TEST(PairTests, ShearsAreNoRotations) {
   std::mt19937_64 random(test::testSeed(45));
   for (int n = 0; n < 2'000; ++n) {
@@ -167,11 +167,11 @@ TYPED_TEST(PairTests, SeparateVolumesThatAreClearlyApart) {
     const Meeting m = meeting(random, n, 100, 1);
     const Fitted<TypeParam> a(m.a), b(m.b);
     const PairTest<TypeParam> test(a.bounds, b.bounds, m.X_AB, 0);
-    // The bound of a k-DOP is the worst, if the normal lies in the widest angle between its slab
-    // directions: the least bound measured was 80.6, for distances of 97 and more.
+    // Of all volumes, the k-DOP has the weakest bound, if the normal lies in the widest angle
+    // between its slab directions: the least bound measured was 80.6, for distances of 97 and more.
     EXPECT_GT(test.distanceBound(a.volume, b.volume), 78) << n;
     // `separated` compares along single axes. The worst case is a normal along the space diagonal
-    // of three face normals: 100/√3 remain.
+    // of three face normals, where 100/√3 of the distance of 100 remain.
     EXPECT_TRUE(test.separated(a.volume, b.volume, 50)) << n;
     const PairTest<TypeParam> loose(a.bounds, b.bounds, m.X_AB, 60);
     EXPECT_FALSE(loose.separated(a.volume, b.volume, 50)) << "the error of the pose must count";

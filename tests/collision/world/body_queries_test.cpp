@@ -48,12 +48,12 @@ TEST(BodyQueries, InsideASolidMesh) {
                               distance(Posed(body, in), Posed(solid), {}, context)}) {
       EXPECT_EQ(d.distance, 0);
       EXPECT_EQ(d.p_WA, d.p_WB);
-      EXPECT_LT((d.p_WA - in.t).norm(), 0.4);  // a point of the small body
+      EXPECT_LT((d.p_WA - in.t).norm(), 0.4);  // the witness point is a point of the small body
     }
     EXPECT_TRUE(closerThan(Posed(solid), Posed(body, in), 0, context));
     EXPECT_TRUE(closerThan(Posed(body, in), Posed(solid), 1e-3, context));
 
-    // The surface alone does not touch the body: their distance is not 0.
+    // The surface alone does not touch the body inside: their distance is not 0.
     EXPECT_FALSE(interference(Posed(surface), Posed(body, in), context));
     const Distance d = distance(Posed(surface), Posed(body, in), {}, context);
     EXPECT_GT(d.distance, 0.4);

@@ -1,4 +1,5 @@
-// The broad phase changes no answer: scenes of many bodies against the same queries without it.
+// Compares scenes of many bodies with the same queries without a broad phase: the broad phase must
+// not change any answer.
 #include "collision/motion/broad_phase.h"
 
 #include <map>
@@ -70,7 +71,8 @@ TEST(BroadPhase, MotionsHaveTheSameAnswers) {
       const MotionResult with = scene.scene().certify(edge, options, one);
       const MotionResult without = certifyMotion(edge, scene.scene().motionPairs(), options, other);
       EXPECT_TRUE(sameAnswer(with, without)) << count << " obstacles, edge " << n;
-      // A box around several bodies may be separated where the bound of one of them is too weak.
+      // The broad phase may save tests: the box around several bodies may be separated although the
+      // bound of one of them is too weak.
       EXPECT_LE(one.counters.boxTests, other.counters.boxTests);
       ++verdicts[with.verdict];
       std::map<MotionVerdict, int> each, alone;
@@ -112,7 +114,7 @@ TEST(BroadPhase, FindsBodiesInsideSolids) {
         if (one.verdict != MotionVerdict::free && worst != MotionVerdict::contact)
           worst = one.verdict;
       EXPECT_EQ(all.verdict, worst) << "scene " << scenes << ", edge " << n;
-      // At the start, each pair of bodies on its own.
+      // Tests each pair of bodies on its own at the start.
       const Transform X_WB = RigidMotion::spatial(from, from, {}).at(0);
       bool touches = false;
       for (const Scene::Pair& pair : scene.scene().pairs())
@@ -156,7 +158,8 @@ TEST(BroadPhase, FindsTheSolidThatABodyLeaves) {
   EXPECT_EQ(result.certifiedUntil, 0);
 }
 
-/// Interference and clearance of states, also if the frame of the world has a pose of its own.
+/// Interference and clearance of states, also if the world's frame has a pose other than the
+/// identity.
 TEST(BroadPhase, StatesHaveTheSameAnswers) {
   std::mt19937_64 random(testSeed(244));
   int contacts = 0, apart = 0;

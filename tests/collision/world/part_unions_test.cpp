@@ -1,4 +1,5 @@
-// A body of many convex parts has the answers of the same parts as bodies of their own.
+// Queries of a body of many convex parts must have the same answers as queries of one body per
+// part.
 #include <algorithm>
 #include <map>
 #include <random>
@@ -66,7 +67,7 @@ TEST(PartUnions, TreesContainAllParts) {
   EXPECT_EQ(surface.tree().check(), std::nullopt);
 }
 
-/// A fault in a box must be found, or the test above says nothing.
+/// `check()` must find a fault in a box; otherwise the test above proves nothing.
 TEST(PartUnions, CheckFindsAPartOutsideOfItsBox) {
   auto parts = std::make_shared<std::vector<ConvexPart>>(cloud(5));
   const Obb4Tree tree(parts);
@@ -95,7 +96,7 @@ TEST(PartUnions, StaticQueries) {
     for (const Body* against : {&mesh, &other})
       for (const TreeKind trees : {TreeKind::obb4, TreeKind::obbBinary, TreeKind::kdop18}) {
         Transform X = anyPose(random, 1.2);
-        if (n % 5 == 0) X.m *= 0.3;  // no rigid map
+        if (n % 5 == 0) X.m *= 0.3;  // a map that is not rigid
         QueryContext context;
         const Posed a{whole, {}}, b{*against, X};
         bool hit = false;
@@ -123,7 +124,7 @@ TEST(PartUnions, StaticQueries) {
   EXPECT_GT(apart, 30);
 }
 
-/// A ball of many is inside a solid box, under maps that are not rigid, too.
+/// One of many balls is inside a solid box. Some of the maps are not rigid.
 TEST(PartUnions, PartsInsideSolids) {
   std::mt19937_64 random(testSeed(302));
   const Body solid("", box(Vec3(-1, -1, -1), Vec3(1, 1, 1)), true);

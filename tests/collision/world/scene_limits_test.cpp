@@ -18,7 +18,8 @@ RigidScene scene(const Triangle& moving, const Triangle& fixed) {
   return RigidScene(body(moving), body(fixed));
 }
 
-/// The squared distance of sphere and box overflows, but the radius of the sphere does not.
+/// The squared distance of a bounding sphere and a box overflows, but the radius of the sphere does
+/// not.
 TEST(SceneLimits, HugeBodiesAreNotSkipped) {
   const double b = 1e170, l = 1e160;
   const RigidScene s = scene({Vec3(-b, 0, 0), Vec3(b, b, 0), Vec3(b, -b, 0)},
@@ -36,7 +37,8 @@ TEST(SceneLimits, CancellingMapsAreNotSkipped) {
     Transform X;
     X.m.setZero();
     X.m(0, 0) = 3.1, X.m(0, 1) = -3.1 * p[0] / p[1];
-    // The first coordinate of X·p, exact up to 2^-106: the tail of a product by fma.
+    // The first coordinate of X·p, exact up to 2^-106: fma computes the rounding error of a
+    // product.
     const double big = X.m(0, 0) * p[0], other = X.m(0, 1) * p[1];
     const double exact =
         (big + other) + (std::fma(X.m(0, 0), p[0], -big) + std::fma(X.m(0, 1), p[1], -other));
@@ -61,7 +63,7 @@ TEST(SceneLimits, StretchingMapsAreNotSkipped) {
 }
 
 /// A map that shrinks: lengths in the body's frame differ from those in the world. The second pair
-/// is closer than the first one, by less than the map shrinks lengths.
+/// is closer than the first one, by less than the amount by which the map shrinks lengths.
 TEST(SceneLimits, ClearanceUnderMapsThatAreNotRigid) {
   const auto box = [](const Vec3& low, const Vec3& high) { return Body("", test::box(low, high)); };
   std::vector<Scene::Placed> bodies;

@@ -1,4 +1,4 @@
-// Every query of a scene has the same answer on all kinds of trees.
+// Every query of a scene must have the same answer on all kinds of trees.
 #include <array>
 #include <map>
 #include <random>
@@ -24,8 +24,8 @@ std::vector<TreeKind> everyKind() {
   return kinds;
 }
 
-/// A random scene. Both the moving and the fixed bodies are surfaces, solid meshes and convex
-/// parts, so that all pairs of these occur.
+/// A random scene. Both the moving and the fixed bodies include surfaces, solid meshes and convex
+/// parts, so that all pairs of kinds occur.
 struct RandomScene {
   explicit RandomScene(std::mt19937_64& random)
       : scene(bodies(random, 2, 0.5), bodies(random, 6, 2)) {}
@@ -92,7 +92,7 @@ TEST(EveryTreeKind, StatesAndClearances) {
   std::cout << contacts << " of " << asked << " in contact\n";
   EXPECT_GT(contacts, asked / 5);
   EXPECT_GT(asked - contacts, asked / 5);
-  // Each kind was walked, and the kinds differ.
+  // Queries walked trees of each kind, and the kinds differ in their counts.
   for (const auto& [trees, counted] : counters) {
     EXPECT_GT(counted.boxTests, 0u) << treeName(trees);
     EXPECT_GT(counted.triangleTests, 0u) << treeName(trees);
@@ -102,7 +102,7 @@ TEST(EveryTreeKind, StatesAndClearances) {
 }
 
 /// The verdict must be `free`, or `contact` at a pose that touches. The scenes have room between
-/// bodies, so hardly any edge may be `undecided`.
+/// bodies, so only a few edges may be `undecided`.
 TEST(EveryTreeKind, Edges) {
   std::mt19937_64 random(test::testSeed(62));
   const int count = (test::isStressRun() ? 20'000 : 1'000) / test::kSlowdown;
