@@ -30,8 +30,8 @@ struct Descent {
   std::uint32_t s = 0, t = 0;  ///< numbers of the leaf primitives in their meshes
   double gap = 0;              ///< `undecided`: distance at the middle beyond the margin, metres
   bool wide = false;           ///< `undecided`: the motion bound exceeds the tolerance
-  /// If requested: a proved lower bound of the distance of all that was separated, beyond margin
-  /// and pads, throughout the interval, metres. Infinite if nothing was separated.
+  /// If requested: a proved lower bound, throughout the interval, of the distance of everything
+  /// that was separated, less margin and pads. Metres; infinite if nothing was separated.
   double clearance = HUGE_VAL;
 };
 

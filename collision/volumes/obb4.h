@@ -70,8 +70,8 @@ struct alignas(16) Obb4Pose {
 ///
 /// Derivation of the test. In the coordinates of a's box that are defined above, a point T + R y of
 /// box b moves by s·(V + W × R y) and a remainder, with V = Aᵀlinear and W = Aᵀangular, up to
-/// 3η|W||y| for A's defect. Along a unit vector n that is at most |n·V| + Σ_k b_k |R_k·(n × W)|,
-/// and
+/// 3η|W||y| for A's defect. Along a unit vector n the first-order motion is at most |n·V| + Σ_k b_k
+/// |R_k·(n × W)|, and
 ///   n = e_i:        R_k·(e_i × W) = R_(i+2)k W_(i+1) − R_(i+1)k W_(i+2), as written;
 ///   n = R_j:        R_k·(R_j × W) = ±W·R_l, l the third of j, k, l, up to 3η_R|W|;
 ///   n = e_i × R_j:  R_k·(n × W) = W_i (R_j·R_k) − R_ik (W·R_j), where R_j·R_k = δ_jk up to η_R.
