@@ -40,8 +40,8 @@ struct ScrewMotion {
 /// from a to b. At time t + s·h, |s| ≤ 1, its exact map is
 ///   X_AB(s) = T_1(s·δ_1 + ε_1) … T_k(s·δ_k + ε_k),
 ///   |δ_j| = screws[j].amount, |ε_j| ≤ screws[j].tube.
-/// Each T_j is a rotation about an axis, or a translation along an axis. The joints before joint j
-/// move this axis.
+/// Each T_j is a rotation about an axis, or a translation along an axis. The axis of joint j is
+/// moved by the joints before j.
 ///
 /// To first order a point x of b moves by s·(linear + angular × y). Its lever y = x − X_AB.t is the
 /// vector from b's origin to x. `motionBound` bounds the remainder.

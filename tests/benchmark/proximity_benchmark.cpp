@@ -36,8 +36,8 @@ struct Cost {
   double boxTests = 0, triangleTests = 0, us = 0;
 };
 
-/// Measures the queries at all poses of b, with a at the identity. b is a scaled copy of a. Returns
-/// one cost per scale.
+/// Measures the queries at all poses of b; the pose of a is the identity. b is a scaled copy of a.
+/// Returns one cost per scale.
 using Ask = std::function<std::vector<Cost>(
     const TriangleMesh& a, const std::vector<double>& scales, const std::vector<Transform>&)>;
 

@@ -12,7 +12,8 @@
 namespace corridor::audit {
 namespace {
 
-/// The kinds of trees among which a case's are chosen: every kind, the default five times.
+/// The kinds of trees, of which each case gets one at random: the default kind five times, every
+/// other kind once.
 constexpr TreeKind kTrees[] = {TreeKind::obb4,
                                TreeKind::obb4,
                                TreeKind::obb4,
