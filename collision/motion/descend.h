@@ -79,7 +79,7 @@ inline LeafOutcome outcomeOf(const MovingPairAnswer& answer, std::uint32_t s, st
 /// Boxes are separated by the 15 axes, each with the motion bound along it for the whole interval
 /// (overlap_obb4_moving-inl.h). Pairs of leaf primitives are separated along the direction of their
 /// closest points (`decideMovingTriangles`, `decideMovingParts`). Time is split before space: if
-/// the boxes of a pair move farther than they are large, the pair is left to shorter intervals.
+/// b's box moves far, compared with the sizes of both boxes, the pair is left to shorter intervals.
 ///
 /// @return If the kind is `contact`, `later` also receives the pair that touches and everything
 /// that was not tested. If the kind is `undecided` or `workLimit`, the node pairs appended to

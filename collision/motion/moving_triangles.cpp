@@ -135,8 +135,8 @@ MovingPairAnswer decideMovingTriangles(const Triangle& a, const Triangle& b,
   // 3·√3·uS < 5.2uS for each triangle. A posed coordinate is off by 4.1u(3|y| + |t|) < 12.3uS;
   // along n this is √3 times as much, 21.3uS. The difference rounds by 4uS. Together: < 36uS.
   const double slack = 64 * kUnit * size + kTiny;
-  // Since |n| ≤ 1 + 4u, gaps along n may be too large by the factor 1 + 4u. `slack` has room for
-  // this in the errors; the last term covers the margin.
+  // Since |n| ≤ 1 + 4u, gaps along n may be too large by the factor 1 + 4u. For the errors, `slack`
+  // leaves room for this factor; for the margin, the last term covers it.
   const double needed = margin + slack + 4 * kUnit * margin;
 
   const ClosestPoints closest = closestFeaturePoints(a, posed);
