@@ -16,8 +16,8 @@ struct DistanceOptions {
   double absolute = 0;  ///< metres
 };
 
-/// The distance of two bodies, witness points that have this distance, and the triangles or convex
-/// parts that contain these points, by their numbers in the meshes or lists.
+/// The distance of two bodies, and witness points that have this distance. `a` and `b` are the
+/// triangles or convex parts that contain these points, by their numbers in the meshes or lists.
 struct Distance {
   double distance = 0;  ///< metres
   Vec3 p_WA = Vec3::Zero(), p_WB = Vec3::Zero();

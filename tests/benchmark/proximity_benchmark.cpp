@@ -10,8 +10,8 @@
 /// * N_v and N_p (means over the rotations) and the median time;
 /// * the slope of log N_v over log 1/gap, for all gaps, and for those at which fewer than one test
 ///   in 100 is of triangles (at smaller gaps the queries reach the leaves nearly everywhere);
-/// * the same measurements for such a pair at several placements, with the best of the trees that
-///   share one traversal.
+/// * the same measurements for such a pair at several placements, and which of the trees that share
+///   one traversal is the best.
 ///
 /// FOLDER gets the plots.
 #include <functional>
