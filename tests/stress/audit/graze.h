@@ -17,10 +17,10 @@ struct Truth {
 
 /// Two bodies that just meet, by construction.
 ///
-/// At a time t one body, the tip, touches a plane with a feature, and lies above the plane. At t
-/// the tip moves along the plane, or leaves the plane at the start, or reaches it at the end. The
-/// other body, the rest, lies below the plane, at a known distance; `rest(gap)` returns this body.
-/// From this the true verdict follows.
+/// At a time t one body, the tip, touches a plane with one feature (a corner, an edge or a face),
+/// and lies above the plane. At t the tip moves along the plane, or leaves the plane at the start,
+/// or reaches it at the end. The other body, the rest, lies below the plane, at a known distance;
+/// `rest(gap)` returns this body. From this the true verdict follows.
 ///
 /// The plane is fixed in the frame of the rest, which is one of the edge's two frames. The height
 /// of the tip above the plane is bounded from below over the whole edge, by intervals: between two
@@ -34,7 +34,7 @@ class Graze {
   struct Wish {
     double size = 1;      ///< m, size of the bodies
     double keep = 0;      ///< m, distance of the bodies at gap 0
-    bool inTube = false;  ///< a curve in the edge's tube meets, not the edge itself
+    bool inTube = false;  ///< the bodies meet on a curve in the edge's tube, not on the edge
   };
   Graze(Dice& dice, const Edge& edge, const Wish& wish);
 
