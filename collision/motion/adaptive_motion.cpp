@@ -18,7 +18,7 @@ constexpr double kLeastHalfWidth = 0x1p-48;
 /// A time interval of a pair that is not proved yet.
 struct Interval {
   double t0, t1;
-  double need;  ///< metres that the parent's distance lacked; infinite for the whole motion
+  double need;  ///< metres that the parent's distance was short of; infinite for the whole motion
   std::uint32_t pair;
 };
 
@@ -70,8 +70,8 @@ class Bisection {
     const double h = (w.t1 - w.t0) / 2, t = w.t0 + h;  // dyadic: exact
     const DistanceSteps::Measurement measured = steps_.measureAt(w.pair, t, h, false);
     if (measured.apart()) return std::nullopt;
-    // With half of the tolerance, a clearance of two tolerances suffices even if the clearance
-    // slack takes one tolerance.
+    // If the motion bound is at most half of the tolerance, a clearance of twice the tolerance
+    // suffices for a proof, even if the clearance slack takes one tolerance.
     const bool narrow = measured.bound.bound <= steps_.options().tolerance / 2,
                last = h <= kLeastHalfWidth;
     if (measured.contact && (!earliest_ || last)) return steps_.contact(w.pair, w.t0, t, measured);
@@ -96,8 +96,8 @@ class Bisection {
     return std::nullopt;
   }
 
-  /// Returns the answer for the block. @pre Everything up to t0 is proved, and t0 is as close to
-  /// the block as requested.
+  /// Returns the query's answer if the search ends at the block. @pre Everything up to t0 is
+  /// proved, and t0 is as close to the block as requested.
   MotionResult blocked(double t0) {
     const auto& [time, pair, measured] = *block_;
     return measured.contact ? steps_.contact(pair, t0, time, measured)

@@ -24,8 +24,9 @@ struct MotionScratch {
   std::vector<std::uint32_t> near;  ///< the pairs that the broad phase found, or all pairs
 };
 
-/// Returns one more than the largest index of a body that has a sphere in the world.
-std::size_t bodiesOf(const MotionQuery& query) {
+/// Returns one more than the largest index of a body in a pair that has a world sphere (`worldB` is
+/// set).
+std::size_t bodyCountOf(const MotionQuery& query) {
   if (query.broadPhase) return query.broadPhase->bodies();
   std::size_t bodies = 0;
   for (const MotionPair& pair : query.pairs)
@@ -40,7 +41,7 @@ class Certifier {
   Certifier(MotionSource& source, const MotionQuery& query)
       : source_(source),
         query_(query),
-        motions_(source, bodiesOf(query), query.context),
+        motions_(source, bodyCountOf(query), query.context),
         list_(query.context.scratch.of<MotionScratch>().list),
         open_(query.context.scratch.of<MotionScratch>().open) {
     list_.begin(nearPairs());
@@ -116,8 +117,8 @@ class Certifier {
   }
 
   /// Walks the open intervals depth first, the earlier half first. Everything before the interval
-  /// on top of the stack is therefore proved. And if some time cannot be decided, it is found
-  /// before all other intervals are refined.
+  /// on top of the stack is therefore proved. And if some time cannot be decided, that time is
+  /// found before all other intervals are refined.
   MotionResult walkInOrder() {
     while (!open_.empty()) {
       const Interval w = open_.back();
@@ -149,10 +150,11 @@ class Certifier {
     for (std::size_t g = range.begin; g < range.end && !outOfWork(); ++g) {
       const WorkList::Group group = list_.groups[g];
       const MotionPair& pair = query_.pairs[group.bodies];
-      // If no tree of the pair has been walked yet, the bounds may be separated at t. Then no tree
-      // is needed.
-      const bool best = query_.certificate != nullptr;
-      if (list_.isNotWalkedYet(group) && motions_.separation(pair, 0, best).clearance > 0) continue;
+      // If no tree of the pair has been walked yet, the bodies' bounding spheres and boxes may be
+      // separated at t. Then no tree is needed.
+      const bool wantBestBound = query_.certificate != nullptr;
+      if (list_.isNotWalkedYet(group) && motions_.separation(pair, 0, wantBestBound).clearance > 0)
+        continue;
       if (touches(group.bodies, motions_.relative(pair.motion).X_AB, t, list_.nodePairsOf(group)))
         return true;
     }

@@ -56,7 +56,8 @@ class CertificateCheck {
         return std::nullopt;
       return CertificateFault{Kind::refuted, i.pair, 0};
     }
-    // Shorter intervals would not help: `pad` takes the missing clearance, or the claim is false.
+    // Shorter intervals would not help: rounding and tube (`pad`) cause the lack of clearance, or
+    // the claim is false.
     if (!(bound.isotropic >= std::max(beyond, options_.tolerance) / 4) ||
         !(i.t0 < middle && middle < i.t1))
       return CertificateFault{

@@ -18,8 +18,8 @@ struct CertificateFault {
     /// which is a solid mesh.
     refuted,
     /// At `t` the edge itself keeps the margin and more than three quarters of the claim beyond it.
-    /// But this method cannot prove the interval with tube and rounding included. It bounds their
-    /// effect on all of b, not only on the region close to a.
+    /// But this method cannot prove the interval with tube and rounding included. The method bounds
+    /// the effect of both on all of b, not only on the region close to a.
     unproved,
     workLimit,      ///< `MotionOptions::workLimit` was reached at `t`, so nothing is proved there
     ambiguous,      ///< the motion defines no curve: a half turn, or a displacement that overflows
@@ -43,7 +43,7 @@ struct CertificateFault {
 /// The method and the trees differ from those of the proof. The check makes tolerance queries on
 /// the binary trees, at the middles of ever shorter time intervals, with an isotropic motion bound.
 /// It shares with `certifyMotion` only the motion itself and the isotropic bound of `motionBound`.
-/// Its work is proportional to the length of the motion divided by its clearance.
+/// The work of the check is proportional to the length of the motion divided by the clearance.
 /// @param options the options of the query. `workLimit` limits the box and triangle tests of the
 /// check.
 /// @param until `certifiedUntil` of the answer.

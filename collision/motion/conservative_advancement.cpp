@@ -44,8 +44,8 @@ class Advancement {
       if (measured.contact) return steps_.contact(pair, t, t, measured);
       const double step = longestStep(front, measured);
       const bool done = t + step == 1;
-      // If the clearance is twice the tolerance, the room exceeds half of the tolerance, even if
-      // the clearance slack takes one tolerance.
+      // If the clearance is twice the tolerance, `room` exceeds half of the tolerance, even if the
+      // clearance slack takes one tolerance.
       const double room = measured.lower - measured.bound.needed;
       if (!done && (step == 0 || room <= steps_.options().tolerance / 2))
         return steps_.close(pair, t, t, measured.gap);

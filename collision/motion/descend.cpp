@@ -119,7 +119,7 @@ class Moving {
       pairs.add(static_cast<unsigned>(std::countr_zero(rest)));
     LeafMotionBound goes = bound_.ofLeaves(nb, pairs.lanesB());
     // If no box of b moves farther than the tolerance, or if shorter intervals are not allowed,
-    // double precision decides all pairs that are left.
+    // double precision decides all pairs that floats leave.
     const bool last = options_.shortest || !bound_.of(nb).far;
     // If clearances are requested, the filter must not drop any pair, because it computes no
     // distances. An infinite pad keeps all pairs.

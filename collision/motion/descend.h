@@ -30,8 +30,8 @@ struct Descent {
   std::uint32_t s = 0, t = 0;  ///< numbers of the leaf primitives in their meshes
   double gap = 0;              ///< `undecided`: distance at the middle beyond the margin, metres
   bool wide = false;           ///< `undecided`: the motion bound exceeds the tolerance
-  /// If requested: a proved lower bound of the distance of all that was separated, beyond margin
-  /// and pads, throughout the interval, metres. Infinite if nothing was separated.
+  /// If requested: a proved lower bound, throughout the interval, of the distance of everything
+  /// that was separated, less margin and pads. Metres; infinite if nothing was separated.
   double clearance = HUGE_VAL;
 };
 
@@ -79,7 +79,7 @@ inline LeafOutcome outcomeOf(const MovingPairAnswer& answer, std::uint32_t s, st
 /// Boxes are separated by the 15 axes, each with the motion bound along it for the whole interval
 /// (overlap_obb4_moving-inl.h). Pairs of leaf primitives are separated along the direction of their
 /// closest points (`decideMovingTriangles`, `decideMovingParts`). Time is split before space: if
-/// the boxes of a pair move farther than they are large, the pair is left to shorter intervals.
+/// b's box moves far, compared with the sizes of both boxes, the pair is left to shorter intervals.
 ///
 /// @return If the kind is `contact`, `later` also receives the pair that touches and everything
 /// that was not tested. If the kind is `undecided` or `workLimit`, the node pairs appended to

@@ -8,8 +8,8 @@
 #include "collision/motion/moving_parts.h"
 #include "collision/volumes/pair_tests.h"
 
-/// Derivation of the pad. Let X̂ be the rounded map at the interval's middle, taken as exact, under
-/// which volumes are tested (`PairTest`, with no other error). Anywhere in the interval and in the
+/// Derivation of the pad. Let X̂ be the rounded map at the interval's middle. Volumes are tested
+/// under X̂, taken as exact (`PairTest` with an `error` of 0). Anywhere in the interval and in the
 /// tube, a point p of b is within isotropic + pad of X̂p, by the `MotionBound` of a sphere that
 /// contains p. Suppose that two volumes are farther apart than margin + isotropic + pad under X̂.
 /// Then their contents never come nearer than the margin.
@@ -21,9 +21,9 @@ namespace corridor {
 namespace {
 
 /// Time is split before space if b's volume moves farther than this share of the larger volume's
-/// radius. Soundness does not depend on the value. Measured on plans, with boxes and k-DOPs: with
-/// 1, arms need three times as many tests, and rigid bodies 1.1 to 1.3 times as many. With 1/64,
-/// rigid bodies need twice as many.
+/// radius. Soundness does not depend on the value. Measured on plans, with boxes and k-DOPs:
+/// compared with this share, a share of 1 needs three times as many tests for arms, and 1.1 to 1.3
+/// times as many for rigid bodies. A share of 1/64 needs twice as many for rigid bodies.
 constexpr double kTravelOfSize = 0.125;
 
 template <class Volume, class Overlap>

@@ -15,14 +15,14 @@
 /// at least D − isotropic − pad away from a. `pad` includes the clearance slack, as an error of the
 /// motion.
 ///
-/// Let T = margin + pad + isotropic. A measurement with the relative error ρ = isotropic/4T proves
-/// more than T if the distance exceeds T(1 + ρ) = T + isotropic/4. An interval is therefore proved
-/// whenever the clearance beyond margin and `pad` exceeds 5/4 of the motion bound.
+/// Let T = margin + pad + isotropic. A measurement with the relative error ρ = isotropic/(4T)
+/// proves more than T if the distance exceeds T(1 + ρ) = T + isotropic/4. An interval is therefore
+/// proved whenever the clearance beyond margin and `pad` exceeds 5/4 of the motion bound.
 namespace corridor {
 namespace {
 
-/// A contact is searched for after the time at which the clearance has vanished. This is the first
-/// step of the search, as a share of the motion. Each further step is twice as long.
+/// The first step of the search for a contact after the time at which the clearance has vanished,
+/// as a share of the motion. Each further step is twice as long.
 constexpr double kFirstProbe = 0x1p-40;
 
 }  // namespace

@@ -53,7 +53,7 @@ double remaining(const Vec3& apart, double gap, double radius, double isotropic,
   return bound < isotropic ? beyond(bound) : least;
 }
 
-/// Returns the motion bound along the unit vector n beyond n·first.
+/// Returns the part of the motion bound along the unit vector n that is added to |n·first|.
 double bent(const SweptSphere& sphere, const Vec3& n) {
   return n.cross(sphere.angular).norm() * sphere.secondOrderAcross + sphere.secondOrder;
 }

@@ -10,7 +10,7 @@ namespace corridor {
 /// * The gap is at most the tolerance, and the rounding is at most a thousandth of the body's
 ///   radius.
 /// Otherwise rounding may have caused the small gap, and the reason is `rounding`.
-/// @param relative without the clearance slack.
+/// @param relative the relative motion, without the clearance slack in its errors.
 /// @param gap measured at the middle, metres.
 inline UndecidedReason reasonOf(const RelativeMotion& relative, const Body& b, double gap,
                                 double tolerance) {

@@ -45,8 +45,9 @@ struct NodeMotionBound : Obb4MotionBound {
 /// of tree a.
 ///
 /// Rounding in addition to that of `motionBound`:
-/// * The lever of a centre, M(o + 2^unit·c), has terms up to |o| + |c|, where |c| ≤ 3·2^unit ≤ 6
-///   radii of the tree. In |.|₁ these terms are below 11 times the tree's `reach()`.
+/// * The lever of a centre, M(o + 2^unit·c), has terms up to |o| + |2^unit·c|, where |2^unit·c| ≤
+///   3·2^unit, at most 6 times the tree's radius. In |.|₁ these terms are below 11 times the tree's
+///   `reach()`.
 /// * A box extends at most |half|₂(1 + 2^-20) from its centre. The factor covers the defect of its
 ///   axes.
 class MotionBound4 {
@@ -61,7 +62,7 @@ class MotionBound4 {
         tolerance_(tolerance),
         lever0_(relative.X_AB.m * b.origin()),
         // Rounding of lever and point together: at most 16u·(|t|₁ + |y|₁ + radius).
-        loose_(16 * kUnit * (sum(relative.X_AB.t) + 12 * b.reach()) + 0x1p-500),
+        leverError_(16 * kUnit * (norm1(relative.X_AB.t) + 12 * b.reach()) + 0x1p-500),
         scale_(1 + kUnit * static_cast<double>(64 + 8 * relative.screws.size())) {
     std::fill_n(held_, kSize, Obb4Tree::kNone);
   }
@@ -109,7 +110,7 @@ class MotionBound4 {
   using V = hn::Vec<D>;
   static constexpr D d_{};
 
-  static double sum(const Vec3& v) { return std::abs(v[0]) + std::abs(v[1]) + std::abs(v[2]); }
+  static double norm1(const Vec3& v) { return std::abs(v[0]) + std::abs(v[1]) + std::abs(v[2]); }
   static V set(double x) { return hn::Set(d_, x); }
   static V dot(V x0, V x1, V x2, V y0, V y1, V y2) {
     return hn::MulAdd(x2, y2, hn::MulAdd(x1, y1, hn::Mul(x0, y0)));
@@ -140,14 +141,15 @@ class MotionBound4 {
       const V radius =
           hn::Mul(set(1 + 0x1p-20), norm(row(node.half[0]), row(node.half[1]), row(node.half[2])));
       const V lever = norm(y[0], y[1], y[2]);
-      const V reach = hn::Add(radius, set(loose_));
+      const V reach = hn::Add(radius, set(leverError_));
       const V error = hn::MulAdd(set(w.reachError), hn::Add(lever, reach), set(w.fixedError));
       const V grown = hn::Add(reach, error);
 
       const V zero = hn::Zero(d_);
-      V displaced = zero, rate = zero, second = zero, pad = error, stray = zero, sole = zero;
+      V displaced = zero, rate = zero, second = zero, pad = error, tubeGrowth = zero,
+        singleTravel = zero;
       int turns = 0;
-      bool slid = false, alone = false;
+      bool slid = false, isLastToMove = false;
       for (std::size_t j = w.screws.size(); j-- > 0;) {
         const ScrewMotion& screw = w.screws[j];
         const V amount = set(screw.amount), tube = set(screw.tube);
@@ -171,11 +173,11 @@ class MotionBound4 {
           r = hn::Add(r, norm(d[0], d[1], d[2]));
         }
         pad = hn::MulAdd(r, tube, pad);
-        stray = hn::MulAdd(displaced, tube, stray);
+        tubeGrowth = hn::MulAdd(displaced, tube, tubeGrowth);
         if (screw.amount == 0) continue;
         const V onward = hn::Mul(hn::Add(r, displaced), amount);
-        alone = turns == 0 && !slid;
-        if (alone) sole = onward;
+        isLastToMove = turns == 0 && !slid;
+        if (isLastToMove) singleTravel = onward;
         ++turns;
         second = hn::MulAdd(amount, hn::MulAdd(set(2), rate, onward), second);
         rate = hn::Add(rate, onward);
@@ -188,18 +190,19 @@ class MotionBound4 {
       for (int k = 0; k < 3; ++k) v[k] = hn::Add(l[k], set(w.linear[k]));
       // A bound of the error of v, which comes from its products and from the lever.
       const V blur = hn::MulAdd(set(16 * kUnit), hn::MulAdd(set(w.angle), lever, set(w.speed)),
-                                set(w.angle * loose_));
+                                set(w.angle * leverError_));
       const V first = hn::Add(hn::MulAdd(set(w.angle), grown, norm(v[0], v[1], v[2])),
                               hn::MulAdd(set(0.5), second, blur));
-      const bool bends = turns == 1 && alone;
+      const bool isSingleRotation = turns == 1 && isLastToMove;
       const V scaled = set(scale_ * unit_);
-      const V isotropic = hn::Mul(scaled, hn::Add(hn::Min(displaced, first), stray));
-      const V tilt = set(bends ? w.reachError + 8 * kUnit : 0.5);
+      const V isotropic = hn::Mul(scaled, hn::Add(hn::Min(displaced, first), tubeGrowth));
+      const V tilt = set(isSingleRotation ? w.reachError + 8 * kUnit : 0.5);
       store(isotropic, bound.isotropic, at);
-      V secondOrder = hn::MulAdd(tilt, second, hn::Add(stray, blur));
-      if (bends) secondOrder = hn::MulAdd(set(w.reachError), sole, secondOrder);
+      V secondOrder = hn::MulAdd(tilt, second, hn::Add(tubeGrowth, blur));
+      if (isSingleRotation) secondOrder = hn::MulAdd(set(w.reachError), singleTravel, secondOrder);
       store(hn::Mul(scaled, secondOrder), bound.secondOrder, at);
-      store(bends ? hn::Mul(scaled, hn::Mul(set(0.5), sole)) : zero, bound.secondOrderAcross, at);
+      store(isSingleRotation ? hn::Mul(scaled, hn::Mul(set(0.5), singleTravel)) : zero,
+            bound.secondOrderAcross, at);
       store(hn::MulAdd(scaled, hn::Add(pad, set(margin_)), set(0x1p-118)), bound.pad, at);
       for (int k = 0; k < 3; ++k)
         hn::StoreU(hn::DemoteTo(f, hn::Mul(set(unitA_), v[k])), f, bound.linear[k] + at);
@@ -213,7 +216,7 @@ class MotionBound4 {
   const RelativeMotion& relative_;
   double unitA_, unit_, margin_, tolerance_;
   Vec3 lever0_;  // lever of the tree's origin, metres
-  double loose_, scale_;
+  double leverError_, scale_;
   static constexpr int kBits = 4, kSize = 1 << kBits;
   std::uint32_t held_[kSize];
   NodeMotionBound bounds_[kSize];

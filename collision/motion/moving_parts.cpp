@@ -23,7 +23,7 @@
 ///   min over p of n·t + s n·linear + (n + s n × angular)·M p.
 /// This is again a projection of the core, along another vector. It is a minimum of functions that
 /// are linear in s, hence concave in s. Its least value on |s| ≤ 1 is therefore at s = 1 or s = −1.
-/// The isotropic bound holds, too: the projection along n, less `isotropic` and `pad`.
+/// A second lower bound is the least n·x at the middle, less `isotropic` and `pad`.
 ///
 /// Rounding. The bound of `PosedSet` is linear in the length of the vector, which is at most 1 + α
 /// with α = `angle`. Other errors are added:

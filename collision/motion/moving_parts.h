@@ -9,7 +9,7 @@ namespace corridor {
 
 /// Decides a pair of convex parts in a time interval, with the method of `decideMovingTriangles`. a
 /// is at rest; b moves by the relative motion `relative`. `contact` means that, at the rounded pose
-/// at the middle, the parts are closer than 2^-44 of the largest coordinate, or are proved to be
+/// at the middle, the parts are closer than 2^-44 times the largest coordinate, or are proved to be
 /// within the margin.
 MovingPairAnswer decideMovingParts(const ConvexPart& a, const ConvexPart& b,
                                    const RelativeMotion& relative, double margin);

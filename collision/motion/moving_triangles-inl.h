@@ -35,10 +35,10 @@ struct MovingPairs {
 /// the corner relative to the point whose velocity is `linear`. In any case, corner k moves by at
 /// most `isotropic`.
 ///
-/// Rounding, u = 2^-24. The error of n·t_k is `off`, as in `triangleDistances`. p_k = t_k − away is
-/// off by 4u·D per coordinate, and is below 2D. n × angular is off by 2u|n||ω|. Therefore h_k is
-/// off by less than u|n|(6|linear|₁ + 32|ω|₁D). This includes the rounding of `linear` and
-/// `angular` themselves (u of each).
+/// Rounding, with u = 2^-24 and D the size of a pair (`TrianglePairs`). The error of n·t_k is
+/// `off`, as in `triangleDistances`. p_k = t_k − away is off by 4u·D per coordinate, and is below
+/// 2D. n × angular is off by 2u|n||ω|. Therefore h_k is off by less than u|n|(6|linear|₁ +
+/// 32|ω|₁D). This includes the rounding of `linear` and `angular` themselves (u of each).
 ///
 /// @param clearances if not null, receives a proved clearance for each separated pair: its distance
 /// beyond `pad` throughout the interval, in a's unit.
@@ -54,7 +54,7 @@ HWY_INLINE MovingPairs movingTriangles(const TriangleCorners& a, const TriangleC
       angular{set(bound.angular[0]), set(bound.angular[1]), set(bound.angular[2])};
   const V pad = set(bound.pad);
   // The error of the corners at the middle, and the resulting error of their motion.
-  const V reach = hn::Mul(hn::Add(set(1 + 0x1p-20F), sum(angular)), set(error));
+  const V reach = hn::Mul(hn::Add(set(1 + 0x1p-20F), norm1(angular)), set(error));
   MovingPairs found;
   for (std::size_t at = 0; at < 16; at += kTriangleLanes) {
     const TrianglePairs pairs(a, b, numbers, at);
@@ -78,7 +78,7 @@ HWY_INLINE MovingPairs movingTriangles(const TriangleCorners& a, const TriangleC
     const V D = pairs.size;
     const V off = hn::MulAdd(set(48 * 0x1p-24F), D, reach);
     const V more = hn::Mul(set(32 * 0x1p-24F),
-                           hn::MulAdd(sum(angular), D, hn::Add(sum(linear), hn::Abs(middle))));
+                           hn::MulAdd(norm1(angular), D, hn::Add(norm1(linear), hn::Abs(middle))));
     const V lost = hn::Add(off, more);
     const V isotropic = hn::Sub(middle, set(bound.isotropic)),
             directional = hn::Sub(gapOf(moving), set(bound.remainder));

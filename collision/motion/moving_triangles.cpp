@@ -68,7 +68,7 @@ Gaps gapsAlong(const Vec3& n, const Triangle& a, const MovingCorners& b) {
   for (int i = 0; i < 3; ++i) {
     const MotionBound& bound = b.bound[i];
     // A single rotation has at most the remainder (1 − cos α)|n·(k × (k × d))| + (α − sin α)|n·(k ×
-    // d)| along n. This is sharper than the bound by `secondOrderAcross`.
+    // d)| along n, with k = ω/α. This is sharper than the bound by `secondOrderAcross`.
     const double beyond = b.turns ? std::abs(n.dot(b.second[i])) + std::abs(n.dot(b.third[i])) : 0;
     const double directional =
         std::abs(n.dot(b.first[i])) + beyond + bound.secondOrder + b.loose[i];
@@ -91,7 +91,7 @@ Vec3 unit(const Vec3& v) {
 }
 
 /// Calls `attempt` with directions that are right to a few ulp, whatever the sizes of the
-/// triangles. Each is on the side of `n`.
+/// triangles. Each points to the same side as `n`.
 ///
 /// The direction of the closest points is less accurate. These points are rounded to u times a
 /// triangle's size L. Their difference is therefore tilted by uL/d. Across L the tilt reduces a gap
@@ -131,12 +131,12 @@ MovingPairAnswer decideMovingTriangles(const Triangle& a, const Triangle& b,
     largest = std::max(
         {largest, (posed[i] - relative.X_AB.t).cwiseAbs().maxCoeff(), a[i].cwiseAbs().maxCoeff()});
   const double size = 2 * relative.X_AB.t.cwiseAbs().maxCoeff() + largest;
-  // Let |n|₁ ≤ √3(1 + 4u), and S = `size`, which exceeds every coordinate. n·p has three products:
+  // |n|₁ ≤ √3(1 + 4u). Let S be `size`, which exceeds every coordinate. n·p has three products:
   // 3·√3·uS < 5.2uS for each triangle. A posed coordinate is off by 4.1u(3|y| + |t|) < 12.3uS;
   // along n this is √3 times as much, 21.3uS. The difference rounds by 4uS. Together: < 36uS.
   const double slack = 64 * kUnit * size + kTiny;
-  // Since |n| ≤ 1 + 4u, gaps along n may be too large by the factor 1 + 4u. `slack` has room for
-  // this in the errors; the last term covers the margin.
+  // Since |n| ≤ 1 + 4u, gaps along n may be too large by the factor 1 + 4u. For the errors, `slack`
+  // leaves room for this factor; for the margin, the last term covers it.
   const double needed = margin + slack + 4 * kUnit * margin;
 
   const ClosestPoints closest = closestFeaturePoints(a, posed);

@@ -25,8 +25,8 @@
 ///
 /// Remainder. ∂x/∂φ_j is a_j × (z_(j+1) − p_j), rotated by the joints before j. Its length is the
 /// distance of z_(j+1) from axis j, at most r̄_j = r_j + D_(j+1); for a translation it is 1. A
-/// second derivative by a joint i ≤ j rotates that vector about axis i: its length is at most the
-/// same if i is a rotation, and 0 if i is a translation. Therefore
+/// second derivative by a joint i ≤ j rotates that vector about axis i: if i is a rotation, it is
+/// at most as long as the first derivative, and if i is a translation, it is 0. Therefore
 ///   |x''(s)| ≤ Σ_(rotations j) δ_j² r̄_j + 2 Σ_(rotations i) δ_i Σ_(j > i) δ_j r̄_j
 /// with r̄_j = 1 for translations. By Taylor's formula, for any n,
 ///   |n·(x(s) − x − s x'(0))| ≤ ½ max|x''|·|n|.
@@ -56,7 +56,7 @@
 ///
 /// Rounding. The relative motion states the error of its own numbers (`fixedError`, `reachError`).
 /// For a point with lever y this error is at most E = fixedError + reachError·|y|. The distances
-/// from the axes are also off by at most E, so every r_j grows by E. In this function, y, x − p_j
+/// from the axes are also off by at most E, so every r_j grows by E. In `motionBound`, y, x − p_j
 /// and the products are off by a few u of their terms, which `loose` covers. Each sum of positive
 /// terms is off by a few u, which the factor `scale` covers at the end.
 namespace corridor {
@@ -88,9 +88,9 @@ MotionBound motionBound(const RelativeMotion& relative, const Vec3& x_A, double 
   const double grown = radius + error + loose;
 
   const double scale = 1 + kUnit * static_cast<double>(64 + 8 * relative.screws.size());
-  double displaced = 0, rate = 0, second = 0, pad = error, stray = 0;
+  double displaced = 0, rate = 0, second = 0, pad = error, tubeGrowth = 0;
   // r δ of the only rotation so far, if no translation comes after it in the chain; otherwise 0.
-  double sole = 0;
+  double singleTravel = 0;
   int turns = 0;
   for (std::size_t j = relative.screws.size(); j-- > 0;) {
     const ScrewMotion& screw = relative.screws[j];
@@ -105,10 +105,10 @@ MotionBound motionBound(const RelativeMotion& relative, const Vec3& x_A, double 
                                                                 : length(d[0], d[1], d[2])) +
                      grown + 16 * kUnit * taxicab(d);
     pad += r * screw.tube;
-    stray += displaced * screw.tube;
+    tubeGrowth += displaced * screw.tube;
     if (screw.amount == 0) continue;
     const double onward = (r + displaced) * screw.amount;
-    sole = turns == 0 && rate == 0 ? onward : 0;
+    singleTravel = turns == 0 && rate == 0 ? onward : 0;
     ++turns;
     second += screw.amount * (onward + 2 * rate);
     rate += onward;
@@ -125,11 +125,13 @@ MotionBound motionBound(const RelativeMotion& relative, const Vec3& x_A, double 
              l[2] + (w[0] * y[1] - w[1] * y[0])) +
       relative.angle * grown + 16 * kUnit * (relative.speed + relative.angle * lever) +
       0.5 * second;
-  bound.isotropic = scale * (std::min(displaced, firstOrder) + stray);
-  const bool bends = sole > 0 && turns == 1;
-  const double tilt = bends ? relative.reachError + 8 * kUnit : 0.5;
-  bound.secondOrderAcross = bends ? scale * 0.5 * sole : 0;
-  bound.secondOrder = scale * (tilt * second + (bends ? relative.reachError * sole : 0) + stray);
+  bound.isotropic = scale * (std::min(displaced, firstOrder) + tubeGrowth);
+  const bool isSingleRotation = singleTravel > 0 && turns == 1;
+  const double tilt = isSingleRotation ? relative.reachError + 8 * kUnit : 0.5;
+  bound.secondOrderAcross = isSingleRotation ? scale * 0.5 * singleTravel : 0;
+  bound.secondOrder =
+      scale *
+      (tilt * second + (isSingleRotation ? relative.reachError * singleTravel : 0) + tubeGrowth);
   return bound;
 }
 

@@ -8,9 +8,9 @@
 
 namespace corridor {
 
-/// The neighbourhood of a nominal motion that its proof covers: each coordinate of the position may
-/// differ by at most `position` (metres), and the orientation by a rotation of at most `rotation`
-/// (radians).
+/// The neighbourhood of a nominal motion that a proof of the motion covers: each coordinate of the
+/// position may differ by at most `position` (metres), and the orientation by a rotation of at most
+/// `rotation` (radians).
 struct Tube {
   double position = 0;
   double rotation = 0;
@@ -40,8 +40,8 @@ struct ScrewMotion {
 /// from a to b. At time t + s·h, |s| ≤ 1, its exact map is
 ///   X_AB(s) = T_1(s·δ_1 + ε_1) … T_k(s·δ_k + ε_k),
 ///   |δ_j| = screws[j].amount, |ε_j| ≤ screws[j].tube.
-/// Each T_j is a rotation about an axis, or a translation along an axis. The joints before joint j
-/// move this axis.
+/// Each T_j is a rotation about an axis, or a translation along an axis. The axis of joint j is
+/// moved by the joints before j.
 ///
 /// To first order a point x of b moves by s·(linear + angular × y). Its lever y = x − X_AB.t is the
 /// vector from b's origin to x. `motionBound` bounds the remainder.
@@ -49,7 +49,7 @@ struct RelativeMotion {
   Transform X_AB;               ///< the map at the middle, rounded
   Vec3 linear = Vec3::Zero();   ///< half of the displacement of b's origin in the interval, metres
   Vec3 angular = Vec3::Zero();  ///< half of the interval's rotation vector, radians
-  double speed = 0;             ///< |linear|, rounded up; metres, half a displacement
+  double speed = 0;             ///< |linear|, rounded up; metres
   double angle = 0;             ///< |angular|, rounded up
   std::span<const ScrewMotion> screws;  ///< the joints in order from a to b
   /// Bounds of the errors of all numbers above. At every s, each point of the real b is within

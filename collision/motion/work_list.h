@@ -18,8 +18,8 @@ struct WorkList {
   struct Group {
     std::uint32_t bodies;  ///< the number of the pair of bodies in the query
     std::size_t begin, end;
-    /// Lower bound of the clearance, metres, of the node pairs of these bodies that are already
-    /// separated, in intervals that contain this one. Has a meaning only if the query records a
+    /// Some node pairs of these bodies may already be separated, in intervals that contain this
+    /// one: a lower bound of their clearance, metres. Has a meaning only if the query records a
     /// certificate.
     double clearance = HUGE_VAL;
   };

@@ -38,7 +38,7 @@ struct Vector {
   }
   bool isZero() const { return x.is_zero() && y.is_zero() && z.is_zero(); }
 };
-/// The result may have another type than the coordinates (small_int.h).
+/// The result's type may be wider than that of the coordinates (small_int.h).
 template <class A, class B>
 auto dot(const Vector<A>& a, const Vector<B>& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;

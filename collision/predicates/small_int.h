@@ -5,13 +5,14 @@
 
 /// Signed integers whose width grows with the degree of an expression. Coordinates have 64 bits,
 /// their products 128, and products of these with coordinates 192. 192 bits hold every orientation
-/// of points on a grid of 61 bits. Shapes that touch by construction (boxes, CAD models under
-/// rotations by 90°) are on such a grid. These types are ten times faster than integers of one
-/// large width. Results that need more bits wrap; those of `Int53` are rounded.
+/// determinant of points whose grid coordinates have 61 bits. Shapes that touch by construction
+/// (boxes, CAD models under rotations by 90°) have such coordinates. These types are ten times
+/// faster than integers of one large width. Results that need more bits wrap; those of `Int53` are
+/// rounded.
 namespace corridor::exact {
 
-__extension__ using SignedPair = __int128;
-__extension__ using UnsignedPair = unsigned __int128;
+__extension__ using SignedWide = __int128;
+__extension__ using UnsignedWide = unsigned __int128;
 
 /// Integers stored as doubles, or integers times one common power of two. Results are exact as long
 /// as the integers are below 2^53.
@@ -35,7 +36,7 @@ class Int53 {
 class Int192 {
  public:
   Int192() = default;
-  Int192(SignedPair high, std::uint64_t low) : high_(high), low_(low) {}
+  Int192(SignedWide high, std::uint64_t low) : high_(high), low_(low) {}
 
   bool is_zero() const { return high_ == 0 && low_ == 0; }  // NOLINT: Boost's name
   int sign() const { return high_ < 0 ? -1 : is_zero() ? 0 : 1; }
@@ -45,7 +46,7 @@ class Int192 {
   }
 
  private:
-  SignedPair high_ = 0;
+  SignedWide high_ = 0;
   std::uint64_t low_ = 0;
 };
 
@@ -55,7 +56,7 @@ class Int64;
 class Int128 {
  public:
   Int128() = default;
-  explicit Int128(SignedPair value) : value_(value) {}
+  explicit Int128(SignedWide value) : value_(value) {}
 
   bool is_zero() const { return value_ == 0; }  // NOLINT: Boost's name
   int sign() const { return value_ > 0 ? 1 : value_ < 0 ? -1 : 0; }
@@ -65,7 +66,7 @@ class Int128 {
   friend Int192 operator*(Int64 a, Int128 b);
 
  private:
-  SignedPair value_ = 0;
+  SignedWide value_ = 0;
 };
 
 /// Values of degree one.
@@ -91,7 +92,7 @@ class Int64 {
   }
   friend Int64 operator-(Int64 a, Int64 b) { return Int64(a.value_ - b.value_); }
   friend Int128 operator*(Int64 a, Int64 b) {
-    return Int128(static_cast<SignedPair>(a.value_) * b.value_);
+    return Int128(static_cast<SignedWide>(a.value_) * b.value_);
   }
   friend auto operator<=>(const Int64&, const Int64&) = default;  // NOLINT: no null pointer here
 
@@ -102,9 +103,9 @@ class Int64 {
 inline Int192 operator*(Int128 a, Int64 b) {
   // a = h·2^64 + l with l ≥ 0; l·b has 127 bits and a sign.
   const auto l = static_cast<std::uint64_t>(a.value_);
-  auto low = static_cast<UnsignedPair>(l) * static_cast<std::uint64_t>(b.value());
-  if (b.value() < 0) low -= static_cast<UnsignedPair>(l) << 64;
-  const auto carry = static_cast<SignedPair>(low) >> 64;
+  auto low = static_cast<UnsignedWide>(l) * static_cast<std::uint64_t>(b.value());
+  if (b.value() < 0) low -= static_cast<UnsignedWide>(l) << 64;
+  const auto carry = static_cast<SignedWide>(low) >> 64;
   return {(a.value_ >> 64) * b.value() + carry, static_cast<std::uint64_t>(low)};
 }
 inline Int192 operator*(Int64 a, Int128 b) {

@@ -19,8 +19,8 @@ namespace corridor {
 PredicateResult trianglesTouch(const Triangle& a, const Transform& X_WA, const Triangle& b,
                                const Transform& X_WB);
 
-/// Returns the same answer without the filter in double. It decides where the filter cannot, and is
-/// an independent path for tests.
+/// Returns the same answer without the filter in double. `trianglesTouch` calls this function if
+/// the filter cannot decide; tests use it as an independent path.
 bool trianglesTouchExact(const Triangle& a, const Transform& X_WA, const Triangle& b,
                          const Transform& X_WB);
 

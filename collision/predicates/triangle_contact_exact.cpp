@@ -36,7 +36,8 @@ bool segmentsTouch(const Vector<Int>& p, const Vector<Int>& q, const Vector<Int>
                    const Vector<Int>& s) {
   const Vector<Int> d = q - p, e = s - r, f = r - p;
   const auto n = cross(d, e);
-  // Segments that are not parallel meet if and only if they are coplanar and their projections do.
+  // Segments that are not parallel meet if and only if they are coplanar and their projections
+  // meet.
   if (!n.isZero()) {
     if (sign(dot(n, f)) != 0) return false;
     const int drop = dropAxis(n);

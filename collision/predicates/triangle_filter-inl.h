@@ -1,4 +1,5 @@
-// A filter for sixteen pairs of triangles; foreach_target.h includes it once per SIMD target.
+// A filter for sixteen pairs of triangles; foreach_target.h includes this file once per SIMD
+// target.
 
 // clang-format off
 #if defined(CORRIDOR_TRIANGLE_FILTER_INL_H_) == defined(HWY_TARGET_TOGGLE)  // Highway's include guard
@@ -63,8 +64,8 @@ HWY_INLINE unsigned touchingTriangles(const TriangleCorners& a, const TriangleCo
     const Vec fb[3] = {f1, sub(p2, p1), f2};
     V le[3], lf[3];
     for (int i = 0; i < 3; ++i) {
-      le[i] = sum(ea[i]);
-      lf[i] = sum(fb[i]);
+      le[i] = norm1(ea[i]);
+      lf[i] = norm1(fb[i]);
     }
     // D < 2^30: products of three such numbers are far from overflow.
     const V D = pairs.size;

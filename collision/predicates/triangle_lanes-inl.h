@@ -1,4 +1,4 @@
-// Pairs of triangles, one per SIMD lane; foreach_target.h includes it once per SIMD target.
+// Pairs of triangles, one per SIMD lane; foreach_target.h includes this file once per SIMD target.
 
 // clang-format off
 #if defined(CORRIDOR_TRIANGLE_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)  // Highway's include guard
@@ -44,7 +44,7 @@ HWY_INLINE LaneVec cross(const LaneVec& p, const LaneVec& q) {
 HWY_INLINE LaneFloat dot(const LaneVec& p, const LaneVec& q) {
   return hn::MulAdd(p.z, q.z, hn::MulAdd(p.y, q.y, hn::Mul(p.x, q.x)));
 }
-HWY_INLINE LaneFloat sum(const LaneVec& p) {
+HWY_INLINE LaneFloat norm1(const LaneVec& p) {
   return hn::Add(hn::Add(hn::Abs(p.x), hn::Abs(p.y)), hn::Abs(p.z));
 }
 HWY_INLINE LaneFloat min3(LaneFloat x, LaneFloat y, LaneFloat z) {
@@ -109,12 +109,12 @@ struct TrianglePairs {
                o);
     s1 = sub(corner(a, ofA, 1), o);
     s2 = sub(corner(a, ofA, 2), o);
-    size = hn::Add(hn::Add(sum(o), sum(s1)), sum(s2));
+    size = hn::Add(hn::Add(norm1(o), norm1(s1)), norm1(s2));
     for (int k = 0; k < 3; ++k) {
       const LaneVec p = corner(b, ofB, k);
       t[k] = {hn::Add(p.x, away.x), hn::Add(p.y, away.y), hn::Add(p.z, away.z)};
-      if (k == 0) size = hn::Add(size, sum(p));
-      size = hn::Add(size, sum(t[k]));
+      if (k == 0) size = hn::Add(size, norm1(p));
+      size = hn::Add(size, norm1(t[k]));
     }
   }
 };

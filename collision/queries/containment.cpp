@@ -39,7 +39,7 @@ enum class Crossing { none, one, degenerate };
 Crossing crossing(const MappedPoint& q, const MappedPoint& end, const Triangle& t,
                   const Transform& X_WS) {
   if (t[0] == t[1] && t[1] == t[2])
-    return Crossing::none;  // a point, without which the surface is closed, too
+    return Crossing::none;  // a point: the surface is closed without it, too
   const MappedPoint v[3] = {{X_WS, t[0]}, {X_WS, t[1]}, {X_WS, t[2]}};
   int sum = 0, zeros = 0;
   for (int i = 0; i < 3; ++i) {
@@ -152,8 +152,8 @@ std::optional<PrimitivePair> findEnclosedPart(const Posed<MeshWithComponents>& a
   const std::vector<ConvexPart>& parts = inner.shape.parts();
   const Transform X_SP = rigidInverse(around.X_W) * inner.X_W;
   const double reach = inner.shape.radius();
-  // The centre of a box and the product with its half extents: as in `containing`, for points that
-  // are at most √3·reach from the origin.
+  // Rounding of a box's centre and of the product with its half extents: bounded as in
+  // `containing`, for points that are at most √3·reach from the origin.
   const double error = roundedUp(relativePoseError(around.X_W, X_SP, inner.X_W, 2 * reach) +
                                  32 * kUnit * (X_SP.m.norm() * reach + X_SP.t.norm()) +
                                  4 * kUnit * (solid.lower().norm() + solid.upper().norm()));

@@ -16,8 +16,8 @@ struct DistanceOptions {
   double absolute = 0;  ///< metres
 };
 
-/// The distance of two bodies, witness points that have this distance, and the triangles or convex
-/// parts that contain these points, by their numbers in the meshes or lists.
+/// The distance of two bodies, and witness points that have this distance. `a` and `b` are the
+/// triangles or convex parts that contain these points, by their numbers in the meshes or lists.
 struct Distance {
   double distance = 0;  ///< metres
   Vec3 p_WA = Vec3::Zero(), p_WB = Vec3::Zero();
@@ -29,9 +29,9 @@ struct Distance {
 ///
 /// The result is 0 if and only if `interference` reports contact; then both witness points are the
 /// same point, which the two leaf primitives share. Otherwise the error, beyond what the options
-/// allow, is at most 1e-12 of the distance + 4·2^-53·S, and the result is at least 2^-1022. S is
-/// the largest Σ|m||v| + |t| of the mapped corners, for convex parts with their radii. Curved
-/// surfaces are not tessellated.
+/// allow, is at most 1e-12·distance + 4·2^-53·S, and the result is at least 2^-1022. S is the
+/// largest Σ|m||v| + |t| of the mapped corners, for convex parts with their radii. Curved surfaces
+/// are not tessellated.
 ///
 /// Method: branch and bound by the volumes' lower bounds, nearest pairs first (Larsen et al. 1999).
 /// Distances of leaf primitives are bounded in double. Pairs that may be the closest are measured

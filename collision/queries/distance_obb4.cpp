@@ -89,8 +89,8 @@ class Nearest {
   }
 
   Distance result() {
-    // Measured first: because of the allowed error, the limit may be below the bound of the pair
-    // that set it, so that the loop below would skip this pair.
+    // The pair `closest_` is measured first: because of the allowed error, the limit may be below
+    // the bound of the pair that set it, so that the loop below would skip this pair.
     if (least_ < HUGE_VALF) look(closest_.a, closest_.b);
     std::erase_if(candidates_, [&](const auto& c) { return c.bound > limit_; });
     std::ranges::sort(candidates_, {}, [](const auto& c) { return std::tuple(c.bound, c.a, c.b); });

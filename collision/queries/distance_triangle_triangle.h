@@ -12,9 +12,9 @@ namespace corridor {
 struct ClosestPoints {
   Vec3 a = Vec3::Zero(), b = Vec3::Zero();
   double squaredDistance = 0;
-  /// The pair of features that the points belong to: 3·i + k for edge i of a and edge k of b (each
-  /// from the corner of that number to the next), 9 + k for b's corner k over a's face, 12 + i for
-  /// a's corner i over b's face.
+  /// The pair of features that the points belong to: 3·i + k for edge i of a and edge k of b (an
+  /// edge goes from the corner of the same number to the next corner), 9 + k for b's corner k over
+  /// a's face, 12 + i for a's corner i over b's face.
   int feature = 0;
 };
 ClosestPoints closestFeaturePoints(const Triangle& a, const Triangle& b);

@@ -24,8 +24,8 @@ namespace corridor {
 /// contact may be reported for gaps within the band of `convexSetsTouch`.
 /// @pre The maps are finite (`Scene` throws on others).
 /// @param last  if not null, the pair of the last query of these trees: it is tested first, and the
-/// pair found is stored there. It may change which touching pair is reported, and the counts, but
-/// never the verdict.
+/// pair found is stored there. Starting with it may change which touching pair is reported, and the
+/// counts, but never the verdict.
 /// @tparam Overlap  the overlap test of the boxes (overlap_obb_obb_variants.h), for example
 /// `interference<Gjk>(a, …)` on ObbTrees. It changes only the time.
 template <class Overlap = StandardOverlap, BoundingVolume Volume>

@@ -29,8 +29,8 @@ namespace corridor {
 /// multiply-add (all except SSE) give the same counts.
 ///
 /// @param last  if not null, the pair of the last query of these trees: it is tested first, and the
-/// pair found is stored there. It may change which touching pair is reported, and the counts, but
-/// never the verdict.
+/// pair found is stored there. Starting with it may change which touching pair is reported, and the
+/// counts, but never the verdict.
 std::optional<PrimitivePair> interference(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b,
                                           QueryContext& context, LastPair* last = nullptr,
                                           std::uint64_t workEnd = kNoWorkLimit);

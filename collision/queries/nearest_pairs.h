@@ -84,8 +84,8 @@ class NearestPairs {
   /// A part of the error 1e-12·d that distance.h allows. If the distances of two pairs differ by
   /// less than this part, one pair is not measured: for example, pairs of triangles around one
   /// corner. The part may be used twice, because the pair that ruled out another may be left
-  /// unmeasured itself. If it is measured, `convexDistance` uses 2^-41·d instead. In both cases the
-  /// sum is below 1e-12·d and leaves room for rounding.
+  /// unmeasured itself. If that pair is measured, `convexDistance` uses 2^-41·d instead of the
+  /// second part. In both cases the sum is below 1e-12·d and leaves room for rounding.
   static constexpr double kTieShare = 0.49e-12;
 
   const DistanceOptions& options_;

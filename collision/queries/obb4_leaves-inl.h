@@ -125,7 +125,7 @@ class Obb4Leaves {
   template <class Pad, class Near>
   bool forEachNearSixteen(NodeLeafPairs& pairs, Pad&& pad, Near&& near) {
     pairs.finish();
-    if (!leavesA_) {  // only now: most queries that the boxes decide never need it
+    if (!leavesA_) {  // built only now: queries that the boxes decide don't need it
       leavesA_.emplace(a_, Mat3::Identity() * pose_.unitA, Vec3::Zero());
       leavesB_.emplace(b_, pose_.m() * pose_.unitA, pose_.t());
     }

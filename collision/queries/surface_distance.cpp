@@ -29,10 +29,10 @@ auto onTrees(TreeKind trees, const Posed<Body>& a, const Posed<Body>& b, LastPai
 /// A reported distance is off by at most this share of itself plus `errorOf`. The share is twice
 /// the guaranteed 1e-12, to cover the roundings here.
 constexpr double kShare = 2e-12;
-/// Returns the absolute error of a reported distance, metres. It covers the guaranteed 4u·S, where
-/// S is the largest Σ|m||v| + |t|. If the maps are nearly rigid, S is at most √3(|v| + |t|) of one
-/// of the bodies. It also covers 3·2^-48 of a swept sphere's radius, because the sphere's map may
-/// differ from a rotation by rounding.
+/// Returns the absolute error of a reported distance, metres. It covers the guaranteed error of
+/// 4u·S, where S is the largest Σ|m||v| + |t|. If the maps are nearly rigid, S is at most √3(|v| +
+/// |t|) of one of the bodies. It also covers 3·2^-48 of a swept sphere's radius, because the
+/// sphere's map may differ from a rotation by rounding.
 double errorOf(const Posed<Body>& a, const Posed<Body>& b) {
   return roundedUp(0x1p-45 * (a.shape.radius() + a.X_W.t.cwiseAbs().sum() + b.shape.radius() +
                               b.X_W.t.cwiseAbs().sum()));

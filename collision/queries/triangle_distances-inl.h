@@ -132,8 +132,8 @@ HWY_INLINE void triangleDistances(const TriangleCorners& a, const TriangleCorner
     const LaneVec* const t = pairs.t;
     const auto [n, least] = closestLanes(pairs);
     const V D = pairs.size;
-    // Squares don't overflow. Their products in the parameters may: a NaN, which is clamped or not
-    // inside.
+    // Squares don't overflow. Products of squares in the parameters may: the result is a NaN, which
+    // is clamped, or counts as not inside.
     const auto known = hn::Lt(D, hn::Set(d, 0x1p50F));
     const V off = hn::Add(hn::Set(d, error), hn::Mul(hn::Set(d, 48 * 0x1p-24F), D));
     const V length = hn::Sqrt(least);

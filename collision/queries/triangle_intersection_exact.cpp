@@ -27,8 +27,9 @@ double roundedQuotient(Int numerator, Int denominator, int exponent) {
   numerator = abs(numerator);
   denominator = abs(denominator);
   // The quotient has 63 or 64 bits; 53 of them remain after rounding. If there is a remainder, the
-  // last bit is set as a sticky bit. It is below the bit that is half an ulp of the result, so it
-  // changes the rounding only where the quotient without its remainder would be a tie.
+  // last bit is set as a sticky bit. The sticky bit is below the bit that is half an ulp of the
+  // result, so it changes the rounding only where the quotient without its remainder would be a
+  // tie.
   const int shift = 63 - (static_cast<int>(msb(numerator)) - static_cast<int>(msb(denominator)));
   if (shift > 0)
     numerator <<= static_cast<unsigned>(shift);
@@ -41,8 +42,8 @@ double roundedQuotient(Int numerator, Int denominator, int exponent) {
   return negative ? -value : value;
 }
 
-/// The corners of the intersection of two triangles. They are found as the ends of the part of each
-/// edge that is inside the other triangle.
+/// The corners of the intersection of two triangles. For each edge, the part that is inside the
+/// other triangle is found; the ends of these parts are the corners.
 template <class Int>
 class Corners {
  public:

@@ -19,8 +19,8 @@ struct Moments {
 Moments vertexMoments(std::span<const Triangle> triangles);
 
 /// Returns the area-weighted moments of the triangles' surface. With areas A_i, centroids c_i,
-/// A = ΣA_i, and corners p, q, r, about a local origin:
-/// μ = ΣA_i c_i/A,  C = (1/12A) Σ A_i (9 c_i c_iᵀ + ppᵀ + qqᵀ + rrᵀ) − μμᵀ.
+/// A = ΣA_i, and corners p, q, r, about a local origin, the mean μ and the covariance C are
+///   μ = ΣA_i c_i/A,  C = (1/12A) Σ A_i (9 c_i c_iᵀ + ppᵀ + qqᵀ + rrᵀ) − μμᵀ.
 /// The weight is 0 if all areas are 0.
 Moments surfaceMoments(std::span<const Triangle> triangles);
 

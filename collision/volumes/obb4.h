@@ -15,17 +15,17 @@
 /// extents a + η·Σa. Box b is {T + R y} with T = Aᵀ(sM c_b + t − c_a), R = AᵀMU, in real
 /// arithmetic. The code computes, with these errors:
 ///   p̂ = s(M̂ c_b) + t̂ − c_a: a coordinate is off by 6.2u·s|c_b| + 3.1u|t_i| + 1.1u|c_a|. As a
-///       sphere's radius that is u·(33s + 3.1|t| + 6): absolute, computed once per query. The
-///       product Aᵀp̂ adds 5.4u·|T|₁ to T.
+///       sphere's radius this error is u·(33s + 3.1|t| + 6), computed once per query. The product
+///       Aᵀp̂ adds an error of 5.4u·|T|₁ to T.
 ///   V̂ = M̂U: 4.1u per entry; R̂ = AᵀV̂: ε_R = √3·4.1u + 3.1u < 10.3u per entry.
 ///   η_R = ‖R̂ᵀR̂ − I‖_max ≤ 3(2η + η_M) + 2√3·ε_R < 49u + 3.1η_M.
 /// All growth is moved to box a, as in overlap_obb_obb.h. An exactly axis-aligned box and an exact
 /// parallelepiped are then tested along e_i, R̂_j, and e_i × R̂_j, where R̂_j × R̂_k = ±R̂_l up to
 /// 3η_R. A projection and its radius take fewer than 12 roundings (fewer still if fused) of numbers
-/// below |T|₁ + Σa + Σb. `relative` is the factor of this sum. It must exceed the largest factor of
-/// any term, which is that of Σb: √3·ε_R + 3η_R + 13u < 178u + 9.3η_M. On cross axes, whose length
-/// is at most 1 + 2^-18, the whole radius of the sphere is added. Underflow, flush to zero
-/// included, loses less than 2^-118.
+/// below |T|₁ + Σa + Σb. `relative` is the factor of this sum. This factor must exceed the factor
+/// of every single term; the largest is that of Σb: √3·ε_R + 3η_R + 13u < 178u + 9.3η_M. On cross
+/// axes, whose length is at most 1 + 2^-18, the whole radius of the sphere is added. Underflow,
+/// flush to zero included, loses less than 2^-118.
 namespace corridor {
 
 /// Four oriented boxes {center + Σ_j axis_j·x_j : |x_j| ≤ half_j}, in real arithmetic on the floats
@@ -70,8 +70,8 @@ struct alignas(16) Obb4Pose {
 ///
 /// Derivation of the test. In the coordinates of a's box that are defined above, a point T + R y of
 /// box b moves by s·(V + W × R y) and a remainder, with V = Aᵀlinear and W = Aᵀangular, up to
-/// 3η|W||y| for A's defect. Along a unit vector n that is at most |n·V| + Σ_k b_k |R_k·(n × W)|,
-/// and
+/// 3η|W||y| for A's defect. Along a unit vector n the first-order motion is at most |n·V| + Σ_k b_k
+/// |R_k·(n × W)|, and
 ///   n = e_i:        R_k·(e_i × W) = R_(i+2)k W_(i+1) − R_(i+1)k W_(i+2), as written;
 ///   n = R_j:        R_k·(R_j × W) = ±W·R_l, l the third of j, k, l, up to 3η_R|W|;
 ///   n = e_i × R_j:  R_k·(n × W) = W_i (R_j·R_k) − R_ik (W·R_j), where R_j·R_k = δ_jk up to η_R.

@@ -12,7 +12,7 @@
 ///
 /// Derivation. Points x of b are at M x + t in frame A. Their projections on L are m·x + L·t with m
 /// = MᵀL. If m = Σ w_k d_k for slab directions d_k of b, then m·x ≤ Σ w_k·(high_k where w_k > 0,
-/// else low_k), and m·x ≥ the same sum over the other ends. The remainder m − Σ w_k d_k adds at
+/// else low_k), and m·x ≥ the same sum with the other ends. The remainder m − Σ w_k d_k adds at
 /// most its length times the largest |x| (`VolumeBounds::reach`). So any three weights give a
 /// proof. The cone of slab directions that contains m gives the weights of the best bound. The
 /// weights are the same for all nodes, so they are computed once per query. Then an axis takes
@@ -94,10 +94,11 @@ class PairTest<Kdop<K>> {
   static bool apart(double gap, double pad) { return gap > pad && gap < HUGE_VAL; }
 
   /// Returns axis L with the slack that every axis needs: the caller's error, and rounding. L is a
-  /// slab direction, or, with F = ‖M‖_F, |L|₁ ≤ 3F and F ≥ |L|/√3. So the weights of either body
-  /// sum up to at most 9(1 + F)². Slab ends are below 4·reach, since |n_i| ≤ √3 and a cylinder's
-  /// slabs are around the corners of its box. A gap takes ten sums and products. L·t takes 4u, and
-  /// so does the rounding of MᵀL, from which `SlabSum::error` was computed.
+  /// slab direction of a, or M times a slab direction of b; then |L|₁ ≤ 3F and F ≥ |L|/√3, with F =
+  /// ‖M‖_F. So the weights of either body sum up to at most 9(1 + F)². Slab ends are below 4·reach,
+  /// since |n_i| ≤ √3 and a cylinder's slabs are around the corners of its box. A gap takes ten
+  /// sums and products. L·t takes 4u, and so does the rounding of MᵀL, from which `SlabSum::error`
+  /// was computed.
   static Axis axis(const Vec3& L, const Transform& X_AB, const VolumeBounds& a,
                    const VolumeBounds& b, double error) {
     Axis made;

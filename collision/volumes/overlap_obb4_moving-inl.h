@@ -101,8 +101,8 @@ struct MovingBoxes {
 
 /// Thresholds, relative to the boxes' size, above which halving the interval helps more than
 /// descending to smaller boxes. `kTravelOfSize` is for the isotropic bound. For the remainder
-/// beyond first order the threshold is 1/`kRemainderOfSize`. They were found by measurement; no
-/// proof depends on them.
+/// beyond first order the threshold is 1/`kRemainderOfSize`. Both values were found by measurement;
+/// no proof depends on them.
 constexpr float kTravelOfSize = 1, kRemainderOfSize = 32;
 
 /// Tests the sixteen pairs over a time interval (obb4.h has the derivation). `keys` gets, for each

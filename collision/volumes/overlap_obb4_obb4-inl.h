@@ -149,9 +149,9 @@ HWY_INLINE unsigned bitsOf(const hn::CappedTag<float, 16> d, M mask, std::size_t
 /// for each pair: the smaller it is, the deeper the boxes overlap.
 ///
 /// Operations have a fixed order, and are fused on every target that supports it, so that these
-/// targets give the same bits. SSE does not: it may open a box more or less, but the query's answer
-/// is the same. Each axis alone is a proof. A maximum may drop the NaN of one axis, but a NaN never
-/// separates.
+/// targets give the same bits. SSE has no fused operations: there one box more or less may count as
+/// overlapping, but the query's answer is the same. Each axis alone is a proof. A maximum may drop
+/// the NaN of one axis, but a NaN never separates.
 HWY_INLINE unsigned overlappingBoxes(const Obb4& a, const Obb4& b, const Obb4Pose& pose,
                                      float* HWY_RESTRICT gaps) {
   const hn::CappedTag<float, 16> d;

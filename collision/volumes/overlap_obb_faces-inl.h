@@ -19,9 +19,9 @@ namespace corridor::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Returns true if a face normal of either box separates them by more than `beyond` (in a's unit)
-/// and the error that `pose.ball` covers. True is a proof by the derivation in obb4.h, which holds
-/// for these lanes, too. Lane j holds b's axis j, and lane 3 its centre.
+/// Returns true if a face normal of either box separates the boxes by more than `beyond` (in a's
+/// unit) plus the error that `pose.ball` covers. True is a proof by the derivation in obb4.h, which
+/// holds for these lanes, too. Lane j holds b's axis j, and lane 3 its centre.
 HWY_INLINE bool facesSeparate(const Obb1& a, const Obb1& b, const Obb4Pose& pose, float beyond) {
   const hn::CappedTag<float, 4> d;
   const auto set = [&](float x) { return hn::Set(d, x); };

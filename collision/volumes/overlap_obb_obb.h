@@ -51,8 +51,8 @@ inline BoxPairMargins boxPairMargins(double defectA, double reachA, double defec
   const double defectM = orthonormalityDefect(X_AB.m);
   const double defectR = 3 * (defectA + defectB + defectM) + 64 * kUnit;
   BoxPairMargins margins;
-  // In this order: the growth by η_A·Σa and by ε_R·Σb (as spheres: times √3 < 2), then 3η_R·Σb,
-  // then rounding.
+  // The terms are, in this order: the growth by η_A·Σa and by ε_R·Σb (as spheres: times √3 < 2),
+  // then 3η_R·Σb, then rounding.
   margins.relative = roundedUp(2 * defectA + 24 * kUnit + 4 * defectR + 16 * kUnit);
   margins.absolute = roundedUp(24 * kUnit * (reachA + reachB + X_AB.t.cwiseAbs().sum()));
   // If a matrix is far from a rotation, the omitted second-order terms are not small. Then no box

@@ -14,8 +14,8 @@ namespace corridor::internal {
 /// absolute margin plus `pad` plus `slack`; `slack` covers all growth and rounding. For any L the
 /// gap |L·T| − Σ a_i|L_i| − Σ b_j|L·R_j| uses no orthogonality. Growth by a sphere of radius ρ
 /// costs ρ|L|. Evaluating the gap takes 11 roundings of terms whose sum is below |L|(|T|₁ + Σa +
-/// Σb): `slack` has 16u of that. L is scaled to a largest entry of 1, so that kTiny covers
-/// underflow. The proof is for the scaled and rounded direction.
+/// Σb): `slack` includes 16u times that sum. L is scaled to a largest entry of 1, so that kTiny
+/// covers underflow. The proof is for the scaled and rounded direction.
 struct DirectedBoxes : BoxPair {
   const Vec3 &a, &b;
   double slack, margin;
@@ -31,9 +31,9 @@ struct DirectedBoxes : BoxPair {
   double size() const { return T.cwiseAbs().sum() + a.sum() + b.sum(); }
 
   /// @param L  its largest entry is ±1
-  /// @param along  Rᵀ L
-  bool apartAlong(const Vec3& L, const Vec3& along) const {
-    const double gap = std::abs(L.dot(T)) - L.cwiseAbs().dot(a) - along.cwiseAbs().dot(b);
+  /// @param L_B  Rᵀ L
+  bool apartAlong(const Vec3& L, const Vec3& L_B) const {
+    const double gap = std::abs(L.dot(T)) - L.cwiseAbs().dot(a) - L_B.cwiseAbs().dot(b);
     return gap > margin && gap > margin * (L.norm() * (1 + 4 * kUnit));  // |L| ≥ 1
   }
   bool apartAlong(const Vec3& direction) const {

@@ -7,8 +7,8 @@
 
 /// R. Seidel, Small-dimensional linear programming and convex hulls made easy, Discrete &
 /// Computational Geometry 6 (1991). Half-spaces are added one by one. If the best point so far is
-/// outside the new half-space, the next best point is on the plane of that half-space. It is found
-/// by the same algorithm with one variable less.
+/// outside the new half-space, the next best point is on the plane of that half-space. That point
+/// is found by the same algorithm with one variable less.
 ///
 /// Here the variables are bounded: |x_i| ≤ reach_i. These bounds are the six half-spaces of box a,
 /// and the first best point is a corner of box a.
@@ -150,7 +150,8 @@ bool LinearProgram::separated(const Obb& boxA, const Obb& boxB, const Transform&
     bounds.reach[i] = pair.a[static_cast<Eigen::Index>(i)] + grown;
     bounds.face[i] = static_cast<int>(i);
     // Seidel adds half-spaces in random order, which is worth while for large numbers of them. Here
-    // the half-spaces that face box a come first, because these may leave no point.
+    // the half-spaces that face box a come first, because these are the ones that may leave no
+    // point.
     const double half = pair.b[static_cast<Eigen::Index>(i)] + pair.slack, toA = along > 0 ? -1 : 1;
     for (const std::size_t far : {std::size_t{0}, std::size_t{3}}) {
       const double s = far ? -toA : toA;

@@ -9,8 +9,9 @@ namespace corridor {
 
 /// Returns a tight box around a convex part, rounded outward: it contains the part in real
 /// arithmetic. Capsules and cylinders get a box along their axis. Other parts get the smaller of
-/// two boxes. The first has its axes along the edges at the first corner; for a box it is exact,
-/// and no second one is tried. The second has its axes from the moments of the hull's surface.
+/// two boxes. The first has its axes along the edges at the first corner; if the part is a box,
+/// this box is exact, and the second one is not tried. The second has its axes from the moments of
+/// the hull's surface.
 Obb enclosingObb(const ConvexPart& part);
 
 /// Returns solid spheres whose hull contains the part: spheres of its radius about its points. A

@@ -29,11 +29,12 @@ struct alignas(64) Axes8 {
 
 /// Computes the axes of eight covariances as in Eberly, A Robust Eigensolver for 3x3 Symmetric
 /// Matrices, 2014. The first eigenvalue computed is the largest or the smallest: the one that is
-/// farther from the eigenvalue between them. Its eigenvector is the largest cross product of two
-/// rows. The other two eigenvectors are found in the plane orthogonal to it. The first eigenvalue
-/// is ±p·x, where x in [√3, 2] is the largest root of x³ − 3x = 2h. Newton's method finds x, since
-/// the cubic is steep there: the start has an error of 1e-3, and the two steps reduce it to 1e-6
-/// and 1e-12.
+/// farther from the middle eigenvalue. Its eigenvector is the largest cross product of two rows.
+/// The other two eigenvectors are found in the plane orthogonal to it. For the matrix divided by
+/// its trace, minus a third of the identity, the first eigenvalue is ±p·x. Here p² is a sixth of
+/// the sum of the squared entries, and x in [√3, 2] is the largest root of x³ − 3x =
+/// |determinant|/p³. Newton's method finds x, since the cubic is steep there: the start has an
+/// error of 1e-3, and the two steps reduce it to 1e-6 and 1e-12.
 HWY_INLINE void principalAxes8(const Covariances8& c, Axes8& out) {
   const hn::CappedTag<double, 8> d;
   using V = hn::Vec<decltype(d)>;

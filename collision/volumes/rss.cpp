@@ -16,8 +16,8 @@ struct Side {
   }
 };
 
-/// Returns how far a corner must move out along the diagonal so that a point that lies beyond it by
-/// (dx, dy) is within √square of the moved corner.
+/// A point lies beyond a corner of the rectangle by (dx, dy). Returns how far the corner must move
+/// out along the diagonal, so that the point is within √square of it.
 double push(double dx, double dy, double square) {
   const double apart = 0.5 * (dx - dy);
   return 0.5 * (dx + dy) - std::sqrt(std::max(0.0, 0.5 * square - apart * apart));

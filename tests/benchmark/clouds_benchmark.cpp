@@ -5,9 +5,9 @@
 /// An arm stands in a room of four wavy walls, each 2.4 m wide and 2 m high, some 0.7 m from its
 /// base. Each wall is a grid of points, 10^3 to N (default 10^6) in all. The mesh joins them by
 /// triangles. The cloud has a ball about each point, whose radius is 0.8 of the points' distance.
-/// The map has the cells of that size that contain a point. States and edges are random, the same
-/// for all. If FCL is installed, it tests the same states: the mesh by its OBBRSS trees, and the
-/// map by its octree.
+/// The map has the cubic cells that contain a point; their size is the points' distance. States and
+/// edges are random, the same for all. If FCL is installed, it tests the same states: the mesh by
+/// its OBBRSS trees, and the map by its octree.
 ///
 /// Prints CSV on stdout; the plot is written to FOLDER.
 #include <chrono>

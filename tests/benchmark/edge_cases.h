@@ -24,10 +24,10 @@ namespace corridor::bench {
 
 struct EdgeCase {
   const Scene* scene = nullptr;
-  double size = 1;  ///< what tolerances are relative to, metres
+  double size = 1;  ///< metres; tolerances are relative to this size
   bool contact = false;
   double firstContact = -1;  ///< t, if it is known
-  /// Constructs the motion. Its time counts as part of the edge's cost.
+  /// Constructs the motion. The time for this counts as part of the edge's cost.
   std::function<MotionSource&()> motion;
   /// Computes the poses of the scene's frames at t.
   std::function<void(double t, std::vector<Transform>& X_WF)> poses;

@@ -15,7 +15,7 @@
 /// Prints CSV on stdout, one line per set, method and knob: µs of processor time per edge, contacts
 /// missed, free edges called contact, undecided edges, free edges lost (called contact, or
 /// undecided), and the error of the time of first contact. With --out, also writes plots for each
-/// set, with those methods that tested all of its edges within a minute.
+/// set, of those methods that tested all of the set's edges within a minute.
 #include <algorithm>
 #include <chrono>
 #include <cstddef>

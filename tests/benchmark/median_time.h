@@ -9,7 +9,8 @@
 
 namespace corridor::bench {
 
-/// Returns the median time of a call in µs, over all items, each the least of three rounds.
+/// Times each item three times, takes its shortest time, and returns the median over all items, in
+/// µs.
 template <class Call>
 double medianMicroseconds(std::size_t count, const Call& call) {
   std::vector<double> least(count, HUGE_VAL);

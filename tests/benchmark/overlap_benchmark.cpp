@@ -7,7 +7,7 @@
 /// faster than linear programming.
 ///
 /// Pairs of boxes are those that real queries meet. Trees over the workloads of DIR/collision are
-/// traversed at all their poses. (DIR defaults to $CORRIDOR_DATA; without it, the workload is a
+/// traversed at all their poses. (DIR defaults to $CORRIDOR_DATA; without data, the workload is a
 /// sphere and a torus made here.) Up to 2,000 pairs that are separated and 2,000 that overlap are
 /// kept, sampled evenly, in the order in which the queries test them. Each test gets the pairs in
 /// the same form as in a query: boxes in their meshes' frames, and the relative pose. In every

@@ -10,9 +10,9 @@
 
 namespace corridor::bench {
 
-/// Returns poses of b, with a at the identity. b is rotated at random, and its distance from a is
-/// `gap` to 1 %. b approaches from outside along a random line through the origin of a's frame;
-/// each step is as long as the distance that is left.
+/// Returns poses of b; the pose of a is the identity. b is rotated at random, and its distance from
+/// a differs from `gap` by at most 1 %. b approaches from outside along a random line through the
+/// origin of a's frame; each step is as long as the distance that is left.
 inline std::vector<Transform> posesAtGap(const Obb4Tree& a, const Obb4Tree& b, double gap,
                                          int count, std::mt19937_64& random) {
   std::normal_distribution<double> normal;

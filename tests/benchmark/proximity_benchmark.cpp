@@ -10,8 +10,8 @@
 /// * N_v and N_p (means over the rotations) and the median time;
 /// * the slope of log N_v over log 1/gap, for all gaps, and for those at which fewer than one test
 ///   in 100 is of triangles (at smaller gaps the queries reach the leaves nearly everywhere);
-/// * the same measurements for such a pair at several placements, with the best of the trees that
-///   share one traversal.
+/// * the same measurements for such a pair at several placements, and which of the trees that share
+///   one traversal is the best.
 ///
 /// FOLDER gets the plots.
 #include <functional>
@@ -36,8 +36,8 @@ struct Cost {
   double boxTests = 0, triangleTests = 0, us = 0;
 };
 
-/// Measures the queries at all poses of b, with a at the identity. b is a scaled copy of a. Returns
-/// one cost per scale.
+/// Measures the queries at all poses of b; the pose of a is the identity. b is a scaled copy of a.
+/// Returns one cost per scale.
 using Ask = std::function<std::vector<Cost>(
     const TriangleMesh& a, const std::vector<double>& scales, const std::vector<Transform>&)>;
 

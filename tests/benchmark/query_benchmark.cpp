@@ -14,7 +14,8 @@
 /// overlap. The second has the other poses, where the overhead of a call counts. The third has the
 /// building of trees. Ratios are the time of the quickest FCL tree of the row over ours: above 1
 /// ours is quicker. *Wrong* counts verdicts that are not exact. For distance it counts results that
-/// are off by more than 1e-12·d + 4·2^-53·S, where S is the largest coordinate.
+/// are off by more than 1e-12·d + 4·2^-53·S, where S is the largest |v| of the vertices plus the
+/// largest coordinate of the translations.
 #include <algorithm>
 #include <cmath>
 #include <fstream>

@@ -183,8 +183,8 @@ TEST(Stress, CertifiedEdgesAgainstTheVerifier) {
     }
     std::cout << c.name << ": free " << count[0] << ", contact " << count[1] << ", undecided "
               << count[2] << "; verifier undecided " << silent << "\n";
-    EXPECT_GT(count[0], edges / 50) << c.name << ": hardly any free edge shows nothing";
-    EXPECT_GT(count[1], edges / 50) << c.name << ": hardly any contact shows nothing";
+    EXPECT_GT(count[0], edges / 50) << c.name << ": too few free edges for a meaningful test";
+    EXPECT_GT(count[1], edges / 50) << c.name << ": too few contacts for a meaningful test";
     EXPECT_LE(silent, edges / 100) << c.name << ": the oracle says nothing";
     undecided += count[2];
   }
@@ -286,7 +286,7 @@ TEST(Stress, BoxOverlapAgainstRationals) {
     const double defect[] = {orthonormalityDefect(a.axes), orthonormalityDefect(b.axes)};
     const BoxPairMargins margins = boxPairMargins(defect[0], roundedUp(a.center.norm()), defect[1],
                                                   roundedUp(b.center.norm()), X);
-    if (i % 4) {  // rounded rotations: 3·4·(3·17) + 400 unit roundoffs, as derived
+    if (i % 4) {  // rounded rotations: `boxPairMargins` gives 3·4·(3·17) + 400 unit roundoffs
       ASSERT_LT(margins.relative, 2048 * kUnit);
     }
     const bool separated = obbsSeparated(a, b, X, margins, 0);

@@ -11,8 +11,8 @@
 namespace corridor::test {
 namespace {
 
-/// Calls `found(s, t)` for each touching pair of triangles until it returns true. Skips pairs whose
-/// axis-aligned boxes in the world, widened by their rounding, do not overlap.
+/// Calls `found(s, t)` for each touching pair of triangles until `found` returns true. Skips pairs
+/// whose axis-aligned boxes in the world, widened by their rounding, do not overlap.
 template <class Found>
 void forEachTouching(const TriangleMesh& a, const Transform& X_WA, const TriangleMesh& b,
                      const Transform& X_WB, Found&& found) {

@@ -19,7 +19,7 @@ struct FloatingPointSetting {
   bool sseOnly = false;         ///< `rounding` applies only to vectors and doubles
   bool x87Only = false;         ///< `rounding` applies only to long double
   bool shortExtended = false;   ///< the x87 keeps 53 bits
-  bool bits24 = false;          ///< with `shortExtended`: it keeps 24 bits
+  bool bits24 = false;          ///< with `shortExtended`: the x87 keeps 24 bits
   bool standard() const { return rounding == FE_TONEAREST && !shortExtended; }
 };
 

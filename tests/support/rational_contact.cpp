@@ -21,7 +21,7 @@ using Integer = boost::multiprecision::number<
 /// A double or a product of two doubles: digits · 2^exponent.
 struct Term {
   Integer digits;
-  int exponent = std::numeric_limits<int>::max();  // that of 0
+  int exponent = std::numeric_limits<int>::max();  // the exponent of 0
 };
 Term term(double x, double y = 1) {
   if (x == 0 || y == 0) return {};
@@ -37,7 +37,7 @@ using Row = std::array<Integer, kColumns + 1>;  // the right side last
 
 /// Returns whether there is an x ≥ 0 with M x = r, for r ≥ 0. Phase one of the simplex method with
 /// Bland's rule, by integer pivoting (Edmonds). The tableau is T/D, and the entries of T are minors
-/// of [M | r], so all divisions are exact. Bland's rule guarantees that it ends.
+/// of [M | r], so all divisions are exact. Bland's rule guarantees that the algorithm ends.
 bool feasible(std::array<Row, kRows>& T) {
   Integer D = 1;
   std::array<std::size_t, kRows> basis;

@@ -5,9 +5,10 @@
 namespace corridor::test {
 
 /// The oracle: returns the distance of two triangles under their maps that don't touch, correct to
-/// a unit in the last place (two units for subnormals). It uses another method than the code under
-/// test, in fractions of integers. The squared distance is the least of those of each corner from
-/// the other triangle (by Voronoi regions) and of each edge from each edge of the other triangle.
+/// a unit in the last place (two units for subnormals). The method differs from that of the code
+/// under test, and computes in fractions of integers. It takes the least squared distance of all
+/// corners from the other triangle (by Voronoi regions), and of all edges from the edges of the
+/// other triangle.
 double referenceDistance(const Triangle& a, const Transform& X_WA, const Triangle& b,
                          const Transform& X_WB);
 

@@ -7,7 +7,7 @@
 
 /// Pairs of triangles for which contact is hard to decide. They are made on a grid of integers,
 /// where touching triangles touch exactly. Then they are placed; some placings keep every contact
-/// exactly, others round coordinates and may lose it.
+/// exactly, others round coordinates and may lose contacts.
 namespace corridor::test {
 
 struct PlacedPair {

@@ -11,7 +11,8 @@ namespace corridor::test {
 /// Reads a plain `v`/`f` OBJ file of the shared data, without the mesh readers under test.
 TriangleMesh plainObj(const std::filesystem::path& file);
 
-/// One workload of the shared collision data: two meshes, and poses of B with A at the identity.
+/// One workload of the shared collision data: two meshes, and poses of B; the pose of A is the
+/// identity.
 struct Workload {
   std::string name;
   TriangleMesh a, b;

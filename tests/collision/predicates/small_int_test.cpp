@@ -56,7 +56,7 @@ TEST(SmallInt, OrientationsAgreeWithBoost) {
     if (low < 0) low += two64;
     const Reference high = (-determinant - low) / two64;
     const auto half = [&](const Reference& y) { return static_cast<std::int64_t>(y); };
-    const SignedPair top = static_cast<SignedPair>(half(high / (Reference(1) << 62))) << 62;
+    const SignedWide top = static_cast<SignedWide>(half(high / (Reference(1) << 62))) << 62;
     const Int192 negative(top + half(high % (Reference(1) << 62)), static_cast<std::uint64_t>(low));
     ASSERT_TRUE((sum + negative).is_zero()) << determinant;
   }

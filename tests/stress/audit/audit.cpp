@@ -12,7 +12,8 @@
 namespace corridor::audit {
 namespace {
 
-/// The kinds of trees among which a case's are chosen: every kind, the default five times.
+/// The kinds of trees, of which each case gets one at random: the default kind five times, every
+/// other kind once.
 constexpr TreeKind kTrees[] = {TreeKind::obb4,
                                TreeKind::obb4,
                                TreeKind::obb4,
@@ -29,8 +30,9 @@ constexpr int kGaps = 6;
 
 /// Chooses method, trees, tolerance and work limit of a case. Returns the gap of the case in
 /// metres, with the given sign. If bodies pass along each other, the work grows as 1/√tolerance.
-/// For the methods that use distances it grows faster, so these get larger tolerances. In some
-/// cases gap and tolerance are so small that only rounding decides between free and contact.
+/// For the methods that use distances the work grows faster, so these methods get larger
+/// tolerances. In some cases gap and tolerance are so small that only rounding decides between free
+/// and contact.
 double chooseProof(Dice& dice, const Graze& graze, double sign, bool fine, Question& question) {
   MotionOptions& o = question.options;
   const double size = graze.size();

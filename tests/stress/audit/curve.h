@@ -29,7 +29,7 @@ using Perturbation = std::vector<Quad>;
 template <class S>
 class Curve {
  public:
-  /// @param stray  empty: none.
+  /// @param stray the perturbation of the curve; empty: none.
   Curve(const Edge& edge, std::size_t watcher, std::size_t watched, const Perturbation& stray = {});
   /// Copies a curve into another number type, of fewer digits.
   template <class Other>

@@ -17,15 +17,16 @@ struct Truth {
 
 /// Two bodies that just meet, by construction.
 ///
-/// At a time t one body, the tip, touches a plane with a feature, and lies above the plane. At t
-/// the tip moves along the plane, or leaves the plane at the start, or reaches it at the end. The
-/// other body, the rest, lies below the plane, at a known distance; `rest(gap)` returns this body.
-/// From this the true verdict follows.
+/// At a time t one body, the tip, touches a plane with one feature (a corner, an edge or a face),
+/// and lies above the plane. At t the tip moves along the plane, or leaves the plane at the start,
+/// or reaches it at the end. The other body, the rest, lies below the plane, at a known distance;
+/// `rest(gap)` returns this body. From this the true verdict follows.
 ///
 /// The plane is fixed in the frame of the rest, which is one of the edge's two frames. The height
 /// of the tip above the plane is bounded from below over the whole edge, by intervals: between two
-/// times that differ by w, the height is at least the smaller of its two values minus bend·w²/8.
-/// This is computed in long double far from the plane, in 128 bits close to it.
+/// times that differ by w, the height is at least the smaller of its two values minus bend·w²/8,
+/// where `bend` bounds the height's second derivative. This is computed in long double far from the
+/// plane, in 128 bits close to it.
 class Graze {
  public:
   enum class Meeting { along, start, end, slide };
@@ -33,7 +34,7 @@ class Graze {
   struct Wish {
     double size = 1;      ///< m, size of the bodies
     double keep = 0;      ///< m, distance of the bodies at gap 0
-    bool inTube = false;  ///< a curve in the edge's tube meets, not the edge itself
+    bool inTube = false;  ///< the bodies meet on a curve in the edge's tube, not on the edge
   };
   Graze(Dice& dice, const Edge& edge, const Wish& wish);
 
@@ -50,11 +51,11 @@ class Graze {
   /// Returns a lower bound of the bodies' distance at t, along the better of two directions.
   double apartAt(const Shape& rest, double t) const;
 
-  /// Returns the rounding of poses that Corridor may have, metres: 2^-43 of all lengths for each
-  /// joint and two more, plus 2^-48 of them for each radian (metre) of the largest joint value
+  /// Returns the rounding of poses that Corridor may have, metres: L·((n + 2)·2^-43 + v·2^-48) for
+  /// n joints, where L is the sum of all lengths, and v is the largest joint value in rad or m
   /// (../README.md).
   double rounding() const { return rounding_; }
-  /// Returns the rounding of one operation, metres: 2^-53 of all lengths.
+  /// Returns the rounding of one operation, metres: 2^-53·L.
   double ulp() const { return ulp_; }
   /// Returns whether the tip moves along the plane at t. Otherwise the tip moves towards the plane
   /// or away from it, or stands still.

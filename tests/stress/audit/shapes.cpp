@@ -9,8 +9,8 @@ namespace {
 const Quad kInside = 1 - Quad(0x1p-90);
 
 /// Adds triangles above the feature, so that trees have several levels.
-void addCompany(Dice& dice, Plan& plan, const Vec<Quad>& q, const Vec<Quad>& up,
-                const Vec<Quad>& along, double size) {
+void addTrianglesAbove(Dice& dice, Plan& plan, const Vec<Quad>& q, const Vec<Quad>& up,
+                       const Vec<Quad>& along, double size) {
   const Vec<Quad> across = cross(up, along);
   for (int i = 0; i < 24; ++i) {
     const Vec<Quad> c =
@@ -63,7 +63,7 @@ Plan randomPlan(Dice& dice, Feature feature, const Vec<Quad>& q, const Vec<Quad>
     }
     if (kind == triangles) {
       plan.triangles = {{0, 1, 2}};
-      if (dice.oneIn(2)) addCompany(dice, plan, q, up, along, size);
+      if (dice.oneIn(2)) addTrianglesAbove(dice, plan, q, up, along, size);
     } else {
       for (std::size_t n = 1 + dice.index(5); n-- > 0;)
         plan.points.push_back(at(aside(), aside(), height()));

@@ -79,7 +79,8 @@ struct Shape {
 };
 
 /// Moves `plan` by `shift`, maps it to the body's frame by X, and rounds it to doubles.
-/// @param up  the plan's. @param[out] error  an upper bound of the rounding of any point, metres.
+/// @param up the unit vector `up` of the plan. @param[out] error an upper bound of the rounding of
+/// any point, metres.
 Shape stored(const Plan& plan, const Pose<Quad>& X, const Vec<Quad>& shift, const Vec<Quad>& up,
              double* error = nullptr);
 

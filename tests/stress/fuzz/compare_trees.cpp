@@ -59,7 +59,7 @@ std::optional<Body> decodeBody(Decoder& in) {
 }
 
 /// Returns the largest Σ|m||v| + |t| of all corners v, radii included: the scale of rounding.
-double reachOf(const Body& body, const Transform& X) {
+double roundingScaleOf(const Body& body, const Transform& X) {
   double most = 0;
   const auto add = [&](const Vec3& v, double radius) {
     const double reach =
@@ -85,11 +85,11 @@ std::string number(double value) {
 }
 
 void compare(const Case& c, double asked) {
-  const double S = std::max(reachOf(c.a, c.X_WA), reachOf(c.b, c.X_WB));
+  const double S = std::max(roundingScaleOf(c.a, c.X_WA), roundingScaleOf(c.b, c.X_WB));
   if (!std::isfinite(S)) return;
   const bool meshes = c.a.isMesh() && c.b.isMesh();
-  // With primitives, contact is exact only outside a band of 2^-44 of the largest coordinate. The
-  // comparison allows 2^-42.
+  // With primitives, contact is exact only outside a band of 2^-44 times the largest coordinate.
+  // The comparison allows 2^-42.
   const double band = meshes ? 0 : 0x1p-42 * S;
   const auto error = [&](double d) { return 1e-12 * d + 4 * 0x1p-53 * S + band + 0x1p-998; };
 

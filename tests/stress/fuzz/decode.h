@@ -18,8 +18,8 @@
 
 namespace corridor::fuzz {
 
-/// Makes small scenes from the bytes of an input. Any bytes make a scene; after the last byte it
-/// reads zeros.
+/// Makes small scenes from the bytes of an input. Any bytes make a scene; after the last byte, the
+/// decoder reads zeros.
 ///
 /// Most numbers are from coarse grids, or repeat an earlier number, or differ from an earlier
 /// number in a few last digits. So coplanar, touching and grazing features are as likely as others.
