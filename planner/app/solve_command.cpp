@@ -99,7 +99,8 @@ const char* nameOf(SolveOutcome outcome) {
   return "";
 }
 
-/// Returns whether the standard output has the solution or the picture, and so no report.
+/// Returns whether the solution or the picture is written to the standard output. Then no report is
+/// printed there.
 bool printsFile(const SolveArguments& a) {
   return a.output == "-" || a.picture == "-";
 }

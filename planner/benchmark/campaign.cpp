@@ -14,7 +14,7 @@ namespace {
 
 /// Seconds for setting up one run while checking it: goals are sampled and trees are built.
 constexpr double kCheckPatience = 120;
-/// All results are kept in memory, some kilobytes per run.
+/// Limits the memory for the results: some kilobytes per run.
 constexpr std::uint64_t kMostRuns = 1'000'000;
 constexpr std::uint64_t kLastSeed = 0xffffffff;  // OMPL's seeds have 32 bits
 

@@ -35,8 +35,8 @@ struct VariantScore {
   };
   std::optional<Cost> cost;
   /// Medians over the solved runs; NaN if there are none. `checkingShare`: the share of the time
-  /// that was spent in checking. `lengthShare`: the path's length after simplifying over that
-  /// before.
+  /// that was spent in checking. `lengthShare`: the path's length after simplifying, divided by its
+  /// length before.
   double checkingShare = 0, lengthShare = 0;
 
   std::size_t judged() const { return proved + refuted + undecided; }

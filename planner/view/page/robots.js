@@ -1,7 +1,7 @@
 'use strict';
 
 const origin = new THREE.Vector3(...data.origin);
-const kGhostTriangles = 1.5e6;  // for all poses along the path together
+const kGhostTriangles = 1.5e6;  // at most, for all poses along the path together
 const kPose = 7;                // numbers per pose of a frame
 
 /** Reads the pose (x y z and a quaternion) at index `first` of an array; with u > 0 interpolates to the pose at `next`. */
