@@ -69,7 +69,7 @@ RobotFiles readFiles(const NewRobotArguments& a) {
   return read;
 }
 
-/// Returns the model in which every joint moves that can.
+/// Returns the model in which every joint that can move is planned for.
 Model modelOf(RobotModel description, const std::string& urdf) {
   ModelRobot robot;
   robot.model = std::move(description);

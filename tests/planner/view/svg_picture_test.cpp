@@ -25,8 +25,8 @@ class SvgPicture : public test::ArmTest {
   }
 };
 
-/// The arm's last frame is a finger, whose joint is held: it moves with the arm, and is the tip. If
-/// the file's last frame is a camera on the base, the finger is still the tip.
+/// The arm's last frame is `thumb`. Its joint mimics a held one, so it moves with the arm, and is
+/// the tip. If the file's last frame is a camera on the base, `thumb` is still the tip.
 TEST_F(SvgPicture, TheTipIsTheFrameWithMostMovingJointsBefore) {
   const Problem held = read(armHead + armStates);
   ASSERT_THAT(view::tipFrames(held.model), testing::SizeIs(1));
