@@ -26,8 +26,8 @@ using nlohmann::ordered_json;
 constexpr int kPasses = 5;
 
 /// One line of the table: the cost of queries with one bounding volume. Poses at which the root
-/// boxes are separate are left out. N_v and N_p are means over the other poses. T is the mean over
-/// one half of these; it is predicted with the costs that were fitted to the other half.
+/// boxes are separate are left out. N_v and N_p are means over the other poses. T is the mean time
+/// over one half of these poses; it is predicted with the costs that were fitted to the other half.
 struct CostRow {
   std::string volume;
   double boxTests = 0, triangleTests = 0;  ///< N_v, N_p
@@ -42,9 +42,9 @@ struct CostRow {
 /// Computes the line of one volume.
 ///
 /// The costs C_v and C_p are fitted to whole queries. So they include a test's share of walking the
-/// tree, and trees that test sixteen node pairs at once are measured like the others. A prediction
-/// must not be fitted to the times that it predicts: the costs are fitted to one half of the poses,
-/// and the other half is predicted.
+/// tree, and trees that test sixteen node pairs at once are measured in the same way as other
+/// trees. A prediction must not be fitted to the times that it predicts: the costs are fitted to
+/// one half of the poses, and the other half is predicted.
 ///
 /// A query also has a fixed cost, which the model does not contain. The fixed cost is measured with
 /// B far away, subtracted before the fit, and reported as `callNs`.

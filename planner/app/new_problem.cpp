@@ -118,7 +118,7 @@ bool holdsAgree(const ModelRobot& robot, const NamedState& state) {
   });
 }
 
-/// Finds valid states of a robot alone.
+/// Finds valid states of a robot without obstacles.
 class StateFinder {
  public:
   StateFinder(const Checker& checker, std::uint64_t seed)

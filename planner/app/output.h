@@ -43,7 +43,8 @@ void printFaults(const InputError& error);
 void warn(const std::string& text);
 
 /// Reads the problem of a command. If the problem tests no pair of bodies, prints a warning before
-/// any other output; the problem's `notes` say so, too. @throws InputError as readProblem.
+/// any other output; the problem's `notes` contain the same warning. @throws InputError as
+/// readProblem.
 Problem readProblemOf(const std::string& file);
 
 struct Verified {

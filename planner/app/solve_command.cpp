@@ -48,7 +48,7 @@ std::map<std::string, std::string> applyArguments(const SolveArguments& a, Probl
   std::map<std::string, std::string> set;
   if (a.planner && *a.planner != problem.settings.planner.name) {
     problem.settings.planner.name = *a.planner;
-    problem.settings.planner.params.clear();  // they are those of the problem's planner
+    problem.settings.planner.params.clear();  // they belong to the problem's planner
     set["planner.name"] = "--planner";
   }
   if (a.sampler) {

@@ -120,7 +120,7 @@ Problem plannedProblem(const Campaign& campaign, const CampaignCell& cell, std::
   if (cell.planner.params)
     problem.settings.planner.params = *cell.planner.params;
   else if (cell.planner.name != problem.settings.planner.name)
-    problem.settings.planner.params.clear();  // they are those of the problem's own planner
+    problem.settings.planner.params.clear();  // they belong to the problem's own planner
   problem.settings.planner.name = cell.planner.name;
   problem.settings.planner.time = campaign.time.value_or(problem.settings.planner.time);
   problem.settings.simplify = campaign.simplify.value_or(problem.settings.simplify);

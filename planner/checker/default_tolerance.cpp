@@ -27,7 +27,8 @@
 ///
 /// With E = u·S·(300 + 2·Σ w_j), a clearance of 2τ is proved in a time interval whose motion bound
 /// is below τ. The direction between the closest points may be off, which loses at most a quarter
-/// of the gap. So 0.75·2τ > τ + 2E is needed: τ = 4E.
+/// of the gap. So 0.75·2τ > τ + 2E is needed, that is, τ > 4E. The 300 in E is more than is needed,
+/// so τ = 4E is enough.
 namespace corridor {
 namespace {
 
