@@ -178,7 +178,10 @@ class Motion {
     this.now.frames.forEach((frame, i) => { frame.visible = isStill[i]; });
   }
 
-  /** Returns points that the robots reach: the corners of their bodies' bounds, at the start and along the path; without a path, at start and goals. */
+  /**
+   * Returns points that the robots reach: the corners of their bodies' bounds, at the start and along the path. Without a path: at
+   * start and goals.
+   */
   points() {
     const points = [], position = new THREE.Vector3(), quaternion = new THREE.Quaternion(), one = new THREE.Vector3(1, 1, 1);
     const matrix = new THREE.Matrix4();
