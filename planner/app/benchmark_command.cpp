@@ -35,8 +35,8 @@ namespace {
 
 struct BenchmarkArguments {
   std::vector<std::string> files;  ///< a campaign, or problems
-  /// Only with problems, not with a campaign. Each string is a comma-separated list; empty: the
-  /// defaults.
+  /// The options --variants and --planners, which are illegal with a campaign. Each string is a
+  /// comma-separated list; empty: the defaults.
   std::vector<std::string> variants, planners;
   std::optional<std::uint64_t> runs, seed;
   std::optional<double> time;    ///< limit of a run, seconds
@@ -112,7 +112,8 @@ Campaign campaignOfProblems(const BenchmarkArguments& a) {
   return campaign;
 }
 
-/// Reads a campaign's file, or makes a campaign of problems. Options override its values.
+/// Reads a campaign's file, or makes a campaign of problems. The command's options override values
+/// of the campaign.
 Campaign campaignOf(const BenchmarkArguments& a) {
   const auto file = std::find_if(a.files.begin(), a.files.end(),
                                  [](const std::string& name) { return isCampaignFile(name); });

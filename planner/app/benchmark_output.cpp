@@ -47,7 +47,8 @@ std::string clockText(double seconds) {
 }
 
 /// Returns a note if a competitor plans a problem with a margin, else "". Competitors test for
-/// contact only, so the verifier may refute their paths for the margin alone.
+/// contact only, so the verifier may refute paths of theirs that touch nothing, because these paths
+/// violate the margin.
 std::string marginNote(const Campaign& campaign) {
   const bool margin = std::any_of(campaign.problems.begin(), campaign.problems.end(),
                                   [](const Problem& p) { return p.task.margin > 0; });

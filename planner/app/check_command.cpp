@@ -41,8 +41,8 @@ struct CheckedState {
   std::optional<std::string> tooLarge;
 };
 
-/// Returns the name of the largest angle beyond 2π, or "" if there is none. Then the large values
-/// are coordinates in metres.
+/// Returns the name of the largest angle beyond 2π, or "" if no angle is that large. If it returns
+/// "", the large values are coordinates in metres.
 std::string largestAngle(const ConfigurationSpace& space, const Configuration& q) {
   const Coordinate* largest = nullptr;
   const auto size = [&](const Coordinate& c) {
@@ -106,11 +106,11 @@ int checkStates(const Problem& problem, const CheckArguments& a) {
     if (state.tooLarge)
       why += ";too_large" + (state.tooLarge->empty() ? "" : ":" + *state.tooLarge);
     std::cout << i << ',' << state.valid << ',' << csvField(why) << '\n';
-    if (!std::cout) requireResultsWritten();  // ends the command: no more is written
+    if (!std::cout) requireResultsWritten();  // throws: nothing can be written any more
   }
   if (noted)
     warn(*a.states + ": in " + counted(noted, "state") +
-         ", values beyond a limit by no more than rounding were set to the limit");
+         ", values that exceeded a limit only by rounding were set to the limit");
   if (a.json)
     std::cout << ordered_json{{"format", "corridor-check-report-2"},
                               {"problem", a.problem},

@@ -150,7 +150,8 @@ bool isRobotFile(const std::string& file) {
 
 /// Returns the robot of a folder: its robot.yaml, or else its only URDF. Returns "" for a folder
 /// that contains a problem, and for anything that is not a folder.
-/// @throws InputError if a folder contains no problem, no robot.yaml and not exactly one URDF.
+/// @throws InputError if a folder contains neither a problem nor a robot.yaml, and has no URDF or
+/// several.
 std::string robotInFolder(const std::filesystem::path& folder) {
   std::error_code none;
   if (!std::filesystem::is_directory(folder, none) ||

@@ -25,9 +25,9 @@ using nlohmann::ordered_json;
 /// The time of a pose is the median of this many passes.
 constexpr int kPasses = 5;
 
-/// One line of the table: the cost of queries with one bounding volume. N_v and N_p are means over
-/// the poses that count. T is the mean over one half of these poses; it is predicted with the costs
-/// that were fitted to the other half.
+/// One line of the table: the cost of queries with one bounding volume. Poses at which the root
+/// boxes are separate are left out. N_v and N_p are means over the other poses. T is the mean time
+/// over one half of these poses; it is predicted with the costs that were fitted to the other half.
 struct CostRow {
   std::string volume;
   double boxTests = 0, triangleTests = 0;  ///< N_v, N_p
@@ -42,14 +42,14 @@ struct CostRow {
 /// Computes the line of one volume.
 ///
 /// The costs C_v and C_p are fitted to whole queries. So they include a test's share of walking the
-/// tree, and trees that test sixteen node pairs at once are measured like the others. A prediction
-/// must not be fitted to the times that it predicts: the costs are fitted to one half of the poses,
-/// and the other half is predicted.
+/// tree, and trees that test sixteen node pairs at once are measured in the same way as other
+/// trees. A prediction must not be fitted to the times that it predicts: the costs are fitted to
+/// one half of the poses, and the other half is predicted.
 ///
-/// The model does not contain the cost of a query besides its tests. This cost is measured with B
-/// far away, subtracted before the fit, and reported as `callNs`.
-/// @param count the number of poses; the later answers are those with B far away.
-/// @param kept the poses that count.
+/// A query also has a fixed cost, which the model does not contain. The fixed cost is measured with
+/// B far away, subtracted before the fit, and reported as `callNs`.
+/// @param count the number of poses; the answers after the first `count` are those with B far away.
+/// @param kept the indices of the poses that are not left out.
 CostRow costRow(const VolumeKind& volume, const BatchResult& result, std::size_t count,
                 const std::vector<std::size_t>& kept) {
   CostRow row;
@@ -143,8 +143,8 @@ int inspectCost(const InspectArguments& a) {
   for (const VolumeKind& volume : volumeKinds())
     results.push_back(runPoses({meshA.mesh, meshB.mesh, asked, Asked::interference,
                                 treesNamed({volume.name, "", ""}), 0, kPasses}));
-  // If the first test decides a query, its time is the cost of a call, not of a test. So its pose
-  // does not count. All volumes are compared at the same poses: those at which the root boxes of
+  // If the first test decides a query, the query's time is the cost of a call, not of tests. So its
+  // pose is left out. All volumes are compared at the same poses: those at which the root boxes of
   // the binary OBB trees overlap.
   std::size_t reference = 0;
   while (volumeKinds()[reference].name != "obb-binary") ++reference;

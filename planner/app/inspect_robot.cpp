@@ -60,8 +60,8 @@ double radiusOf(const LinkModel& link) {
 }
 
 /// Returns the largest distance that a joint translates its child link, metres; infinite without
-/// limits. For a joint that mimics another, the other joint's range decides: its own limits need
-/// not restrict it.
+/// limits. For a joint that mimics another, the distance follows from the range of that other
+/// joint, since a mimic's own limits need not restrict it.
 double slideOf(const RobotModel& model, const JointModel& joint) {
   if (joint.type == JointType::planar || joint.type == JointType::floating)
     return std::numeric_limits<double>::infinity();
@@ -74,9 +74,9 @@ double slideOf(const RobotModel& model, const JointModel& joint) {
   return farther(multiplier * other.lower + offset, multiplier * other.upper + offset);
 }
 
-/// Returns, for each link, an upper bound of the distance of its points from the root's origin:
-/// the chain stretched out, prismatic joints at their farther limits. Infinite behind a planar or
-/// floating joint, or a prismatic joint without limits.
+/// Returns, for each link, an upper bound of the distance of its points from the root's origin: the
+/// distance with the chain stretched out and all prismatic joints at their farther limits. Infinite
+/// behind a planar or floating joint, or a prismatic joint without limits.
 std::vector<double> reachOfLinks(const RobotModel& model) {
   std::vector<double> origin(model.links.size(), 0), reach;
   for (const JointModel& joint : model.joints)  // parents before children
@@ -125,7 +125,8 @@ ordered_json shapeJson(const PlacedShape& shape) {
   return j;
 }
 
-/// Reports a group or state that can't be used. @returns whether it is one.
+/// Reports a group or state if it can't be used. @param why the reason; "": it can be used.
+/// @returns whether it was reported.
 bool reportUnusable(const char* kind, const std::string& name, const std::string& why,
                     const Lines& out, ordered_json& json) {
   if (why.empty()) return false;

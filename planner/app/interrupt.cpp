@@ -38,7 +38,7 @@ const std::atomic<bool>& listenForInterrupts(SecondInterrupt second) {
   secondEnds = second == SecondInterrupt::ends;
   struct sigaction action {};
   action.sa_handler = onInterrupt;
-  action.sa_flags = SA_RESTART;  // reading a pipe, such as that of a plot, goes on
+  action.sa_flags = SA_RESTART;  // a signal doesn't end the reading of a pipe, such as gnuplot's
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
   struct sigaction hangUp {};

@@ -36,7 +36,8 @@ void writeNewFile(const NewFileArguments& file, const std::string& text) {
 }
 
 std::string pathFrom(const NewFileArguments& file, const fs::path& path) {
-  // The output replaces a link, and not the file that the link names: only the folder is resolved.
+  // If the output is a symbolic link, the new file replaces the link, not the file that the link
+  // names. So only the folder is resolved.
   const fs::path folder = file.toStdout()
                               ? fs::current_path()
                               : fs::weakly_canonical(fs::absolute(*file.output).parent_path());

@@ -23,7 +23,7 @@ struct NewRobotArguments {
   std::vector<std::string> packages;  ///< NAME=FOLDER
   std::optional<std::string> visuals, limits, colladaUp;
   double margin = 0.01;        ///< metres that a pair must keep to count as never in contact
-  double beyondLimits = 0.01;  ///< rad or m
+  double beyondLimits = 0.01;  ///< how far beyond a joint limit a proof also holds, rad or m
   std::uint64_t work = 20000;  ///< boxes of joint values tested per pair
   std::uint64_t samples = 1000;
   std::uint64_t seed = 1;
@@ -46,8 +46,8 @@ void requireNewFile(const NewFileArguments& file);
 /// Writes the text to the file, whole or not at all, or to the standard output.
 void writeNewFile(const NewFileArguments& file, const std::string& text);
 
-/// Returns a path as the new file has to name it: relative to the new file's folder. With the
-/// standard output, relative to the current folder.
+/// Returns a path as the new file has to name it: relative to the new file's folder. If the new
+/// file is written to the standard output, the path is relative to the current folder.
 std::string pathFrom(const NewFileArguments& file, const std::filesystem::path& path);
 
 /// Returns a YAML scalar that the reader takes as this text: plain if possible, else in quotes.

@@ -29,8 +29,8 @@ struct FoundState {
   std::string origin;  ///< for a comment
 };
 
-/// The model of a problem that has the robot only. Its bodies that move as a whole may be anywhere
-/// in a cube of a few times the robot's size.
+/// The model of a problem without obstacles. The positions of a rigid robot, and of planar and
+/// floating joints, are bounded by a cube of a few times the robot's size.
 struct Alone {
   Model model;
   double size = 1;  ///< metres
@@ -94,7 +94,8 @@ std::string stateText(const Model& model, const Configuration& q) {
 }
 
 /// Returns the configuration of a named state, or nullopt if it does not name all joints that are
-/// planned for, or only in a form that is rarely used: a planar or floating joint.
+/// planned for. Also returns nullopt if one of them is planar or floating: named states rarely have
+/// these.
 std::optional<Configuration> configurationOf(const Model& model, const NamedState& state) {
   Configuration q = Configuration::Zero(static_cast<Eigen::Index>(model.space.size()));
   for (const PlannedJoint& planned : model.robots.front().plannedJoints) {
@@ -117,7 +118,7 @@ bool holdsAgree(const ModelRobot& robot, const NamedState& state) {
   });
 }
 
-/// Finds valid states of a robot alone.
+/// Finds valid states of a robot without obstacles.
 class StateFinder {
  public:
   StateFinder(const Checker& checker, std::uint64_t seed)
@@ -133,7 +134,7 @@ class StateFinder {
   }
 
  private:
-  /// Returns whether the state is valid, and none of those found.
+  /// Returns whether the state is valid, and differs from all states found so far.
   bool isNew(const Configuration& q) const {
     return std::none_of(found_.begin(), found_.end(),
                         [&](const FoundState& f) { return model_.space.equal(f.q, q); }) &&
@@ -169,8 +170,9 @@ class StateFinder {
     if (found_.size() < 2) add(middle, "every joint in the middle of its limits");
   }
 
-  /// A random state is the goal only if the straight edge from the start is proved free, so that a
-  /// path exists. The first other valid state is kept, in case there is none.
+  /// A random state becomes the goal only if the edge from the start to it is proved free: then a
+  /// path exists. The first valid state without such an edge is kept, as the goal in case no other
+  /// is found.
   void addRandom() {
     Configuration q = randomConfiguration(model_.space, [&] { return random_(); });
     // Three decimals are easy to read and to edit. The state is tested as it is written.
@@ -197,7 +199,8 @@ class StateFinder {
   std::optional<FoundState> spare_;
 };
 
-/// Returns `bounds` for all bodies that move as a whole, or "".
+/// Returns the line `bounds` for a rigid robot, or for all planar and floating joints; "" if there
+/// are none.
 std::string boundsText(const Alone& alone) {
   const ModelRobot& robot = alone.model.robots.front();
   std::string text;

@@ -21,8 +21,9 @@ namespace {
 namespace fs = std::filesystem;
 using Verdict = NeverInContactResult::Verdict;
 
-/// Half of the box in which random states place a planar or floating joint, metres. The pairs that
-/// such a joint moves against each other don't count, so any length will do.
+/// Half the edge of the box in which random states place a planar or floating joint, metres.
+/// Contacts of pairs that such a joint moves against each other are not used, so any length will
+/// do.
 constexpr double kAnywhere = 1;
 
 /// A URDF, and the SRDF if one is given.
@@ -68,7 +69,7 @@ RobotFiles readFiles(const NewRobotArguments& a) {
   return read;
 }
 
-/// Returns the model in which every joint moves that can.
+/// Returns the model in which every joint that can move is planned for.
 Model modelOf(RobotModel description, const std::string& urdf) {
   ModelRobot robot;
   robot.model = std::move(description);
@@ -133,7 +134,8 @@ std::string jointText(const RobotModel& model, const JointModel& joint) {
   return text;
 }
 
-/// Returns the joints, groups and states as comments. A group is a key if it is the only one.
+/// Returns the joints, groups and states as comments. If there is only one group, it is written as
+/// a key, not as a comment.
 std::string jointsText(const RobotModel& model, bool hasSrdf) {
   std::string text = "\n" + comment("Joints:");
   for (const JointModel& joint : model.joints)

@@ -43,12 +43,13 @@ void printFaults(const InputError& error);
 void warn(const std::string& text);
 
 /// Reads the problem of a command. If the problem tests no pair of bodies, prints a warning before
-/// any other output; the problem's `notes` say so, too. @throws InputError as readProblem.
+/// any other output; the problem's `notes` contain the same warning. @throws InputError as
+/// readProblem.
 Problem readProblemOf(const std::string& file);
 
 struct Verified {
   VerifyReport report;
-  std::vector<std::string> warnings;  ///< they are printed already
+  std::vector<std::string> warnings;  ///< already printed
 };
 
 /// Verifies a solution. If its digest differs from the problem's, prints a warning, and verifies
@@ -78,9 +79,8 @@ Vec3 rpyDegrees(const Mat3& R);
 std::string poseText(const RigidPose& pose);
 nlohmann::ordered_json poseJson(const RigidPose& pose);  ///< position, quat_xyzw
 /// Returns a path's length: "2 m, turning 3 rad" if the space has a planar or floating joint, else
-/// "2 m, 3 rad". Leaves out metres or radians if no coordinate of the space has that unit. Ends
-/// with
-/// "(sum over the joints)" if the space has several joints.
+/// "2 m, 3 rad". Leaves out metres or radians if no coordinate of the space has that unit. The end
+/// is "(sum over the joints)" if the space has several joints.
 std::string lengthText(const ConfigurationSpace& space, double metres, double radians);
 /// Returns "1e-12 m, 6e-12 rad": the largest half width of a tube in lengths and in angles. Leaves
 /// out the unit that no coordinate of the space has.

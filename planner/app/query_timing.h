@@ -15,7 +15,7 @@ namespace corridor::app {
 /// The result is then the smaller of the elapsed time and the thread's own processor time. (For
 /// shorter calls, reading the clock of processor time takes too long.)
 ///
-/// @param ask makes the first call.
+/// @param ask makes the first call of the function that is timed.
 /// @param again makes a repeated call. It must do the same work as the first, so it must clear what
 /// an earlier call left in a cache.
 inline constexpr double kRepeatBelow = 5'000, kMaybePreempted = 100'000;

@@ -48,7 +48,7 @@ std::map<std::string, std::string> applyArguments(const SolveArguments& a, Probl
   std::map<std::string, std::string> set;
   if (a.planner && *a.planner != problem.settings.planner.name) {
     problem.settings.planner.name = *a.planner;
-    problem.settings.planner.params.clear();  // they are those of the problem's planner
+    problem.settings.planner.params.clear();  // they belong to the problem's planner
     set["planner.name"] = "--planner";
   }
   if (a.sampler) {
@@ -99,7 +99,8 @@ const char* nameOf(SolveOutcome outcome) {
   return "";
 }
 
-/// Returns whether the standard output has the solution or the picture, and so no report.
+/// Returns whether the solution or the picture is written to the standard output. Then no report is
+/// printed there.
 bool printsFile(const SolveArguments& a) {
   return a.output == "-" || a.picture == "-";
 }

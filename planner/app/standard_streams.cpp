@@ -12,7 +12,7 @@ void openStandardStreams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(stream, F_GETFD) >= 0) continue;
     // open() returns the lowest free number, which is this one. The access mode is the opposite of
-    // what the stream needs, so that using it fails.
+    // what the stream needs, so that using the stream fails.
     [[maybe_unused]] const int same =
         ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
   }

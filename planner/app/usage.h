@@ -7,8 +7,8 @@
 /// Faults of the command line itself.
 namespace corridor::app {
 
-/// Makes every option of every command refuse an empty value. Empty values come from unset shell
-/// variables; a later message could not name the option.
+/// Makes every option of every command refuse an empty value. An unset shell variable gives an
+/// empty value, and the messages of later checks could not name the option.
 void refuseEmptyValues(CLI::App& program);
 
 /// Returns a message, in one line: what is wrong with the command line, and which help to read.

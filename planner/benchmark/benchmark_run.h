@@ -32,7 +32,7 @@ struct BenchmarkRun {
   /// Empty if neither happened.
   std::string failure;
   std::string result;  ///< "solved", "not found", "approximate only", or "failed"
-  /// One line: why the run is not solved. Empty if it is.
+  /// One line: why the run is not solved. Empty if the run is solved.
   std::string why;
   bool solved = false, certified = false;
   /// The verifier's verdict if the run is solved: "proved", "refuted" or "undecided". Else empty.

@@ -14,7 +14,7 @@ namespace {
 
 /// Seconds for setting up one run while checking it: goals are sampled and trees are built.
 constexpr double kCheckPatience = 120;
-/// All results are kept in memory, some kilobytes per run.
+/// Limits the memory for the results: some kilobytes per run.
 constexpr std::uint64_t kMostRuns = 1'000'000;
 constexpr std::uint64_t kLastSeed = 0xffffffff;  // OMPL's seeds have 32 bits
 
@@ -120,7 +120,7 @@ Problem plannedProblem(const Campaign& campaign, const CampaignCell& cell, std::
   if (cell.planner.params)
     problem.settings.planner.params = *cell.planner.params;
   else if (cell.planner.name != problem.settings.planner.name)
-    problem.settings.planner.params.clear();  // they are those of the problem's own planner
+    problem.settings.planner.params.clear();  // they belong to the problem's own planner
   problem.settings.planner.name = cell.planner.name;
   problem.settings.planner.time = campaign.time.value_or(problem.settings.planner.time);
   problem.settings.simplify = campaign.simplify.value_or(problem.settings.simplify);

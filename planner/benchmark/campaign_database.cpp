@@ -44,7 +44,8 @@ CREATE TABLE corridor_sessions (id INTEGER PRIMARY KEY, started DATETIME, versio
   "commit" TEXT, jobs INTEGER);
 )";
 
-/// A column from OMPL's words: "graph states INTEGER" is the column graph_states of type INTEGER.
+/// The name and the type of a column, from OMPL's words: "graph states INTEGER" is the column
+/// graph_states of type INTEGER.
 struct ColumnName {
   std::string name, type;
   explicit ColumnName(const std::string& words) {

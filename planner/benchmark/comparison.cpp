@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-/// Length after simplifying over length before: in metres, or in radians if the path has no length
-/// in metres.
+/// Returns the path's length after simplifying, divided by its length before: in metres, or in
+/// radians if the path has no length in metres.
 double lengthShare(const BenchmarkRun& run) {
   return run.rawLength.metres > 0    ? run.length.metres / run.rawLength.metres
          : run.rawLength.radians > 0 ? run.length.radians / run.rawLength.radians

@@ -8,8 +8,8 @@
 
 namespace corridor {
 
-/// Returns the index of the reference variant. Times of the other variants are given as multiples
-/// of its times. It is the first variant that solved anything, or else the first variant.
+/// Returns the index of the reference variant: the first variant that solved anything, or else the
+/// first variant. Times of all variants are given as multiples of the reference variant's times.
 std::size_t referenceVariant(const std::vector<CampaignCell>& cells);
 
 /// The results of a variant over all problems, planners and seeds of a campaign.
@@ -35,8 +35,8 @@ struct VariantScore {
   };
   std::optional<Cost> cost;
   /// Medians over the solved runs; NaN if there are none. `checkingShare`: the share of the time
-  /// that was spent in checking. `lengthShare`: the path's length after simplifying over that
-  /// before.
+  /// that was spent in checking. `lengthShare`: the path's length after simplifying, divided by its
+  /// length before.
   double checkingShare = 0, lengthShare = 0;
 
   std::size_t judged() const { return proved + refuted + undecided; }

@@ -23,8 +23,8 @@ struct CostModel {
 
 /// Returns the costs ≥ 0 that fit the queries best: by least squares of the errors, each divided by
 /// √T, because the error of a sum of many tests grows like √T. (Without weights, the few longest
-/// queries would decide; with errors divided by T, the shortest.) If N_v and N_p are proportional,
-/// box tests get the whole cost.
+/// queries would decide the fit; with errors divided by T, the shortest queries.) If N_v and N_p
+/// are proportional, box tests get the whole cost.
 /// @param call  nanoseconds that each query takes besides its tests. @pre queries not empty.
 inline CostModel fittedCosts(const std::vector<QueryCost>& queries, double call = 0) {
   // Normal equations of Σ (N_v·C_v + N_p·C_p + call − T)²/T.

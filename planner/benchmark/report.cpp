@@ -17,7 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 using view::escapedHtml;
 
-/// Plots and tables of up to this many problems are shown at once; those of more are folded.
+/// Plots and tables of up to this many problems are shown at once; if there are more problems, they
+/// are folded.
 constexpr std::size_t kMostAtOnce = 8;
 
 /// "1 problem", "2 problems"
@@ -61,11 +62,11 @@ class Report {
           Fault{(folder_ / "plots").string(), 0, "can't be created: " + failure.message()});
     std::string error, solved, clearance;
     if (campaign_.problems.size() > 1) {
-      if (campaign_.verify) error = figures(figure(errorOfAll(campaign_, cells_, scores_)));
+      if (campaign_.verify) error = figures(figure(refutedShareOfAll(campaign_, cells_, scores_)));
       solved = figures(figure(profileOfAll(campaign_, cells_)));
     }
     if (campaign_.verify) {
-      error += figuresOfEach(timeAgainstError);
+      error += figuresOfEach(timeAgainstRefuted);
       clearance = figuresOfEach(clearances);
     } else {
       error = clearance = "<p>Paths were not verified.</p>";
@@ -139,7 +140,8 @@ class Report {
     return list + "</ul>";
   }
 
-  /// Returns `html`, which shows each problem; if there are many, folded behind a line to open it.
+  /// Returns `html`, which shows each problem. If there are many problems, `html` is folded behind
+  /// a line that opens it.
   std::string ofEach(const std::string& what, const std::string& html) const {
     const std::size_t count = campaign_.problems.size();
     if (count <= kMostAtOnce) return html;

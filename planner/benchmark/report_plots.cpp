@@ -97,8 +97,8 @@ Plot solvedOverTime(const Campaign& campaign, const std::vector<CampaignCell>& c
   return plot;
 }
 
-Plot timeAgainstError(const Campaign& campaign, const std::vector<CampaignCell>& cells,
-                      std::size_t problem) {
+Plot timeAgainstRefuted(const Campaign& campaign, const std::vector<CampaignCell>& cells,
+                        std::size_t problem) {
   const std::string& name = campaign.problemNames[problem];
   Plot plot{"error." + name, name, "median processor time, s", "share of paths refuted", true};
   plot.rangeY = kShares;
@@ -129,8 +129,8 @@ Plot timeAgainstError(const Campaign& campaign, const std::vector<CampaignCell>&
   return plot;
 }
 
-Plot errorOfAll(const Campaign& campaign, const std::vector<CampaignCell>& cells,
-                const std::vector<VariantScore>& scores) {
+Plot refutedShareOfAll(const Campaign& campaign, const std::vector<CampaignCell>& cells,
+                       const std::vector<VariantScore>& scores) {
   Plot plot{"error", "All problems",
             "processor time, multiples of " + campaign.variants[referenceVariant(cells)].name,
             "share of paths refuted", true};
@@ -158,7 +158,8 @@ Plot errorOfAll(const Campaign& campaign, const std::vector<CampaignCell>& cells
 }
 
 Plot profileOfAll(const Campaign& campaign, const std::vector<CampaignCell>& cells) {
-  // Count only runs that every variant has made: a variant that ran alone would be the quickest.
+  // Count only runs that every variant has made: otherwise a variant would be the quickest of each
+  // run that it alone made.
   const std::size_t variants = campaign.variants.size();
   std::size_t runs = 0;
   std::vector<std::vector<double>> ratios(variants);

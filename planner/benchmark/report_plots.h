@@ -5,7 +5,8 @@
 #include "planner/benchmark/comparison.h"
 #include "planner/benchmark/plot.h"
 
-/// The plots of a campaign's report. A variant has the colour of its number.
+/// The plots of a campaign's report. The index of a variant selects its colour, which is the same
+/// in all plots.
 namespace corridor {
 
 /// For a problem and all planners: the share of runs that have a path by a given time. Solid lines
@@ -14,18 +15,18 @@ Plot solvedOverTime(const Campaign& campaign, const std::vector<CampaignCell>& c
                     std::size_t problem);
 /// For a problem, one point per planner (shown by shape) and variant (shown by colour): median time
 /// against the share of returned paths that are refuted, with confidence intervals of both.
-Plot timeAgainstError(const Campaign& campaign, const std::vector<CampaignCell>& cells,
-                      std::size_t problem);
+Plot timeAgainstRefuted(const Campaign& campaign, const std::vector<CampaignCell>& cells,
+                        std::size_t problem);
 /// For all problems, one point per variant: time, as a multiple of the reference variant's (as in
 /// the ranking), against the share of returned paths that are refuted.
-Plot errorOfAll(const Campaign& campaign, const std::vector<CampaignCell>& cells,
-                const std::vector<VariantScore>& scores);
+Plot refutedShareOfAll(const Campaign& campaign, const std::vector<CampaignCell>& cells,
+                       const std::vector<VariantScore>& scores);
 /// Performance profile (Dolan, Moré 2002) over the problems, planners and seeds that every variant
 /// has run: the share of these runs for which a variant returned a path that is not refuted, within
 /// x times the time of the quickest variant with such a path.
 Plot profileOfAll(const Campaign& campaign, const std::vector<CampaignCell>& cells);
 /// For a problem, the share of returned paths whose least distance to an obstacle is at most x.
-/// Paths in collision have the distance 0, so that a line begins at their share.
+/// Paths in collision have the distance 0, so a line begins, at x = 0, at their share.
 Plot clearances(const Campaign& campaign, const std::vector<CampaignCell>& cells,
                 std::size_t problem);
 /// One point per run, for all problems: the time predicted by N_v·C_v + N_p·C_p against the

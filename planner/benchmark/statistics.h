@@ -14,8 +14,9 @@ constexpr double kConfidence = 0.95;
 
 /// Returns an interval for the median of the distribution that the values are drawn from; any
 /// distribution is allowed. The interval lies between two of the values. By the binomial
-/// distribution, the median is below it with a probability of at most (1 − kConfidence)/2, and
-/// above it, too. Infinite if there are too few values (fewer than six).
+/// distribution, the median is below the interval with a probability of at most (1 −
+/// kConfidence)/2, and above the interval with at most the same probability. The interval is
+/// infinite if there are fewer than six values.
 Interval medianInterval(std::vector<double> values);
 
 /// Returns Wilson's score interval (1927) for the probability of an event that was observed in

@@ -41,8 +41,8 @@ class Checker {
   /// The model must outlive the checker; its bodies are copied.
   /// @throws std::invalid_argument if margin or tolerance is not finite, the margin is negative, or
   /// the tolerance is not above 0; if the tube has another length than a configuration, or a number
-  /// that is not 0 or more; if the method measures distances and the overlap test is not the
-  /// volume's first; if a solid mesh is not watertight, or a mesh is invalid.
+  /// that is not 0 or more; if the method measures distances and an overlap test other than the
+  /// volume's first is named; if a solid mesh is not watertight, or a mesh is invalid.
   explicit Checker(const Model& model, const CheckerOptions& options = {});
   /// Makes the checker of a problem's model, with `checkerOptions`.
   explicit Checker(const Problem& problem);
@@ -54,12 +54,12 @@ class Checker {
   /// The tube that the proofs cover.
   const Configuration& tube() const { return tube_; }
   /// The options of motion queries, with tolerance and margin. The clearance slack is the
-  /// tolerance: `free` requires a clearance of at least the tolerance beyond margin and tube. Less
-  /// clearance may give `undecided` anyway, so this costs little. It has two advantages. No
-  /// returned path depends on the last digits of a clearance. The work to prove a path again is at
-  /// most proportional to its length divided by the tolerance.
+  /// tolerance: `free` requires a clearance of at least the tolerance beyond margin and tube. This
+  /// requirement costs little, since less clearance may give `undecided` anyway. It has two
+  /// advantages: no returned path depends on the last digits of a clearance, and the work to prove
+  /// a path again is at most proportional to the path's length divided by the tolerance.
   const MotionOptions& options() const { return options_; }
-  /// Returns the body of the model that a shape of the scene belongs to.
+  /// Returns the index of the model's body to which a body of the scene (one shape) belongs.
   std::size_t bodyOf(std::size_t shape) const { return bodyOf_[shape]; }
 
   /// Returns whether a configuration is within the bounds, which are inclusive. A configuration
@@ -74,7 +74,7 @@ class Checker {
   /// Tests the rounded poses of the frames for contact, exactly. Margin, tolerance and tube are
   /// ignored. @pre finite.
   /// @throws std::runtime_error if the processor's floating-point mode makes the bounds invalid
-  /// (collision/core/floating_point.h). So do `clearance` and `pairsNotFree`.
+  /// (collision/core/floating_point.h). `clearance` and `pairsNotFree` throw it, too.
   std::optional<Contact> interference(const Configuration& q) const;
   /// Returns the smallest distance of the tested pairs minus the margin, metres. If the result is 0
   /// or less, `certifyState` is not `free`. If it is below twice the tolerance plus the

@@ -19,20 +19,23 @@
 ///
 /// A relative pose has the errors of both bodies' poses, transformed into one body's frame: twice
 /// that sum. The same holds for the points and axes of joints. Together this is four times the sum.
-/// The constants w_j below contain a factor 2, and E contains the other factor 2.
+/// The constants w_j (`kTurn` + `kPerRadian`·V_j, `kSlide`, `kRotation`) contain a factor 2, and E
+/// contains the other factor 2.
 ///
-/// Leaf triangles and parts are compared with an error of 64u·(2|t| + L) ≤ 64u·3S, which gives 300.
+/// Leaf triangles and parts are compared with an error of 64u·(2|t| + L) ≤ 192u·S; the 300 in E
+/// (`kLeaves`) covers it.
 ///
 /// With E = u·S·(300 + 2·Σ w_j), a clearance of 2τ is proved in a time interval whose motion bound
 /// is below τ. The direction between the closest points may be off, which loses at most a quarter
-/// of the gap. So 0.75·2τ > τ + 2E is needed: τ = 4E.
+/// of the gap. So 0.75·2τ > τ + 2E is needed, that is, τ > 4E. The 300 in E is more than is needed,
+/// so τ = 4E is enough.
 namespace corridor {
 namespace {
 
 constexpr double kLeaves = 300;
 constexpr double kTurn = 250, kPerRadian = 30, kSlide = 110, kRotation = 1250;
 
-/// Returns the largest magnitude of a number of a configuration.
+/// Returns the largest magnitude that a number of a configuration can have.
 double largestOf(const ConfigurationSpace& space, std::size_t number) {
   for (const Coordinate& c : space.coordinates()) {
     if (c.first > number || number >= c.first + c.size()) continue;
@@ -83,7 +86,7 @@ double farthestPoint(const ModelBody& body) {
     square = std::max(square, p.squaredNorm());
     largestRadius = std::max(largestRadius, radius);
   });
-  // Squares of such lengths neither overflow nor vanish.
+  // In this range, squares of lengths neither overflow nor vanish.
   if (0x1p-400 < square && square < 0x1p1000) return std::sqrt(square) + largestRadius;
   double farthest = 0;
   each([&](const Vec3& p, double) { farthest = std::max(farthest, p.stableNorm()); });

@@ -13,8 +13,8 @@ double roundingTolerance(const Model& model);
 
 /// Returns a model's default tolerance, metres: the larger of `usual` (1e-7 of the bodies' size)
 /// and roundingTolerance(), but at most 1000 times `usual`. Without this upper limit, joint limits
-/// of 10^16 rad would need a tolerance of kilometres. With it, edges with such large values are
-/// undecided, and all other edges are proved as described above.
+/// of 10^16 rad would need a tolerance of kilometres. With the limit, edges with such large values
+/// are undecided, and all other edges are proved as described above.
 double defaultTolerance(const Model& model, double usual);
 
 }  // namespace corridor

@@ -14,7 +14,7 @@ struct EdgeCosts {
   double freeSeconds = 0, otherSeconds = 0;  ///< medians of free and of other edges; 0: none
   struct OfPair {
     std::size_t a = 0, b = 0;  ///< bodies of the model
-    double share = 0;          ///< share of the time of all pairs, each certified alone
+    double share = 0;          ///< share in the summed times of all pairs, each certified alone
     std::uint64_t boxTests = 0, triangleTests = 0;  ///< over all edges
   };
   std::vector<OfPair> pairs;  ///< all tested pairs, the most expensive first

@@ -115,7 +115,7 @@ std::optional<CountingMotionValidator::Progress> DiscreteMotionValidator::lastFr
     if (i == n) return std::nullopt;
     last = {t, at};
   }
-  // The shorter edge from `from` to `last` has other samples than the whole edge. They must be
+  // The shorter edge from `from` to `last` has other samples than the whole edge. These must be
   // free, too.
   while (last.t > 0 && !isFree(from, last.state)) {
     last.t = last.t > 1.0 / n ? last.t / 2 : 0;

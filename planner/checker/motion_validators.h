@@ -13,8 +13,8 @@ namespace corridor {
 /// contract of `lastValid`, parts of which OMPL's own classes break:
 /// - On success neither member of `lastValid` is written.
 /// - On failure lastValid.second = t0, the time up to which this validator finds the edge free.
-///   If lastValid.first is given, it becomes a state such that this validator finds the edge from
-///   s1 to it valid. For t0 = 0 it is s1 itself, bit for bit.
+///   If lastValid.first is given, it is set to a state, and this validator finds the edge from s1
+///   to this state valid. For t0 = 0 the state is s1 itself, bit for bit.
 /// - lastValid.first may be s1 or s2: both are read before anything is written.
 /// As everywhere in OMPL, s1 is assumed to be valid. Several threads may use one validator at once.
 class CountingMotionValidator : public ompl::base::MotionValidator {

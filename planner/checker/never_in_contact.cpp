@@ -164,8 +164,9 @@ class Subdivision {
     const std::uint64_t begin = context_.counters.work(),
                         most = std::numeric_limits<std::uint64_t>::max() - begin;
     workEnd_ = begin + (options_.boxes < most / testsPerBox ? options_.boxes * testsPerBox : most);
-    // Nothing moves in the queries, so they never halve a time interval, which is all that the
-    // tolerance decides. Any positive one will do: 1e-7 of the bodies' size, as usual.
+    // The tolerance decides only when a time interval is no longer halved. In these queries nothing
+    // moves, so no interval is ever halved, and any positive tolerance will do: 1e-7 of the bodies'
+    // size, as usual.
     double radius = std::numeric_limits<double>::infinity();
     for (const MotionPair& pair : pairs)
       radius = std::min({radius, pair.a->sphereRadius(), pair.b->sphereRadius()});
@@ -203,13 +204,13 @@ class Subdivision {
                                     displacements.begin());
   }
 
-  /// Adds to each variable roughly how far it can displace points of b in the box, metres. Only the
-  /// choice of the joint that is halved depends on it, no verdict.
+  /// Adds to each variable roughly how far it can displace points of b in the box, metres. The
+  /// result decides only along which variable the box is halved. No verdict depends on it.
   void addDisplacements(const RelativeMotion& relative, const Body& b,
                         std::vector<double>& displacements) const {
     const Vec3 center = relative.X_AB.m * b.sphereCenter() + relative.X_AB.t;
-    // Each moving frame has a screw if its half width is positive. (It is 0 for a mimic of
-    // multiplier 0: then the choice may be a poor one.)
+    // `screws[i]` belongs to `variables[i]` if the half width of each moving frame is positive. (It
+    // is 0 for a mimic of multiplier 0. Then a poor variable may be chosen.)
     for (std::size_t i = 0; i < std::min(relative.screws.size(), between_.variables.size()); ++i) {
       const ScrewMotion& screw = relative.screws[i];
       const bool turns = screw.kind == ScrewMotion::Kind::revolute;

@@ -16,7 +16,8 @@ struct NeverInContactOptions {
   /// How far the proof reaches beyond each limit of a joint, so that it also covers a tube around
   /// paths: rad, or m for a prismatic joint. A joint that covers the whole circle needs none.
   double beyondLimits = 0;
-  /// Work limit: the number of boxes of joint values that are tested.
+  /// Work limit: at most this many boxes of joint values are tested, with 1000 tests of volumes and
+  /// triangles per box on average.
   std::uint64_t boxes = 20000;
 };
 
@@ -26,9 +27,9 @@ struct NeverInContactResult {
     proved,     ///< the bodies never come into contact, and always keep the margin
     tooClose,   ///< at a joint value that was tested they touch, or are closer than the margin
     workLimit,  ///< the work limit was reached
-    /// Nothing was tried: a planar or floating joint, a joint without limits, or a joint that
-    /// mimics a continuous one other than by a whole multiplier moves one body against the other;
-    /// or a body has a solid mesh; or both are on frames with the same mover.
+    /// No proof was tried, for one of these reasons: a body has a solid mesh; no joint moves one
+    /// body against the other; a joint between the two is planar or floating, has no limits, or
+    /// mimics a continuous joint (except a revolute mimic with a whole multiplier).
     unbounded,
   };
   Verdict verdict = Verdict::unbounded;
@@ -44,22 +45,22 @@ struct NeverInContactResult {
 /// range of a full turn or more is proved for all angles. The other verdicts prove nothing.
 ///
 /// Only joints between the two bodies count: those on the path through the tree of frames. Their
-/// ranges form a box of joint values. A box is proved by one motion query that nothing moves in,
+/// ranges form a box of joint values. A box is proved by one motion query in which nothing moves,
 /// at the middle of the box, with the half widths of the box as its tube (collision/PROMISES.md,
 /// promise 2: `free` holds for every configuration within the tube, with all rounding). A box that
 /// is not proved is halved along the joint that can displace the second body the most. Only the
 /// pairs of shapes that were not separated are tested in the halves. The boxes are tested breadth
 /// first, so that a contact is soon found at the middle of a box.
 ///
-/// The search for `proved` needs the more boxes, the more joints are between the bodies and the
-/// closer they come. If they come as close as the margin anywhere, it never succeeds.
+/// A proof needs more boxes if more joints are between the bodies, or if the bodies come closer to
+/// each other. If they come as close as the margin anywhere, no proof succeeds.
 ///
 /// Thread safety: `prove` may be called from several threads, each with its own context.
 class NeverInContact {
  public:
   /// @param model its planned joints move; all others are held. Must outlive the object.
-  /// @param scene as `makeScene` makes it from the model (`Checker::scene`). Its pairs do not
-  /// count. Must outlive the object.
+  /// @param scene as `makeScene` makes it from the model (`Checker::scene`). Its pairs are ignored.
+  /// Must outlive the object.
   NeverInContact(const Model& model, const Scene& scene);
 
   /// @param a, b bodies of the model, by index, in either order.

@@ -14,7 +14,7 @@ namespace corridor {
 struct PairSurveyOptions {
   NeverInContactOptions proof;
   std::size_t samples = 1000;  ///< how many random states are tested
-  std::uint64_t seed = 1;      ///< of the random states
+  std::uint64_t seed = 1;      ///< seed of the random states
 };
 
 /// What is known about a pair of bodies of a model that its filter does not exclude.

@@ -14,7 +14,7 @@ namespace {
 bool inRegion(const Problem& problem, const Configuration& goal, const Configuration& q,
               double grow) {
   // Each component of a normalised quaternion is off by less than 4u. The angle between two such
-  // quaternions is off by less than 32u, and its computation adds as much.
+  // quaternions is off by less than 32u, and computing the angle adds an error of as much.
   const double same = 64 * kUnit;
   const GoalRegion& region = *problem.task.goalRegion;
   for (const CoordinateGroup& group : problem.model.space.groups()) {

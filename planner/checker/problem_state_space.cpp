@@ -36,7 +36,7 @@ std::vector<std::size_t> groupsOfCoordinates(const ConfigurationSpace& space) {
 }
 
 double rangeOf(const Coordinate& c) {
-  // The range of a rotation is measured in quaternion angle, as in distances.
+  // The range of a rotation is measured by the angle between quaternions, as in `distance`.
   return c.kind == Kind::line     ? c.upper - c.lower
          : c.kind == Kind::circle ? std::numbers::pi
                                   : std::numbers::pi / 2;

@@ -7,9 +7,9 @@
 namespace corridor {
 
 /// Base of the state validity checkers: provides `clearance` for OMPL's samplers and objectives.
-/// The value is `Checker::clearance`, metres. It is positive if the bodies are farther apart than
-/// the margin, 0 − margin if bodies touch (no depth is computed), and −∞ for a state that is not
-/// finite. Bounds are ignored.
+/// The value is `Checker::clearance`, metres. It is positive if all tested pairs are farther apart
+/// than the margin, 0 − margin if a pair touches (no depth is computed), and −∞ for a state that is
+/// not finite. Bounds are ignored.
 class ClearanceChecker : public ompl::base::StateValidityChecker {
  public:
   double clearance(const ompl::base::State* state) const final;
@@ -29,9 +29,9 @@ class CertifiedStateValidityChecker : public ClearanceChecker {
   bool isValid(const ompl::base::State* state) const override;
 };
 
-/// For the discrete baseline. A state is valid if it is in bounds and no tested pair touches, by an
-/// exact test of the rounded poses; the tube is ignored. If the checker has a margin, the state
-/// must be in bounds and certified free.
+/// For the discrete baseline. A state is valid if it is in bounds and an exact test of the rounded
+/// poses finds no tested pair in contact; the tube is ignored. If the checker's margin is above 0,
+/// the state must instead be in bounds and certified free.
 class ExactStateValidityChecker : public ClearanceChecker {
  public:
   ExactStateValidityChecker(const ompl::base::SpaceInformationPtr& si, const Checker& checker)

@@ -22,7 +22,8 @@ struct Task {
   Configuration start;
   std::vector<Configuration> goals;  ///< one or more; a path may end at any of them
   std::optional<GoalRegion> goalRegion;
-  std::optional<double> goalThreshold;  ///< `.cfg` only: in the distance of the space
+  std::optional<double> goalThreshold;  ///< `.cfg` only: largest distance to a goal, in the space's
+                                        ///< metric
   /// Metres that the two bodies of every tested pair must keep apart; 0: touching is contact.
   double margin = 0;
   /// The half width of the tube that the proof covers, as `tubeOf` returns it.
@@ -50,9 +51,9 @@ struct TubeSpec {
 };
 
 /// Returns the half width of the tube that a proof covers, for each number of a configuration (m,
-/// rad). It is the value of `asked`, but at least the share for rounding: 2^-40 of the coordinate's
-/// range. For the coordinates of a position, that is the longest range of the joint's coordinates.
-/// A rotation has its half width at the first of its four numbers.
+/// rad). Each half width is the value of `asked`, but at least 2^-40 of the coordinate's range, for
+/// rounding. For a coordinate of a position, this is the longest range of all coordinates of the
+/// joint. A rotation has its half width at the first of its four numbers.
 /// @pre the bounds of all positions are set.
 Configuration tubeOf(const ConfigurationSpace& space, const TubeSpec& asked = {});
 

@@ -24,7 +24,8 @@ extern char** environ;
 namespace corridor {
 namespace {
 
-/// Time limit in seconds. A million triangles take about ten without a graphics card.
+/// Time limit in seconds. A page of a million triangles takes about ten seconds without a graphics
+/// card.
 constexpr int kPatience = 180;
 
 /// A temporary folder for one picture. It is removed with all files that the browser leaves in it.
@@ -116,9 +117,10 @@ PictureSize pictureSize(const std::string& text, const std::string& option) {
   if (sound) ++at;
   sound = sound && number(size.height) && at == end;
   if (!sound)
-    throw InputError(Fault{
-        option, 0,
-        "WIDTHxHEIGHT is needed, 100 to 8000 pixels each, as 1366x768, not " + quotedWord(text)});
+    throw InputError(
+        Fault{option, 0,
+              "WIDTHxHEIGHT is needed, 100 to 8000 pixels each, such as 1366x768, not " +
+                  quotedWord(text)});
   return size;
 }
 

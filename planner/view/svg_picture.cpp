@@ -22,7 +22,7 @@ using view::Corners;
 using view::DepthBuffer;
 
 constexpr double kWidth = 1000, kBorder = 20;  // sizes of the picture, pixels
-/// Pixels. Triangles with longer edges are cut, so that they can be sorted by depth.
+/// Triangles with edges longer than this, in pixels, are cut, so that they can be sorted by depth.
 constexpr double kPiece = 70;
 /// Limits on the number of copies of the robots drawn between start and goal. The more triangles a
 /// copy has, the fewer are drawn.

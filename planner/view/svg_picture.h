@@ -13,7 +13,7 @@ namespace corridor {
 /// world is seen from above at an angle, unless `from` is set. Robots are drawn at poses along the
 /// path, from green (start) to red (goal), with the curve along which a rigid body's reference
 /// point, or an arm's last moving link, moves. Links that stand still are drawn once, in blue grey.
-/// What stands still and hides the robots is drawn like glass.
+/// Everything that stands still and hides the robots is drawn like glass.
 std::string svgPicture(const Problem& problem, const Path& path,
                        const std::optional<ViewDirection>& from = {});
 

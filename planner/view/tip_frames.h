@@ -6,9 +6,10 @@
 
 namespace corridor::view {
 
-/// Returns for each robot its tip: the frame with a body that has the most moving joints before it,
-/// and the last one of several. It is a rigid body's own frame, or an arm's hand. Held joints don't
-/// move; joints that mimic a planned one do. Robots that stand still are left out.
+/// Returns each robot's tip: among the frames with a body, the one with the most moving joints
+/// before it; the last one if several have as many. A rigid body's tip is its own frame; an arm's
+/// tip is its hand. Held joints don't move; joints that mimic a planned one do. Robots that stand
+/// still are left out.
 std::vector<std::size_t> tipFrames(const Model& model);
 
 }  // namespace corridor::view

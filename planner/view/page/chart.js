@@ -1,6 +1,6 @@
 'use strict';
 
-/** A chart of the closest pair's distance over the path, with a cursor at the place that is shown. A click moves that place. */
+/** A chart of the closest pair's distance over the path, with a cursor at the place that is shown. A click shows another place. */
 class Chart {
   constructor(parent, closest, margin, seek) {
     Object.assign(this, {parent, closest, margin, seek, width: 284, height: 132, left: 52, top: 10, at: 0});

@@ -22,7 +22,9 @@ const palette = {
   levels: ['#1f2730', '#5b2a86', '#a0307a', '#c8414f', '#dd6b2f', '#c9951a', '#8a8f1c', '#3f8f4f'],
 };
 const light = (hex) => new THREE.Color(hex).convertSRGBToLinear();
-/** Returns the colour at a place `at`, in [0, 1] of the path. It goes from the colour of the start, by `way`, to the goal's. */
+/**
+ * Returns the colour at a place `at`, in [0, 1] of the path. The colour goes from the start's, through `way` at 0.5, to the goal's.
+ */
 const wayColour = (at) => at < 0.5 ? new THREE.Color(palette.start).lerp(new THREE.Color(palette.way), 2 * at)
   : new THREE.Color(palette.way).lerp(new THREE.Color(palette.goal), 2 * at - 1);
 

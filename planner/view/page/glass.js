@@ -83,7 +83,7 @@ class Obstacles {
       renderer.readRenderTargetPixels(target, 0, 0, width, height, pixels);
     };
     const numberAt = (i) => pixels[4 * i] << 16 | pixels[4 * i + 1] << 8 | pixels[4 * i + 2];
-    stage.aim();
+    stage.setClippingPlanes();
     renderer.gammaOutput = false;
     renderer.setRenderTarget(target);
     renderer.setClearColor(0);

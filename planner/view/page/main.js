@@ -151,7 +151,8 @@ function start() {
 }
 
 /**
- * Returns the points that the first view shows (where robots come, and the obstacles near them), and the bounds of everything.
+ * Returns the points that the first view shows (points that the robots reach, and obstacles near these), and the bounds of
+ * everything.
  */
 function interest(robotPoints, robotBox, obstacles) {
   const bounds = robotBox.clone(), near = robotBox.clone();

@@ -1,7 +1,7 @@
 'use strict';
 
 const origin = new THREE.Vector3(...data.origin);
-const kGhostTriangles = 1.5e6;  // for all poses along the path together
+const kGhostTriangles = 1.5e6;  // at most, for all poses along the path together
 const kPose = 7;                // numbers per pose of a frame
 
 /** Reads the pose (x y z and a quaternion) at index `first` of an array; with u > 0 interpolates to the pose at `next`. */
@@ -178,7 +178,10 @@ class Motion {
     this.now.frames.forEach((frame, i) => { frame.visible = isStill[i]; });
   }
 
-  /** Returns points that the robots reach: the corners of their bodies' bounds, at the start and along the path, or at all ends. */
+  /**
+   * Returns points that the robots reach: the corners of their bodies' bounds, at the start and along the path. Without a path: at
+   * start and goals.
+   */
   points() {
     const points = [], position = new THREE.Vector3(), quaternion = new THREE.Quaternion(), one = new THREE.Vector3(1, 1, 1);
     const matrix = new THREE.Matrix4();

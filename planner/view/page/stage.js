@@ -5,7 +5,7 @@ const kDegree = Math.PI / 180;
 const kTopFirst = data.from ? data.from[1] > 89.9 * kDegree && Math.abs(data.from[0] + 90 * kDegree) < 0.1 * kDegree : data.planar;
 /** The first direction of the viewer in 3D: azimuth about z, as in `corridor solve --picture`, and elevation. */
 const kAzimuth = data.from && !kTopFirst ? data.from[0] : -60 * kDegree;
-/** Not vertical, since the camera keeps z upwards. */
+/** The first elevation in 3D: never quite vertical, since the camera keeps z upwards. */
 const kElevation = data.from && !kTopFirst ? Math.min(Math.max(data.from[1], -89.9 * kDegree), 89.9 * kDegree) : 32 * kDegree;
 const kFieldOfView = 30;  // degrees, vertical: little perspective, so that sizes can be compared
 
@@ -21,8 +21,8 @@ class Stage {
     this.scene = new THREE.Scene();
     this.beforeDraw = [];
     this.onView = () => {};
-    this.below = 0;  // pixels at the bottom that the legend covers, if more than the 5 % that `fit` always leaves
-    this.moved = false;  // whether the user has moved the camera; then `frame` no longer does
+    this.below = 0;  // pixels at the bottom that the legend covers, if they are more than the 5 % that `fit` always leaves free
+    this.moved = false;  // whether the user has moved the camera; then `frame` keeps it where it is
     this.top = options.top;
     this.perspective = new THREE.PerspectiveCamera(kFieldOfView, 1, 0.1, 10);
     this.perspective.up.set(0, 0, 1);
@@ -46,7 +46,7 @@ class Stage {
   get camera() { return this.top ? this.flat : this.perspective; }
   get target() { return this.controls[this.top ? 1 : 0].target; }
 
-  /** Sets what is shown. @param points to be in the picture: of the robots and obstacles near them. @param bounds of all bodies. */
+  /** Sets what is shown. @param points that must be visible, on robots and obstacles near them. @param bounds of all bodies. */
   show(points, bounds) {
     this.points = points;
     this.bounds = bounds;
@@ -211,7 +211,7 @@ class Stage {
   }
 
   /** Sets the camera's near and far planes for its place and the scene's size. */
-  aim() {
+  setClippingPlanes() {
     const {camera} = this, away = camera.position.distanceTo(this.bounds.getCenter(new THREE.Vector3()));
     camera.near = this.top ? 0.01 * this.radius : Math.max(away - 2.5 * this.radius, camera.position.distanceTo(this.target) / 60);
     camera.far = away + 12 * this.radius;
@@ -228,7 +228,7 @@ class Stage {
     cancelAnimationFrame(this.asked);
     this.asked = 0;
     const started = performance.now();
-    this.aim();
+    this.setClippingPlanes();
     for (const prepare of this.beforeDraw) prepare();
     this.renderer.render(this.scene, this.camera);
     this.drawMs = performance.now() - started;

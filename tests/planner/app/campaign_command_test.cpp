@@ -1,5 +1,5 @@
-// Tests of the program `corridor benchmark CAMPAIGN`: if it was killed at any moment, it resumes
-// and ends with the same rows; it reports why a campaign can't be resumed.
+// Tests of the program `corridor benchmark CAMPAIGN`: after it was killed at any moment, `--resume`
+// ends with the same rows; if a campaign can't be resumed, the program reports why.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <chrono>
 #include <csignal>

@@ -22,7 +22,7 @@ TEST_F(CheckCommand, CheckOfManyStates) {
   EXPECT_EQ(checked.out, "state,valid,pairs\n0,1,\n1,0,lower~post\n2,1,\n3,0,bounds:elbow\n4,1,\n");
   EXPECT_EQ(
       checked.err,
-      "corridor: warning: states.txt: in 1 state, values beyond a limit by no more than rounding "
+      "corridor: warning: states.txt: in 1 state, values that exceeded a limit only by rounding "
       "were set to the limit\n");
   write("free.txt", "0 0\n0.1 0.1\n");
   EXPECT_EQ(run("check arm.yaml --states free.txt").status, 0);

@@ -13,7 +13,8 @@ using nlohmann::json;
 using testing::HasSubstr;
 using testing::Not;
 
-/// A base with four balls about an arm whose elbow is between two fixed stops. In joint values:
+/// A robot whose arm has two joints and the ball `hand` at its end. Three balls are fixed to the
+/// base:
 /// - far is never near the hand;
 /// - inner is in contact with the hand in every state, by design;
 /// - side is in contact with the hand in some states.
@@ -86,7 +87,7 @@ TEST_F(NewCommand, WritesARobotWithItsPairs) {
   EXPECT_THAT(file, HasSubstr("# - shoulder: revolute, -0.4 to 0.4 rad\n"));
   EXPECT_THAT(file, HasSubstr("# Note: ")) << "the link with a <visual> only";
 
-  // It loads at once, and excludes the pair that was proved, and no other.
+  // The new file loads unchanged, and excludes the pair that was proved, and no other.
   EXPECT_EQ(allowedPairs("reach.yaml"),
             std::vector<std::string>({"far, hand: robot.yaml: never_in_contact"}));
 }

@@ -38,7 +38,7 @@ TEST_P(OutputFaults, AFullDiskBehindStdout) {
       this->end(GetParam().arguments, [] { ::dup2(::open("/dev/full", O_WRONLY), STDOUT_FILENO); });
   EXPECT_EQ(end.status, 2);
   EXPECT_THAT(end.err, EndsWith(kStdoutFault));
-  EXPECT_TRUE(end.alone);
+  EXPECT_TRUE(end.noChildLeft);
   expectAll();
 }
 
@@ -48,7 +48,7 @@ TEST_P(OutputFaults, AClosedStdout) {
   const End end = this->end(GetParam().arguments, [] { ::close(STDOUT_FILENO); });
   EXPECT_EQ(end.status, 2);
   EXPECT_THAT(end.err, EndsWith(kStdoutFault));
-  EXPECT_TRUE(end.alone);
+  EXPECT_TRUE(end.noChildLeft);
   expectAll();
 }
 
@@ -63,7 +63,7 @@ TEST_P(OutputFaults, APipeThatNobodyReads) {
     });
     EXPECT_EQ(end.status, ignored ? 2 : 128 + SIGPIPE);
     EXPECT_THAT(end.err, EndsWith(ignored ? kStdoutFault : ""));
-    EXPECT_TRUE(end.alone);
+    EXPECT_TRUE(end.noChildLeft);
     expectAll();
     // Empties `out` for the second run: `benchmark` does not overwrite a campaign.
     std::filesystem::remove_all(folder_ / "out");
@@ -77,7 +77,7 @@ TEST_P(OutputFaults, AFullDiskBehindStderr) {
   const End end =
       this->end(GetParam().arguments, [] { ::dup2(::open("/dev/full", O_WRONLY), STDERR_FILENO); });
   EXPECT_EQ(end.status, GetParam().arguments.starts_with("query") ? 2 : 0);
-  EXPECT_TRUE(end.alone);
+  EXPECT_TRUE(end.noChildLeft);
   expectAll();
 }
 
@@ -93,7 +93,7 @@ class FileFaults : public OutputFaults {
     EXPECT_EQ(end.status, 2);
     EXPECT_THAT(end.err, HasSubstr(why));
     EXPECT_EQ(std::count(end.err.begin(), end.err.end(), '\n'), 1) << end.err;
-    EXPECT_TRUE(end.alone);
+    EXPECT_TRUE(end.noChildLeft);
   }
 };
 
@@ -113,7 +113,7 @@ TEST_P(FileFaults, FilesThatMayNotGrow) {
     EXPECT_THAT(end.err, AnyOf(HasSubstr("can't be written: File too large; raise the limit on the "
                                          "size of files (ulimit -f)\n"),
                                HasSubstr("no file may be larger than")));
-    EXPECT_TRUE(end.alone);
+    EXPECT_TRUE(end.noChildLeft);
     if (isFolder()) continue;
     EXPECT_EQ(read("out/" + file), "before");
     std::filesystem::remove(folder_ / "out" / file);

@@ -23,7 +23,8 @@ class QueryCommand : public ProgramTest {
   QueryCommand() {
     write("a.obj", "v 0 0 0\nv 4 0 0\nv 0 4 0\nf 1 2 3\n");
     write("b.obj", "v 1 1 -1\nv 1 1 1\nv 3 1 1\nf 1 2 3\n");
-    // b crosses a's face; a corner of b is on the face; b is just above it; b crosses a's edge.
+    // In this order: b crosses a's face; a corner of b is on the face; b is just above the face; b
+    // crosses a's edge.
     write("poses.txt", "# R t\n" + kStill +
                            "0 0 0\n1,0,0,0,1,0,0,0,1,0,0,1  # comma separated\n\n" + kStill +
                            "0 0 1.0000001\n" + kStill + "-1.5 0 0\n");

@@ -145,7 +145,7 @@ TEST_F(QueryMotions, EveryVolumeFindsTheFirstContact) {
   EXPECT_GT(tests.size(), 4u) << "the volumes must differ in their tests";
 }
 
-/// For a half turn no way round is shorter. So the verdict is undecided, without time, gap or
+/// For a half turn, neither way round is shorter. So the verdict is undecided, without time, gap or
 /// triangles.
 TEST_F(QueryMotions, HalfTurnsAreUndecided) {
   for (const std::string edges : {"certified", "adaptive", "advancement"}) {

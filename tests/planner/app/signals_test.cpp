@@ -26,10 +26,10 @@ std::vector<Use> named(const std::string& name) {
 
 class Signals : public UseTest {
  protected:
-  /// Waits until the file `sign` exists, at most a minute.
-  void awaitSign(const std::string& sign) const {
-    for (int i = 0; i < 6000 && !fs::exists(folder_ / sign); ++i) pause(10);
-    EXPECT_TRUE(fs::exists(folder_ / sign)) << read("err.txt");
+  /// Waits until this file exists, at most a minute.
+  void awaitStart(const std::string& file) const {
+    for (int i = 0; i < 6000 && !fs::exists(folder_ / file); ++i) pause(10);
+    EXPECT_TRUE(fs::exists(folder_ / file)) << read("err.txt");
   }
   /// Starts the use's `longer` run, and after some milliseconds sends a signal to the program's
   /// process group or to the program alone. @returns how the program ended.
@@ -38,7 +38,7 @@ class Signals : public UseTest {
     fs::create_directory(folder_ / "out");
     fs::remove(folder_ / "browser.txt");
     const pid_t id = start(GetParam().longer);
-    if (!group && !GetParam().sign.empty()) awaitSign(GetParam().sign);
+    if (!group && !GetParam().startedFile.empty()) awaitStart(GetParam().startedFile);
     pause(milliseconds);
     ::kill(group ? -id : id, signal);
     return wait(id);
@@ -57,7 +57,7 @@ TEST_P(Signals, EndTheProgramCleanly) {
       for (int ms = delay * kSlowdown; ms > 0 && end.status < 2; ms /= 2)
         end = endBy(signal, group, ms);
       EXPECT_EQ(end.status, 128 + signal) << end.err;
-      EXPECT_TRUE(end.alone);
+      EXPECT_TRUE(end.noChildLeft);
       expectWholeOrNothing(use);
       EXPECT_TRUE(use.keeps || written().empty()) << written()[0];
     }
@@ -85,7 +85,7 @@ TEST_P(RealBrowser, EndsWithTheProgram) {
     ::kill(id, signal);
     const End end = wait(id);
     EXPECT_EQ(end.status, 128 + signal) << end.err;
-    EXPECT_TRUE(end.alone);
+    EXPECT_TRUE(end.noChildLeft);
     expectWholeOrNothing(GetParam());
     EXPECT_THAT(written(), testing::IsEmpty());
   }
@@ -99,7 +99,7 @@ class StoppedCampaign : public Signals {};
 
 TEST_P(StoppedCampaign, WritesWhatIsDone) {
   const pid_t id = start(GetParam().longer);
-  awaitSign(GetParam().sign);
+  awaitStart(GetParam().startedFile);
   pause(1500 * kSlowdown);
   ::kill(id, SIGTERM);
   const End end = wait(id);

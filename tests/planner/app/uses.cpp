@@ -45,8 +45,8 @@ std::string landscape(int count) {
   return text;
 }
 
-/// A script that stands in for Chromium. It writes the picture at once. But for a page with the
-/// landscape it starts a child process, and never ends.
+/// A script that stands in for Chromium. For a page with the landscape it starts a child process,
+/// and never ends. For any other page it writes the picture at once.
 constexpr const char* kBrowser = R"(#!/bin/sh
 for word in "$@"; do case "$word" in --screenshot=*) file="${word#*=}";; esac; done
 if grep -q '"name":"vast"' "${file%/*}/page.html"; then
@@ -248,7 +248,7 @@ UseTest::End UseTest::wait(pid_t id) {
     if (other < 0) return end;
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
-  end.alone = false;
+  end.noChildLeft = false;
   std::ifstream left("/proc/self/task/" + std::to_string(::getpid()) + "/children");
   for (pid_t one = 0; left >> one;) ::kill(one, SIGKILL);
   return end;
@@ -273,7 +273,7 @@ void UseTest::learnWhole(const Use& use) {
 }
 
 void UseTest::expectWholeOrNothing(const Use& use) const {
-  const bool folder = use.arguments.starts_with("benchmark");  // files that contain times differ
+  const bool folder = use.arguments.starts_with("benchmark");  // its files contain varying times
   for (const std::string& file : written()) {
     EXPECT_EQ(file.find(".tmp"), file.npos) << file;
     if (folder) continue;

@@ -18,7 +18,7 @@ struct Use {
   std::string arguments;  ///< arguments of the program, which must soon end without a signal
   std::vector<std::string> files;  ///< written to `out`, the same bytes each time
   std::string longer = {};         ///< the same command, too long to end before a signal
-  std::string sign = {};           ///< a file that exists once `longer` is well under way
+  std::string startedFile = {};    ///< a file that exists once `longer` is well under way
   bool keeps = false;  ///< after a signal it writes complete files of the results so far
 };
 
@@ -39,7 +39,7 @@ class UseTest : public ProgramTest, public testing::WithParamInterface<Use> {
   struct End {
     int status = -1;  ///< as shells report it: 128 + N after signal N
     std::string err;
-    bool alone = true;  ///< no child process is left
+    bool noChildLeft = true;
   };
   /// Runs in the child before the program begins.
   using Setup = std::function<void()>;
@@ -62,7 +62,8 @@ class UseTest : public ProgramTest, public testing::WithParamInterface<Use> {
   /// Runs the use without faults, and stores the files that it writes in `whole_`.
   void learnWhole(const Use& use);
   /// Returns a command that runs a shell script which may mount file systems; empty if that is not
-  /// allowed. The program and its arguments follow as the script's arguments.
+  /// allowed. The caller appends the program and its arguments, which the script gets as its own
+  /// arguments.
   static std::vector<std::string> mounting(const std::string& script);
 
   std::map<std::string, std::string> whole_;

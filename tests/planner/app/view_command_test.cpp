@@ -105,10 +105,11 @@ TEST_F(ViewCommand, Faults) {
   expectFault("view " + plate + " --size 100x100", "--size: needs --image, which is not given");
   for (const char* size :
        {"100", "100x", "x100", "99x100", "100x8001", "100x100x", "1e3x100", "-100x100"})
-    expectFault("view " + plate + " --image a.png --size=" + size,
-                std::string("--size: WIDTHxHEIGHT is needed, 100 to 8000 pixels each, as 1366x768, "
-                            "not \"") +
-                    size + "\"");
+    expectFault(
+        "view " + plate + " --image a.png --size=" + size,
+        std::string("--size: WIDTHxHEIGHT is needed, 100 to 8000 pixels each, such as 1366x768, "
+                    "not \"") +
+            size + "\"");
   for (const std::string from : {"frnt", "1", "0,91", "361,0", "1,2,3", "nan,0"})
     expectFault("view " + plate + " --from=" + from,
                 "--from: one of front, back, left, right, top, bottom, or AZIMUTH,ELEVATION in "

@@ -1,5 +1,5 @@
-// Tests of replays of recorded answers: the second run repeats the first one without its tests, and
-// any difference between the two runs is reported.
+// Tests of replays of recorded answers: the second run repeats the first one from recorded answers
+// instead of tests, and any difference between the two runs is reported.
 #include "tests/benchmark/replay.h"
 
 #include <gtest/gtest.h>

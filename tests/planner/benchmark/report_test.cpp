@@ -148,7 +148,7 @@ TEST_F(Report, PlotsHaveTheirData) {
       EXPECT_GE(s.points[i].x, s.points[i - 1].x);
       EXPECT_GE(s.points[i].y, s.points[i - 1].y);
     }
-  const Plot error = timeAgainstError(campaign_, cells_, 0);
+  const Plot error = timeAgainstRefuted(campaign_, cells_, 0);
   ASSERT_EQ(error.series.size(), 3u);
   ASSERT_EQ(error.series[1].points.size(), 1u);
   EXPECT_DOUBLE_EQ(error.series[1].points[0].y, 0.5);
@@ -161,7 +161,7 @@ TEST_F(Report, PlotsHaveTheirData) {
     two.push_back(cell);
     two.back().planner.label = "another";
   }
-  const Plot planners = timeAgainstError(campaign_, two, 0);
+  const Plot planners = timeAgainstRefuted(campaign_, two, 0);
   EXPECT_THAT(planners.shapes, testing::ElementsAre(cells_[0].planner.label, "another"));
   ASSERT_EQ(planners.series[2].points.size(), 2u);
   EXPECT_EQ(planners.series[2].points[1].shape, 1u);
@@ -180,7 +180,7 @@ TEST_F(Report, PlotsHaveTheirData) {
 }
 
 TEST_F(Report, PlotsOfAllProblems) {
-  const Plot error = errorOfAll(campaign_, cells_, scoresOf(campaign_, cells_));
+  const Plot error = refutedShareOfAll(campaign_, cells_, scoresOf(campaign_, cells_));
   ASSERT_EQ(error.series.size(), 3u);  // in order of variants, not of rank
   EXPECT_EQ(error.series[1].name, "discrete:0.1");
   EXPECT_DOUBLE_EQ(error.series[1].points[0].x, 0.5);
@@ -252,7 +252,7 @@ TEST_F(Report, PointsAreDrawnOnce) {
     two.push_back(cell);
     two.back().planner.label = "another";
   }
-  const std::string svg = svgOf(timeAgainstError(campaign_, two, 0));
+  const std::string svg = svgOf(timeAgainstRefuted(campaign_, two, 0));
   const auto count = [&](const std::string& word) {
     std::size_t times = 0;
     for (auto at = svg.find(word); at != svg.npos; at = svg.find(word, at + 1)) ++times;
@@ -431,7 +431,7 @@ TEST_F(Report, WithoutPictures) {
 /// A user's own gnuplot settings must not change the plots.
 TEST_F(Report, IgnoresTheUsersGnuplotSettings) {
   if (!canPlot()) GTEST_SKIP() << "no gnuplot";
-  const Plot plot = timeAgainstError(campaign_, cells_, 0);
+  const Plot plot = timeAgainstRefuted(campaign_, cells_, 0);
   const std::string usual = svgOf(plot);
   std::filesystem::create_directories(folder_);
   std::ofstream(folder_ / ".gnuplot") << "set datafile separator ','\nset key off\n";

@@ -1,4 +1,4 @@
-// Tests of the figures of several runs, and of how they are written.
+// Tests of the rows of one run and of several runs, and of their output as CSV and as a table.
 #include "planner/benchmark/rows.h"
 
 #include <cmath>

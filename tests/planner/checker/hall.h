@@ -85,7 +85,7 @@ inline Configuration poseOf(Rigid kind, double x, double y, double yaw = 0) {
 }
 
 /// A bar of 1 × 0.2 × 0.2 in a hall of [−5, 5]³. A wall of thickness 0.001 at x = 0 has a gap above
-/// y = 2. Start and goal are on either side.
+/// y = 2. Start and goal are on different sides of the wall.
 /// @param edges,volume as in `checker: {edges: …, volume: …}`.
 inline Problem hallProblem(Rigid kind, const std::string& edges = "certified",
                            const std::string& volume = "obb") {

@@ -86,8 +86,8 @@ TEST(NeverInContact, ProvesAnArmThatJustMissesItself) {
 }
 
 TEST(NeverInContact, NeverProvesAnArmThatJustTouchesItself) {
-  // They overlap by 0.1 mm, in a tiny region at each limit of the elbow. Breadth first, the test of
-  // the middles may or may not find it before the work limit.
+  // The balls overlap by 0.1 mm, in a tiny region at each limit of the elbow. The middles of boxes,
+  // tested breadth first, may or may not meet this region before the work limit.
   const NeverInContactResult result =
       prove(planarArm(kElbow, kTouching + 0.5e-4), "base", "hand", {.boxes = 20000});
   EXPECT_NE(result.verdict, Verdict::proved);
@@ -103,7 +103,8 @@ TEST(NeverInContact, KeepsTheMargin) {
 }
 
 TEST(NeverInContact, CoversValuesBeyondTheLimits) {
-  // d/dφ 2·cos(φ/2) = −sin(φ/2): 0.05 rad beyond the limit take at least 0.047 m.
+  // Since d/dφ 2·cos(φ/2) = −sin(φ/2), 0.05 rad beyond the limit bring the centres nearer by at
+  // least 0.047 m.
   const Model model = planarArm(kElbow, kTouching - 0.02);
   EXPECT_EQ(prove(model, "base", "hand", {.boxes = 20000}).verdict, Verdict::proved);
   EXPECT_NE(prove(model, "base", "hand", {.beyondLimits = 0.05, .boxes = 20000}).verdict,
@@ -151,12 +152,12 @@ TEST(NeverInContact, TriesNothingWithoutBounds) {
                          kAboutZ + ("<mimic joint='pan' multiplier='" + multiplier + "'/>")));
   };
   EXPECT_EQ(prove(mimic("-2"), "base", "hand").verdict, Verdict::proved);
-  // After a full turn of `pan`, a joint with half its value is elsewhere. The reader refuses such a
-  // joint, but a model may have one.
+  // After a full turn of `pan`, a joint that mimics it with the multiplier 1/2 is elsewhere. The
+  // reader refuses such a joint, but a model may have one.
   Model half = mimic("-2");
   half.tree.frames.back().multiplier = 0.5;
   EXPECT_EQ(prove(half, "base", "hand").verdict, Verdict::unbounded);
-  // Without a joint between them.
+  // Here no joint is between the two links.
   const Model fixed = modelOf(ball("base", 0.1) + ball("lamp", 0.1, 1) + ball("hand", 0.1) +
                               joint("fix", "fixed", "base", "lamp", "0 0 0", "") +
                               joint("pan", "continuous", "base", "hand", "2 0 0", kAboutZ));
@@ -201,7 +202,7 @@ std::string randomRobot(std::mt19937_64& random) {
                  shrink = type == "prismatic" ? 0.2 : 1;
     std::string more = "<axis xyz='" + triple(1) + "'/>" + limits(shrink * low, shrink * high);
     if (i == 1) typeOfFirst = type;
-    // No length may follow an angle that repeats.
+    // No prismatic joint may mimic a continuous one.
     const bool mayFollow = typeOfFirst != "continuous" || type != "prismatic";
     if (i == 4 && mayFollow && random() % 2)
       more += "<mimic joint='j1' multiplier='-2' offset='0.1'/>";
@@ -255,7 +256,7 @@ TEST(NeverInContact, NoStateRefutesAProof) {
         }
       }
   }
-  // The test is worth nothing unless both kinds of pairs are common.
+  // The test is worth nothing unless proved pairs, other pairs, and contacts are common.
   EXPECT_GT(proved, 50u);
   EXPECT_GT(others, 50u);
   EXPECT_GT(met, 20u);

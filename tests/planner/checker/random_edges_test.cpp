@@ -1,5 +1,6 @@
 // Random edges of real arms in real scenes. If the checker calls an edge free, the verifier must
-// prove it, and no sample may touch. If the checker reports a contact, the edge must touch.
+// prove it, and no sample of the edge may be in contact. If the checker reports a contact, the edge
+// must touch.
 #include <iostream>
 #include <random>
 

@@ -1,4 +1,4 @@
-// Tests of which frame is the tip, of the direction of view, and of how the SVG paints them.
+// Tests of the tips of robots, and of the SVG's colours and directions of view.
 #include "planner/view/svg_picture.h"
 
 #include <numbers>
@@ -25,8 +25,8 @@ class SvgPicture : public test::ArmTest {
   }
 };
 
-/// The last frame of the arm is a finger, which is held, and moves with the arm. The last frame of
-/// the file may also be held beside the arm: then the tip is another.
+/// The arm's last frame is `thumb`. Its joint mimics a held one, so it moves with the arm, and is
+/// the tip. If the file's last frame is a camera on the base, `thumb` is still the tip.
 TEST_F(SvgPicture, TheTipIsTheFrameWithMostMovingJointsBefore) {
   const Problem held = read(armHead + armStates);
   ASSERT_THAT(view::tipFrames(held.model), testing::SizeIs(1));
@@ -55,12 +55,13 @@ TEST_F(SvgPicture, TheTipIsTheFrameWithMostMovingJointsBefore) {
   EXPECT_EQ(nameOf(two.model, tips[1]), "right/thumb");
 }
 
-/// Links that stand still have the palette f, the robots at start and goal s and g.
+/// Links that stand still have the SVG class f, robots at start and goal have s and g, and the
+/// world has w.
 TEST_F(SvgPicture, LinksThatStandStillAreDrawnOnce) {
   const std::string whole = picture(read(armHead + armStates));
   for (const char* palette : {"class=\"w", "class=\"f", "class=\"s", "class=\"g"})
     EXPECT_THAT(whole, HasSubstr(palette));
-  // Only the base has a shape. It is drawn once: the moving robot has nothing to draw.
+  // Now only the base has a shape. It is drawn once, and the moving links have nothing to draw.
   std::string bare = urdf;
   for (const std::string name : {"upper", "lower", "finger", "thumb"}) {
     const auto at = bare.find("<collision>", bare.find("<link name='" + name));
