@@ -59,9 +59,9 @@ class XmlFile {
   /// Returns the first child of that name, or nullptr. Each further child of that name is a fault.
   Element* child(Element& parent, const char* name, const std::string& owner);
   /// Checks for children that are in neither list. Such a child is a fault if something would be
-  /// lost: its name is similar to one in `read`, or it has collision geometry. For other children
-  /// one note a name is added, for at most 100 names. Elements of other formats ("drake:joint") are
-  /// ignored.
+  /// lost: its name is similar to one in `read`, or it has collision geometry. For each other name
+  /// of a child, one note is added, for at most 100 names. Elements of other formats
+  /// ("drake:joint") are ignored.
   void checkChildren(Element& parent, const std::vector<std::string>& read,
                      const std::vector<std::string>& ignored, const std::string& owner,
                      std::vector<Note>& notes);

@@ -90,8 +90,8 @@ class BodyDistance {
   /// The result's `lower` also covers all pruned pairs: it is the smallest bound of all pruned node
   /// pairs and all tested pairs of leaf primitives. The box of a node of b, in a's frame, has the
   /// half extents |R|·(half extents) about the image of its centre. The caller must add the
-  /// rounding of the boxes (3 sums of 3 products, a root of three squares: under 32u·S), and all
-  /// other rounding.
+  /// rounding of the boxes, and all other rounding. That of the boxes is under 32u·S, where S
+  /// bounds all lengths: 3 sums of 3 products, and a root of three squares.
   BodyGap measure(PiecePair guess, Real doubt, Real stop,
                   const std::function<bool(PiecePair)>& touches);
 

@@ -64,12 +64,12 @@ struct PathProblem {
 };
 
 enum class PathVerdict {
-  /// Every curve in the tube keeps more than the margin everywhere. Never wrong.
+  /// Every curve in the tube keeps more than the margin everywhere. This verdict is never wrong.
   proved,
   /// At least one finding is a refutation: a contact; a distance that margin or tube do not allow;
   /// an ambiguous half turn; a joint that would jump; or a state that is not valid data. A contact
-  /// or distance is found at a pose that is the path's up to rounding: up to 2^-48 of the lengths
-  /// involved, or up to the tolerance.
+  /// or distance is found at a pose that differs from the path's only by rounding: by at most 2^-48
+  /// of the lengths involved, or by at most the tolerance.
   refuted,
   /// Neither. Somewhere the clearance beyond the margin is below twice the tolerance, or below the
   /// tube's displacement (MovedSlab has its first-order term, Reach its second-order term); or the
@@ -110,13 +110,13 @@ struct PathReport {
 /// Verifies a path through `states`. For a path of one state, this state is verified. The caller
 /// must check the bounds of the variables, and that start and goal are those of the problem.
 ///
-/// A state that is not finite or has a zero quaternion is a finding. If the processor's
-/// floating-point mode makes the bounds invalid (collision/core/floating_point.h), every edge is
-/// undecided.
+/// A state that is not finite, or has a zero quaternion, gives the finding `refuted`. If the
+/// processor's floating-point mode makes the bounds invalid (collision/core/floating_point.h),
+/// every edge is undecided.
 /// @throws std::invalid_argument if there are no states; if a pointer is null; if margin, tube or
 /// tolerance is negative or not finite, or the tolerance is 0; if the tube has another length than
-/// a configuration; if a body has neither a mesh nor parts, or both, or an empty one; or if a pair
-/// names a body that does not exist.
+/// a configuration; if a body has neither a mesh nor parts, or both, or an empty mesh or part; or
+/// if a pair names a body that does not exist.
 PathReport verifyPath(const PathProblem& problem, const std::vector<Configuration>& states);
 
 }  // namespace corridor
