@@ -225,8 +225,8 @@ const std::vector<Reference>& references() {
   return all;
 }
 
-/// Compares with a tolerance of 1e-4 (relative above 1), since the reference values have five
-/// digits.
+/// Compares with a tolerance of 1e-4 (relative for values above 1), since the reference values have
+/// five digits.
 void expectNear(const Vec3& a, const Vec3& b, const std::string& what) {
   for (int k = 0; k < 3; ++k)
     EXPECT_NEAR(a[k], b[k], 1e-4 * std::max(1.0, std::abs(b[k]))) << what << " "

@@ -77,7 +77,7 @@ TEST(EdgeMotion, PosesAndTwistsAreWithinTheirStatedError) {
 }
 
 /// A long chain: a hundred slides, each turned by the same angle about z, so that the rounding of
-/// their rotations adds up. Then comes a joint, and a hand far out.
+/// their rotations adds up. Then come a joint, and a hand far from it.
 struct LongChain {
   KinematicTree tree;
   ConfigurationSpace space;

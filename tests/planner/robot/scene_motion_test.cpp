@@ -1,5 +1,5 @@
-// Tests of scenes of many moving frames: although a scene leaves out far pairs, its verdict must be
-// the same as if every pair is tested alone.
+// Tests of scenes of many moving frames: although a scene leaves out pairs that are far apart, its
+// verdict must be the same as if every pair were tested alone.
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -101,7 +101,7 @@ TEST(SceneMotion, EdgesOfRandomTrees) {
       free += answer.verdict == MotionVerdict::free;
       contact += answer.verdict == MotionVerdict::contact;
       if (answer.verdict == MotionVerdict::contact && options.earliest) {
-        // Both brackets contain the first contact.
+        // The interval [certifiedUntil, contactTime] of each answer contains the first contact.
         EXPECT_LE(answer.certifiedUntil, byPairs.contactTime) << n;
         EXPECT_LE(byPairs.certifiedUntil, answer.contactTime) << n;
       }

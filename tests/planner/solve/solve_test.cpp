@@ -91,7 +91,7 @@ TEST_P(Spaces, GoalRegion) {
 TEST_P(Spaces, AGoalThresholdOfZeroCanBeReached) {
   Problem problem = hallProblem(GetParam());
   problem.task.goalThreshold = 0;
-  problem.settings.planner.name = "RRT";  // uses the goal's own test to end
+  problem.settings.planner.name = "RRT";  // ends when the goal's own test holds
   const SolveReport report = solveProblem(problem);
   ASSERT_EQ(report.outcome, SolveOutcome::solved) << report.why;
   EXPECT_EQ(report.path.back().head(2), problem.task.goals[0].head(2));
@@ -307,7 +307,7 @@ TEST(Solve, AdviceForAStartInContactHolds) {
   }
 }
 
-/// The start's y must be kept to its last digits: rounded to few, the bar would touch a plate.
+/// The start's y must be kept to its last digits: with fewer digits, the bar would touch a plate.
 TEST(Solve, AdviceForAStartBetweenPlatesHolds) {
   Problem problem = hallProblem(Rigid::SE2);
   const double y = -2.000004321, gap = 1e-6;

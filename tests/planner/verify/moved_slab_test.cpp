@@ -172,9 +172,9 @@ TEST(MovedSlab, IsAttained) {
   EXPECT_LT(gained / cases, 0.35L);  // relative to the isotropic bound
 }
 
-// A point that rotates about z approaches an obstacle between it and the axis in second order only,
-// by 1 − cos(h|Δ| + τ). The second-order term is that of the sum of motion and perturbation, not of
-// each alone.
+// A point rotates about z, and an obstacle is between the point and the axis. The point approaches
+// the obstacle in second order only, by 1 − cos(h|Δ| + τ). So the second-order term must be that of
+// the sum of motion and perturbation, not the sum of their two terms.
 TEST(MovedSlab, SecondOrderIsThatOfMotionPlusPerturbation) {
   KinematicTree tree;
   ConfigurationSpace space;

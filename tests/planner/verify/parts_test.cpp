@@ -190,7 +190,7 @@ TEST(BodyDistance, EqualsTheDoubleLoop) {
     EXPECT_LE(std::abs(found.lower - lower), 0x1p-29L * upper);
     EXPECT_FALSE(found.touching);
     guess = found.pair;
-    // If the search stops early, the bound is still valid.
+    // If the search stops early, `lower` is still a lower bound.
     EXPECT_LE(distance.measure({}, 0, upper / 2, never).lower, upper);
     EXPECT_GE(distance.measure({}, 0, lower / 2, never).lower, lower / 2 * (1 - 0x1p-29L));
     std::vector<PiecePair> near;
