@@ -13,9 +13,9 @@
 namespace corridor {
 namespace {
 
-/// Metres; added to every error bound. Squares below 2^-1022 underflow, so that lengths below
-/// 2^-500 may be lost. For levers below 2^99 m this constant covers everything that a bound can
-/// lose by underflow.
+/// Metres; added to every error bound. Squares below 2^-1022 underflow, so lengths below 2^-500 may
+/// be computed as 0. For levers below 2^99 m this constant covers everything that underflow can
+/// take from a bound.
 constexpr double kLeastError = 0x1p-400;
 
 constexpr std::size_t kItself = SIZE_MAX;  // in place of a view: the frame is the ancestor
@@ -199,9 +199,10 @@ const EdgeMotion::Impl::View& EdgeMotion::Impl::viewWithErrors(std::size_t index
 /// error of the pose. Its lever from the axis is off by e(y) = pose(y) + τ + axis error·(|y| + L).
 /// The same bound holds for its distance from the axis in `motionBound`.
 ///
-/// Twist. The joint moves the point by at most w = h·rate. So the twist is off by Σ w·e(y), by the
-/// error of the rate, and by about (16 + steps)·u of w(|y| + L) for its arithmetic.
-/// `relativeMotion` returns the largest e(y) plus the error of the twist.
+/// Twist. From the middle of the interval, a joint turns or slides by at most w = h·rate. So the
+/// displacement of the point by the joints is off by Σ w·e(y), by the errors of the rates, and, for
+/// the arithmetic, by about (16 + steps)·u·Σ w(|y| + L). `relativeMotion` returns the largest e(y)
+/// plus the error of the twist.
 void EdgeMotion::Impl::setErrors(Path& path) {
   if (path.edge == edge) return;
   path.edge = edge;

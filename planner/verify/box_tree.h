@@ -95,7 +95,8 @@ class BodyDistance {
   BodyGap measure(PiecePair guess, Real doubt, Real stop,
                   const std::function<bool(PiecePair)>& touches);
 
-  /// Returns whether all pairs of leaf primitives in two boxes can be left out by `near`.
+  /// A function that returns whether `near` may leave out all pairs of leaf primitives in two
+  /// boxes.
   using Settled = std::function<bool(const CentredBox& a, const CentredBox& b)>;
   /// Collects the pairs of leaf primitives whose boxes are closer than `within`. Pairs in two boxes
   /// for which `settled` returns true are left out.

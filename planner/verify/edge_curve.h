@@ -21,8 +21,8 @@ struct FrameState {
   RealVec linear = RealVec::Zero(), angular = RealVec::Zero();
 };
 
-/// The first-order perturbation of the points of a frame at one time, for all curves within the
-/// tube. In the coordinates of the base, a point x is displaced by a sum of
+/// The first-order perturbations of the points of a frame at one time, for all curves within the
+/// tube. In the coordinates of the base, a curve displaces a point x by a sum of
 /// - c·(linear + angular × x) for each twist, with any c in [−1, 1];
 /// - w × (x − at) for each pivot rotation, with any vector w of length at most `angle`.
 struct Perturbation {

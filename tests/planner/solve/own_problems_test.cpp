@@ -76,7 +76,7 @@ TEST(TwoArms, AreTestedAgainstEachOther) {
 }
 
 /// A paper plane 1 mm thick and a plate 0.1 mm thick: steps of 1 % jump over the plate. Sampled
-/// edges give paths straight through the plate, certified edges never do.
+/// edges give paths straight through the plate. Certified edges never do.
 TEST(ThinPlate, DiscreteGoesThroughAndCertifiedNeverDoes) {
   Problem problem = ownProblem("thin_plate");
   const auto verdict = [&](std::uint64_t seed) {

@@ -237,8 +237,8 @@ TEST_P(Spaces, EveryMethodThatProvesGivesACertifiedPath) {
   }
 }
 
-/// The gap in the wall is 3 m wide, the bar 0.2 m. Short paths pass close to its corner; paths of
-/// large clearance must not.
+/// The gap in the wall is 3 m wide, the bar is 0.2 m wide. Short paths pass close to a corner of
+/// the gap; paths of large clearance must not.
 TEST(Solve, MaximisesTheLeastClearance) {
   Problem problem = hallProblem(Rigid::SE2);
   problem.settings.planner.name = "RRTstar";
@@ -329,7 +329,8 @@ TEST(Solve, AdviceForAStartBetweenPlatesHolds) {
 }
 
 /// The validator of this test accepts every edge that is longer than the planner's edges, so
-/// simplified versions of the path go through the wall. The result must be a version that does not.
+/// simplified versions of the path go through the wall. The result must be a version that does not
+/// go through the wall.
 TEST(Solve, ReturnsTheLastCertifiedVersion) {
   class Believes final : public ompl::base::MotionValidator {
    public:

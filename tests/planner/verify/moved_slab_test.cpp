@@ -160,7 +160,7 @@ TEST(MovedSlab, IsAttained) {
   int cases = 0;
   for (int i = 0; i < 150; ++i) {
     const Arm arm(random);
-    for (const int kind : {0, 1, 3, 4}) {  // no cylinders: the bound of a disc is not attained
+    for (const int kind : {0, 1, 3, 4}) {  // no cylinders: the bound for a disc is not attained
       const Case one(arm, i % 2 == 1, random, 1e-6, kind + 5 * kind);
       const Real lost = one.still() - one.firstOrder() + one.motion.secondOrder;
       worst = std::min(worst, (one.still() - one.leastWidth(random)) / lost);
