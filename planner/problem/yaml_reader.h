@@ -26,7 +26,8 @@ struct UnsupportedKey {
   std::string instead;  ///< what to do instead: the end of the message
 };
 
-/// The keys of a map: the legal ones, and unsupported ones, whose fault says what to do instead.
+/// The keys of a map: the legal ones, and unsupported ones. The fault of an unsupported key says
+/// what to do instead.
 struct MapKeys {
   std::vector<std::string> legal;
   std::vector<UnsupportedKey> later;

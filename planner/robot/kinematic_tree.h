@@ -11,8 +11,8 @@
 namespace corridor {
 
 /// A frame of a kinematic tree. Its pose in the parent's frame is a fixed pose followed by one
-/// elementary joint: X_PF(q) = fixed · joint(q). This holds in real arithmetic on the stored
-/// doubles, with quaternions and axes normalised in real arithmetic.
+/// elementary joint: X_PF(q) = fixed · joint(q). This definition is meant in real arithmetic on the
+/// stored doubles, where quaternions and axes are also normalised.
 ///
 /// A joint with several degrees of freedom is a chain of frames. Planar: `translation`, then
 /// `revolute`. Floating: `translation`, then `rotation`.
@@ -43,8 +43,8 @@ struct Frame {
 };
 
 /// The frames of all robots, and of the world. Frame 0 is the world; parents come before their
-/// children. Plain data, which both the planner's kinematics and the verifier's independent
-/// kinematics read.
+/// children. The tree is plain data. Both the planner's kinematics and the verifier's independent
+/// kinematics read it.
 struct KinematicTree {
   std::vector<Frame> frames{Frame{}};
 

@@ -36,7 +36,8 @@ struct UrdfRules {
 /// All faults are appended to `faults`, with file and line. The result is nullopt if the URDF has a
 /// fault. `files` receives the URDF and every mesh file, in the order in which they are first
 /// named.
-/// @param notesOfFaulty receives the notes if the result is nullopt; else the model has them.
+/// @param notesOfFaulty receives the notes if the result is nullopt; otherwise the notes are in the
+/// model.
 std::optional<RobotModel> readUrdf(const std::filesystem::path& file, const UrdfRules& rules,
                                    std::vector<Fault>& faults,
                                    std::vector<std::filesystem::path>& files,

@@ -301,8 +301,8 @@ TEST(OmplAppProblems, AgreeWithTheReference) {
   EXPECT_EQ(readProblem(*folder / "3D/cubicles_opt.cfg").settings.planner.time, 300);
 }
 
-/// Reads the poses of one of OMPL.app's sample solutions. OMPL.app's checker found them free. If
-/// the reader placed the meshes wrongly, some of them would be in contact.
+/// Reads the poses of one of OMPL.app's sample solutions. OMPL.app's checker found these poses
+/// free. If the reader placed the meshes wrongly, some of them would be in contact.
 std::vector<Transform> posesOf(const std::filesystem::path& file, bool spatial) {
   std::vector<Transform> poses;
   std::ifstream stream(file);

@@ -183,7 +183,7 @@ TEST(SceneMotion, StatesOfRandomTrees) {
     const Scene scene = randomScene(random);
     random.makeEdge(1);
     std::vector<Transform> X_WF = framePoses(random.tree, random.from);
-    // Maps that are rigid to four digits only, and a world frame anywhere.
+    // In some cases the maps are rigid to four digits only, or the world frame is shifted.
     if (n % 3 == 0)
       for (Transform& X : X_WF) X.m *= 1 + 1e-4 * random.real();
     if (n % 4 == 0)

@@ -91,7 +91,7 @@ TEST_P(Spaces, GoalRegion) {
 TEST_P(Spaces, AGoalThresholdOfZeroCanBeReached) {
   Problem problem = hallProblem(GetParam());
   problem.task.goalThreshold = 0;
-  problem.settings.planner.name = "RRT";  // ends when the goal's own test holds
+  problem.settings.planner.name = "RRT";  // uses the goal's own test to end
   const SolveReport report = solveProblem(problem);
   ASSERT_EQ(report.outcome, SolveOutcome::solved) << report.why;
   EXPECT_EQ(report.path.back().head(2), problem.task.goals[0].head(2));
@@ -237,8 +237,8 @@ TEST_P(Spaces, EveryMethodThatProvesGivesACertifiedPath) {
   }
 }
 
-/// The gap in the wall is 3 m wide, the bar is 0.2 m wide. Short paths pass close to a corner of
-/// the gap; paths of large clearance must not.
+/// The gap in the wall is 3 m wide, the bar 0.2 m. Short paths pass close to its corner; paths of
+/// large clearance must not.
 TEST(Solve, MaximisesTheLeastClearance) {
   Problem problem = hallProblem(Rigid::SE2);
   problem.settings.planner.name = "RRTstar";
@@ -307,7 +307,7 @@ TEST(Solve, AdviceForAStartInContactHolds) {
   }
 }
 
-/// The start's y must be kept to its last digits: with fewer digits, the bar would touch a plate.
+/// The start's y must be kept to its last digits: rounded to few, the bar would touch a plate.
 TEST(Solve, AdviceForAStartBetweenPlatesHolds) {
   Problem problem = hallProblem(Rigid::SE2);
   const double y = -2.000004321, gap = 1e-6;
@@ -329,8 +329,7 @@ TEST(Solve, AdviceForAStartBetweenPlatesHolds) {
 }
 
 /// The validator of this test accepts every edge that is longer than the planner's edges, so
-/// simplified versions of the path go through the wall. The result must be a version that does not
-/// go through the wall.
+/// simplified versions of the path go through the wall. The result must be a version that does not.
 TEST(Solve, ReturnsTheLastCertifiedVersion) {
   class Believes final : public ompl::base::MotionValidator {
    public:
