@@ -64,8 +64,8 @@ double largestTube(const ModelRobot& robot, const Problem& problem) {
   return largest;
 }
 
-/// Tests the pairs of links again that were proved never in contact with a smaller margin or
-/// tube than the problem's. Adds a note.
+/// Adds to the tested pairs those that were proved never in contact, but only for a smaller margin
+/// or tube than the problem's. Adds a note.
 void testBeyondProofs(Problem& problem) {
   std::size_t tested = 0;
   AllowedPair::Proof covered;
@@ -101,7 +101,7 @@ void testBeyondProofs(Problem& problem) {
          NoteWeight::detail});
 }
 
-/// Lengths above this one, in metres, are refused: squares of sums of them must be finite.
+/// Larger lengths, in metres, are refused, because squares of sums of lengths must be finite.
 constexpr double kLargestLength = 1e100;
 
 /// Returns the largest coordinate of the shapes in their frames.
@@ -115,7 +115,8 @@ double largestCoordinate(const ModelBody& body) {
   return most;
 }
 
-/// Returns the largest translation of the frame in its parent, by its fixed pose or by its joint.
+/// Returns the largest coordinate (m) of the frame's fixed translation, or of its joint's
+/// translation within the limits.
 double largestTranslation(const Frame& frame, const ConfigurationSpace& space) {
   const double fixed = frame.fixed.p.cwiseAbs().maxCoeff();
   const bool slides =

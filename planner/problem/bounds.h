@@ -7,8 +7,8 @@
 
 namespace corridor {
 
-/// Enlarges the bounds of the group so that they contain start and goals. @returns whether that was
-/// needed.
+/// Enlarges the bounds of the group so that they contain start and goals. @returns whether they had
+/// to be enlarged.
 bool enlargeBounds(Problem& problem, const CoordinateGroup& group);
 
 /// Returns why the group's position in `q` is outside of the bounds ("outside of the bounds: x = 9

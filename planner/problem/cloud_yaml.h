@@ -8,9 +8,9 @@ namespace corridor {
 /// or `octomap: {file: map.bt}`: the union of a map's occupied cubes. Sets the file, the parts and
 /// the note of `shape`, and adds the file to `files`.
 /// @param kind     "points" or "octomap": the key in `map`
-/// @param keys     of the inner map
+/// @param keys     the legal keys of the inner map
 /// @param options  unit and up-axis, for points only
-/// @param X        where the cloud or map is in the frame of its body
+/// @param X        the pose of the cloud or map in the frame of its body
 /// @returns false if a fault was added.
 bool readCloud(const YamlMap& map, const std::string& kind, const MapKeys& keys,
                const std::filesystem::path& folder, const MeshFileOptions& options,

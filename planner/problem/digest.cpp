@@ -9,8 +9,8 @@ namespace corridor {
 
 namespace {
 
-/// Returns the texts that were read in place of a file: of a xacro file one for each set of
-/// arguments, in the order of the robots, and of other files none.
+/// Returns the texts that were read in place of a file. A xacro file has one for each set of
+/// arguments, in the order of the robots. Other files have none.
 std::vector<const std::string*> expandedTexts(const Problem& problem,
                                               const std::filesystem::path& file) {
   std::vector<const std::string*> texts;

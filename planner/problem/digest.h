@@ -10,10 +10,10 @@ namespace corridor {
 /// its files (32 bytes each, one after the other). In a shell: sha256sum FILES | cut -c-64 | xxd -r
 /// -p | sha256sum.
 ///
-/// In place of a xacro file, the texts count that xacro made of it when the problem was read: they
-/// contain what the file includes, and depend on its arguments.
+/// A xacro file is replaced by the texts that xacro made of it when the problem was read. These
+/// texts contain the files that the xacro file includes, and depend on the arguments.
 ///
-/// The function reads the other files again. If no file has changed since `readProblem`, the digest
+/// The function reads all other files again. If no file has changed since `readProblem`, the digest
 /// is that of the problem that was read. Callers should therefore compute it directly after
 /// `readProblem`, not at the end of their work, when a file may have changed.
 /// @throws InputError if a file can't be read.

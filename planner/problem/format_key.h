@@ -12,8 +12,8 @@ namespace corridor {
 /// returns true, so that the caller reads on.
 bool hasFormat(const YamlValue& document, const std::string& format, YamlSource& source);
 
-/// Returns the file's name without extension. If that is `usual`, returns the name of the file's
-/// folder.
+/// Returns the file's name without extension. If that is the usual name of such files (`usual`:
+/// "problem"), returns the name of the file's folder.
 std::string nameOfFile(const std::filesystem::path& file, const std::string& usual);
 
 }  // namespace corridor

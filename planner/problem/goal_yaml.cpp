@@ -54,8 +54,9 @@ void readWithin(const YamlValue& value, Problem& problem, YamlSource& source) {
                                        map.angle("joints", Range::NotNegative).value_or(0)};
 }
 
-/// Returns whether the value is a list of goals. For a single rigid robot, a list counts as one
-/// only if all its items are maps: other lists, such as [1, 2, 3], are a pose in the wrong form.
+/// Returns whether the value is a list of goals. For a single rigid robot, a list counts as a list
+/// of goals only if all its items are maps: other lists, such as [1, 2, 3], are a pose in the wrong
+/// form.
 bool isListOfGoals(const YamlValue& value, const Problem& problem) {
   if (value.kind != YamlValue::Kind::List) return false;
   if (problem.model.robots.size() > 1 ||

@@ -21,12 +21,13 @@ struct YamlPlace {
 /// NAME` or `from: NAME`), or nullopt.
 std::optional<std::string> readHold(const YamlMap& file, RobotSetup& setup);
 
-/// Holds the joints that a named state gives values, except those in `heldByFile` and in `planned`.
+/// Holds each joint to which a named state gives a value at this value, except the joints in
+/// `planned` and in the robot's `heldByFile`.
 void holdState(const std::string& state, const std::vector<std::size_t>& planned,
                const YamlPlace& place, RobotSetup& setup);
 
-/// Holds the joints of each robot that the start of a problem gives values by a named state, except
-/// joints that are planned for, and those that the robot's `hold` gives.
+/// For each robot whose start is a named state, holds the joints at their values in this state,
+/// except joints that are planned for, and joints that the robot's `hold` gives.
 void holdAsStart(const YamlMap& problem, std::vector<RobotSetup>& robots);
 
 /// Returns the named state. If there is none that can be used, adds a fault and returns nullptr.

@@ -17,8 +17,8 @@ std::string noSuchJoint(const std::string& name, const RobotModel& model);
 /// Returns why a joint has no value of its own ("is fixed", "follows pan (mimic)"), or "".
 std::string whyNotActive(const RobotModel& model, std::size_t joint);
 /// Returns "60 is outside of its limits, [-2, 2]".
-/// @param angle the name of a joint whose value is an angle in radians, or "". If the value is
-/// plainly in degrees, the message says how to write them.
+/// @param angle the joint's name if the value is an angle in radians, else "". If the value is
+/// plainly meant in degrees, the message says how to write degrees.
 std::string outsideLimits(double value, double lower, double upper, const std::string& angle = "");
 
 /// Returns "; in degrees, write pan_deg: 60" if a value in radians is plainly meant in degrees (it

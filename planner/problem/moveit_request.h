@@ -13,10 +13,11 @@ namespace corridor {
 /// A message moveit_msgs/MotionPlanRequest, written as YAML. The members read its parts, and add
 /// faults to the problem's list.
 ///
-/// They read the group, the start state, and goals by joint values. A plan without the following
-/// would be wrong, so they are faults: attached objects, poses of joints with several variables,
-/// goals by positions or orientations of links, goals that move a held joint, constraints of the
-/// path, and unknown keys. All other fields are ignored, and so are the tolerances of goals.
+/// The members read the group, the start state, and goals by joint values. If any of the following
+/// were ignored, the plan would be wrong, so each is a fault: attached objects, poses of joints
+/// with several variables, goals by positions or orientations of links, goals that move a held
+/// joint, constraints of the path, and unknown keys. All other fields are ignored, and so are the
+/// tolerances of goals.
 class MoveitRequest {
  public:
   /// @throws InputError if the file is not YAML.
@@ -37,15 +38,16 @@ class MoveitRequest {
   std::optional<Configuration> read(const std::map<std::string, double>& values, int line,
                                     const std::string& path, Problem& problem);
 
-  /// Adds a fault for each value that a held joint does not have, and for unknown joints.
+  /// Adds a fault for each value that differs from the value at which the joint is held, and for
+  /// each unknown joint.
   void checkHeld(const std::map<std::string, double>& values, int line, const std::string& path,
                  const ModelRobot& robot);
 
   YamlValue document_;
   YamlSource source_;
-  std::map<std::string, double> start_;  // the values of the start state by joint
+  std::map<std::string, double> start_;  // values in the start state, by joint
   int startLine_ = 0;
-  bool startIsRead_ = false;  // without a fault
+  bool startIsRead_ = false;  // the start state was read without a fault
 };
 
 }  // namespace corridor

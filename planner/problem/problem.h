@@ -25,8 +25,8 @@ struct Source {
   /// Decisions of the reader that a user may want to know: units, wrapped angles, held joints, …
   std::vector<Note> notes;
   /// The line (from 1) of each key in the problem file, such as "planner.params.range", for faults
-  /// that are found after reading. A `.cfg` uses the YAML key with the same meaning where there is
-  /// one ("start", "planner.name", "planner.params.range", "sampler", …).
+  /// that are found after reading. For a `.cfg`, the key is the YAML key with the same meaning, if
+  /// there is one ("start", "planner.name", "planner.params.range", "sampler", …).
   std::map<std::string, int> lines;
 
   /// Returns a fault at the line of `key`. If `key` has no line, the fault is at the line of the
@@ -47,8 +47,8 @@ struct Problem {
 
 /// Reads a `problem.yaml`, a folder that holds one, an OMPL.app `.cfg`, or one problem of a
 /// MotionBenchMaker set, `FILE.json#INDEX`.
-/// @throws InputError with all faults of the file and of the files that it names; with notes on
-/// what could be read it is a NotedInputError.
+/// @throws InputError with all faults of the file and of the files that it names; if there are
+/// notes on what could be read, it is a NotedInputError, which holds them.
 Problem readProblem(const std::filesystem::path& path);
 
 }  // namespace corridor

@@ -177,7 +177,7 @@ void readYaml(const std::filesystem::path& file, Problem& problem) {
   }
   if (request && known) request->hold(robots.front());
   holdAsStart(map, robots);
-  std::string root;  // of the robot that a scene is for
+  std::string root;  // the root link of the robot that a scene is for
   RigidPose base;
   if (scene && known) {
     const ModelRobot& robot = robots.front().robot;

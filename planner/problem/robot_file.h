@@ -23,7 +23,8 @@ struct RobotSetup {
 /// even if shapes have faults; these shapes are left out.
 /// @param group the group that is planned for if the file has an SRDF, and neither `group` nor
 /// `joints`; empty: none.
-/// @param notesOfFaulty gets the notes if the result is nullopt; else its model has them.
+/// @param notesOfFaulty gets the notes if the result is nullopt; otherwise the notes are in the
+/// result's model.
 std::optional<RobotSetup> readRobotFile(const std::filesystem::path& file, FaultList& faults,
                                         std::vector<Note>& notesOfFaulty,
                                         const std::string& group = "");

@@ -14,7 +14,7 @@ namespace corridor {
 class StateReader {
  public:
   /// All arguments must outlive the object.
-  /// @param problem has its model, and the bounds that its file gives.
+  /// @param problem its model must be set, and the bounds that its file gives.
   StateReader(Problem& problem, YamlSource& source) : problem_(problem), source_(source) {}
 
   /// Returns the configuration, or nullopt after adding a fault.
@@ -23,8 +23,8 @@ class StateReader {
   std::optional<Configuration> read(const YamlValue& value, const std::string& path,
                                     const std::set<std::string>& others = {});
 
-  /// Returns whether the problem has one robot, given by `robot: …`. Its states are then not under
-  /// a robot's name.
+  /// Returns whether the problem has one robot, given by `robot: …`. The states of such a problem
+  /// contain no robot names.
   bool isAlone() const { return robots().size() == 1 && robots().front().name.empty(); }
 
  private:
@@ -36,9 +36,9 @@ class StateReader {
                  const std::set<std::string>& others, Configuration& q);
   bool fromNamed(std::size_t robot, const std::string& name, int line, const std::string& path,
                  Given& given);
-  /// Compares a named state with the values of held joints. If they disagree, a value that the
-  /// robot's `hold` gives is a note. Otherwise the start has set the value, and the goal is a
-  /// fault.
+  /// Compares a named state with the values of held joints. Adds a note for each joint whose values
+  /// differ. In a goal, the difference is a fault instead if the start has set the held value, and
+  /// not the robot's `hold`.
   bool checkHeld(std::size_t robot, const NamedState& state, const std::string& name, int line,
                  const std::string& path);
   bool readJoints(std::size_t robot, const YamlMap& map, Given& given,

@@ -86,8 +86,8 @@ std::optional<RobotModel> readModel(const std::filesystem::path& urdf, const Urd
 
 using Joints = std::vector<std::size_t>;
 
-/// Lets the problem name the states of the group by their own names: with the group "arm",
-/// "arm/home" is "home", too.
+/// Lets the problem name the group's states without the group: if the group is "arm", "home" also
+/// means "arm/home".
 void addStatesOf(const std::string& group, RobotModel& model) {
   const std::string prefix = group + "/";
   std::map<std::string, NamedState> added;
@@ -278,7 +278,7 @@ std::optional<RobotSetup> readUrdfRobot(const YamlMap& map, const std::string& n
   readStates(map, setup.robot.model);
   const std::optional<std::string> heldState = readHold(map, setup);
   const YamlPlace hold{map.source(), "hold", heldState ? map.find("hold")->line : 0};
-  // Without a choice of joints, all joints of the state that is held are not planned for.
+  // If the file chooses no joints, none of the joints in the held state is planned for.
   const bool hasDefault = !group.empty() && srdf && !map.find("joints");
   const bool isChosen = map.find("group") || map.find("joints") || hasDefault;
   if (heldState && !isChosen) holdState(*heldState, {}, hold, setup);

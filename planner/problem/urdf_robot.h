@@ -12,7 +12,7 @@ namespace corridor {
 /// Returns nullopt if one of these files has a fault.
 /// @param group see readRobotFile.
 /// @param notesOfFaulty see readRobotFile.
-/// @param setup its `files` contain the robot.yaml; the result has the other members, too.
+/// @param setup only its `files` are set, to the robot.yaml; the result has all members.
 std::optional<RobotSetup> readUrdfRobot(const YamlMap& map, const std::string& name,
                                         const std::string& group,
                                         const std::filesystem::path& folder, RobotSetup setup,
@@ -23,9 +23,9 @@ std::optional<RobotSetup> readUrdfRobot(const YamlMap& map, const std::string& n
 std::optional<RobotSetup> readBareUrdf(const std::filesystem::path& file, FaultList& faults,
                                        std::vector<Note>& notesOfFaulty);
 
-/// A value that is beyond a limit by at most this, rad or m, is replaced by the limit, with a note.
-/// Limits and values are often written with π rounded to four digits or more: 3.1416 is 7.4e-6
-/// above π, 3.14159 is 2.7e-6 below it.
+/// Rad or m. A value that exceeds a limit by at most `limitSlack` is replaced by the limit, with a
+/// note. Limits and values are often written with π rounded to four digits or more: 3.1416 is
+/// 7.4e-6 above π, 3.14159 is 2.7e-6 below it.
 inline constexpr double limitSlack = 1e-5;
 
 /// Returns the value if it is in [lower, upper]. If it is beyond a limit by at most `limitSlack`,

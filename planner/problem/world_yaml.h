@@ -6,7 +6,7 @@
 namespace corridor {
 
 /// Reads `world` and adds its obstacles to the model.
-/// @param needed whether a problem without obstacles has a fault.
+/// @param needed whether a problem without obstacles is a fault.
 void readWorld(const YamlMap& file, bool needed, ModelBuilder& builder, Source& source);
 
 /// Reads `allow`, a list of pairs of names of bodies. A pair with a link that has no shapes is left

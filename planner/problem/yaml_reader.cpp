@@ -87,7 +87,8 @@ std::string parseNumber(std::string_view text, Range range, double& value) {
 
 namespace {
 
-/// Returns the legal key that a user meant: a similar one, or the one that other programs call so.
+/// Returns the legal key that a user meant by `key`: a similar one, or the one for which other
+/// programs use this word.
 std::optional<std::string> meantBy(const std::string& key, const std::vector<std::string>& legal) {
   static const std::map<std::string, std::string> others{
       {"pos", "at"},           {"position", "at"},          {"xyz", "at"},

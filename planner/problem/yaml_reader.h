@@ -26,7 +26,8 @@ struct UnsupportedKey {
   std::string instead;  ///< what to do instead: the end of the message
 };
 
-/// The keys of a map: the legal ones, and unsupported ones, whose fault says what to do instead.
+/// The keys of a map: the legal ones, and unsupported ones. The fault of an unsupported key says
+/// what to do instead.
 struct MapKeys {
   std::vector<std::string> legal;
   std::vector<UnsupportedKey> later;
@@ -38,7 +39,7 @@ struct YamlSource {
   FaultList& faults;
   /// The line of every legal key that was read, by its path ("checker.edges").
   std::map<std::string, int> lines;
-  std::vector<Note> notes = {};  ///< on single values; the reader of the file takes them
+  std::vector<Note> notes = {};  ///< on single values; the file's reader collects them
 
   void fault(int line, std::string text) const { faults.add(file, line, std::move(text)); }
 };
@@ -87,7 +88,8 @@ class YamlMap {
   std::optional<std::string> requireOne(const std::vector<std::string>& keys,
                                         const std::string& what, const std::string& purpose) const;
 
-  // Each returns nullopt if the key is absent, and adds a fault if the value is of the wrong kind.
+  // Each returns nullopt if the key is absent, or if a fault was added: the value is of the wrong
+  // kind.
   std::optional<double> number(std::string_view key, Range range = Range::Any) const;
   std::optional<std::uint64_t> wholeNumber(std::string_view key,
                                            const WholeRange& range = {}) const;
@@ -131,8 +133,8 @@ bool hasKey(const YamlValue& value, std::string_view key);
 /// Returns whether a key is absent, or its value is an empty list, map or text.
 bool isEmpty(const YamlMap& map, std::string_view key);
 
-/// Returns the items of a list; none if the key is absent or has no value. Another value is a
-/// fault.
+/// Returns the items of a list; none if the key is absent or has no value. A value of another kind
+/// is a fault.
 std::vector<const YamlValue*> itemsOf(const YamlMap& map, std::string_view key);
 
 /// Reads numbers from a list, or from a map by their names: [1, 2, 3] or {x: 1, y: 2, z: 3}.

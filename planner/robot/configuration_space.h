@@ -71,9 +71,10 @@ class ConfigurationSpace {
   /// `to` at t = 1 bit for bit, except that a circle's angle is brought into [−π, π]. Lines never
   /// leave [from, to].
   Configuration interpolate(const Configuration& from, const Configuration& to, double t) const;
-  /// Returns the sum of the distances in each group. Joints: the root of Σ (weight·difference)².
-  /// Planar and floating joints: weight·|Δp| + weight·angle. The angle of a `rotation` is its
-  /// quaternion angle, half of the rotation angle. The distance is 0 only for equal configurations.
+  /// Returns the sum of the groups' distances. The distance of the single joints is the root of Σ
+  /// (weight·difference)². The distance of a planar or floating joint is weight·|Δp| +
+  /// weight·angle, with the weights of its coordinates. The angle of a `rotation` is its quaternion
+  /// angle, half of the rotation angle. The distance is 0 only for equal configurations.
   double distance(const Configuration& a, const Configuration& b) const {
     return distance(a.data(), b.data());
   }

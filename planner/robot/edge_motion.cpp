@@ -13,12 +13,12 @@
 namespace corridor {
 namespace {
 
-/// Metres; added to every error bound. Squares below 2^-1022 underflow, so that lengths below
-/// 2^-500 may be lost. For levers below 2^99 m this constant covers everything that a bound can
-/// lose by underflow.
+/// Metres; added to every error bound. Squares below 2^-1022 underflow, so lengths below 2^-500 may
+/// be computed as 0. For levers below 2^99 m this constant covers everything that underflow can
+/// take from a bound.
 constexpr double kLeastError = 0x1p-400;
 
-constexpr std::size_t kItself = SIZE_MAX;  // in place of a view: the frame itself
+constexpr std::size_t kItself = SIZE_MAX;  // in place of a view: the frame is the ancestor
 
 /// The bound fixed + reach·|y| metres for a point at lever y from b's origin.
 struct LeverError {
@@ -190,18 +190,19 @@ const EdgeMotion::Impl::View& EdgeMotion::Impl::viewWithErrors(std::size_t index
 ///
 /// Poses. Each entry of a product is a sum of three products.
 /// - A view X·Y: ρ_X + ρ_Y + 3u·√3·√3, and τ_X + τ_Y + ρ_X·|Y.t| + 4u(√3|Y.t| + |X.t + …|).
-/// - The relative pose X_LA⁻¹·X_LB of two branches, with |t| < T, the length of the path: ρ_A + ρ_B
-///   + 9u, and τ_A + τ_B + ρ_A·T + 7uT.
+/// - The relative pose X_CA⁻¹·X_CB of frames A and B on two branches from their common ancestor C,
+///   with |t| < T, the length of the path: ρ_A + ρ_B + 9u, and τ_A + τ_B + ρ_A·T + 7uT.
 ///
 /// Screws. An axis is off by ρ, by its own 32u, and by 6u for the product; its point is off by τ.
-/// With two branches both are transformed into A. Consider a point at lever y from b's origin, and
-/// an axis at distance L from that origin. The point is off by pose(y), the error of the pose. Its
-/// lever from the axis is off by e(y) = pose(y) + τ + axis error·(|y| + L), and so is its distance
-/// from the axis in `motionBound`.
+/// With two branches, axis and point are also transformed into A's frame. Consider a point at lever
+/// y from b's origin, and an axis at distance L from that origin. The point is off by pose(y), the
+/// error of the pose. Its lever from the axis is off by e(y) = pose(y) + τ + axis error·(|y| + L).
+/// The same bound holds for its distance from the axis in `motionBound`.
 ///
-/// Twist. The joint moves the point by at most w = h·rate. So the twist is off by Σ w·e(y), by the
-/// error of the rate, and by about (16 + steps)·u of w(|y| + L) for its arithmetic.
-/// `relativeMotion` returns the largest e(y) plus the error of the twist.
+/// Twist. From the middle of the interval, a joint turns or slides by at most w = h·rate. So the
+/// displacement of the point by the joints is off by Σ w·e(y), by the errors of the rates, and, for
+/// the arithmetic, by about (16 + steps)·u·Σ w(|y| + L). `relativeMotion` returns the largest e(y)
+/// plus the error of the twist.
 void EdgeMotion::Impl::setErrors(Path& path) {
   if (path.edge == edge) return;
   path.edge = edge;

@@ -20,8 +20,9 @@ class EdgeMotion final : public MotionSource {
  public:
   /// `tree` and `space` must outlive the object.
   /// @param pairs frames whose relative motions are queried; motion i is that of pairs[i].
-  /// @param tube for each number of a Configuration, the largest deviation from the edge, ≥ 0
-  /// (metres or radians). The deviation of a rotation is at the first of its four numbers, radians.
+  /// @param tube for each number of a Configuration, the deviation from the edge that the motion
+  /// bounds cover, ≥ 0 (metres or radians). The deviation of a rotation is at the first of its four
+  /// numbers, radians.
   /// @throws std::runtime_error if the processor's floating-point mode makes the bounds invalid
   /// (collision/core/floating_point.h).
   EdgeMotion(const KinematicTree& tree, const ConfigurationSpace& space,

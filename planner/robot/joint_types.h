@@ -9,8 +9,8 @@
 
 namespace corridor {
 
-/// Conversions between joint types and their names in URDF. `jointType` returns nullopt for an
-/// unknown name.
+/// Convert between joint types and their names in URDF. `jointType` returns nullopt for an unknown
+/// name.
 std::string nameOf(JointType type);
 std::optional<JointType> jointType(std::string_view name);
 std::vector<std::string> jointTypeNames();

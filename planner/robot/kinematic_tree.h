@@ -11,8 +11,8 @@
 namespace corridor {
 
 /// A frame of a kinematic tree. Its pose in the parent's frame is a fixed pose followed by one
-/// elementary joint: X_PF(q) = fixed · joint(q). This holds in real arithmetic on the stored
-/// doubles, with quaternions and axes normalised in real arithmetic.
+/// elementary joint: X_PF(q) = fixed · joint(q). This definition is meant in real arithmetic on the
+/// stored doubles, where quaternions and axes are also normalised.
 ///
 /// A joint with several degrees of freedom is a chain of frames. Planar: `translation`, then
 /// `revolute`. Floating: `translation`, then `rotation`.
@@ -30,7 +30,7 @@ struct Frame {
   /// has the joint's name, or "position" for a rigid robot.
   std::string name;
   std::size_t parent = 0;
-  RigidPose fixed;  ///< X_P0
+  RigidPose fixed;  ///< X_P0: pose in the parent's frame
   Joint joint = Joint::none;
   Vec3 axis = Vec3::UnitZ();  ///< in the frame after `fixed`; any length but 0
   /// Index of the first number in a Configuration. If it is `noVariable`, a `revolute` or
@@ -43,8 +43,8 @@ struct Frame {
 };
 
 /// The frames of all robots, and of the world. Frame 0 is the world; parents come before their
-/// children. Plain data, which both the planner's kinematics and the verifier's independent
-/// kinematics read.
+/// children. The tree is plain data. Both the planner's kinematics and the verifier's independent
+/// kinematics read it.
 struct KinematicTree {
   std::vector<Frame> frames{Frame{}};
 
@@ -52,7 +52,7 @@ struct KinematicTree {
     frames.push_back(std::move(frame));
     return frames.size() - 1;
   }
-  /// Returns the lowest frame that is a or above it, and b or above it.
+  /// Returns the lowest common ancestor of a and b. A frame counts as an ancestor of itself.
   std::size_t commonAncestor(std::size_t a, std::size_t b) const {
     while (a != b) {  // the later frame is not above the other one
       std::size_t& later = a > b ? a : b;
@@ -62,9 +62,9 @@ struct KinematicTree {
   }
 };
 
-/// Returns the pose of every frame in the world, computed in double. Each angle is off by 2^-51 of
-/// |multiplier·q| + |offset|, which matters where a mimic multiplies a large value; certified
-/// queries (edge_motion.h) use more digits.
+/// Returns the pose of every frame in the world, computed in double. Each angle is off by up to
+/// 2^-51·(|multiplier·q| + |offset|), which matters if a mimic multiplies a large value. Certified
+/// queries don't use these poses: edge_motion.h bounds the errors of its own.
 std::vector<Transform> framePoses(const KinematicTree& tree, const Configuration& q);
 
 }  // namespace corridor

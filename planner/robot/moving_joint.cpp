@@ -87,7 +87,7 @@ MovingJoint::MovingJoint(const LongPose& fixed)
       shift_(fixed.t.cast<double>()),
       fixedError_(fixed.error),
       // Rounding the sum to double costs 2u·length. In long double the vector of each pose is
-      // rotated, which costs less than 2^-5 of that.
+      // rotated, which adds less than 2^-5 of that.
       fixedShiftError_(2 * kUnit * fixed.length * (1 + 0x1p-5 * fixed.poses)),
       fixedLength_(fixed.length),
       matrixAtZero_(fixed_),

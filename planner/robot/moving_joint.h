@@ -58,7 +58,7 @@ class MovingJoint {
   /// Upper bounds, valid on the whole edge. `rateError`: the error of the vector rate·axis; the
   /// direction of `axis` may be off by another 32u. `rotationError`: the error of the matrix of
   /// `at`, as an operator norm. `shiftError`: the error of the vector of `at`, metres. `length`:
-  /// the length of the exact vector, metres.
+  /// the length of the exact vector of `at`, metres.
   double rateError() const { return rateError_; }
   double rotationError() const { return rotationError_; }
   double shiftError() const { return shiftError_; }

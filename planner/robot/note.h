@@ -11,7 +11,7 @@ namespace corridor {
 enum class NoteWeight {
   coverage,  ///< a proof may cover less, or something else, than the user expects
   motion,    ///< values, limits or joints differ from what a file says
-  detail     ///< what the reader decided otherwise, or ignored without harm
+  detail     ///< other decisions of the reader, and what it ignored without harm
 };
 
 /// A decision of a reader that a user may want to know.

@@ -51,10 +51,10 @@ struct AllowedPair {
   };
 
   std::string a, b, reason;
-  /// If set, the pair is tested in problems whose margin or tube is larger.
+  /// If set, the pair is tested in problems whose margin or tube is larger than the proof's.
   std::optional<Proof> proof = {};
 };
-/// The reason of pairs with a proof.
+/// The `reason` of pairs that have a `proof`.
 inline constexpr std::string_view kNeverInContact = "robot.yaml: never_in_contact";
 
 /// A group of joints that an SRDF names.

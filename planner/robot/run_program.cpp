@@ -82,7 +82,7 @@ ProgramEnd runProgram(const ProgramCall& call) {
     ::execve(words[0], words.data(), environment);
     ::_exit(127);
   }
-  ::setpgid(child, child);  // as the child does: whichever is first
+  ::setpgid(child, child);  // the child does the same: one of the two calls is first
   const auto latest =
       std::chrono::steady_clock::now() + std::chrono::duration<double>(call.seconds);
   ProgramEnd end;

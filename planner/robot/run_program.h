@@ -14,17 +14,19 @@ struct ProgramCall {
   std::filesystem::path folder = {};          ///< where it runs; empty: the current folder
   std::vector<std::string> environment = {};  ///< "NAME=value"; empty: that of this process
   double seconds = 60;                        ///< time limit
-  /// Limit of each output. The outputs are in memory, so it keeps a program from using all of it.
+  /// Limit of each output, bytes. The outputs are kept in memory, which a program without a limit
+  /// could use up.
   std::size_t bytes = std::size_t{1} << 28;
   const std::atomic<bool>* interrupted = nullptr;  ///< stops the program when it becomes true
 };
 
-/// How a program ended. Except for `itself`, it was killed with all processes of its group.
+/// How a program ended. `late`, `interrupted`: it was killed. `tooMuchOutput`: it was killed, or
+/// had ended by then. In every case, the processes that remained in its group were killed.
 struct ProgramEnd {
   enum class Why { itself, late, interrupted, tooMuchOutput };
   Why why = Why::itself;
-  int exitStatus = -1;   ///< −1: it did not end itself, or by a signal
-  std::string out, err;  ///< what it has written
+  int exitStatus = -1;   ///< −1: it was killed, or ended by a signal
+  std::string out, err;  ///< what it has written; empty if it was too much
 };
 
 /// Runs a program to its end. Its standard input is empty. It runs in a process group of its own,

@@ -52,8 +52,8 @@ bool isTooLarge(XmlFile& file, std::size_t links) {
 }
 
 /// Reads the pairs of links that are not tested. An element that can't be read must not leave more
-/// pairs untested than the file wants: without all <enable_collisions>, the elements
-/// <disable_default_collisions> are ignored.
+/// pairs untested than the file wants. So the elements <disable_default_collisions> are ignored
+/// unless all <enable_collisions> can be read.
 class PairReader {
  public:
   PairReader(XmlFile& file, SrdfNames& names, RobotModel& model)
@@ -128,8 +128,8 @@ class PairReader {
   UnknownNames unknown_;
 };
 
-/// Reads the file. What it can't read is a note, because an SRDF only adds to what the URDF says: a
-/// group or state is needed only if the problem names it.
+/// Reads the file. Elements that can't be read become notes, not faults, because an SRDF only adds
+/// to the URDF: a group or state is needed only if the problem names it.
 void readAll(XmlFile& file, RobotModel& model) {
   Element& root = *file.root();
   if (isTooLarge(file, model.links.size())) return;

@@ -33,7 +33,7 @@ class NameIndex {
   std::unordered_map<std::string, std::size_t> indices_;
 };
 
-/// Names in one kind of element that the URDF lacks.
+/// The names, in SRDF elements of one kind, that do not occur in the URDF.
 class UnknownNames {
  public:
   void add(const XmlFile::Element& element, const std::string& name);
@@ -60,8 +60,8 @@ class SrdfNames {
   const NameIndex& links() const { return links_; }
   const NameIndex& joints() const { return joints_; }
 
-  /// Virtual joints are not found, and are not unknown either. They are ignored, because the
-  /// problem file places the robot in the world.
+  /// Adds a virtual joint. `findJoint` does not find it, and does not report it as unknown either.
+  /// Virtual joints are ignored, because the problem file places the robot in the world.
   void addVirtual(const std::string& joint);
 
   /// Return the index of the link or joint that an attribute names. nullopt: the attribute is
@@ -71,11 +71,12 @@ class SrdfNames {
   std::optional<std::size_t> findJoint(const XmlFile::Element& element, const char* attribute,
                                        const std::string& owner, UnknownNames& unknown);
 
-  /// Adds a note that names what is unknown: "3 " + `many` + "a, b and 1 more".
+  /// Adds a note that counts the elements with unknown names and lists these names: "1 " + `one` +
+  /// "a", or "5 " + `many` + the names, of which at most three are listed.
   void note(const UnknownNames& unknown, const std::string& one, const std::string& many,
             std::vector<Note>& notes) const;
-  /// Returns the note that the file seems to be made for another robot, or nullopt. It needs five
-  /// unknown names, and they must be half of all names.
+  /// Returns the note that the file seems to be made for another robot, or nullopt. The note is
+  /// given if at least five names, and at least half of all names, are unknown.
   std::optional<std::string> noteOnOtherRobot() const;
 
  private:

@@ -10,8 +10,8 @@
 
 namespace corridor {
 
-/// Returns whether an angle that is given in radians is meant in degrees: a multiple of 15 that is
-/// more than a full turn in radians, such as 90 or -180.
+/// Returns whether an angle that is given in radians is probably meant in degrees: its size is a
+/// multiple of 15 and larger than 2π, such as 90 or -180.
 inline bool seemsDegrees(double radians) {
   return std::abs(radians) > 2 * std::numbers::pi && std::remainder(radians, 15) == 0;
 }
@@ -29,7 +29,7 @@ inline Eigen::Quaterniond unitQuaternion(const Eigen::Quaterniond& q) {
 /// b. The result is in [0, π/2] radians, for quaternions of any norm; it is 0 for equal
 /// quaternions.
 ///
-/// Error: 4u·√3 from the vector part's sums of four products, and a few ulp.
+/// Error, with u = 2^-53: 4u·√3 from the vector part's sums of four products, and a few ulp.
 ///
 /// Planners spend half of their own time in this function. The relative quaternion has a vector
 /// part (the sine) and a scalar part (the cosine). The function takes the arc sine or arc cosine of

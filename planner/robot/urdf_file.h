@@ -19,14 +19,14 @@ using PackageMap = std::map<std::string, std::filesystem::path>;
 /// How a URDF is read.
 struct UrdfRules {
   PackageMap packages = {};
-  /// A link without <collision> gets the geometry of its <visual>. Otherwise it has no shape, and a
-  /// note names it.
+  /// If true, a link without <collision> gets the geometry of its <visual>. If false, the link has
+  /// no shape, and a note names it.
   bool visualsCollide = false;
-  /// The soft limits of <safety_controller> narrow the limits of the joint. Otherwise a note names
-  /// the joints whose soft limits are narrower.
+  /// If true, the soft limits of <safety_controller> narrow the limits of the joint. If false, a
+  /// note names the joints whose soft limits are narrower.
   bool softLimits = false;
-  /// The <up_axis> of Collada files is applied. Otherwise it is ignored, which is ROS's rule, and a
-  /// note names the files whose up-axis is not z.
+  /// If true, the <up_axis> of Collada files is applied. If false, it is ignored, which is ROS's
+  /// rule, and a note names the files whose up-axis is not z.
   bool colladaUp = false;
   std::vector<std::string> xacro = {};  ///< arguments for a .xacro file: "prefix:=left_"
 };
@@ -36,7 +36,8 @@ struct UrdfRules {
 /// All faults are appended to `faults`, with file and line. The result is nullopt if the URDF has a
 /// fault. `files` receives the URDF and every mesh file, in the order in which they are first
 /// named.
-/// @param notesOfFaulty receives the notes if the result is nullopt; else the model has them.
+/// @param notesOfFaulty receives the notes if the result is nullopt; otherwise the notes are in the
+/// model.
 std::optional<RobotModel> readUrdf(const std::filesystem::path& file, const UrdfRules& rules,
                                    std::vector<Fault>& faults,
                                    std::vector<std::filesystem::path>& files,
@@ -46,9 +47,9 @@ std::optional<RobotModel> readUrdf(const std::filesystem::path& file, const Urdf
 /// disabled collisions with their reasons. Virtual joints and end effectors are ignored.
 ///
 /// Only a file that can't be read at all is a fault. Names that the model lacks and elements that
-/// make no sense are notes, as for other readers of SRDF. A group without its unknown members is
-/// made from the others (`JointGroup::missing`). A group or state that can't be made is kept with
-/// the reason (`unusable`); it is a fault only for a problem that names it.
+/// make no sense are notes, as in other readers of SRDF. A group with unknown members is made from
+/// its other members (`JointGroup::missing`). A group or state that can't be made is kept with the
+/// reason (`unusable`); it is a fault only for a problem that names it.
 /// @param xacro arguments for a .xacro file.
 void readSrdf(const std::filesystem::path& file, RobotModel& model, std::vector<Fault>& faults,
               const std::vector<std::string>& xacro = {});

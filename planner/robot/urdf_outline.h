@@ -65,11 +65,11 @@ UrdfOutline readUrdfOutline(XmlFile& file, const UrdfRules& rules, MeshStore& me
 /// if the file has any fault.
 std::vector<std::size_t> checkUrdfTree(const UrdfOutline& outline, XmlFile& file);
 
-/// Resolves chains of mimics, and checks the limits of the joints that move by themselves. Only
-/// the limits of the leader count, as for other users of URDF; a note is added if a follower's own
-/// limits disagree. A joint whose leader cannot lead (it is not in the file, or it is not a joint
-/// of one variable) moves by itself, with a note. Mimics in a circle and mimics that would make a
-/// joint jump are faults.
+/// Resolves chains of mimics, and checks the limits of the joints that move by themselves. Only the
+/// limits of the leader count, as in other programs that read URDF; a note is added if a follower's
+/// own limits disagree. If the leader is not in the file, or is not a joint of one variable, the
+/// follower moves by itself, with a note. Mimics in a circle and mimics that would make a joint
+/// jump are faults.
 /// @returns the rule of each joint, in the outline's order; `Mimic::joint` is an index in the
 /// outline. nullopt: the joint follows no other.
 std::vector<std::optional<Mimic>> resolveMimics(const UrdfOutline& outline, XmlFile& file,

@@ -50,18 +50,19 @@ class XmlFile {
   /// Returns a required attribute, which must not be empty. nullopt: a fault was reported.
   std::optional<std::string> text(const Element& element, const char* attribute,
                                   const std::string& owner);
-  /// Reads an attribute of `count` finite numbers. The attribute is rewritten in plain decimals
-  /// that every reader takes for the same doubles. nullopt: it is missing, or a fault was reported.
+  /// Reads an attribute of `count` finite numbers. The attribute is rewritten in plain decimals,
+  /// which every reader reads as the same doubles. nullopt: the attribute is missing, or a fault
+  /// was reported.
   std::optional<std::vector<double>> numbers(Element& element, const char* attribute,
                                              std::size_t count, const std::string& owner);
   /// Reports a fault if the attribute is missing.
   void require(const Element& element, const char* attribute, const std::string& owner);
   /// Returns the first child of that name, or nullptr. Each further child of that name is a fault.
   Element* child(Element& parent, const char* name, const std::string& owner);
-  /// Checks for children that are in neither list. Such a child is a fault if something would be
-  /// lost: its name is similar to one in `read`, or it has collision geometry. For other children
-  /// one note a name is added, for at most 100 names. Elements of other formats ("drake:joint") are
-  /// ignored.
+  /// Checks for children that are in neither list. Such a child is a fault if ignoring it may lose
+  /// something: its name is similar to one in `read`, or it has collision geometry. For each other
+  /// name of a child, one note is added, for at most 100 names. Elements of other formats
+  /// ("drake:joint") are ignored.
   void checkChildren(Element& parent, const std::vector<std::string>& read,
                      const std::vector<std::string>& ignored, const std::string& owner,
                      std::vector<Note>& notes);

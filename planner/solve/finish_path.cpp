@@ -17,13 +17,13 @@ namespace og = ompl::geometric;
 
 namespace {
 
-/// Attempts per call. OMPL's simplifier does not test for a time-out within a call, so a call must
-/// be short.
+/// Attempts per call of OMPL's simplifier. The simplifier does not test for a time-out within a
+/// call, so a call must be short.
 constexpr unsigned kAttempts = 10;
 /// After this many rounds in a row without progress, simplifying ends.
 constexpr int kEmptyRounds = 8;
-/// The maximum number of rounds of each kind. No path needed more. The limit is for a path that
-/// each round shortens by little more than the 0.1 % that counts as progress.
+/// The maximum number of rounds of each kind. No measured path needed more. The limit ends the work
+/// on a path that each round shortens by little more than 0.1 %, which counts as progress.
 constexpr int kRounds = 60;
 
 }  // namespace

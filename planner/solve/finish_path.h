@@ -32,8 +32,8 @@ std::vector<Path> simplifiedVersions(const std::shared_ptr<ompl::base::SpaceInfo
 /// turn, whose direction is not defined.
 Path withShortTurns(const ConfigurationSpace& space, const Path& path);
 
-/// Tests the path again, state by state and edge by edge, by the default method. Returns whether
-/// all states are in bounds and all edges are certified.
+/// Tests the path again, by the checker's certified method, whatever method the planner used.
+/// Returns whether all states are in bounds and all edges are certified.
 bool certifiedPath(const Checker& checker, const Path& path);
 
 /// The length of a path, summed over its edges. `metres`: |Δp| of planar and floating joints, and
@@ -44,8 +44,8 @@ struct PathLength {
 };
 PathLength lengthOf(const ConfigurationSpace& space, const Path& path);
 
-/// Returns what the lengths are sums over, besides the edges, for messages: "sum over the joints".
-/// "" if the space has only one joint or body.
+/// Returns, for messages, over what the lengths are summed besides the edges: "sum over the
+/// joints". Returns "" if the space has only one joint or body.
 std::string summands(const ConfigurationSpace& space);
 
 }  // namespace corridor

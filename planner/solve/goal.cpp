@@ -87,7 +87,8 @@ double ProblemGoal::distanceGoal(const ob::State* state) const {
   const Configuration q = configurationOf(*si_, state);
   if (problem_.task.goalRegion) {
     if (inGoal(problem_, goals_, q, -kShrink)) return 0;
-    // A state outside has at least twice the threshold, so that OMPL does not count it as inside.
+    // The distance of a state outside is at least twice the threshold, so that OMPL does not count
+    // the state as inside.
     return std::max(distanceToGoalRegion(problem_, goals_, q), 2 * threshold_);
   }
   double least = std::numeric_limits<double>::infinity();

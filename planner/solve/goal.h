@@ -13,7 +13,7 @@ namespace corridor {
 
 /// The goals of a problem, or the regions around them, as a goal of OMPL. Planners that sample goal
 /// states get a finite set of valid states, beginning with the goals themselves: several of OMPL's
-/// optimising planners need the whole set beforehand. Several threads may use it at once.
+/// optimising planners need the whole set beforehand. Several threads may use the object at once.
 class ProblemGoal : public ompl::base::GoalSampleableRegion {
  public:
   /// @param samples see `sampleGoals`; at least one.

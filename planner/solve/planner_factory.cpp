@@ -161,15 +161,15 @@ std::optional<T> parsedAs(const std::string& text) {
 
 /// Returns whether a negative value of a parameter is a fault.
 /// @param range OMPL's suggestion, "0.:.05:1." (smallest, step, largest). Many parameters accept
-/// values below the smallest suggestion. But if that is not negative, a negative value has no
-/// meaning.
+/// values below the smallest suggestion. But if the smallest suggestion is not negative, a negative
+/// value has no meaning.
 bool neverNegative(const std::string& range) {
   const auto least = parsedAs<double>(range.substr(0, range.find(':')));
   return least && *least >= 0;
 }
 
-/// Returns whether the parameter is a fraction in (0, 1] that OMPL does not test before planning
-/// begins; then it throws.
+/// Returns whether the parameter is a fraction in (0, 1] that OMPL tests only when planning begins:
+/// it then throws for other values.
 bool isShare(const ob::GenericParam& parameter) {
   return parameter.getRangeSuggestion().empty() &&
          (parameter.getName() == "min_valid_path_fraction" ||

@@ -18,8 +18,8 @@ namespace corridor {
 struct PlannerInfo {
   std::string name;   ///< OMPL's
   std::string about;  ///< a description in a few words
-  /// Whether the same seed gives the same path, if the time does not run out: the planner has no
-  /// threads and no clock of its own.
+  /// Whether the same seed gives the same path if the time does not run out. This holds for
+  /// planners without threads and without a clock of their own.
   bool repeats = true;
   /// Uses all its time for better paths, unless it is set to stop at the first path.
   bool optimises = false;

@@ -217,7 +217,8 @@ Solution makeSolution(const Problem& problem, const SolveReport& report, std::st
 
 namespace {
 
-/// Returns the text of a solution file in the folder, from which the problem's file is named.
+/// Returns the text of a solution file in `folder`. The name of the problem's file is relative to
+/// this folder.
 std::string textIn(const std::filesystem::path& folder, const Solution& solution) {
   Solution placed = solution;
   std::error_code failure;

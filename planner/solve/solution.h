@@ -11,7 +11,7 @@ namespace corridor {
 /// The content of a solution file, which `corridor solve -o` writes and `corridor verify` reads:
 /// YAML, format corridor-solution-1 (keys in planner/README.md). Metres, radians.
 struct Solution {
-  std::string problem;  ///< the problem's file; in a solution file relative to that file's folder
+  std::string problem;  ///< the problem's file; relative to the solution file's folder if in a file
   /// The digest of the problem and all its files; empty: not known (`.path` files).
   std::string digest;
   std::string space;  ///< "SE2" or "SE3"; empty if the states have named joints

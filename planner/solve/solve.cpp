@@ -263,7 +263,7 @@ ob::PlannerStatus Solve::plan(const ob::PlannerTerminationCondition& orElse) {
 }
 
 /// Returns whether the path begins at the start, bit for bit, and ends in the goal. This is tested
-/// so that the promise does not rely on the planner and the simplifier.
+/// so that the report's promise does not rely on the planner and the simplifier.
 bool Solve::joinsStartAndGoal(const Path& path) const {
   return !path.empty() && path.front() == start_ && inGoal(problem_, goals_, path.back());
 }
@@ -272,7 +272,7 @@ bool Solve::certified(const Path& path) {
   const double before = clock_.seconds(), processorBefore = clock_.processorSeconds();
   const bool holds = certifiedPath(checker_, path);
   report_.certificationTime += clock_.seconds() - before;
-  // `plan` counts the whole of `finish` as search.
+  // `plan` counts the whole of `finish` as search, so the certification is subtracted here.
   report_.searchProcessorTime -= clock_.processorSeconds() - processorBefore;
   return holds;
 }

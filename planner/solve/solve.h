@@ -47,7 +47,7 @@ enum class SolveOutcome {
 struct SolveReport {
   SolveOutcome outcome = SolveOutcome::notFound;
   std::string why;              ///< why not solved, in one line; empty if solved
-  std::vector<Fault> warnings;  ///< which goals are not used (others are), and why
+  std::vector<Fault> warnings;  ///< goals that are not used, although others are, and why
 
   Path path;  ///< empty unless solved; no rotation by more than 90° between two states
   bool certified = false;  ///< every edge of `path` was proved by the final certification
@@ -75,12 +75,12 @@ struct SolveReport {
 /// version that can be certified as a whole is returned. With `discrete` edges nothing is
 /// certified.
 ///
-/// Planning ends within planner.time, except that an edge that is being tested when the time runs
-/// out is still finished. Simplifying gets the rest of planner.time, but at least 5 % of it. The
+/// Planning ends within planner.time, but an edge test that is running when the time runs out is
+/// completed. Simplifying gets the rest of planner.time, but at least 5 % of planner.time. The
 /// final certification takes its time in addition.
 ///
-/// The same problem and seed give the same path, if the planner repeats (planner/README.md) and the
-/// time does not run out. OMPL has one random seed per process: don't call this from two threads at
+/// The same problem and seed give the same path, if `repeats` is true for the planner and the time
+/// does not run out. OMPL has one random seed per process: don't call this from two threads at
 /// once.
 /// @throws InputError for a start or goals that are in contact, too close or out of bounds, and for
 /// an unknown planner, parameter or sampler.

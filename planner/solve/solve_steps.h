@@ -48,9 +48,9 @@ class SolveClock {
   bool running_ = true;
 };
 
-/// The steps of `solveProblem`, for a caller that works between them: planner/benchmark lets OMPL's
-/// Benchmark call `plan`. Call setUp, setUpEnds and plan once each, in this order. Between them the
-/// clock may be paused, so that the caller's own work is not counted.
+/// The steps of `solveProblem`, for a caller that does other work between them: planner/benchmark
+/// lets OMPL's Benchmark call `plan`. Call setUp, setUpEnds and plan once each, in this order.
+/// Between them the clock may be paused, so that the caller's own work is not counted.
 class Solve {
  public:
   /// Both arguments must outlive the object.

@@ -55,8 +55,8 @@ std::vector<std::string> wordsOf(std::string line) {
   return all;
 }
 
-/// Returns for each column of a header the index of its number. Adds a fault for a name that is
-/// unknown or repeated, and for names that are missing.
+/// Returns, for each column of a header, the index of the number that it names. Adds a fault for a
+/// name that is unknown or repeated, and for names that are missing.
 std::vector<std::size_t> readHeader(const std::vector<std::string>& header,
                                     const std::vector<std::string>& names, const std::string& file,
                                     int line, FaultList& faults) {
@@ -67,8 +67,9 @@ std::vector<std::size_t> readHeader(const std::vector<std::string>& header,
     const auto left = std::find(missing.begin(), missing.end(), word);
     if (name == names.end())
       faults.add(file, line,
-                 "the header names " + quotedWord(word) + ", which is no number of a state" +
-                     didYouMean(word, names) + knownWords(names));
+                 "the header has the column " + quotedWord(word) +
+                     ", which this problem's states do not have" + didYouMean(word, names) +
+                     knownWords(names));
     else if (left == missing.end())
       faults.add(file, line, "the header names " + quotedWord(word) + " twice");
     else
@@ -86,7 +87,7 @@ std::vector<StateRow> readStateRows(const std::filesystem::path& file,
   std::vector<StateRow> rows;
   FaultList faults(file.string());
   const std::vector<std::string> names = space.numberNames();
-  std::vector<std::size_t> columns;  // of a header
+  std::vector<std::size_t> columns;  // the number that each column holds; empty: no header
   bool isFirst = true;
   std::istringstream lines(readTextStream(file, "a file of states, one per line,"));
   std::string line;
@@ -101,7 +102,7 @@ std::vector<StateRow> readStateRows(const std::filesystem::path& file,
     }
     const std::vector<std::string> words = wordsOf(line);
     if (words.empty()) continue;
-    // Names may be numbers, too; a line of numbers is a state.
+    // Names may look like numbers (a joint "1"). A line that consists of numbers only is a state.
     double number0 = 0;
     const bool isHeader =
         std::any_of(words.begin(), words.end(),

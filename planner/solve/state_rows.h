@@ -28,8 +28,8 @@ struct StateRow {
 
 /// Reads a text file with one state per line, such as OMPL.app's `.path` files. Numbers are
 /// separated by blanks or commas, and `#` begins a comment. The first line may be a header: the
-/// names of all numbers, in any order; also as a comment, as numpy.savetxt writes it. The file may
-/// be a pipe; "-" is the standard input.
+/// names of all numbers, in any order. The header may be a comment, as numpy.savetxt writes it. The
+/// file may be a pipe; "-" is the standard input.
 /// @throws InputError with all faults. A file without states is a fault.
 std::vector<StateRow> readStateRows(const std::filesystem::path& file,
                                     const ConfigurationSpace& space);

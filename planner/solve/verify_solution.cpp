@@ -53,7 +53,7 @@ struct Away {
   /// joints, except continuous ones.
   Real position = 0, angle = 0, joint = 0;
   Real distance = 0;  ///< distance in the configuration space, with its weights
-  /// The same for continuous joints, whose angles are rounded when they are reduced to one
+  /// As `joint`, for continuous joints. Their angles are rounded when they are reduced to one
   /// revolution.
   Real jointAngle = 0;
 };

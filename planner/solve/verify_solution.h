@@ -49,10 +49,11 @@ PathProblem plainProblem(const Model& model, const Task& task,
                          const std::optional<double>& tolerance = {});
 PathProblem plainProblem(const Problem& problem);
 
-/// Verifies that the path begins at the start, ends in the goal and stays in the bounds, and by
-/// planner/verify that every curve in the problem's tube around it keeps the problem's margin.
-/// planner/verify shares no bounds, poses or trees with the checker of the planner. If the solution
-/// has a digest, it is first compared with that of the problem's files, which are read again.
+/// Verifies that the path begins at the start, ends in the goal and stays in the bounds. Then
+/// planner/verify verifies that every curve in the problem's tube around the path keeps the
+/// problem's margin. planner/verify shares no bounds, poses or trees with the checker of the
+/// planner. If the solution has a digest, it is first compared with that of the problem's files,
+/// which are read again.
 /// @throws InputError if one of these files can't be read.
 VerifyReport verifySolution(const Problem& problem, const Solution& solution,
                             DigestMismatch other = DigestMismatch::refused);

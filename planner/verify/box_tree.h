@@ -90,12 +90,13 @@ class BodyDistance {
   /// The result's `lower` also covers all pruned pairs: it is the smallest bound of all pruned node
   /// pairs and all tested pairs of leaf primitives. The box of a node of b, in a's frame, has the
   /// half extents |R|·(half extents) about the image of its centre. The caller must add the
-  /// rounding of the boxes (3 sums of 3 products, a root of three squares: under 32u·S), and all
-  /// other rounding.
+  /// rounding of the boxes, and all other rounding. That of the boxes is under 32u·S, where S
+  /// bounds all lengths: 3 sums of 3 products, and a root of three squares.
   BodyGap measure(PiecePair guess, Real doubt, Real stop,
                   const std::function<bool(PiecePair)>& touches);
 
-  /// Returns whether all pairs of leaf primitives in two boxes can be left out by `near`.
+  /// A function that returns whether `near` may leave out all pairs of leaf primitives in two
+  /// boxes.
   using Settled = std::function<bool(const CentredBox& a, const CentredBox& b)>;
   /// Collects the pairs of leaf primitives whose boxes are closer than `within`. Pairs in two boxes
   /// for which `settled` returns true are left out.

@@ -30,10 +30,10 @@ ConvexSet placed(const ConvexPart& part, const Placement& placement);
 /// `upper` by witness points, `lower` by the width of a slab. A slab in any direction gives a true
 /// bound.
 ///
-/// Method: the point of least norm of the difference of the sets, without their swept spheres, from
-/// at most four of its corners at a time (Gilbert, Johnson, Keerthi 1988). All subsets of the
-/// corners are tried, which is the simplest way to choose them. The rounding is similar to that for
-/// triangles; 2^-50 of the size is far more than enough for it.
+/// Method (Gilbert, Johnson, Keerthi 1988): finds the point of least norm in the difference of the
+/// two sets without their swept spheres, from at most four corners of the difference at a time. All
+/// subsets of the corners are tried, which is the simplest way to choose them. The rounding is
+/// similar to that of TriangleGap, and far below 2^-50 of the size.
 /// @param guess the direction in which the search starts, from a to b, of any length; 0: none.
 /// @param enough the search ends when `lower` reaches this value.
 TriangleGap convexGap(const ConvexSet& a, const ConvexSet& b,

@@ -21,8 +21,8 @@ struct FrameState {
   RealVec linear = RealVec::Zero(), angular = RealVec::Zero();
 };
 
-/// The first-order perturbation of the points of a frame at one time, for all curves within the
-/// tube. In the coordinates of the base, a point x is displaced by a sum of
+/// The first-order perturbations of the points of a frame at one time, for all curves within the
+/// tube. In the coordinates of the base, a curve displaces a point x by a sum of
 /// - c·(linear + angular × x) for each twist, with any c in [−1, 1];
 /// - w × (x − at) for each pivot rotation, with any vector w of length at most `angle`.
 struct Perturbation {
@@ -56,10 +56,10 @@ std::size_t commonAncestor(const KinematicTree& tree, std::size_t a, std::size_t
 /// Then, with derivatives by t,
 ///   |x'| ≤ speed = Σ_revolute |Δ_j| R_j + Σ_prismatic |Δ_j|,
 ///   |x''| ≤ bend = Σ_revolute |Δ_j| R_j (|Δ_j| + 2 P_j) + Σ_prismatic 2 |Δ_j| P_j.
-/// The reason: x'' is a sum over ordered pairs of joints, of the rotation vector of the first times
-/// the share of x' of the second. That share is not longer than |Δ_j| R_j. A prismatic joint moves
-/// in a straight line, so its pair with itself is zero. A perturbation of each number within its
-/// tube moves x by at most
+/// The reason: x'' is a sum over ordered pairs of joints. The term of a pair is the cross product
+/// of two vectors: the rotation vector of the joint nearer to the base, and the other joint's share
+/// of x'. That share is not longer than |Δ_j| R_j. A prismatic joint moves in a straight line, so
+/// its pair with itself is zero. A perturbation of each number within its tube moves x by at most
 ///   tube = Σ_revolute τ_j R_j + Σ_prismatic τ_j.
 ///
 /// Second order with perturbations. Let joint j deviate by δ_j, |δ_j| ≤ τ_j, from its value at a
@@ -75,7 +75,7 @@ struct Reach {
   Real bendCross = 0;  ///< the mixed terms of Δ and τ in the quadratic form
   Real bendTube = 0;   ///< the quadratic form with τ in place of Δ
   Real size = 0;       ///< upper bound of all lengths in the pose; rounding is below 2^-50 of it
-  Real lengths = 0;    ///< `size` without the share of large angles
+  Real lengths = 0;    ///< `size` before it is increased for large angles
 };
 
 /// Returns the shorter way round a circle, radians, in [−π, π]: the real value of to − from, minus
@@ -94,15 +94,15 @@ Real circleDifference(double from, double to);
 ///
 /// Rounding, with u = 2^-64, and t of at most 63 bits:
 /// - Normalised quaternions are off by ≤ 5u each, their slerp by < 128u, the rotation by < 256u.
-///   (The angle Ω = 2 atan2(|q1 − q0|, |q1 + q0|) is off by ≤ 32u; the weights by ≤ 0.6 per unit of
-///   Ω and 8u.)
+///   (The angle Ω = 2 atan2(|q1 − q0|, |q1 + q0|) is off by ≤ 32u. The weights of the slerp are off
+///   by ≤ 0.6 times this error plus 8u.)
 /// - A revolute joint's value m·q0 + o + t·m·Δ is off by ≤ 8u times `Line::terms` (products, sums
 ///   and the rounding of Δ). Sine, cosine and Rodrigues' matrix are off by < 16u.
 /// - A frame multiplies two such matrices into the rotation, 10u more. Each frame adds < 300u for
 ///   free rotations, < 40u otherwise.
 /// - With n frames a point is off by ≤ n·300u times the length of the chain. This is below
 ///   2^14·u·size = 2^-50·size for n ≤ 54. For larger n, `Reach::size` is increased in proportion to
-///   n; it is also increased with `terms` of angles.
+///   n. It is also increased for large `Line::terms` of angles.
 class EdgeCurve {
  public:
   EdgeCurve(const KinematicTree& tree, const std::vector<Coordinate>& coordinates,

@@ -111,7 +111,7 @@ Real MovedSlab::width(const CentredBox& a, const CentredBox& b) const {
 Real boundBySlabs(BodyDistance& placed, const BodyGap& measured, const PairMotion& motion,
                   const Sought& sought, std::vector<PiecePair>& scratch) {
   const Real lost = motion.secondOrder + motion.rounding;
-  // In any direction, motion, tube and rounding take at most this much from a distance.
+  // In any direction, motion, tube and rounding reduce a distance by at most this much.
   const Real most = motion.travel + motion.tube + motion.rounding;
   const auto slabAlong = [&](const RealVec& direction) {
     return MovedSlab(motion.a, motion.b, motion.half, direction);

@@ -7,8 +7,8 @@
 namespace corridor::verify {
 
 /// The motion of a body's points around the middle of a time interval, to first order. The
-/// coordinates do not move in the interval. A point x has the velocity linear + angular × x per
-/// unit of t, and the perturbations `strays`.
+/// coordinate system is fixed during the interval. A point x has the velocity linear + angular × x
+/// per unit of t, and the perturbations `strays`.
 struct BodyMotion {
   RealVec linear = RealVec::Zero(), angular = RealVec::Zero();
   Perturbation strays;  ///< empty if the caller bounds the tube by other means
@@ -32,19 +32,20 @@ BodyMotion motionSeenFrom(const Placement& at, const FrameState& state, Perturba
 /// Width. Let h_A be the support of A along n, and h_B that of B along −n. The width is −h_A − h_B,
 /// with
 ///   h(s) = max over x of ±n·(x + s·v(x)) + Σ |n·T_j(x)| + Σ angle_k |n × (x − p_k)|.
-/// The last term is the largest value of w·((x − p) × n) for vectors w of at most `angle`. Each
-/// term is convex in x, as T_j and v are affine, so the maximum is attained at a corner of the
-/// core. The maximum is convex in s, so the width is concave and least at s = −half or s = half.
+/// The last term is the largest value of w·((x − p) × n) for vectors w of length at most `angle`.
+/// Since T_j and v are affine, each term is convex in x. So the maximum is attained at a corner of
+/// the core. The maximum is convex in s. So the width is concave, and least at s = −half or s =
+/// half.
 ///
-/// For core points the width is sharp: at that corner each c_j can be ±1 and each w_k perpendicular
-/// to n. If one variable moves joints in the chains of both bodies (mimics), the formula treats its
-/// perturbations as independent. The true width can only be larger.
+/// For core points the width is attained: at that corner, each c_j can be ±1 and each w_k can be
+/// perpendicular to n. If one variable moves joints in the chains of both bodies (mimics), the
+/// formula treats its perturbations as independent. The true width can only be larger.
 ///
 /// Discs and boxes. A disc about the corner x has the points x + d, with d perpendicular to the
 /// axis, |d| ≤ r. Let ⟂ be the component perpendicular to the axis. Then n·(d + s ω × d) = d·(n + s
 /// n × ω) ≤ r |(n + s n × ω)⟂|, |n·T_j(x + d)| ≤ |n·T_j(x)| + r |(n × ω_j)⟂|, and |n × d| ≤ r. A
-/// box has the points x + d, |d_i| ≤ e_i: d·g ≤ Σ e_i |g_i|, and |n × d| ≤ |e|. These bounds are
-/// not sharp if there are several terms.
+/// box has the points x + d, |d_i| ≤ e_i: d·g ≤ Σ e_i |g_i|, and |n × d| ≤ |e|. With several terms,
+/// these bounds may not be attained.
 ///
 /// Rounding: about 2^-58 of lengths that Reach::size includes.
 class MovedSlab {

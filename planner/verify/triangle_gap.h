@@ -24,10 +24,10 @@ using RealMat = Eigen::Matrix<Real, 3, 3>;
 /// intersection.
 ///
 /// Rounding: let S be the largest norm of a corner. A dot product is off by at most 3u|n|S(1 +
-/// O(u)), the difference of two by another u·2|n|S, and the division by |n| by a factor 1 ± 4u.
-/// So `lower` exceeds the true distance of the given triangles by less than (3 + 3 + 2 + 8)u·S =
-/// 2^-60·S. `upper` may be below the distance of the witness points by less than that. Callers add
-/// this error.
+/// O(u)), the difference of two by another u·2|n|S, and the division by |n| by a factor 1 ± 4u. So
+/// `lower` exceeds the true distance of the given triangles by less than (3 + 3 + 2 + 8)u·S =
+/// 2^-60·S. `upper` may be below the distance of the witness points, also by less than 2^-60·S.
+/// Callers add this error.
 struct TriangleGap {
   Real lower = 0;
   Real upper = std::numeric_limits<Real>::infinity();

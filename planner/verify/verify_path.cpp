@@ -23,8 +23,9 @@ constexpr int kDepth = 60;
 /// this finds a deep collision quickly. After that the shortest interval is next: this finds an
 /// undecidable place before all other intervals are halved as far.
 constexpr int kCoarse = 5;
-/// After the proof, this many queries, plus four times the number of those of the proof, may be
-/// used to refine the bound of the clearance.
+/// After the proof, the bound of the clearance is refined. This may take kRefinement queries, plus
+/// four times as many as the proof took. It ends when the bound is kRefined of the largest possible
+/// one.
 constexpr std::uint64_t kRefinement = 4000;
 constexpr Real kRefined = 0.9L;
 

@@ -17,17 +17,18 @@ namespace corridor {
 /// and no bound, pose, tree, distance or predicate.
 ///
 /// The method is adaptive bisection (Schwarzer, Saha, Latombe 2005). At the middle of a time
-/// interval of an edge, the distance d of two bodies is bounded from below. Seen from the common
-/// ancestor of their frames, no point moves farther in the interval than the motion bound
+/// interval of an edge, the distance d of two bodies is bounded from below. Take any point of one
+/// body and any point of the other. Seen from the common ancestor of the two frames, their
+/// displacements from the middle add up to at most the motion bound
 ///     travel = Σ |Δ_j|·h·reach_j  over the joints between the two frames.
 /// Here h is the half width of the interval in t. reach_j is a constant: the length of the chain
 /// after joint j, plus the radius of the body (1 for a prismatic joint).
 ///
 /// 1. If d > travel + margin + tube + rounding, the interval is proved for this pair.
 /// 2. Otherwise each near pair of leaf primitives is tested along directions of its own, such as
-///    the one between its closest points. Three terms count in such a direction: the velocity at
-///    the middle; the tube, if it exceeds the tolerance; and a second-order term, which is
-///    quadratic in h and the tube.
+///    the one between its closest points. Three terms reduce the distance in such a direction: the
+///    velocity at the middle; the tube, if it exceeds the tolerance; and a second-order term, which
+///    is quadratic in h and the tube.
 /// 3. Otherwise the interval is halved, until the motion bound is below the tolerance.
 ///
 /// Distances come from plain AABB trees in long double, each certified by a slab between the two
@@ -64,12 +65,12 @@ struct PathProblem {
 };
 
 enum class PathVerdict {
-  /// Every curve in the tube keeps more than the margin everywhere. Never wrong.
+  /// Every curve in the tube keeps more than the margin everywhere. This verdict is never wrong.
   proved,
   /// At least one finding is a refutation: a contact; a distance that margin or tube do not allow;
   /// an ambiguous half turn; a joint that would jump; or a state that is not valid data. A contact
-  /// or distance is found at a pose that is the path's up to rounding: up to 2^-48 of the lengths
-  /// involved, or up to the tolerance.
+  /// or distance is found at a pose that differs from the path's only by rounding: by at most 2^-48
+  /// of the lengths involved, or by at most the tolerance.
   refuted,
   /// Neither. Somewhere the clearance beyond the margin is below twice the tolerance, or below the
   /// tube's displacement (MovedSlab has its first-order term, Reach its second-order term); or the
@@ -110,13 +111,13 @@ struct PathReport {
 /// Verifies a path through `states`. For a path of one state, this state is verified. The caller
 /// must check the bounds of the variables, and that start and goal are those of the problem.
 ///
-/// A state that is not finite or has a zero quaternion is a finding. If the processor's
-/// floating-point mode makes the bounds invalid (collision/core/floating_point.h), every edge is
-/// undecided.
+/// A state that is not finite, or has a zero quaternion, gives the finding `refuted`. If the
+/// processor's floating-point mode makes the bounds invalid (collision/core/floating_point.h),
+/// every edge is undecided.
 /// @throws std::invalid_argument if there are no states; if a pointer is null; if margin, tube or
 /// tolerance is negative or not finite, or the tolerance is 0; if the tube has another length than
-/// a configuration; if a body has neither a mesh nor parts, or both, or an empty one; or if a pair
-/// names a body that does not exist.
+/// a configuration; if a body has neither a mesh nor parts, or both, or an empty mesh or part; or
+/// if a pair names a body that does not exist.
 PathReport verifyPath(const PathProblem& problem, const std::vector<Configuration>& states);
 
 }  // namespace corridor

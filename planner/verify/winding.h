@@ -10,7 +10,7 @@ namespace corridor::verify {
 /// Returns the components of a mesh, as lists of triangles. Triangles that share an edge are in one
 /// component; vertices at the same place are one vertex. Two closed surfaces that meet only at a
 /// vertex are separate components. They must not be one component, because one may be inside the
-/// other. Their common winding number about points inside both would then be 2 or 0.
+/// other. The sum of their winding numbers around a point inside both would then be 2 or 0.
 std::vector<std::vector<std::uint32_t>> componentsOf(const TriangleMesh& mesh);
 
 /// Returns whether the point is inside any of the components. Each component is assumed to be

@@ -94,7 +94,8 @@ TEST_F(CheckCommand, StatesMayHaveAHeader) {
     return checked.err;
   };
   EXPECT_EQ(fault("elbow shoulder time\n0 0 0\n"),
-            "states.csv:1: the header names \"time\", which is no number of a state (known: "
+            "states.csv:1: the header has the column \"time\", which this problem's states do not "
+            "have (known: "
             "shoulder, elbow)\n");
   EXPECT_EQ(fault("elbow elbow\n0 0\n"),
             "states.csv:1: the header names \"elbow\" twice\n"

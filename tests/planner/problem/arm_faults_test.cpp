@@ -110,7 +110,7 @@ TEST_F(ArmFaults, AllowAndTube) {
             "here; use joints (rad, or m for prismatic joints)");
 }
 
-/// Values that are plainly in degrees.
+/// Values in radians that are plainly meant in degrees.
 TEST_F(ArmFaults, AnglesInDegrees) {
   const auto complaint = [&](const std::string& values) {
     return complaintOf(armHead + "start: {pan: 0, " + values + "}\ngoal: ready\n");
@@ -130,7 +130,7 @@ TEST_F(ArmFaults, AnglesInDegrees) {
               testing::HasSubstr("; poses of links are not supported: give the joints' values"));
 }
 
-/// Only what the problem names must be there.
+/// Parts of an SRDF that can't be made are faults only if the problem names them.
 TEST_F(ArmFaults, PartsOfAnSrdfThatCannotBeMade) {
   std::string text = srdf;
   text.insert(text.find("<disable_collisions"),
@@ -150,7 +150,7 @@ TEST_F(ArmFaults, PartsOfAnSrdfThatCannotBeMade) {
       << "the group is its joint pan alone";
 }
 
-/// A prismatic joint may move a link as far as the limits of the joint allow.
+/// A prismatic joint may move a link as far as its limits, so these must not be too large either.
 TEST_F(ArmFaults, TravelBeyondAllArithmetic) {
   std::string text = urdf;
   text.replace(text.find("upper='0.05' effort"), 12, "upper='1e155'");

@@ -100,7 +100,7 @@ TEST_F(Clouds, OfARobot) {
   EXPECT_EQ(bodyOf(p, "scan").shapes.at(1).name, "scan/tray");
 }
 
-/// The key for clouds is named where one is given as a mesh.
+/// If a cloud is given as a mesh, the message names the key for clouds.
 TEST_F(Clouds, AsAMesh) {
   EXPECT_THAT(rock("{mesh: cloud.xyz}"),
               testing::StartsWith("problem.yaml:4: world.rock.mesh: for a cloud of points, write "

@@ -83,7 +83,7 @@ TEST_F(Moveit, SceneAndRequest) {
   const ModelBody& crate = p.model.bodies.at(p.model.bodies.size() - 2);
   EXPECT_EQ(crate.name, "crate");
   ASSERT_EQ(crate.shapes.size(), 2u);
-  // The pose of the object, a quarter turn about z, moves its primitives along.
+  // The object's pose, a quarter turn about z, also applies to its primitives.
   Vec3 centre = Vec3::Zero();
   for (const Vec3& point : crate.shapes[0].parts.at(0).points) centre += point / 8;
   EXPECT_LT((centre - Vec3(0, 0, 0)).norm(), 1e-15);
@@ -284,7 +284,7 @@ TEST_F(Moveit, ObjectsOnTheRoot) {
       << "in the world";
 }
 
-/// Rotations of any length are those of their directions.
+/// A quaternion of any norm counts as the normalised quaternion.
 TEST_F(Moveit, TinyQuaternions) {
   for (const std::string size : {"1e-170", "1e170", "1"}) {
     write("scene.yaml",
@@ -297,7 +297,7 @@ TEST_F(Moveit, TinyQuaternions) {
   }
 }
 
-/// The start of the problem counts before that of the request, for held joints, too.
+/// The start of the problem replaces that of the request, also for held joints.
 TEST_F(Moveit, HeldJointsFollowTheProblemsStart) {
   write("arm.yaml",
         "format: corridor-robot-1\nurdf: arm.urdf\nsrdf: arm.srdf\nstates: {near: {pan: 0, lift: "

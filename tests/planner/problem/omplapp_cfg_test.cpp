@@ -225,8 +225,8 @@ const std::vector<Reference>& references() {
   return all;
 }
 
-/// Compares with a tolerance of 1e-4 (relative above 1), since the reference values have five
-/// digits.
+/// Compares with a tolerance of 1e-4 (relative for values above 1), since the reference values have
+/// five digits.
 void expectNear(const Vec3& a, const Vec3& b, const std::string& what) {
   for (int k = 0; k < 3; ++k)
     EXPECT_NEAR(a[k], b[k], 1e-4 * std::max(1.0, std::abs(b[k]))) << what << " "
@@ -301,8 +301,8 @@ TEST(OmplAppProblems, AgreeWithTheReference) {
   EXPECT_EQ(readProblem(*folder / "3D/cubicles_opt.cfg").settings.planner.time, 300);
 }
 
-/// Reads the poses of one of OMPL.app's sample solutions. OMPL.app's checker found them free. If
-/// the reader placed the meshes wrongly, some of them would be in contact.
+/// Reads the poses of one of OMPL.app's sample solutions. OMPL.app's checker found these poses
+/// free. If the reader placed the meshes wrongly, some of them would be in contact.
 std::vector<Transform> posesOf(const std::filesystem::path& file, bool spatial) {
   std::vector<Transform> poses;
   std::ifstream stream(file);

@@ -107,8 +107,8 @@ TEST_F(ProblemYaml, Defaults) {
   EXPECT_EQ(p.task.tube[3], 0x1p-40 * 2 * std::numbers::pi);
   EXPECT_TRUE(p.settings.simplify);
   EXPECT_EQ(p.settings.seed, 1u);
-  // The weight is per radian of the quaternion's angle, so 1 is half a metre per radian of
-  // rotation.
+  // The weight is per radian of the quaternion's angle, half the rotation angle. So a weight of 1
+  // is half a metre per radian of rotation.
   EXPECT_EQ(p.model.space.coordinates().at(3).weight, 1);
   EXPECT_EQ(lowerOf(p), Vec3(0, 0, 0));
   EXPECT_EQ(upperOf(p), Vec3(5, 5, 3));

@@ -36,9 +36,9 @@ void stray(RandomTrees& random, const Configuration& tube, Configuration& from, 
   }
 }
 
-/// Every point at every time of the interval stays within the isotropic bound. Along any direction
-/// it stays within the first-order motion plus the remainder. Perturbations within the tube are
-/// included.
+/// At every time of the interval, the motion of every point stays within the isotropic bound. Along
+/// any direction it stays within the first-order motion plus the remainder. This also holds with
+/// perturbations within the tube.
 TEST(ChainBound, IsNeverExceeded) {
   RandomTrees random(test::testSeed(1));
   const int count = test::isStressRun() ? 2'000'000 : 150'000;

@@ -123,7 +123,7 @@ TEST(ConfigurationSpace, CirclesTakeTheShorterWayAcrossTheSeam) {
   EXPECT_EQ(space.distance(values({pi}), values({-pi})), 0);
   EXPECT_TRUE(space.equal(values({pi}), values({-pi})));
   EXPECT_NEAR(space.largestTurn(values({3}), values({-3})), 2 * pi - 6, 1e-15);
-  // A circle out of range is brought back.
+  // A circle's angle outside of [−π, π] is brought into this interval.
   EXPECT_NEAR(at(7, 7.5, 0), 7 - 2 * pi, 1e-15);
   EXPECT_NEAR(at(7, 7.5, 1), 7.5 - 2 * pi, 1e-15);
   EXPECT_NEAR(at(100, -100, 0.5), std::remainder(100 + std::remainder(-200, 2 * pi) / 2, 2 * pi),

@@ -77,7 +77,7 @@ TEST(EdgeMotion, PosesAndTwistsAreWithinTheirStatedError) {
 }
 
 /// A long chain: a hundred slides, each turned by the same angle about z, so that the rounding of
-/// their rotations adds up. Then comes a joint, and a hand far out.
+/// their rotations adds up. Then come a joint, and a hand far from it.
 struct LongChain {
   KinematicTree tree;
   ConfigurationSpace space;
@@ -109,8 +109,8 @@ struct LongChain {
   }
 };
 
-/// In a long chain an error of a rotation displaces all following frames, and also tilts the axes
-/// of the following joints.
+/// In a long chain, a rotation's error displaces all following frames and tilts the axes of all
+/// following joints.
 TEST(EdgeMotion, LongChainsAreWithinTheirStatedError) {
   RandomTrees random(test::testSeed(5));
   double worst = 0, worstTwist = 0;
@@ -171,8 +171,8 @@ TEST(EdgeMotion, ErrorsBetweenLinksAreSmallFarFromTheOrigin) {
   EXPECT_GT(motion.relativeMotion(1, 0.5, 0.5).fixedError, 1e-10);
 }
 
-/// If each of the `screws` is applied by its amount, about its axis at the middle, their product is
-/// the motion to the end of the interval.
+/// Each of the `screws` is applied by its amount, about its axis at the middle. Their product is
+/// the motion from the middle to the end of the interval.
 TEST(EdgeMotion, ScrewsAreTheMotion) {
   RandomTrees random(test::testSeed(2));
   for (int n = 0; n < 20'000; ++n) {

@@ -128,7 +128,8 @@ class RandomTrees {
     tree.add(frame);
   }
 
-  /// Sometimes returns the number of an existing single joint, which the new joint then mimics.
+  /// Returns, at random, the variable of an existing single joint that the new joint mimics, or
+  /// Frame::noVariable.
   std::size_t followed() {
     if (!oneIn(4)) return Frame::noVariable;
     const Frame& other = tree.frames[index(tree.frames.size())];

@@ -1,5 +1,5 @@
-// Tests of scenes of many moving frames: although a scene leaves out far pairs, its verdict must be
-// the same as if every pair is tested alone.
+// Tests of scenes of many moving frames: although a scene leaves out pairs that are far apart, its
+// verdict must be the same as if every pair were tested alone.
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -102,7 +102,7 @@ TEST(SceneMotion, EdgesOfRandomTrees) {
       free += answer.verdict == MotionVerdict::free;
       contact += answer.verdict == MotionVerdict::contact;
       if (answer.verdict == MotionVerdict::contact && options.earliest) {
-        // Both brackets contain the first contact.
+        // The interval [certifiedUntil, contactTime] of each answer contains the first contact.
         EXPECT_LE(answer.certifiedUntil, byPairs.contactTime) << n;
         EXPECT_LE(byPairs.certifiedUntil, answer.contactTime) << n;
       }
@@ -184,7 +184,7 @@ TEST(SceneMotion, StatesOfRandomTrees) {
     const Scene scene = randomScene(random);
     random.makeEdge(1);
     std::vector<Transform> X_WF = framePoses(random.tree, random.from);
-    // Maps that are rigid to four digits only, and a world frame anywhere.
+    // In some cases the maps are rigid to four digits only, or the world frame is shifted.
     if (n % 3 == 0)
       for (Transform& X : X_WF) X.m *= 1 + 1e-4 * random.real();
     if (n % 4 == 0)

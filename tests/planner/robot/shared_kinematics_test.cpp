@@ -14,7 +14,7 @@
 namespace corridor {
 namespace {
 
-/// For metres and for quaternions; the reference has 12 digits.
+/// For metres and for the numbers of quaternions; the reference has 12 digits.
 constexpr double kTolerance = 1e-9;
 
 void expectPose(const Transform& X, const std::vector<double>& expected, const std::string& link) {

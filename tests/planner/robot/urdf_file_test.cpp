@@ -278,7 +278,7 @@ TEST_F(UrdfFile, MeshesInMillimetresAreNoted) {
                   .notes.empty());
 }
 
-/// Links without <collision> are named, or get the shapes of their visuals.
+/// Links without <collision> are named in a note, or get the shapes of their visuals.
 TEST_F(UrdfFile, Visuals) {
   const auto visual = [](const std::string& shape) {
     return "<visual><origin xyz=\"0 0 1\"/><geometry>" + shape +

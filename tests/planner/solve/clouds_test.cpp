@@ -15,7 +15,7 @@
 namespace corridor {
 namespace {
 
-/// A ball robot, and a wall of balls in x = 0 with a hole of half width 0.3 m at the origin.
+/// A ball robot, and a wall of balls in x = 0 with a hole of half width 0.31 m at the origin.
 class WallOfPoints : public testing::Test {
  protected:
   void SetUp() override {
@@ -43,8 +43,8 @@ class WallOfPoints : public testing::Test {
   std::filesystem::path folder_ = test::newFolder();
 };
 
-/// The wall's nearest balls are 0.35 m from the axis, so the ball robot passes up to 0.21 m beside
-/// it. Closed form.
+/// Closed form: the centres of the wall's nearest balls are 0.35 m from the x-axis. So the ball
+/// robot can pass up to 0.35 − 0.1 − 0.04 = 0.21 m beside the axis.
 TEST_F(WallOfPoints, CheckerAndVerifierAgreeWithTheClosedForm) {
   const Problem problem = readProblem(folder_ / "problem.yaml");
   const Checker checker(problem);
@@ -61,7 +61,7 @@ TEST_F(WallOfPoints, CheckerAndVerifierAgreeWithTheClosedForm) {
   }
 }
 
-/// A contact names the ball.
+/// The message about a contact names the ball.
 TEST_F(WallOfPoints, ContactsNameTheBall) {
   const Problem problem = readProblem(folder_ / "problem.yaml");
   const Checker checker(problem);
@@ -69,7 +69,7 @@ TEST_F(WallOfPoints, ContactsNameTheBall) {
   EXPECT_NE(why.find("\"wall\" (part "), std::string::npos) << why;
 }
 
-/// Tolerances that a tenth would make 0 are legal.
+/// A tolerance is legal even if a tenth of it rounds to 0.
 TEST_F(WallOfPoints, TheSmallestTolerance) {
   const Problem problem = readProblem(folder_ / "problem.yaml");
   EXPECT_GT(plainProblem(problem.model, problem.task, 5e-324).tolerance, 0);

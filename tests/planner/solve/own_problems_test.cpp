@@ -44,7 +44,7 @@ TEST(OwnProblems, AllAreListedHere) {
   EXPECT_EQ(folders, 12);
 }
 
-/// Some states must be free if the pairs between the two arms are not tested.
+/// Some states must be in contact only because the two arms touch each other.
 TEST(TwoArms, AreTestedAgainstEachOther) {
   Problem problem = ownProblem("two_arms");
   const auto between = [&](std::size_t i, std::size_t j) {
@@ -59,7 +59,7 @@ TEST(TwoArms, AreTestedAgainstEachOther) {
     apart.model.filter.skip(a, b, "left out by this test");
   });
   EXPECT_GT(tested, 0u);
-  // Many states are free except for contacts with the other arm.
+  // In many states the only contacts are those between the arms.
   const Checker together(problem), alone(apart);
   std::mt19937_64 random(1);
   int differ = 0;
@@ -76,7 +76,7 @@ TEST(TwoArms, AreTestedAgainstEachOther) {
 }
 
 /// A paper plane 1 mm thick and a plate 0.1 mm thick: steps of 1 % jump over the plate. Sampled
-/// edges give paths straight through the plate, certified edges never do.
+/// edges give paths straight through the plate. Certified edges never do.
 TEST(ThinPlate, DiscreteGoesThroughAndCertifiedNeverDoes) {
   Problem problem = ownProblem("thin_plate");
   const auto verdict = [&](std::uint64_t seed) {

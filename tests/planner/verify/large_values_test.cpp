@@ -129,7 +129,7 @@ TEST(LargeValues, TheWayRoundACircleIsExact) {
     if (n % 7 == 0) ends.to *= std::pow(10.0, n % 280);  // up to the largest doubles
     if (!std::isfinite(ends.to)) continue;
     const Many way = trueWay(ends.from, ends.to);
-    if (abs(abs(way) - pi()) < 1e-12) continue;  // both ways are right
+    if (abs(abs(way) - pi()) < 1e-12) continue;  // either way may be taken
     const Many off = abs(Many(verify::circleDifference(ends.from, ends.to)) - way);
     ASSERT_LE(off, Many(std::ldexp(1.0, -59))) << ends.from << " to " << ends.to;
     const CircleTurn turn = circleTurn(ends.from, ends.to);

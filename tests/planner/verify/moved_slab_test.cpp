@@ -160,7 +160,7 @@ TEST(MovedSlab, IsAttained) {
   int cases = 0;
   for (int i = 0; i < 150; ++i) {
     const Arm arm(random);
-    for (const int kind : {0, 1, 3, 4}) {  // no cylinders: the bound of a disc is not attained
+    for (const int kind : {0, 1, 3, 4}) {  // no cylinders: the bound for a disc is not attained
       const Case one(arm, i % 2 == 1, random, 1e-6, kind + 5 * kind);
       const Real lost = one.still() - one.firstOrder() + one.motion.secondOrder;
       worst = std::min(worst, (one.still() - one.leastWidth(random)) / lost);
@@ -172,9 +172,9 @@ TEST(MovedSlab, IsAttained) {
   EXPECT_LT(gained / cases, 0.35L);  // relative to the isotropic bound
 }
 
-// A point that rotates about z approaches an obstacle between it and the axis in second order only,
-// by 1 − cos(h|Δ| + τ). The second-order term is that of the sum of motion and perturbation, not of
-// each alone.
+// A point rotates about z, and an obstacle is between the point and the axis. The point approaches
+// the obstacle in second order only, by 1 − cos(h|Δ| + τ). So the second-order term must be that of
+// the sum of motion and perturbation, not the sum of their two terms.
 TEST(MovedSlab, SecondOrderIsThatOfMotionPlusPerturbation) {
   KinematicTree tree;
   ConfigurationSpace space;

@@ -66,8 +66,8 @@ TEST(ExactContact, DegenerateTriangles) {
 }
 
 TEST(ExactContact, QuaternionIsNormalisedExactly) {
-  // 3² + 4² = 5², so the rotation matrix is rational for any norm. (5, 0, 0) goes to (-1.4, 4.8,
-  // 0), whose coordinates are not exactly doubles.
+  // 3² + 4² = 5², so the matrix of this rotation is rational. (5, 0, 0) goes to (-1.4, 4.8, 0),
+  // whose coordinates are not exactly doubles.
   RigidPose pose;
   pose.q = Eigen::Quaterniond(3, 0, 0, 4);
   const Corners needle = {Vec3(25, 0, 0), Vec3(26, 0, 0), Vec3(26, 1, 0)};
@@ -190,7 +190,7 @@ TEST(BodyDistance, EqualsTheDoubleLoop) {
     EXPECT_LE(std::abs(found.lower - lower), 0x1p-29L * upper);
     EXPECT_FALSE(found.touching);
     guess = found.pair;
-    // If the search stops early, the bound is still valid.
+    // If the search stops early, `lower` is still a lower bound.
     EXPECT_LE(distance.measure({}, 0, upper / 2, never).lower, upper);
     EXPECT_GE(distance.measure({}, 0, lower / 2, never).lower, lower / 2 * (1 - 0x1p-29L));
     std::vector<PiecePair> near;

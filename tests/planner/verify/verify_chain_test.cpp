@@ -17,7 +17,8 @@ ConvexPart boxPart(const Vec3& lower, const Vec3& upper) {
   return {boxMesh(lower, upper).vertices, 0, false};
 }
 
-/// A chain of `joints` revolute joints about z, one per metre, each followed by a rod of a metre.
+/// A chain of `joints` revolute joints about z, one per metre. Each is followed by a rod from 0.1
+/// to 0.9 m, with radius 0.05 m.
 struct Chain {
   KinematicTree tree;
   ConfigurationSpace space;
@@ -62,8 +63,8 @@ Configuration joints(std::initializer_list<double> values) {
   return q;
 }
 
-// The stretched chain rotates as one body about the first joint. Its tip is at 1.9 + 0.05 from
-// there.
+// The stretched chain rotates as one body about the first joint. The tip of its last rod is 1.9 +
+// 0.05 m from this joint.
 TEST(VerifyChain, StretchedArmPastAPoint) {
   for (const double gap : {1e-1, 1e-3, 1e-6, -1e-6, -1e-3}) {
     const double r = 1.95 + gap, angle = 0.7;
@@ -121,7 +122,7 @@ TEST(VerifyChain, TheRimOfADiscMoves) {
 // A folding chain meets itself: the third rod rotates onto the first, which moves, too.
 TEST(VerifyChain, LinksAgainstEachOtherWhileAllMoves) {
   Chain chain(3, {{Vec3(50, 0, 0)}, 0.1, false});
-  // Equilateral: rod 3 would end at the start of rod 1.
+  // The rods form an equilateral triangle: rod 3 would end at the start of rod 1.
   const double corner = 2 * kPi / 3;
   PathReport report = verifyPath(chain.problem, {joints({-1, 0, 0}), joints({2, corner, corner})});
   EXPECT_EQ(report.verdict, PathVerdict::refuted);
@@ -136,7 +137,7 @@ TEST(VerifyChain, LinksAgainstEachOtherWhileAllMoves) {
   report = verifyPath(chain.problem, {joints({-3, 1.7, 1.7}), joints({3, 1.7, 1.7})});
   EXPECT_EQ(report.verdict, PathVerdict::proved);
   EXPECT_LE(report.distanceQueries, 5u);
-  // Without its pair the same path isn't tested.
+  // If the pair is removed from the problem, the same path is proved.
   chain.problem.pairs.clear();
   EXPECT_EQ(verifyPath(chain.problem, {joints({-1, 0, 0}), joints({2, corner, corner})}).verdict,
             PathVerdict::proved);
@@ -148,7 +149,7 @@ TEST(VerifyChain, TubesOfJointsCount) {
   Chain chain(2, {{Vec3(1.9, 0.05 + 0.01, 0)}, 0, false});
   const std::vector<Configuration> path = {joints({0, 0}), joints({0, 0})};
   EXPECT_EQ(verifyPath(chain.problem, path).verdict, PathVerdict::proved);
-  // The perturbations take 1.9·τ + 0.9·τ of the 0.01, and half of (1.95 + 3·0.95) τ².
+  // The perturbations reduce the gap of 0.01 by 1.9·τ + 0.9·τ, and by half of (1.95 + 3·0.95) τ².
   chain.problem.tube = joints({0.00355, 0.00355});
   EXPECT_EQ(verifyPath(chain.problem, path).verdict, PathVerdict::proved);
   EXPECT_EQ(verifyPath(chain.problem, {path[0]}).verdict, PathVerdict::proved);
@@ -170,7 +171,7 @@ TEST(VerifyChain, TubesAcrossTheDirectionTakeNoClearance) {
 }
 
 // All joints rotate about z, a millimetre above a table. Their tubes displace the tip by 30 mm, but
-// only along the table. Beside a wall the tubes take the clearance.
+// only along the table. Beside a wall the same tubes use up the clearance.
 TEST(VerifyChain, AnArmSlidesOverATableWithATube) {
   Chain chain(3, boxPart(Vec3(-4, -4, -1), Vec3(4, 4, -0.051)));
   chain.problem.tube = joints({0.01, 0.01, 0.01});
@@ -289,7 +290,8 @@ TEST(VerifyChain, ShellsThatMeetInACornerAreSolidsOfTheirOwn) {
   TriangleMesh inward = small;
   for (auto& t : inward.triangles) std::swap(t[0], t[1]);
   const auto crumb = [](double x) { return boxMesh(Vec3::Constant(x), Vec3::Constant(x + 0.1)); };
-  // The winding numbers of both shells around the points inside both add up to 2 or to 0.
+  // Around a point inside both shells, the sum of the two winding numbers is 2, or 0 if one shell
+  // is turned inside out.
   for (const TriangleMesh& inner : {small, inward}) {
     EXPECT_EQ(still(both(large, inner), true, crumb(1), false), PathVerdict::refuted);
     EXPECT_EQ(still(both(large, inner), true, crumb(3), false), PathVerdict::refuted);

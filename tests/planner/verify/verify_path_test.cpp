@@ -149,7 +149,7 @@ TEST(VerifyPath, BladePastAPoint) {
       // A blade with a width meets the point.
       World wide(boxMesh({0, -1e-3, -0.1}, {1, 1e-3, 0.1}), world.obstacle);
       const PathReport second = wide.verify(Poses{poseOf({0, 0, 0}, 0), poseOf({0, 0, 0}, 2.8)});
-      // its corners reach sqrt(1 + 1e-6), 5e-7 farther
+      // the wide blade's corners reach sqrt(1 + 1e-6), 5e-7 farther
       EXPECT_EQ(second.verdict, gap > 6e-7 ? PathVerdict::proved : PathVerdict::refuted)
           << angle << " " << gap;
       if (gap > 0) {
@@ -161,8 +161,8 @@ TEST(VerifyPath, BladePastAPoint) {
 }
 
 TEST(VerifyPath, TranslationsOfAWideEdgeAreNotJumped) {
-  // The middle pose is 0.45 from the plate, which the body passes at a quarter of the way. Half of
-  // the true motion bound would prove it.
+  // The middle pose is 0.45 from the plate, which the body passes at a quarter of the way. With
+  // half of the true motion bound, the path would be proved.
   World world(boxMesh(Vec3(-0.005, 0, 0), Vec3(0.005, 0.01, 0.01)),
               boxMesh(Vec3(-0.47, -1, -1), Vec3(-0.46, 1, 1)));
   const PathReport report = world.verify(Poses{poseOf({-0.9, 0, 0}), poseOf({0.9, 0, 0})});
@@ -316,7 +316,7 @@ TEST(VerifyPath, PlanarGoesTheShorterWayRound) {
   EXPECT_EQ(report.verdict, PathVerdict::refuted);
   ASSERT_EQ(report.findings.size(), 1u);
   EXPECT_NEAR(std::abs(report.findings[0].configuration[2]), kPi, 0.1);
-  // An angle out of range is the same angle.
+  // Angles outside of [−π, π] define the same poses.
   EXPECT_EQ(front.verify(Planar{{0, 0, 3 + 20 * kPi}, {0, 0, -3 - 8 * kPi}}).verdict,
             PathVerdict::proved);
   EXPECT_EQ(front.verify(Planar{{0, 0, 3}, {0, 0, 1}, {0, 0, -1}}).verdict, PathVerdict::refuted);
