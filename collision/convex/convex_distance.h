@@ -16,7 +16,7 @@ struct ConvexDistance {
 /// Computes the distance of two convex sets, each under its own affine map, and witness points.
 ///
 /// Let S be the largest Σ|m||p| + |t| over the mapped points p of both sets, radii included. (For
-/// maps that are not rigid: the largest ‖M‖|p| + |t|, with ‖M‖ at least 1.) Guaranteed:
+/// maps that are not rigid: the largest ‖M‖_F·|p| + |t|.) Guaranteed:
 /// * `distance` is 0 if and only if `convexSetsTouch` returns true. Then both witness points are
 ///   the same point. It lies in both sets, up to the band of that predicate, or up to 2^-30·S if
 ///   the sets overlap by less than 2^-30·S.

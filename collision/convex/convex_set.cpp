@@ -25,9 +25,10 @@ ConvexSet::ConvexSet(const Triangle& triangle) : points(triangle) {}
 PosedSet::PosedSet(const ConvexSet& set, const Transform& X) : set_(set), X_(X) {
   double farthest = 0;
   for (const Vec3& p : set_.points) farthest = std::max(farthest, p.squaredNorm());
-  // Squares below 2^-1022 vanish, and so do lengths below 2^-511: 2^-500 covers these.
-  reach_ =
-      roundedUp(std::max(1.0, X.m.norm()) * (std::sqrt(farthest) + set.ball + set.disc + 0x1p-500));
+  // Squares below 2^-1022 vanish, and so do lengths below 2^-511. 2^-500 covers this for points,
+  // and 2^-440 for ‖M‖ and for the length of Mᵀn: 20u·2^-440 > 2^-511.
+  localReach_ = roundedUp(std::sqrt(farthest) + set.ball + set.disc + 0x1p-500);
+  reach_ = roundedUp(std::max(0x1p-440, X.m.norm()) * localReach_);
   error_ = roundedUp(kUnit * (20 * reach_ + 6 * X.t.norm()));
 }
 

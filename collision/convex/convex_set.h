@@ -57,14 +57,16 @@ class PosedSet {
 
   const ConvexSet& set() const { return set_; }
   const Transform& pose() const { return X_; }
-  /// Returns the largest |p| + ball + disc over the points p in the set's own frame, times max(1,
-  /// ‖M‖_F); rounded up. Metres.
+  /// Returns the largest |p| + ball + disc over the points p in the set's own frame; rounded up.
+  /// Metres.
+  double localReach() const { return localReach_; }
+  /// Returns ‖M‖_F·`localReach()`, rounded up: how far the image reaches from the map's t. Metres.
   double reach() const { return reach_; }
 
  private:
   ConvexSet set_;
   Transform X_;
-  double reach_ = 0, error_ = 0;
+  double localReach_ = 0, reach_ = 0, error_ = 0;
 };
 
 }  // namespace corridor

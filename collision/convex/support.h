@@ -119,7 +119,7 @@ class Support {
       if (along > highest) highest = along, best = i;
     }
     if constexpr (!std::is_same_v<Real, double>) {
-      const double sure = highest - 16 * kUnit * rough.lpNorm<1>() * set_.reach();
+      const double sure = highest - 16 * kUnit * rough.lpNorm<1>() * set_.localReach();
       Real most = dot(m, Vector<Real>(points[best]));
       for (std::uint32_t i = 0, first = best; i < points.size(); ++i) {
         if (i == first || rough.dot(points[i]) < sure) continue;

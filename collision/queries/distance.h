@@ -30,8 +30,9 @@ struct Distance {
 /// The result is 0 if and only if `interference` reports contact; then both witness points are the
 /// same point, which the two leaf primitives share. Otherwise the error, beyond what the options
 /// allow, is at most 1e-12·distance + 4·2^-53·S, and the result is at least 2^-1022. S is the
-/// largest Σ|m||v| + |t| of the mapped corners, for convex parts with their radii. Curved surfaces
-/// are not tessellated.
+/// largest Σ|m||v| + |t| of the mapped corners, for convex parts with their radii. If a tree has
+/// convex parts and a map is not rigid, S is the largest ‖M‖_F·|v| + |t|. Curved surfaces are not
+/// tessellated.
 ///
 /// Method: branch and bound by the volumes' lower bounds, nearest pairs first (Larsen et al. 1999).
 /// Distances of leaf primitives are bounded in double. Pairs that may be the closest are measured

@@ -14,7 +14,7 @@
 /// over the joints of both chains:
 ///   revolute: 103 + 12·V_j  (sine and matrix 40, fixed pose 2, value 12·V_j, product 10 + 11;
 ///     an axis 40)
-///   prismatic, translation: 51  (value and sum 24 + 12, product 10 + 11 of S)
+///   prismatic, translation: 57  (value and sum 24 + 12, product 10 + 11 of S)
 ///   rotation: 575  (2^-44 = 512, and the products)
 ///
 /// A relative pose has the errors of both bodies' poses, transformed into one body's frame: twice
@@ -27,13 +27,13 @@
 ///
 /// With E = u·S·(300 + 2·Σ w_j), a clearance of 2τ is proved in a time interval whose motion bound
 /// is below τ. The direction between the closest points may be off, which loses at most a quarter
-/// of the gap. So 0.75·2τ > τ + 2E is needed, that is, τ > 4E. The 300 in E is more than is needed,
-/// so τ = 4E is enough.
+/// of the gap. So 0.75·2τ > τ + 2E is needed, that is, τ > 4E. E is larger than the error, because
+/// 300 > 192. So τ = 4E is enough.
 namespace corridor {
 namespace {
 
 constexpr double kLeaves = 300;
-constexpr double kTurn = 250, kPerRadian = 30, kSlide = 110, kRotation = 1250;
+constexpr double kTurn = 250, kPerRadian = 30, kSlide = 120, kRotation = 1250;
 
 /// Returns the largest magnitude that a number of a configuration can have.
 double largestOf(const ConfigurationSpace& space, std::size_t number) {

@@ -345,6 +345,24 @@ TEST(ConvexDistance, BallsFlattenedByTheirMap) {
     }
 }
 
+/// The error grows with the coordinates after the map, not with those before it. This map takes
+/// points at 10^12 m to within a metre or to one point; the ellipsoid needs all digits of the
+/// bound.
+TEST(ConvexDistance, FarPointsUnderAMapThatShrinks) {
+  ConvexPart ball = placed(Sphere{12.75}, {});
+  Transform shear;
+  shear.m(2, 0) = 12.125;
+  const ConvexPart far{{Vec3(1e12, -2e12, 5e11), Vec3(-3e12, 0, 1e12), Vec3(0, 1e12, -1e12)}};
+  for (const double scale : {1e-12, 1e-300, 0.0}) {
+    const Transform X{scale * Mat3::Identity(), Vec3(1000, 0, 0)};
+    const PosedSet a(ball, shear), b(far, X);
+    const ConvexDistance d = convexDistance(a, b);
+    EXPECT_GT(d.distance, 980);
+    EXPECT_LE(d.distance - d.lower, allowedAt(d.distance, 1200)) << scale;
+    EXPECT_LE(d.lower, d.distance);
+  }
+}
+
 /// If the cores barely overlap, the four corners around the origin are nearly in one plane. Even
 /// then the witness point must belong to both sets.
 TEST(ConvexDistance, WitnessPointOfBarelyOverlappingSets) {

@@ -58,18 +58,22 @@ std::optional<Body> decodeBody(Decoder& in) {
   }
 }
 
-/// Returns the largest Σ|m||v| + |t| of all corners v, radii included: the scale of rounding.
-double roundingScaleOf(const Body& body, const Transform& X) {
+/// Returns the largest Σ|m||v| + |t| of all corners v: the scale of rounding of triangles.
+double scaleOfCorners(const TriangleMesh& mesh, const Transform& X) {
   double most = 0;
-  const auto add = [&](const Vec3& v, double radius) {
-    const double reach =
-        (X.m.cwiseAbs() * (v.cwiseAbs() + Vec3::Constant(radius)) + X.t.cwiseAbs()).maxCoeff();
-    most = std::max(most, reach);
-  };
-  for (const ConvexPart& part : body.parts())
-    for (const Vec3& p : part.points) add(p, part.radius);
-  for (const Vec3& v : body.mesh().vertices) add(v, 0);
+  for (const Vec3& v : mesh.vertices)
+    most = std::max(most, (X.m.cwiseAbs() * v.cwiseAbs() + X.t.cwiseAbs()).maxCoeff());
   return most;
+}
+
+/// Returns the largest ‖M‖_F·|v| + |t| of all corners v, radii included: the scale of rounding of
+/// pairs with convex parts.
+double scaleOfParts(const Body& body, const Transform& X) {
+  double farthest = 0;
+  for (const ConvexPart& part : body.parts())
+    for (const Vec3& p : part.points) farthest = std::max(farthest, p.stableNorm() + part.radius);
+  for (const Vec3& v : body.mesh().vertices) farthest = std::max(farthest, v.stableNorm());
+  return X.m.stableNorm() * farthest + X.t.stableNorm();
 }
 
 struct Case {
@@ -85,9 +89,11 @@ std::string number(double value) {
 }
 
 void compare(const Case& c, double asked) {
-  const double S = std::max(roundingScaleOf(c.a, c.X_WA), roundingScaleOf(c.b, c.X_WB));
-  if (!std::isfinite(S)) return;
   const bool meshes = c.a.isMesh() && c.b.isMesh();
+  const double S =
+      meshes ? std::max(scaleOfCorners(c.a.mesh(), c.X_WA), scaleOfCorners(c.b.mesh(), c.X_WB))
+             : std::max(scaleOfParts(c.a, c.X_WA), scaleOfParts(c.b, c.X_WB));
+  if (!std::isfinite(S)) return;
   // With primitives, contact is exact only outside a band of 2^-44 times the largest coordinate.
   // The comparison allows 2^-42.
   const double band = meshes ? 0 : 0x1p-42 * S;
