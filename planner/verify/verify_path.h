@@ -42,7 +42,7 @@ namespace corridor {
 struct VerifyBody {
   std::string name;
   /// Either `mesh` is set, or there are parts. Not owned; must outlive the call. The vertices or
-  /// points are in the frame's coordinates.
+  /// points are in the frame's coordinates. Bodies may share a mesh: equal pointers share one tree.
   const TriangleMesh* mesh = nullptr;
   std::span<const ConvexPart> parts = {};
   bool solid = false;  ///< mesh only: its interior counts, too (a part is always solid)
