@@ -34,14 +34,34 @@ class MapReader {
         least_(static_cast<float>(std::log(rules.threshold / (1 - rules.threshold)))),
         faults_(file) {}
 
-  OccupancyMap read() {
+  OccupancyMap readFile() {
+    requireThreshold();
+    readHeader();
+    return readNodes();
+  }
+
+  OccupancyMap readMessage(const OccupancyMessage& message) {
+    requireThreshold();
+    binary_ = message.binary;
+    map_.format = "octomap_msgs/Octomap";
+    map_.resolution = message.resolution;
+    setTree(message.id);
+    return readNodes();
+  }
+
+ private:
+  using Cube = OccupancyMap::Cube;
+
+  void requireThreshold() {
     if (!(rules_.threshold > 0 && rules_.threshold < 1))
       faults_.fail(0, "threshold: a probability above 0 and below 1 is needed, not " +
                           shortest(rules_.threshold));
-    readHeader();
+  }
+
+  OccupancyMap readNodes() {
     constexpr std::int32_t half = 1 << (kDepth - 1);
     const OccupancyMap::Cube root{{-half, -half, -half}, 1 << kDepth};
-    if (promised_ > 0) {
+    if (promised_ ? *promised_ > 0 : !bytes_.empty()) {
       nodes_ = 1;
       if (binary_)
         readChildren(root, 0);
@@ -50,17 +70,31 @@ class MapReader {
     }
     if (at_ != bytes_.size())
       faults_.fail(0, std::to_string(bytes_.size() - at_) +
-                          " bytes come after the last node: the file is damaged");
-    if (nodes_ != promised_)
-      faults_.fail(0, "the header promises " + std::to_string(promised_) +
+                          " bytes come after the last node: the " + container() + " is damaged");
+    if (promised_ && nodes_ != *promised_)
+      faults_.fail(0, "the header promises " + std::to_string(*promised_) +
                           " nodes, but the data have " + std::to_string(nodes_) +
                           ": the file is damaged");
     if (rules_.unknownIsOccupied) addUnknown();
     return std::move(map_);
   }
 
- private:
-  using Cube = OccupancyMap::Cube;
+  /// Returns what contains the map, for messages.
+  std::string container() const { return promised_ ? "file" : "message"; }
+
+  /// Checks the type of the tree and the resolution.
+  void setTree(const std::string& id) {
+    map_.hasProbabilities = !binary_;
+    if (id != "OcTree" && (binary_ || id != "ColorOcTree"))
+      faults_.fail(0, "trees of type " + inQuotes(id) + " are not read; " +
+                          (binary_ ? "OcTree is" : "OcTree and ColorOcTree are"));
+    color_ = id == "ColorOcTree";
+    // The largest coordinate, 2^15 times the resolution, must be finite.
+    if (!(map_.resolution > 0 && map_.resolution < 1e100))
+      faults_.fail(0, std::string(promised_ ? "res" : "resolution") +
+                          ": the edge length of a cell, in metres, must be above 0 and below "
+                          "1e100");
+  }
 
   void readHeader() {
     const std::size_t end = std::min(bytes_.find('\n'), bytes_.size());
@@ -71,7 +105,6 @@ class MapReader {
       faults_.fail(1, "a map of OctoMap begins with \"" + std::string(kBinary) + "\" or \"" +
                           std::string(kFull) + "\"");
     map_.format = binary_ ? "OctoMap (.bt)" : "OctoMap (.ot)";
-    map_.hasProbabilities = !binary_;
     std::string id;
     std::optional<std::int64_t> size;
     for (;;) {
@@ -94,15 +127,9 @@ class MapReader {
         faults_.fail(cursor_.line(), inQuotes(word) + " is no line of OctoMap's header");
       }
     }
-    if (id != "OcTree" && (binary_ || id != "ColorOcTree"))
-      faults_.fail(0, "trees of type " + inQuotes(id) + " are not read; " +
-                          (binary_ ? "OcTree is" : "OcTree and ColorOcTree are"));
-    color_ = id == "ColorOcTree";
-    // The largest coordinate, 2^15 times the resolution, must be finite.
-    if (!(map_.resolution > 0 && map_.resolution < 1e100))
-      faults_.fail(0, "res: the edge length of a cell, in metres, must be above 0 and below 1e100");
     if (!size) faults_.fail(0, "the header has no line \"size\"");
-    promised_ = *size;
+    promised_ = size;
+    setTree(id);
     at_ = bytes_.size() - cursor_.bytesLeft();
     // The line ends with its line feed; everything after it is data.
     const std::size_t feed = bytes_.find('\n', at_);
@@ -112,7 +139,7 @@ class MapReader {
   template <class T>
   T take() {
     if (bytes_.size() - at_ < sizeof(T))
-      faults_.fail(0, "the file ends within its nodes: it is cut short");
+      faults_.fail(0, "the " + container() + " ends within its nodes: it is cut short");
     T value;
     std::memcpy(&value, bytes_.data() + at_, sizeof(T));
     at_ += sizeof(T);
@@ -128,7 +155,8 @@ class MapReader {
   }
 
   void requireDepth(int depth) {
-    if (depth == kDepth) faults_.fail(0, "the tree is deeper than 16 levels: the file is damaged");
+    if (depth == kDepth)
+      faults_.fail(0, "the tree is deeper than 16 levels: the " + container() + " is damaged");
   }
 
   /// .bt: an inner node has two bits for each child, and then its inner children follow.
@@ -265,7 +293,8 @@ class MapReader {
   std::array<std::int32_t, 3> low_{INT32_MAX, INT32_MAX, INT32_MAX},
       high_{INT32_MIN, INT32_MIN, INT32_MIN};
   std::size_t at_ = 0;
-  std::int64_t promised_ = 0, nodes_ = 0;
+  std::optional<std::int64_t> promised_;  // the number of nodes; a message does not contain it
+  std::int64_t nodes_ = 0;
   bool binary_ = false, color_ = false;
 };
 
@@ -280,7 +309,12 @@ Vec3 OccupancyMap::centerOf(const Cube& cube) const {
 
 OccupancyMap parseOccupancyMap(std::string_view bytes, const OccupancyRules& rules,
                                const std::string& name) {
-  return MapReader(bytes, rules, name).read();
+  return MapReader(bytes, rules, name).readFile();
+}
+
+OccupancyMap parseOccupancyMessage(const OccupancyMessage& message, const OccupancyRules& rules,
+                                   const std::string& name) {
+  return MapReader(message.data, rules, name).readMessage(message);
 }
 
 OccupancyMap readOccupancyMap(const std::filesystem::path& file, const OccupancyRules& rules) {

@@ -36,7 +36,7 @@ struct OccupancyMap {
   std::vector<Cube> cubes;
   std::size_t free = 0;           ///< number of free cubes
   bool hasProbabilities = false;  ///< true for .ot
-  std::string format;             ///< "OctoMap (.bt)", "OctoMap (.ot)"
+  std::string format;             ///< "OctoMap (.bt)", "OctoMap (.ot)", "octomap_msgs/Octomap"
 
   Vec3 centerOf(const Cube& cube) const;
   double sizeOf(const Cube& cube) const { return cube.size * resolution; }
@@ -50,5 +50,17 @@ OccupancyMap readOccupancyMap(const std::filesystem::path& file, const Occupancy
 /// The same for the bytes of a file. @param name  of the file, for messages.
 OccupancyMap parseOccupancyMap(std::string_view bytes, const OccupancyRules& rules,
                                const std::string& name);
+
+/// A map without a file's header, as the ROS message octomap_msgs/Octomap contains it.
+struct OccupancyMessage {
+  bool binary = false;    ///< true: `data` is as in .bt; false: as in .ot
+  std::string id;         ///< the type of the tree: OcTree or ColorOcTree
+  double resolution = 0;  ///< edge length of the smallest cell, metres
+  std::string data;       ///< bytes; no bytes: a map without any measured cell
+};
+
+/// The same for a message. @param name  of the message, for messages of errors.
+OccupancyMap parseOccupancyMessage(const OccupancyMessage& message, const OccupancyRules& rules,
+                                   const std::string& name);
 
 }  // namespace corridor

@@ -1,7 +1,6 @@
 #include "planner/problem/cloud_yaml.h"
 
 #include "collision/core/read_file.h"
-#include "collision/geometry/occupancy_map.h"
 #include "collision/geometry/point_cloud.h"
 #include "planner/problem/keys.h"
 
@@ -54,15 +53,20 @@ bool readMap(const YamlMap& inner, const Transform& X, PlacedShape& shape) {
     inner.fault("file", shape.file.string() + ": the map has no occupied cell");
     return false;
   }
-  shape.parts.reserve(octree.cubes.size());
-  for (const OccupancyMap::Cube& cube : octree.cubes) {
-    const Box box{Vec3::Constant(octree.sizeOf(cube))};
-    shape.parts.push_back(placed(box, X * Transform{Mat3::Identity(), octree.centerOf(cube)}));
-  }
+  shape.parts = cubesOf(octree, X);
   return true;
 }
 
 }  // namespace
+
+std::vector<ConvexPart> cubesOf(const OccupancyMap& map, const Transform& X) {
+  std::vector<ConvexPart> parts;
+  parts.reserve(map.cubes.size());
+  for (const OccupancyMap::Cube& cube : map.cubes)
+    parts.push_back(placed(Box{Vec3::Constant(map.sizeOf(cube))},
+                           X * Transform{Mat3::Identity(), map.centerOf(cube)}));
+  return parts;
+}
 
 bool readCloud(const YamlMap& map, const std::string& kind, const MapKeys& keys,
                const std::filesystem::path& folder, const MeshFileOptions& options,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "collision/geometry/occupancy_map.h"
 #include "planner/problem/shape_yaml.h"
 
 namespace corridor {
@@ -15,5 +16,8 @@ namespace corridor {
 bool readCloud(const YamlMap& map, const std::string& kind, const MapKeys& keys,
                const std::filesystem::path& folder, const MeshFileOptions& options,
                const Transform& X, PlacedShape& shape, std::vector<std::filesystem::path>& files);
+
+/// Returns the occupied cubes of a map as boxes. @param X the pose of the map.
+std::vector<ConvexPart> cubesOf(const OccupancyMap& map, const Transform& X);
 
 }  // namespace corridor

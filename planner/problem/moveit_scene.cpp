@@ -10,12 +10,10 @@
 #include "collision/core/read_file.h"
 #include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
-#include "planner/problem/placement.h"
+#include "planner/problem/moveit_shapes.h"
 
 namespace corridor {
 namespace {
-
-using Kind = YamlValue::Kind;
 
 // The fields of the messages. Unknown keys are faults, because a misspelt one may move an obstacle.
 const MapKeys kScene{
@@ -23,126 +21,27 @@ const MapKeys kScene{
      "allowed_collision_matrix", "link_padding", "link_scale", "object_colors", "world", "is_diff"},
     {}};
 const MapKeys kWorld{{"collision_objects", "octomap"}, {}};
+const MapKeys kPosedOctomap{{"header", "origin", "octomap"}, {}};
 const MapKeys kObject{
     {"header", "pose", "id", "type", "primitives", "primitive_poses", "meshes", "mesh_poses",
      "planes", "plane_poses", "subframe_names", "subframe_poses", "operation"},
     {}};
-const MapKeys kPose{{"position", "orientation"}, {}};
-const MapKeys kPrimitive{{"type", "dimensions", "polygon"}, {}};
-const MapKeys kMesh{{"triangles", "vertices"}, {}};
-const MapKeys kTriangle{{"vertex_indices"}, {}};
 const MapKeys kMatrix{
     {"entry_names", "entry_values", "default_entry_names", "default_entry_values"}, {}};
 const MapKeys kHeader{{"seq", "stamp", "frame_id"}, {}};
 
-/// Reads a message geometry_msgs/Pose. Returns nullopt if a fault was added.
-std::optional<Placement> readPose(const YamlValue& value, const std::string& path,
-                                  YamlSource& source) {
-  const YamlMap map(value, path, &kPose, source);
-  Placement placement;
-  if (map.find("position")) {
-    const auto p = readNamed(map, "position", {"x", "y", "z"});
-    if (!p) return std::nullopt;
-    placement.pose.p = Vec3((*p)[0], (*p)[1], (*p)[2]);
-  }
-  Orientation orientation;
-  if (map.find("orientation")) {
-    const auto q = readNamed(map, "orientation", {"x", "y", "z", "w"});
-    if (!q) return std::nullopt;
-    orientation.q = Eigen::Quaterniond((*q)[3], (*q)[0], (*q)[1], (*q)[2]);
-    if (!(orientation.q.coeffs().stableNorm() > 0)) {
-      map.fault("orientation", "a quaternion of zeros is no rotation");
-      return std::nullopt;
-    }
-    orientation.q = ofOrdinarySize(orientation.q);
-    orientation.R = orientation.q.normalized().toRotationMatrix();
-  }
-  placement.pose.q = orientation.q;
-  placement.X = {orientation.R, placement.pose.p};
-  return placement;
-}
-
-/// Reads a message shape_msgs/SolidPrimitive. Its type is a word, or the number of the message.
-std::optional<Primitive> readPrimitive(const YamlValue& value, const std::string& path,
-                                       YamlSource& source) {
-  const YamlMap map(value, path, &kPrimitive, source);
-  const std::map<std::string, std::string> numbered{
-      {"1", "box"}, {"2", "sphere"}, {"3", "cylinder"}, {"4", "cone"}};
-  auto type = map.text("type");
-  if (!type) {
-    if (!map.find("type")) map.fault("type", "is missing");
-    return std::nullopt;
-  }
-  if (const auto number = numbered.find(*type); number != numbered.end()) type = number->second;
-  *type = lowered(*type);
-  const std::map<std::string, std::size_t> counts{{"box", 3}, {"sphere", 1}, {"cylinder", 2}};
-  const auto count = counts.find(*type);
-  if (count == counts.end()) {
-    map.fault("type", notOneOf(*type, {"box", "sphere", "cylinder"}));
-    return std::nullopt;
-  }
-  const auto d = map.numbers("dimensions", count->second);
-  if (!d) {
-    if (!map.find("dimensions")) map.fault("dimensions", "is missing");
-    return std::nullopt;
-  }
-  const Primitive primitive = *type == "box"      ? Primitive(Box{Vec3((*d)[0], (*d)[1], (*d)[2])})
-                              : *type == "sphere" ? Primitive(Sphere{(*d)[0]})
-                                                  : Primitive(Cylinder{(*d)[1], (*d)[0]});
-  if (const auto why = checkPrimitive(primitive)) {
-    map.fault("dimensions", *why);
-    return std::nullopt;
-  }
-  return primitive;
-}
-
-/// Reads a message shape_msgs/Mesh.
-std::optional<TriangleMesh> readMesh(const YamlValue& value, const std::string& path,
-                                     YamlSource& source) {
-  const std::size_t before = source.faults.size();
-  const YamlMap map(value, path, &kMesh, source);
-  TriangleMesh mesh;
-  const auto vertices = itemsOf(map, "vertices"), triangles = itemsOf(map, "triangles");
-  for (std::size_t i = 0; i < vertices.size() && source.faults.size() == before; ++i) {
-    // A vertex has the form of a map's value: {x: 1, y: 2, z: 3} or [1, 2, 3].
-    YamlValue holder;
-    holder.kind = Kind::Map;
-    holder.line = vertices[i]->line;
-    holder.entries.push_back({"vertex", vertices[i]->line, *vertices[i]});
-    const YamlMap one(holder, map.pathOf("vertices[" + std::to_string(i) + "]"), nullptr, source);
-    if (const auto p = readNamed(one, "vertex", {"x", "y", "z"}))
-      mesh.vertices.emplace_back((*p)[0], (*p)[1], (*p)[2]);
-  }
-  for (std::size_t i = 0; i < triangles.size() && source.faults.size() == before; ++i) {
-    const YamlMap one(*triangles[i], map.pathOf("triangles[" + std::to_string(i) + "]"), &kTriangle,
-                      source);
-    const auto corners = one.numbers("vertex_indices", 3);
-    if (!corners) {
-      if (!one.find("vertex_indices")) one.fault("vertex_indices", "is missing");
-      continue;
-    }
-    std::array<std::uint32_t, 3> triangle{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double corner = (*corners)[k];
-      if (!(corner >= 0 && corner < static_cast<double>(mesh.vertices.size()) &&
-            corner == std::floor(corner))) {
-        one.fault("vertex_indices", "the mesh has no vertex " + shortest(corner));
-        break;
-      }
-      triangle[k] = static_cast<std::uint32_t>(corner);
-    }
-    mesh.triangles.push_back(triangle);
-  }
-  if (source.faults.size() != before) return std::nullopt;
-  if (mesh.triangles.empty()) {
-    map.fault("triangles", "a mesh needs at least one triangle");
-    return std::nullopt;
-  }
-  return mesh;
-}
-
-Placement onBase(const RigidPose& base) {
-  return {base, {base.q.normalized().toRotationMatrix(), base.p}};
+/// Reads the frame of an object's header: the pose of that frame in the world.
+/// @param root, base  the robot's root link and its pose.
+Placement readFrame(const YamlMap& object, const std::string& root, const RigidPose& base) {
+  const YamlValue* const header = object.find("header");
+  if (!header) return {};
+  const YamlMap map(*header, object.pathOf("header"), &kHeader, object.source());
+  const std::string frame = map.text("frame_id").value_or("");
+  if (frame == root) return {base, {base.q.normalized().toRotationMatrix(), base.p}};
+  if (!frame.empty() && frame != "world")
+    map.fault("frame_id", "the frame of the robot's root, " + quotedWord(root) +
+                              ", or \"world\" is needed, not " + quotedWord(frame));
+  return {};
 }
 
 /// Adds a fault for each link that the scene pads or scales.
@@ -181,10 +80,15 @@ void MoveitScene::addWorld(const std::string& root, const RigidPose& base, Model
   if (!value) return;
   const YamlMap world(*value, "world", &kWorld, source_);
   if (const YamlValue* const octomap = world.find("octomap")) {
-    const YamlMap outer(*octomap, "world.octomap", nullptr, source_);
-    const YamlValue* const inner = outer.find("octomap");
-    const YamlMap map(inner ? *inner : *octomap, "world.octomap", nullptr, source_);
-    if (!isEmpty(map, "data")) map.fault("data", "an octomap in a scene is not supported");
+    const YamlMap posed(*octomap, "world.octomap", &kPosedOctomap, source_);
+    Placement at = readFrame(posed, root, base);
+    if (const YamlValue* const origin = posed.find("origin"))
+      at = at * readPose(*origin, posed.pathOf("origin"), source_).value_or(Placement());
+    const YamlValue* const map = posed.find("octomap");
+    if (auto shape = map ? readOctomap(*map, posed.pathOf("octomap"), at, source_) : std::nullopt) {
+      const std::string name = shape->name;
+      builder.addObstacle(name, {std::move(*shape)});
+    }
   }
   std::set<std::string> ids;
   for (const YamlValue* const item : itemsOf(world, "collision_objects")) {
@@ -195,16 +99,7 @@ void MoveitScene::addWorld(const std::string& root, const RigidPose& base, Model
       continue;
     }
     const YamlMap object(*item, "object " + quotedWord(*id), &kObject, source_);
-    Placement outer;
-    if (const YamlValue* const header = object.find("header")) {
-      const YamlMap map(*header, object.pathOf("header"), &kHeader, source_);
-      const std::string frame = map.text("frame_id").value_or("");
-      if (frame == root)
-        outer = onBase(base);
-      else if (!frame.empty() && frame != "world")
-        map.fault("frame_id", "the frame of the robot's root, " + quotedWord(root) +
-                                  ", or \"world\" is needed, not " + quotedWord(frame));
-    }
+    Placement outer = readFrame(object, root, base);
     if (!ids.insert(*id).second) object.fault("id", "another object has this name");
     if (const auto operation = object.text("operation");
         operation && lowered(*operation) != "add" && *operation != "0" && *operation != "2")
@@ -258,7 +153,7 @@ std::vector<Note> MoveitScene::notesOn(const Model& model) {
                          quotedWord(robot.urdfName.empty() ? robot.name : robot.urdfName),
                      NoteWeight::coverage});
   const YamlValue* const matrix = message().find("allowed_collision_matrix");
-  if (!matrix || matrix->kind != Kind::Map) return notes;
+  if (!matrix || matrix->kind != YamlValue::Kind::Map) return notes;
   const YamlMap map(*matrix, "allowed_collision_matrix", nullptr, source_);
   std::set<std::string> known;
   for (const LinkModel& link : robot.links) known.insert(link.name);
@@ -275,7 +170,7 @@ std::vector<Note> MoveitScene::notesOn(const Model& model) {
 
 void MoveitScene::applyAllowed(Model& model) {
   const YamlValue* const value = message().find("allowed_collision_matrix");
-  if (!value || value->kind != Kind::Map) return;
+  if (!value || value->kind != YamlValue::Kind::Map) return;
   const YamlMap map(*value, "allowed_collision_matrix", &kMatrix, source_);
   if (isEmpty(map, "entry_names")) return;
   const auto names = readWords(*map.find("entry_names"), "such as [hand, table]",
@@ -289,7 +184,7 @@ void MoveitScene::applyAllowed(Model& model) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     // A row is a list, or a message with the list `enabled`.
     const YamlValue* row = rows[i];
-    if (row->kind == Kind::Map)
+    if (row->kind == YamlValue::Kind::Map)
       for (const YamlValue::Entry& entry : row->entries)
         if (entry.key == "enabled") row = &entry.value;
     const std::string path = "allowed_collision_matrix.entry_values[" + std::to_string(i) + "]";

@@ -10,17 +10,17 @@ namespace corridor {
 /// A message moveit_msgs/PlanningScene, written as YAML. The members read its parts, and add faults
 /// to the problem's list.
 ///
-/// The members read the collision objects (primitives and meshes) and the allowed collision matrix.
-/// If any of the following were ignored, the plan would be wrong, so each is a fault: attached
-/// objects, planes, octomaps, padded or scaled links, objects in other frames than those of the
-/// world and of the robot's root, and unknown keys. All other fields are ignored.
+/// The members read the collision objects (primitives and meshes), the octomap and the allowed
+/// collision matrix. If any of the following were ignored, the plan would be wrong, so each is a
+/// fault: attached objects, planes, padded or scaled links, objects in other frames than those of
+/// the world and of the robot's root, and unknown keys. All other fields are ignored.
 class MoveitScene {
  public:
   /// @throws InputError if the file is not YAML.
   MoveitScene(const std::filesystem::path& file, FaultList& faults);
 
-  /// Adds the collision objects. Each object is an obstacle. Objects in the frame of the robot's
-  /// root link are placed relative to the robot's base.
+  /// Adds the collision objects and the octomap. Each is an obstacle. Objects in the frame of the
+  /// robot's root link are placed relative to the robot's base.
   /// @param root the name of the robot's root link.
   void addWorld(const std::string& root, const RigidPose& base, ModelBuilder& builder);
   /// Excludes pairs of bodies from the tests as the allowed collision matrix says. As in MoveIt, a

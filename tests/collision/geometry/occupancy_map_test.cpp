@@ -69,6 +69,34 @@ TEST(OccupancyMap, SmallCells) {
   EXPECT_EQ(joined.centerOf(joined.cubes[0]), Vec3(0.1, 0.1, 0.1));
 }
 
+/// A message has the nodes of a file, without the header.
+TEST(OccupancyMap, Messages) {
+  const std::string data = chain(0, 2);
+  const OccupancyMap file = parseOccupancyMap(header(17) + data, {}, "map.bt");
+  const OccupancyMap map = parseOccupancyMessage({true, "OcTree", 0.1, data}, {}, "message");
+  EXPECT_EQ(map.format, "octomap_msgs/Octomap");
+  EXPECT_FALSE(map.hasProbabilities);
+  ASSERT_EQ(map.cubes.size(), 1u);
+  EXPECT_EQ(map.centerOf(map.cubes[0]), file.centerOf(file.cubes.at(0)));
+  EXPECT_EQ(parseOccupancyMessage({true, "OcTree", 0.1, ""}, {}, "message").cubes.size(), 0u);
+  const auto complaint = [](const OccupancyMessage& message) {
+    try {
+      parseOccupancyMessage(message, {}, "message");
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("no complaint");
+  };
+  EXPECT_EQ(complaint({true, "OcTree", 0.1, data + "x"}),
+            "message: 1 bytes come after the last node: the message is damaged");
+  EXPECT_EQ(complaint({true, "OcTree", 0.1, data.substr(1)}).substr(0, 9), "message: ");
+  EXPECT_EQ(complaint({true, "ColorOcTree", 0.1, data}),
+            "message: trees of type \"ColorOcTree\" are not read; OcTree is");
+  EXPECT_EQ(complaint({true, "OcTree", 0, data}),
+            "message: resolution: the edge length of a cell, in metres, must be above 0 and below "
+            "1e100");
+}
+
 TEST(OccupancyMap, Faults) {
   const std::string good = header(17) + chain(0, 2);
   EXPECT_EQ(complaintOf(good), "no complaint");

@@ -119,6 +119,50 @@ TEST_F(Moveit, TheProblemsOwnKeysCount) {
             0u);
 }
 
+/// An octomap is one body with MoveIt's name, so that the allowed collision matrix can name it.
+TEST_F(Moveit, Octomap) {
+  // Inner nodes lead to one occupied and one free cell at the positive side of the origin; data are
+  // as in .bt.
+  std::string data = "0, -64";  // 3 << 14: child 7 is an inner node
+  for (int level = 0; level < 14; ++level) data += ", 3, 0";
+  data += ", 6, 0";  // child 0 is occupied, child 1 is free
+  const auto sceneWith = [&](const std::string& id, const std::string& content) {
+    return "world:\n  octomap:\n    header: {frame_id: base}\n    origin: {position: [1, 0, 0], "
+           "orientation: [0, 0, 1, 1]}\n    octomap: {" +
+           content + ", id: " + id +
+           ", resolution: 0.2}\nallowed_collision_matrix:\n  entry_names: [finger, <octomap>]\n"
+           "  entry_values: [[false, true], [true, false]]\n";
+  };
+  write("scene.yaml", sceneWith("OcTree", "binary: true, data: [" + data + "]"));
+  const Problem p = read(head);
+  const ModelBody& body = p.model.bodies.back();
+  EXPECT_EQ(body.name, "<octomap>");
+  ASSERT_EQ(body.shapes.size(), 1u);
+  ASSERT_EQ(body.shapes[0].parts.size(), 1u);
+  Vec3 lower = Vec3::Constant(HUGE_VAL), upper = -lower;
+  for (const Vec3& corner : body.shapes[0].parts[0].points) {
+    lower = lower.cwiseMin(corner);
+    upper = upper.cwiseMax(corner);
+  }
+  EXPECT_LT((lower - Vec3(0.8, 0, 0)).norm(), 1e-15) << "a quarter turn about z, then moved by 1";
+  EXPECT_LT((upper - Vec3(1, 0.2, 0.2)).norm(), 1e-15);
+  EXPECT_EQ(skipped(p, "finger", "<octomap>"), "allowed_collision_matrix");
+  EXPECT_EQ(skipped(p, "lower", "<octomap>"), "");
+  EXPECT_THAT(textsOf(p.source.notes),
+              testing::Contains(testing::EndsWith("world.octomap.octomap: cells without a "
+                                                  "measurement count as free, as in MoveIt")));
+
+  // As in .ot: a root with log-odds of 1 (0x3f800000, little-endian), and no children.
+  write("scene.yaml", sceneWith("OcTree", "data: [0, 0, -128, 63, 0]"));
+  const Problem full = read(head);
+  EXPECT_EQ(full.model.bodies.back().shapes.at(0).parts.size(), 1u);
+  // A free root, and no data: there is no obstacle.
+  for (const char* const content : {"data: [0, 0, 128, 191, 0]", "data: []"}) {
+    write("scene.yaml", sceneWith("OcTree", content));
+    EXPECT_TRUE(read(head).model.bodies.back().robot) << content;
+  }
+}
+
 TEST_F(Moveit, FaultsOfTheScene) {
   const auto complaint = [&](const std::string& text) {
     write("scene.yaml", text);
@@ -156,8 +200,29 @@ TEST_F(Moveit, FaultsOfTheScene) {
                       "hand}]}\n"),
             "scene.yaml:2: robot_state.attached_collision_objects: is not supported; add the "
             "objects to the robot");
+  const std::string map = "scene.yaml:1: world.octomap.octomap";
   EXPECT_EQ(complaint("world: {octomap: {octomap: {id: OcTree, data: [1, 2]}}}\n"),
-            "scene.yaml:1: world.octomap.data: an octomap in a scene is not supported");
+            map.substr(0, 12) +
+                ": missing key \"resolution\" in world.octomap.octomap: the edge "
+                "length of a cell, metres");
+  EXPECT_EQ(complaint("world: {octomap: {octomap: {resolution: 0.1, data: [1, 2]}}}\n"),
+            map + ": the message ends within its nodes: it is cut short");
+  EXPECT_EQ(complaint("world: {octomap: {octomap: {resolution: 0.1, id: X, data: [1, 2]}}}\n"),
+            map + ": trees of type \"X\" are not read; OcTree and ColorOcTree are");
+  EXPECT_EQ(complaint("world: {octomap: {octomap: {resolution: 0.1, binary: true, data: [0, 0, "
+                      "7]}}}\n"),
+            map + ": 1 bytes come after the last node: the message is damaged");
+  EXPECT_EQ(complaint("world: {octomap: {octomap: {resolution: 0.1, data: [1, 256]}}}\n"),
+            map + ".data[1]: a whole number from -128 to 255 is needed, not \"256\"");
+  EXPECT_EQ(complaint("world: {octomap: {octomap: {resolution: 0.1, data: [1, ...]}}}\n"),
+            map +
+                ".data[1]: a whole number from -128 to 255 is needed, not \"...\" (ros2 topic "
+                "echo --full-length writes the whole list)");
+  EXPECT_EQ(complaint("world: {octomap: {header: {frame_id: hand}}}\n"),
+            "scene.yaml:1: world.octomap.header.frame_id: the frame of the robot's root, \"base\", "
+            "or \"world\" is needed, not \"hand\"");
+  EXPECT_THAT(complaint("world: {octomap: {octomap: {resolution: 1, dat: [1]}}}\n"),
+              HasSubstr("unknown key \"dat\" in world.octomap.octomap (did you mean \"data\"?)"));
   EXPECT_EQ(complaint("world: {}\nallowed_collision_matrix: {entry_names: [a, b], "
                       "entry_values: [[true, true]]}\n"),
             "scene.yaml:2: allowed_collision_matrix.entry_values: 2 rows are needed, not 1");

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "collision/geometry/convex_part.h"
+#include "collision/geometry/triangle_mesh.h"
+#include "planner/problem/placement.h"
+#include "planner/problem/yaml_reader.h"
+#include "planner/robot/placed_shape.h"
+
+/// Readers of the messages that shapes consist of in MoveIt's planning scenes. Each returns nullopt
+/// if a fault was added. @param path of the message, for messages.
+namespace corridor {
+
+/// Reads a message geometry_msgs/Pose.
+std::optional<Placement> readPose(const YamlValue& value, const std::string& path,
+                                  YamlSource& source);
+
+/// Reads a message shape_msgs/SolidPrimitive. Its type is a word, or the number of the message.
+std::optional<Primitive> readPrimitive(const YamlValue& value, const std::string& path,
+                                       YamlSource& source);
+
+/// Reads a message shape_msgs/Mesh.
+std::optional<TriangleMesh> readMesh(const YamlValue& value, const std::string& path,
+                                     YamlSource& source);
+
+/// Reads a message octomap_msgs/Octomap: the union of the occupied cells, at the given place. As in
+/// MoveIt, its name is "<octomap>", cells without a measurement are free, and a cell is occupied if
+/// its probability is at least 0.5. Also returns nullopt if the map has no occupied cell.
+std::optional<PlacedShape> readOctomap(const YamlValue& value, const std::string& path,
+                                       const Placement& at, YamlSource& source);
+
+}  // namespace corridor
