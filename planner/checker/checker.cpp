@@ -1,12 +1,13 @@
 #include "planner/checker/checker.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <deque>
 #include <map>
 #include <mutex>
 #include <stdexcept>
 #include <thread>
-#include <unordered_map>
 
 #include "planner/checker/default_tolerance.h"
 #include "planner/problem/problem.h"
@@ -88,34 +89,43 @@ CheckerOptions checkerOptions(const Task& task, const CheckerSettings& settings)
 
 /// The memory that one thread's queries write to.
 struct Checker::Workspace {
+  explicit Workspace(const Checker& checker)
+      : motion(checker.model_.tree, checker.model_.space, checker.scene_.framePairs(),
+               checker.tube_) {}
+
   QueryContext context;
   EdgeMotion motion;
+  std::thread::id thread = std::this_thread::get_id();
+  Workspace* next = nullptr;  // the one added before; not owned
 };
 
-/// One workspace per thread, created by the thread's first query.
+/// One workspace per thread, created by the thread's first query. Later queries find it without a
+/// lock, in a list that only grows at its head. A thread may have the id of one that has ended, and
+/// then continues with its workspace.
 class Checker::Pool {
  public:
   Workspace& workspaceOfThread(const Checker& checker) {
+    const std::thread::id thread = std::this_thread::get_id();
+    for (Workspace* w = head_.load(std::memory_order_acquire); w; w = w->next)
+      if (w->thread == thread) return *w;
     const std::lock_guard lock(mutex_);
-    std::unique_ptr<Workspace>& workspace = workspaces_[std::this_thread::get_id()];
-    if (!workspace) {
-      const Model& model = checker.model_;
-      workspace.reset(new Workspace{
-          {}, EdgeMotion(model.tree, model.space, checker.scene_.framePairs(), checker.tube_)});
-    }
-    return *workspace;
+    Workspace& added = workspaces_.emplace_back(checker);
+    added.next = head_.load(std::memory_order_relaxed);
+    head_.store(&added, std::memory_order_release);
+    return added;
   }
 
   Counters total() const {
     const std::lock_guard lock(mutex_);
     Counters sum;
-    for (const auto& [thread, workspace] : workspaces_) sum += workspace->context.counters;
+    for (const Workspace& workspace : workspaces_) sum += workspace.context.counters;
     return sum;
   }
 
  private:
-  mutable std::mutex mutex_;
-  std::unordered_map<std::thread::id, std::unique_ptr<Workspace>> workspaces_;
+  mutable std::mutex mutex_;          // held while a workspace is added
+  std::deque<Workspace> workspaces_;  // they never move
+  std::atomic<Workspace*> head_{};    // the last one added; not owned
 };
 
 Checker::Checker(const Model& model, const CheckerOptions& options)
