@@ -28,7 +28,7 @@ void IntervalMotions::compute(std::size_t motion) {
 IntervalMotions::Separation IntervalMotions::separation(const MotionPair& pair, double asked,
                                                         bool best) {
   const double enough = best ? HUGE_VAL : asked;
-  if (pair.worldA != MotionPair::kNone) {
+  if (pair.worldB != pair.motion && pair.worldB != MotionPair::kNone) {  // a has its own frame
     const SweptSphere& b = worldSphere(pair);
     const double clearance =
         pair.restBox ? clearanceBound(*pair.restBox, b, enough)

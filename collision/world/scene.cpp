@@ -65,10 +65,11 @@ BoundingBox boxUnder(const Body& body, const Transform& X) {
   for (const Vec3& vertex : body.mesh().vertices) add(vertex, 0);
   for (const ConvexPart& part : body.parts())
     for (const Vec3& point : part.points) add(point, part.radius);
-  // A map of norm 1 + η moves a ball's surface by η times its radius more. Each coordinate of the
-  // product is off by at most 4u(√3(1 + η)r + |t|), and u = 2^-53.
-  const double error =
-      roundedUp((orthonormalityDefect(X.m) + 0x1p-45) * body.radius() + 0x1p-45 * X.t.stableNorm());
+  // The norm of the map is at most √(1 + 3η) ≤ 1 + 2η, so it moves a ball's surface by 2η times the
+  // radius more. Each coordinate of the product is off by at most 4u(√3(1 + 2η)r + |t|), and u =
+  // 2^-53.
+  const double error = roundedUp((2 * orthonormalityDefect(X.m) + 0x1p-45) * body.radius() +
+                                 0x1p-45 * X.t.stableNorm());
   box.lower.array() -= error;
   box.upper.array() += error;
   box.terms = box.lower.cwiseAbs().sum() + box.upper.cwiseAbs().sum();
@@ -94,7 +95,11 @@ void require(const MotionOptions& options) {
 Scene::Scene(std::vector<Placed> bodies, std::vector<Pair> pairs)
     : bodies_(std::move(bodies)), pairs_(std::move(pairs)) {
   for (std::size_t i = 0; i < bodies_.size(); ++i)
-    if (const auto& X_WF = bodies_[i].restX_WF) restBoxes_[i] = boxUnder(bodies_[i].body, *X_WF);
+    if (const auto& X_WF = bodies_[i].restX_WF) {
+      if (!X_WF->isFinite())
+        throw std::invalid_argument("the map of a frame at rest must be finite");
+      restBoxes_[i] = boxUnder(bodies_[i].body, *X_WF);
+    }
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> motions;
   const auto motionOf = [&](std::size_t frameA, std::size_t frameB) {
     const auto [found, added] = motions.try_emplace({frameA, frameB}, framePairs_.size());
@@ -109,7 +114,11 @@ Scene::Scene(std::vector<Placed> bodies, std::vector<Pair> pairs)
     if (bodies_[pair.b].frame < bodies_[pair.a].frame) std::swap(pair.a, pair.b);
     if (bodies_[pair.b].restX_WF && bodies_[pair.a].frame != 0) std::swap(pair.a, pair.b);
     motionsOfPairs.push_back(motionOf(bodies_[pair.a].frame, bodies_[pair.b].frame));
+    for (const std::size_t body : {pair.a, pair.b})
+      if (!bodies_[body].restX_WF) posedFrames_.push_back(bodies_[body].frame);
   }
+  std::sort(posedFrames_.begin(), posedFrames_.end());
+  posedFrames_.erase(std::unique(posedFrames_.begin(), posedFrames_.end()), posedFrames_.end());
   solidMeshes_ = std::any_of(pairs_.begin(), pairs_.end(), [&](const Pair& pair) {
     return bodies_[pair.a].body.isSolidMesh() || bodies_[pair.b].body.isSolidMesh();
   });
@@ -119,9 +128,12 @@ Scene::Scene(std::vector<Placed> bodies, std::vector<Pair> pairs)
     const Placed &a = bodies_[pairs_[i].a], &b = bodies_[pairs_[i].b];
     MotionPair pair{&a.body, &b.body, motionsOfPairs[i], pairs_[i].a, pairs_[i].b};
     if (b.frame != 0) pair.worldB = motionOf(0, b.frame);
-    if (a.frame != 0) pair.worldA = motionOf(0, a.frame);
-    if (a.frame == 0) pair.restBox = &a.body.box();
-    if (a.restX_WF) pair.restBox = &restBoxes_.at(pair.bodyA);
+    if (a.restX_WF)
+      pair.restBox = &restBoxes_.at(pair.bodyA);
+    else if (a.frame == 0)
+      pair.restBox = &a.body.box();
+    else
+      pair.worldA = motionOf(0, a.frame);
     motionPairs.push_back(pair);
   }
   // The pairs of a body with all bodies at rest are adjacent, although their motions may differ.
@@ -148,12 +160,19 @@ double Scene::defaultTolerance(double farthest) const {
     Vec3 lower = Vec3::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
   };
   std::map<std::size_t, Bounds> boundsOfFrames;
-  for (const Pair& pair : pairs_)
-    boundsOfFrames[bodies_[pair.a].frame], boundsOfFrames[bodies_[pair.b].frame];
-  for (const Placed& placed : bodies_)
-    if (const auto bounds = boundsOfFrames.find(placed.frame); bounds != boundsOfFrames.end()) {
-      bounds->second.lower = bounds->second.lower.cwiseMin(placed.body.lower());
-      bounds->second.upper = bounds->second.upper.cwiseMax(placed.body.upper());
+  const auto frameOf = [&](std::size_t body) {  // what is at rest counts as fixed to the world
+    return bodies_[body].restX_WF ? 0 : bodies_[body].frame;
+  };
+  for (const Pair& pair : pairs_) boundsOfFrames[frameOf(pair.a)], boundsOfFrames[frameOf(pair.b)];
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    if (const auto found = boundsOfFrames.find(frameOf(i)); found != boundsOfFrames.end()) {
+      const auto rest = restBoxes_.find(i);
+      const Body& body = bodies_[i].body;
+      Bounds& bounds = found->second;
+      bounds.lower =
+          bounds.lower.cwiseMin(rest == restBoxes_.end() ? body.lower() : rest->second.lower);
+      bounds.upper =
+          bounds.upper.cwiseMax(rest == restBoxes_.end() ? body.upper() : rest->second.upper);
     }
   double radius = std::numeric_limits<double>::infinity(), size = 0;
   for (const auto& [frame, bounds] : boundsOfFrames) {
@@ -172,32 +191,28 @@ double Scene::defaultTolerance(double farthest) const {
 template <class Visit>
 void Scene::forNearPairs(std::span<const Transform> X_WF, const double& within,
                          QueryContext& context, Visit visit) const {
-  for (const FramePair& pair : framePairs_)
-    for (const std::size_t frame : {pair.a, pair.b})
-      if (frame >= X_WF.size() || !X_WF[frame].isFinite())
-        throw std::invalid_argument("every frame must have a finite pose");
-  for (const auto& [body, box] : restBoxes_) {
-    const std::size_t frame = bodies_[body].frame;
-    if (frame >= X_WF.size() || !(X_WF[frame] == bodies_[body].restX_WF))
-      throw std::invalid_argument("a frame at rest must have the map that the scene was given");
-  }
+  for (const std::size_t frame : posedFrames_)
+    if (frame >= X_WF.size() || !X_WF[frame].isFinite())
+      throw std::invalid_argument("every frame must have a finite pose");
+  const auto mapOf = [&](std::size_t body) -> const Transform& {
+    const Placed& placed = bodies_[body];
+    return placed.restX_WF ? *placed.restX_WF : X_WF[placed.frame];
+  };
   auto& spheres = context.scratch.of<SweptSpheres>();
   spheres.makeRoom(bodies_.size());
   spheres.forget();
   const auto worldSphere = [&](std::size_t body) -> const SweptSphere& {
-    const Placed& placed = bodies_[body];
-    return spheres.of(body, [&] { return sweptSphere(placed.body, atRest(X_WF[placed.frame])); });
+    return spheres.of(body, [&] { return sweptSphere(bodies_[body].body, atRest(mapOf(body))); });
   };
   const auto visitPair = [&](std::size_t k) {
     const MotionPair& pair = motionPairs_[k];
-    const FramePair& frames = framePairs_[pair.motion];
-    const Transform &X_WA = X_WF[frames.a], &X_WB = X_WF[frames.b];
-    if (X_WA == Transform()) {
+    const Transform &X_WA = mapOf(pair.bodyA), &X_WB = mapOf(pair.bodyB);
+    if (X_WA == Transform()) {  // a's own box is in the world
       if (!mayMeet(*pair.a, worldSphere(pair.bodyB), within)) return false;
     } else {
       const SweptSphere& b = worldSphere(pair.bodyB);
       // (The box of a body on frame 0 doesn't move with the world.)
-      const bool boxed = pair.restBox && frames.a != 0;
+      const bool boxed = bodies_[pair.bodyA].restX_WF.has_value();
       if ((boxed ? clearanceBound(*pair.restBox, b, within)
                  : clearanceBound(worldSphere(pair.bodyA), b, within)) > within)
         return false;

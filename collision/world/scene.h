@@ -27,9 +27,9 @@ class Scene {
     Body body;
     std::size_t frame = 0;
     /// The map of the frame, if the frame is at rest in the world; else empty. The broad phase then
-    /// finds the body as it finds bodies on frame 0. Queries of states must be given this map. In
-    /// queries of motions, the frame's pose must take each point of the body to within 2^-46·(r +
-    /// |t|) metres of where this map takes it; r is the body's radius.
+    /// finds the body as it finds bodies on frame 0. Queries of states use this map, whatever they
+    /// are given for the frame. In queries of motions, the frame's pose must take each point of the
+    /// body to within 2^-46·(r + |t|) metres of where this map takes it; r is the body's radius.
     std::optional<Transform> restX_WF = std::nullopt;
   };
   struct Pair {
@@ -44,7 +44,8 @@ class Scene {
   /// Only `pairs` are ever tested. In `pairs()`, a is the body on the world or at rest, if one of
   /// the two is, or else the body on the frame of lower index: the constructor exchanges the two
   /// bodies of a pair if necessary.
-  /// @throws std::invalid_argument if a pair names a body that does not exist.
+  /// @throws std::invalid_argument if a pair names a body that does not exist, or the map of a
+  /// frame at rest is not finite.
   Scene(std::vector<Placed> bodies, std::vector<Pair> pairs);
   ~Scene();
   Scene(Scene&&) noexcept;
@@ -53,19 +54,19 @@ class Scene {
   const std::vector<Placed>& bodies() const { return bodies_; }
   const std::vector<Pair>& pairs() const { return pairs_; }
   /// Returns the pairs of frames whose motions a `MotionSource` has to supply: the distinct pairs
-  /// of frames among `pairs()`, and each moving frame of these as seen from the world.
+  /// of frames among `pairs()`, and each frame of these that is not at rest, as seen from the
+  /// world.
   const std::vector<FramePair>& framePairs() const { return framePairs_; }
   /// Returns a tolerance in metres: 1e-7 of the smallest radius of a frame, or the tolerance that
   /// the rounding of rigid motions requires (`RigidMotion::roundingTolerance`) if that is larger.
-  /// The radius of a frame is that of one sphere around all of its bodies; frames in no pair do not
-  /// count.
+  /// The radius of a frame is that of one sphere around all of its bodies. Bodies at rest count as
+  /// bodies of the world (frame 0); frames in no pair do not count.
   /// @param farthest metres; the poses of frames are at most this far from the origin.
   double defaultTolerance(double farthest = 0) const;
 
-  /// All queries throw std::invalid_argument for options that are not finite or out of range; if
-  /// the transform of the world (frame 0) or of a frame in a pair is missing or not finite; or if
-  /// that of a frame at rest is not the map that was given for it. They build the trees that they
-  /// need.
+  /// All queries throw std::invalid_argument for options that are not finite or out of range, or if
+  /// the transform of a frame in a pair is missing or not finite, unless the frame is at rest. They
+  /// build the trees that they need.
 
   /// Returns the first contact found under the maps X_WF of the frames, or nullopt. Exact for
   /// meshes (collision/PROMISES.md, promise 1); with a convex part, contact may be reported for
@@ -119,6 +120,7 @@ class Scene {
   std::vector<std::size_t> order_;  // indices of `pairs_`, in the order of `motionPairs_`
   std::vector<MotionPair> motionPairs_;
   std::vector<FramePair> framePairs_;
+  std::vector<std::size_t> posedFrames_;          // frames of bodies in pairs, except those at rest
   std::unique_ptr<const BroadPhase> broadPhase_;  // of `motionPairs_`
   bool solidMeshes_ = false;  // a pair has a solid mesh, so containment must be decided
 };

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <iostream>
 #include <map>
+#include <set>
 
 #include "collision/core/spelling.h"
 #include "planner/app/commands.h"
@@ -178,13 +179,14 @@ class ProblemReport {
   }
 
   void reportTrees() {
-    std::size_t built = 0, meshes = 0;
+    std::set<const TriangleMesh*> built, meshes;  // bodies of one mesh share its tree
     for (const Scene::Placed& placed : checker_.scene().bodies()) {
-      built += placed.body.isMesh() && placed.body.treeBuilt();
-      meshes += placed.body.isMesh();
+      if (!placed.body.isMesh()) continue;
+      meshes.insert(&placed.body.mesh());
+      if (placed.body.treeBuilt()) built.insert(&placed.body.mesh());
     }
-    json_["trees_built"] = built;
-    out_.line("trees built", std::to_string(built) + " of " + std::to_string(meshes) +
+    json_["trees_built"] = built.size();
+    out_.line("trees built", std::to_string(built.size()) + " of " + std::to_string(meshes.size()) +
                                  ", for start and goal; the others when first needed");
   }
 

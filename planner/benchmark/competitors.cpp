@@ -50,17 +50,21 @@ class CompetitorStates final : public ompl::base::StateValidityChecker {
  public:
   CompetitorStates(const ompl::base::SpaceInformationPtr& si, const Checker& checker,
                    std::unique_ptr<CompetitorScene> scene)
-      : StateValidityChecker(si), checker_(checker), scene_(std::move(scene)) {}
+      : StateValidityChecker(si),
+        checker_(checker),
+        poses_(checker.model()),
+        scene_(std::move(scene)) {}
   bool isValid(const ompl::base::State* state) const override {
     const Configuration q = configurationOf(*si_, state);
     if (!checker_.inBounds(q)) return false;
     const std::lock_guard lock(mutex_);  // for planners with several threads
-    return !scene_->touches(framePoses(checker_.model().tree, q));
+    return !scene_->touches(poses_.at(q));
   }
 
  private:
   const Checker& checker_;
   mutable std::mutex mutex_;
+  mutable FramePoses poses_;
   std::unique_ptr<CompetitorScene> scene_;
 };
 

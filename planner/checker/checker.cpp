@@ -91,10 +91,12 @@ CheckerOptions checkerOptions(const Task& task, const CheckerSettings& settings)
 struct Checker::Workspace {
   explicit Workspace(const Checker& checker)
       : motion(checker.model_.tree, checker.model_.space, checker.scene_.framePairs(),
-               checker.tube_) {}
+               checker.tube_),
+        poses(checker.model_) {}
 
   QueryContext context;
   EdgeMotion motion;
+  FramePoses poses;
   std::thread::id thread = std::this_thread::get_id();
   Workspace* next = nullptr;  // the one added before; not owned
 };
@@ -184,13 +186,14 @@ MotionResult Checker::certifyEdge(const Configuration& from, const Configuration
 
 std::optional<Contact> Checker::interference(const Configuration& q) const {
   requireStandardFloatingPoint();
-  return scene_.interference(framePoses(model_.tree, q), workspaceOfThread().context,
-                             options_.trees);
+  Workspace& workspace = workspaceOfThread();
+  return scene_.interference(workspace.poses.at(q), workspace.context, options_.trees);
 }
 
 double Checker::clearance(const Configuration& q) const {
   requireStandardFloatingPoint();
-  return scene_.clearance(framePoses(model_.tree, q), workspaceOfThread().context, options_.trees) -
+  Workspace& workspace = workspaceOfThread();
+  return scene_.clearance(workspace.poses.at(q), workspace.context, options_.trees) -
          options_.margin;
 }
 

@@ -9,18 +9,19 @@
 namespace corridor {
 namespace {
 
-void include(const ConvexPart& part, Corners& box) {
+void include(const ConvexPart& part, const Transform& X, Corners& box) {
   // The points are swept by a sphere. Those of a cylinder are swept by a disc at a right angle to
   // the axis.
   Vec3 reach = Vec3::Constant(part.radius);
   if (part.flatEnds) {
-    const Vec3 along = (part.points.back() - part.points.front()).stableNormalized();
+    const Vec3 along = (X * part.points.back() - X * part.points.front()).stableNormalized();
     for (int k = 0; k < 3; ++k)
       reach[k] = part.radius * std::sqrt(std::max(0.0, 1 - along[k] * along[k]));
   }
   for (const Vec3& point : part.points) {
-    box.lower = box.lower.cwiseMin(point - reach);
-    box.upper = box.upper.cwiseMax(point + reach);
+    const Vec3 p = X * point;
+    box.lower = box.lower.cwiseMin(p - reach);
+    box.upper = box.upper.cwiseMax(p + reach);
   }
 }
 
@@ -71,10 +72,7 @@ std::string whyBadBounds(const Corners& corners, std::size_t dimensions) {
 Corners boundsOf(const PlacedShape& shape, const Transform& X) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Corners box{Vec3::Constant(infinity), Vec3::Constant(-infinity)};
-  for (ConvexPart part : shape.parts) {
-    for (Vec3& point : part.points) point = X * point;
-    include(part, box);
-  }
+  for (const ConvexPart& part : shape.parts) include(part, X, box);
   if (shape.mesh) include(shape.mesh->mesh, X, box);
   return box;
 }

@@ -38,6 +38,17 @@ std::vector<Transform> framesAtRest(const Model& model) {
   return framePoses(model.tree, Configuration::Zero(size));
 }
 
+FramePoses::FramePoses(const Model& model) : tree_(model.tree), X_WF_(framesAtRest(model)) {
+  const std::vector<std::size_t> movers = moversOf(tree_);
+  for (std::size_t frame = 0; frame < movers.size(); ++frame)
+    if (movers[frame] != 0) moving_.push_back(frame);
+}
+
+const std::vector<Transform>& FramePoses::at(const Configuration& q) {
+  setFramePoses(tree_, q, moving_, X_WF_);
+  return X_WF_;
+}
+
 bool hasPoseJoints(const ConfigurationSpace& space) {
   const auto& groups = space.groups();
   return std::any_of(groups.begin(), groups.end(), [](const CoordinateGroup& group) {

@@ -134,6 +134,21 @@ std::vector<std::size_t> moversOf(const KinematicTree& tree);
 /// frames of obstacles) are of use; the others may even be NaN.
 std::vector<Transform> framesAtRest(const Model& model);
 
+/// The poses of a model's frames, for states that follow each other. Those that never move are
+/// computed once, so that a state costs nothing for obstacles on frames of their own.
+class FramePoses {
+ public:
+  /// @param model must outlive the object.
+  explicit FramePoses(const Model& model);
+  /// Returns the poses at q, as `framePoses` does. The reference is valid until the next call.
+  const std::vector<Transform>& at(const Configuration& q);
+
+ private:
+  const KinematicTree& tree_;
+  std::vector<std::size_t> moving_;
+  std::vector<Transform> X_WF_;
+};
+
 /// Returns whether the model has a planar or floating joint, or a rigid robot.
 bool hasPoseJoints(const ConfigurationSpace& space);
 /// Returns whether the model has a single joint (revolute, continuous or prismatic).

@@ -8,6 +8,7 @@
 #include "planner/model/planned_joints.h"
 #include "planner/model/robot_assembly.h"
 #include "planner/robot/joint_types.h"
+#include "planner/robot/turns.h"
 
 namespace corridor {
 namespace {
@@ -228,7 +229,7 @@ PlacedShape shapeOf(std::string name, const Primitive& primitive, const RigidPos
   shape.name = std::move(name);
   shape.primitive = primitive;
   shape.at = at;
-  shape.parts.push_back(placed(primitive, {at.q.normalized().toRotationMatrix(), at.p}));
+  shape.parts.push_back(placed(primitive, {rotationMatrix(unitQuaternion(at.q)), at.p}));
   return shape;
 }
 

@@ -140,10 +140,15 @@ void requireFiniteSizes(const Model& model, const std::string& file) {
                  name + ": a coordinate of " + shortest(length) +
                      " m is too large; at most 1e+100 m is allowed");
   };
-  for (const ModelBody& body : model.bodies) require(body.name, largestCoordinate(body));
+  std::vector<std::string> names;  // for messages
   for (const Frame& frame : model.tree.frames)
-    require(frame.name.empty() ? "a frame" : "frame " + frame.name,
-            largestTranslation(frame, model.space));
+    names.push_back(frame.name.empty() ? "a frame" : "frame " + frame.name);
+  for (const ModelBody& body : model.bodies) {
+    require(body.name, largestCoordinate(body));
+    if (!body.robot) names[body.frame] = body.name;
+  }
+  for (std::size_t f = 1; f < names.size(); ++f)
+    require(names[f], largestTranslation(model.tree.frames[f], model.space));
   faults.throwIfAny();
 }
 

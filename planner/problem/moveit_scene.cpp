@@ -37,7 +37,7 @@ Placement readFrame(const YamlMap& object, const std::string& root, const RigidP
   if (!header) return {};
   const YamlMap map(*header, object.pathOf("header"), &kHeader, object.source());
   const std::string frame = map.text("frame_id").value_or("");
-  if (frame == root) return {base, {base.q.normalized().toRotationMatrix(), base.p}};
+  if (frame == root) return {base, {rotationMatrix(base.q), base.p}};
   if (!frame.empty() && frame != "world")
     map.fault("frame_id", "the frame of the robot's root, " + quotedWord(root) +
                               ", or \"world\" is needed, not " + quotedWord(frame));

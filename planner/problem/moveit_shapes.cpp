@@ -64,7 +64,7 @@ std::optional<Placement> readPose(const YamlValue& value, const std::string& pat
       return std::nullopt;
     }
     orientation.q = ofOrdinarySize(orientation.q);
-    orientation.R = orientation.q.normalized().toRotationMatrix();
+    orientation.R = rotationMatrix(orientation.q);
   }
   placement.pose.q = orientation.q;
   placement.X = {orientation.R, placement.pose.p};

@@ -30,7 +30,7 @@ std::optional<Orientation> readQuaternion(const YamlMap& map) {
                                "; a mistyped number?");
     return std::nullopt;
   }
-  return Orientation{q, q.normalized().toRotationMatrix()};
+  return Orientation{q, rotationMatrix(q)};
 }
 
 std::string wrongKind(const std::string& path, const PoseForm& form) {

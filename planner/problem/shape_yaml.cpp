@@ -236,8 +236,9 @@ std::optional<PlacedShape> readShape(const YamlMap& map, const ShapePlace& place
     shape.parts.push_back(placed(*shape.primitive, whole.X));
     inRange = isFinite(shape.parts.front());
   }
-  if (!inRange && !faultRange(map)) return std::nullopt;
-  return shape;
+  if (inRange) return shape;
+  faultRange(map);
+  return std::nullopt;
 }
 
 bool applyPlacement(const YamlMap& map, const Placement& placement, PlacedShape& shape) {

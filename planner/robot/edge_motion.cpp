@@ -65,7 +65,8 @@ struct EdgeMotion::Impl {
 
   const ConfigurationSpace& space;
   std::vector<Place> places;
-  std::vector<View> views;  // parents first
+  std::vector<std::size_t> movingPlaces;  // the places whose joints move
+  std::vector<View> views;                // parents first
   std::vector<Path> paths;
   std::uint64_t stamp = 0;
   double t = 0;  // the t of the stamp
@@ -119,6 +120,7 @@ EdgeMotion::Impl::Impl(const KinematicTree& tree, const ConfigurationSpace& move
     for (; !folded.empty(); folded.pop_back()) fixed = fixed.then(tree.frames[folded.back()]);
     const Frame& frame = tree.frames[f];
     placeOf[f] = places.size();
+    if (frame.moves()) movingPlaces.push_back(places.size());
     places.push_back({frame.moves() ? MovingJoint(frame, fixed, kindOf(space, frame.variable), tube)
                                     : MovingJoint(fixed),
                       {},
@@ -257,7 +259,8 @@ void EdgeMotion::set(const Configuration& from, const Configuration& to) {
   m.t = 0;
   m.ambiguous = m.space.ambiguous(from, to) || !standardFloatingPoint();
   m.still = true;
-  for (Impl::Place& place : m.places) {
+  for (const std::size_t moving : m.movingPlaces) {
+    Impl::Place& place = m.places[moving];
     place.joint.set(from, to);
     if (place.joint.still())
       place.X = place.joint.at(0);

@@ -32,16 +32,24 @@ Transform jointPose(const Frame& frame, const Configuration& q) {
   return X;
 }
 
+Transform framePose(const Frame& frame, const Configuration& q, const Transform& X_WParent) {
+  const Transform fixed{rotationMatrix(unitQuaternion(frame.fixed.q)), frame.fixed.p};
+  return X_WParent * (fixed * jointPose(frame, q));
+}
+
 }  // namespace
 
 std::vector<Transform> framePoses(const KinematicTree& tree, const Configuration& q) {
   std::vector<Transform> poses(tree.frames.size());
-  for (std::size_t i = 1; i < tree.frames.size(); ++i) {
-    const Frame& frame = tree.frames[i];
-    const Transform fixed{unitQuaternion(frame.fixed.q).toRotationMatrix(), frame.fixed.p};
-    poses[i] = poses[frame.parent] * (fixed * jointPose(frame, q));
-  }
+  for (std::size_t i = 1; i < tree.frames.size(); ++i)
+    poses[i] = framePose(tree.frames[i], q, poses[tree.frames[i].parent]);
   return poses;
+}
+
+void setFramePoses(const KinematicTree& tree, const Configuration& q,
+                   std::span<const std::size_t> frames, std::vector<Transform>& X_WF) {
+  for (const std::size_t i : frames)
+    X_WF[i] = framePose(tree.frames[i], q, X_WF[tree.frames[i].parent]);
 }
 
 }  // namespace corridor

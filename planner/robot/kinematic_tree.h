@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -26,8 +27,8 @@ struct Frame {
   };
   static constexpr std::size_t noVariable = SIZE_MAX;
 
-  /// The link's name, such as "left/hand". A planar or floating joint has two frames; the first one
-  /// has the joint's name, or "position" for a rigid robot.
+  /// The name of the link, such as "left/hand", or of the obstacle. A planar or floating joint has
+  /// two frames; the first one has the joint's name, or "position" for a rigid robot.
   std::string name;
   std::size_t parent = 0;
   RigidPose fixed;  ///< X_P0: pose in the parent's frame
@@ -42,9 +43,9 @@ struct Frame {
   bool moves() const { return joint != Joint::none && variable != noVariable; }
 };
 
-/// The frames of all robots, and of the world. Frame 0 is the world; parents come before their
-/// children. The tree is plain data. Both the planner's kinematics and the verifier's independent
-/// kinematics read it.
+/// The frames of all robots, of the world, and of obstacles that have their own. Frame 0 is the
+/// world; parents come before their children. The tree is plain data. Both the planner's kinematics
+/// and the verifier's independent kinematics read it.
 struct KinematicTree {
   std::vector<Frame> frames{Frame{}};
 
@@ -66,5 +67,9 @@ struct KinematicTree {
 /// 2^-51·(|multiplier·q| + |offset|), which matters if a mimic multiplies a large value. Certified
 /// queries don't use these poses: edge_motion.h bounds the errors of its own.
 std::vector<Transform> framePoses(const KinematicTree& tree, const Configuration& q);
+/// Computes the poses of some frames only, and stores them in X_WF.
+/// @param frames in ascending order. The parent of each must be in the list, or its pose in X_WF.
+void setFramePoses(const KinematicTree& tree, const Configuration& q,
+                   std::span<const std::size_t> frames, std::vector<Transform>& X_WF);
 
 }  // namespace corridor

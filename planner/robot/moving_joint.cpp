@@ -65,7 +65,7 @@ LongPose LongPose::then(const Frame& frame) const {
       Eigen::Matrix<Scalar, 4, 1>(frame.fixed.q.coeffs().cast<Scalar>().stableNormalized()));
   LongPose next = *this;
   next.t += m * frame.fixed.p.cast<Scalar>();
-  next.m = m * q.toRotationMatrix();
+  next.m = m * rotationMatrix(q);
   next.length = roundedUp(length + frame.fixed.p.norm());
   if (frame.variable == Frame::noVariable) {
     if (frame.joint == Frame::Joint::revolute) {

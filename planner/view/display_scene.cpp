@@ -114,8 +114,12 @@ DisplayScene displayScene(const Problem& problem) {
   for (const ModelBody& body : problem.model.bodies) {
     DisplayMesh mesh = displayMesh(body);
     bounds.include(poses[body.frame] * mesh.origin);
-    if (body.frame != 0) scene.frames.push_back(body.frame);
-    scene.bodies.push_back({body.name, body.frame, body.robot, meshes.add(std::move(mesh))});
+    DisplayBody shown{body.name, 0, body.robot, {}, meshes.add(std::move(mesh))};
+    if (body.robot && body.frame != 0)
+      scene.frames.push_back(shown.frame = body.frame);
+    else if (body.frame != 0)
+      shown.X_WB = poses[body.frame];
+    scene.bodies.push_back(std::move(shown));
   }
   scene.meshes = meshes.take();
   if (!scene.bodies.empty()) scene.origin = bounds.middle();
@@ -128,13 +132,17 @@ DisplayScene displayScene(const Problem& problem) {
 
 std::vector<float> displayPoses(const DisplayScene& scene, const std::vector<Transform>& X_WF) {
   std::vector<float> numbers;
-  for (const std::size_t frame : scene.frames) {
-    const Vec3 t = X_WF[frame].t - scene.origin;
-    const Eigen::Quaterniond q(X_WF[frame].m);
-    for (const double x : {t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()})
-      numbers.push_back(static_cast<float>(x));
-  }
+  for (const std::size_t frame : scene.frames)
+    for (const float number : displayPose(scene, X_WF[frame])) numbers.push_back(number);
   return numbers;
+}
+
+std::array<float, 7> displayPose(const DisplayScene& scene, const Transform& X_WF) {
+  const Vec3 t = X_WF.t - scene.origin;
+  const Eigen::Quaterniond q(X_WF.m);
+  const auto rounded = [](double x) { return static_cast<float>(x); };
+  return {rounded(t.x()), rounded(t.y()), rounded(t.z()), rounded(q.x()),
+          rounded(q.y()), rounded(q.z()), rounded(q.w())};
 }
 
 }  // namespace corridor::view

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -23,8 +24,9 @@ struct DisplayMesh {
 
 struct DisplayBody {
   std::string name;
-  std::size_t frame = 0;             ///< 0: the world's frame, of obstacles
+  std::size_t frame = 0;             ///< 0: an obstacle
   std::optional<std::size_t> robot;  ///< unset: an obstacle
+  std::optional<Transform> X_WB;     ///< the pose of an obstacle's mesh, if it is not the identity
   std::size_t mesh = 0;              ///< index; bodies with equal meshes share one
 };
 
@@ -34,7 +36,7 @@ struct DisplayScene {
   /// The world point that poses and points are relative to. It is in the middle of the bodies,
   /// since the world's coordinates may be large.
   Vec3 origin = Vec3::Zero();
-  /// Frames with bodies, except the world's, in ascending order.
+  /// Frames with bodies of robots, in ascending order.
   std::vector<std::size_t> frames;
   std::vector<std::size_t> tips;  ///< see tipFrames
   /// True if all joints rotate about vertical axes or translate horizontally: then the scene is
@@ -48,5 +50,7 @@ DisplayScene displayScene(const Problem& problem);
 /// Returns the poses of `scene.frames` as floats, seven per frame: x, y, z from the scene's origin,
 /// then the quaternion x, y, z, w.
 std::vector<float> displayPoses(const DisplayScene& scene, const std::vector<Transform>& X_WF);
+/// Returns one such pose.
+std::array<float, 7> displayPose(const DisplayScene& scene, const Transform& X_WF);
 
 }  // namespace corridor::view

@@ -85,11 +85,13 @@ class PageData {
            {"positions", jsonOf(buffers_.add(mesh.positions))},
            {"indices", jsonOf(buffers_.addIndices(mesh.indices, mesh.positions.size() / 3))}});
     ordered_json& bodies = json_["bodies"] = ordered_json::array();
-    for (const DisplayBody& body : scene_.bodies)
+    for (const DisplayBody& body : scene_.bodies) {
       bodies.push_back({{"name", body.name},
                         {"mesh", body.mesh},
                         {"frame", frameNumber(body.frame)},
                         {"robot", body.robot ? ordered_json(*body.robot) : ordered_json()}});
+      if (body.X_WB) bodies.back()["pose"] = displayPose(scene_, *body.X_WB);
+    }
   }
 
   /// Returns −1 for the world's frame, else the frame's index in the page's poses.

@@ -83,8 +83,8 @@ class Trees {
     data.bodies.forEach((body) => {
       const {geometry, count} = this.geometry(body.mesh, level);
       const object = new THREE.LineSegments(geometry, material);
-      object.position.copy(shapes[body.mesh].origin);
-      if (body.frame < 0) object.position.sub(origin);
+      if (body.frame < 0) placeObstacle(object, body);
+      else object.position.copy(shapes[body.mesh].origin);
       object.renderOrder = 6;
       parentOf(body).add(object);
       this.shown.push(object);

@@ -18,8 +18,10 @@ class Obstacles {
     data.bodies.forEach((body, index) => {
       if (body.frame >= 0) return;
       const shape = shapes[body.mesh];
-      const base = shape.origin.clone().sub(origin);
-      const bounds = shape.geometry.boundingBox.clone().translate(base), size = bounds.getSize(new THREE.Vector3());
+      const place = new THREE.Object3D();
+      placeObstacle(place, body);
+      place.updateMatrix();
+      const bounds = shape.geometry.boundingBox.clone().applyMatrix4(place.matrix), size = bounds.getSize(new THREE.Vector3());
       const floor = bounds.max.z < lowest + 0.02 * Math.max(size.x, size.y) && size.z < 0.12 * Math.max(size.x, size.y);
       const colour = floor ? palette.floor : data.planar ? palette.wall : palette.obstacles[number++ % palette.obstacles.length];
       const solid = surface(colour, shape);
@@ -29,7 +31,7 @@ class Obstacles {
       const edges = shape.edges && lines(shape, palette.edge, 0.55);
       mesh.receiveShadow = true;
       for (const object of edges ? [mesh, edges] : [mesh]) {
-        object.position.copy(base);
+        placeObstacle(object, body);
         scene.add(object);
       }
       this.bodies.push({index, mesh, solid, glass, edges, bounds, floor, hides: 0, isGlass: false});

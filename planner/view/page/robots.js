@@ -15,6 +15,18 @@ function poseOf(array, first, next, u, position, quaternion) {
   }
 }
 
+/** Places an object in the scene that is in the coordinates of an obstacle's mesh. */
+function placeObstacle(object, body) {
+  object.position.copy(shapes[body.mesh].origin);
+  if (!body.pose) {
+    object.position.sub(origin);
+    return;
+  }
+  const at = new THREE.Vector3();
+  poseOf(body.pose, 0, 0, 0, at, object.quaternion);
+  object.position.applyQuaternion(object.quaternion.normalize()).add(at);
+}
+
 /** The path's samples; undefined without a path. */
 const path = data.path && {
   at: data.array(data.path.at), t: data.array(data.path.t), edge: data.array(data.path.edge), poses: data.array(data.path.poses),

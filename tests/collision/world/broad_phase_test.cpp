@@ -5,6 +5,7 @@
 #include <map>
 #include <random>
 
+#include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
 #include "collision/queries/distance.h"
@@ -207,6 +208,37 @@ TEST(BroadPhase, TakesLogarithmicTime) {
   EXPECT_GT(found.size(), 2u);
   EXPECT_LT(found.size(), 200u);
   EXPECT_TRUE(std::is_sorted(found.begin(), found.end()));
+}
+
+/// A map of defect d, the largest entry of MᵀM − 1, can move a point by more than d times its
+/// distance. The robot is between the sphere of radius 1 + d and the surface of the ball's image.
+TEST(BroadPhase, BodiesAtRestUnderMapsThatAreNotRigid) {
+  for (const double d : {0x1p-11, 0.1, 0.9}) {
+    const Mat3 square = Mat3::Identity() + Mat3::Constant(d);
+    const Eigen::Quaterniond q =
+        Eigen::Quaterniond::FromTwoVectors(Vec3(1, 1, 1).normalized(), Vec3::UnitX());
+    const Mat3 m =
+        q.toRotationMatrix() * Eigen::SelfAdjointEigenSolver<Mat3>(square).operatorSqrt();
+    const Transform X_WRobot{Mat3::Identity(),
+                             Vec3(0.5 + 0.5 * (std::sqrt(1 + 3 * d) + 1 + d), 0, 0)};
+    const ConvexPart ball = placed(Sphere{1}, {});
+    for (const std::size_t many : {1, 40}) {  // with 40, the boxes are in a tree
+      std::vector<Scene::Placed> bodies;
+      std::vector<Scene::Pair> pairs;
+      std::vector<Transform> X_WF(many + 2);
+      for (std::size_t i = 0; i < many; ++i) {
+        const Transform X{m, Vec3(0, 20.0 * static_cast<double>(i), 0)};
+        bodies.push_back({Body("obstacle", ball), i + 1, X});
+        pairs.push_back({i, many});
+      }
+      bodies.push_back({Body("robot", placed(Sphere{0.5}, {})), many + 1});
+      X_WF.back() = X_WRobot;
+      const Scene scene(std::move(bodies), std::move(pairs));
+      QueryContext context;
+      EXPECT_EQ(scene.clearance(X_WF, context), 0) << d << ", " << many;
+      EXPECT_TRUE(scene.interference(X_WF, context)) << d << ", " << many;
+    }
+  }
 }
 
 }  // namespace

@@ -95,6 +95,26 @@ TEST(ViewPage, MeshesAreThoseOfTheProblem) {
   EXPECT_LE(arms.json["meshes"].size() + 7, arms.json["bodies"].size()) << "two arms of one kind";
 }
 
+/// An obstacle on a frame of its own, which shares its mesh, is shown as an obstacle.
+TEST(ViewPage, ObstaclesOnFramesStandStill) {
+  Problem problem = ownProblem("piano");
+  const PageReader before(viewPage(problem, std::nullopt));
+  const std::size_t robots = before.array<float>(before.json["start"]).size();
+  std::size_t obstacle = 0;
+  while (problem.model.bodies.at(obstacle).robot) ++obstacle;
+  const RigidPose at{Vec3(1, 2, 3), Eigen::Quaterniond(0.5, 0.5, -0.5, 0.5)};
+  problem.model.bodies[obstacle].frame = problem.model.tree.add({.name = "own", .fixed = at});
+  const PageReader page(viewPage(problem, std::nullopt));
+  const auto& body = page.json["bodies"][obstacle];
+  EXPECT_EQ(body["frame"], -1);
+  EXPECT_EQ(page.array<float>(page.json["start"]).size(), robots) << "poses are of the robots only";
+  const auto pose = body["pose"].get<std::vector<double>>();
+  ASSERT_EQ(pose.size(), 7u);
+  expectSamePose(poseAt(pose, 0, vectorOf(page.json["origin"])), {rotationMatrix(at.q), at.p}, 10);
+  for (std::size_t b = 0; b < problem.model.bodies.size(); ++b)
+    EXPECT_EQ(page.json["bodies"][b].contains("pose"), b == obstacle);
+}
+
 /// Floats are coarse far from the origin, so positions must be relative to a point near by.
 TEST(ViewPage, FarFromTheOriginNoPrecisionIsLost) {
   Problem problem = ownProblem("piano");
