@@ -142,10 +142,15 @@ const FrameState& PairProver::stateOf(std::size_t edge, std::size_t chainIndex, 
 /// direction (of the plane, for a planar translation) by the smallest number of its tube.
 Real PairProver::leastInTube(std::size_t pair, const Measured& m) const {
   const RealVec between = m.gap.onB - m.gap.onA;
-  const KinematicChain& chain = chains_[pairs_[pair].chainB];
-  if (chain.path.empty() || !chains_[pairs_[pair].chainA].path.empty()) return m.gap.upper;
-  const Frame& frame = problem_.tree->frames[chain.path.front()];
-  if (frame.joint != Frame::Joint::translation) return m.gap.upper;
+  const auto isFixed = [&](std::size_t chain) {
+    return std::ranges::none_of(chains_[chain].path,
+                                [&](std::size_t f) { return problem_.tree->frames[f].moves(); });
+  };
+  std::size_t mover = pairs_[pair].chainB, other = pairs_[pair].chainA;
+  if (isFixed(mover)) std::swap(mover, other);
+  if (isFixed(mover) || !isFixed(other)) return m.gap.upper;
+  const Frame& frame = problem_.tree->frames[chains_[mover].path.front()];
+  if (frame.joint != Frame::Joint::translation || !frame.moves()) return m.gap.upper;
   const auto first = static_cast<Eigen::Index>(frame.variable);
   const Real stray =
       problem_.tube.segment(first, static_cast<Eigen::Index>(frame.count)).minCoeff();

@@ -50,6 +50,7 @@ struct RigidWorld {
   double margin = 0, tolerance = 1e-7;
   Tube tube;
   std::uint64_t workLimit = 2'000'000;
+  bool obstaclesFirst = true;  ///< in pairs
 
   explicit RigidWorld(bool planar) {
     const std::vector<std::string> lines =
@@ -93,7 +94,10 @@ struct RigidWorld {
     for (const VerifyBody& body : fixed) {
       plain.bodies.push_back(body);
       for (std::size_t m = 0; m < moving.size(); ++m)
-        plain.pairs.push_back({plain.bodies.size() - 1, m});
+        if (const std::size_t o = plain.bodies.size() - 1; obstaclesFirst)
+          plain.pairs.push_back({o, m});
+        else
+          plain.pairs.push_back({m, o});
     }
     plain.margin = margin;
     plain.tolerance = tolerance;
