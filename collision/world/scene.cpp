@@ -101,11 +101,18 @@ Scene::Scene(std::vector<Placed> bodies, std::vector<Pair> pairs)
       restBoxes_[i] = boxUnder(bodies_[i].body, *X_WF);
     }
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> motions;
+  auto last = motions.end();  // most pairs have the frames of the one before
   const auto motionOf = [&](std::size_t frameA, std::size_t frameB) {
-    const auto [found, added] = motions.try_emplace({frameA, frameB}, framePairs_.size());
+    const std::pair frames(frameA, frameB);
+    if (last != motions.end() && last->first == frames) return last->second;
+    const auto [found, added] = motions.try_emplace(frames, framePairs_.size());
     if (added) framePairs_.push_back({frameA, frameB});
+    last = found;
     return found->second;
   };
+  std::size_t frameCount = 1;
+  for (const Placed& placed : bodies_) frameCount = std::max(frameCount, placed.frame + 1);
+  std::vector<char> isPosed(frameCount);
   std::vector<std::size_t> motionsOfPairs;
   motionsOfPairs.reserve(pairs_.size());
   for (Pair& pair : pairs_) {
@@ -114,11 +121,10 @@ Scene::Scene(std::vector<Placed> bodies, std::vector<Pair> pairs)
     if (bodies_[pair.b].frame < bodies_[pair.a].frame) std::swap(pair.a, pair.b);
     if (bodies_[pair.b].restX_WF && bodies_[pair.a].frame != 0) std::swap(pair.a, pair.b);
     motionsOfPairs.push_back(motionOf(bodies_[pair.a].frame, bodies_[pair.b].frame));
-    for (const std::size_t body : {pair.a, pair.b})
-      if (!bodies_[body].restX_WF) posedFrames_.push_back(bodies_[body].frame);
+    for (const std::size_t body : {pair.a, pair.b}) isPosed[frameOrWorld(body)] = true;
   }
-  std::sort(posedFrames_.begin(), posedFrames_.end());
-  posedFrames_.erase(std::unique(posedFrames_.begin(), posedFrames_.end()), posedFrames_.end());
+  for (std::size_t frame = 0; frame < frameCount; ++frame)
+    if (isPosed[frame]) posedFrames_.push_back(frame);
   solidMeshes_ = std::any_of(pairs_.begin(), pairs_.end(), [&](const Pair& pair) {
     return bodies_[pair.a].body.isSolidMesh() || bodies_[pair.b].body.isSolidMesh();
   });
@@ -142,10 +148,12 @@ Scene::Scene(std::vector<Placed> bodies, std::vector<Pair> pairs)
     const bool atRest = pair.restBox && pair.worldB != MotionPair::kNone;
     return std::tuple(atRest ? pair.worldB : pair.motion, pair.bodyB, pair.motion);
   };
+  const auto isBefore = [&](std::size_t i, std::size_t k) { return keyOf(i) < keyOf(k); };
   order_.resize(pairs_.size());
   std::iota(order_.begin(), order_.end(), std::size_t{0});
-  std::stable_sort(order_.begin(), order_.end(),
-                   [&](std::size_t i, std::size_t k) { return keyOf(i) < keyOf(k); });
+  // Models have their pairs in this order.
+  if (!std::is_sorted(order_.begin(), order_.end(), isBefore))
+    std::stable_sort(order_.begin(), order_.end(), isBefore);
   motionPairs_.reserve(pairs_.size());
   for (const std::size_t i : order_) motionPairs_.push_back(motionPairs[i]);
   broadPhase_ = std::make_unique<const BroadPhase>(motionPairs_);
@@ -160,12 +168,9 @@ double Scene::defaultTolerance(double farthest) const {
     Vec3 lower = Vec3::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
   };
   std::map<std::size_t, Bounds> boundsOfFrames;
-  const auto frameOf = [&](std::size_t body) {  // what is at rest counts as fixed to the world
-    return bodies_[body].restX_WF ? 0 : bodies_[body].frame;
-  };
-  for (const Pair& pair : pairs_) boundsOfFrames[frameOf(pair.a)], boundsOfFrames[frameOf(pair.b)];
+  for (const std::size_t frame : posedFrames_) boundsOfFrames[frame];
   for (std::size_t i = 0; i < bodies_.size(); ++i)
-    if (const auto found = boundsOfFrames.find(frameOf(i)); found != boundsOfFrames.end()) {
+    if (const auto found = boundsOfFrames.find(frameOrWorld(i)); found != boundsOfFrames.end()) {
       const auto rest = restBoxes_.find(i);
       const Body& body = bodies_[i].body;
       Bounds& bounds = found->second;

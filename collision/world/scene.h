@@ -110,6 +110,10 @@ class Scene {
   MotionResult withContainment(MotionResult result, std::span<const std::uint32_t> pairs,
                                MotionSource& motion, QueryContext& context,
                                MotionCertificate* certificate) const;
+  /// Returns the frame of a body, or the world if the frame is at rest.
+  std::size_t frameOrWorld(std::size_t body) const {
+    return bodies_[body].restX_WF ? 0 : bodies_[body].frame;
+  }
   template <class Visit>
   void forNearPairs(std::span<const Transform> X_WF, const double& within, QueryContext& context,
                     Visit visit) const;
@@ -120,7 +124,8 @@ class Scene {
   std::vector<std::size_t> order_;  // indices of `pairs_`, in the order of `motionPairs_`
   std::vector<MotionPair> motionPairs_;
   std::vector<FramePair> framePairs_;
-  std::vector<std::size_t> posedFrames_;          // frames of bodies in pairs, except those at rest
+  // The frames of bodies in pairs. Frames at rest are left out; the world stands for them.
+  std::vector<std::size_t> posedFrames_;
   std::unique_ptr<const BroadPhase> broadPhase_;  // of `motionPairs_`
   bool solidMeshes_ = false;  // a pair has a solid mesh, so containment must be decided
 };
