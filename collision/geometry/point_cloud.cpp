@@ -13,12 +13,18 @@ namespace {
 
 using Reader = PointCloud (*)(std::string_view, MeshFaults&);
 
-Reader readerOf(const std::string& extension) {
-  if (extension == ".ply") return readPlyPoints;
-  if (extension == ".pcd") return readPcd;
-  for (const char* text : {".xyz", ".txt", ".asc", ".pts"})
-    if (extension == text) return readXyz;
-  return nullptr;
+bool isRead(const std::string& extension) {
+  for (const char* known : {".ply", ".pcd", ".xyz", ".txt", ".asc", ".pts", ".csv"})
+    if (extension == known) return true;
+  return false;
+}
+
+/// Returns the reader of a file. The content decides, because files of every kind are called .xyz
+/// or .txt; the extension decides only about files that begin like none.
+Reader readerOf(std::string_view bytes, const std::string& extension) {
+  if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return readPlyPoints;
+  if (bytes.starts_with("# .PCD") || bytes.starts_with("# PCD")) return readPcd;
+  return extension == ".ply" ? readPlyPoints : extension == ".pcd" ? readPcd : readXyz;
 }
 
 }  // namespace
@@ -27,12 +33,15 @@ PointCloud readPointCloud(const std::filesystem::path& file, const MeshFileOptio
   MeshFaults faults(file.string());
   checkOptions(options, faults);
   if (const std::string why = whyNoFile(file); !why.empty()) faults.fail(0, why);
-  const Reader reader = readerOf(lowered(file.extension().string()));
-  if (!reader)
-    faults.fail(0, "points are read from .ply, .pcd, .xyz, .txt, .asc and .pts, not from " +
+  const std::string extension = lowered(file.extension().string());
+  if (!isRead(extension))
+    faults.fail(0, "points are read from .ply, .pcd, .xyz, .txt, .asc, .pts and .csv, not from " +
                        (file.extension().empty() ? std::string("a name without an extension")
                                                  : inQuotes(file.extension().string())));
-  PointCloud cloud = reader(readFile(file, "a point cloud"), faults);
+  const std::string bytes = readFile(file, "a point cloud");
+  std::string_view content = bytes;
+  if (content.starts_with("\xEF\xBB\xBF")) content.remove_prefix(3);  // a mark of UTF-8
+  PointCloud cloud = readerOf(content, extension)(content, faults);
   faults.throwIfAny();
   const std::size_t all = cloud.points.size();
   std::erase_if(cloud.points, [](const Vec3& p) { return !p.allFinite(); });

@@ -176,6 +176,9 @@ std::shared_ptr<const MeshFile> ShapeMeshes::read(const YamlMap& map, const char
     if (mayBeCloud(file, error.what()))
       map.fault(
           key, "for a cloud of points, write points: {file: " + *map.text(key) + ", radius: 0.01}");
+    const std::string extension = lowered(file.extension().string());
+    if (extension == ".bt" || extension == ".ot")
+      map.fault(key, "for a map of OctoMap, write octomap: {file: " + *map.text(key) + "}");
   }
   return known->second;
 }

@@ -152,7 +152,7 @@ TEST_F(PointCloudTest, CompressedPcd) {
 }
 
 TEST_F(PointCloudTest, Text) {
-  for (const char* name : {"a.xyz", "a.txt", "a.asc", "a.pts"})
+  for (const char* name : {"a.xyz", "a.txt", "a.asc", "a.pts", "a.csv"})
     EXPECT_EQ(read(name, "# x y z\n// comment\n1 2 3 255 0 0\n\n-0.5,0,4e-3\r\n7;8; 9").points,
               kThree)
         << name;
@@ -160,6 +160,21 @@ TEST_F(PointCloudTest, Text) {
   EXPECT_EQ(complaint("b.pts", "4\n1 2 3\n-0.5 0 4e-3\n7 8 9\n"),
             "b.pts: its first line promises 4 points, but it has 3");
   EXPECT_EQ(read("c.txt", "X Y Z intensity\n1 2 3 7\n-0.5 0 4e-3 7\n7 8 9 7\n").points, kThree);
+}
+
+/// Files of every kind are called .xyz or .txt. Some editors write a byte order mark.
+TEST_F(PointCloudTest, TheContentDecidesWhatAFileIs) {
+  EXPECT_EQ(read("a.csv", "\xEF\xBB\xBFx,y,z\n1,2,3\n-0.5,0,4e-3\n7,8,9\n").points, kThree);
+  EXPECT_EQ(read("a.xyz",
+                 "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                 "property double z\nend_header\n1 2 3\n-0.5 0 4e-3\n7 8 9\n")
+                .points,
+            kThree);
+  EXPECT_EQ(read("a.txt",
+                 "# .PCD v0.7\nFIELDS x y z\nSIZE 8 8 8\nTYPE F F F\nWIDTH 3\nHEIGHT 1\nPOINTS 3\n"
+                 "DATA ascii\n1 2 3\n-0.5 0 4e-3\n7 8 9\n")
+                .points,
+            kThree);
 }
 
 /// Commas are decimal marks in many countries. If a comma may be a decimal mark, the reader refuses
@@ -190,7 +205,7 @@ TEST_F(PointCloudTest, Faults) {
             "number; write decimal numbers such as -1.25e-3");
   EXPECT_EQ(complaint("b.xyz", "# nothing\n"), "b.xyz: it has no points");
   EXPECT_EQ(complaint("c.obj", "v 1 2 3\n"),
-            "c.obj: points are read from .ply, .pcd, .xyz, .txt, .asc and .pts, not from "
+            "c.obj: points are read from .ply, .pcd, .xyz, .txt, .asc, .pts and .csv, not from "
             "\".obj\"");
   EXPECT_EQ(complaint("d.pcd", "VERSION 0.7\nFIELDS x y\nDATA ascii\n1 2\n"),
             "d.pcd: FIELDS needs one field \"z\" of COUNT 1");

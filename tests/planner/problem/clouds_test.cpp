@@ -112,6 +112,10 @@ TEST_F(Clouds, AsAMesh) {
             "problem.yaml:4: world.rock.mesh: for a cloud of points, write points: {file: "
             "cloud.ply, radius: 0.01}\ncloud.ply: the header has no element \"face\"");
   EXPECT_EQ(rock("{points: {file: cloud.ply, radius: 0.01}}"), "no complaint");
+  write("map.bt", "# Octomap OcTree binary file\n");
+  EXPECT_THAT(rock("{mesh: map.bt}"),
+              testing::StartsWith("problem.yaml:4: world.rock.mesh: for a map of OctoMap, write "
+                                  "octomap: {file: map.bt}\nmap.bt: "));
 }
 
 TEST_F(Clouds, Faults) {
