@@ -134,7 +134,7 @@ TEST_F(Clouds, Faults) {
   EXPECT_EQ(rock("{points: {file: none.xyz, radius: 1}}"),
             "problem.yaml:4: world.rock.points.file: none.xyz: no such file");
   EXPECT_EQ(rock("{points: {file: wedge.obj, radius: 1}}"),
-            "wedge.obj: points are read from .ply, .pcd, .xyz, .txt, .asc and .pts, not from "
+            "wedge.obj: points are read from .ply, .pcd, .xyz, .txt, .asc, .pts and .csv, not from "
             "\".obj\"");
   EXPECT_EQ(rock("{points: {file: cloud.xyz, radius: 1}, solid: true}"),
             "problem.yaml:4: world.rock.solid: is for meshes; balls and cubes are always solid");
