@@ -26,7 +26,7 @@ Reader readerOf(const std::string& extension) {
 PointCloud readPointCloud(const std::filesystem::path& file, const MeshFileOptions& options) {
   MeshFaults faults(file.string());
   checkOptions(options, faults);
-  if (const std::string why = whyNoFile(file); !why.empty()) faults.fail(0, why);
+  if (const std::string why = whyNotOrdinaryFile(file); !why.empty()) faults.fail(0, why);
   const Reader reader = readerOf(lowered(file.extension().string()));
   if (!reader)
     faults.fail(0, "points are read from .ply, .pcd, .xyz, .txt, .asc and .pts, not from " +

@@ -260,8 +260,9 @@ std::optional<Transform> poseApart(const MotionPair& pair, MotionSource& motion,
   return std::nullopt;
 }
 
-/// Reports whether containment can't change the answer, since nothing is proved free.
-bool isDecided(const MotionResult& result) {
+/// Returns whether no part of the motion is proved free. Then containment is not tested: a test is
+/// valid only for a time in which the surfaces are proved apart.
+bool provesNothingFree(const MotionResult& result) {
   return result.verdict != MotionVerdict::free && !(result.certifiedUntil > 0);
 }
 
@@ -279,7 +280,7 @@ MotionResult Scene::certifyPairs(MotionSource& motion, const MotionOptions& opti
   MotionResult result = isDefault ? certifyMotion(motion, motionPairs_, options, context,
                                                   certificate, broadPhase_.get())
                                   : runEdgeMethod(method, motion, motionPairs_, options, context);
-  if (!solidMeshes_ || isDecided(result)) return result;
+  if (!solidMeshes_ || provesNothingFree(result)) return result;
   IntervalMotions motions(motion, broadPhase_->bodies(), context);
   motions.select(0, 0);
   std::vector<std::uint32_t>& near = context.scratch.of<NearPairs>().pairs;
@@ -290,7 +291,7 @@ MotionResult Scene::certifyPairs(MotionSource& motion, const MotionOptions& opti
 MotionResult Scene::withContainment(MotionResult result, std::span<const std::uint32_t> pairs,
                                     MotionSource& motion, QueryContext& context,
                                     MotionCertificate* certificate) const {
-  if (isDecided(result)) return result;
+  if (provesNothingFree(result)) return result;
   const double until = result.verdict == MotionVerdict::free ? 1 : result.certifiedUntil;
   // The surfaces do not meet on [0, until], so one pose decides containment for this whole
   // interval. The rounding of that pose must be too small to move a point through a surface.

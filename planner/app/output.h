@@ -20,9 +20,9 @@ enum class Tone { plain, good, bad };
 
 /// Prints results for people on stdout, as lines `key: value`, with colours if stdout is a
 /// terminal.
-class Lines {
+class ResultPrinter {
  public:
-  explicit Lines(bool quiet) : quiet_(quiet) {}
+  explicit ResultPrinter(bool quiet) : quiet_(quiet) {}
   void line(std::string_view key, const std::string& value, Tone tone = Tone::plain) const;
   void blank() const;
 

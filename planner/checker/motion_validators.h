@@ -30,13 +30,13 @@ class CountingMotionValidator : public ompl::base::MotionValidator {
   CountingMotionValidator(const ompl::base::SpaceInformationPtr& si, const Checker& checker);
 
   /// The part of an invalid motion that is free: [0, t].
-  struct Progress {
+  struct FreePart {
     double t = 0;
     Configuration state;  ///< the state at t; set only if t > 0
   };
   virtual bool isFree(const Configuration& from, const Configuration& to) const = 0;
   /// Returns the part of the motion that is free, or nullopt if the whole motion is.
-  virtual std::optional<Progress> lastFree(const Configuration& from,
+  virtual std::optional<FreePart> lastFree(const Configuration& from,
                                            const Configuration& to) const = 0;
 
   void write(const Configuration& q, ompl::base::State* state) const;
@@ -55,7 +55,7 @@ class CertifiedMotionValidator final : public CountingMotionValidator {
 
  protected:
   bool isFree(const Configuration& from, const Configuration& to) const override;
-  std::optional<Progress> lastFree(const Configuration& from,
+  std::optional<FreePart> lastFree(const Configuration& from,
                                    const Configuration& to) const override;
 };
 
@@ -71,7 +71,7 @@ class DiscreteMotionValidator final : public CountingMotionValidator {
 
  protected:
   bool isFree(const Configuration& from, const Configuration& to) const override;
-  std::optional<Progress> lastFree(const Configuration& from,
+  std::optional<FreePart> lastFree(const Configuration& from,
                                    const Configuration& to) const override;
 
  private:

@@ -28,7 +28,7 @@ struct ModelRobot {
   /// "left" for the robot `left` of several robots. Empty for a single robot: the names of its
   /// links, joints and coordinates then have no prefix.
   std::string name;
-  RobotModel model;
+  RobotModel description;
   RigidPose base;  ///< X_WB
 
   std::vector<std::size_t> planned;            ///< joints that are planned for, in order
@@ -42,10 +42,11 @@ struct ModelRobot {
   double rotationWeight = 0.5;  ///< metres per radian of rotation; OMPL's default for SE2 and SE3
 
   // Set by ModelBuilder:
-  std::vector<std::size_t> linkFrames;      ///< for each link of `model`, its frame in Model::tree
+  std::vector<std::size_t>
+      linkFrames;  ///< for each link of `description`, its frame in Model::tree
   std::vector<PlannedJoint> plannedJoints;  ///< in the order of `planned`
 
-  bool isRigid() const { return model.mount != JointType::fixed; }
+  bool isRigid() const { return description.mount != JointType::fixed; }
 };
 
 /// A link or an obstacle: all shapes that are tested under one name.
@@ -64,8 +65,8 @@ class PairFilter {
   /// earlier one.
   /// @param reason not empty: "adjacent", "SRDF: Never", "allow", …
   void skip(std::size_t a, std::size_t b, std::string reason);
-  /// Tests a pair again that was excluded by a reason.
-  void test(std::size_t a, std::size_t b) { reasons_.erase(std::minmax(a, b)); }
+  /// Includes a pair again that `skip` excluded.
+  void include(std::size_t a, std::size_t b) { reasons_.erase(std::minmax(a, b)); }
   /// Excludes pairs of bodies that never move against each other.
   /// @param movers for each body, the frame that moves it (moversOf). Two bodies with the same
   /// mover stand still relative to each other.

@@ -20,7 +20,7 @@ constexpr const char* kPlace = "ModelBuilder";
 /// joint is neither planar nor floating. Links with two moving joints between them, or with a
 /// planar or floating joint, can meet anywhere.
 void skipLinks(Model& model, std::size_t robot) {
-  const RobotModel& description = model.robots[robot].model;
+  const RobotModel& description = model.robots[robot].description;
   // A frame of the robot has at most one body.
   std::map<std::size_t, std::size_t> bodyOnFrame;
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
@@ -86,12 +86,12 @@ ModelBuilder& ModelBuilder::addRobot(const std::filesystem::path& urdf,
   if (!model || faults_.size() > before) return *this;
   ModelRobot robot;
   robot.name = options.name;
-  robot.model = std::move(*model);
+  robot.description = std::move(*model);
   robot.base = options.base;
   std::vector<std::size_t> active;
   for (const std::string& name : options.joints) {
-    const auto j = findJoint(robot.model, name);
-    if (j && canMove(robot.model.joints[*j]) &&
+    const auto j = findJoint(robot.description, name);
+    if (j && canMove(robot.description.joints[*j]) &&
         std::find(active.begin(), active.end(), *j) == active.end())
       active.push_back(*j);
     else
@@ -109,7 +109,7 @@ ModelBuilder& ModelBuilder::addRigidBody(const std::string& name, JointType type
                                          std::vector<PlacedShape> shapes, const Corners& bounds) {
   ModelRobot robot;
   robot.name = name;
-  robot.model = rigidModel(name, type, std::move(shapes));
+  robot.description = rigidModel(name, type, std::move(shapes));
   return addRobot(std::move(robot)).bound(name, bounds);
 }
 

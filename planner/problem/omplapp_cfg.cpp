@@ -65,7 +65,7 @@ Eigen::Quaterniond axisAngle(const Vec3& axis, double angle) {
 }
 
 bool isPlanar(const Problem& problem) {
-  return problem.model.robots.front().model.mount == JointType::planar;
+  return problem.model.robots.front().description.mount == JointType::planar;
 }
 
 Configuration readPose(const IniFile& ini, const std::string& what, Problem& problem) {
@@ -137,7 +137,7 @@ std::optional<CfgMesh> readMesh(const IniFile& ini, const std::string& key, Prob
   }
   problem.source.lines[key] = entry->line;
   const std::filesystem::path path = problem.source.file.parent_path() / entry->value;
-  if (const std::string why = whyNoFile(path); !why.empty()) {
+  if (const std::string why = whyNotOrdinaryFile(path); !why.empty()) {
     ini.fault(*entry, path.string() + ": " + why);
     return std::nullopt;
   }
@@ -169,8 +169,8 @@ RobotSetup robotOf(CfgMesh mesh, JointType type) {
   if (mesh.shape.mesh) shift(mesh.shape, -centre);
   RobotSetup setup;
   const std::string name = mesh.shape.name;
-  setup.robot.model = rigidModel(name, type, {std::move(mesh.shape)});
-  setup.robot.model.notes.push_back(
+  setup.robot.description = rigidModel(name, type, {std::move(mesh.shape)});
+  setup.robot.description.notes.push_back(
       {"reference of the robot: (" + shortest(centre.x()) + ", " + shortest(centre.y()) + ", " +
        shortest(centre.z()) + ") of its file, the average of its " +
        std::to_string(mesh.read.importedVertices) + " imported vertices"});

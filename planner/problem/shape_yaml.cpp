@@ -44,7 +44,7 @@ std::shared_ptr<const MeshFile> readMesh(const YamlMap& map, const char* key,
   const auto name = map.text(key);
   if (!name) return nullptr;
   file = folder / *name;
-  if (const std::string why = whyNoFile(file); !why.empty()) {
+  if (const std::string why = whyNotOrdinaryFile(file); !why.empty()) {
     map.fault(key, file.string() + ": " + why);
     return nullptr;
   }

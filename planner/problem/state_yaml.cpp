@@ -74,7 +74,7 @@ std::optional<Configuration> StateReader::read(const YamlValue& value, const std
 
 bool StateReader::readRobot(std::size_t robot, const YamlValue& value, const std::string& path,
                             const std::set<std::string>& others, Configuration& q) {
-  const RobotModel& model = robots()[robot].model;
+  const RobotModel& model = robots()[robot].description;
   if (model.mount != JointType::fixed) return readRigid(robot, value, path, others, q);
   Given given;
   if (value.kind == YamlValue::Kind::Scalar)
@@ -98,7 +98,7 @@ bool StateReader::readRobot(std::size_t robot, const YamlValue& value, const std
 
 bool StateReader::readRigid(std::size_t robot, const YamlValue& value, const std::string& path,
                             const std::set<std::string>& others, Configuration& q) {
-  const RobotModel& model = robots()[robot].model;
+  const RobotModel& model = robots()[robot].description;
   const bool spatial = model.mount == JointType::floating;
   PoseForm form{spatial,
                 (isAlone() ? "the robot" : robots()[robot].name) +
@@ -118,7 +118,7 @@ bool StateReader::readRigid(std::size_t robot, const YamlValue& value, const std
 
 bool StateReader::fromNamed(std::size_t robot, const std::string& name, int line,
                             const std::string& path, Given& given) {
-  const RobotModel& model = robots()[robot].model;
+  const RobotModel& model = robots()[robot].description;
   const NamedState* const state = findState(model, name, {source_, path, line});
   if (!state) return false;
   for (const auto& [number, value] : state->values)
@@ -128,7 +128,7 @@ bool StateReader::fromNamed(std::size_t robot, const std::string& name, int line
 
 bool StateReader::checkHeld(std::size_t robot, const NamedState& state, const std::string& name,
                             int line, const std::string& path) {
-  const RobotModel& model = robots()[robot].model;
+  const RobotModel& model = robots()[robot].description;
   const bool isGoal = path.starts_with("goal");
   bool sound = true;
   const auto disagree = [&](std::size_t joint, const std::string& text) {
@@ -166,7 +166,7 @@ bool StateReader::checkHeld(std::size_t robot, const NamedState& state, const st
 
 bool StateReader::readJoints(std::size_t robot, const YamlMap& map, Given& given,
                              const std::set<std::string>& others) {
-  const RobotModel& model = robots()[robot].model;
+  const RobotModel& model = robots()[robot].description;
   const ModelRobot& setup = robots()[robot];
   const std::size_t before = source_.faults.size();
   std::set<std::string> known = others;

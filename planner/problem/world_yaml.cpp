@@ -64,7 +64,7 @@ std::vector<std::size_t> bodiesCalled(const std::string& name, const Model& mode
   // Links of a single robot have no prefix. A link's name with the robot's name before it is also
   // accepted: it distinguishes the link from an obstacle of the same name.
   const ModelRobot& first = model.robots.front();
-  const std::string own = first.model.name + "/";
+  const std::string own = first.description.name + "/";
   if (!first.name.empty() || !name.starts_with(own)) return found;
   if (const auto link = bodies.find(name.substr(own.size())); link != bodies.end())
     for (const std::size_t i : link->second)
@@ -76,7 +76,7 @@ std::vector<std::size_t> bodiesCalled(const std::string& name, const Model& mode
 /// needs no `allow`. But it is no fault to list it.
 bool isBareLink(const std::string& name, const Model& model) {
   for (const ModelRobot& robot : model.robots)
-    for (const LinkModel& link : robot.model.links)
+    for (const LinkModel& link : robot.description.links)
       if (name == (robot.name.empty() ? link.name : robot.name + "/" + link.name)) return true;
   return false;
 }
@@ -150,7 +150,7 @@ AllowedBodies readAllow(const YamlMap& file, const Model& model) {
       else if (found.size() > 1)
         fault(quotedWord(name) + " names a link and an obstacle; write " +
               (model.robots.front().name.empty()
-                   ? quotedWord(model.robots.front().model.name + "/" + name) + " or "
+                   ? quotedWord(model.robots.front().description.name + "/" + name) + " or "
                    : "") +
               quotedWord("world/" + name));
       else if (!isBareLink(name, model))

@@ -6,8 +6,8 @@
 #include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
 #include "collision/geometry/mesh_limits.h"
+#include "planner/robot/angles.h"
 #include "planner/robot/joint_types.h"
-#include "planner/robot/turns.h"
 
 namespace corridor {
 namespace {

@@ -8,15 +8,15 @@ namespace corridor::verify {
 
 /// The motion of a body's points around the middle of a time interval, to first order. The
 /// coordinate system is fixed during the interval. A point x has the velocity linear + angular × x
-/// per unit of t, and the perturbations `strays`.
+/// per unit of t, and the perturbations `perturbation`.
 struct BodyMotion {
   RealVec linear = RealVec::Zero(), angular = RealVec::Zero();
-  Perturbation strays;  ///< empty if the caller bounds the tube by other means
+  Perturbation perturbation;  ///< empty if the caller bounds the tube by other means
 };
 
-/// Transforms a frame's motion into other coordinates, placed at `at`. @pre `state` and `strays`
-/// are of the same kinematic chain at the same t.
-BodyMotion motionSeenFrom(const Placement& at, const FrameState& state, Perturbation strays);
+/// Transforms a frame's motion into other coordinates, placed at `at`. @pre `state` and
+/// `perturbation` are of the same kinematic chain at the same t.
+BodyMotion motionSeenFrom(const Placement& at, const FrameState& state, Perturbation perturbation);
 
 /// The width of the slab between two moving bodies along a direction n, to first order of the
 /// motion. The width is a lower bound of their distance in the whole interval and tube, except for
@@ -80,10 +80,10 @@ class MovedSlab {
 
 /// The motion of a pair of bodies in a time interval, and its bounds. Lengths in metres.
 struct PairMotion {
-  BodyMotion a, b;  ///< in a's frame at the middle
-  Real half = 0;    ///< half width of the interval, in t
-  Real travel = 0;  ///< upper bound of any point's displacement from its place at the middle
-  Real tube = 0;    ///< upper bound of any point's displacement within the tube, in any direction
+  BodyMotion a, b;       ///< in a's frame at the middle
+  Real half = 0;         ///< half width of the interval, in t
+  Real motionBound = 0;  ///< upper bound of any point's displacement from its place at the middle
+  Real tube = 0;  ///< upper bound of any point's displacement within the tube, in any direction
   Real secondOrder = 0;  ///< upper bound of the terms that MovedSlab leaves out
   Real rounding = 0;
 };

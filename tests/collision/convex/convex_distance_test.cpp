@@ -200,7 +200,7 @@ TEST(ConvexDistance, PolytopesAgainstAllTheirTriangles) {
 
 /// `lower` does not exceed the exact distance even in the last digit. Some faces are so nearly
 /// parallel that, in doubles, all their corners are at the same height along the normal.
-TEST(ConvexDistance, LowerThanTheExactDistance) {
+TEST(ConvexDistance, LowerNeverExceedsTheExactDistance) {
   Touching make(test::testSeed(36));
   int exact = 0;
   for (int n = 0; n < 40 / test::kSlowdown + 1; ++n) {

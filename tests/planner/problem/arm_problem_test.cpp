@@ -95,16 +95,16 @@ TEST_F(ArmProblem, FramesStandWhereTheJointsPutThem) {
   const auto frames = framePoses(p.model.tree, numbers({0, 90 * degree}));
   const auto& robot = p.model.robots.at(0);
   EXPECT_LT((frames[robot.linkFrames[0]].t - Vec3(1, 2, 3)).norm(), 1e-15);
-  for (std::size_t l = 0; l < robot.model.links.size(); ++l) {
+  for (std::size_t l = 0; l < robot.description.links.size(); ++l) {
     const Vec3 at = frames[robot.linkFrames[l]].t;
     // The z axis of "lower" points along the x axis of "base", which is the world's y.
-    if (robot.model.links[l].name == "flange") {
+    if (robot.description.links[l].name == "flange") {
       EXPECT_LT((at - Vec3(1, 2.4, 3.7)).norm(), 1e-12);
     }
-    if (robot.model.links[l].name == "finger") {
+    if (robot.description.links[l].name == "finger") {
       EXPECT_LT((at - Vec3(1, 2.4, 3.69)).norm(), 1e-12) << "slide held at 0.01";
     }
-    if (robot.model.links[l].name == "thumb") {
+    if (robot.description.links[l].name == "thumb") {
       EXPECT_LT((at - Vec3(1, 2.4, 3.71)).norm(), 1e-12) << "follows at -0.01";
     }
   }
@@ -150,7 +150,7 @@ TEST_F(ArmProblem, NamedStatesHoldJoints) {
     const Problem p = read(armHead + ends);
     std::string text;
     for (const auto& [j, value] : p.model.robots[0].held)
-      text += p.model.robots[0].model.joints[j].name + " " + shortest(value) + "; ";
+      text += p.model.robots[0].description.joints[j].name + " " + shortest(value) + "; ";
     for (const std::string& note : textsOf(p.source.notes))
       if (note.find("held") != note.npos) text += note + "; ";
     return text;
@@ -219,7 +219,7 @@ TEST_F(ArmProblem, AUrdfAloneIsARobot) {
   const Problem p = read(
       "format: corridor-problem-1\nrobot: arm.urdf\nstart: {pan: 0, lift: 0, slide: 0.02}\n"
       "goal: {pan: 1, lift: 0, slide: 0.02}\n");
-  EXPECT_EQ(p.model.robots.at(0).model.name, "armbot");
+  EXPECT_EQ(p.model.robots.at(0).description.name, "armbot");
   EXPECT_EQ(p.model.bodies.size(), 5u) << "there are no bodies of a world";
 }
 

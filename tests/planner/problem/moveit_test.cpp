@@ -79,7 +79,8 @@ TEST_F(Moveit, SceneAndRequest) {
   EXPECT_EQ(p.task.goals[1], numbers(-1, 0));
   const ModelRobot& robot = p.model.robots.front();
   for (const auto& [j, value] : robot.held)
-    EXPECT_EQ(value, robot.model.joints[j].name == "slide" ? 0.04 : 0) << "of the start state";
+    EXPECT_EQ(value, robot.description.joints[j].name == "slide" ? 0.04 : 0)
+        << "of the start state";
   const ModelBody& crate = p.model.bodies.at(p.model.bodies.size() - 2);
   EXPECT_EQ(crate.name, "crate");
   ASSERT_EQ(crate.shapes.size(), 2u);
@@ -370,7 +371,7 @@ TEST_F(Moveit, HeldJointsFollowTheProblemsStart) {
   const auto slide = [&](const std::string& more) {
     const Problem p = read(head + more);
     const ModelRobot& robot = p.model.robots.front();
-    return robot.held.at(*findJoint(robot.model, "slide"));
+    return robot.held.at(*findJoint(robot.description, "slide"));
   };
   EXPECT_EQ(slide(""), 0.04);
   EXPECT_EQ(slide("start: near\n"), 0.02);
