@@ -15,7 +15,9 @@ namespace ob = ompl::base;
 
 CountingMotionValidator::CountingMotionValidator(const ob::SpaceInformationPtr& si,
                                                  const Checker& checker)
-    : MotionValidator(si), checker_(checker) {}
+    : MotionValidator(si), checker_(checker) {
+  requireProblemStateSpace(*si, checker.space());
+}
 
 void CountingMotionValidator::write(const Configuration& q, ob::State* state) const {
   si_->getStateSpace()->as<ProblemStateSpace>()->write(q, state);

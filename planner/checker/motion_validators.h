@@ -17,6 +17,11 @@ namespace corridor {
 ///   to this state valid. For t0 = 0 the state is s1 itself, bit for bit.
 /// - lastValid.first may be s1 or s2: both are read before anything is written.
 /// As everywhere in OMPL, s1 is assumed to be valid. Several threads may use one validator at once.
+///
+/// The state space of `si` must be a ProblemStateSpace, made of the space of the checker's model.
+/// The checker must outlive the validator.
+/// @throws std::invalid_argument from the constructors if the space is of another class, or has
+/// another number of numbers than the checker's.
 class CountingMotionValidator : public ompl::base::MotionValidator {
  public:
   bool checkMotion(const ompl::base::State* s1, const ompl::base::State* s2) const final;
