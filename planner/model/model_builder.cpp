@@ -247,8 +247,8 @@ void requireFewPairs(const Model& model, const std::string& place) {
   if (const double pairs = pairCount(model); pairs > most)
     throw InputError(Fault{place, 0,
                            "has " + std::to_string(static_cast<std::uint64_t>(pairs)) +
-                               " pairs of bodies, at most 10000000 are handled; join shapes that "
-                               "do not move against each other into one body"});
+                               " pairs of bodies, but at most 10000000 are supported; join "
+                               "shapes that do not move against each other into one body"});
 }
 
 }  // namespace corridor

@@ -136,7 +136,7 @@ TEST_F(ArmProblem, JointListKeepsItsOrderAndHoldIsHeld) {
   EXPECT_EQ(p.task.goals.at(0), numbers({0.02, 10 * degree}));
   EXPECT_EQ(skipped(p, "finger", "thumb"), "robot.yaml: allow");
   EXPECT_THAT(textsOf(p.source.notes),
-              Contains("start: lift is held at 1.5707963267948966, not at the 0 of state home"));
+              Contains("start: lift is held at 1.5707963267948966, but is 0 in state home"));
 }
 
 /// The joints of a named state that are not planned for are held as `hold` or the start says.
@@ -170,15 +170,16 @@ TEST_F(ArmProblem, NamedStatesHoldJoints) {
   EXPECT_EQ(
       heldIn("joints: [pan, lift]\n", "start: {from: near, pan: 0}\ngoal: {pan: 1, lift: 0}\n"),
       fromStart);
-  EXPECT_EQ(heldIn("joints: [pan, lift]\nhold: {slide: 0.05}\n", "start: near\ngoal: far\n"),
-            "slide 0.05; start: slide is held at 0.05, not at the 0.02 of state near; goal: slide "
-            "is held at 0.05, not at the 0.04 of state far; ");
+  EXPECT_EQ(
+      heldIn("joints: [pan, lift]\nhold: {slide: 0.05}\n", "start: near\ngoal: far\n"),
+      "slide 0.05; start: slide is held at 0.05, but is 0.02 in state near; goal: slide is held "
+      "at 0.05, but is 0.04 in state far; ");
 
   write("arm.yaml", robotHead + "joints: [pan, lift]\n" + states);
   EXPECT_EQ(complaintOf(armHead + "start: near\ngoal: far\n"),
-            "problem.yaml:6: goal: slide is held at 0.02, not at the 0.04 of state far; it is "
-            "not planned for, so start and goal need one value: start from a state with this "
-            "value, or set it in hold");
+            "problem.yaml:6: goal: slide is held at 0.02, but is 0.04 in state far; the joint is "
+            "not planned for, so it cannot move: start from a state with the goal's value, or set "
+            "this value in hold");
   write("arm.yaml", robotHead + "joints: [pan, lift]\nhold: fer\n" + states);
   EXPECT_THAT(complaintOf(armHead + values),
               testing::StartsWith("arm.yaml:4: hold: there is no state \"fer\" (did you mean "

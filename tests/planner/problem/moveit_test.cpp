@@ -209,10 +209,10 @@ TEST_F(Moveit, FaultsOfTheScene) {
   EXPECT_EQ(complaint("world: {octomap: {octomap: {resolution: 0.1, data: [1, 2]}}}\n"),
             map + ": the message ends within its nodes: it is cut short");
   EXPECT_EQ(complaint("world: {octomap: {octomap: {resolution: 0.1, id: X, data: [1, 2]}}}\n"),
-            map + ": trees of type \"X\" are not read; OcTree and ColorOcTree are");
+            map + ": trees of type \"X\" can't be read; save an OcTree or a ColorOcTree");
   EXPECT_EQ(complaint("world: {octomap: {octomap: {resolution: 0.1, binary: true, data: [0, 0, "
                       "7]}}}\n"),
-            map + ": 1 bytes come after the last node: the message is damaged");
+            map + ": 1 byte comes after the last node: the message is damaged");
   EXPECT_EQ(complaint("world: {octomap: {octomap: {resolution: 0.1, data: [1, 256]}}}\n"),
             map + ".data[1]: a whole number from -128 to 255 is needed, not \"256\"");
   EXPECT_EQ(complaint("world: {octomap: {octomap: {resolution: 0.1, data: [1, ...]}}}\n"),
