@@ -12,8 +12,8 @@ constexpr Real kInfinity = std::numeric_limits<Real>::infinity();
 /// The largest number of pairs of leaf primitives that are proved one by one in a time interval,
 /// each by its own slab. With more pairs it costs less to halve the interval.
 constexpr std::size_t kMostSlabs = 400;
-/// The same number for intervals in which the tube displaces points farther than the motion does.
-/// There halving gains little.
+/// The limit for intervals in which the tube displaces points farther than the motion does.
+/// Halving such an interval gains little.
 constexpr std::size_t kMostSlabsInTube = 64 * kMostSlabs;
 
 }  // namespace
@@ -142,8 +142,8 @@ Real boundBySlabs(BodyDistance& placed, const BodyGap& measured, const PairMotio
   };
   if (measured.lower - lost <= sought.needed || boundOf(measured.pair) <= sought.needed)
     return -kInfinity;
-  // Pairs of leaf primitives that are farther apart than `bound + most` need no slab. Pairs in two
-  // boxes that the general slab separates by `bound` are settled.
+  // Pairs of leaf primitives that are farther apart than `bound + most` need no slab. A pair of
+  // boxes that the general slab separates by `bound` is settled: its leaf primitives need no slab.
   const std::size_t count = motion.tube > motion.motionBound ? kMostSlabsInTube : kMostSlabs;
   for (Real bound : {sought.wanted, sought.little}) {
     const auto settled = [&](const CentredBox& a, const CentredBox& b) {

@@ -8,14 +8,15 @@ namespace corridor::verify {
 
 /// The motion of a body's points around the middle of a time interval, to first order. The
 /// coordinate system is fixed during the interval. A point x has the velocity linear + angular × x
-/// per unit of t, and the perturbations `perturbation`.
+/// per unit of t. The tube displaces it by `perturbation`.
 struct BodyMotion {
   RealVec linear = RealVec::Zero(), angular = RealVec::Zero();
   Perturbation perturbation;  ///< empty if the caller bounds the tube by other means
 };
 
-/// Transforms a frame's motion into other coordinates, placed at `at`. @pre `state` and
-/// `perturbation` are of the same kinematic chain at the same t.
+/// Returns a frame's motion, which `state` and `perturbation` give in the coordinates of the
+/// chain's base, in those of a frame that is placed at `at` in the base.
+/// @pre `state` and `perturbation` belong to the same kinematic chain, at the same t.
 BodyMotion motionSeenFrom(const Placement& at, const FrameState& state, Perturbation perturbation);
 
 /// The width of the slab between two moving bodies along a direction n, to first order of the
@@ -47,7 +48,8 @@ BodyMotion motionSeenFrom(const Placement& at, const FrameState& state, Perturba
 /// box has the points x + d, |d_i| ≤ e_i: d·g ≤ Σ e_i |g_i|, and |n × d| ≤ |e|. With several terms,
 /// these bounds may not be attained.
 ///
-/// Rounding: about 2^-58 of lengths that Reach::size includes.
+/// The width is rounded by about 2^-58 of lengths that Reach::size includes. PairMotion::rounding
+/// (2^-49 of Reach::size) covers this.
 class MovedSlab {
  public:
   /// @param direction from a to b, of any length; with 0 the width is −infinity.

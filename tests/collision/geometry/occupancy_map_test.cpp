@@ -24,8 +24,8 @@ std::string header(int nodes) {
          std::to_string(nodes) + "\nres 0.1\ndata\n";
 }
 
-/// Returns the data of a .bt file: `levels` inner nodes, each the only child, number `child`, of
-/// the one above; then `last`, the 16 bits of the last node.
+/// Returns the data of a .bt file: `levels` inner nodes, each of which is child number `child` of
+/// the node above and its only child; then `last`, the 16 bits of the last node.
 std::string chain(int child, std::uint16_t last, int levels = 15) {
   std::string data;
   for (int i = 0; i < levels; ++i) data += bytesOf(static_cast<std::uint16_t>(3 << 2 * child));

@@ -90,8 +90,8 @@ TEST(SturmContact, MotionIsThatOfTheEdge) {
             ((pose.X.m.cast<long double>() * p.cast<long double>() + pose.X.t.cast<long double>()) /
              weight)
                 .eval();
-        // Quaternions, angles up to π, and products with both are rounded by 2^-64, some ten times
-        // in all.
+        // About ten roundings of 2^-64 each: of quaternions, of angles up to π, and of their
+        // products.
         ASSERT_LE((at - edge.point(t, p)).norm(), 0x1p-57L * (p.norm() + at.norm())) << n;
       }
     }

@@ -144,7 +144,7 @@ TEST(DefaultTolerance, ChainsFarFromTheOrigin) {
         << n << ": size " << size << ", far " << far << ", tolerance " << options.tolerance
         << ", reason " << static_cast<int>(result.reason);
   }
-  EXPECT_GT(sharp, 300) << "the rounding of large coordinates decides";
+  EXPECT_GT(sharp, 300) << "too few cases in which rounding sets the tolerance";
 }
 
 /// Two branches of one tree: the rounding of both counts.
@@ -165,7 +165,7 @@ TEST(DefaultTolerance, BranchesFarFromTheOrigin) {
       frame.variable = problem.model.space.coordinates()[problem.model.space.add(c)].first;
       return problem.model.tree.add(frame);
     };
-    // All rotations are about z, so the heights of tip and floor are those of the file.
+    // All rotations are about z, so the heights of tip and floor are exactly those of their meshes.
     const auto out = [&] { return Vec3(far * real(random), far * real(random), 0); };
     const std::size_t left = add(add(add(0, out()), out()), out());
     const std::size_t right = add(add(add(0, out()), out()), out());

@@ -22,7 +22,7 @@ class Audit {
   Audit(std::uint64_t seed, const Options& options);
 
   /// Runs the checker on `count` cases. If CORRIDOR_AUDIT_CASE is set to a number that a failure
-  /// printed, runs only the six cases of that construction.
+  /// printed, runs only the six cases (gaps) that are made of the edge with this number.
   void run(long count);
   /// Prints the tables. Fails the test if an answer was wrong.
   void report(const std::string& title) const;
