@@ -161,7 +161,7 @@ double Scene::defaultTolerance(double farthest) const {
     size =
         std::max(size, farthest + bounds.lower.cwiseAbs().cwiseMax(bounds.upper.cwiseAbs()).norm());
   }
-  if (boundsOfFrames.empty()) radius = 1;  // no query uses it
+  if (boundsOfFrames.empty()) radius = 1;  // without pairs, no query uses the tolerance
   // A single point has no radius; any positive number will do.
   return std::max(1e-7 * std::max(radius, std::numeric_limits<double>::min() * 1e8),
                   RigidMotion::roundingTolerance(size));
@@ -196,7 +196,7 @@ void Scene::forNearPairs(std::span<const Transform> X_WF, const double& within,
       if (!mayMeet(*pair.a, worldSphere(pair.bodyB), within)) return false;
     } else {
       const SweptSphere& b = worldSphere(pair.bodyB);
-      // (The box of a body on frame 0 doesn't move with the world.)
+      // The box of a body on frame 0 holds only while frame 0 is at the identity. Here it is not.
       const bool boxed = pair.restBox && frames.a != 0;
       if ((boxed ? clearanceBound(*pair.restBox, b, within)
                  : clearanceBound(worldSphere(pair.bodyA), b, within)) > within)
@@ -213,7 +213,7 @@ void Scene::forNearPairs(std::span<const Transform> X_WF, const double& within,
                          visitPair);
     return;
   }
-  for (std::size_t k = 0; k < motionPairs_.size(); ++k)  // the world itself is moved
+  for (std::size_t k = 0; k < motionPairs_.size(); ++k)  // frame 0 is not at the identity
     if (visitPair(k)) return;
 }
 

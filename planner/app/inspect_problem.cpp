@@ -188,7 +188,7 @@ class ProblemReport {
                                  ", for start and goal; the others when first needed");
   }
 
-  /// Reports which pairs of bodies take the time of random edges.
+  /// Reports the pairs of bodies that take most of the time of random edges.
   void reportCosts() {
     constexpr std::size_t kEdges = 200, kShown = 5;
     constexpr double kSeconds = 2;  // keeps `inspect` quick

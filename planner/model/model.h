@@ -31,11 +31,13 @@ struct ModelRobot {
   RobotModel description;
   RigidPose base;  ///< X_WB
 
-  std::vector<std::size_t> planned;            ///< joints that are planned for, in order
+  /// The joints that are planned for, as indices into `description.joints`, in this order. The maps
+  /// below have the same indices as keys.
+  std::vector<std::size_t> planned;
   std::map<std::size_t, double> held;          ///< values of the other single joints, rad or m
   std::map<std::size_t, RigidPose> heldPoses;  ///< poses of the other planar and floating joints
-  /// Where held values come from, for people: "hold", "start: ready". Other joints are at 0, or at
-  /// the limit nearest to it.
+  /// The source of each held value, for messages: "hold", "start: ready". Held joints without a
+  /// source are at 0, or at the limit nearest to 0.
   std::map<std::size_t, std::string> heldFrom;
   std::set<std::size_t> heldByFile;  ///< joints whose held value the robot's file gives (`hold`)
   std::map<std::string, double> jointWeights;  ///< joints that are not listed have weight 1
@@ -52,7 +54,8 @@ struct ModelRobot {
 /// A link or an obstacle: all shapes that are tested under one name.
 struct ModelBody {
   std::string name;  ///< "hand", "left/hand", "table"; for a rigid robot, the robot's name
-  /// In Model::tree. An obstacle's is 0 (the world), or a frame of its own that is fixed to it.
+  /// Index of the body's frame in Model::tree. For an obstacle it is 0 (the world), or a frame of
+  /// the obstacle's own, which is fixed to the world.
   std::size_t frame = 0;
   std::optional<std::size_t> robot;  ///< index in Model::robots; empty for an obstacle
   std::vector<PlacedShape> shapes;   ///< at least one, in the coordinates of `frame`
@@ -135,9 +138,10 @@ std::vector<std::size_t> moversOf(const KinematicTree& tree);
 /// frames of obstacles) are of use; the others may even be NaN.
 std::vector<Transform> framesAtRest(const Model& model);
 
-/// Returns whether the model has a planar or floating joint, or a rigid robot.
+/// Returns whether the space has coordinates of a planar or floating joint, or of a rigid robot.
 bool hasPoseJoints(const ConfigurationSpace& space);
-/// Returns whether the model has a single joint (revolute, continuous or prismatic).
+/// Returns whether the space has a coordinate of a single joint (revolute, continuous or
+/// prismatic).
 bool hasJoints(const ConfigurationSpace& space);
 
 }  // namespace corridor

@@ -57,7 +57,9 @@ void skipLinks(Model& model, std::size_t robot) {
       break;
     }
   }
-  skipAllowed(true);  // last: a pair with another reason, too, is never tested
+  // Last, because a proof may not cover the margin and tube of a problem. The pair is then included
+  // again, unless it has another reason.
+  skipAllowed(true);
 }
 
 }  // namespace
@@ -243,7 +245,7 @@ PlacedShape shapeOf(std::string name, TriangleMesh mesh, bool solid) {
 }
 
 void requireFewPairs(const Model& model, const std::string& place) {
-  constexpr double most = 1e7;  // a scene takes some 500 MB for them
+  constexpr double most = 1e7;  // a scene of so many pairs takes some 500 MB
   if (const double pairs = pairCount(model); pairs > most)
     throw InputError(Fault{place, 0,
                            "has " + std::to_string(static_cast<std::uint64_t>(pairs)) +

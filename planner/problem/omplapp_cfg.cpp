@@ -26,7 +26,7 @@ const Keys planarKeys{"start.x", "start.y", "start.theta", "goal.x", "goal.y", "
 const Keys spatialOnlyKeys{"start.z", "start.axis.x", "start.axis.y", "start.axis.z",
                            "goal.z",  "goal.axis.x",  "goal.axis.y",  "goal.axis.z"};
 
-/// OMPL.app's default of `threshold`, in the state space's distance.
+/// OMPL.app's default of `threshold`: a distance in the state space.
 constexpr double kThreshold = 1e-6;
 
 /// Returns the subset of `keys` that the section `problem` has, or, if `present` is false, the
@@ -39,7 +39,7 @@ Keys select(const IniFile& ini, const Keys& keys, bool present) {
 }
 
 /// Returns planar or floating by OMPL.app's rule: planar if the file has only x, y and theta,
-/// floating if it has z and axis, too. nullopt: a fault was added.
+/// floating if it has z and axis, too. Returns nullopt if a fault was added.
 std::optional<JointType> spaceOf(const IniFile& ini) {
   const Keys missing = select(ini, planarKeys, false),
              missing3 = select(ini, spatialOnlyKeys, false);
@@ -161,8 +161,9 @@ std::optional<CfgMesh> readMesh(const IniFile& ini, const std::string& key, Prob
   }
 }
 
-/// Makes a robot of one mesh, recentred. `mesh` may be empty, for a file that could not be read:
-/// the poses of the robot can then still be checked.
+/// Makes a robot of one mesh. The robot's reference point is the average of the mesh's vertices.
+/// `mesh` may be empty, if its file could not be read: the poses of the robot can then still be
+/// checked.
 RobotSetup robotOf(CfgMesh mesh, JointType type) {
   Vec3 centre = mesh.read.vertexAverage;
   if (type == JointType::planar) centre.z() = 0;

@@ -67,7 +67,7 @@ void shiftToReference(const YamlMap& file, RobotModel& model, bool shapesAreSoun
     }
 }
 
-/// Returns nullopt if the value of `rigid` is neither SE2 nor SE3.
+/// Reads a rigid robot. Returns nullopt if the value of `rigid` is neither SE2 nor SE3.
 std::optional<RobotSetup> readRigid(const YamlMap& map, const std::string& name,
                                     const std::filesystem::path& folder, RobotSetup setup) {
   for (const char* key : {"srdf", "xacro", "packages", "visuals", "limits", "collada_up", "group",

@@ -104,11 +104,13 @@ MeshStore::Place MeshStore::inPackage(const std::string& name) {
   std::vector<std::string> names;
   for (const auto& entry : rules_.packages) names.push_back(entry.first);
   const std::string near = didYouMean(package, names);
-  return {beside, beside.string() + " is not a file, and package " + quotedWord(package) +
-                      " has no folder" +
-                      (near.empty() ? "; add robot.yaml: packages: {" + package +
-                                          ": FOLDER}, or set ROS_PACKAGE_PATH or AMENT_PREFIX_PATH"
-                                    : near)};
+  return {beside,
+          beside.string() + " is not a file, and package " + quotedWord(package) +
+              " has no folder" +
+              (near.empty()
+                   ? "; add packages: {" + package +
+                         ": FOLDER} to robot.yaml, or set ROS_PACKAGE_PATH or AMENT_PREFIX_PATH"
+                   : near)};
 }
 
 MeshStore::Place MeshStore::locate(const std::string& name) {
