@@ -92,7 +92,7 @@ class OrdinaryFile : public OpenFile {
 
  private:
   static const std::filesystem::path& checkedPath(const std::filesystem::path& file) {
-    if (const std::string why = whyNoFile(file); !why.empty()) fail(file.string(), why);
+    if (const std::string why = whyNotOrdinaryFile(file); !why.empty()) fail(file.string(), why);
     return file;
   }
 
@@ -143,7 +143,7 @@ std::string readPipe(int descriptor, const std::string& name, const std::string&
 
 }  // namespace
 
-std::string whyNoFile(const std::filesystem::path& file) {
+std::string whyNotOrdinaryFile(const std::filesystem::path& file) {
   std::error_code error;
   return whyNotOrdinary(std::filesystem::status(file, error).type());
 }

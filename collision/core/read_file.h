@@ -17,7 +17,7 @@ constexpr std::uint64_t kMostFileBytes = std::uint64_t{1} << 32;
 constexpr std::uint64_t kMostDocumentBytes = std::uint64_t{1} << 28;
 
 /// Returns why a path is not an ordinary file ("no such file", …), or "" if it is. Opens nothing.
-std::string whyNoFile(const std::filesystem::path& file);
+std::string whyNotOrdinaryFile(const std::filesystem::path& file);
 
 /// Requires a readable, non-empty, ordinary file of at most `most` bytes.
 /// @param what  the kind of input for messages: "a mesh file".

@@ -166,7 +166,7 @@ void checkOptions(const MeshFileOptions& options, MeshFaults& faults) {
 MeshFile readMeshFile(const std::filesystem::path& file, const MeshFileOptions& options) {
   MeshFaults faults(file.string());
   checkOptions(options, faults);
-  if (const std::string why = whyNoFile(file); !why.empty()) faults.fail(0, why);
+  if (const std::string why = whyNotOrdinaryFile(file); !why.empty()) faults.fail(0, why);
   const std::string extension = lowerExtension(file);
   const Reader own = ownReader(extension);
   StoredMesh stored = own ? readOwn(file, own, faults)
@@ -189,7 +189,7 @@ MeshFile readMeshFile(const std::filesystem::path& file, const MeshFileOptions& 
 
 OmplAppMesh readOmplAppMesh(const std::filesystem::path& file) {
   MeshFaults faults(file.string());
-  if (const std::string why = whyNoFile(file); !why.empty()) faults.fail(0, why);
+  if (const std::string why = whyNotOrdinaryFile(file); !why.empty()) faults.fail(0, why);
   const std::string extension = lowerExtension(file);
   if (!contains(kAssimpFormats, extension) && !contains(kOwnFormats, extension))
     faults.fail(0, notRead(extension));

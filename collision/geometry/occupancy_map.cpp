@@ -68,9 +68,9 @@ class MapReader {
       else
         readNode(root, 0);
     }
-    if (at_ != bytes_.size())
-      faults_.fail(0, std::to_string(bytes_.size() - at_) +
-                          " bytes come after the last node: the " + container() + " is damaged");
+    if (const std::size_t rest = bytes_.size() - at_)
+      faults_.fail(0, (rest == 1 ? "1 byte comes" : std::to_string(rest) + " bytes come") +
+                          " after the last node: the " + container() + " is damaged");
     if (promised_ && nodes_ != *promised_)
       faults_.fail(0, "the header promises " + std::to_string(*promised_) +
                           " nodes, but the data have " + std::to_string(nodes_) +
@@ -86,8 +86,8 @@ class MapReader {
   void setTree(const std::string& id) {
     map_.hasProbabilities = !binary_;
     if (id != "OcTree" && (binary_ || id != "ColorOcTree"))
-      faults_.fail(0, "trees of type " + inQuotes(id) + " are not read; " +
-                          (binary_ ? "OcTree is" : "OcTree and ColorOcTree are"));
+      faults_.fail(0, "trees of type " + inQuotes(id) + " can't be read; save an OcTree" +
+                          (binary_ ? "" : " or a ColorOcTree"));
     color_ = id == "ColorOcTree";
     // The largest coordinate, 2^15 times the resolution, must be finite.
     if (!(map_.resolution > 0 && map_.resolution < 1e100))
@@ -118,7 +118,7 @@ class MapReader {
         id = value;
       } else if (word == "size") {
         if (!parseInteger(value, number) || number < 0)
-          faults_.fail(cursor_.line(), "size: " + inQuotes(value) + " is no number of nodes");
+          faults_.fail(cursor_.line(), "size: a number of nodes is needed, not " + inQuotes(value));
         size = number;
       } else if (word == "res") {
         if (const auto why = parseCoordinate(value, map_.resolution))

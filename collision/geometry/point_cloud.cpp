@@ -32,7 +32,7 @@ Reader readerOf(std::string_view bytes, const std::string& extension) {
 PointCloud readPointCloud(const std::filesystem::path& file, const MeshFileOptions& options) {
   MeshFaults faults(file.string());
   checkOptions(options, faults);
-  if (const std::string why = whyNoFile(file); !why.empty()) faults.fail(0, why);
+  if (const std::string why = whyNotOrdinaryFile(file); !why.empty()) faults.fail(0, why);
   const std::string extension = lowered(file.extension().string());
   if (!isRead(extension))
     faults.fail(0, "points are read from .ply, .pcd, .xyz, .txt, .asc, .pts and .csv, not from " +

@@ -26,7 +26,7 @@ struct LazyTree {
 };
 
 struct Body::Impl {
-  /// Not owned alone: a model's shapes and several bodies may share it.
+  /// A model's shapes and several bodies may share it.
   std::shared_ptr<const TriangleMesh> mesh = noMesh();
   /// Shared with the 4-wide tree, which refers to the parts by number.
   std::shared_ptr<const std::vector<ConvexPart>> parts = noParts();
@@ -91,8 +91,9 @@ void setTerms(BoundingBox& box) {
 
 }  // namespace
 
-/// Sets the bounds. `each` visits points, each with the radius of a sphere about it, and with what
-/// the box extends beyond it.
+/// Sets the bounds.
+/// @param each calls its argument with each point, with the radius of the sphere about the point,
+/// and with the lengths by which the box extends beyond the point.
 template <class Each>
 void Body::Bounds::around(const Each& each) {
   each([&](const Vec3& p, double, const Vec3& reach) { extend(box, p, reach); });

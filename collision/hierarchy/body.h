@@ -15,7 +15,8 @@ namespace corridor {
 
 /// A named mesh, or a union of convex parts, in the coordinates of the frame that it is fixed to.
 /// Each tree is built when a query first needs it; this is thread-safe. Otherwise a body is
-/// immutable. Equal bodies at different places can share one mesh and its trees (`renamed`).
+/// immutable. Equal bodies at different places can share one mesh and its trees (`renamed`). A
+/// body can be made only if standardFloatingPoint() holds, else std::runtime_error is thrown.
 class Body {
  public:
   /// A mesh: its surface, or with `solid` also everything that it encloses.
@@ -31,7 +32,8 @@ class Body {
   Body(std::string name, ConvexPart part);
   /// The union of many parts, such as the balls about the points of a cloud. They may overlap. One
   /// tree holds all of them.
-  /// @throws std::invalid_argument as above for each part, and if there are none.
+  /// @throws std::invalid_argument if there are no parts, or if one of them is not legal as a
+  /// single part.
   Body(std::string name, std::vector<ConvexPart> parts);
   ~Body();
   Body(Body&&) noexcept;
@@ -45,7 +47,8 @@ class Body {
   const TriangleMesh& mesh() const;              ///< empty for convex parts
   const std::vector<ConvexPart>& parts() const;  ///< empty for a mesh
   bool solid() const;                            ///< true for convex parts
-  /// Only for these bodies, containment is more than contact of surfaces.
+  /// Returns whether this is a solid mesh. Only then another body may be inside it without touching
+  /// its surface, and containment is a test of its own.
   bool isSolidMesh() const { return solid() && isMesh(); }
   const Obb4Tree& tree() const;  ///< builds the tree if necessary
   /// Returns the binary tree of one kind of volume. Builds it if necessary.
@@ -54,16 +57,16 @@ class Body {
   /// The binary OBB tree, for queries that have no 4-wide variant.
   const ObbTree& binaryTree() const { return volumeTree<Obb>(); }
   const MeshComponents& components() const;  ///< only for a mesh; found at the first call
-  /// The boxes of the parts, in their order; only for parts. Built at the first call.
+  /// The boxes of the parts, in the order of `parts()`; only for parts. Built at the first call.
   const BoxTree& partBoxes() const;
   bool treeBuilt() const;  ///< true if any tree has been built
-  /// Largest distance of a point from the frame's origin, metres, rounded up.
+  /// The largest distance of a point of the body from the frame's origin, metres, rounded up.
   double radius() const { return bounds_.radius; }
   /// A bounding sphere: its centre, and its radius rounded up.
   const Vec3& sphereCenter() const { return bounds_.center; }
   double sphereRadius() const { return bounds_.sphereRadius; }
   const BoundingBox& box() const { return bounds_.box; }
-  const Vec3& lower() const { return bounds_.box.lower; }  ///< of `box`
+  const Vec3& lower() const { return bounds_.box.lower; }
   const Vec3& upper() const { return bounds_.box.upper; }
 
  private:

@@ -176,7 +176,7 @@ void relate(const Obb4Tree& a, const Transform& X_WA, const Obb4Tree& b, const T
   constexpr double u = 0x1p-24;
   pose.floats.relative = static_cast<float>(180 * u + 10 * defect);
   // The factor rounds up. It covers the conversion to float and the length of cross axes.
-  pose.floats.ball = static_cast<float>(
+  pose.floats.absoluteMargin = static_cast<float>(
       (error + u * (33 * pose.scale + 3.1 * t.abs().sum() + 6) + 0x1p-118) * (1 + 0x1p-16));
   // |M_A x| ≥ √(1 − ν)·|x|.
   pose.shrink = usable ? roundedDown(1 - defectA) : 0;

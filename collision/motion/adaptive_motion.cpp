@@ -77,7 +77,7 @@ class Bisection {
     if (measured.contact && (!earliest_ || last)) return steps_.contact(w.pair, w.t0, t, measured);
     if (!measured.contact && (narrow || last || (measured.hopeless && !earliest_))) {
       if (!narrow || !block_ || !block_->measured.contact || block_->time != w.t1)
-        return steps_.close(w.pair, w.t0, t, measured.gap + measured.bound.bound);
+        return steps_.answerWhereStuck(w.pair, w.t0, t, measured.gap + measured.bound.bound);
       MotionResult result = blocked(w.t0);
       result.grazing = true;
       return result;
@@ -101,7 +101,7 @@ class Bisection {
   MotionResult blocked(double t0) {
     const auto& [time, pair, measured] = *block_;
     return measured.contact ? steps_.contact(pair, t0, time, measured)
-                            : steps_.close(pair, t0, time, HUGE_VAL);
+                            : steps_.answerWhereStuck(pair, t0, time, HUGE_VAL);
   }
 
   DistanceSteps& steps_;

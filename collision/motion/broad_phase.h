@@ -20,8 +20,8 @@ namespace corridor {
 /// Const after construction, so threads may share it.
 class BroadPhase {
  public:
-  /// @param pairs of a scene, in its order: the pairs of a body b with all bodies at rest are
-  /// adjacent. They must outlive the object and stay where they are.
+  /// @param pairs the pairs of a scene, in the order of `Scene::motionPairs()`: the pairs of a body
+  /// b with all bodies at rest are adjacent. The span must stay valid as long as the object exists.
   explicit BroadPhase(std::span<const MotionPair> pairs);
 
   /// Calls visit(k) for each pair k that may come closer than `within` metres, and for some that do

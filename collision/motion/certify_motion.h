@@ -50,7 +50,7 @@ struct MotionResult {
   /// The pair in contact; `undecided`: the pair that could not be decided, if it is known.
   std::optional<Contact> pair;
   /// `undecided` with a `pair`: the distance of this pair at `contactTime`, beyond the margin,
-  /// metres.
+  /// metres; 0 if it was not measured.
   double gap = 0;
 };
 
@@ -89,9 +89,9 @@ class MotionSource {
   /// result stays valid until the next call for the same `i`. @pre 0 ≤ t ≤ 1, h ≤ 1/2; t − h and t
   /// + h are exact.
   virtual RelativeMotion relativeMotion(std::size_t i, double t, double h) = 0;
-  /// Reports whether the edge defines no curve, or no bound holds. Reasons are a shorter way that
-  /// is not unique within 1e-9 rad (half turns), a displacement that overflows, and unsuitable
-  /// processor settings.
+  /// Reports whether the edge defines no curve, or no bound holds. There are three reasons: a half
+  /// turn (to within 1e-9 rad), whose shorter way is not unique; a displacement that overflows; and
+  /// unsuitable processor settings.
   virtual bool ambiguous() const = 0;
   /// Reports whether nothing moves. One pose then stands for the whole edge (apart from the tube).
   virtual bool still() const = 0;
@@ -162,9 +162,9 @@ struct MotionCertificate {
 /// @param certificate if not null, receives the certificate, which `checkCertificate`
 /// (check_certificate.h) can prove again. Recording it never changes the verdict; the query then
 /// takes about 1.5 times as long.
-/// @param broadPhase  of these pairs. It finds the pairs that may come close, so that not every
-/// pair is tested. A certificate has an entry for every pair, so a query with a certificate ignores
-/// it.
+/// @param broadPhase if not null, the broad phase of these pairs. It finds the pairs that may come
+/// close, so that not every pair is tested. A query with a certificate does not use it, because the
+/// certificate has an entry for every pair.
 MotionResult certifyMotion(MotionSource& motion, std::span<const MotionPair> pairs,
                            const MotionOptions& options, QueryContext& context,
                            MotionCertificate* certificate = nullptr,

@@ -48,7 +48,7 @@ class Advancement {
       // clearance slack takes one tolerance.
       const double room = measured.lower - measured.bound.needed;
       if (!done && (step == 0 || room <= steps_.options().tolerance / 2))
-        return steps_.close(pair, t, t, measured.gap);
+        return steps_.answerWhereStuck(pair, t, t, measured.gap);
       front.t += step;
       if (done)
         fronts.pop_back();

@@ -112,7 +112,8 @@ MotionResult DistanceSteps::workLimit(double t0) const {
   return result;
 }
 
-MotionResult DistanceSteps::close(std::uint32_t pair, double t0, double time, double clearance) {
+MotionResult DistanceSteps::answerWhereStuck(std::uint32_t pair, double t0, double time,
+                                             double clearance) {
   for (double after = kFirstProbe; !motion_.still(); after *= 2) {
     const double t1 = std::min(t0 + after, 1.0), h = (t1 - t0) / 2;
     const bool narrow = !options_.earliest || t1 - t0 <= options_.timeTolerance;

@@ -60,7 +60,7 @@ class DistanceSteps {
   /// soon after t0, otherwise `undecided`.
   /// @param time the time to report with `undecided`; the gap is measured there.
   /// @param clearance an upper bound of the clearance beyond the margin at t0, metres.
-  MotionResult close(std::uint32_t pair, double t0, double time, double clearance);
+  MotionResult answerWhereStuck(std::uint32_t pair, double t0, double time, double clearance);
 
  private:
   static constexpr std::uint64_t kMeasurementWork = 256;

@@ -63,7 +63,7 @@ int dropAxis(const Vector<Int>& n) {
 }
 /// The corners of a triangle.
 template <class Int>
-using Points = std::array<Vector<Int>, 3>;
+using TriangleCorners = std::array<Vector<Int>, 3>;
 
 /// A double as mantissa · 2^exponent with |mantissa| < 2^53. The mantissa is odd, to keep grids
 /// coarse, or 0 for zero.
@@ -83,12 +83,12 @@ inline Dyadic dyadic(double value) {
 }
 
 /// Up to three points, and the affine map to apply to them, as dyadic numbers.
-struct MappedCorners {
+struct MappedPoints {
   std::array<std::array<Dyadic, 3>, 3> m, corners;
   std::array<Dyadic, 3> t;
   std::size_t count;  ///< number of points
 
-  MappedCorners(const Transform& X, std::span<const Vec3> points) : count(points.size()) {
+  MappedPoints(const Transform& X, std::span<const Vec3> points) : count(points.size()) {
     for (int i = 0; i < 3; ++i) {
       t[i] = dyadic(X.t[i]);
       for (int k = 0; k < 3; ++k) m[i][k] = dyadic(X.m(i, k));
@@ -111,7 +111,7 @@ struct Grid {
     low = std::min(low, a.exponent + b.exponent);
     high = std::max(high, a.exponent + bits(a.mantissa) + b.exponent + bits(b.mantissa));
   }
-  void include(const MappedCorners& points) {
+  void include(const MappedPoints& points) {
     for (std::size_t p = 0; p < points.count; ++p)
       for (int k = 0; k < 3; ++k)
         for (int i = 0; i < 3; ++i) include(points.m[i][k], points.corners[p][k]);
@@ -148,7 +148,7 @@ Int term(const Dyadic& a, const Dyadic& b, const Grid& grid) {
 
 /// Returns the p-th point under its map, exactly, in units of the grid.
 template <class Int>
-Vector<Int> mapped(const MappedCorners& points, std::size_t p, const Grid& grid) {
+Vector<Int> mapped(const MappedPoints& points, std::size_t p, const Grid& grid) {
   std::array<Int, 3> c;
   for (int i = 0; i < 3; ++i) {
     c[i] = term<Int>(points.t[i], {1, 0}, grid);
@@ -159,7 +159,7 @@ Vector<Int> mapped(const MappedCorners& points, std::size_t p, const Grid& grid)
 
 /// Returns the three corners of a triangle under its map, exactly, in units of the grid.
 template <class Int>
-Points<Int> mapped(const MappedCorners& triangle, const Grid& grid) {
+TriangleCorners<Int> mapped(const MappedPoints& triangle, const Grid& grid) {
   return {mapped<Int>(triangle, 0, grid), mapped<Int>(triangle, 1, grid),
           mapped<Int>(triangle, 2, grid)};
 }

@@ -12,7 +12,7 @@
 namespace corridor {
 namespace {
 
-using Corners = std::array<exact::MappedCorners, 4>;
+using Corners = std::array<exact::MappedPoints, 4>;
 
 template <class Int>
 int exactSign(const Corners& points, const exact::Grid& grid) {
@@ -48,11 +48,11 @@ int orientationSign(const MappedPoint& p, const MappedPoint& q, const MappedPoin
     if (det < -bound) return -1;
   }
   const auto corner = [](const MappedPoint& point) {
-    return exact::MappedCorners(point.X, std::span(&point.p, 1));
+    return exact::MappedPoints(point.X, std::span(&point.p, 1));
   };
   const Corners corners = {corner(p), corner(q), corner(r), corner(s)};
   exact::Grid grid;
-  for (const exact::MappedCorners& each : corners) grid.include(each);
+  for (const exact::MappedPoints& each : corners) grid.include(each);
   return exact::withIntegersFor(grid, [&]<class Int>() { return exactSign<Int>(corners, grid); });
 }
 

@@ -15,8 +15,8 @@ using exact::coordinate;
 using exact::cross;
 using exact::dot;
 using exact::dropAxis;
-using exact::Points;
 using exact::sign;
+using exact::TriangleCorners;
 using exact::Vector;
 
 /// Returns the sign of the area of (p, q, r) projected along axis `drop`.
@@ -54,8 +54,8 @@ bool segmentsTouch(const Vector<Int>& p, const Vector<Int>& q, const Vector<Int>
 
 /// Tests the closed segment pq against the closed triangle t with normal n (zero if degenerate).
 template <class Int, class Product>
-bool segmentTouchesTriangle(const Vector<Int>& p, const Vector<Int>& q, const Points<Int>& t,
-                            const Vector<Product>& n) {
+bool segmentTouchesTriangle(const Vector<Int>& p, const Vector<Int>& q,
+                            const TriangleCorners<Int>& t, const Vector<Product>& n) {
   if (n.isZero()) {  // t is a segment or a point: the union of its edges
     for (int i = 0; i < 3; ++i)
       if (segmentsTouch(p, q, t[i], t[(i + 1) % 3])) return true;
@@ -85,8 +85,8 @@ bool segmentTouchesTriangle(const Vector<Int>& p, const Vector<Int>& q, const Po
 }
 
 template <class Int, class Product>
-bool strictlyOneSide(const Points<Int>& plane, const Vector<Product>& n,
-                     const Points<Int>& points) {
+bool strictlyOneSide(const TriangleCorners<Int>& plane, const Vector<Product>& n,
+                     const TriangleCorners<Int>& points) {
   const int s = sign(dot(n, points[0] - plane[0]));
   return s != 0 && s == sign(dot(n, points[1] - plane[0])) &&
          s == sign(dot(n, points[2] - plane[0]));
@@ -96,7 +96,7 @@ bool strictlyOneSide(const Points<Int>& plane, const Vector<Product>& n,
 /// of their intersection lies on the boundary of one of them. (A degenerate triangle consists of
 /// its boundary only.)
 template <class Int>
-bool touch(const Points<Int>& a, const Points<Int>& b) {
+bool touch(const TriangleCorners<Int>& a, const TriangleCorners<Int>& b) {
   const auto nA = cross(a[1] - a[0], a[2] - a[0]), nB = cross(b[1] - b[0], b[2] - b[0]);
   if (strictlyOneSide(a, nA, b) || strictlyOneSide(b, nB, a)) return false;
   for (int i = 0; i < 3; ++i)
@@ -107,7 +107,7 @@ bool touch(const Points<Int>& a, const Points<Int>& b) {
 }
 
 template <class Int>
-bool touch(const exact::MappedCorners& a, const exact::MappedCorners& b, const exact::Grid& grid) {
+bool touch(const exact::MappedPoints& a, const exact::MappedPoints& b, const exact::Grid& grid) {
   return touch<Int>(exact::mapped<Int>(a, grid), exact::mapped<Int>(b, grid));
 }
 
@@ -144,7 +144,7 @@ std::optional<bool> touchInDoubles(const Triangle& a, const Transform& X_WA, con
     return equalUpToSigns<Vec3>((p.array() + rounder) - rounder, p);
   };
   const auto mapped = [&](const Triangle& t, const Transform& X) {
-    Points<exact::Int53> points;
+    TriangleCorners<exact::Int53> points;
     for (int i = 0; i < 3; ++i) {
       const Vec3 p = X * t[i];
       points[i] = {exact::Int53(p[0]), exact::Int53(p[1]), exact::Int53(p[2])};
@@ -162,7 +162,7 @@ std::optional<bool> touchInDoubles(const Triangle& a, const Transform& X_WA, con
 bool trianglesTouchExact(const Triangle& a, const Transform& X_WA, const Triangle& b,
                          const Transform& X_WB) {
   if (const auto known = touchInDoubles(a, X_WA, b, X_WB)) return *known;
-  const exact::MappedCorners cornersA(X_WA, a), cornersB(X_WB, b);
+  const exact::MappedPoints cornersA(X_WA, a), cornersB(X_WB, b);
   exact::Grid grid;
   grid.include(cornersA);
   grid.include(cornersB);

@@ -9,8 +9,9 @@
 namespace corridor {
 
 /// `distance` and `closerThan` (distance.h, with the same guarantees) for two bodies: for the
-/// surfaces of meshes, and for convex parts, which are solid. They don't test whether the other
-/// body is inside a `solid` mesh; `world/body_queries.h` does. They build the trees that they need.
+/// surfaces of meshes, and for convex parts, which are solid. Neither function tests whether a body
+/// is inside a `solid` mesh; the functions in `world/body_queries.h` do. Both build the trees that
+/// they need.
 /// @param trees the kind of trees. Distance queries bound distances of volumes and never test
 /// overlap. So kinds that differ only in their overlap tests are equivalent. A convex part has no
 /// 4-wide tree for distances: a binary tree of OBBs replaces it.

@@ -14,8 +14,8 @@ using exact::coordinate;
 using exact::cross;
 using exact::dot;
 using exact::dropAxis;
-using exact::Points;
 using exact::sign;
+using exact::TriangleCorners;
 using exact::Vector;
 
 /// Returns numerator/denominator·2^exponent rounded to the nearest double, so that equal values
@@ -47,7 +47,8 @@ double roundedQuotient(Int numerator, Int denominator, int exponent) {
 template <class Int>
 class Corners {
  public:
-  Corners(const Points<Int>& a, const Points<Int>& b, int exponent) : exponent_(exponent) {
+  Corners(const TriangleCorners<Int>& a, const TriangleCorners<Int>& b, int exponent)
+      : exponent_(exponent) {
     const Vector<Int> nA = cross(a[1] - a[0], a[2] - a[0]), nB = cross(b[1] - b[0], b[2] - b[0]);
     for (int i = 0; i < 3; ++i) {
       clip(a[i], a[(i + 1) % 3], b, nB);
@@ -117,7 +118,7 @@ class Corners {
 
   /// Adds the ends of the part of the segment pq inside the triangle t with normal n (zero if t is
   /// degenerate).
-  void clip(const Vector<Int>& p, const Vector<Int>& q, const Points<Int>& t,
+  void clip(const Vector<Int>& p, const Vector<Int>& q, const TriangleCorners<Int>& t,
             const Vector<Int>& n) {
     const Int sideP = dot(n, p - t[0]), sideQ = dot(n, q - t[0]);
     if (sign(sideP) * sign(sideQ) > 0) return;
@@ -140,7 +141,7 @@ class Corners {
   }
 
   /// Tests whether x, a point in the plane of t, is inside t. @pre t is not degenerate.
-  static bool inside(const Vector<Int>& x, const Vector<Int>& n, const Points<Int>& t) {
+  static bool inside(const Vector<Int>& x, const Vector<Int>& n, const TriangleCorners<Int>& t) {
     const int k = dropAxis(n);
     for (int i = 0; i < 3; ++i) {
       const Int turn = coordinate(cross(t[(i + 1) % 3] - t[i], x - t[i]), k);
@@ -154,7 +155,7 @@ class Corners {
 };
 
 template <class Int>
-Segment longestSegment(const exact::MappedCorners& a0, const exact::MappedCorners& b0,
+Segment longestSegment(const exact::MappedPoints& a0, const exact::MappedPoints& b0,
                        const exact::Grid& grid) {
   return Corners<Int>(exact::mapped<Int>(a0, grid), exact::mapped<Int>(b0, grid),
                       grid.high <= grid.low ? 0 : grid.low)
@@ -165,7 +166,7 @@ Segment longestSegment(const exact::MappedCorners& a0, const exact::MappedCorner
 
 Segment triangleIntersectionExact(const Triangle& a, const Transform& X_WA, const Triangle& b,
                                   const Transform& X_WB) {
-  const exact::MappedCorners cornersA(X_WA, a), cornersB(X_WB, b);
+  const exact::MappedPoints cornersA(X_WA, a), cornersB(X_WB, b);
   exact::Grid grid;
   grid.include(cornersA);
   grid.include(cornersB);

@@ -12,11 +12,11 @@ namespace {
 /// Maps points to coordinates about a local origin, in a unit that is a power of two near the
 /// mesh's size. Then large offsets (10^6, say) don't cancel, and squares neither overflow nor
 /// underflow. Scaling by the unit is exact.
-struct LocalUnit {
+struct LocalCoordinates {
   Vec3 origin;
   double unit = 1;
 
-  explicit LocalUnit(std::span<const Triangle> triangles) {
+  explicit LocalCoordinates(std::span<const Triangle> triangles) {
     Vec3 low = triangles[0][0], high = low;
     for (const Triangle& t : triangles)
       for (const Vec3& p : t) {
@@ -38,7 +38,7 @@ struct LocalUnit {
 }  // namespace
 
 Moments vertexMoments(std::span<const Triangle> triangles) {
-  const LocalUnit local(triangles);
+  const LocalCoordinates local(triangles);
   Moments m;
   Mat3 second = Mat3::Zero();
   for (const Triangle& t : triangles)
@@ -54,7 +54,7 @@ Moments vertexMoments(std::span<const Triangle> triangles) {
 }
 
 Moments surfaceMoments(std::span<const Triangle> triangles) {
-  const LocalUnit local(triangles);
+  const LocalCoordinates local(triangles);
   Moments m;
   Mat3 second = Mat3::Zero();
   for (const Triangle& t : triangles) {

@@ -53,11 +53,11 @@ inline Obb1 boxOf(const Obb4& four, std::uint32_t lane) {
 
 /// The pose of b's frame in a's, with the margins of the overlap test.
 struct alignas(16) Obb4Pose {
-  float turn[3][4];  ///< [j][k]: component k of M's column j; the last of a row is unused
-  float offset[4];   ///< t
-  float scale;       ///< s, a power of two
-  float relative;    ///< margin as a factor of (|T|₁ + Σa + Σb)
-  float ball;        ///< margin as the radius of a sphere, in a's unit
+  float turn[3][4];      ///< [j][k]: component k of M's column j; the last of a row is unused
+  float offset[4];       ///< t
+  float scale;           ///< s, a power of two
+  float relative;        ///< margin as a factor of (|T|₁ + Σa + Σb)
+  float absoluteMargin;  ///< margin as the radius of a sphere, in a's unit
 };
 
 /// Motion bounds of four boxes of b in a time interval, relative to its middle (`RelativeMotion`

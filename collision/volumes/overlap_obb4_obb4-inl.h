@@ -56,7 +56,7 @@ struct BoxPairs {
   // Centre and axes of b's box in coordinates of a's box, and |R|.
   V T[3], R[3][3], Q[3][3];
   V a[3], b[3];  // half extents
-  V slack;       // a gap must exceed this to separate: rounding, and the pose's `ball`
+  V slack;       // a gap must exceed this to separate: rounding, and the pose's `absoluteMargin`
 
   V set(float x) const { return hn::Set(d, x); }
   static V sum3(V x, V y, V z) { return hn::Add(hn::Add(x, y), z); }
@@ -95,7 +95,7 @@ struct BoxPairs {
     }
     const V sizes = sum3(sum3(hn::Abs(T[0]), hn::Abs(T[1]), hn::Abs(T[2])), sum3(a[0], a[1], a[2]),
                          sum3(b[0], b[1], b[2]));
-    slack = hn::MulAdd(set(pose.relative), sizes, set(pose.ball));
+    slack = hn::MulAdd(set(pose.relative), sizes, set(pose.absoluteMargin));
   }
 
   /// These functions return gaps along axis i of a, along axis j of b, and along the cross product
@@ -145,8 +145,8 @@ HWY_INLINE unsigned bitsOf(const hn::CappedTag<float, 16> d, M mask, std::size_t
 
 /// Returns which of the sixteen pairs of two nodes' boxes may touch: bit 4·i + j for box i of a and
 /// box j of b. A cleared bit proves that the boxes are farther apart than the error that
-/// `pose.ball` covers (obb4.h has the derivation). `gaps` gets the largest gap along a face normal
-/// for each pair: the smaller it is, the deeper the boxes overlap.
+/// `pose.absoluteMargin` covers (obb4.h has the derivation). `gaps` gets the largest gap along a
+/// face normal for each pair: the smaller it is, the deeper the boxes overlap.
 ///
 /// Operations have a fixed order, and are fused on every target that supports it, so that these
 /// targets give the same bits. SSE has no fused operations: there one box more or less may count as

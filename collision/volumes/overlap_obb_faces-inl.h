@@ -20,8 +20,8 @@ namespace corridor::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 /// Returns true if a face normal of either box separates the boxes by more than `beyond` (in a's
-/// unit) plus the error that `pose.ball` covers. True is a proof by the derivation in obb4.h, which
-/// holds for these lanes, too. Lane j holds b's axis j, and lane 3 its centre.
+/// unit) plus the error that `pose.absoluteMargin` covers. True is a proof by the derivation in
+/// obb4.h, which holds for these lanes, too. Lane j holds b's axis j, and lane 3 its centre.
 HWY_INLINE bool facesSeparate(const Obb1& a, const Obb1& b, const Obb4Pose& pose, float beyond) {
   const hn::CappedTag<float, 4> d;
   const auto set = [&](float x) { return hn::Set(d, x); };
@@ -63,7 +63,7 @@ HWY_INLINE bool facesSeparate(const Obb1& a, const Obb1& b, const Obb4Pose& pose
   const auto ofT = ofCenter(hn::Add(hn::Add(q0, q1), q2));
   const float slack =
       pose.relative * (sum(hn::Add(ofT, hn::IfThenElseZero(axes, halfB))) + (h[0] + h[1] + h[2])) +
-      pose.ball + beyond;
+      pose.absoluteMargin + beyond;
   return gapA0 > slack || gapA1 > slack || gapA2 > slack ||
          !hn::AllFalse(d, hn::And(axes, hn::Gt(gapsB, set(slack))));
 }

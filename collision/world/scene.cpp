@@ -185,7 +185,7 @@ double Scene::defaultTolerance(double farthest) const {
     size =
         std::max(size, farthest + bounds.lower.cwiseAbs().cwiseMax(bounds.upper.cwiseAbs()).norm());
   }
-  if (boundsOfFrames.empty()) radius = 1;  // no query uses it
+  if (boundsOfFrames.empty()) radius = 1;  // without pairs, no query uses the tolerance
   // A single point has no radius; any positive number will do.
   return std::max(1e-7 * std::max(radius, std::numeric_limits<double>::min() * 1e8),
                   RigidMotion::roundingTolerance(size));
@@ -216,7 +216,7 @@ void Scene::forNearPairs(std::span<const Transform> X_WF, const double& within,
       if (!mayMeet(*pair.a, worldSphere(pair.bodyB), within)) return false;
     } else {
       const SweptSphere& b = worldSphere(pair.bodyB);
-      // (The box of a body on frame 0 doesn't move with the world.)
+      // The box of a body on frame 0 holds only while frame 0 is at the identity. Here it is not.
       const bool boxed = bodies_[pair.bodyA].restX_WF.has_value();
       if ((boxed ? clearanceBound(*pair.restBox, b, within)
                  : clearanceBound(worldSphere(pair.bodyA), b, within)) > within)
@@ -233,7 +233,7 @@ void Scene::forNearPairs(std::span<const Transform> X_WF, const double& within,
                          visitPair);
     return;
   }
-  for (std::size_t k = 0; k < motionPairs_.size(); ++k)  // the world itself is moved
+  for (std::size_t k = 0; k < motionPairs_.size(); ++k)  // frame 0 is not at the identity
     if (visitPair(k)) return;
 }
 
@@ -280,8 +280,9 @@ std::optional<Transform> poseApart(const MotionPair& pair, MotionSource& motion,
   return std::nullopt;
 }
 
-/// Reports whether containment can't change the answer, since nothing is proved free.
-bool isDecided(const MotionResult& result) {
+/// Returns whether no part of the motion is proved free. Then containment is not tested: a test is
+/// valid only for a time in which the surfaces are proved apart.
+bool provesNothingFree(const MotionResult& result) {
   return result.verdict != MotionVerdict::free && !(result.certifiedUntil > 0);
 }
 
@@ -299,7 +300,7 @@ MotionResult Scene::certifyPairs(MotionSource& motion, const MotionOptions& opti
   MotionResult result = isDefault ? certifyMotion(motion, motionPairs_, options, context,
                                                   certificate, broadPhase_.get())
                                   : runEdgeMethod(method, motion, motionPairs_, options, context);
-  if (!solidMeshes_ || isDecided(result)) return result;
+  if (!solidMeshes_ || provesNothingFree(result)) return result;
   IntervalMotions motions(motion, broadPhase_->bodies(), context);
   motions.select(0, 0);
   std::vector<std::uint32_t>& near = context.scratch.of<NearPairs>().pairs;
@@ -310,7 +311,7 @@ MotionResult Scene::certifyPairs(MotionSource& motion, const MotionOptions& opti
 MotionResult Scene::withContainment(MotionResult result, std::span<const std::uint32_t> pairs,
                                     MotionSource& motion, QueryContext& context,
                                     MotionCertificate* certificate) const {
-  if (isDecided(result)) return result;
+  if (provesNothingFree(result)) return result;
   const double until = result.verdict == MotionVerdict::free ? 1 : result.certifiedUntil;
   // The surfaces do not meet on [0, until], so one pose decides containment for this whole
   // interval. The rounding of that pose must be too small to move a point through a surface.

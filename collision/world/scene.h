@@ -59,14 +59,14 @@ class Scene {
   const std::vector<FramePair>& framePairs() const { return framePairs_; }
   /// Returns a tolerance in metres: 1e-7 of the smallest radius of a frame, or the tolerance that
   /// the rounding of rigid motions requires (`RigidMotion::roundingTolerance`) if that is larger.
-  /// The radius of a frame is that of one sphere around all of its bodies. Bodies at rest count as
-  /// bodies of the world (frame 0); frames in no pair do not count.
+  /// The radius of a frame is half the diagonal of one box around all of its bodies. Bodies at rest
+  /// count as bodies of the world (frame 0); frames in no pair do not count.
   /// @param farthest metres; the poses of frames are at most this far from the origin.
   double defaultTolerance(double farthest = 0) const;
 
-  /// All queries throw std::invalid_argument for options that are not finite or out of range, or if
-  /// the transform of a frame in a pair is missing or not finite, unless the frame is at rest. They
-  /// build the trees that they need.
+  /// All queries build the trees that they need. They throw std::invalid_argument
+  /// * if an option is not finite or out of range;
+  /// * if the transform of a frame in a pair is missing or not finite, unless the frame is at rest.
 
   /// Returns the first contact found under the maps X_WF of the frames, or nullopt. Exact for
   /// meshes (collision/PROMISES.md, promise 1); with a convex part, contact may be reported for

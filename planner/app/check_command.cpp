@@ -126,7 +126,7 @@ int checkStates(const Problem& problem, const CheckArguments& a) {
 int checkEnds(const Problem& problem, const CheckArguments& a) {
   checkSettings(problem);
   const Checker checker(problem);
-  const Lines out(a.json);
+  const ResultPrinter out(a.json);
   ordered_json ends;
   const auto checkEnd = [&](const std::string& name, const Configuration& q) {
     const auto why = whyNotFree(q, checker);

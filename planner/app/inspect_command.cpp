@@ -102,7 +102,7 @@ int inspectMeshFile(const InspectArguments& a) {
     return kDone;
   }
   const MeshHealth health = inspectMesh(file.mesh);
-  const Lines out(false);
+  const ResultPrinter out(false);
   out.line("mesh", a.file);
   out.line("format", file.format);
   out.line("unit", file.unitRule);

@@ -179,7 +179,7 @@ int inspectCost(const InspectArguments& a) {
     std::cout << j.dump(2) << '\n';
     return kDone;
   }
-  const Lines out(false);
+  const ResultPrinter out(false);
   out.line("meshes", a.file + ", " + counted(meshA.mesh.triangles.size(), "triangle") + "; " +
                          *a.against + ", " + counted(meshB.mesh.triangles.size(), "triangle"));
   out.line("poses", grouped(poses.size()) + ", " + counted(hits, "contact") + ", " +

@@ -77,8 +77,8 @@ class ProblemReport {
   void reportHeld() {
     json_["held"] = ordered_json::array();
     for (const ModelRobot& robot : problem_.model.robots)
-      for (std::size_t k = 0; k < robot.model.joints.size(); ++k) {
-        const JointModel& joint = robot.model.joints[k];
+      for (std::size_t k = 0; k < robot.description.joints.size(); ++k) {
+        const JointModel& joint = robot.description.joints[k];
         const auto value = robot.held.find(k);
         const auto pose = robot.heldPoses.find(k);
         if (value == robot.held.end() && pose == robot.heldPoses.end()) continue;
@@ -190,7 +190,7 @@ class ProblemReport {
                                  ", for start and goal; the others when first needed");
   }
 
-  /// Reports which pairs of bodies take the time of random edges.
+  /// Reports the pairs of bodies that take most of the time of random edges.
   void reportCosts() {
     constexpr std::size_t kEdges = 200, kShown = 5;
     constexpr double kSeconds = 2;  // keeps `inspect` quick
@@ -225,7 +225,7 @@ class ProblemReport {
   const Problem& problem_;
   const InspectArguments& a_;
   Checker checker_;
-  Lines out_;
+  ResultPrinter out_;
   ordered_json json_;
 };
 

@@ -128,7 +128,7 @@ ordered_json shapeJson(const PlacedShape& shape) {
 /// Reports a group or state if it can't be used. @param why the reason; "": it can be used.
 /// @returns whether it was reported.
 bool reportUnusable(const char* kind, const std::string& name, const std::string& why,
-                    const Lines& out, ordered_json& json) {
+                    const ResultPrinter& out, ordered_json& json) {
   if (why.empty()) return false;
   json["unusable"].push_back({{"kind", kind}, {"name", name}, {"reason", why}});
   out.line(kind, quotedWord(name) + ": can't be used: " + why, Tone::bad);
@@ -137,7 +137,7 @@ bool reportUnusable(const char* kind, const std::string& name, const std::string
 
 int inspectRobot(const InspectArguments& a) {
   const RobotSetup setup = readRobotAlone(a.file);
-  const RobotModel& model = setup.robot.model;
+  const RobotModel& model = setup.robot.description;
   const std::vector<std::string> notes = textsOf(notesOf(setup));
   ordered_json j = {{"format", "corridor-inspect-robot-2"},
                     {"file", a.file},
@@ -150,7 +150,7 @@ int inspectRobot(const InspectArguments& a) {
                     {"states", ordered_json::object()},
                     {"unusable", ordered_json::array()},
                     {"notes", notes}};
-  const Lines out(a.json);
+  const ResultPrinter out(a.json);
   out.line("robot", a.file);
   out.line("name", model.name);
   out.line("root", model.links[model.root].name);

@@ -53,12 +53,13 @@ double sizeOf(const RobotModel& description) {
 
 Alone modelOf(ModelRobot robot) {
   Alone alone;
-  alone.size = sizeOf(robot.model);
+  alone.size = sizeOf(robot.description);
   const Corners bounds{Vec3::Constant(-4 * alone.size), Vec3::Constant(4 * alone.size)};
   ModelBuilder builder;
-  if (robot.isRigid()) builder.bound(robot.model.name, bounds);
+  if (robot.isRigid()) builder.bound(robot.description.name, bounds);
   for (const std::size_t j : robot.planned)
-    if (isPoseJoint(robot.model.joints[j].type)) builder.bound(robot.model.joints[j].name, bounds);
+    if (isPoseJoint(robot.description.joints[j].type))
+      builder.bound(robot.description.joints[j].name, bounds);
   alone.model = builder.addRobot(std::move(robot)).build();
   return alone;
 }
@@ -111,7 +112,7 @@ std::optional<Configuration> configurationOf(const Model& model, const NamedStat
 /// Returns whether a problem may name the state: it gives no other value to a joint that is held.
 bool holdsAgree(const ModelRobot& robot, const NamedState& state) {
   return std::all_of(state.values.begin(), state.values.end(), [&](const auto& value) {
-    const auto j = findJoint(robot.model, value.first);
+    const auto j = findJoint(robot.description, value.first);
     if (!j) return false;
     const auto held = robot.held.find(*j);
     return held == robot.held.end() || held->second == value.second;
@@ -143,7 +144,7 @@ class StateFinder {
 
   void addNamed() {
     const ModelRobot& robot = model_.robots.front();
-    for (const auto& [name, state] : robot.model.states) {
+    for (const auto& [name, state] : robot.description.states) {
       if (found_.size() == 2) return;
       if (!state.unusable.empty()) continue;
       const auto q = configurationOf(model_, state);
@@ -237,7 +238,7 @@ std::vector<FoundState> rigidStates(const Alone& alone, const Checker& checker) 
   for (const double x : {0.0, 3.9 * alone.size}) {
     Configuration q = Configuration::Zero(static_cast<Eigen::Index>(alone.model.space.size()));
     q[0] = x;
-    if (alone.model.robots.front().model.mount == JointType::floating) q[6] = 1;
+    if (alone.model.robots.front().description.mount == JointType::floating) q[6] = 1;
     if (checker.certifiedState(q)) found.push_back({q, stateText(alone.model, q), "an example"});
   }
   return found;
@@ -290,7 +291,7 @@ int newProblem(const NewProblemArguments& a) {
   text += end("start", 0) + end("goal", 1) + boundsText(alone) + kMore;
   writeNewFile(a.file, text);
 
-  const Lines out(a.file.toStdout());
+  const ResultPrinter out(a.file.toStdout());
   if (a.file.output) out.line("problem", *a.file.output);
   for (std::size_t i = 0; i < 2; ++i)
     if (i < found.size())

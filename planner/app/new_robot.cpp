@@ -72,13 +72,13 @@ RobotFiles readFiles(const NewRobotArguments& a) {
 /// Returns the model in which every joint that can move is planned for.
 Model modelOf(RobotModel description, const std::string& urdf) {
   ModelRobot robot;
-  robot.model = std::move(description);
+  robot.description = std::move(description);
   const std::vector<std::size_t> moving = allMoving(robot);
   if (moving.empty()) throw InputError(Fault{urdf, 0, "has no joint that moves by itself"});
   ModelBuilder builder;
   for (const std::size_t j : moving)
-    if (isPoseJoint(robot.model.joints[j].type))
-      builder.bound(robot.model.joints[j].name,
+    if (isPoseJoint(robot.description.joints[j].type))
+      builder.bound(robot.description.joints[j].name,
                     {Vec3::Constant(-kAnywhere), Vec3::Constant(kAnywhere)});
   chooseJoints(robot, moving);
   return builder.addRobot(std::move(robot)).build();
@@ -320,7 +320,7 @@ int newRobot(const NewRobotArguments& a) {
   text += pairsText(a, model, pairs);
   writeNewFile(a.file, text);
 
-  const Lines out(a.file.toStdout());
+  const ResultPrinter out(a.file.toStdout());
   if (a.file.output) out.line("robot", *a.file.output);
   out.line("pairs", grouped(pairs.adjacent) + " adjacent" +
                         (a.srdf ? ", " + grouped(pairs.bySrdf) + " by the SRDF" : "") + ", " +

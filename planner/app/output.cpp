@@ -19,7 +19,7 @@
 
 namespace corridor::app {
 
-void Lines::line(std::string_view key, const std::string& value, Tone tone) const {
+void ResultPrinter::line(std::string_view key, const std::string& value, Tone tone) const {
   if (quiet_) return;
   static const bool colour = ::isatty(STDOUT_FILENO) != 0;
   const char* on = !colour              ? ""
@@ -29,7 +29,7 @@ void Lines::line(std::string_view key, const std::string& value, Tone tone) cons
   std::cout << key << ": " << on << value << (*on ? "\033[0m" : "") << '\n';
 }
 
-void Lines::blank() const {
+void ResultPrinter::blank() const {
   if (!quiet_) std::cout << '\n';
 }
 

@@ -20,9 +20,9 @@ enum class Tone { plain, good, bad };
 
 /// Prints results for people on stdout, as lines `key: value`, with colours if stdout is a
 /// terminal.
-class Lines {
+class ResultPrinter {
  public:
-  explicit Lines(bool quiet) : quiet_(quiet) {}
+  explicit ResultPrinter(bool quiet) : quiet_(quiet) {}
   void line(std::string_view key, const std::string& value, Tone tone = Tone::plain) const;
   void blank() const;
 
@@ -79,8 +79,8 @@ Vec3 rpyDegrees(const Mat3& R);
 std::string poseText(const RigidPose& pose);
 nlohmann::ordered_json poseJson(const RigidPose& pose);  ///< position, quat_xyzw
 /// Returns a path's length: "2 m, turning 3 rad" if the space has a planar or floating joint, else
-/// "2 m, 3 rad". Leaves out metres or radians if no coordinate of the space has that unit. The end
-/// is "(sum over the joints)" if the space has several joints.
+/// "2 m, 3 rad". Leaves out metres or radians if no coordinate of the space has that unit. The text
+/// ends with "(sum over the joints)", or "bodies", if the space has several of them (summands()).
 std::string lengthText(const ConfigurationSpace& space, double metres, double radians);
 /// Returns "1e-12 m, 6e-12 rad": the largest half width of a tube in lengths and in angles. Leaves
 /// out the unit that no coordinate of the space has.
@@ -88,7 +88,7 @@ std::string tubeText(const ConfigurationSpace& space, const Configuration& tube)
 nlohmann::ordered_json tubeJson(const ConfigurationSpace& space, const Configuration& tube);
 /// "x = 1, y = 2, yaw = 0.5"
 std::string stateText(const ConfigurationSpace& space, const Configuration& q);
-nlohmann::ordered_json numbersJson(const Configuration& q);  ///< also of a Vec3
+nlohmann::ordered_json numbersJson(const Configuration& q);  ///< a Vec3 converts to Configuration
 /// Returns null for an infinity and for NaN, which JSON cannot represent.
 nlohmann::ordered_json numberJson(double value);
 

@@ -70,14 +70,14 @@ int poseCommand(const PoseArguments& a) {
   const std::vector<Transform> X_WF = framePoses(model.tree, Configuration());
 
   std::vector<std::string> names;
-  for (const LinkModel& link : robot.model.links) names.push_back(link.name);
+  for (const LinkModel& link : robot.description.links) names.push_back(link.name);
   for (const std::string& link : a.links)
     if (std::find(names.begin(), names.end(), link) == names.end())
       throw InputError(Fault{
           "--link", 0,
           "there is no link " + quotedWord(link) + didYouMean(link, names) + knownWords(names)});
   ordered_json links = ordered_json::array();
-  const Lines out(a.json);
+  const ResultPrinter out(a.json);
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (!a.links.empty() && std::find(a.links.begin(), a.links.end(), names[i]) == a.links.end())
       continue;
@@ -90,11 +90,11 @@ int poseCommand(const PoseArguments& a) {
                          rounded(rpyDegrees(X.m)));
   }
   ordered_json joints = ordered_json::object();
-  for (const auto& [j, value] : robot.held) joints[robot.model.joints[j].name] = value;
+  for (const auto& [j, value] : robot.held) joints[robot.description.joints[j].name] = value;
   if (a.json)
     std::cout << ordered_json{{"format", "corridor-pose-1"},
                               {"file", a.file},
-                              {"root", robot.model.links[robot.model.root].name},
+                              {"root", robot.description.links[robot.description.root].name},
                               {"joints", joints},
                               {"links", links}}
                      .dump(2)

@@ -113,7 +113,7 @@ void print(const SolveReport& r, const Problem& p, const std::string& problem,
     for (const std::string& note : condensed(textsOf(p.source.notes)))
       std::cerr << "note: " << note << '\n';
   }
-  const Lines out(a.quiet || printsFile(a));
+  const ResultPrinter out(a.quiet || printsFile(a));
   out.line("problem", problem);
   out.line("result", nameOf(r.outcome), solved ? Tone::good : Tone::bad);
   if (!solved) out.line("why", r.why);
@@ -259,7 +259,7 @@ int solveCommand(const SolveArguments& a) {
       if (a.json) {
         results.push_back(jsonOf(report, problem, file));
       } else {
-        if (&file != &a.problems.front()) Lines(a.quiet).blank();
+        if (&file != &a.problems.front()) ResultPrinter(a.quiet).blank();
         print(report, problem, file, a);
       }
       if (report.outcome != SolveOutcome::solved) status = std::max(status, int{kNegativeResult});

@@ -83,7 +83,7 @@ ordered_json jsonOf(const Verified& verified, const Problem& problem, const Veri
 }
 
 void print(const VerifyReport& r, const Problem& problem, const VerifyArguments& a) {
-  const Lines out(a.quiet);
+  const ResultPrinter out(a.quiet);
   out.line("problem", a.problem);
   out.line("solution", a.solution);
   out.line("verdict", verdictName(r), r.verdict == PathVerdict::proved ? Tone::good : Tone::bad);

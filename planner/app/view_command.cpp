@@ -83,7 +83,7 @@ int viewCommand(const ViewArguments& a) {
         verifyWithWarning(problem, path->solution, a.problem, *a.solution, a.ignoreDigest).report;
   }
   const std::string page = viewPage(problem, path, from);
-  const Lines out(a.quiet);
+  const ResultPrinter out(a.quiet);
   out.line("problem", a.problem);
   if (path) {
     out.line("verdict", verdictName(path->report),

@@ -166,7 +166,7 @@ class CampaignReader {
       }
       const YamlMap map(item, "planners[]", &campaignKeys().at("planners[]"), source_);
       const auto name = map.text("name");
-      map.require("name", "OMPL's, such as RRTConnect");
+      map.require("name", "OMPL's name of a planner, such as RRTConnect");
       if (!name) continue;
       CampaignPlanner planner{map.text("label").value_or(*name), *name, {}};
       if (!isName(planner.label)) map.fault("label", "must be one line of text, not empty");
@@ -266,7 +266,8 @@ class CampaignReader {
                          const CheckerSettings& checker) {
     if (std::find(competitorNames().begin(), competitorNames().end(), name) ==
         competitorNames().end()) {
-      map.fault("peer", "unknown peer " + quotedWord(name) + didYouMean(name, competitorNames()) +
+      map.fault("peer", "unknown competitor " + quotedWord(name) +
+                            didYouMean(name, competitorNames()) +
                             "; there are: " + joined(competitorNames()));
       return false;
     }

@@ -19,7 +19,8 @@
 namespace corridor {
 namespace {
 
-/// Replaces the characters that are syntax for gnuplot or SVG: users may have any names.
+/// Replaces the characters that are syntax for gnuplot or SVG: names in files are
+/// arbitrary.
 std::string plain(std::string text) {
   for (char& c : text)
     if (c == '"' || c == '\'' || c == '\\' || c == '<' || c == '>' || c == '&' || c == '`')
@@ -98,8 +99,8 @@ class Script {
     return std::isfinite(p.x) && std::isfinite(p.y) && (!plot_.logX || p.x > 0) &&
            (!plot_.logY || p.y > 0);
   }
-  /// Writes the data of a series, one block per shape of its points, and returns how gnuplot is to
-  /// draw it.
+  /// Writes the data of a series, one block per shape of its points. Returns the arguments
+  /// of gnuplot's "plot" that draw these blocks.
   std::string series(std::size_t i) {
     const PlotSeries& s = plot_.series[i];
     const std::string color = " lc rgb \"" + plotColor(s.color) + "\"";

@@ -23,15 +23,15 @@ Interval medianInterval(std::vector<double> values) {
   return k == 0 ? Interval{-infinity, infinity} : Interval{values[k - 1], values[n - k]};
 }
 
-Interval shareInterval(std::size_t hits, std::size_t of) {
-  if (of == 0) return {0, 1};
-  const double n = static_cast<double>(of), p = static_cast<double>(hits) / n;
+Interval shareInterval(std::size_t hits, std::size_t trials) {
+  if (trials == 0) return {0, 1};
+  const double n = static_cast<double>(trials), p = static_cast<double>(hits) / n;
   const double z = quantile(boost::math::normal_distribution<double>(), (1 + kConfidence) / 2);
   const double scale = 1 / (1 + z * z / n), middle = scale * (p + z * z / (2 * n));
   const double half = scale * z * std::sqrt(p * (1 - p) / n + z * z / (4 * n * n));
   // With no hits the lower bound is exactly 0, and with only hits the upper one is exactly 1: avoid
   // the rounding.
-  return {hits == 0 ? 0 : middle - half, hits == of ? 1 : middle + half};
+  return {hits == 0 ? 0 : middle - half, hits == trials ? 1 : middle + half};
 }
 
 }  // namespace corridor

@@ -20,7 +20,7 @@ constexpr double kConfidence = 0.95;
 Interval medianInterval(std::vector<double> values);
 
 /// Returns Wilson's score interval (1927) for the probability of an event that was observed in
-/// `hits` of `of` trials. Returns [0, 1] if `of` is 0.
-Interval shareInterval(std::size_t hits, std::size_t of);
+/// `hits` of `trials` trials. Returns [0, 1] if there are no trials.
+Interval shareInterval(std::size_t hits, std::size_t trials);
 
 }  // namespace corridor

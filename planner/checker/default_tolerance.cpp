@@ -15,7 +15,7 @@
 ///   revolute: 103 + 12·V_j  (sine and matrix 40, fixed pose 2, value 12·V_j, product 10 + 11;
 ///     an axis 40)
 ///   prismatic, translation: 57  (value and sum 24 + 12, product 10 + 11 of S)
-///   rotation: 575  (2^-44 = 512, and the products)
+///   rotation: 575  (2^-44 = 512u, and the products)
 ///
 /// A relative pose has the errors of both bodies' poses, transformed into one body's frame: twice
 /// that sum. The same holds for the points and axes of joints. Together this is four times the sum.

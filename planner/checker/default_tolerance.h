@@ -11,10 +11,10 @@ namespace corridor {
 /// The guarantee assumes that the angles of circles are in [−π, π].
 double roundingTolerance(const Model& model);
 
-/// Returns a model's default tolerance, metres: the larger of `usual` (1e-7 of the bodies' size)
-/// and roundingTolerance(), but at most 1000 times `usual`. Without this upper limit, joint limits
-/// of 10^16 rad would need a tolerance of kilometres. With the limit, edges with such large values
-/// are undecided, and all other edges are proved as described above.
+/// Returns a model's default tolerance, metres: the larger of `usual` and roundingTolerance(), but
+/// at most 1000 times `usual`. Without this upper limit, joint limits of 10^16 rad would need a
+/// tolerance of kilometres. With the limit, edges with such large values may be undecided.
+/// @param usual the tolerance for coordinates of moderate size, such as Scene::defaultTolerance().
 double defaultTolerance(const Model& model, double usual);
 
 }  // namespace corridor

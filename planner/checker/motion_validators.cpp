@@ -15,7 +15,9 @@ namespace ob = ompl::base;
 
 CountingMotionValidator::CountingMotionValidator(const ob::SpaceInformationPtr& si,
                                                  const Checker& checker)
-    : MotionValidator(si), checker_(checker) {}
+    : MotionValidator(si), checker_(checker) {
+  requireProblemStateSpace(*si, checker.space());
+}
 
 void CountingMotionValidator::write(const Configuration& q, ob::State* state) const {
   si_->getStateSpace()->as<ProblemStateSpace>()->write(q, state);
@@ -38,7 +40,7 @@ bool CountingMotionValidator::checkMotion(const ob::State* s1, const ob::State* 
 
 bool CountingMotionValidator::checkMotion(const ob::State* s1, const ob::State* s2,
                                           std::pair<ob::State*, double>& lastValid) const {
-  const std::optional<Progress> until =
+  const std::optional<FreePart> until =
       lastFree(configurationOf(*si_, s1), configurationOf(*si_, s2));
   if (!until) return count(true);
   lastValid.second = until->t;
@@ -55,9 +57,9 @@ bool CertifiedMotionValidator::isFree(const Configuration& from, const Configura
          checker_.certifyEdge(from, to, false).verdict == MotionVerdict::free;
 }
 
-std::optional<CountingMotionValidator::Progress> CertifiedMotionValidator::lastFree(
+std::optional<CountingMotionValidator::FreePart> CertifiedMotionValidator::lastFree(
     const Configuration& from, const Configuration& to) const {
-  if (!checker_.inBounds(to)) return Progress{};
+  if (!checker_.inBounds(to)) return FreePart{};
   const MotionResult result = checker_.certifyEdge(from, to, true);
   if (result.verdict == MotionVerdict::free) return std::nullopt;
   // The tube covers the rounding of a state on the edge, so the first try nearly always succeeds.
@@ -68,9 +70,9 @@ std::optional<CountingMotionValidator::Progress> CertifiedMotionValidator::lastF
   for (double back = 0; result.certifiedUntil - back >= least; back = back > 0 ? 2 * back : least) {
     const double t = result.certifiedUntil - back;
     const Configuration at = checker_.space().interpolate(from, to, t);
-    if (checker_.certifiedState(at) && isFree(from, at)) return Progress{t, at};
+    if (checker_.certifiedState(at) && isFree(from, at)) return FreePart{t, at};
   }
-  return Progress{};
+  return FreePart{};
 }
 
 bool DiscreteMotionValidator::isValid(const Configuration& state) const {
@@ -103,11 +105,11 @@ bool DiscreteMotionValidator::isFree(const Configuration& from, const Configurat
   return true;
 }
 
-std::optional<CountingMotionValidator::Progress> DiscreteMotionValidator::lastFree(
+std::optional<CountingMotionValidator::FreePart> DiscreteMotionValidator::lastFree(
     const Configuration& from, const Configuration& to) const {
-  if (checker_.space().ambiguous(from, to)) return Progress{};
+  if (checker_.space().ambiguous(from, to)) return FreePart{};
   const unsigned n = steps(from, to);
-  Progress last;
+  FreePart last;
   for (unsigned i = 1; i <= n; ++i) {
     const double t = double(i) / n;
     const Configuration at = checker_.space().interpolate(from, to, t);

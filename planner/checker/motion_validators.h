@@ -17,6 +17,11 @@ namespace corridor {
 ///   to this state valid. For t0 = 0 the state is s1 itself, bit for bit.
 /// - lastValid.first may be s1 or s2: both are read before anything is written.
 /// As everywhere in OMPL, s1 is assumed to be valid. Several threads may use one validator at once.
+///
+/// The state space of `si` must be a ProblemStateSpace, made of the space of the checker's model.
+/// The checker must outlive the validator.
+/// @throws std::invalid_argument from the constructors if the space is of another class, or has
+/// another number of numbers than the checker's.
 class CountingMotionValidator : public ompl::base::MotionValidator {
  public:
   bool checkMotion(const ompl::base::State* s1, const ompl::base::State* s2) const final;
@@ -30,13 +35,13 @@ class CountingMotionValidator : public ompl::base::MotionValidator {
   CountingMotionValidator(const ompl::base::SpaceInformationPtr& si, const Checker& checker);
 
   /// The part of an invalid motion that is free: [0, t].
-  struct Progress {
+  struct FreePart {
     double t = 0;
     Configuration state;  ///< the state at t; set only if t > 0
   };
   virtual bool isFree(const Configuration& from, const Configuration& to) const = 0;
   /// Returns the part of the motion that is free, or nullopt if the whole motion is.
-  virtual std::optional<Progress> lastFree(const Configuration& from,
+  virtual std::optional<FreePart> lastFree(const Configuration& from,
                                            const Configuration& to) const = 0;
 
   void write(const Configuration& q, ompl::base::State* state) const;
@@ -55,7 +60,7 @@ class CertifiedMotionValidator final : public CountingMotionValidator {
 
  protected:
   bool isFree(const Configuration& from, const Configuration& to) const override;
-  std::optional<Progress> lastFree(const Configuration& from,
+  std::optional<FreePart> lastFree(const Configuration& from,
                                    const Configuration& to) const override;
 };
 
@@ -71,7 +76,7 @@ class DiscreteMotionValidator final : public CountingMotionValidator {
 
  protected:
   bool isFree(const Configuration& from, const Configuration& to) const override;
-  std::optional<Progress> lastFree(const Configuration& from,
+  std::optional<FreePart> lastFree(const Configuration& from,
                                    const Configuration& to) const override;
 
  private:

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <new>
 #include <numbers>
+#include <stdexcept>
+#include <string>
 
 #include <ompl/base/ProjectionEvaluator.h>
 #include <ompl/base/spaces/RealVectorStateSpace.h>
@@ -242,6 +244,19 @@ void ProblemStateSpace::registerProjections() {
     for (std::size_t i = 0; i < std::min<std::size_t>(all.size(), 3); ++i)
       chosen.push_back(&all[i]);
   registerDefaultProjection(std::make_shared<NumberProjection>(*this, std::move(chosen)));
+}
+
+void requireProblemStateSpace(const ob::SpaceInformation& si,
+                              const ConfigurationSpace& configurations) {
+  const auto* const space = dynamic_cast<const ProblemStateSpace*>(si.getStateSpace().get());
+  if (!space)
+    throw std::invalid_argument(
+        "the state space of OMPL must be a ProblemStateSpace, made of the model's space");
+  if (space->configurations().size() != configurations.size())
+    throw std::invalid_argument(
+        "the ProblemStateSpace has " + std::to_string(space->configurations().size()) +
+        " numbers, but the checker's model has " + std::to_string(configurations.size()) +
+        "; make it of the space of the checker's model");
 }
 
 Configuration configurationOf(const ob::SpaceInformation& si, const ob::State* state) {

@@ -59,6 +59,13 @@ class ProblemStateSpace : public ompl::base::CompoundStateSpace {
   std::size_t bytes_ = 0;    // size of a state
 };
 
+/// Checks that states of `si` can be read as configurations of a checker.
+/// @param configurations the checker's space.
+/// @throws std::invalid_argument if the space of `si` is not a ProblemStateSpace, or if its
+/// configurations have another number of numbers.
+void requireProblemStateSpace(const ompl::base::SpaceInformation& si,
+                              const ConfigurationSpace& configurations);
+
 /// Returns the numbers of a state. @pre the space of `si` is a ProblemStateSpace.
 Configuration configurationOf(const ompl::base::SpaceInformation& si,
                               const ompl::base::State* state);

@@ -9,6 +9,7 @@ namespace corridor {
 ClearanceChecker::ClearanceChecker(const ompl::base::SpaceInformationPtr& si,
                                    const Checker& checker)
     : StateValidityChecker(si), checker_(checker) {
+  requireProblemStateSpace(*si, checker.space());
   specs_.clearanceComputationType = ompl::base::StateValidityCheckerSpecs::EXACT;
 }
 

@@ -10,6 +10,11 @@ namespace corridor {
 /// The value is `Checker::clearance`, metres. It is positive if all tested pairs are farther apart
 /// than the margin, 0 − margin if a pair touches (no depth is computed), and −∞ for a state that is
 /// not finite. Bounds are ignored.
+///
+/// The state space of `si` must be a ProblemStateSpace, made of the space of the checker's model.
+/// The checker must outlive the object.
+/// @throws std::invalid_argument from the constructors if the space is of another class, or has
+/// another number of numbers than the checker's.
 class ClearanceChecker : public ompl::base::StateValidityChecker {
  public:
   double clearance(const ompl::base::State* state) const final;

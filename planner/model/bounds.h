@@ -24,8 +24,8 @@ void setBounds(ConfigurationSpace& space, const CoordinateGroup& group, const Co
 /// infinite), or "".
 std::string whyBadBounds(const Corners& corners, std::size_t dimensions);
 
-/// Returns the bounding box of a shape in its frame, metres; rounded, for people.
-/// @param X of the shape in the frame of the box.
+/// Returns the bounding box of a shape, metres. It is not rounded outwards, so no proof may use it.
+/// @param X the pose of the shape's coordinates in the frame of the box.
 Corners boundsOf(const PlacedShape& shape, const Transform& X = {});
 /// Returns the bounding box of the obstacles, or nullopt if there are none.
 std::optional<Corners> boundsOfWorld(const Model& model);

@@ -28,30 +28,34 @@ struct ModelRobot {
   /// "left" for the robot `left` of several robots. Empty for a single robot: the names of its
   /// links, joints and coordinates then have no prefix.
   std::string name;
-  RobotModel model;
+  RobotModel description;
   RigidPose base;  ///< X_WB
 
-  std::vector<std::size_t> planned;            ///< joints that are planned for, in order
+  /// The joints that are planned for, as indices into `description.joints`, in this order. The maps
+  /// below have the same indices as keys.
+  std::vector<std::size_t> planned;
   std::map<std::size_t, double> held;          ///< values of the other single joints, rad or m
   std::map<std::size_t, RigidPose> heldPoses;  ///< poses of the other planar and floating joints
-  /// Where held values come from, for people: "hold", "start: ready". Other joints are at 0, or at
-  /// the limit nearest to it.
+  /// The source of each held value, for messages: "hold", "start: ready". Held joints without a
+  /// source are at 0, or at the limit nearest to 0.
   std::map<std::size_t, std::string> heldFrom;
   std::set<std::size_t> heldByFile;  ///< joints whose held value the robot's file gives (`hold`)
   std::map<std::string, double> jointWeights;  ///< joints that are not listed have weight 1
   double rotationWeight = 0.5;  ///< metres per radian of rotation; OMPL's default for SE2 and SE3
 
   // Set by ModelBuilder:
-  std::vector<std::size_t> linkFrames;      ///< for each link of `model`, its frame in Model::tree
+  std::vector<std::size_t>
+      linkFrames;  ///< for each link of `description`, its frame in Model::tree
   std::vector<PlannedJoint> plannedJoints;  ///< in the order of `planned`
 
-  bool isRigid() const { return model.mount != JointType::fixed; }
+  bool isRigid() const { return description.mount != JointType::fixed; }
 };
 
 /// A link or an obstacle: all shapes that are tested under one name.
 struct ModelBody {
   std::string name;  ///< "hand", "left/hand", "table"; for a rigid robot, the robot's name
-  /// In Model::tree. An obstacle's is 0 (the world), or a frame of its own that is fixed to it.
+  /// Index of the body's frame in Model::tree. For an obstacle it is 0 (the world), or a frame of
+  /// the obstacle's own, which is fixed to the world.
   std::size_t frame = 0;
   std::optional<std::size_t> robot;  ///< index in Model::robots; empty for an obstacle
   std::vector<PlacedShape> shapes;   ///< at least one, in the coordinates of `frame`
@@ -64,8 +68,8 @@ class PairFilter {
   /// earlier one.
   /// @param reason not empty: "adjacent", "SRDF: Never", "allow", …
   void skip(std::size_t a, std::size_t b, std::string reason);
-  /// Tests a pair again that was excluded by a reason.
-  void test(std::size_t a, std::size_t b) { reasons_.erase(std::minmax(a, b)); }
+  /// Includes a pair again that `skip` excluded.
+  void include(std::size_t a, std::size_t b) { reasons_.erase(std::minmax(a, b)); }
   /// Excludes pairs of bodies that never move against each other.
   /// @param movers for each body, the frame that moves it (moversOf). Two bodies with the same
   /// mover stand still relative to each other.
@@ -149,9 +153,10 @@ class FramePoses {
   std::vector<Transform> X_WF_;
 };
 
-/// Returns whether the model has a planar or floating joint, or a rigid robot.
+/// Returns whether the space has coordinates of a planar or floating joint, or of a rigid robot.
 bool hasPoseJoints(const ConfigurationSpace& space);
-/// Returns whether the model has a single joint (revolute, continuous or prismatic).
+/// Returns whether the space has a coordinate of a single joint (revolute, continuous or
+/// prismatic).
 bool hasJoints(const ConfigurationSpace& space);
 
 }  // namespace corridor

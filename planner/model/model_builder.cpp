@@ -8,8 +8,8 @@
 #include "collision/core/spelling.h"
 #include "planner/model/planned_joints.h"
 #include "planner/model/robot_assembly.h"
+#include "planner/robot/angles.h"
 #include "planner/robot/joint_types.h"
-#include "planner/robot/turns.h"
 
 namespace corridor {
 namespace {
@@ -22,7 +22,7 @@ constexpr const char* kPlace = "ModelBuilder";
 /// joint is neither planar nor floating. Links with two moving joints between them, or with a
 /// planar or floating joint, can meet anywhere.
 void skipLinks(Model& model, std::size_t robot) {
-  const RobotModel& description = model.robots[robot].model;
+  const RobotModel& description = model.robots[robot].description;
   // A frame of the robot has at most one body.
   std::map<std::size_t, std::size_t> bodyOnFrame;
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
@@ -59,7 +59,9 @@ void skipLinks(Model& model, std::size_t robot) {
       break;
     }
   }
-  skipAllowed(true);  // last: a pair with another reason, too, is never tested
+  // Last, because a proof may not cover the margin and tube of a problem. The pair is then included
+  // again, unless it has another reason.
+  skipAllowed(true);
 }
 
 }  // namespace
@@ -88,12 +90,12 @@ ModelBuilder& ModelBuilder::addRobot(const std::filesystem::path& urdf,
   if (!model || faults_.size() > before) return *this;
   ModelRobot robot;
   robot.name = options.name;
-  robot.model = std::move(*model);
+  robot.description = std::move(*model);
   robot.base = options.base;
   std::vector<std::size_t> active;
   for (const std::string& name : options.joints) {
-    const auto j = findJoint(robot.model, name);
-    if (j && canMove(robot.model.joints[*j]) &&
+    const auto j = findJoint(robot.description, name);
+    if (j && canMove(robot.description.joints[*j]) &&
         std::find(active.begin(), active.end(), *j) == active.end())
       active.push_back(*j);
     else
@@ -111,7 +113,7 @@ ModelBuilder& ModelBuilder::addRigidBody(const std::string& name, JointType type
                                          std::vector<PlacedShape> shapes, const Corners& bounds) {
   ModelRobot robot;
   robot.name = name;
-  robot.model = rigidModel(name, type, std::move(shapes));
+  robot.description = rigidModel(name, type, std::move(shapes));
   return addRobot(std::move(robot)).bound(name, bounds);
 }
 
@@ -246,12 +248,12 @@ PlacedShape shapeOf(std::string name, TriangleMesh mesh, bool solid) {
 }
 
 void requireFewPairs(const Model& model, const std::string& place) {
-  constexpr double most = 1e7;  // a scene takes some 500 MB for them
+  constexpr double most = 1e7;  // a scene of so many pairs takes some 500 MB
   if (const double pairs = pairCount(model); pairs > most)
     throw InputError(Fault{place, 0,
                            "has " + std::to_string(static_cast<std::uint64_t>(pairs)) +
-                               " pairs of bodies, at most 10000000 are handled; join shapes that "
-                               "do not move against each other into one body"});
+                               " pairs of bodies, but at most 10000000 are supported; join "
+                               "shapes that do not move against each other into one body"});
 }
 
 }  // namespace corridor

@@ -36,7 +36,7 @@ class ModelBuilder {
   ModelBuilder& addRobot(ModelRobot robot);
   /// Adds a rigid body that moves in the plane (`planar`) or in space (`floating`). Its coordinates
   /// have the names "NAME/x", "NAME/y", … `shapeOf` makes shapes.
-  /// @param bounds of its position.
+  /// @param bounds the bounds of the body's position.
   ModelBuilder& addRigidBody(const std::string& name, JointType type,
                              std::vector<PlacedShape> shapes, const Corners& bounds);
   /// Adds an obstacle. Its shapes (`shapeOf`) are in world coordinates. Without shapes, adds
@@ -54,8 +54,8 @@ class ModelBuilder {
   ModelBuilder& allow(std::string a, std::string b);
 
   /// Returns the model. Two links are not tested against each other if their robot's SRDF allows
-  /// it, if they are adjacent, or if they never move against each other. Afterwards the builder is
-  /// empty.
+  /// them to touch, if they are adjacent, or if they never move against each other. Afterwards the
+  /// builder is empty.
   /// @throws InputError with all faults: those of the URDF and SRDF files; unknown or repeated
   /// names; illegal primitives; a robot that was added after an obstacle; missing or bad bounds;
   /// more than 10^7 pairs of bodies.
@@ -74,7 +74,7 @@ class ModelBuilder {
     Corners corners;
   };
   Model model_;
-  CoordinateGroup joints_;  // all single joints
+  CoordinateGroup joints_;  // the coordinates of all single joints
   std::vector<Bound> bounds_;
   std::vector<std::array<std::string, 2>> allowed_;
   std::vector<Fault> faults_;

@@ -14,20 +14,21 @@ bool canMove(const JointModel& joint) {
 
 std::vector<std::size_t> allMoving(const ModelRobot& robot) {
   std::vector<std::size_t> all;
-  for (std::size_t j = 0; j < robot.model.joints.size(); ++j)
-    if (canMove(robot.model.joints[j]) && !robot.held.contains(j) && !robot.heldPoses.contains(j))
+  for (std::size_t j = 0; j < robot.description.joints.size(); ++j)
+    if (canMove(robot.description.joints[j]) && !robot.held.contains(j) &&
+        !robot.heldPoses.contains(j))
       all.push_back(j);
   return all;
 }
 
 std::string heldText(const ModelRobot& robot) {
   std::string text;
-  for (std::size_t j = 0; j < robot.model.joints.size(); ++j) {
+  for (std::size_t j = 0; j < robot.description.joints.size(); ++j) {
     const auto held = robot.held.find(j);
     const auto pose = robot.heldPoses.find(j);
     if ((held == robot.held.end() && pose == robot.heldPoses.end()) || robot.heldByFile.contains(j))
       continue;
-    text += (text.empty() ? "" : ", ") + robot.model.joints[j].name + " ";
+    text += (text.empty() ? "" : ", ") + robot.description.joints[j].name + " ";
     if (held != robot.held.end())
       text += shortest(held->second);
     else if (const RigidPose& X = pose->second;
@@ -42,7 +43,7 @@ std::string heldText(const ModelRobot& robot) {
 
 void chooseJoints(ModelRobot& robot, const std::vector<std::size_t>& active) {
   robot.planned = active;
-  const RobotModel& model = robot.model;
+  const RobotModel& model = robot.description;
   for (std::size_t j = 0; j < model.joints.size(); ++j) {
     const JointModel& joint = model.joints[j];
     if (!movesItself(joint) || robot.held.contains(j) || robot.heldPoses.contains(j) ||

@@ -31,7 +31,7 @@ class RobotAssembly {
  public:
   RobotAssembly(ModelRobot& robot, Model& model)
       : robot_(robot),
-        description_(robot.model),
+        description_(robot.description),
         alone_(robot.name.empty()),
         prefix_(alone_ ? "" : robot.name + "/"),
         model_(model) {}

@@ -78,7 +78,7 @@ void testBeyondProofs(Problem& problem) {
           problem.model.bodies.begin(), problem.model.bodies.end(),
           [&](const ModelBody& body) { return body.robot == r && body.name == name; });
     };
-    for (const AllowedPair& pair : robot.model.allowed) {
+    for (const AllowedPair& pair : robot.description.allowed) {
       if (!pair.proof ||
           (problem.task.margin <= pair.proof->margin && tube <= pair.proof->beyondLimits))
         continue;
@@ -87,7 +87,7 @@ void testBeyondProofs(Problem& problem) {
       const auto i = static_cast<std::size_t>(a - problem.model.bodies.begin()),
                  k = static_cast<std::size_t>(b - problem.model.bodies.begin());
       if (problem.model.filter.whyNotTested(i, k) != kNeverInContact) continue;
-      problem.model.filter.test(i, k);
+      problem.model.filter.include(i, k);
       covered = *pair.proof;
       ++tested;
     }
@@ -155,7 +155,7 @@ void requireFiniteSizes(const Model& model, const std::string& file) {
 }  // namespace
 
 std::vector<Note> notesOf(const RobotSetup& setup) {
-  std::vector<Note> notes = setup.robot.model.notes;
+  std::vector<Note> notes = setup.robot.description.notes;
   if (const std::string held = heldText(setup.robot); !held.empty())
     notes.push_back({"joints that are not planned for are held: " + held, NoteWeight::motion});
   return notes;

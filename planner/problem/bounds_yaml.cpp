@@ -8,7 +8,7 @@
 #include "planner/problem/joint_yaml.h"
 #include "planner/problem/keys.h"
 #include "planner/problem/urdf_robot.h"
-#include "planner/robot/turns.h"
+#include "planner/robot/angles.h"
 
 namespace corridor {
 namespace {
@@ -81,7 +81,7 @@ void narrow(const YamlMap& map, const std::string& key, bool degrees, const Plan
 
 void readOfJoints(const YamlValue& value, const std::string& path, const ModelRobot& robot,
                   Problem& problem, YamlSource& source) {
-  const RobotModel& model = robot.model;
+  const RobotModel& model = robot.description;
   const YamlMap map(value, path, nullptr, source);
   readJointValues(map, model, [&](std::size_t j, const YamlValue::Entry& entry, bool degrees) {
     for (const PlannedJoint& planned : robot.plannedJoints) {

@@ -83,7 +83,7 @@ bool readCloud(const YamlMap& map, const std::string& kind, const MapKeys& keys,
   const auto name = inner.text("file");
   if (!name) return false;
   shape.file = folder / *name;
-  if (const std::string why = whyNoFile(shape.file); !why.empty()) {
+  if (const std::string why = whyNotOrdinaryFile(shape.file); !why.empty()) {
     inner.fault("file", shape.file.string() + ": " + why);
     return false;
   }

@@ -15,8 +15,8 @@ std::vector<const std::string*> expandedTexts(const Problem& problem,
                                               const std::filesystem::path& file) {
   std::vector<const std::string*> texts;
   for (const ModelRobot& robot : problem.model.robots) {
-    const auto found = robot.model.expanded.find(file);
-    if (found == robot.model.expanded.end()) continue;
+    const auto found = robot.description.expanded.find(file);
+    if (found == robot.description.expanded.end()) continue;
     const auto isSame = [&](const std::string* text) { return *text == found->second; };
     if (std::none_of(texts.begin(), texts.end(), isSame)) texts.push_back(&found->second);
   }

@@ -19,21 +19,21 @@ const std::set<std::string> kWithin{"within"};
 std::string example(const std::string& what, const Problem& problem) {
   const ModelRobot& first = problem.model.robots.front();
   std::string state;
-  if (first.model.mount == JointType::floating) {
+  if (first.description.mount == JointType::floating) {
     state = "{at: [0, 0, 1], rpy_deg: [0, 0, 90]}";
-  } else if (first.model.mount == JointType::planar) {
+  } else if (first.description.mount == JointType::planar) {
     state = "{at: [0, 0], yaw_deg: 90}";
   } else {
     const PlannedJoint& planned = first.plannedJoints.front();
-    const std::vector<std::string> states = usableNames(first.model.states);
+    const std::vector<std::string> states = usableNames(first.description.states);
     state = states.empty() ? "{" + planned.name +
                                  (planned.type == JointType::planar     ? ": {at: [0, 0]}, …}"
                                   : planned.type == JointType::floating ? ": {at: [0, 0, 1]}, …}"
                                                                         : ": 0.5, …}")
                            : states.front();
   }
-  return (first.model.mount == JointType::fixed ? "the robot's joint values at the " + what
-                                                : std::string("the robot's pose")) +
+  return (first.description.mount == JointType::fixed ? "the robot's joint values at the " + what
+                                                      : std::string("the robot's pose")) +
          ", such as " + what + ": " +
          (first.name.empty() ? state : "{" + first.name + ": " + state + ", …}");
 }
@@ -60,7 +60,7 @@ void readWithin(const YamlValue& value, Problem& problem, YamlSource& source) {
 bool isListOfGoals(const YamlValue& value, const Problem& problem) {
   if (value.kind != YamlValue::Kind::List) return false;
   if (problem.model.robots.size() > 1 ||
-      problem.model.robots.front().model.mount == JointType::fixed)
+      problem.model.robots.front().description.mount == JointType::fixed)
     return true;
   return !value.items.empty() &&
          std::all_of(value.items.begin(), value.items.end(),

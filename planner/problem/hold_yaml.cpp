@@ -15,9 +15,9 @@ std::optional<std::string> readHold(const YamlMap& file, RobotSetup& setup) {
   const YamlValue* value = file.find("hold");
   if (!value) return std::nullopt;
   if (value->kind == YamlValue::Kind::Scalar) return value->text;
-  const RobotModel& model = setup.robot.model;
+  const RobotModel& model = setup.robot.description;
   const YamlMap map(*value, "hold", nullptr, file.source());
-  std::vector<Note>& notes = setup.robot.model.notes;
+  std::vector<Note>& notes = setup.robot.description.notes;
   const auto read = [&](std::size_t j, const YamlValue::Entry& entry, bool degrees) {
     const JointModel& joint = model.joints[j];
     if (!movesItself(joint)) return map.fault(entry.key, whyNotActive(model, j));
@@ -83,11 +83,11 @@ std::optional<RigidPose> poseIn(const NamedState& state, const JointModel& joint
 void holdState(const std::string& name, const std::vector<std::size_t>& planned,
                const YamlPlace& place, RobotSetup& setup) {
   ModelRobot& robot = setup.robot;
-  const NamedState* const state = findState(robot.model, name, place);
+  const NamedState* const state = findState(robot.description, name, place);
   if (!state) return;
   bool holds = false;
-  for (std::size_t j = 0; j < robot.model.joints.size(); ++j) {
-    const JointModel& joint = robot.model.joints[j];
+  for (std::size_t j = 0; j < robot.description.joints.size(); ++j) {
+    const JointModel& joint = robot.description.joints[j];
     if (!movesItself(joint) || robot.heldByFile.contains(j)) continue;
     if (std::find(planned.begin(), planned.end(), j) != planned.end()) continue;
     if (isPoseJoint(joint.type)) {
@@ -105,14 +105,14 @@ void holdState(const std::string& name, const std::vector<std::size_t>& planned,
     holds = true;
     const std::string path = place.path + " (" + name + "): " + joint.name;
     if (const auto held =
-            withinLimits(value->second, joint.lower, joint.upper, path, robot.model.notes))
+            withinLimits(value->second, joint.lower, joint.upper, path, robot.description.notes))
       robot.held[j] = *held, robot.heldFrom[j] = place.path + ": " + name;
     else
       place.source.fault(place.line,
                          path + ": " + outsideLimits(value->second, joint.lower, joint.upper));
   }
   if (!holds && place.path == "hold")
-    robot.model.notes.push_back(
+    robot.description.notes.push_back(
         {"hold: the state " + quotedWord(name) + " gives no joint that is held",
          NoteWeight::motion});
 }
@@ -130,9 +130,9 @@ void holdAsStart(const YamlMap& problem, std::vector<RobotSetup>& robots) {
     const YamlValue* value = start && !robot.empty() ? entryOf(*start, robot) : start;
     if (const YamlValue* from = value ? entryOf(*value, "from") : nullptr) value = from;
     if (!value || value->kind != YamlValue::Kind::Scalar) continue;
-    const auto state = setup.robot.model.states.find(value->text);
+    const auto state = setup.robot.description.states.find(value->text);
     // StateReader reports unknown states.
-    if (state == setup.robot.model.states.end() || !state->second.unusable.empty()) continue;
+    if (state == setup.robot.description.states.end() || !state->second.unusable.empty()) continue;
     holdState(value->text, setup.robot.planned,
               {problem.source(), robot.empty() ? "start" : "start." + robot, value->line}, setup);
   }

@@ -21,8 +21,8 @@ struct YamlPlace {
 /// NAME` or `from: NAME`), or nullopt.
 std::optional<std::string> readHold(const YamlMap& file, RobotSetup& setup);
 
-/// Holds each joint to which a named state gives a value at this value, except the joints in
-/// `planned` and in the robot's `heldByFile`.
+/// For each joint to which a named state gives a value: holds the joint at that value. Skips the
+/// joints in `planned` and in the robot's `heldByFile`.
 void holdState(const std::string& state, const std::vector<std::size_t>& planned,
                const YamlPlace& place, RobotSetup& setup);
 

@@ -149,7 +149,7 @@ class MbmReader {
     std::filesystem::path folder = std::filesystem::absolute(file_).lexically_normal();
     while (folder != folder.parent_path()) {
       folder = folder.parent_path();
-      if (whyNoFile(folder / name).empty()) return folder / name;
+      if (whyNotOrdinaryFile(folder / name).empty()) return folder / name;
     }
     stop(std::string(key) + ": " + name + " is in no folder above this file");
   }
@@ -166,17 +166,17 @@ class MbmReader {
     faults_.add(found);
     if (model && !found.empty()) problem_.source.notes = model->notes;
     faults_.throwIfAny();
-    setup.robot.model = std::move(*model);
+    setup.robot.description = std::move(*model);
 
     std::vector<std::size_t> active;
     for (const Json& name : list(set, "joint_names")) {
       const std::string text = name.is_string() ? name.get<std::string>() : name.dump();
-      const auto j = findJoint(setup.robot.model, text);
+      const auto j = findJoint(setup.robot.description, text);
       if (!j)
-        fault("joint_names: " + noSuchJoint(text, setup.robot.model));
-      else if (const std::string why = whyNotActive(setup.robot.model, *j); !why.empty())
+        fault("joint_names: " + noSuchJoint(text, setup.robot.description));
+      else if (const std::string why = whyNotActive(setup.robot.description, *j); !why.empty())
         fault("joint_names: " + text + " " + why);
-      else if (isPoseJoint(setup.robot.model.joints[*j].type))
+      else if (isPoseJoint(setup.robot.description.joints[*j].type))
         fault("joint_names: " + text + " has more than one value");
       else
         active.push_back(*j);

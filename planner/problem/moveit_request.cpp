@@ -96,28 +96,29 @@ void MoveitRequest::hold(RobotSetup& setup) {
   ModelRobot& robot = setup.robot;
   std::vector<std::string> unknown;
   for (const auto& [name, value] : start_) {
-    const auto j = findJoint(robot.model, name);
+    const auto j = findJoint(robot.description, name);
     if (!j) unknown.push_back(name);
     if (!j || !robot.held.contains(*j) || robot.heldByFile.contains(*j)) continue;
-    const JointModel& joint = robot.model.joints[*j];
+    const JointModel& joint = robot.description.joints[*j];
     const std::string path = "start_state: " + name;
-    if (const auto held = withinLimits(value, joint.lower, joint.upper, path, robot.model.notes))
+    if (const auto held =
+            withinLimits(value, joint.lower, joint.upper, path, robot.description.notes))
       robot.held[*j] = *held, robot.heldFrom[*j] = "start_state of the request";
     else
       source_.fault(startLine_, path + ": " + outsideLimits(value, joint.lower, joint.upper));
   }
   if (!unknown.empty())
-    robot.model.notes.push_back({source_.file + ": start_state: the robot has no joint " +
-                                     joinedFirst(unknown) + "; the values are not used",
-                                 NoteWeight::motion});
+    robot.description.notes.push_back({source_.file + ": start_state: the robot has no joint " +
+                                           joinedFirst(unknown) + "; the values are not used",
+                                       NoteWeight::motion});
 }
 
 void MoveitRequest::checkHeld(const std::map<std::string, double>& values, int line,
                               const std::string& path, const ModelRobot& robot) {
   for (const auto& [name, value] : values) {
-    const auto j = findJoint(robot.model, name);
+    const auto j = findJoint(robot.description, name);
     if (!j) {
-      source_.fault(line, path + ": " + noSuchJoint(name, robot.model));
+      source_.fault(line, path + ": " + noSuchJoint(name, robot.description));
       continue;
     }
     const auto held = robot.held.find(*j);

@@ -146,7 +146,7 @@ void MoveitScene::addWorld(const std::string& root, const RigidPose& base, Model
 
 std::vector<Note> MoveitScene::notesOn(const Model& model) {
   std::vector<Note> notes;
-  const RobotModel& robot = model.robots.front().model;
+  const RobotModel& robot = model.robots.front().description;
   const auto name = message().text("robot_model_name");
   if (name && !name->empty() && *name != robot.name && *name != robot.urdfName)
     notes.push_back({source_.file + ": is for robot " + quotedWord(*name) + ", and is used for " +
@@ -206,7 +206,7 @@ void MoveitScene::applyAllowed(Model& model) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) bodies[model.bodies[b].name] = b;
   for (std::size_t a = 0; a < model.bodies.size(); ++a)
     for (std::size_t b = a + 1; b < model.bodies.size() && model.bodies[b].robot; ++b)
-      if (model.filter.whyNotTested(a, b).starts_with("SRDF")) model.filter.test(a, b);
+      if (model.filter.whyNotTested(a, b).starts_with("SRDF")) model.filter.include(a, b);
   for (std::size_t i = 0; i < names->size(); ++i)
     for (std::size_t k = 0; k < i; ++k) {
       const auto a = bodies.find((*names)[i]), b = bodies.find((*names)[k]);

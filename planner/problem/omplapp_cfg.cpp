@@ -26,7 +26,7 @@ const Keys planarKeys{"start.x", "start.y", "start.theta", "goal.x", "goal.y", "
 const Keys spatialOnlyKeys{"start.z", "start.axis.x", "start.axis.y", "start.axis.z",
                            "goal.z",  "goal.axis.x",  "goal.axis.y",  "goal.axis.z"};
 
-/// OMPL.app's default of `threshold`, in the state space's distance.
+/// OMPL.app's default of `threshold`: a distance in the state space.
 constexpr double kThreshold = 1e-6;
 
 /// Returns the subset of `keys` that the section `problem` has, or, if `present` is false, the
@@ -39,7 +39,7 @@ Keys select(const IniFile& ini, const Keys& keys, bool present) {
 }
 
 /// Returns planar or floating by OMPL.app's rule: planar if the file has only x, y and theta,
-/// floating if it has z and axis, too. nullopt: a fault was added.
+/// floating if it has z and axis, too. Returns nullopt if a fault was added.
 std::optional<JointType> spaceOf(const IniFile& ini) {
   const Keys missing = select(ini, planarKeys, false),
              missing3 = select(ini, spatialOnlyKeys, false);
@@ -65,7 +65,7 @@ Eigen::Quaterniond axisAngle(const Vec3& axis, double angle) {
 }
 
 bool isPlanar(const Problem& problem) {
-  return problem.model.robots.front().model.mount == JointType::planar;
+  return problem.model.robots.front().description.mount == JointType::planar;
 }
 
 Configuration readPose(const IniFile& ini, const std::string& what, Problem& problem) {
@@ -137,7 +137,7 @@ std::optional<CfgMesh> readMesh(const IniFile& ini, const std::string& key, Prob
   }
   problem.source.lines[key] = entry->line;
   const std::filesystem::path path = problem.source.file.parent_path() / entry->value;
-  if (const std::string why = whyNoFile(path); !why.empty()) {
+  if (const std::string why = whyNotOrdinaryFile(path); !why.empty()) {
     ini.fault(*entry, path.string() + ": " + why);
     return std::nullopt;
   }
@@ -161,16 +161,17 @@ std::optional<CfgMesh> readMesh(const IniFile& ini, const std::string& key, Prob
   }
 }
 
-/// Makes a robot of one mesh, recentred. `mesh` may be empty, for a file that could not be read:
-/// the poses of the robot can then still be checked.
+/// Makes a robot of one mesh. The robot's reference point is the average of the mesh's vertices.
+/// `mesh` may be empty, if its file could not be read: the poses of the robot can then still be
+/// checked.
 RobotSetup robotOf(CfgMesh mesh, JointType type) {
   Vec3 centre = mesh.read.vertexAverage;
   if (type == JointType::planar) centre.z() = 0;
   if (mesh.shape.mesh) shift(mesh.shape, -centre);
   RobotSetup setup;
   const std::string name = mesh.shape.name;
-  setup.robot.model = rigidModel(name, type, {std::move(mesh.shape)});
-  setup.robot.model.notes.push_back(
+  setup.robot.description = rigidModel(name, type, {std::move(mesh.shape)});
+  setup.robot.description.notes.push_back(
       {"reference of the robot: (" + shortest(centre.x()) + ", " + shortest(centre.y()) + ", " +
        shortest(centre.z()) + ") of its file, the average of its " +
        std::to_string(mesh.read.importedVertices) + " imported vertices"});

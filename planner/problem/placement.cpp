@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "collision/core/shortest.h"
+#include "planner/robot/angles.h"
 #include "planner/robot/rpy.h"
-#include "planner/robot/turns.h"
 
 namespace corridor {
 namespace {

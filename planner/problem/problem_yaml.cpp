@@ -41,7 +41,7 @@ class RobotFiles {
     const auto name = map.text(key);
     if (!name) return std::nullopt;
     const std::filesystem::path path = folder / *name;
-    if (const std::string why = whyNoFile(path); !why.empty()) {
+    if (const std::string why = whyNotOrdinaryFile(path); !why.empty()) {
       map.fault(key, path.string() + ": " + why);
       return std::nullopt;
     }
@@ -105,7 +105,7 @@ std::vector<RobotSetup> readRobots(const YamlMap& file, const std::filesystem::p
   if (known && robots.empty() && map.entries().empty())
     file.fault("robots", "at least one robot is needed, such as {left: {file: robot.yaml}}");
   if (known) return robots;
-  for (const RobotSetup& robot : robots) addAll(robot.robot.model.notes, notes);
+  for (const RobotSetup& robot : robots) addAll(robot.robot.description.notes, notes);
   return {};
 }
 
@@ -138,7 +138,7 @@ std::pair<std::optional<MoveitScene>, std::optional<MoveitRequest>> readMoveit(
     const auto name = map.text(key);
     if (!name) return;
     const std::filesystem::path file = folder / *name;
-    if (const std::string why = whyNoFile(file); !why.empty())
+    if (const std::string why = whyNotOrdinaryFile(file); !why.empty())
       return map.fault(key, file.string() + ": " + why);
     addFile(files, file);
     FaultList& faults = problem.source().faults;
@@ -181,7 +181,7 @@ void readYaml(const std::filesystem::path& file, Problem& problem) {
   RigidPose base;
   if (scene && known) {
     const ModelRobot& robot = robots.front().robot;
-    root = robot.model.links[robot.model.root].name;
+    root = robot.description.links[robot.description.root].name;
     base = robot.base;
   }
   addRobots(std::move(robots), builder, problem.source);

@@ -67,7 +67,7 @@ void shiftToReference(const YamlMap& file, RobotModel& model, bool shapesAreSoun
     }
 }
 
-/// Returns nullopt if the value of `rigid` is neither SE2 nor SE3.
+/// Reads a rigid robot. Returns nullopt if the value of `rigid` is neither SE2 nor SE3.
 std::optional<RobotSetup> readRigid(const YamlMap& map, const std::string& name,
                                     const std::filesystem::path& folder, RobotSetup setup) {
   for (const char* key : {"srdf", "xacro", "packages", "visuals", "limits", "collada_up", "group",
@@ -87,9 +87,9 @@ std::optional<RobotSetup> readRigid(const YamlMap& map, const std::string& name,
     if (inner.find("joints")) inner.fault("joints", "this robot is rigid and has no joints");
   }
   if (!rigid) return std::nullopt;
-  setup.robot.model = rigidModel(name, *rigid == "SE2" ? JointType::planar : JointType::floating,
-                                 std::move(shapes));
-  shiftToReference(map, setup.robot.model, sound);
+  setup.robot.description = rigidModel(
+      name, *rigid == "SE2" ? JointType::planar : JointType::floating, std::move(shapes));
+  shiftToReference(map, setup.robot.description, sound);
   return setup;
 }
 
@@ -121,7 +121,7 @@ std::optional<RobotSetup> readRobotFile(const std::filesystem::path& file, Fault
   if (kind == "urdf")
     read = readUrdfRobot(map, name, group, file.parent_path(), std::move(setup), notesOfFaulty);
   if (kind == "rigid") read = readRigid(map, name, file.parent_path(), std::move(setup));
-  addAll(source.notes, read ? read->robot.model.notes : notesOfFaulty);
+  addAll(source.notes, read ? read->robot.description.notes : notesOfFaulty);
   return read;
 }
 
@@ -131,7 +131,7 @@ RobotSetup readRobotAlone(const std::filesystem::path& file) {
   readWithNotes(notes, [&] {
     FaultList faults(file.string());
     setup = readRobotFile(file, faults, notes);
-    if (setup) notes = setup->robot.model.notes;
+    if (setup) notes = setup->robot.description.notes;
     faults.throwIfAny();
   });
   return std::move(*setup);

@@ -44,7 +44,7 @@ std::shared_ptr<const MeshFile> readMesh(const YamlMap& map, const char* key,
   const auto name = map.text(key);
   if (!name) return nullptr;
   file = folder / *name;
-  if (const std::string why = whyNoFile(file); !why.empty()) {
+  if (const std::string why = whyNotOrdinaryFile(file); !why.empty()) {
     map.fault(key, file.string() + ": " + why);
     return nullptr;
   }
@@ -137,8 +137,8 @@ void faultMisplacedKeys(const YamlMap& map, const std::string& kind) {
                            : "is for meshes; a " + kind + " is always solid");
 }
 
-/// Moves the vertices of a mesh, which other shapes may share. Returns whether they are still
-/// finite.
+/// Moves the vertices of a shape's mesh. The shape gets a copy of the mesh, because other shapes
+/// may share it. Returns whether the vertices are still finite.
 template <class Move>
 bool moveMesh(PlacedShape& shape, const Move& move) {
   MeshFile moved = *shape.mesh;
@@ -156,7 +156,7 @@ bool isFinite(const ConvexPart& part) {
                      [](const Vec3& point) { return point.allFinite(); });
 }
 
-/// Adds a fault, and returns false: a shape is out of the range of doubles.
+/// Adds a fault for a shape that is out of the range of doubles. Returns false.
 bool faultRange(const YamlMap& map) {
   map.fault("at", "moves the shape out of the range of doubles");
   return false;

@@ -25,7 +25,7 @@ struct ShapePlace {
 class ShapeMeshes {
  public:
   /// Returns the mesh that `key` names, with unit and up-axis applied. Returns null if a fault was
-  /// added for it, now or before.
+  /// added for this mesh, now or before.
   std::shared_ptr<const MeshFile> read(const YamlMap& map, const char* key,
                                        const std::filesystem::path& file);
   /// Returns why the mesh can't be solid, or "".

@@ -14,6 +14,12 @@
 #include "planner/problem/urdf_robot.h"
 
 namespace corridor {
+namespace {
+
+constexpr const char* kHowToPlanForIt =
+    "; to plan for it, choose it by joints or group in the robot's file, and remove it from hold";
+
+}  // namespace
 
 /// The numbers of one robot's state by their names in the robot ("pan", "base/yaw"). Each number
 /// has its line and its path, for messages.
@@ -57,8 +63,8 @@ std::optional<Configuration> StateReader::read(const YamlValue& value, const std
   std::vector<std::string> names;
   for (const ModelRobot& robot : robots()) names.push_back(robot.name);
   if (value.kind != YamlValue::Kind::Map) {
-    source_.fault(value.line, path + ": a map of the robots is needed, {" + names.front() +
-                                  ": …}, not " + described(value));
+    source_.fault(value.line, path + ": a map from robot names to states is needed, such as {" +
+                                  names.front() + ": …}, not " + described(value));
     return std::nullopt;
   }
   MapKeys keys{names, {}};
@@ -74,7 +80,7 @@ std::optional<Configuration> StateReader::read(const YamlValue& value, const std
 
 bool StateReader::readRobot(std::size_t robot, const YamlValue& value, const std::string& path,
                             const std::set<std::string>& others, Configuration& q) {
-  const RobotModel& model = robots()[robot].model;
+  const RobotModel& model = robots()[robot].description;
   if (model.mount != JointType::fixed) return readRigid(robot, value, path, others, q);
   Given given;
   if (value.kind == YamlValue::Kind::Scalar)
@@ -98,7 +104,7 @@ bool StateReader::readRobot(std::size_t robot, const YamlValue& value, const std
 
 bool StateReader::readRigid(std::size_t robot, const YamlValue& value, const std::string& path,
                             const std::set<std::string>& others, Configuration& q) {
-  const RobotModel& model = robots()[robot].model;
+  const RobotModel& model = robots()[robot].description;
   const bool spatial = model.mount == JointType::floating;
   PoseForm form{spatial,
                 (isAlone() ? "the robot" : robots()[robot].name) +
@@ -118,7 +124,7 @@ bool StateReader::readRigid(std::size_t robot, const YamlValue& value, const std
 
 bool StateReader::fromNamed(std::size_t robot, const std::string& name, int line,
                             const std::string& path, Given& given) {
-  const RobotModel& model = robots()[robot].model;
+  const RobotModel& model = robots()[robot].description;
   const NamedState* const state = findState(model, name, {source_, path, line});
   if (!state) return false;
   for (const auto& [number, value] : state->values)
@@ -128,7 +134,7 @@ bool StateReader::fromNamed(std::size_t robot, const std::string& name, int line
 
 bool StateReader::checkHeld(std::size_t robot, const NamedState& state, const std::string& name,
                             int line, const std::string& path) {
-  const RobotModel& model = robots()[robot].model;
+  const RobotModel& model = robots()[robot].description;
   const bool isGoal = path.starts_with("goal");
   bool sound = true;
   const auto disagree = [&](std::size_t joint, const std::string& text) {
@@ -136,8 +142,8 @@ bool StateReader::checkHeld(std::size_t robot, const NamedState& state, const st
     if (isFault)
       source_.fault(line,
                     text +
-                        "; it is not planned for, so start and goal need one value: start from a "
-                        "state with this value, or set it in hold");
+                        "; the joint is not planned for, so it cannot move: start from a state "
+                        "with the goal's value, or set this value in hold");
     else
       problem_.source.notes.push_back({text, NoteWeight::motion});
     sound &= !isFault;
@@ -150,23 +156,23 @@ bool StateReader::checkHeld(std::size_t robot, const NamedState& state, const st
     const double off =
         turns ? std::remainder(value->second - held, 2 * std::numbers::pi) : value->second - held;
     if (std::abs(off) <= limitSlack) continue;
-    disagree(j, path + ": " + joint.name + " is held at " + shortest(held) + ", not at the " +
-                    shortest(value->second) + " of state " + name);
+    disagree(j, path + ": " + joint.name + " is held at " + shortest(held) + ", but is " +
+                    shortest(value->second) + " in state " + name);
   }
   for (const auto& [j, held] : robots()[robot].heldPoses) {
     const auto pose = poseIn(state, model.joints[j]);
     if (!pose || ((pose->p - held.p).norm() <= limitSlack &&
                   pose->q.normalized().angularDistance(held.q.normalized()) <= limitSlack))
       continue;
-    disagree(j, path + ": " + model.joints[j].name +
-                    " is held at another pose than that of state " + name);
+    disagree(j,
+             path + ": " + model.joints[j].name + " is held at another pose than in state " + name);
   }
   return sound;
 }
 
 bool StateReader::readJoints(std::size_t robot, const YamlMap& map, Given& given,
                              const std::set<std::string>& others) {
-  const RobotModel& model = robots()[robot].model;
+  const RobotModel& model = robots()[robot].description;
   const ModelRobot& setup = robots()[robot];
   const std::size_t before = source_.faults.size();
   std::set<std::string> known = others;
@@ -180,10 +186,10 @@ bool StateReader::readJoints(std::size_t robot, const YamlMap& map, Given& given
           return map.fault(entry.key, why);
         if (const auto held = setup.held.find(j); held != setup.held.end())
           return map.fault(entry.key, "is held at " + shortest(held->second) +
-                                          ", and not planned for; robot.yaml chooses the joints");
+                                          ", and not planned for" + kHowToPlanForIt);
         if (setup.heldPoses.contains(j))
           return map.fault(entry.key,
-                           "is held, and not planned for; robot.yaml chooses the joints");
+                           std::string("is held, and not planned for") + kHowToPlanForIt);
         if (isPoseJoint(joint.type)) {
           const auto pose = readJointPose(entry.value, path, joint, source_, problem_.source.notes);
           if (!pose) return;

@@ -25,7 +25,7 @@ std::optional<std::filesystem::path> readFileName(const YamlMap& map, const char
   const auto name = map.text(key);
   if (!name) return std::nullopt;
   const std::filesystem::path path = folder / *name;
-  if (const std::string why = whyNoFile(path); !why.empty()) {
+  if (const std::string why = whyNotOrdinaryFile(path); !why.empty()) {
     map.fault(key, path.string() + ": " + why);
     return std::nullopt;
   }
@@ -234,8 +234,8 @@ void readWeights(const YamlMap& file, RobotSetup& setup) {
   const YamlMap map(*joints, "weights.joints", nullptr, file.source());
   for (const YamlValue::Entry* entry : map.entries()) {
     const auto weight = map.number(entry->key, Range::Positive);
-    if (!findJoint(setup.robot.model, entry->key))
-      map.fault(entry->key, noSuchJoint(entry->key, setup.robot.model));
+    if (!findJoint(setup.robot.description, entry->key))
+      map.fault(entry->key, noSuchJoint(entry->key, setup.robot.description));
     else if (weight)
       setup.robot.jointWeights[entry->key] = *weight;
   }
@@ -272,34 +272,34 @@ std::optional<RobotSetup> readUrdfRobot(const YamlMap& map, const std::string& n
   auto model = readModel(*urdf, rules, srdf, map.source().faults, setup.files, notesOfFaulty);
   if (!model) return std::nullopt;
 
-  setup.robot.model = std::move(*model);
-  setup.robot.model.name = name;
+  setup.robot.description = std::move(*model);
+  setup.robot.description.name = name;
   const std::size_t before = map.source().faults.size();
-  readStates(map, setup.robot.model);
+  readStates(map, setup.robot.description);
   const std::optional<std::string> heldState = readHold(map, setup);
   const YamlPlace hold{map.source(), "hold", heldState ? map.find("hold")->line : 0};
   // If the file chooses no joints, none of the joints in the held state is planned for.
   const bool hasDefault = !group.empty() && srdf && !map.find("joints");
   const bool isChosen = map.find("group") || map.find("joints") || hasDefault;
   if (heldState && !isChosen) holdState(*heldState, {}, hold, setup);
-  readAllow(map, setup.robot.model);
+  readAllow(map, setup.robot.description);
   readWeights(map, setup);
   Joints active;
   if (map.find("group") && map.find("joints"))
     map.fault("joints", "one of group and joints is needed, not both");
   else if (map.find("group") || hasDefault)
-    active = readGroup(map, group, setup.robot.model);
+    active = readGroup(map, group, setup.robot.description);
   else if (map.find("joints"))
-    active = readJointList(map, setup.robot.model);
+    active = readJointList(map, setup.robot.description);
   else if ((active = allMoving(setup.robot)).empty())
     map.fault("urdf", "has no joint that moves by itself");
   for (const std::size_t j : active)
     if (setup.robot.held.contains(j) || setup.robot.heldPoses.contains(j))
-      map.fault("hold", setup.robot.model.joints[j].name +
+      map.fault("hold", setup.robot.description.joints[j].name +
                             " is planned for, and can't be held; remove it from hold");
   if (heldState && isChosen) holdState(*heldState, active, hold, setup);
   if (map.source().faults.size() != before) {
-    addAll(setup.robot.model.notes, notesOfFaulty);
+    addAll(setup.robot.description.notes, notesOfFaulty);
     return std::nullopt;
   }
   for (const auto& [j, value] : setup.robot.held) setup.robot.heldByFile.insert(j);
@@ -313,11 +313,11 @@ std::optional<RobotSetup> readBareUrdf(const std::filesystem::path& file, FaultL
   RobotSetup setup;
   auto model = readModel(file, {}, std::nullopt, faults, setup.files, notesOfFaulty);
   if (!model) return std::nullopt;
-  setup.robot.model = std::move(*model);
+  setup.robot.description = std::move(*model);
   const Joints active = allMoving(setup.robot);
   if (active.empty()) {
     faults.add(file.string(), 0, "has no joint that moves by itself");
-    addAll(setup.robot.model.notes, notesOfFaulty);
+    addAll(setup.robot.description.notes, notesOfFaulty);
     return std::nullopt;
   }
   chooseJoints(setup.robot, active);

@@ -28,7 +28,7 @@ std::vector<PlacedShape> readGroup(const YamlMap& map, ShapePlace place, ShapeFi
 /// triangles are worth the time of 10^4 edges (equal_meshes_benchmark).
 constexpr std::size_t kLeastShared = 1'000, kLeastSaved = 50'000;
 
-/// Counts the obstacles that are one mesh, by what they say about it.
+/// Counts the obstacles that are the same mesh: those with equal `mesh`, `unit`, `up` and `solid`.
 class MeshUses {
  public:
   void add(const YamlValue& obstacle) { ++uses_[keyOf(obstacle)]; }
@@ -64,7 +64,7 @@ std::vector<std::size_t> bodiesCalled(const std::string& name, const Model& mode
   // Links of a single robot have no prefix. A link's name with the robot's name before it is also
   // accepted: it distinguishes the link from an obstacle of the same name.
   const ModelRobot& first = model.robots.front();
-  const std::string own = first.model.name + "/";
+  const std::string own = first.description.name + "/";
   if (!first.name.empty() || !name.starts_with(own)) return found;
   if (const auto link = bodies.find(name.substr(own.size())); link != bodies.end())
     for (const std::size_t i : link->second)
@@ -73,10 +73,10 @@ std::vector<std::size_t> bodiesCalled(const std::string& name, const Model& mode
 }
 
 /// Returns whether this is the name of a link. A link without shapes is no body, so a pair with it
-/// needs no `allow`. But it is no fault to list it.
+/// needs no `allow`; to list such a pair is no fault.
 bool isBareLink(const std::string& name, const Model& model) {
   for (const ModelRobot& robot : model.robots)
-    for (const LinkModel& link : robot.model.links)
+    for (const LinkModel& link : robot.description.links)
       if (name == (robot.name.empty() ? link.name : robot.name + "/" + link.name)) return true;
   return false;
 }
@@ -106,7 +106,7 @@ void readWorld(const YamlMap& file, bool needed, ModelBuilder& builder, Source& 
     Placement placement;
     auto shape = readShape(map, place, files, &placement);
     if (!shape) continue;
-    std::optional<RigidPose> X_WO;  // of a frame of its own
+    std::optional<RigidPose> X_WO;  // the pose of the obstacle's own frame, if it has one
     if (shape->mesh && !placement.isIdentity()) {
       if (sharingPays(uses.of(entry->value), shape->mesh->mesh.triangles.size()))
         X_WO = placement.pose;
@@ -150,7 +150,7 @@ AllowedBodies readAllow(const YamlMap& file, const Model& model) {
       else if (found.size() > 1)
         fault(quotedWord(name) + " names a link and an obstacle; write " +
               (model.robots.front().name.empty()
-                   ? quotedWord(model.robots.front().model.name + "/" + name) + " or "
+                   ? quotedWord(model.robots.front().description.name + "/" + name) + " or "
                    : "") +
               quotedWord("world/" + name));
       else if (!isBareLink(name, model))

@@ -7,8 +7,8 @@
 
 #include "collision/core/rounding.h"
 #include "collision/core/transform.h"
+#include "planner/robot/angles.h"
 #include "planner/robot/difference.h"
-#include "planner/robot/turns.h"
 
 namespace corridor {
 namespace {

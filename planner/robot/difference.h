@@ -4,8 +4,8 @@
 
 #include <Eigen/Geometry>
 
+#include "planner/robot/angles.h"
 #include "planner/robot/configuration_space.h"
-#include "planner/robot/turns.h"
 
 namespace corridor {
 

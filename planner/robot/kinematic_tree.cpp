@@ -1,6 +1,6 @@
 #include "planner/robot/kinematic_tree.h"
 
-#include "planner/robot/turns.h"
+#include "planner/robot/angles.h"
 
 namespace corridor {
 namespace {

@@ -13,7 +13,7 @@ namespace {
 constexpr std::string_view packageScheme = "package://", fileScheme = "file://";
 
 MeshStore::Place checked(const std::filesystem::path& file) {
-  const std::string why = whyNoFile(file);
+  const std::string why = whyNotOrdinaryFile(file);
   return {file, why.empty() ? "" : file.string() + ": " + why};
 }
 
@@ -84,18 +84,19 @@ MeshStore::Place MeshStore::inPackage(const std::string& name) {
     return checked((known->second / rest).lexically_normal());
 
   const std::filesystem::path beside = (folder_ / package / rest).lexically_normal();
-  if (whyNoFile(beside).empty()) return {beside, ""};
+  if (whyNotOrdinaryFile(beside).empty()) return {beside, ""};
   // The usual layout of a package is PACKAGE/urdf/robot.urdf.
   const std::filesystem::path absolute =
       std::filesystem::absolute(folder_.empty() ? "." : folder_).lexically_normal();
   for (std::filesystem::path above = absolute; above != above.root_path();
        above = above.parent_path())
-    if (above.filename() == package && whyNoFile(above / rest).empty()) return {above / rest, ""};
+    if (above.filename() == package && whyNotOrdinaryFile(above / rest).empty())
+      return {above / rest, ""};
   auto known = rosFolders_.find(package);
   if (known == rosFolders_.end())
     known = rosFolders_.emplace(package, foldersOfPackage(package)).first;
   for (const std::filesystem::path& folder : known->second)
-    if (whyNoFile(folder / rest).empty()) return {folder / rest, ""};
+    if (whyNotOrdinaryFile(folder / rest).empty()) return {folder / rest, ""};
   if (!known->second.empty())
     return {known->second.front() / rest, "package " + quotedWord(package) + " is found at " +
                                               known->second.front().string() + ", but has no " +
@@ -103,11 +104,13 @@ MeshStore::Place MeshStore::inPackage(const std::string& name) {
   std::vector<std::string> names;
   for (const auto& entry : rules_.packages) names.push_back(entry.first);
   const std::string near = didYouMean(package, names);
-  return {beside, beside.string() + " is not a file, and package " + quotedWord(package) +
-                      " has no folder" +
-                      (near.empty() ? "; add robot.yaml: packages: {" + package +
-                                          ": FOLDER}, or set ROS_PACKAGE_PATH or AMENT_PREFIX_PATH"
-                                    : near)};
+  return {beside,
+          beside.string() + " is not a file, and package " + quotedWord(package) +
+              " has no folder" +
+              (near.empty()
+                   ? "; add packages: {" + package +
+                         ": FOLDER} to robot.yaml, or set ROS_PACKAGE_PATH or AMENT_PREFIX_PATH"
+                   : near)};
 }
 
 MeshStore::Place MeshStore::locate(const std::string& name) {

@@ -27,7 +27,7 @@ class MeshStore {
 
   /// Finds and reads the mesh that the URDF calls `name`.
   Place add(const std::string& name);
-  /// Returns the Collada files whose up-axis is not z, and was not applied.
+  /// Returns the names of the Collada files whose up-axis is not z, and was not applied.
   std::vector<std::string> ignoredUpAxes() const;
   /// @pre `file` was returned by add(), and it was readable.
   const std::shared_ptr<const MeshFile>& get(const std::filesystem::path& file) const {
@@ -41,7 +41,8 @@ class MeshStore {
   std::filesystem::path folder_;
   const UrdfRules& rules_;
   std::vector<std::filesystem::path>& files_;
-  std::map<std::string, std::vector<std::filesystem::path>> rosFolders_;  // by package, once found
+  /// The folders of each package that was searched for on ROS's paths.
+  std::map<std::string, std::vector<std::filesystem::path>> rosFolders_;
   std::map<std::filesystem::path, std::shared_ptr<const MeshFile>> meshes_;  // null: unreadable
 };
 

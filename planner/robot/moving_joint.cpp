@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "collision/core/rounding.h"
-#include "planner/robot/turns.h"
+#include "planner/robot/angles.h"
 
 namespace corridor {
 namespace {

@@ -13,19 +13,18 @@
 
 namespace corridor {
 
-/// A shape in the coordinates of its link, or of the world. Scale, up-axis rotation, local pose,
-/// and the translation to a rigid robot's reference point are already applied to its vertices or
-/// points.
+/// A shape in the coordinates of its body's frame: of a link, of the world, or of an obstacle's own
+/// frame. Scale, up-axis rotation, local pose, and the translation to a rigid robot's reference
+/// point are already applied to its vertices or points.
 struct PlacedShape {
   std::string name;  ///< "table"; if a link has several shapes, "hand/2"
-  /// Either `mesh` is set, or there are parts.
-  /// With how the file was read; vertices in final coordinates. Shapes may share it: their bodies
-  /// then share its trees.
+  /// The mesh, with the facts about how its file was read; null for a shape of parts. Shapes may
+  /// share a mesh: their bodies then share its trees.
   std::shared_ptr<const MeshFile> mesh;
   std::vector<ConvexPart> parts;       ///< one for a primitive; many for a point cloud or an octree
-  std::filesystem::path file;          ///< of a mesh, a cloud or an octree
-  std::optional<Primitive> primitive;  ///< of one part: as the user wrote it
-  RigidPose at;                        ///< its pose as the user wrote it; in a URDF parts only
+  std::filesystem::path file;          ///< the file that was read for this shape, if any
+  std::optional<Primitive> primitive;  ///< the primitive as the user wrote it, if it is one
+  RigidPose at;                        ///< the pose that the user gave, for reports and FCL
   bool solid = false;                  ///< mesh only; a part is always solid
   std::vector<Note> notes = {};        ///< about how the file was read
 };

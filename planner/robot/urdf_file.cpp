@@ -144,7 +144,7 @@ class UrdfBuilder {
     model_.links.back().shapes.push_back(std::move(shape));
   }
 
-  /// Returns the mesh of a file in the link's coordinates. Equal ones are made once.
+  /// Returns the mesh of a file in the link's coordinates. Equal meshes are made once.
   const std::shared_ptr<const MeshFile>& meshAt(const std::filesystem::path& file,
                                                 const Vec3& scale, const Transform& X) {
     const auto& source = meshes_.get(file);
@@ -158,8 +158,8 @@ class UrdfBuilder {
     return mesh;
   }
 
-  /// Adds a note for a mesh that is probably in millimetres: links of robots are at least 2 cm
-  /// long.
+  /// Adds a note if a mesh is longer than 20 m. It is then probably in millimetres: a link of more
+  /// than 20 mm.
   void noteLargeMesh(const MeshFile& file, const std::string& shape, int line) {
     constexpr double longest = 20;
     Vec3 lower = file.mesh.vertices.front(), upper = lower;
@@ -201,7 +201,7 @@ class UrdfBuilder {
   XmlFile& file_;
   RobotModel model_;
   std::unordered_map<std::string, std::size_t> linkIndex_;
-  /// By the file, and the numbers of scale and placement.
+  /// The meshes that `meshAt` made, by file and by the numbers of scale and placement.
   std::map<std::pair<std::filesystem::path, std::array<double, 15>>,
            std::shared_ptr<const MeshFile>>
       placed_;

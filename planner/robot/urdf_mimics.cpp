@@ -4,8 +4,8 @@
 
 #include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
+#include "planner/robot/angles.h"
 #include "planner/robot/joint_types.h"
-#include "planner/robot/turns.h"
 #include "planner/robot/urdf_outline.h"
 
 namespace corridor {

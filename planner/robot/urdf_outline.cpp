@@ -6,8 +6,8 @@
 #include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
 #include "collision/geometry/mesh_limits.h"
+#include "planner/robot/angles.h"
 #include "planner/robot/joint_types.h"
-#include "planner/robot/turns.h"
 
 namespace corridor {
 namespace {
@@ -155,8 +155,8 @@ void checkAxis(XmlFile& file, Element& joint, std::optional<JointType> type,
                owner + ": the axis is zero; a direction is needed, such as xyz=\"0 0 1\"");
 }
 
-/// Reads <limit>, and adds what urdfdom needs there and nothing uses: the element itself, effort
-/// and velocity. What the range means is checked by resolveMimics().
+/// Reads <limit>. If the element, effort or velocity is missing, adds it, because urdfdom requires
+/// it; Corridor does not use effort and velocity. resolveMimics() checks the range.
 std::optional<UrdfLimit> readLimit(XmlFile& file, Element& joint, std::optional<JointType> type,
                                    const std::string& owner, std::vector<Note>& notes) {
   const bool ranged = type == JointType::revolute || type == JointType::prismatic;
@@ -251,7 +251,8 @@ UrdfJoint readJoint(XmlFile& file, Element& element, const UrdfRules& rules,
   return joint;
 }
 
-/// Reports an unexpanded xacro file, whose macros would otherwise be ignored as unknown elements.
+/// Returns whether this is a xacro file that was not expanded, and reports it. Its macros would
+/// otherwise be ignored as unknown elements.
 bool isXacro(XmlFile& file, const Element& element) {
   for (const Element* child = element.FirstChildElement(); child;
        child = child->NextSiblingElement()) {
@@ -318,8 +319,8 @@ bool isTooLarge(XmlFile& file, const UrdfRules& rules, const Element& root) {
   return file.faultCount() != before;
 }
 
-/// Reports a fault if all shapes together have too many triangles. Each shape has a copy of its
-/// mesh. @pre the file has no fault.
+/// Reports a fault if all shapes together have too many triangles. A mesh counts once for each
+/// shape that uses it: most of them need a copy. @pre the file has no fault.
 void checkTriangles(const UrdfOutline& outline, const MeshStore& meshes, XmlFile& file) {
   std::size_t triangles = 0;
   for (const UrdfLink& link : outline.links)
@@ -358,7 +359,7 @@ UrdfOutline readUrdfOutline(XmlFile& file, const UrdfRules& rules, MeshStore& me
                                     outline.joints, joints, file);
   }
   const auto lineOf = [&](const std::vector<std::string>& names, const Lines& lines) {
-    const auto first = lines.find(names.front());  // absent if it has no name
+    const auto first = lines.find(names.front());  // an element without a name has no entry
     return first == lines.end() ? root.GetLineNum() : first->second;
   };
   if (!visible.empty())

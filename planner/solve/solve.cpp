@@ -20,7 +20,7 @@
 #include "planner/checker/problem_goal.h"
 #include "planner/checker/state_validity_checkers.h"
 #include "planner/problem/yaml_reader.h"
-#include "planner/solve/goal.h"
+#include "planner/solve/ompl_goal.h"
 #include "planner/solve/solve_steps.h"
 #include "planner/solve/why_not_free.h"
 
@@ -169,7 +169,7 @@ void Solve::setUpEnds() {
   ob::ScopedState<> start(si_);
   space_->write(start_, start.get());
   definition_->addStartState(start);
-  definition_->setGoal(std::make_shared<ProblemGoal>(si_, problem_, goalSamples_));
+  definition_->setGoal(std::make_shared<OmplGoal>(si_, problem_, goalSamples_));
 }
 
 void Solve::setUpObjective() {

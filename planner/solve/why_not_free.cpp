@@ -61,9 +61,9 @@ std::string described(const Checker& checker, const Contact& pair) {
                                                                  : b + " and " + a;
 }
 
-/// Returns an upper bound, metres, of how much the tube can reduce the gap between two shapes. It
-/// is the sum over all joints between the shapes of the joint's tube times its lever. The lever of
-/// a rotation reaches from the joint to the farthest point of the shape. The lever of a translation
+/// Returns an upper bound, metres, of how much the tube can reduce the gap between two shapes: each
+/// joint between the two shapes adds its tube times its lever. The lever of a rotation reaches from
+/// the joint to the farthest point of the shape. The lever of a translation
 /// is 1 for a prismatic joint, and √n for n coordinates of a planar or floating joint.
 double tubeOf(const Checker& checker, const Configuration& q, const Contact& pair) {
   const std::vector<Frame>& frames = checker.model().tree.frames;
@@ -143,9 +143,9 @@ struct NearestFree {
   double away = 0;  ///< for a pose the distance of its position, metres; else the largest step
 };
 
-/// Rounds the numbers that the message prints: to the fewest digits, at least four, with which
-/// `exact` remains free. The message prints the whole position of a pose, or else the numbers that
-/// differ from `from`.
+/// Rounds the numbers that the message prints to 4, 6, 9 or 12 digits: the fewest with which
+/// `exact` remains free. If it never does, nothing is rounded. The message prints the whole
+/// position of a pose, or else the numbers that differ from `from`.
 NearestFree withFewDigits(const Configuration& exact, const Configuration& from, double away,
                           const Checker& checker) {
   const CoordinateGroup* const pose = onlyPose(checker.space());
@@ -226,7 +226,7 @@ std::string whyUndecided(UndecidedReason reason) {
     case UndecidedReason::ambiguous:
       return "a value is so large that the pose overflows; reduce it";
     default:
-      return "its test took too much work";
+      return "the test reached its work limit";
   }
 }
 
@@ -244,12 +244,13 @@ std::optional<std::string> whyNotFree(const Configuration& q, const Checker& che
     const double needed = result.pair ? tubeOf(checker, q, *result.pair) : 0;
     if (result.gap <= needed) {
       return "the gap between " + pair + " is " + number(result.gap) + " m, and the tube needs " +
-             number(needed) + " m; move it away, or set a smaller tube";
+             number(needed) + " m; move the two bodies apart, or set a smaller tube";
     }
     return "the gap between " + pair + " is " + number(result.gap) + " m" +
            (options.margin > 0 ? " beyond the margin" : "") +
            ", too small to prove at a tolerance of " + number(options.tolerance) +
-           " m; move it away, or set checker: {tolerance: " + number(result.gap / 4) + "}";
+           " m; move the two bodies apart, or set checker: {tolerance: " + number(result.gap / 4) +
+           "}";
   }
   if (result.verdict == MotionVerdict::undecided && result.reason == UndecidedReason::rounding)
     return "a value is so large that the rounding of the pose exceeds the gap between " + pair +

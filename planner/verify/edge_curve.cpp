@@ -188,14 +188,14 @@ FrameState EdgeCurve::at(const KinematicChain& chain, Real t) const {
 
 Perturbation EdgeCurve::perturbationAt(const KinematicChain& chain, Real t,
                                        const Configuration& tube) const {
-  Perturbation strays;
+  Perturbation perturbation;
   const auto twist = [&](std::size_t number, const RealVec& linear, const RealVec& angular) {
     const Real stray = tube[static_cast<Eigen::Index>(number)];
     auto at =
-        std::find_if(strays.twists.begin(), strays.twists.end(),
+        std::find_if(perturbation.twists.begin(), perturbation.twists.end(),
                      [&](const Perturbation::Twist& other) { return other.number == number; });
-    if (at == strays.twists.end())
-      at = strays.twists.insert(at, {RealVec::Zero(), RealVec::Zero(), number});
+    if (at == perturbation.twists.end())
+      at = perturbation.twists.insert(at, {RealVec::Zero(), RealVec::Zero(), number});
     at->linear += stray * linear;
     at->angular += stray * angular;
   };
@@ -218,12 +218,12 @@ Perturbation EdgeCurve::perturbationAt(const KinematicChain& chain, Real t,
           twist(frame.variable + k, at.rotation.col(static_cast<Eigen::Index>(k)), RealVec::Zero());
         break;
       case Frame::Joint::rotation:
-        strays.pivots.push_back(
+        perturbation.pivots.push_back(
             {at.position, Real(tube[static_cast<Eigen::Index>(frame.variable)])});
         break;
     }
   });
-  return strays;
+  return perturbation;
 }
 
 Configuration EdgeCurve::configuration(Real t) const {

@@ -11,23 +11,23 @@ namespace {
 constexpr Real kInfinity = std::numeric_limits<Real>::infinity();
 /// The largest number of pairs of leaf primitives that are proved one by one in a time interval,
 /// each by its own slab. With more pairs it costs less to halve the interval.
-constexpr std::size_t kNear = 400;
-/// The same number for intervals in which the tube displaces points farther than the motion does.
-/// There halving gains little.
-constexpr std::size_t kNearInTube = 64 * kNear;
+constexpr std::size_t kMostSlabs = 400;
+/// The limit for intervals in which the tube displaces points farther than the motion does.
+/// Halving such an interval gains little.
+constexpr std::size_t kMostSlabsInTube = 64 * kMostSlabs;
 
 }  // namespace
 
-BodyMotion motionSeenFrom(const Placement& at, const FrameState& state, Perturbation strays) {
+BodyMotion motionSeenFrom(const Placement& at, const FrameState& state, Perturbation perturbation) {
   const RealMat back = at.rotation.transpose();
   const auto seen = [&](RealVec& linear, RealVec& angular) {
     linear = back * (linear + angular.cross(at.position));
     angular = back * angular;
   };
-  BodyMotion motion{state.linear, state.angular, std::move(strays)};
+  BodyMotion motion{state.linear, state.angular, std::move(perturbation)};
   seen(motion.linear, motion.angular);
-  for (Perturbation::Twist& twist : motion.strays.twists) seen(twist.linear, twist.angular);
-  for (Perturbation::PivotRotation& pivot : motion.strays.pivots)
+  for (Perturbation::Twist& twist : motion.perturbation.twists) seen(twist.linear, twist.angular);
+  for (Perturbation::PivotRotation& pivot : motion.perturbation.pivots)
     pivot.at = back * (pivot.at - at.position);
   return motion;
 }
@@ -50,9 +50,9 @@ MovedSlab::Side MovedSlab::sideOf(const BodyMotion& motion, Real half, const Rea
   Side side;
   side.back = {along - half * velocity.slope, -half * velocity.constant};
   side.forth = {along + half * velocity.slope, half * velocity.constant};
-  for (const Perturbation::Twist& twist : motion.strays.twists)
+  for (const Perturbation::Twist& twist : motion.perturbation.twists)
     side.twists.push_back(seen(twist.linear, twist.angular));
-  side.pivots = motion.strays.pivots;
+  side.pivots = motion.perturbation.pivots;
   return side;
 }
 
@@ -67,17 +67,17 @@ Real MovedSlab::perturbationOf(const Side& side, const RealVec& x) const {
 MovedSlab::Support MovedSlab::supportOf(const Side& side, const ConvexSet& set) const {
   Support most{-kInfinity, -kInfinity};
   for (const RealVec& x : set.points) {
-    const Real strays = perturbationOf(side, x);
-    most.back = std::max(most.back, side.back.at(x) + strays);
-    most.forth = std::max(most.forth, side.forth.at(x) + strays);
+    const Real perturbation = perturbationOf(side, x);
+    most.back = std::max(most.back, side.back.at(x) + perturbation);
+    most.forth = std::max(most.forth, side.forth.at(x) + perturbation);
   }
   if (set.flatEnds) {
     const auto across = [&](const RealVec& g) { return (g - set.axis * set.axis.dot(g)).norm(); };
-    Real strays = 0;
-    for (const Affine& twist : side.twists) strays += across(twist.slope);
-    for (const Perturbation::PivotRotation& pivot : side.pivots) strays += pivot.angle;
-    most.back += set.radius * (across(side.back.slope) + strays);
-    most.forth += set.radius * (across(side.forth.slope) + strays);
+    Real perturbation = 0;
+    for (const Affine& twist : side.twists) perturbation += across(twist.slope);
+    for (const Perturbation::PivotRotation& pivot : side.pivots) perturbation += pivot.angle;
+    most.back += set.radius * (across(side.back.slope) + perturbation);
+    most.forth += set.radius * (across(side.forth.slope) + perturbation);
   }
   most.back += set.ball();
   most.forth += set.ball();
@@ -86,14 +86,15 @@ MovedSlab::Support MovedSlab::supportOf(const Side& side, const ConvexSet& set) 
 
 MovedSlab::Support MovedSlab::supportOf(const Side& side, const CentredBox& box) const {
   const auto within = [&](const RealVec& g) { return g.cwiseAbs().dot(box.half); };
-  Real strays = perturbationOf(side, box.centre);
-  for (const Affine& twist : side.twists) strays += within(twist.slope);
+  Real perturbation = perturbationOf(side, box.centre);
+  for (const Affine& twist : side.twists) perturbation += within(twist.slope);
   if (!side.pivots.empty()) {
     const Real radius = box.half.norm();
-    for (const Perturbation::PivotRotation& pivot : side.pivots) strays += pivot.angle * radius;
+    for (const Perturbation::PivotRotation& pivot : side.pivots)
+      perturbation += pivot.angle * radius;
   }
-  return {side.back.at(box.centre) + within(side.back.slope) + strays,
-          side.forth.at(box.centre) + within(side.forth.slope) + strays};
+  return {side.back.at(box.centre) + within(side.back.slope) + perturbation,
+          side.forth.at(box.centre) + within(side.forth.slope) + perturbation};
 }
 
 Real MovedSlab::width(const ConvexSet& a, const ConvexSet& b) const {
@@ -112,7 +113,7 @@ Real boundBySlabs(BodyDistance& placed, const BodyGap& measured, const PairMotio
                   const Sought& sought, std::vector<PiecePair>& scratch) {
   const Real lost = motion.secondOrder + motion.rounding;
   // In any direction, motion, tube and rounding reduce a distance by at most this much.
-  const Real most = motion.travel + motion.tube + motion.rounding;
+  const Real most = motion.motionBound + motion.tube + motion.rounding;
   const auto slabAlong = [&](const RealVec& direction) {
     return MovedSlab(motion.a, motion.b, motion.half, direction);
   };
@@ -141,9 +142,9 @@ Real boundBySlabs(BodyDistance& placed, const BodyGap& measured, const PairMotio
   };
   if (measured.lower - lost <= sought.needed || boundOf(measured.pair) <= sought.needed)
     return -kInfinity;
-  // Pairs of leaf primitives that are farther apart than `bound + most` need no slab. Pairs in two
-  // boxes that the general slab separates by `bound` are settled.
-  const std::size_t count = motion.tube > motion.travel ? kNearInTube : kNear;
+  // Pairs of leaf primitives that are farther apart than `bound + most` need no slab. A pair of
+  // boxes that the general slab separates by `bound` is settled: its leaf primitives need no slab.
+  const std::size_t count = motion.tube > motion.motionBound ? kMostSlabsInTube : kMostSlabs;
   for (Real bound : {sought.wanted, sought.little}) {
     const auto settled = [&](const CentredBox& a, const CentredBox& b) {
       return general.width(a, b) - lost >= bound;

@@ -8,15 +8,16 @@ namespace corridor::verify {
 
 /// The motion of a body's points around the middle of a time interval, to first order. The
 /// coordinate system is fixed during the interval. A point x has the velocity linear + angular × x
-/// per unit of t, and the perturbations `strays`.
+/// per unit of t. The tube displaces it by `perturbation`.
 struct BodyMotion {
   RealVec linear = RealVec::Zero(), angular = RealVec::Zero();
-  Perturbation strays;  ///< empty if the caller bounds the tube by other means
+  Perturbation perturbation;  ///< empty if the caller bounds the tube by other means
 };
 
-/// Transforms a frame's motion into other coordinates, placed at `at`. @pre `state` and `strays`
-/// are of the same kinematic chain at the same t.
-BodyMotion motionSeenFrom(const Placement& at, const FrameState& state, Perturbation strays);
+/// Returns a frame's motion, which `state` and `perturbation` give in the coordinates of the
+/// chain's base, in those of a frame that is placed at `at` in the base.
+/// @pre `state` and `perturbation` belong to the same kinematic chain, at the same t.
+BodyMotion motionSeenFrom(const Placement& at, const FrameState& state, Perturbation perturbation);
 
 /// The width of the slab between two moving bodies along a direction n, to first order of the
 /// motion. The width is a lower bound of their distance in the whole interval and tube, except for
@@ -47,7 +48,8 @@ BodyMotion motionSeenFrom(const Placement& at, const FrameState& state, Perturba
 /// box has the points x + d, |d_i| ≤ e_i: d·g ≤ Σ e_i |g_i|, and |n × d| ≤ |e|. With several terms,
 /// these bounds may not be attained.
 ///
-/// Rounding: about 2^-58 of lengths that Reach::size includes.
+/// The width is rounded by about 2^-58 of lengths that Reach::size includes. PairMotion::rounding
+/// (2^-49 of Reach::size) covers this.
 class MovedSlab {
  public:
   /// @param direction from a to b, of any length; with 0 the width is −infinity.
@@ -80,10 +82,10 @@ class MovedSlab {
 
 /// The motion of a pair of bodies in a time interval, and its bounds. Lengths in metres.
 struct PairMotion {
-  BodyMotion a, b;  ///< in a's frame at the middle
-  Real half = 0;    ///< half width of the interval, in t
-  Real travel = 0;  ///< upper bound of any point's displacement from its place at the middle
-  Real tube = 0;    ///< upper bound of any point's displacement within the tube, in any direction
+  BodyMotion a, b;       ///< in a's frame at the middle
+  Real half = 0;         ///< half width of the interval, in t
+  Real motionBound = 0;  ///< upper bound of any point's displacement from its place at the middle
+  Real tube = 0;  ///< upper bound of any point's displacement within the tube, in any direction
   Real secondOrder = 0;  ///< upper bound of the terms that MovedSlab leaves out
   Real rounding = 0;
 };

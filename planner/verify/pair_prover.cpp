@@ -212,9 +212,9 @@ PairProver::Measured PairProver::measure(const TimeInterval& interval, std::size
 PairAnswer PairProver::decide(const TimeInterval& interval, const OpenPair& open,
                               Real usefulBound) {
   const PairReach& reach = reaches_[interval.edge][open.pair];
-  const Real travel = reach.sum.speed * interval.half, pad = reach.sum.tube + reach.rounding;
+  const Real motionBound = reach.sum.speed * interval.half, pad = reach.sum.tube + reach.rounding;
   const Real margin = problem_.margin;
-  const Real stop = std::max<Real>(margin, usefulBound) + travel + pad;
+  const Real stop = std::max<Real>(margin, usefulBound) + motionBound + pad;
   const Measured m = measure(interval, open.pair, open.guess, stop);
   PairAnswer answer;
   answer.closest = m.gap.pair;
@@ -225,14 +225,14 @@ PairAnswer PairProver::decide(const TimeInterval& interval, const OpenPair& open
     answer.verdict = reach.sharp ? PathVerdict::refuted : PathVerdict::undecided;
     return answer;
   }
-  answer.bound = std::max(open.bound, m.gap.lower - travel - pad);
+  answer.bound = std::max(open.bound, m.gap.lower - motionBound - pad);
   if (answer.bound <= margin && (interval.half > 0 || tubeMatters(reach)))
     answer.bound = std::max(answer.bound, boundPiecewise(interval, open.pair, m, usefulBound));
   if (answer.bound > margin) {
     answer.verdict = PathVerdict::proved;
   } else {
     answer.reason = whyStuck(reach, m);
-    if (travel <= problem_.tolerance) answer.verdict = PathVerdict::undecided;
+    if (motionBound <= problem_.tolerance) answer.verdict = PathVerdict::undecided;
   }
   return answer;
 }
@@ -243,7 +243,7 @@ Real PairProver::boundPiecewise(const TimeInterval& interval, std::size_t pair, 
   const Real half = interval.half;
   PairMotion motion;
   motion.half = half;
-  motion.travel = reach.sum.speed * half;
+  motion.motionBound = reach.sum.speed * half;
   motion.tube = reach.sum.tube;
   motion.rounding = reach.rounding;
   Perturbation a, b;

@@ -60,8 +60,8 @@ class PairProver {
   /// is ambiguous, or a joint jumps. Such an edge must not be passed to the functions below.
   const std::optional<PathFinding>& noCurve(std::size_t edge) const { return noCurve_[edge]; }
 
-  /// Decides a pair of bodies in an interval. @param usefulBound a bound of the clearance above
-  /// this value is of no use.
+  /// Decides a pair of bodies in an interval.
+  /// @param usefulBound a bound of the clearance above this value is of no use.
   PairAnswer decide(const TimeInterval& interval, const OpenPair& open, Real usefulBound);
 
   /// Refutes a pair if, at t = 0 of the first edge, one body has a point inside the other body, a

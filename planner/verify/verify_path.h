@@ -20,11 +20,11 @@ namespace corridor {
 /// interval of an edge, the distance d of two bodies is bounded from below. Take any point of one
 /// body and any point of the other. Seen from the common ancestor of the two frames, their
 /// displacements from the middle add up to at most the motion bound
-///     travel = Σ |Δ_j|·h·reach_j  over the joints between the two frames.
+///     bound = Σ |Δ_j|·h·reach_j  over the joints between the two frames.
 /// Here h is the half width of the interval in t. reach_j is a constant: the length of the chain
 /// after joint j, plus the radius of the body (1 for a prismatic joint).
 ///
-/// 1. If d > travel + margin + tube + rounding, the interval is proved for this pair.
+/// 1. If d > bound + margin + tube + rounding, the interval is proved for this pair.
 /// 2. Otherwise each near pair of leaf primitives is tested along directions of its own, such as
 ///    the one between its closest points. Three terms reduce the distance in such a direction: the
 ///    velocity at the middle; the tube, if it exceeds the tolerance; and a second-order term, which

@@ -15,7 +15,7 @@ constexpr double kShare = 1.0 / 400;             // largest step, as a share of 
 constexpr double kMostSamples = 1500;
 constexpr int kLook = 8;  // pieces into which an edge is cut to estimate how far bodies move on it
 
-/// Computes how far the moving bodies go from pose to pose.
+/// Computes how far the moving bodies move between two poses.
 class Travel {
  public:
   explicit Travel(const Problem& problem) {
@@ -110,7 +110,7 @@ PathSamples samplePath(const Problem& problem, const Path& path,
   for (std::size_t edge = 0; edge < edges; ++edge) {
     const double fewer = std::min(1.0, kMostSamples / sum);
     for (const double t : timesOf(edge, fewer * steps[edge], findings)) {
-      if (t == 0) continue;  // it is the last sample of the edge before
+      if (t == 0) continue;  // this is the last sample of the previous edge
       PathSample sample{edge, t, 0, poses(edge, t)};
       const PathSample& before = result.samples.back();
       sample.at = before.at + travel.between(before.X_WF, sample.X_WF);

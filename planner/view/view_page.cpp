@@ -77,7 +77,7 @@ class PageData {
   void addScene() {
     ordered_json& robots = json_["robots"] = ordered_json::array();
     for (const ModelRobot& robot : problem_.model.robots)
-      robots.push_back({{"name", robot.name}, {"model", robot.model.name}});
+      robots.push_back({{"name", robot.name}, {"model", robot.description.name}});
     ordered_json& meshes = json_["meshes"] = ordered_json::array();
     for (const DisplayMesh& mesh : scene_.meshes)
       meshes.push_back(

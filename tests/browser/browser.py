@@ -1,7 +1,8 @@
 """Helpers for the tests of pages: they run the program and a browser without a display, and check every page.
 
-A test is a script that imports this file and ends with `main([test, …])`, a list of functions of a browser and a folder. Without
-Chromium, its driver or Selenium it prints the reason and ends with status 77, which ctest shows as skipped."""
+A test is a script that imports this file and ends with `main([test, …])`, a list of functions, each of which takes a
+browser and a folder. Without Chromium, its driver or Selenium the script prints the reason and ends with status 77, which
+ctest shows as skipped."""
 
 import contextlib
 import os

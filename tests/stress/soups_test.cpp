@@ -54,7 +54,7 @@ Soups anySoups(Random& random, int count) {
     for (Triangle* t : {&a, &b})
       for (Vec3& p : *t) p += place;
     test::add(s.a, a);
-    // Only some partners are added, so that most meshes do not touch everywhere.
+    // Of each pair, b is added only sometimes, so that most meshes do not touch everywhere.
     if (random() % 8 == 0 || s.b.triangles.empty()) test::add(s.b, b);
   }
   if (random() % 2) {
@@ -168,7 +168,8 @@ class SoupQueries : public testing::Test {
 
   QueryContext context_;
   std::set<std::vector<double>> rotations_;  // those that occurred
-  int distances_ = 0, otherBits_ = 0;        // distances compared; with other bits when rotated
+  int distances_ = 0,
+      otherBits_ = 0;  // distances compared; those whose last bits differ after a rotation
 };
 
 TEST_F(SoupQueries, AgainstBruteForce) {
@@ -250,7 +251,8 @@ void expectRationals(Random& random, const Soups& s, const TrianglePairs& found,
   }
 }
 
-/// Large meshes: compares the two kinds of trees, which share only the predicate, and rationals.
+/// Large meshes: compares both kinds of trees with each other and with rationals. The trees share
+/// only the predicate.
 TEST_F(SoupQueries, HugeSoups) {
   Random random(test::testSeed(92));
   const int count = (test::isStressRun() ? 50'000 : 4'000) / test::kSlowdown;

@@ -25,7 +25,7 @@ struct Workload {
 std::vector<std::string> workloadNames(const std::filesystem::path& collisionFolder);
 Workload loadWorkload(const std::filesystem::path& collisionFolder, const std::string& name);
 
-/// Returns the numbers of the poses on which the `way`-th of `ways` tree variants is tested. Under
+/// Returns the indices of the poses on which the `way`-th of `ways` tree variants is tested. Under
 /// CORRIDOR_STRESS these are all poses. Otherwise, to save time, only every `step`-th pose is
 /// tested, and the variants take turns. If a workload has few poses, building several trees would
 /// take longer than the queries. Then variant 0 gets all of these poses, and the others get none.

@@ -110,7 +110,7 @@ TEST(ConvexDistance, KnownGaps) {
           EXPECT_LE(gap, 0x1p-44 * sizeOf(a, b)) << what;
           continue;
         }
-        // The rounding of the constructed positions doubles the error.
+        // The rounding of the constructed positions may double the error.
         const double allowed = allowedAt(gap, sizeOf(a, b)) + 4 * kUnit * sizeOf(a, b);
         EXPECT_LE(std::abs(d - gap), allowed) << what << " gap " << gap;
         worst = std::max(worst, std::abs(d - gap) / allowed);
@@ -200,7 +200,7 @@ TEST(ConvexDistance, PolytopesAgainstAllTheirTriangles) {
 
 /// `lower` does not exceed the exact distance even in the last digit. Some faces are so nearly
 /// parallel that, in doubles, all their corners are at the same height along the normal.
-TEST(ConvexDistance, LowerThanTheExactDistance) {
+TEST(ConvexDistance, LowerNeverExceedsTheExactDistance) {
   Touching make(test::testSeed(36));
   int exact = 0;
   for (int n = 0; n < 40 / test::kSlowdown + 1; ++n) {
@@ -295,8 +295,8 @@ TEST(ConvexDistance, FlatThinAndPointShapes) {
   }
 }
 
-/// Both distances and verdicts treat a sphere under a map that is not rigid as an ellipsoid. This
-/// ellipsoid has half axes (2, 1, 0.1), and is above a plate, tilted.
+/// Distances and verdicts both treat a sphere under a map that is not rigid as an ellipsoid. This
+/// tilted ellipsoid, with half axes (2, 1, 0.1), is above a plate.
 TEST(ConvexDistance, AnyAffineMap) {
   const ConvexPart plate = placed(Box{Vec3(20, 20, 1)}, {});
   const ConvexPart ball = placed(Sphere{1}, {});

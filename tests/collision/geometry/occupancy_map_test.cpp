@@ -24,8 +24,8 @@ std::string header(int nodes) {
          std::to_string(nodes) + "\nres 0.1\ndata\n";
 }
 
-/// Returns the data of a .bt file: `levels` inner nodes, each the only child, number `child`, of
-/// the one above; then `last`, the 16 bits of the last node.
+/// Returns the data of a .bt file: `levels` inner nodes, each of which is child number `child` of
+/// the node above and its only child; then `last`, the 16 bits of the last node.
 std::string chain(int child, std::uint16_t last, int levels = 15) {
   std::string data;
   for (int i = 0; i < levels; ++i) data += bytesOf(static_cast<std::uint16_t>(3 << 2 * child));
@@ -88,10 +88,10 @@ TEST(OccupancyMap, Messages) {
     return std::string("no complaint");
   };
   EXPECT_EQ(complaint({true, "OcTree", 0.1, data + "x"}),
-            "message: 1 bytes come after the last node: the message is damaged");
+            "message: 1 byte comes after the last node: the message is damaged");
   EXPECT_EQ(complaint({true, "OcTree", 0.1, data.substr(1)}).substr(0, 9), "message: ");
   EXPECT_EQ(complaint({true, "ColorOcTree", 0.1, data}),
-            "message: trees of type \"ColorOcTree\" are not read; OcTree is");
+            "message: trees of type \"ColorOcTree\" can't be read; save an OcTree");
   EXPECT_EQ(complaint({true, "OcTree", 0, data}),
             "message: resolution: the edge length of a cell, in metres, must be above 0 and below "
             "1e100");
@@ -106,7 +106,7 @@ TEST(OccupancyMap, Faults) {
   EXPECT_EQ(complaintOf(good.substr(0, good.size() - 1)),
             "map.bt: the file ends within its nodes: it is cut short");
   EXPECT_EQ(complaintOf(good + "x"),
-            "map.bt: 1 bytes come after the last node: the file is damaged");
+            "map.bt: 1 byte comes after the last node: the file is damaged");
   EXPECT_EQ(complaintOf(header(18) + chain(0, 3 << 4) + chain(0, 2)),
             "map.bt: the tree is deeper than 16 levels: the file is damaged");
   const auto with = [&](const std::string& old, const std::string& text) {
@@ -114,8 +114,8 @@ TEST(OccupancyMap, Faults) {
     return complaintOf(bytes.replace(bytes.find(old), old.size(), text));
   };
   EXPECT_EQ(with("id OcTree", "id OcTreeStamped"),
-            "map.bt: trees of type \"OcTreeStamped\" are not read; OcTree is");
-  EXPECT_EQ(with("size 17", "size -2"), "map.bt:5: size: \"-2\" is no number of nodes");
+            "map.bt: trees of type \"OcTreeStamped\" can't be read; save an OcTree");
+  EXPECT_EQ(with("size 17", "size -2"), "map.bt:5: size: a number of nodes is needed, not \"-2\"");
   EXPECT_EQ(with("size 17\n", ""), "map.bt: the header has no line \"size\"");
   EXPECT_EQ(with("size 17", "size 18"),
             "map.bt: the header promises 18 nodes, but the data have 17: the file is damaged");

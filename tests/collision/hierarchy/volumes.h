@@ -49,11 +49,12 @@ inline std::string str(const TreeParams& p) {
          (p.building == TreeBuilding::topDown ? ", top-down" : ", bottom-up");
 }
 
-/// Returns the numbers of the poses of a workload on which the `fit`-th fit is tested. Fit 0, the
+/// Returns the indices of the poses of a workload on which the `fit`-th fit is tested. Fit 0, the
 /// default, is tested on every step-th pose. Each other fit is tested on every (4·step)-th pose:
 /// from pose 0 if `fit + turn` is even, else from pose 2·step. If the workload has few poses, fits
 /// other than 0 get none, because building their trees would take longer than the queries. Slow
 /// builds test fewer poses. With CORRIDOR_STRESS every fit is tested on all poses.
+/// @param turn the number of the workload, so that successive workloads test different poses.
 inline std::vector<std::size_t> posesOfFit(const Workload& w, std::size_t step, std::size_t fit,
                                            std::size_t turn) {
   if (fit > 0 && w.poses.size() < 100 && !isStressRun()) return {};

@@ -15,8 +15,8 @@
 namespace corridor::test {
 namespace {
 
-Polynomial linear(int root, int of) {  // 0 at root/of
-  return Polynomial({-root, of});
+Polynomial linear(int root, int denominator) {  // 0 at root/denominator
+  return Polynomial({-root, denominator});
 }
 
 /// Products of linear factors, some of them squared, and one factor without real roots.
@@ -77,7 +77,7 @@ RationalScene sceneNumber(int n, std::mt19937_64& random) {
 
 /// The oracle's motion must be that of the edge. The test computes the edge's motion from its
 /// definition, in long double.
-TEST(SturmContact, MotionIsTheEdges) {
+TEST(SturmContact, MotionIsThatOfTheEdge) {
   std::mt19937_64 random(testSeed(43));
   for (int n = 0; n < 300; ++n) {
     const RationalScene scene = sceneNumber(n, random);
@@ -90,8 +90,8 @@ TEST(SturmContact, MotionIsTheEdges) {
             ((pose.X.m.cast<long double>() * p.cast<long double>() + pose.X.t.cast<long double>()) /
              weight)
                 .eval();
-        // Quaternions, angles up to π, and products with both are rounded by 2^-64, some ten times
-        // in all.
+        // About ten roundings of 2^-64 each: of quaternions, of angles up to π, and of their
+        // products.
         ASSERT_LE((at - edge.point(t, p)).norm(), 0x1p-57L * (p.norm() + at.norm())) << n;
       }
     }

@@ -26,7 +26,8 @@ Pairs found(const TriangleMesh& mesh) {
 
 TEST(SelfIntersections, NoneOfSoundMeshes) {
   EXPECT_EQ(found({}), Pairs());
-  EXPECT_EQ(found(box(Vec3(0, 0, 0), Vec3(1, 2, 3))), Pairs()) << "each triangle by itself, too";
+  EXPECT_EQ(found(box(Vec3(0, 0, 0), Vec3(1, 2, 3))), Pairs())
+      << "no triangle is reported with itself";
   std::mt19937_64 random(test::testSeed(63));
   TriangleMesh hills;  // one height per place: it can't intersect itself
   for (int x = 0; x < 20; ++x)
@@ -122,8 +123,8 @@ std::vector<Triangle> without(const Triangle& t, const std::vector<int>& shared)
   return {{p, q, x}, {q, x, y}};
 }
 
-/// Corners lie on a small grid, so every common point of two triangles that is not shared is far
-/// from the shared ones. On a grid of 5, a cut of 2^-12 removes no other point of an intersection.
+/// Corners lie on a small grid. So two triangles meet either in their shared corner or edge, or far
+/// from it. On a grid of 5, a cut of 2^-12 removes no other point of an intersection.
 TEST(SelfIntersections, RandomMeshesAgainstRationals) {
   std::mt19937_64 random(test::testSeed(64));
   std::array<int, 3> crossing = {}, clear = {};

@@ -80,7 +80,7 @@ struct Pairs {
     // Rounding to floats: entries of M are off by u, centres by 4u·(3 + 3s). The margins of
     // `Obb4TreePose` cover both.
     pose.relative = f(180 * 0x1p-24 + 20 * 0x1p-24);
-    pose.ball = f(0x1p-24 * (33 * scale + 6 + 20));
+    pose.absoluteMargin = f(0x1p-24 * (33 * scale + 6 + 20));
     for (int k = 0; k < 3; ++k) {
       bound.angular[k] = f(angular[k]);
       for (int l = 0; l < 3; ++l) pose.turn[l][k] = f(M(k, l));

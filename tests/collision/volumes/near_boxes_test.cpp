@@ -125,7 +125,8 @@ TEST_P(NearBoxes, BoundTheirDistances) {
     // floats.
     constexpr double u = 0x1p-24;
     pose.relative = static_cast<float>(180 * u + 20 * u);
-    pose.ball = static_cast<float>(u * (33 * scale + 3.1 * exact.t.cwiseAbs().sum() + 6) * 1.01);
+    pose.absoluteMargin =
+        static_cast<float>(u * (33 * scale + 3.1 * exact.t.cwiseAbs().sum() + 6) * 1.01);
     alignas(64) float squares[16];
     const double limit = unit * std::pow(10.0, real(-1, 1.5));
     const unsigned open = HWY_DYNAMIC_DISPATCH(far)(a, b, pose, static_cast<float>(limit), squares);
@@ -147,7 +148,8 @@ TEST_P(NearBoxes, BoundTheirDistances) {
           ++within;
         }
         // The bound is too small by at most 2^-14 of its value and the margins of the pose.
-        const double margin = 4 * (static_cast<double>(pose.relative) * 3 * size + pose.ball);
+        const double margin =
+            4 * (static_cast<double>(pose.relative) * 3 * size + pose.absoluteMargin);
         if (d > r) {
           ASSERT_GE(least, std::sqrt(d * d - r * r) * (1 - 0x1p-14) - margin) << n << ": " << d;
         }

@@ -127,7 +127,7 @@ TEST_F(Database, StoresTheSessionsOfItsRuns) {
   std::vector<CampaignCell> cells = cellsOf(campaign);
   std::vector<CampaignSession> sessions =
       CampaignDatabase(file_, Mode::resume, campaign, cells, 7).sessions();
-  ASSERT_EQ(sessions.size(), 1u) << "a session without a run made nothing";
+  ASSERT_EQ(sessions.size(), 1u) << "a session without a run is not stored";
   EXPECT_EQ(sessions[0].commit, "an older one");
   EXPECT_EQ(sessions[0].jobs, 1u);
   EXPECT_EQ(sessions[0].started.size(), std::string("2026-05-04 03:02:01").size());

@@ -175,7 +175,7 @@ TEST_F(CampaignYaml, Defaults) {
 }
 
 /// FCL is used if it is installed. Otherwise it is left out, with a note.
-TEST_F(CampaignYaml, Peers) {
+TEST_F(CampaignYaml, Competitors) {
   const Campaign c = read(std::string(kStart) +
                           "checkers: {fcl: {peer: fcl, edges: discrete, resolution: [0.1, 0.2]}, "
                           "ours: {edges: discrete}}\n");
@@ -190,7 +190,7 @@ TEST_F(CampaignYaml, Peers) {
   }
   EXPECT_THAT(
       faults(std::string(kStart) + "checkers: {x: {peer: fclo}}\n"),
-      ElementsAre("c.yaml:3: checkers.x.peer: unknown peer \"fclo\" (did you mean \"fcl\"?); "
+      ElementsAre("c.yaml:3: checkers.x.peer: unknown competitor \"fclo\" (did you mean \"fcl\"?); "
                   "there are: fcl"));
   EXPECT_THAT(faults(std::string(kStart) + "checkers: {x: {peer: fcl}}\n"),
               ElementsAre("c.yaml:3: checkers.x.peer: fcl tests states only; set edges: discrete"));
@@ -212,7 +212,8 @@ TEST_F(CampaignYaml, AllFaultsAtOnceWithTheirLines) {
       ElementsAre(
           "c.yaml:2: problems: no such file or folder: nothing.yaml",
           HasSubstr("c.yaml:3: unknown key \"planer\" (did you mean \"planners\"?)"),
-          "c.yaml:4: missing key \"name\" in planners[]: OMPL's, such as RRTConnect",
+          "c.yaml:4: missing key \"name\" in planners[]: OMPL's name of a planner, such as "
+          "RRTConnect",
           HasSubstr("c.yaml:6: checkers.a.edges: "), HasSubstr("c.yaml:6: checkers.a.resolution: "),
           "c.yaml:7: checkers.b: a map is needed, such as {edges: certified}, not \"certified\"",
           "c.yaml:8: checkers.c.resolution: a list must have one or more single values",

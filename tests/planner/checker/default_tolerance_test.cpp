@@ -37,8 +37,7 @@ TriangleMesh topOf(double size) {
   return mesh;
 }
 
-/// Rounds to a multiple of 2^-80. Positions and gaps are such multiples, so the tip's heights above
-/// the floor are exact.
+/// Rounds to a multiple of 2^-42, so that sums and differences of such positions are exact.
 double onGrid(double x) {
   return std::ldexp(std::round(std::ldexp(x, 42)), -42);
 }
@@ -133,7 +132,7 @@ TEST(DefaultTolerance, ChainsFarFromTheOrigin) {
     const double rounding = roundingTolerance(problem.model);
     options.tolerance = std::max(scene.defaultTolerance(), rounding);
     sharp += options.tolerance == rounding;
-    ASSERT_LT(options.tolerance, 0.01 * size) << "of use";
+    ASSERT_LT(options.tolerance, 0.01 * size) << "the tolerance is too large to be of use";
     from[2] = to[2] = from[2] + options.tolerance * (2.05 + std::abs(real(random)));
     EdgeMotion motion(problem.model.tree, problem.model.space, scene.framePairs(),
                       problem.task.tube);
@@ -144,7 +143,7 @@ TEST(DefaultTolerance, ChainsFarFromTheOrigin) {
         << n << ": size " << size << ", far " << far << ", tolerance " << options.tolerance
         << ", reason " << static_cast<int>(result.reason);
   }
-  EXPECT_GT(sharp, 300) << "the rounding of large coordinates decides";
+  EXPECT_GT(sharp, 300) << "too few cases in which rounding sets the tolerance";
 }
 
 /// Two branches of one tree: the rounding of both counts.
@@ -165,7 +164,7 @@ TEST(DefaultTolerance, BranchesFarFromTheOrigin) {
       frame.variable = problem.model.space.coordinates()[problem.model.space.add(c)].first;
       return problem.model.tree.add(frame);
     };
-    // All rotations are about z, so the heights of tip and floor are those of the file.
+    // All rotations are about z, so the heights of tip and floor are exactly those of their meshes.
     const auto out = [&] { return Vec3(far * real(random), far * real(random), 0); };
     const std::size_t left = add(add(add(0, out()), out()), out());
     const std::size_t right = add(add(add(0, out()), out()), out());
@@ -196,7 +195,7 @@ TEST(DefaultTolerance, BranchesFarFromTheOrigin) {
     bodies(0);
     MotionOptions options;
     options.tolerance = defaultTolerance(problem.model, 1e-7 * size);
-    ASSERT_LT(options.tolerance, 0.01 * size) << "of use";
+    ASSERT_LT(options.tolerance, 0.01 * size) << "the tolerance is too large to be of use";
     const Scene scene(bodies(options.tolerance * (2.05 + std::abs(real(random)))), {{0, 1}});
     EdgeMotion motion(problem.model.tree, problem.model.space, scene.framePairs(),
                       problem.task.tube);

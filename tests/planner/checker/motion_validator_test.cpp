@@ -2,9 +2,11 @@
 #include <algorithm>
 #include <cstring>
 #include <random>
+#include <stdexcept>
 #include <thread>
 
 #include <gtest/gtest.h>
+#include <ompl/base/spaces/SE3StateSpace.h>
 
 #include "planner/checker/motion_validators.h"
 #include "planner/checker/state_validity_checkers.h"
@@ -220,6 +222,41 @@ TEST(DiscreteMotionValidator, StepsOverAThinWallAndCertifiedDoesNot) {
   const auto from = hall.scoped(hall.at(-1, 0)), to = hall.scoped(hall.at(2, 0));
   EXPECT_TRUE(discrete.checkMotion(from.get(), to.get()));
   EXPECT_FALSE(certified.checkMotion(from.get(), to.get()));
+}
+
+/// Returns the message of the exception that `make` throws.
+template <class Make>
+std::string complaintOf(const Make& make) {
+  try {
+    make();
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "no complaint";
+}
+
+/// Without the check, the validators would cast OMPL's states to those of another class.
+TEST(CheckersForOmpl, RefuseOtherStateSpaces) {
+  const Hall spatial(Rigid::SE3), planar(Rigid::SE2);
+  const auto complaintsIn = [&](const ob::SpaceInformationPtr& si) {
+    const Checker& checker = spatial.checker;
+    const std::string complaint =
+        complaintOf([&] { const CertifiedMotionValidator validator(si, checker); });
+    EXPECT_EQ(complaintOf([&] { const DiscreteMotionValidator validator(si, checker); }),
+              complaint);
+    EXPECT_EQ(complaintOf([&] { const CertifiedStateValidityChecker validity(si, checker); }),
+              complaint);
+    EXPECT_EQ(complaintOf([&] { const ExactStateValidityChecker validity(si, checker); }),
+              complaint);
+    return complaint;
+  };
+  EXPECT_EQ(complaintsIn(spatial.si), "no complaint");
+  const auto theirs = std::make_shared<ob::SE3StateSpace>();
+  EXPECT_EQ(complaintsIn(std::make_shared<ob::SpaceInformation>(theirs)),
+            "the state space of OMPL must be a ProblemStateSpace, made of the model's space");
+  EXPECT_EQ(complaintsIn(planar.si),
+            "the ProblemStateSpace has 3 numbers, but the checker's model has 7; make it of the "
+            "space of the checker's model");
 }
 
 INSTANTIATE_TEST_SUITE_P(All, MotionValidators, testing::ValuesIn(kinds()), nameOf);

@@ -131,8 +131,8 @@ TEST(NeverInContact, StopsAtTheWorkLimit) {
   EXPECT_EQ(prove(model, "base", "hand", {.boxes = 0}).verdict, Verdict::workLimit);
 }
 
-/// A contact at one value of a joint only, which no sample meets: a ball touches a plate at the
-/// joint's limit.
+/// A contact at one value of a joint only, which no sample meets: two balls touch at the limit of
+/// the slide.
 TEST(NeverInContact, DoesNotProveATouchInOnePoint) {
   const auto slider = [](double upper) {
     return modelOf(ball("base", 0.25) + "<link name='cart'/>" + ball("hand", 0.25) +
@@ -172,8 +172,8 @@ TEST(NeverInContact, RefusesBadOptions) {
   }
 }
 
-/// A random tree of links, with joints of all single types, and mimics. Links have one or two
-/// shapes.
+/// A random tree of links, with revolute, continuous and prismatic joints, and mimics. Links have
+/// one or two shapes.
 std::string randomRobot(std::mt19937_64& random) {
   const auto uniform = [&](double lower, double upper) {
     return std::uniform_real_distribution(lower, upper)(random);

@@ -57,7 +57,7 @@ TEST(SharedStates, LinksThatTouchEachOther) {
     if (!srdf.empty()) readSrdf(robots / srdf, *model, faults);
     ASSERT_TRUE(faults.empty()) << InputError(faults).what();
     ModelRobot arm;
-    arm.model = *model;
+    arm.description = *model;
     std::vector<std::size_t> moving;
     for (std::size_t j = 0; j < model->joints.size(); ++j)
       if (movesItself(model->joints[j])) moving.push_back(j);

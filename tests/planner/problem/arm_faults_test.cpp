@@ -37,11 +37,12 @@ TEST_F(ArmFaults, States) {
       start("{pan: 1, lfit: 0}"),
       "problem.yaml:5: start.lfit: there is no joint \"lfit\" (did you mean \"lift\"?) (known: "
       "pan, lift, slide)");
-  EXPECT_EQ(start("{pan: 1, lift: 0, slide: 0.02, wrist: 1, follow: 0}"),
-            "problem.yaml:5: start.slide: is held at 0.01, and not planned for; robot.yaml chooses "
-            "the joints\n"
-            "problem.yaml:5: start.wrist: is fixed\n"
-            "problem.yaml:5: start.follow: follows slide (mimic)");
+  EXPECT_EQ(
+      start("{pan: 1, lift: 0, slide: 0.02, wrist: 1, follow: 0}"),
+      "problem.yaml:5: start.slide: is held at 0.01, and not planned for; to plan for it, choose "
+      "it by joints or group in the robot's file, and remove it from hold\n"
+      "problem.yaml:5: start.wrist: is fixed\n"
+      "problem.yaml:5: start.follow: follows slide (mimic)");
   EXPECT_EQ(start("{pan: 1, lift: 3.2}"),
             "problem.yaml:5: start.lift: 3.2 is outside of its limits, [-3.14159, 3.14159]");
   EXPECT_EQ(start("{pan: 1, pan_deg: 2, lift: 0}"),
@@ -239,9 +240,11 @@ TEST_F(ArmFaults, RobotFiles) {
 TEST_F(ArmFaults, SeveralRobots) {
   const std::string two =
       "format: corridor-problem-1\nrobots: {left: {file: arm.yaml}, right: {file: arm.yaml}}\n";
-  EXPECT_EQ(complaintOf(two + "start: {left: ready}\ngoal: ready\n"),
-            "problem.yaml:3: missing key \"right\" in start: where this robot is\n"
-            "problem.yaml:4: goal: a map of the robots is needed, {left: …}, not \"ready\"");
+  EXPECT_EQ(
+      complaintOf(two + "start: {left: ready}\ngoal: ready\n"),
+      "problem.yaml:3: missing key \"right\" in start: where this robot is\n"
+      "problem.yaml:4: goal: a map from robot names to states is needed, such as {left: …}, not "
+      "\"ready\"");
   EXPECT_EQ(
       complaintOf(two + "start: {left: ready, rihgt: ready}\ngoal: {left: ready, right: redy}\n"),
       "problem.yaml:3: unknown key \"rihgt\" in start (did you mean \"right\"?) (known: left, "

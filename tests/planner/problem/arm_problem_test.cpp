@@ -95,16 +95,16 @@ TEST_F(ArmProblem, FramesStandWhereTheJointsPutThem) {
   const auto frames = framePoses(p.model.tree, numbers({0, 90 * degree}));
   const auto& robot = p.model.robots.at(0);
   EXPECT_LT((frames[robot.linkFrames[0]].t - Vec3(1, 2, 3)).norm(), 1e-15);
-  for (std::size_t l = 0; l < robot.model.links.size(); ++l) {
+  for (std::size_t l = 0; l < robot.description.links.size(); ++l) {
     const Vec3 at = frames[robot.linkFrames[l]].t;
     // The z axis of "lower" points along the x axis of "base", which is the world's y.
-    if (robot.model.links[l].name == "flange") {
+    if (robot.description.links[l].name == "flange") {
       EXPECT_LT((at - Vec3(1, 2.4, 3.7)).norm(), 1e-12);
     }
-    if (robot.model.links[l].name == "finger") {
+    if (robot.description.links[l].name == "finger") {
       EXPECT_LT((at - Vec3(1, 2.4, 3.69)).norm(), 1e-12) << "slide held at 0.01";
     }
-    if (robot.model.links[l].name == "thumb") {
+    if (robot.description.links[l].name == "thumb") {
       EXPECT_LT((at - Vec3(1, 2.4, 3.71)).norm(), 1e-12) << "follows at -0.01";
     }
   }
@@ -136,7 +136,7 @@ TEST_F(ArmProblem, JointListKeepsItsOrderAndHoldIsHeld) {
   EXPECT_EQ(p.task.goals.at(0), numbers({0.02, 10 * degree}));
   EXPECT_EQ(skipped(p, "finger", "thumb"), "robot.yaml: allow");
   EXPECT_THAT(textsOf(p.source.notes),
-              Contains("start: lift is held at 1.5707963267948966, not at the 0 of state home"));
+              Contains("start: lift is held at 1.5707963267948966, but is 0 in state home"));
 }
 
 /// The joints of a named state that are not planned for are held as `hold` or the start says.
@@ -150,7 +150,7 @@ TEST_F(ArmProblem, NamedStatesHoldJoints) {
     const Problem p = read(armHead + ends);
     std::string text;
     for (const auto& [j, value] : p.model.robots[0].held)
-      text += p.model.robots[0].model.joints[j].name + " " + shortest(value) + "; ";
+      text += p.model.robots[0].description.joints[j].name + " " + shortest(value) + "; ";
     for (const std::string& note : textsOf(p.source.notes))
       if (note.find("held") != note.npos) text += note + "; ";
     return text;
@@ -170,15 +170,16 @@ TEST_F(ArmProblem, NamedStatesHoldJoints) {
   EXPECT_EQ(
       heldIn("joints: [pan, lift]\n", "start: {from: near, pan: 0}\ngoal: {pan: 1, lift: 0}\n"),
       fromStart);
-  EXPECT_EQ(heldIn("joints: [pan, lift]\nhold: {slide: 0.05}\n", "start: near\ngoal: far\n"),
-            "slide 0.05; start: slide is held at 0.05, not at the 0.02 of state near; goal: slide "
-            "is held at 0.05, not at the 0.04 of state far; ");
+  EXPECT_EQ(
+      heldIn("joints: [pan, lift]\nhold: {slide: 0.05}\n", "start: near\ngoal: far\n"),
+      "slide 0.05; start: slide is held at 0.05, but is 0.02 in state near; goal: slide is held "
+      "at 0.05, but is 0.04 in state far; ");
 
   write("arm.yaml", robotHead + "joints: [pan, lift]\n" + states);
   EXPECT_EQ(complaintOf(armHead + "start: near\ngoal: far\n"),
-            "problem.yaml:6: goal: slide is held at 0.02, not at the 0.04 of state far; it is "
-            "not planned for, so start and goal need one value: start from a state with this "
-            "value, or set it in hold");
+            "problem.yaml:6: goal: slide is held at 0.02, but is 0.04 in state far; the joint is "
+            "not planned for, so it cannot move: start from a state with the goal's value, or set "
+            "this value in hold");
   write("arm.yaml", robotHead + "joints: [pan, lift]\nhold: fer\n" + states);
   EXPECT_THAT(complaintOf(armHead + values),
               testing::StartsWith("arm.yaml:4: hold: there is no state \"fer\" (did you mean "
@@ -219,7 +220,7 @@ TEST_F(ArmProblem, AUrdfAloneIsARobot) {
   const Problem p = read(
       "format: corridor-problem-1\nrobot: arm.urdf\nstart: {pan: 0, lift: 0, slide: 0.02}\n"
       "goal: {pan: 1, lift: 0, slide: 0.02}\n");
-  EXPECT_EQ(p.model.robots.at(0).model.name, "armbot");
+  EXPECT_EQ(p.model.robots.at(0).description.name, "armbot");
   EXPECT_EQ(p.model.bodies.size(), 5u) << "there are no bodies of a world";
 }
 

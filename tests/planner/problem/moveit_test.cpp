@@ -79,7 +79,8 @@ TEST_F(Moveit, SceneAndRequest) {
   EXPECT_EQ(p.task.goals[1], numbers(-1, 0));
   const ModelRobot& robot = p.model.robots.front();
   for (const auto& [j, value] : robot.held)
-    EXPECT_EQ(value, robot.model.joints[j].name == "slide" ? 0.04 : 0) << "of the start state";
+    EXPECT_EQ(value, robot.description.joints[j].name == "slide" ? 0.04 : 0)
+        << "of the start state";
   const ModelBody& crate = p.model.bodies.at(p.model.bodies.size() - 2);
   EXPECT_EQ(crate.name, "crate");
   ASSERT_EQ(crate.shapes.size(), 2u);
@@ -208,10 +209,10 @@ TEST_F(Moveit, FaultsOfTheScene) {
   EXPECT_EQ(complaint("world: {octomap: {octomap: {resolution: 0.1, data: [1, 2]}}}\n"),
             map + ": the message ends within its nodes: it is cut short");
   EXPECT_EQ(complaint("world: {octomap: {octomap: {resolution: 0.1, id: X, data: [1, 2]}}}\n"),
-            map + ": trees of type \"X\" are not read; OcTree and ColorOcTree are");
+            map + ": trees of type \"X\" can't be read; save an OcTree or a ColorOcTree");
   EXPECT_EQ(complaint("world: {octomap: {octomap: {resolution: 0.1, binary: true, data: [0, 0, "
                       "7]}}}\n"),
-            map + ": 1 bytes come after the last node: the message is damaged");
+            map + ": 1 byte comes after the last node: the message is damaged");
   EXPECT_EQ(complaint("world: {octomap: {octomap: {resolution: 0.1, data: [1, 256]}}}\n"),
             map + ".data[1]: a whole number from -128 to 255 is needed, not \"256\"");
   EXPECT_EQ(complaint("world: {octomap: {octomap: {resolution: 0.1, data: [1, ...]}}}\n"),
@@ -370,7 +371,7 @@ TEST_F(Moveit, HeldJointsFollowTheProblemsStart) {
   const auto slide = [&](const std::string& more) {
     const Problem p = read(head + more);
     const ModelRobot& robot = p.model.robots.front();
-    return robot.held.at(*findJoint(robot.model, "slide"));
+    return robot.held.at(*findJoint(robot.description, "slide"));
   };
   EXPECT_EQ(slide(""), 0.04);
   EXPECT_EQ(slide("start: near\n"), 0.02);

@@ -33,7 +33,7 @@ inline Vec3 upperOf(const Problem& problem) {
   return boundsOf(problem.model.space, problem.model.space.groups().front()).upper;
 }
 inline bool isPlanar(const Problem& problem) {
-  return problem.model.robots.at(0).model.mount == JointType::planar;
+  return problem.model.robots.at(0).description.mount == JointType::planar;
 }
 inline Configuration numbers(std::initializer_list<double> list) {
   Configuration q(static_cast<Eigen::Index>(list.size()));

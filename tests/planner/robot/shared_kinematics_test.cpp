@@ -41,7 +41,7 @@ TEST(SharedKinematics, EveryLinkIsWhereTheReferenceHasIt) {
         faults, files);
     ASSERT_TRUE(model) << InputError(faults).what();
     ModelRobot arm;
-    arm.model = *model;
+    arm.description = *model;
     std::vector<std::size_t> moving;
     for (std::size_t j = 0; j < model->joints.size(); ++j)
       if (movesItself(model->joints[j])) moving.push_back(j);

@@ -331,7 +331,7 @@ TEST_F(UrdfFaults, MeshFiles) {
                  "package \"arm_descripton\" has no folder (did you mean \"arm_description\"?)");
   EXPECT_EQ(complaint("package://hand/a.stl"),
             of + "\"package://hand/a.stl\": hand/a.stl is not a file, and package \"hand\" has no "
-                 "folder; add robot.yaml: packages: {hand: FOLDER}, or set ROS_PACKAGE_PATH or "
+                 "folder; add packages: {hand: FOLDER} to robot.yaml, or set ROS_PACKAGE_PATH or "
                  "AMENT_PREFIX_PATH");
   // An unreadable mesh file is reported once, at the place where the URDF names it first.
   write("bad.obj", "v 0 0 0\nv 1 0 nan\n");

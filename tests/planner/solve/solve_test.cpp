@@ -146,9 +146,9 @@ TEST(Solve, EveryPlannerIsMadeAndHasParametersThatCanBeSet) {
       hall.si, "RRT", {{"range", "0.5"}, {"goal_bias", "0.1"}, {"intermediate_states", "true"}}));
 }
 
-/// Solves. For those planners of OMPL 1.5.2 that leak, the leak sanitizer is off. Each of these,
-/// run alone, does not free states that it allocated or cloned: LazyPRM 944 in three seconds, SST
-/// 14,636. The other planners don't leak, and run under the sanitizer.
+/// Solves the problem. For those planners of OMPL 1.5.2 that leak memory, the leak sanitizer is
+/// off. Each of these, run alone, does not free states that it allocated or cloned: LazyPRM 944 in
+/// three seconds, SST 14,636. The other planners don't leak, and run under the sanitizer.
 SolveReport solveWithOmplsLeaks(const Problem& problem) {
 #ifdef __SANITIZE_ADDRESS__
   const std::string& name = problem.settings.planner.name;
@@ -307,7 +307,8 @@ TEST(Solve, AdviceForAStartInContactHolds) {
   }
 }
 
-/// The start's y must be kept to its last digits: rounded to few, the bar would touch a plate.
+/// The start's y must be kept to its last digits: rounded to a few digits, the bar would touch a
+/// plate.
 TEST(Solve, AdviceForAStartBetweenPlatesHolds) {
   Problem problem = hallProblem(Rigid::SE2);
   const double y = -2.000004321, gap = 1e-6;
@@ -372,8 +373,10 @@ TEST(Solve, MarginAndTube) {
   problem.task.margin = 0;
   problem.task.start.head(3) = Vec3(-0.5005 - 0.01, -2, 0);
   problem.task.tube.head(3).setConstant(0.02);
-  EXPECT_THAT(complaintOf(problem),
-              HasSubstr(" m, and the tube needs 0.03464 m; move it away, or set a smaller tube"));
+  EXPECT_THAT(
+      complaintOf(problem),
+      HasSubstr(
+          " m, and the tube needs 0.03464 m; move the two bodies apart, or set a smaller tube"));
 }
 
 TEST(Solve, OutOfBoundsAndClosedGoalRegion) {

@@ -10,11 +10,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "planner/robot/angles.h"
 #include "planner/robot/edge_motion.h"
-#include "planner/robot/turns.h"
 #include "planner/verify/edge_curve.h"
 #include "planner/verify/verify_path.h"
-#include "tests/planner/verify/meshes.h"
+#include "tests/planner/verify/rigid_world.h"
 #include "tests/support/support.h"
 
 namespace corridor {

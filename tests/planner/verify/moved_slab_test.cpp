@@ -73,7 +73,7 @@ struct Case {
     motion.b = motionSeenFrom(atA, stateB, curve->perturbationAt(chainB, middle, tube));
     for (const auto& [chain, set] : {std::pair{&chainA, &a}, std::pair{&chainB, &b}}) {
       const Reach reach = curve->reach(*chain, radiusOf(*set), tube);
-      motion.travel += reach.speed * half;
+      motion.motionBound += reach.speed * half;
       motion.tube += reach.tube;
       motion.secondOrder +=
           (half * half * reach.bend + half * reach.bendCross + reach.bendTube) / 2;
@@ -119,8 +119,8 @@ struct Case {
     const Eigen::Index numbers[] = {0, 1, 2, 7, 8, 9};
     std::uniform_real_distribution<double> uniform(-1, 1);
     std::vector<RealVec> turns = {RealVec::Zero()};
-    if (!motion.b.strays.pivots.empty()) {
-      const Perturbation::PivotRotation& pivot = motion.b.strays.pivots[0];
+    if (!motion.b.perturbation.pivots.empty()) {
+      const Perturbation::PivotRotation& pivot = motion.b.perturbation.pivots[0];
       for (const RealVec& x : placedB().points)
         turns.push_back(atA.rotation * ((x - pivot.at).cross(-n).normalized() * pivot.angle));
     }
@@ -164,7 +164,7 @@ TEST(MovedSlab, IsAttained) {
       const Case one(arm, i % 2 == 1, random, 1e-6, kind + 5 * kind);
       const Real lost = one.still() - one.firstOrder() + one.motion.secondOrder;
       worst = std::min(worst, (one.still() - one.leastWidth(random)) / lost);
-      gained += lost / (one.motion.travel + one.motion.tube);
+      gained += lost / (one.motion.motionBound + one.motion.tube);
       ++cases;
     }
   }

@@ -9,8 +9,8 @@
 #include "planner/verify/box_tree.h"
 #include "planner/verify/edge_curve.h"
 #include "planner/verify/exact_contact.h"
-#include "tests/planner/verify/meshes.h"
 #include "tests/planner/verify/random_arm.h"
+#include "tests/planner/verify/rigid_world.h"
 #include "tests/support/support.h"
 
 namespace corridor::verify {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "planner/verify/convex_gap.h"
-#include "tests/planner/verify/meshes.h"
+#include "tests/planner/verify/rigid_world.h"
 
 namespace corridor::test {
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/planner/verify/meshes.h"
+#include "tests/planner/verify/rigid_world.h"
 #include "tests/support/support.h"
 
 namespace corridor {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "planner/verify/exact_contact.h"
-#include "tests/planner/verify/meshes.h"
+#include "tests/planner/verify/rigid_world.h"
 #include "tests/support/floating_point.h"
 #include "tests/support/support.h"
 

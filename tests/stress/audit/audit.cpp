@@ -65,7 +65,8 @@ long countOf(long normally, long stress) {
   return (test::isStressRun() ? stress : normally) / test::kSlowdown;
 }
 
-Audit::Audit(std::uint64_t seed, const Plan& plan) : seed_(test::testSeed(seed)), plan_(plan) {
+Audit::Audit(std::uint64_t seed, const Options& options)
+    : seed_(test::testSeed(seed)), options_(options) {
   if (const char* only = std::getenv("CORRIDOR_AUDIT_CASE")) only_ = std::stol(only);
 }
 
@@ -99,12 +100,12 @@ void Audit::expectDecided() const {
 void Audit::make(long number) {
   Dice dice = diceOf(seed_, number);
   const Family family =
-      plan_.family.value_or(kFamilies[static_cast<std::size_t>(number) % std::size(kFamilies)]);
+      options_.family.value_or(kFamilies[static_cast<std::size_t>(number) % std::size(kFamilies)]);
   double size = 1;
-  Edge edge = randomEdge(dice, family, plan_.states, size);
+  Edge edge = randomEdge(dice, family, options_.states, size);
   size *= dice.power(-1, 0.3);
   Question question;
-  question.mode = plan_.mode;
+  question.mode = options_.mode;
   question.inTube = dice.oneIn(6);
   question.rigidMotion = isRigidBody(edge) && dice.oneIn(2);
   MotionOptions& o = question.options;
@@ -120,7 +121,7 @@ void Audit::make(long number) {
   const std::string row = question.inTube ? "tube: worst corner" : nameOf(family);
   for (int k = 0; k < kGaps; ++k) {
     const double gap =
-        chooseProof(dice, graze, question.inTube || k % 2 ? -1 : 1, plan_.fine, question);
+        chooseProof(dice, graze, question.inTube || k % 2 ? -1 : 1, options_.fine, question);
     Truth truth;
     const Shape rest = graze.rest(gap, truth);
     const std::string name = nameOf(family) + ", CORRIDOR_SEED=" + std::to_string(seed_) +
@@ -131,7 +132,7 @@ void Audit::make(long number) {
     ask(c, row);
     // The verifier has no `clearanceSlack`. With a slack, the true verdict of the case would not be
     // the verifier's.
-    if (o.clearanceSlack == 0 && dice.oneIn(plan_.verify)) verify(c, row);
+    if (o.clearanceSlack == 0 && dice.oneIn(options_.verify)) verify(c, row);
   }
 }
 

@@ -12,17 +12,17 @@ namespace corridor::audit {
 /// verdicts, and counts them.
 class Audit {
  public:
-  struct Plan {
+  struct Options {
     bool states = false;     ///< make states: edges of zero length
     bool fine = false;       ///< only gaps and tolerances of the size of rounding errors
     std::size_t verify = 6;  ///< one of this many cases is verified; the checker runs on all
     std::optional<Family> family = {};  ///< only this family; unset: all in turn
     Mode mode = Mode::usual;            ///< floating-point mode while a query runs
   };
-  Audit(std::uint64_t seed, const Plan& plan);
+  Audit(std::uint64_t seed, const Options& options);
 
   /// Runs the checker on `count` cases. If CORRIDOR_AUDIT_CASE is set to a number that a failure
-  /// printed, runs only the six cases of that construction.
+  /// printed, runs only the six cases (gaps) that are made of the edge with this number.
   void run(long count);
   /// Prints the tables. Fails the test if an answer was wrong.
   void report(const std::string& title) const;
@@ -39,7 +39,7 @@ class Audit {
   void complain(const char* who, const std::string& fault, const Case& c);
 
   std::uint64_t seed_;
-  Plan plan_;
+  Options options_;
   std::optional<long> only_;
   Table checker_, verifier_;
   long constructions_ = 0, usable_ = 0;

@@ -18,7 +18,7 @@ enum class Family {
   farSlides,     ///< prismatic joints at up to 10^6 times the bodies' size
   manyTurns,     ///< revolute joints: up to 30 revolutions, at up to 10^7 rad
   halfTurns,     ///< rotations up to 2e-9 rad from a half turn
-  nearlyEqual,   ///< both states differ by 10^-3 to 10^-17
+  nearlyEqual,   ///< the two states differ by 10^-3 to 10^-17
   scales,        ///< all lengths times 10^-6 to 10^6
   offsets,       ///< up to 10^6 m from the world's origin
   tinyBodies,    ///< bodies of 2e-5 m, 40 to 330 m from the origin

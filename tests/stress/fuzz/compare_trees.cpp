@@ -73,7 +73,7 @@ double scaleOfParts(const Body& body, const Transform& X) {
   for (const ConvexPart& part : body.parts())
     for (const Vec3& p : part.points) farthest = std::max(farthest, p.stableNorm() + part.radius);
   for (const Vec3& v : body.mesh().vertices) farthest = std::max(farthest, v.stableNorm());
-  return X.m.stableNorm() * farthest + X.t.stableNorm();
+  return X.m.reshaped().stableNorm() * farthest + X.t.stableNorm();
 }
 
 struct Case {

@@ -1,4 +1,4 @@
-// Fuzz target: solution files, YAML and .path, for problems in SE(2), in SE(3) and of joints. The
+// Fuzz target: solution files, YAML and .path, for problems in SE(2), in SE(3) and with joints. The
 // first line of an input is the file's extension.
 #include "planner/solve/solution.h"
 #include "tests/stress/fuzz/fuzz.h"

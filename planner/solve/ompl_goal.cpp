@@ -1,4 +1,4 @@
-#include "planner/solve/goal.h"
+#include "planner/solve/ompl_goal.h"
 
 #include <algorithm>
 #include <cmath>
@@ -72,8 +72,8 @@ Configuration randomNear(const Problem& problem, const Configuration& goal,
 
 }  // namespace
 
-ProblemGoal::ProblemGoal(const ob::SpaceInformationPtr& si, const Problem& problem,
-                         std::vector<Configuration> samples)
+OmplGoal::OmplGoal(const ob::SpaceInformationPtr& si, const Problem& problem,
+                   std::vector<Configuration> samples)
     : GoalSampleableRegion(si),
       problem_(problem),
       goals_(goalsOf(problem)),
@@ -83,7 +83,7 @@ ProblemGoal::ProblemGoal(const ob::SpaceInformationPtr& si, const Problem& probl
       std::max(problem.task.goalThreshold.value_or(0), std::numeric_limits<double>::epsilon()));
 }
 
-double ProblemGoal::distanceGoal(const ob::State* state) const {
+double OmplGoal::distanceGoal(const ob::State* state) const {
   const Configuration q = configurationOf(*si_, state);
   if (problem_.task.goalRegion) {
     if (inGoal(problem_, goals_, q, -kShrink)) return 0;
@@ -97,7 +97,7 @@ double ProblemGoal::distanceGoal(const ob::State* state) const {
   return least;
 }
 
-void ProblemGoal::sampleGoal(ob::State* state) const {
+void OmplGoal::sampleGoal(ob::State* state) const {
   si_->getStateSpace()->as<ProblemStateSpace>()->write(samples_[next_++ % samples_.size()], state);
 }
 

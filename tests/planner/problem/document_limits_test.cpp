@@ -15,7 +15,7 @@ std::string repeated(const std::string& text, std::size_t times) {
   return all;
 }
 
-class Limits : public ProblemTest {
+class DocumentLimits : public ProblemTest {
  protected:
   static std::string complaintOfYaml(const std::string& text, const YamlLimits& limits = {}) {
     try {
@@ -27,7 +27,7 @@ class Limits : public ProblemTest {
   }
 };
 
-TEST_F(Limits, YamlDepth) {
+TEST_F(DocumentLimits, YamlDepth) {
   const std::string message =
       ":1: has lists and maps nested more than 64 deep; no valid file needs more";
   EXPECT_EQ(complaintOfYaml(repeated("[", 64) + repeated("]", 64)), "no complaint");
@@ -44,7 +44,7 @@ TEST_F(Limits, YamlDepth) {
       "problem.yaml:5: has lists and maps nested more than 64 deep; no valid file needs more");
 }
 
-TEST_F(Limits, YamlNodes) {
+TEST_F(DocumentLimits, YamlNodes) {
   EXPECT_EQ(YamlLimits{}.nodes, 10'000'000u);
   const YamlLimits limits{1000, 64};
   EXPECT_EQ(complaintOfYaml(repeated("- 1\n", 999), limits),
@@ -56,7 +56,7 @@ TEST_F(Limits, YamlNodes) {
 }
 
 /// Nine lists, each of ten aliases of the list before: expanded, they would have 10^9 values.
-TEST_F(Limits, YamlAliases) {
+TEST_F(DocumentLimits, YamlAliases) {
   std::string laughs = "a: &a [lol, lol, lol, lol, lol, lol, lol, lol, lol, lol]\n";
   for (char c = 'b'; c < 'j'; ++c) {
     const std::string last = std::string(", *") + static_cast<char>(c - 1);
@@ -67,7 +67,7 @@ TEST_F(Limits, YamlAliases) {
 }
 
 /// 200,000 keys in one map: reading must not take quadratic time.
-TEST_F(Limits, YamlKeys) {
+TEST_F(DocumentLimits, YamlKeys) {
   std::string text = "same: 1\n";
   for (int i = 0; i < 200'000; ++i) text += "key" + std::to_string(i) + ": " + "1\n";
   text += "same: 2\n";
@@ -81,7 +81,7 @@ TEST_F(Limits, YamlKeys) {
   EXPECT_EQ(faults.size(), 1u);
 }
 
-TEST_F(Limits, FaultsAreListedUpToAThousand) {
+TEST_F(DocumentLimits, FaultsAreListedUpToAThousand) {
   std::string text = head + poses;
   for (int i = 0; i < 100'000; ++i) text += "unknown" + std::to_string(i) + ": 1\n";
   const std::string message = complaintOf(text);
@@ -90,7 +90,7 @@ TEST_F(Limits, FaultsAreListedUpToAThousand) {
               HasSubstr("problem.yaml: reading stopped at 1000 faults; there may be more"));
 }
 
-TEST_F(Limits, Json) {
+TEST_F(DocumentLimits, Json) {
   const std::string deep =
       ": has lists and objects nested more than 64 deep; a set needs no more than six";
   for (const std::string& open : {std::string("["), std::string("{\"a\": ")})
@@ -101,7 +101,7 @@ TEST_F(Limits, Json) {
             "a.json:1: is not text: it has a byte 0; UTF-8 is needed");
 }
 
-TEST_F(Limits, CfgLines) {
+TEST_F(DocumentLimits, CfgLines) {
   EXPECT_THAT(complaint(write("a.cfg", std::string(50'000'000, 'x'))),
               HasSubstr("a.cfg:1: [section] or key = value is needed, not \"xxx"));
   EXPECT_THAT(complaint(write("a.cfg", "[problem]\nrobot = " + std::string(5'000'000, '[') + "\n")),
@@ -110,7 +110,7 @@ TEST_F(Limits, CfgLines) {
   EXPECT_THAT(message, HasSubstr("a.cfg: reading stopped at 1000 faults; there may be more"));
 }
 
-TEST_F(Limits, PairsOfBodies) {
+TEST_F(DocumentLimits, PairsOfBodies) {
   // 4,600 spheres, each on a joint of its own, have more than 10^7 pairs.
   std::string urdf = "<robot name=\"r\">\n<link name=\"l0\"/>\n", state;
   for (int i = 1; i <= 4600; ++i) {
@@ -123,10 +123,11 @@ TEST_F(Limits, PairsOfBodies) {
             "\"/></joint>\n";
   }
   write("many.urdf", urdf + "</robot>\n");
-  EXPECT_THAT(complaintOf("format: corridor-problem-1\nrobot: many.urdf\nstart: {" + state +
-                          "}\ngoal: {" + state + "}\n"),
-              HasSubstr("problem.yaml: has 10577700 pairs of bodies, at most 10000000 are handled; "
-                        "join shapes that do not move against each other into one body"));
+  EXPECT_THAT(
+      complaintOf("format: corridor-problem-1\nrobot: many.urdf\nstart: {" + state + "}\ngoal: {" +
+                  state + "}\n"),
+      HasSubstr("problem.yaml: has 10577700 pairs of bodies, but at most 10000000 are "
+                "supported; join shapes that do not move against each other into one body"));
 }
 
 }  // namespace

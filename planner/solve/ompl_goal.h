@@ -14,11 +14,11 @@ namespace corridor {
 /// The goals of a problem, or the regions around them, as a goal of OMPL. Planners that sample goal
 /// states get a finite set of valid states, beginning with the goals themselves: several of OMPL's
 /// optimising planners need the whole set beforehand. Several threads may use the object at once.
-class ProblemGoal : public ompl::base::GoalSampleableRegion {
+class OmplGoal : public ompl::base::GoalSampleableRegion {
  public:
   /// @param samples see `sampleGoals`; at least one.
-  ProblemGoal(const ompl::base::SpaceInformationPtr& si, const Problem& problem,
-              std::vector<Configuration> samples);
+  OmplGoal(const ompl::base::SpaceInformationPtr& si, const Problem& problem,
+           std::vector<Configuration> samples);
 
   double distanceGoal(const ompl::base::State* state) const override;
   void sampleGoal(ompl::base::State* state) const override;
