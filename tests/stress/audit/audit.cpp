@@ -12,8 +12,8 @@
 namespace corridor::audit {
 namespace {
 
-/// The kinds of trees, of which each case gets one at random: the default kind five times, every
-/// other kind once.
+/// Each case gets one of these kinds of trees at random. The list has the default kind five times,
+/// and every other kind once.
 constexpr TreeKind kTrees[] = {TreeKind::obb4,
                                TreeKind::obb4,
                                TreeKind::obb4,
@@ -129,8 +129,8 @@ void Audit::make(long number) {
     EXPECT_FALSE(truth.violates && truth.apart > keep) << "the audit contradicts itself: " << name;
     const Case c{edge, graze, rest, truth, question, name};
     ask(c, row);
-    // The verifier has no `clearanceSlack`. With a slack, the true verdict of the case would not be
-    // the verifier's.
+    // The verifier has no `clearanceSlack`. The true verdict of a case with a slack does not apply
+    // to it.
     if (o.clearanceSlack == 0 && dice.oneIn(plan_.verify)) verify(c, row);
   }
 }
