@@ -1,5 +1,5 @@
-# For find_package(corridor): the target corridor::collision, and the libraries that it links. With COMPONENTS planner also
-# corridor::planner.
+# For find_package(corridor): defines the target corridor::collision, and finds the libraries that it links. With
+# COMPONENTS planner, defines corridor::planner, too.
 include(CMakeFindDependencyMacro)
 find_dependency(Eigen3)
 find_dependency(HWY)

@@ -15,8 +15,8 @@ install(TARGETS corridor_collision EXPORT corridor ARCHIVE DESTINATION ${CMAKE_I
 install(TARGETS corridor_assimp RUNTIME DESTINATION ${helper_dir})
 install(EXPORT corridor NAMESPACE corridor:: FILE corridorTargets.cmake DESTINATION ${package_dir})
 
-# corridor_install_headers(HEADER…) installs headers, and all headers of this project that they include. What is not
-# reachable is implementation, and not installed.
+# corridor_install_headers(HEADER…) installs headers, and all headers of this project that they include. All other
+# headers are implementation, and are not installed.
 function(corridor_install_headers)
   set(open ${ARGN})
   set(installed)

@@ -30,7 +30,7 @@ struct ConvexSet {
 /// product with p this is 3.1uFρ.
 /// * The product with p: γ3·|Mᵀn||p| < 3.1uFρ. The product n·t: 3.1u|t|.
 /// * The sum of these two and of the sphere's or the disc's share: 2u(Fρ + |t|).
-/// * The sphere's share |Mᵀn|: 3.1uF and 4uF.
+/// * The sphere's share |Mᵀn|: 3.1uF from Mᵀn, 4uF from the norm.
 /// * The disc's share |Mᵀn × axis|: 3.1uF from Mᵀn. The axis is off by 1u (difference of the
 /// points) + 5u (norm and quotient): 6uF. Cross product and norm: 2√2·1.1uF + 4uF. Together < 17uF.
 ///

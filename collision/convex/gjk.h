@@ -186,12 +186,12 @@ class Search {
   /// false if no step is defined. The step need not be accurate: for any direction, the gap is a
   /// lower bound of the distance, and the corner found consists of points of the cores.
   ///
-  /// A corner, as a function of n for the same two points of the sets, is w_i(n). Then f_i = n·w_i
-  /// has the gradient w_i and the Hessian −H, where H is the sum of the Hessians of both sets
+  /// Let w_i(n) be corner i as a function of n, for fixed points of the sets. Then f_i = n·w_i has
+  /// the gradient w_i and the Hessian −H, where H is the sum of the Hessians of both sets
   /// (`addCurvature`). To second order in a tangent δ, f_i at the normalised n + δ is f_i + w_i·δ −
   /// δᵀ(H + f I)δ/2. At the widest gap all f_i are equal. With one, two or three corners, this
-  /// condition leaves δ two, one or no degrees of freedom. In these degrees of freedom,
-  /// (H + f I)δ = w.
+  /// condition leaves δ two, one or no degrees of freedom. In these degrees of freedom, (H + f I)δ
+  /// = w.
   bool newton(Vector<Real>& n, Nearest<Real>& face, Answer& answer) {
     const Simplex<Real> corners = cornersFor(n);
     if (corners.count == 0) return false;

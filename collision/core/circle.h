@@ -20,14 +20,15 @@ struct CircleTurn {
   bool ambiguous() const { return !(std::abs(angle) + error <= std::numbers::pi - kHalfTurnBand); }
 };
 
-/// Returns the shorter rotation from one angle to another, of any size; radians.
+/// Returns the shorter rotation from one angle to another; radians. The angles may be of any size.
 ///
 /// Error, with S = |from| + |to|:
 /// * S < 64, or a difference of at most π: the difference rounds once, by at most 2^-53·S. If the
 ///   difference exceeds π, then at most S/2π + 1/2 ≤ S/π whole turns are subtracted. Each turn is
 ///   off by 2.5e-16, because 2π is rounded to a double. The sum of these errors is below 2^-52·S;
 ///   the bound stored is twice that sum.
-/// * All others: the rotation is computed from sines and cosines in long double. The C library
+/// * All other angles: the rotation is computed from sines and cosines in long double. The C
+/// library
 ///   reduces their arguments with as many digits of π as necessary. Sines and cosines then cause an
 ///   error of 2^-58, and rounding the result one of 2^-52.
 inline CircleTurn circleTurn(double from, double to) {

@@ -7,7 +7,7 @@ struct PredicateResult {
   bool holds = false;
   bool exact = false;  ///< double could not decide, so that more digits were used
 
-  // Not explicit: functions return it as a bool.
+  // Implicit, so that a function that returns bool can return a `PredicateResult`.
   operator bool() const { return holds; }
 };
 

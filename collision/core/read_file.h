@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <string>
 
-/// Functions that read input files. No other code opens one, except the helper program that uses
-/// assimp. The functions open only ordinary files, and test their size before they allocate memory.
-/// They never wait for a device or a pipe. The exception is `readTextStream`, for inputs that are
-/// documented to accept a pipe.
+/// Functions that read input files. No other code opens input files, except the helper program that
+/// uses assimp. The functions open only ordinary files, and test the size of a file before they
+/// allocate memory for it. They never wait for a device or a pipe. The exception is
+/// `readTextStream`, for inputs that are documented to accept a pipe.
 namespace corridor {
 
 /// The maximum number of bytes of any input: 4 GiB.

@@ -76,8 +76,9 @@ double shortestDecimal(float value) {
 
 /// Checks the root's transform, where assimp puts Collada's unit and up-axis. A unit that is 0, or
 /// too small for assimp's floats, would shrink the mesh to a point, and a negative unit would
-/// mirror it. Under `OmplApp` a mirrored mesh is accepted: OMPL.app's import steps may have merged
-/// a node that mirrors with the root. @throws std::runtime_error if the unit is not above 0.
+/// mirror it. Under `OmplApp` a mirrored mesh is accepted, because the mirroring may come from a
+/// node of the file that OMPL.app's import steps have merged into the root. @throws
+/// std::runtime_error if the unit is not above 0.
 void checkColladaRoot(const aiScene& scene, AssimpRules rules) {
   const double volume = inDoubles(scene.mRootNode->mTransformation).linear().determinant();
   if (!(volume > 0 || (volume < 0 && rules == AssimpRules::OmplApp)))

@@ -278,7 +278,7 @@ class MapReader {
       if (outside) continue;
       if (inside)
         add(cube);
-      else  // not a single cell: the box consists of whole cells
+      else  // a single cell cannot get here: the box consists of whole cells
         for (int child = 0; child < 8; ++child) open.push_back(childOf(cube, child));
     }
   }

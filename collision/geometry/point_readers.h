@@ -8,8 +8,8 @@
 #include "collision/geometry/point_cloud.h"
 
 /// The readers of `readPointCloud`, one per format. Each takes the bytes of a file, and returns
-/// coordinates as stored, those included that are not finite. Readers add every fault to `faults`,
-/// and throw InputError if there is one.
+/// coordinates as stored, including points that are not finite. Readers add every fault to
+/// `faults`, and throw InputError if there is one.
 namespace corridor {
 
 /// The largest number of points of a file.

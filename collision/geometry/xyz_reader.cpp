@@ -9,7 +9,8 @@ namespace {
 
 constexpr std::string_view kBlanks = " \t\r\v\f";
 
-/// Returns the next word of the line, which blanks and the characters of `marks` separate.
+/// Removes the first word from the line and returns it. Blanks and the characters of `marks`
+/// separate words.
 std::string_view nextWord(std::string_view& line, std::string_view marks) {
   const auto separates = [&](char c) {
     return kBlanks.find(c) != kBlanks.npos || marks.find(c) != marks.npos;
@@ -21,8 +22,9 @@ std::string_view nextWord(std::string_view& line, std::string_view marks) {
   return word;
 }
 
-/// Returns the marks that separate the numbers of a line, beside blanks. In a line with semicolons,
-/// a comma separates nothing: it is a decimal mark, and reading the number then reports a fault.
+/// Returns the characters that, besides blanks, separate the numbers of a line. In a line with
+/// semicolons, a comma separates nothing: it is a decimal mark, and reading the number then reports
+/// a fault.
 std::string_view marksOf(std::string_view line) {
   return line.find(';') != line.npos ? ";" : ",";
 }

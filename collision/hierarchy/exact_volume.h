@@ -46,10 +46,12 @@ class ExactVolume<Obb> {
     volume_ = abs(dot(u_[0], crosses_[0]));
   }
   bool contains(const Row& p, const Rational& radius) const { return contains(p, radius, {}); }
-  /// The same for a disc of this radius that is orthogonal to `axis`. If `axis` is zero, it is the
-  /// sphere. Let d be the axis, and g_i = crosses_i/volume, which is row i of U⁻¹.
-  /// Along coordinate i of the box a sphere extends r|g_i| from its centre, and a disc r|g_i ×
-  /// d|/|d|. The squares of these conditions are rational.
+  /// Returns whether the box contains the disc of this radius about p that is orthogonal to `axis`.
+  /// A zero `axis` stands for the sphere instead.
+  ///
+  /// Let d be the axis, and g_i = crosses_i/volume, which is row i of U⁻¹. Along coordinate i of
+  /// the box a sphere extends r|g_i| from its centre, and a disc r|g_i × d|/|d|. The squares of
+  /// these conditions are rational.
   bool contains(const Row& p, const Rational& radius, const Row& axis) const {
     const Row d = minus(p, center_);
     for (int k = 0; k < 3; ++k) {

@@ -41,8 +41,9 @@ bool contains(const Volume& volume, const Triangle& triangle, const Own& own) {
   });
 }
 
-/// The same for a part: the spheres about its points, or the discs of a cylinder. If a volume does
-/// not contain the discs by themselves, it must contain the part's own box, which contains them.
+/// Tests whether the volume contains a convex part: the spheres about its points, or the discs of a
+/// cylinder. If a volume does not contain the discs by themselves, it must contain the part's own
+/// box, which contains them.
 template <class Own>
 bool contains(const Volume& volume, const ConvexPart& part, const Own& own,
               const exact::Rational& unit) {

@@ -34,8 +34,9 @@ class PrimitiveReferences {
   enum Column { kX, kY, kZ, kWeight, kXX, kXY, kXZ, kYY, kYZ, kZZ, kTriangle, kColumns };
 
   explicit PrimitiveReferences(std::size_t count)
-      // If the count is a multiple of 1024 (a page of floats), the additional 48 keep the stride
-      // from being one. Columns at such a stride would compete for the same cache sets.
+      // The additional 48 keep the stride from being a multiple of 1024 (a page of floats) where
+      // the count is such a multiple. Columns at such a stride would compete for the same cache
+      // sets.
       : stride_((count + 15) / 16 * 16 + 48),
         data_(std::make_unique_for_overwrite<float[]>(kColumns * stride_)) {}
 

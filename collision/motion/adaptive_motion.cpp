@@ -18,7 +18,7 @@ constexpr double kLeastHalfWidth = 0x1p-48;
 /// A time interval of a pair that is not proved yet.
 struct Interval {
   double t0, t1;
-  double need;  ///< metres that the parent's distance was short of; infinite for the whole motion
+  double need;  ///< metres by which the parent's distance was too small; whole motion: infinite
   std::uint32_t pair;
 };
 

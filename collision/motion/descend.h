@@ -39,8 +39,8 @@ struct DescentOptions {
   double margin = 0, tolerance = 0;  ///< metres
   bool shortest = false;             ///< the interval must not be halved
   std::uint64_t workEnd = 0;         ///< `Counters::work` at which the walk stops
-  unsigned leaveAllAfter =
-      0;                   ///< once this many pairs of boxes are left to the halves, all others are
+  /// Once this many pairs of boxes are left to the halves, all others are left, too.
+  unsigned leaveAllAfter = 0;
   bool clearance = false;  ///< whether `Descent::clearance` is requested, which costs time
 };
 

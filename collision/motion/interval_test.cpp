@@ -14,8 +14,9 @@ namespace corridor {
 namespace {
 
 /// Records in the certificate that all of the group is separated in [t0, t1].
-/// @param clearance of the node pairs that were separated last, beyond margin, clearance slack and
-/// motion, metres. `group` has the clearance of the others.
+/// @param clearance a lower bound for all that was separated in this interval, beyond margin,
+/// clearance slack and motion, metres. `group.clearance` is the bound for node pairs that were
+/// separated in longer intervals.
 void record(const MotionQuery& query, double t0, double t1, const WorkList::Group& group,
             double clearance) {
   if (!query.certificate) return;

@@ -81,8 +81,9 @@ Gaps gapsAlong(const Vec3& n, const Triangle& a, const MovingCorners& b) {
   return gaps;
 }
 
-/// Returns v at unit length, where rounding may give a length up to 1 + 4u. If squares leave the
-/// range in which this holds (with or without flush-to-zero), returns NaN, which separates nothing.
+/// Returns v divided by its length. Rounding gives the result a length of at most 1 + 4u. If
+/// squares leave the range in which this holds (with or without flush-to-zero), returns NaN, which
+/// separates nothing.
 Vec3 unit(const Vec3& v) {
   const double square = v.squaredNorm();
   if (!(square > 0x1p-900 && square < 0x1p900))

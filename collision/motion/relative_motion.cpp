@@ -15,7 +15,7 @@
 /// pivot rotation: from its point). Let z_j = T_j(sδ_j) … T_k(sδ_k) x: the point after the motion
 /// of joints j to k only.
 ///
-/// Isotropic bound, `isotropic` (no enlargement).
+/// Isotropic bound, `isotropic` (without enlarged radii).
 ///   x(s) − x = Σ_j T_1(sδ_1) … T_(j−1)(sδ_(j−1)) [T_j(sδ_j) x − x].
 /// The factors before the bracket are an isometry, and x in the bracket is at the middle. The
 /// length of the bracket is a chord, 2 r_j sin(min(|sδ_j|, π)/2), for a rotation, and |sδ_j| for a

@@ -58,7 +58,7 @@ struct RelativeMotion {
   /// include perturbations: a tube, or the clearance slack of a query.
   double fixedError = 0;
   double reachError = 0;
-  /// The shares of a tube, as opposed to rounding, in `fixedError` and `reachError`.
+  /// The parts of `fixedError` and `reachError` that come from a tube, not from rounding.
   double fixedTube = 0, reachTube = 0;
 };
 

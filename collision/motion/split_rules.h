@@ -26,7 +26,8 @@ struct SplitRules {
   static constexpr SplitThresholds kFirst = {1, 1}, kLater = {8, 4};
   /// Half of an interval's angle, radians, above which b counts as rotating.
   static constexpr double kTurns = 0.02;
-  /// A motion is far if it is longer than this multiple of the radius of b's bounding sphere.
+  /// A body moves far if its bounding sphere's centre may move, from its place at the middle of the
+  /// interval, by more than this multiple of the sphere's radius.
   static constexpr double kFar = 2;
   /// The least half width at which a body that moves far (`IntervalMotions::Separation`) is left
   /// untested to the halves of the interval. In shorter intervals every body is tested. This is

@@ -26,8 +26,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// @param error  how far the given corners may be off, both triangles together.
 /// @param pad a clearance to prove in addition. Both lengths are in the unit of the corners.
 ///
-/// Method: separating axes: the normals of both triangles and the nine cross products of their
-/// edges.
+/// Method: separating axes, namely the normals of both triangles and the nine cross products of
+/// their edges.
 ///
 /// Rounding, with u = 2^-24 and D the size of a pair (`TrianglePairs`): corners are off by 3u·D per
 /// coordinate. A vector L of any direction separates the triangles if their projections onto it are

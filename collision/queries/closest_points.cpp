@@ -134,7 +134,7 @@ bool offerClosestFeatures(Best& best, const Corners& s, const Corners& t) {
   } else {
     offerFoot(best, s[feature - 12], t, false);
   }
-  if (!(best.square.hi < HUGE_VAL)) return false;  // in double-double, the foot is not in the face
+  if (!(best.square.hi < HUGE_VAL)) return false;  // double-double puts the foot outside the face
   if (countsAsZero(best)) return true;
   const Point n = best.b - best.a;
   const Real most =

@@ -7,8 +7,8 @@
 namespace corridor {
 
 /// `distance` (distance.h, with the same guarantees) for 4-wide OBB trees of triangles, several
-/// times faster. @pre No tree is of a convex part. (For convex parts, queries of bodies use a
-/// binary tree.)
+/// times faster. @pre No tree holds convex parts. (For convex parts, queries of bodies use
+/// binary trees.)
 ///
 /// @param last if not null, the closest pair of the last query of these trees: the search starts
 /// from it, and the pair found is stored there. The start changes the distance only within the
@@ -17,7 +17,7 @@ Distance distance(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b,
                   const DistanceOptions& options, QueryContext& context, LastPair* last = nullptr);
 
 /// `closerThan` (distance.h, with the same guarantees) for 4-wide OBB trees of triangles, several
-/// times faster. @pre d = 0, or no tree is of a convex part.
+/// times faster. @pre d = 0, or no tree holds convex parts.
 /// @param last as for `distance`, but it never changes the answer.
 bool closerThan(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b, double d, QueryContext& context,
                 LastPair* last = nullptr);

@@ -25,8 +25,8 @@ namespace corridor {
 ///
 /// Gives up and returns nullopt soon after the counted box and triangle tests reach `workEnd`.
 ///
-/// SIMD by run-time dispatch. Every target gives the same verdict. All targets with fused
-/// multiply-add (all except SSE) give the same counts.
+/// Uses the best SIMD target of the machine, chosen at run time. Every target gives the same
+/// verdict. All targets with fused multiply-add (all except SSE) give the same counts.
 ///
 /// @param last  if not null, the pair of the last query of these trees: it is tested first, and the
 /// pair found is stored there. Starting with it may change which touching pair is reported, and the

@@ -28,7 +28,7 @@ Corners sharedFirst(const Triangle& t, const Triangle& other) {
   return c;
 }
 
-/// Tests whether the convex hulls of up to three points each touch.
+/// Tests whether two convex hulls, of up to three points each, touch.
 bool touch(const Triangle& a, const Triangle& b, Counters& counters) {
   const PredicateResult result = trianglesTouch(a, {}, b, {});
   counters.addTest(result.exact);
@@ -38,7 +38,7 @@ Triangle edge(const Vec3& p, const Vec3& q) {
   return {p, q, q};
 }
 
-/// Tests exactly whether the corners lie on a line, by whether every component of the normal is 0.
+/// Tests exactly whether the corners lie on a line: then every component of the normal is 0.
 bool onALine(const Triangle& t) {
   const Transform here;
   for (int k = 0; k < 3; ++k) {

@@ -35,7 +35,7 @@ bool Gjk::separated(const Obb& boxA, const Obb& boxB, const Transform& X_AB,
     const Vec3 L = direction / direction.cwiseAbs().maxCoeff();
     const Vec3 along = pair.R.transpose() * L;
     if (pair.apartAlong(L, along)) return true;
-    Vec3 corner = pair.T;  // the corner of b − a that is farthest against L
+    Vec3 corner = pair.T;  // the corner of b − a that is farthest along −L
     for (int j = 0; j < 3; ++j) corner -= signOf(along[j]) * pair.b[j] * pair.R.col(j);
     for (int i = 0; i < 3; ++i) corner[i] -= signOf(L[i]) * pair.a[i];
     const Point w(Vec3(corner * scale));

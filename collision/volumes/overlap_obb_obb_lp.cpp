@@ -99,7 +99,7 @@ bool solve(const Bounds<D>& bounds, const HalfSpace<D>* list, std::size_t count,
     Point<D - 1> slope = without(plane.normal, k);
     for (double& s : slope) s /= plane.normal[k];
     std::array<HalfSpace<D - 1>, 8>
-        // Six in three variables become at most seven in two, and eight in one.
+        // Six half-spaces in three variables become at most seven in two, and eight in one.
         rest;
     for (std::size_t j = 0; j < i; ++j) {
       const double n = list[j].normal[k];

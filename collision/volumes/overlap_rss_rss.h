@@ -16,10 +16,10 @@ namespace corridor {
 /// the direction is still valid but the gap is smaller: the proof is the projection of both
 /// rectangles onto that direction.
 ///
-/// Derivation. As for boxes (overlap_obb_obb.h), in the coordinates of rectangle a. For a direction
-/// n, the gap is that of the two cores minus the radii times |n|. In these coordinates the radii of
-/// the swept spheres are at most r_a(1 + 1.5η_A) and r_b(1 + 1.5η_A + 2η_M). The factor 1 +
-/// `relative` covers both.
+/// Derivation. It is that for boxes (overlap_obb_obb.h), in the coordinates of rectangle a. For a
+/// direction n, the gap is that of the two cores minus the radii times |n|. In these coordinates
+/// the radii of the swept spheres are at most r_a(1 + 1.5η_A) and r_b(1 + 1.5η_A + 2η_M). The
+/// factor 1 + `relative` covers both.
 template <>
 class PairTest<Rss> {
  public:

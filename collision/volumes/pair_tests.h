@@ -1,7 +1,7 @@
 #pragma once
 
-/// Includes the `PairTest` of every volume. A new volume needs an #include here and lines below
-/// (planner/ARCHITECTURE.md, "A new bounding volume").
+/// Includes the `PairTest` of every volume. A new volume needs an #include here, and an entry in
+/// each of the two lists below (planner/ARCHITECTURE.md, "A new bounding volume").
 #include "collision/volumes/overlap_aabb_aabb.h"
 #include "collision/volumes/overlap_kdop_kdop.h"
 #include "collision/volumes/overlap_obb_obb.h"

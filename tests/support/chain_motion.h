@@ -19,7 +19,7 @@ class ChainMotion final : public MotionSource {
   using Mat3L = Eigen::Matrix<long double, 3, 3>;
   struct Joint {
     bool slides = false;
-    Vec3 axis = Vec3::UnitZ(), point = Vec3::Zero();  ///< at joint values 0; any length except 0
+    Vec3 axis = Vec3::UnitZ(), point = Vec3::Zero();  ///< at joint value 0; |axis| may be any but 0
     double from = 0, to = 0;
   };
   struct Pose {

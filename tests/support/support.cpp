@@ -49,7 +49,7 @@ std::string contents(const std::filesystem::path& file) {
 std::uint64_t testSeed(std::uint64_t fallback) {
   const char* value = std::getenv("CORRIDOR_SEED");
   const std::uint64_t seed = value ? std::stoull(value) : fallback;
-  std::cout << "seed " << seed << " (set CORRIDOR_SEED to repeat another)\n";
+  std::cout << "seed " << seed << " (CORRIDOR_SEED selects another)\n";
   return seed;
 }
 

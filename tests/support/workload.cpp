@@ -74,7 +74,7 @@ Workload loadWorkload(const std::filesystem::path& folder, const std::string& na
     w.distance.push_back(std::stod(distance));
   });
   if (w.poses.size() != w.hit.size())
-    throw std::runtime_error(name + ": poses and truths differ in number");
+    throw std::runtime_error(name + ": the numbers of poses and of truths differ");
   return w;
 }
 

@@ -98,8 +98,9 @@ Answers askStill(const std::vector<Body>& bodies, TreeKind trees) {
 }
 
 /// Compares the answers of several threads with those of one thread, for each kind of trees. On the
-/// same bodies all bits must agree; on copies that only the one thread has used, the verdicts.
-/// `make` makes the bodies. Half of the threads start with another kind of trees than the others.
+/// same bodies all bits must agree. On copies that only the one thread has used, the verdicts must
+/// agree. `make` makes the bodies. Half of the threads start with another kind of trees than the
+/// others.
 template <class Make, class Ask>
 std::vector<Answers> expectOneAnswerOfEachKind(const Make& make, const Ask& ask) {
   constexpr std::size_t kinds = std::size(kKinds);
@@ -129,7 +130,7 @@ TEST(Threads, StillBodies) {
   }
 }
 
-/// All threads must get the same tree: its address must be equal.
+/// All threads must get the same tree, at the same address.
 TEST(Threads, TreesAreBuiltOnce) {
   for (int round = 0; round < 20; ++round) {
     const std::vector<Body> bodies = someBodies();

@@ -141,8 +141,8 @@ TEST_P(Threads, SceneAndEdgeMotions) {
   EXPECT_GT(answers.count(MotionVerdict::contact), 2);
 }
 
-/// Tests the classes through which OMPL calls the checker, with three methods, inside the tally
-/// that benchmarks put around them.
+/// Tests the classes through which OMPL calls the checker, with three methods. They are wrapped in
+/// the counters of benchmarks (`CheckingTally`).
 TEST_P(Threads, Validators) {
   for (const char* const method : {"certified", "adaptive", "discrete"}) {
     Problem problem = ownProblem(GetParam());

@@ -35,9 +35,8 @@ void inThreads(const Work& work) {
 /// The answers of several queries, as a list of bits. Two lists are equal if all answers agree to
 /// the last bit.
 ///
-/// A `QueryContext` stores, by the addresses of trees, the pair from which the next query starts.
-/// Two copies of a body have different addresses. So their queries may differ in counters, in the
-/// triangles that they report, and in last digits. Only the verdicts must agree.
+/// Queries of copies of the bodies are compared by their verdicts only (`verdicts`). Their
+/// counters, the triangles that they report, and their last digits may differ.
 class Answers {
  public:
   void add(std::integral auto value) { bits_.push_back(static_cast<std::uint64_t>(value)); }
@@ -78,7 +77,7 @@ class Answers {
 
  private:
   std::vector<std::uint64_t> bits_;
-  std::vector<int> verdicts_;  // these agree for equal bodies elsewhere in memory, too
+  std::vector<int> verdicts_;  // these must agree on copies of the bodies, too
 };
 
 /// Calls `ask()` in all threads at once, and then in one more thread. Expects the same bits from

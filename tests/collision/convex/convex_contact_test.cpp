@@ -63,7 +63,7 @@ TEST(ConvexContact, RightOutsideTheBandNeverFalselyFree) {
   EXPECT_EQ(wrong, 0);
   EXPECT_EQ(falseFree, 0);
   EXPECT_GT(cases, 100'000);
-  std::cout << cases << " cases, by more digits " << moreDigits << "\n";
+  std::cout << cases << " cases; decided with more digits than double: " << moreDigits << "\n";
 }
 
 using Vec3L = Eigen::Matrix<long double, 3, 1>;

@@ -92,7 +92,7 @@ TEST_F(AssimpProcess, TakesTooLong) {
   int id = 0;
   std::ifstream(file_ + ".id") >> id;
   ASSERT_GT(id, 0);
-  EXPECT_EQ(::kill(id, 0), -1) << "it is still there";
+  EXPECT_EQ(::kill(id, 0), -1) << "the process still runs";
   // The time limit also ends a process that writes without end.
   EXPECT_EQ(complaintWith("while :; do echo y; done", 0.2),
             reads + "took more than 0.2 s and was stopped" + instead);

@@ -68,7 +68,7 @@ TEST_F(Collada, VerticesAreRoundedToFloat) {
   EXPECT_EQ(least, 10 + 2 * static_cast<double>(0.1f));
 }
 
-TEST_F(Collada, UnitAndUpAxisAsked) {
+TEST_F(Collada, UnitAndUpAxisAsRequested) {
   const MeshFile file =
       read("a.dae", collada("<unit meter=\"0.0254\"/><up_axis>Z_UP</up_axis>"), {0.5, 'y'});
   expectBounds(file.mesh, Vec3(4, -3, 2), Vec3(6, -3, 9));

@@ -88,7 +88,7 @@ INSTANTIATE_TEST_SUITE_P(All, Fits,
                                                                  : "hull";
                          });
 
-/// The tree of a primitive is one leaf whose box contains it and is tight.
+/// The tree of a primitive is one leaf. Its box contains the primitive, and is tight.
 TEST(ObbTree, OfAConvexPart) {
   std::mt19937_64 random(test::testSeed(6));
   const auto real = [&](double low = -1, double high = 1) {

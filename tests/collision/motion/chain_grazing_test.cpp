@@ -109,7 +109,7 @@ TEST(CertifyMotion, ChainsThatGrazeByConstruction) {
   EXPECT_EQ(notFound, 0);
   EXPECT_GT(apart, count / 4);
   EXPECT_GT(together, count / 4);
-  std::cout << context.counters.boxTests / (apart + together) << " box tests an edge\n";
+  std::cout << context.counters.boxTests / (apart + together) << " box tests per edge\n";
 }
 
 /// Random chains: if the verdict is `free`, no sampled pose may have a contact.

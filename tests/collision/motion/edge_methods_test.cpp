@@ -214,7 +214,7 @@ TEST_P(EdgeMethods, MarginTubeSlackAndWorkLimit) {
     if (limit > 3 && GetParam().method == EdgeMethod::directional) continue;
     const MotionResult beside = verdict(at(Vec3(-5, 0.5 - 1e-6, 0)), at(Vec3(5, 0.5 - 1e-6, 0)));
     EXPECT_EQ(beside.reason, UndecidedReason::workLimit) << limit;
-    EXPECT_LT(context_.counters.poses, limit / 10 + 10) << "it ends soon after";
+    EXPECT_LT(context_.counters.poses, limit / 10 + 10) << "the query ends soon after the limit";
   }
 }
 
@@ -244,10 +244,12 @@ TEST_P(EdgeMethods, LeavesOfManyTriangles) {
   TriangleMesh nested, needle;
   for (const double s : {1.0, 2.0, 4.0, 8.0})
     add(nested, s * Vec3(-1, -1, 0), s * Vec3(2, -1, 0), s * Vec3(-1, 2, 0));
-  for (const double s : {0.01, 0.02, 0.5})  // triangles that point down, each longer than the last
+  // Triangles that point down, each longer than the one before.
+  for (const double s : {0.01, 0.02, 0.5})
     add(needle, s * Vec3(0, 0, -2), s * Vec3(0.1, 0, 1), s * Vec3(-0.1, 0, 1));
   const Body plate = bodyOf(nested), tip = bodyOf(needle);
-  // Above the first, …, the last, or beside all triangles of the plate.
+  // The needle comes down on an edge of the plate's third triangle, inside the third, inside the
+  // fourth only, or beside all of them.
   for (const double x : {0.0, 3.0, 10.0, 13.0}) {
     const bool hits = x < 12;
     const auto through = [&](double sign) {  // the tips are 1 below the origin: at −1.5 in the end

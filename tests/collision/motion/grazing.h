@@ -9,10 +9,10 @@
 
 namespace corridor::test {
 
-/// A fixed mesh below the plane through x with normal n, and a moving mesh above it, at height
-/// `gap` at t = 1 (or throughout). The verdict is known by construction. If the gap is negative,
-/// the features penetrate each other in their interior; otherwise the gap is
-/// the distance of the meshes.
+/// A fixed mesh below the plane through x with normal n, and a moving mesh above this plane. The
+/// height of the moving mesh is `gap` at t = 1, or at all times if it slides. The verdict is known
+/// by construction. If the gap is negative, the features penetrate each other in their interior.
+/// Otherwise the gap is the distance of the meshes.
 struct Grazing {
   enum Feature { cornerOnFace, faceOnCorner, edgeOnEdge, features };
   TriangleMesh fixed, moving;

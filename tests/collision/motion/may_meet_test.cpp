@@ -95,7 +95,7 @@ TEST(MayMeet, RandomMotions) {
   }
   EXPECT_GT(proved, 500 / test::kSlowdown);
   EXPECT_GT(sideways, 30 / test::kSlowdown);
-  std::cout << proved << " proved, " << sideways << " of them by the direction\n";
+  std::cout << proved << " proved, " << sideways << " of them only by the directional bound\n";
 }
 
 /// Both bodies move far, and nearly in the same way. Their common motion must not count.
@@ -155,7 +155,7 @@ TEST(MayMeet, RandomMotionsOfBoth) {
   }
   EXPECT_GT(proved, 1'000 / test::kSlowdown);
   EXPECT_GT(sideways, 100 / test::kSlowdown);
-  std::cout << proved << " proved, " << sideways << " of them by the direction\n";
+  std::cout << proved << " proved, " << sideways << " of them only by the directional bound\n";
 }
 
 }  // namespace

@@ -44,7 +44,8 @@ struct Ratios {
   double isotropic = 0, beyond = 0, pad = 0, all = 0;
 };
 
-/// The real motion of the point, in long double, divided by the bounds of `motionBound`.
+/// Returns the real motion of the point, computed in long double, divided by the bounds of
+/// `motionBound`.
 Ratios ratios(const Trial& trial) {
   RelativeMotion w;
   std::vector<ScrewMotion> screws;
@@ -199,7 +200,7 @@ TEST(MotionBounds, RandomChains) {
   }
   const auto middle = shares.begin() + static_cast<std::ptrdiff_t>(shares.size() / 2);
   std::nth_element(shares.begin(), middle, shares.end());
-  std::cout << "of the bound, in the median: " << *middle << "\n";
+  std::cout << "median share of the bound: " << *middle << "\n";
 }
 
 RelativeMotion relativeMotionOf(std::span<const ScrewMotion> screws, const Vec3& linear,

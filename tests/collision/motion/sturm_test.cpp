@@ -87,9 +87,9 @@ class Sturm : public testing::TestWithParam<Proof> {
         for (const Vec3& p : moving)
           ASSERT_LE((real.point(r.contactTime, p) - (X.m * p + X.t).cast<long double>()).norm(),
                     poseError(moving, from, to) + 0x1p-50 * p.norm() + 0x1p-50 * X.t.norm());
-        // So at this time, at the latest, the distance of the exact motion is at most the rounding
-        // of the pose. The exact motion also has a contact until then, unless the contact exists
-        // only because of that rounding.
+        // So at the time of the contact, the exact motion is at most the rounding of the pose away
+        // from a contact. The exact motion has a contact by then, too, unless the reported contact
+        // exists only because of that rounding.
         counts_.onlyRounded += !known.contact || r.contactTime < path.time(known.low) - kTimeError;
         if (!earliest) break;
         if (!r.grazing) {

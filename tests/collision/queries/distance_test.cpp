@@ -70,7 +70,7 @@ TEST(ClosestPoints, WithinTheirErrorOfTheExactDistance) {
   }
   EXPECT_LE(worst, 1);
   EXPECT_GT(tightest, 1'000);
-  std::cout << "worst error, of the error allowed: " << worst << "\n";
+  std::cout << "worst error, as a share of the allowed error: " << worst << "\n";
 }
 
 /// Two triangles in one plane. One triangle is a segment, except for a corner that is 2^-1074 off

@@ -116,8 +116,8 @@ struct Pairs {
       for (int k = 0; k < 3; ++k) bound.linear[k][i] = f(linear[k]);
       const double isotropic = real(random, 0, 0.3);
       bound.isotropic[i] = by == By::isotropic ? f(isotropic * up) : 1e30F;
-      // The moved box b at s = 1 (s = −1 is as good): its axes to first order, and the displacement
-      // of its centre.
+      // The moved box b at s = 1 (s = −1 is symmetric): its axes to first order, and the
+      // displacement of its centre.
       Mat3 moved = scale * U * eb.asDiagonal();
       Vec3 goes = Vec3::Zero();
       if (by == By::isotropic) {

@@ -49,7 +49,8 @@ Meeting meeting(std::mt19937_64& random, int n, double gap, double offset, doubl
   const double depth = n % 2 ? 0 : std::pow(10.0, -(n % 9));  // flat, or thick behind the plane
   const auto cloud = [&](double side) {
     std::vector<Vec3> points = {where + (side > 0 ? gap : 0) * normal};
-    if (n % 6 == 5) {  // even a sphere touches the plane in that point alone
+    // A segment along the normal: even a sphere around it meets the plane in one point only.
+    if (n % 6 == 5) {
       points.resize(12, points[0] + side * normal);
       return points;
     }

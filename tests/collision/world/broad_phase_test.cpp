@@ -188,7 +188,7 @@ TEST(BroadPhase, StatesHaveTheSameAnswers) {
   EXPECT_GT(apart, 20);
 }
 
-/// Among thousands of obstacles, the tree gives only those near the motion.
+/// Among thousands of obstacles, the tree finds only those near the motion.
 TEST(BroadPhase, TakesLogarithmicTime) {
   std::vector<Body> moving, fixed;
   const TriangleMesh cube = box(Vec3(-0.1, -0.1, -0.1), Vec3(0.1, 0.1, 0.1));

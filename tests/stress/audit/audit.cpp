@@ -12,8 +12,8 @@
 namespace corridor::audit {
 namespace {
 
-/// The kinds of trees, of which each case gets one at random: the default kind five times, every
-/// other kind once.
+/// Each case gets one of these kinds of trees at random. The list has the default kind five times,
+/// and every other kind once.
 constexpr TreeKind kTrees[] = {TreeKind::obb4,
                                TreeKind::obb4,
                                TreeKind::obb4,

@@ -84,7 +84,7 @@ Graze::Look<S> Graze::look(const Curve<S>& curve, const Shape& rest, S t) const 
 /// - height of a point along a fixed direction: f'' ≤ bend;
 /// - distance |y| of two points, or of a point from a line: f'' ≤ bend + |y'|²/|y|;
 /// - distance n·y of two lines: n = u/|u|, u the cross product of their unit vectors, |u'| ≤ Ω,
-///   |u''| ≤ Ω²; with s = |u| follow |n'| ≤ Ω/s and |n''| ≤ Ω²/s + 3Ω²/s².
+///   |u''| ≤ Ω². With s = |u|, it follows that |n'| ≤ Ω/s and |n''| ≤ Ω²/s + 3Ω²/s².
 template <class S>
 S Graze::boundOf(const Curve<S>& curve, const Look<S>& a, const Look<S>& b) const {
   const S w = b.t - a.t;
@@ -137,7 +137,8 @@ void Graze::proveHeights() {
     last = next;
   }
   long double lowest = HUGE_VALL;
-  if (curve_->speed(std::max(tip_.reach, base_.reach)) < 1e-3 * size_) {  // all is close
+  // If the bodies hardly move, the whole edge is evaluated in 128 bits.
+  if (curve_->speed(std::max(tip_.reach, base_.reach)) < 1e-3 * size_) {
     open.clear();
     close.emplace_back(0, 1);
   }

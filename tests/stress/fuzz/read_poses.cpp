@@ -14,7 +14,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (const app::PoseMotion& motion : app::readMotions(file))
       for (const RigidPose& pose : {motion.from, motion.to})
         if (!pose.p.allFinite() || !(std::abs(pose.q.norm() - 1) < 1e-9))
-          fuzz::fail("a pose that is no rigid one");
+          fuzz::fail("a motion's pose that is not rigid");
   });
   return 0;
 }

@@ -14,7 +14,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::checkFaults(faults);
     if (model.has_value() != faults.empty()) fuzz::fail("a model and faults, or neither");
     if (!model) return;
-    if (model->joints.size() + 1 != model->links.size()) fuzz::fail("this is no tree");
+    if (model->joints.size() + 1 != model->links.size())
+      fuzz::fail("the joints do not make a tree");
     for (const JointModel& joint : model->joints)
       if (!joint.axis.allFinite() || joint.axis.isZero(0) || !(joint.lower <= joint.upper) ||
           !joint.X_PJ.p.allFinite() || !(joint.X_PJ.q.norm() > 0.9))
