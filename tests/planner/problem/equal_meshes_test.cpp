@@ -98,6 +98,26 @@ TEST_F(EqualMeshes, OfDifferentOptionsShareNothing) {
   EXPECT_NEAR((meshOf(p, "ball19").vertices.at(7) - centre).norm(), 0.005, 1e-5);
 }
 
+/// Solid balls and surfaces of one file share the mesh, and each keeps its own inside.
+TEST_F(EqualMeshes, SolidsAndSurfacesDiffer) {
+  write("robot.yaml", "format: corridor-robot-1\nrigid: SE3\nshapes: [{box: [0.1, 0.1, 0.1]}]\n");
+  write("ball.obj", ballObj(kAround, 0.5));
+  for (const bool solidFirst : {false, true}) {
+    std::string text = "format: corridor-problem-1\nrobot: robot.yaml\nworld:\n";
+    for (int i = 0; i < 40; ++i)
+      text += "  ball" + std::to_string(i) + ": {mesh: ball.obj, at: [" + std::to_string(2 * i) +
+              ", 0, 5]" + ((i < 20) == solidFirst ? ", solid: true" : "") + "}\n";
+    const Problem p = read(text + poses);
+    EXPECT_EQ(bodyOf(p, "ball0").shapes.at(0).mesh, bodyOf(p, "ball39").shapes.at(0).mesh);
+    const Checker checker(p);
+    Configuration q = p.task.start;
+    for (const int i : {0, 7, 20, 39}) {
+      q.head<3>() = Vec3(2 * i, 0, 5);
+      EXPECT_EQ(checker.interference(q).has_value(), (i < 20) == solidFirst) << i;
+    }
+  }
+}
+
 /// Verdicts, tolerance, bounds and proofs are those of the same balls, each in a file of its own.
 TEST_F(EqualMeshes, ChangeNoVerdict) {
   write("robot.yaml", "format: corridor-robot-1\nrigid: SE3\nshapes: [{box: [0.3, 0.2, 0.1]}]\n");
