@@ -131,6 +131,16 @@ TEST(TriangleContact, DegenerateTrianglesAreTheirPointSets) {
   EXPECT_FALSE(touch(segment, point(1, 1, 1.5)));
   const Triangle collinear = {Vec3(1, 1, 1), Vec3(1, 1, 3), Vec3(1, 1, 2)};
   EXPECT_TRUE(touch(segment, collinear));
+  // Segments that have only an end in common. No edge is a single point.
+  const Triangle first = {Vec3(0, 0, 0), Vec3(1, 1, 0), Vec3(2, 2, 0)};
+  for (const Vec3& d : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(1, 3, 2), Vec3(0, 0, 1)}) {
+    const Triangle second = {Vec3(2, 2, 0), Vec3(Vec3(2, 2, 0) + d), Vec3(Vec3(2, 2, 0) + 2 * d)};
+    EXPECT_TRUE(touch(first, second)) << d.transpose();
+    EXPECT_TRUE(touch(second, first)) << d.transpose();
+    Triangle apart = second;
+    for (Vec3& corner : apart) corner.x() += 0x1p-51;
+    EXPECT_FALSE(touch(first, apart)) << d.transpose();
+  }
 }
 
 #ifdef __SSE2__

@@ -152,5 +152,29 @@ TEST(Obb4Distance, NearTies) {
   }
 }
 
+/// Bounds in double are not the answer: gaps of a few roundings, and queries just below them.
+TEST(Obb4Distance, CloserThanIsRightUpToFourRoundings) {
+  QueryContext context;
+  int queries = 0;
+  for (int n = 8; n < 4000; n = n * 5 / 4) {
+    // Two parallel triangles, at z = 1 and z = 1 + 2n·u; all coordinates are at most 1 + 2n·u.
+    const double gap = 2 * n * kUnit;
+    TriangleMesh mesh, above;
+    mesh.vertices = {Vec3(-1, -1, 1), Vec3(1, -1, 1), Vec3(0, 1, 1)};
+    mesh.triangles = {{0, 1, 2}};
+    above = mesh;
+    for (Vec3& v : above.vertices) v.z() += gap;
+    const Obb4Tree a(mesh), b(above);
+    EXPECT_EQ(distance(Posed(a), Posed(b), {}, context).distance, gap) << n;
+    for (const double below : {4.5, 5.0, 6.0, 8.0}) {
+      const double d = gap - below * kUnit;
+      EXPECT_FALSE(closerThan(Posed(a), Posed(b), d, context)) << n << ", " << below;
+      ++queries;
+    }
+    EXPECT_TRUE(closerThan(Posed(a), Posed(b), gap, context)) << n;
+  }
+  EXPECT_GT(queries, 80);
+}
+
 }  // namespace
 }  // namespace corridor

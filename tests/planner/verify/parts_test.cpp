@@ -63,6 +63,15 @@ TEST(ExactContact, DegenerateTriangles) {
   EXPECT_FALSE(touches(needle, away));  // collinear, apart
   EXPECT_FALSE(touches(point, away));
   EXPECT_TRUE(touches(needle, {Vec3(1, 1, 1), Vec3(1, 1, 3), Vec3(1, 1, 3)}));
+  // Segments that have only an end in common. No edge is a single point.
+  const Corners first = {Vec3(0, 0, 0), Vec3(1, 1, 0), Vec3(2, 2, 0)};
+  for (const Vec3& d : {Vec3(1, 0, 0), Vec3(1, 3, 2), Vec3(0, 0, 1)}) {
+    const Vec3 end(2, 2, 0);
+    EXPECT_TRUE(touches(first, {end, Vec3(end + d), Vec3(end + 2 * d)})) << d.transpose();
+    EXPECT_FALSE(
+        touches(first, {Vec3(end + 0x1p-51 * Vec3::UnitX()), Vec3(end + d), Vec3(end + 2 * d)}))
+        << d.transpose();
+  }
 }
 
 TEST(ExactContact, QuaternionIsNormalisedExactly) {
