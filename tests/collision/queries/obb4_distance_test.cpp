@@ -165,15 +165,36 @@ TEST(Obb4Distance, CloserThanIsRightUpToFourRoundings) {
     above = mesh;
     for (Vec3& v : above.vertices) v.z() += gap;
     const Obb4Tree a(mesh), b(above);
-    EXPECT_EQ(distance(Posed(a), Posed(b), {}, context).distance, gap) << n;
+    LastPair last;  // the search starts from the pair that was found
+    EXPECT_EQ(distance(Posed(a), Posed(b), {}, context, &last).distance, gap) << n;
     for (const double below : {4.5, 5.0, 6.0, 8.0}) {
       const double d = gap - below * kUnit;
       EXPECT_FALSE(closerThan(Posed(a), Posed(b), d, context)) << n << ", " << below;
+      EXPECT_FALSE(closerThan(Posed(a), Posed(b), d, context, &last)) << n << ", " << below;
       ++queries;
     }
     EXPECT_TRUE(closerThan(Posed(a), Posed(b), gap, context)) << n;
   }
   EXPECT_GT(queries, 80);
+  // Under rotations the true distance is known up to the error of `distance`, 4u·S.
+  TriangleMesh low, high;
+  test::add(low, Vec3(-1, -1, 1), Vec3(1, -1, 1), Vec3(0, 1, 1));
+  test::add(high, Vec3(-1, 1, 1 + 0x1p-40), Vec3(1, 1, 1 + 0x1p-40), Vec3(0, -1, 1 + 0x1p-40));
+  const Obb4Tree a(low), b(high);
+  for (int n = 0; n < 200; ++n) {
+    const Transform X{turned(n), Vec3::Zero()};
+    const double S = (X.m.cwiseAbs() * Vec3(1, 1, 1 + 0x1p-40)).maxCoeff();
+    LastPair last;
+    const double found = distance(Posed(a, X), Posed(b, X), {}, context, &last).distance;
+    for (double below = -1; below < 12; below += 0.125) {
+      const double d = found - below * kUnit * S;
+      const bool closer = closerThan(Posed(a, X), Posed(b, X), d, context, &last);
+      EXPECT_EQ(closer, closerThan(Posed(a, X), Posed(b, X), d, context)) << n << ", " << below;
+      if (below > 8) {
+        EXPECT_FALSE(closer) << n << ", " << below;
+      }
+    }
+  }
 }
 
 }  // namespace
