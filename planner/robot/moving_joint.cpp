@@ -86,8 +86,8 @@ MovingJoint::MovingJoint(const LongPose& fixed)
     : fixed_(fixed.m.cast<double>()),
       shift_(fixed.t.cast<double>()),
       fixedError_(fixed.error),
-      // Rounding the sum to double costs 2u·length. In long double the vector of each pose is
-      // rotated, which adds less than 2^-5 of that.
+      // Rounding the sum to double costs 2u·length. In long double, the vector of each pose is
+      // rotated. Each such rotation adds less than 2^-5 times this error.
       fixedShiftError_(2 * kUnit * fixed.length * (1 + 0x1p-5 * fixed.poses)),
       fixedLength_(fixed.length),
       matrixAtZero_(fixed_),
@@ -168,13 +168,15 @@ void MovingJoint::setValue(const Configuration& from, const Configuration& to) {
     rotationError_ = roundedUp(kTurnError + fixedError_ + valueError);
     return;
   }
-  // Errors besides `valueError`: the slide axis is off by 2u. Then value·axis, t times the
-  // displacement, and the sums round by u each of at most V, V, 2V and |p|. Together 13u + 2·2u +
-  // 2·1u + 4u < 24u of V.
+  // Errors besides `valueError`, with |rate| ≤ 2V and the constant part p:
+  // - the slide axis, which has the error of `fixed`, times the value and the rate: 3V·fixedError;
+  // - value·axis: uV; rate·axis: 2uV; its product with t: 2uV;
+  // - the two sums: at most u(|p| + V) and u(|p| + 3V).
+  // Together 9uV + 2u|p| + 3V·fixedError; the code adds 18uV + 4u|p| + 3V·fixedError.
   from_ = shift_ + value * slideAxis_;
   delta_ = rate_ * slideAxis_;
-  shiftError_ =
-      roundedUp(fixedShiftError_ + valueError + 24 * kUnit * V + 4 * kUnit * fixedLength_);
+  shiftError_ = roundedUp(fixedShiftError_ + valueError + 18 * kUnit * V +
+                          4 * kUnit * fixedLength_ + 3 * V * fixedError_);
   length_ = roundedUp(fixedLength_ + 2 * V);
 }
 

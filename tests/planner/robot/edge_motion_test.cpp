@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "collision/motion/rigid_motion.h"
+#include "planner/robot/moving_joint.h"
 #include "tests/planner/robot/random_trees.h"
 #include "tests/planner/robot/reference_kinematics.h"
 #include "tests/support/support.h"
@@ -32,6 +33,22 @@ std::pair<double, double> interval(RandomTrees& random) {
 /// Returns the rounding error of the reference: some 100 roundings of 2^-64.
 double noise(const MovingPose& real, double reach) {
   return 1e-17 * (1 + reach + static_cast<double>(real.t.norm()));
+}
+
+/// The error of the constant poses before a prismatic joint rotates its whole translation.
+TEST(EdgeMotion, APrismaticJointInheritsTheErrorOfTheConstantPosesBeforeIt) {
+  LongPose fixed;
+  Frame frame;
+  frame.fixed.q = Eigen::AngleAxisd(0.1, Vec3::UnitX());
+  for (int i = 0; i < 3000; ++i) fixed = fixed.then(frame);
+  frame.joint = Frame::Joint::prismatic;
+  frame.variable = 0;
+  const Configuration none = Configuration::Zero(1);
+  MovingJoint joint(frame, fixed, Coordinate::Kind::line, none);
+  const Configuration from = Configuration::Constant(1, 3);
+  const Configuration to = Configuration::Constant(1, -8);
+  joint.set(from, to);
+  EXPECT_GE(joint.shiftError(), 8 * fixed.error);
 }
 
 /// With a tube of zero, places and first-order displacements of all points are within fixedError +
