@@ -19,22 +19,23 @@ constexpr int kFindings = 100;
 /// The maximum number of times that an edge is halved: t then has 60 bits, and EdgeCurve's bounds
 /// on rounding allow 63.
 constexpr int kDepth = 60;
-/// An edge is first halved into 2^kCoarse intervals, beginning with those of the smallest bound:
-/// this finds a deep collision quickly. After that the shortest interval is next: this finds an
-/// undecidable place before all other intervals are halved as far.
+/// An edge is first halved into 2^kCoarse intervals. In this phase the interval with the smallest
+/// bound is halved next: this order finds a deep collision quickly. Afterwards the shortest
+/// interval is halved next: this order finds an undecidable place before all other intervals are as
+/// short.
 constexpr int kCoarse = 5;
-/// After the proof, the bound of the clearance is refined. This may take kRefinement queries, plus
-/// four times as many as the proof took. It ends when the bound is kRefined of the largest possible
-/// one.
+/// After the proof, the bound of the clearance is refined. The refinement may take kRefinement
+/// queries, plus four times the number of queries of the proof. It ends when the bound reaches the
+/// share kRefined of the largest possible bound.
 constexpr std::uint64_t kRefinement = 4000;
 constexpr Real kRefined = 0.9L;
 
-/// A time interval of an edge, and the pairs not yet proved in it.
+/// A time interval of an edge, and the pairs that are not proved yet in this interval.
 struct Interval {
   TimeInterval time;
   int depth = 0;  ///< time.half = 2^-(depth + 1), unless it is a single time
   std::vector<OpenPair> pairs;
-  Real bound = -kInfinity;  ///< the smallest bound of its pairs
+  Real bound = -kInfinity;  ///< the smallest bound of these pairs
 };
 
 std::array<Interval, 2> halvesOf(const Interval& whole) {
@@ -60,7 +61,7 @@ struct WorstOnTop {
 };
 
 /// Bisects all edges. If a pair is undecided somewhere on an edge, this pair is not tested further
-/// on that edge. The other pairs are, because one of them may refute the edge.
+/// on the edge. The other pairs are still tested, because one of them may refute the edge.
 class Verifier {
  public:
   Verifier(const PathProblem& problem, const std::vector<Configuration>& states)
@@ -155,9 +156,9 @@ void Verifier::testAll(Interval& interval) {
   interval.pairs = std::move(left);
 }
 
-/// Tests the states before the edges, for two reasons. Bisection comes close to the states, but
-/// never tests them. And the smallest distance at the states is an upper bound of the clearance,
-/// which `usefulBound()` uses.
+/// Tests the states before the edges, for two reasons. First, bisection comes close to the states,
+/// but never tests them. Second, the smallest distance at the states is an upper bound of the
+/// clearance, and `usefulBound()` uses it.
 void Verifier::proveStates() {
   for (std::size_t edge = 0; edge < prover_.edges(); ++edge)
     for (const Real t : {0, 1}) {
@@ -165,6 +166,7 @@ void Verifier::proveStates() {
       if (closed(edge) || tested) continue;
       Interval state = intervalOf({edge, t, 0});
       testAll(state);
+      if (edge == 0 && t == 0) proveOutside();
     }
 }
 
@@ -184,9 +186,9 @@ void Verifier::proveEdge(std::size_t edge) {
   }
 }
 
-/// Tests whether a body is inside another one at the start. If not, it stays outside along a path
-/// without contact. A pair that is undecided at the start is skipped, because its surfaces may
-/// touch.
+/// Tests for each pair whether one body is inside the other at the start. If it is not, it stays
+/// outside along a path without contact. A pair that is undecided at the start is skipped, because
+/// its surfaces may touch.
 void Verifier::proveOutside() {
   for (std::size_t pair = 0; pair < prover_.pairs() && !closed(0); ++pair) {
     if (undecided_.count({0, pair}) > 0) continue;
@@ -217,7 +219,6 @@ PathReport Verifier::run() {
   for (std::size_t edge = 0; edge < prover_.edges(); ++edge)
     if (prover_.noCurve(edge)) add(*prover_.noCurve(edge));
   proveStates();
-  if (!closed(0)) proveOutside();
   for (std::size_t edge = 0; edge < prover_.edges(); ++edge)
     if (!closed(edge) && !single_) proveEdge(edge);
   if (findings_.empty()) refine();

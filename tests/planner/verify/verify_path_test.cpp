@@ -224,6 +224,21 @@ TEST(VerifyPath, APairThatIsUndecidedAtTheStartHidesNoContact) {
   }
 }
 
+// A body starts inside a solid. At the end of the edge, rotations within the tube may move it to
+// the wall, so the end is undecided. The start refutes the edge.
+TEST(VerifyPath, APairThatIsUndecidedAtTheEndIsTestedForContainmentAtTheStart) {
+  World world(kCube, boxMesh(Vec3(-5, -5, -5), Vec3(5, 5, 5)));
+  world.problem.tube.rotation = 0.01;
+  const Poses path = {poseOf({0, 0, 0}), poseOf({4.499, 0, 0})};
+  EXPECT_EQ(world.verify(path).verdict, PathVerdict::undecided);
+  world.problem.fixed[0].solid = true;
+  const PathReport report = world.verify(path);
+  EXPECT_EQ(report.verdict, PathVerdict::refuted);
+  ASSERT_EQ(report.findings.size(), 1U);
+  EXPECT_EQ(report.findings[0].reason, "inside");
+  EXPECT_EQ(report.findings[0].t, 0);
+}
+
 TEST(VerifyPath, RodThroughASlot) {
   // A rod slides through a square hole of edge 0.2 in a plate, with 1 % play: first parallel to the
   // axis of the hole, then slightly tilted.
