@@ -52,11 +52,14 @@ void IniFile::fault(const Entry& entry, const std::string& text) const {
 
 std::optional<double> IniFile::number(const std::string& key, Range range) const {
   const Entry* entry = find(key);
-  if (!entry) return std::nullopt;
+  return entry ? number(*entry, range) : std::nullopt;
+}
+
+std::optional<double> IniFile::number(const Entry& entry, Range range) const {
   double value = 0;
-  const std::string complaint = parseNumber(entry->value, range, value);
+  const std::string complaint = parseNumber(entry.value, range, value);
   if (complaint.empty()) return value;
-  fault(*entry, complaint);
+  fault(entry, complaint);
   return std::nullopt;
 }
 

@@ -29,6 +29,8 @@ class IniFile {
   /// Returns the value of this key as a number. Returns nullopt if the key is absent, or if a fault
   /// was added.
   std::optional<double> number(const std::string& key, Range range = Range::Any) const;
+  /// Returns the value of `entry` as a number, or nullopt if a fault was added.
+  std::optional<double> number(const Entry& entry, Range range) const;
   void fault(const Entry& entry, const std::string& text) const;
   void fault(int line, const std::string& text) const { faults_->add(file_, line, text); }
 

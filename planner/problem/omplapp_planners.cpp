@@ -108,7 +108,7 @@ void readOmplAppPlanners(const IniFile& ini, Problem& problem) {
     readSampler(ini, *sampler->second, problem);
   if (const auto fraction = only.problem.find("longest_valid_segment_fraction");
       fraction != only.problem.end())
-    problem.settings.checker.resolution = ini.number(fraction->second->key, Range::Resolution)
+    problem.settings.checker.resolution = ini.number(*fraction->second, Range::Resolution)
                                               .value_or(problem.settings.checker.resolution);
 }
 

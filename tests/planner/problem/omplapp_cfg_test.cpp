@@ -83,6 +83,17 @@ TEST_F(OmplAppCfg, DefaultPlannerIfTheFileListsSeveral) {
       testing::Contains("planner: RRTConnect, since the file lists several (prm, rrt, rrt)"));
 }
 
+TEST_F(OmplAppCfg, TheLastOfRepeatedKeysOfAPlannerIsUsed) {
+  const Problem p = readProblem(
+      cfg(meshes + planar +
+          "[planner]\nrrt=\nrrt.range=3\nproblem.sampler=uniform\n"
+          "problem.longest_valid_segment_fraction=0.03\nrrt.range=4\nproblem.sampler=gaussian\n"
+          "problem.longest_valid_segment_fraction=0.04\n"));
+  EXPECT_EQ(p.settings.planner.params, (std::map<std::string, std::string>{{"range", "4"}}));
+  EXPECT_EQ(p.settings.sampler, StateSampler::gaussian);
+  EXPECT_EQ(p.settings.checker.resolution, 0.04);
+}
+
 TEST_F(OmplAppCfg, IncompleteVolumeIsIgnored) {
   const Problem p = readProblem(cfg(meshes + planar + "volume.min.x = -100\n"));
   EXPECT_EQ(lowerOf(p), Vec3(0, 0, 0));
