@@ -14,6 +14,7 @@ struct Fault {
 
   /// Returns "file:line: text".
   std::string str() const;
+  bool operator==(const Fault&) const = default;
 };
 
 /// The exception for bad input. It carries all faults found; `what()` lists them one per line, with

@@ -23,7 +23,9 @@ void FaultList::throwIfAny() const {
   const auto rank = [&](const Fault& fault) {
     return std::find(files.begin(), files.end(), fault.file) - files.begin();
   };
-  std::vector<Fault> sorted = faults_;
+  std::vector<Fault> sorted;
+  for (const Fault& fault : faults_)
+    if (std::find(sorted.begin(), sorted.end(), fault) == sorted.end()) sorted.push_back(fault);
   std::stable_sort(sorted.begin(), sorted.end(), [&](const Fault& a, const Fault& b) {
     return rank(a) != rank(b) ? rank(a) < rank(b) : a.line < b.line;
   });

@@ -34,8 +34,9 @@ class FaultList {
 
   std::size_t size() const { return faults_.size(); }
 
-  /// @throws InputError with all faults, if there are any: first the main file's, then those of the
-  /// other files in the order of their first faults; within a file by line.
+  /// @throws InputError with all distinct faults, if there are any: first the main file's, then
+  /// those of the other files in the order of their first faults; within a file by line. (A file
+  /// that is read twice with different options has the same faults twice.)
   void throwIfAny() const;
 
  private:

@@ -215,5 +215,14 @@ TEST_F(EqualMeshes, AreReportedOnceIfTheFileIsFaulty) {
             "bad.obj:3: face corner 3 is out of range: the file has 1 vertices");
 }
 
+TEST_F(EqualMeshes, AreReportedOnceIfTheirOptionsDiffer) {
+  write("bad.obj", "v 0 0 0\nf 1 1 1\nf 1 2 3\n");
+  EXPECT_EQ(complaintOf("format: corridor-problem-1\nrobot: robot.yaml\nworld:\n"
+                        "  a: {mesh: bad.obj}\n  b: {mesh: bad.obj, unit: mm}\n" +
+                        std::string(poses)),
+            "bad.obj:3: face corner 2 is out of range: the file has 1 vertices\n"
+            "bad.obj:3: face corner 3 is out of range: the file has 1 vertices");
+}
+
 }  // namespace
 }  // namespace corridor::test

@@ -180,7 +180,7 @@ TEST_F(ProblemFaults, VolumesThatCannotBeCombined) {
       "problem.yaml:8: checker.fit: \"hull\" is for volumes obb, obb-binary, rss; volume aabb "
       "has: plain");
   EXPECT_EQ(with("checker: {edges: adaptive, volume: obb-binary, overlap: gjk}\n"),
-            "problem.yaml:8: checker.overlap: \"gjk\" is for edges certified and discrete; "
+            "problem.yaml:8: checker.overlap: \"gjk\" needs edges: certified or discrete; "
             "adaptive measures distances between volumes: leave overlap out");
 }
 
@@ -269,7 +269,6 @@ TEST_F(ProblemFaults, Bounds) {
       complaintOf(start + "bounds: {at: [[0, 3, 0], [9, 2, 1]]}\n"),
       "problem.yaml:7: bounds.at: lower corner first, then the upper one: in y, 3 is not below 2");
   EXPECT_EQ(complaintOf(start + "bounds: {at: [[0, 0], [9, 9]]}\n"),
-            "problem.yaml:7: bounds.at: a list of 3 numbers is needed, not a list of 2\n"
             "problem.yaml:7: bounds.at: a list of 3 numbers is needed, not a list of 2");
   EXPECT_EQ(complaintOf(start + "bounds: {at: [0, 0, 0]}\n"),
             "problem.yaml:7: bounds.at: the lower and the upper corner are needed, at: [[x, y, z], "
@@ -279,7 +278,6 @@ TEST_F(ProblemFaults, Bounds) {
   EXPECT_EQ(complaintOf(
                 planarHead +
                 "start: {at: [5, 0]}\ngoal: {at: [0, 5]}\nbounds: {at: [[0, 0, 0], [9, 9, 9]]}\n"),
-            "problem.yaml:7: bounds.at: a list of 2 numbers is needed, not a list of 3\n"
             "problem.yaml:7: bounds.at: a list of 2 numbers is needed, not a list of 3");
   write("wedge.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   EXPECT_EQ(complaintOf(head + "start: {at: [5, 0, 0]}\ngoal: {at: [0, 5, 0]}\n"),
