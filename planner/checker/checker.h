@@ -13,11 +13,11 @@ namespace corridor {
 
 struct Problem;
 
-/// Returns the scene of a model: one body per shape of all the model's bodies, in the model's
-/// order, and the pairs that its filter does not exclude. Builds no tree.
+/// Returns the scene of a model. It has one body for each shape of each model body, in the model's
+/// order, and all pairs that the model's filter does not exclude. Builds no tree.
 Scene makeScene(const Model& model, ObbFit fit = {});
 
-/// What a checker proves about states and edges, and by which method.
+/// The options of a checker: the margin, tube and tolerance of its proofs, the method, the trees.
 struct CheckerOptions {
   double margin = 0;  ///< metres that all tested pairs must keep apart; 0: touching is contact
   /// The tube that the proofs cover, as `tubeOf` returns it; empty: rounding only.
@@ -28,8 +28,8 @@ struct CheckerOptions {
 };
 
 /// Returns the options that a task and settings describe.
-/// @throws std::invalid_argument if a name of the trees is unknown, or illegal together with the
-/// others (`invalidNameIn`).
+/// @throws std::invalid_argument if the name of a volume, fit or overlap test is unknown, or cannot
+/// be combined with the other names (`invalidNameIn`).
 CheckerOptions checkerOptions(const Task& task, const CheckerSettings& settings);
 
 /// Checks states and edges of a model. The OMPL classes in this folder forward to it.
@@ -39,10 +39,13 @@ CheckerOptions checkerOptions(const Task& task, const CheckerSettings& settings)
 class Checker {
  public:
   /// The model must outlive the checker; its bodies are copied.
-  /// @throws std::invalid_argument if margin or tolerance is not finite, the margin is negative, or
-  /// the tolerance is not above 0; if the tube has another length than a configuration, or a number
-  /// that is not 0 or more; if the method measures distances and an overlap test other than the
-  /// volume's first is named; if a solid mesh is not watertight, or a mesh is invalid.
+  /// @throws std::invalid_argument in these cases:
+  /// - The margin or the tolerance is not finite, the margin is negative, or the tolerance is not
+  ///   above 0.
+  /// - The tube has another length than a configuration, or contains a number that is not 0 or
+  /// more.
+  /// - The method measures distances, and an overlap test other than the volume's first is named.
+  /// - A mesh is invalid, or a solid mesh is not watertight.
   explicit Checker(const Model& model, const CheckerOptions& options = {});
   /// Makes the checker of a problem's model, with `checkerOptions`.
   explicit Checker(const Problem& problem);
@@ -71,16 +74,16 @@ class Checker {
   /// Decides whether an edge is free, by the method of the options. Doesn't test the bounds. @pre
   /// finite.
   MotionResult certifyEdge(const Configuration& from, const Configuration& to, bool earliest) const;
-  /// Tests the rounded poses of the frames for contact, exactly. Margin, tolerance and tube are
-  /// ignored. @pre finite.
+  /// Tests exactly whether a tested pair is in contact at the rounded poses of the frames. Margin,
+  /// tolerance and tube are ignored. @pre finite.
   /// @throws std::runtime_error if the processor's floating-point mode makes the bounds invalid
   /// (collision/core/floating_point.h). `clearance` and `pairsNotFree` throw it, too.
   std::optional<Contact> interference(const Configuration& q) const;
   /// Returns the smallest distance of the tested pairs minus the margin, metres. If the result is 0
   /// or less, `certifyState` is not `free`. If it is below twice the tolerance plus the
   /// displacement that the tube allows, `certifyState` may be `undecided`. If a pair touches, the
-  /// result is 0 − margin, since no penetration depth is computed. It is infinite if no pair is
-  /// tested. @pre finite.
+  /// result is 0 − margin, since no penetration depth is computed. If no pair is tested, the result
+  /// is infinite. @pre finite.
   double clearance(const Configuration& q) const;
   /// Two bodies of the model, by index, for which a state is not free.
   struct PairNotFree {

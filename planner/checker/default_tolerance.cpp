@@ -14,7 +14,8 @@
 /// over the joints of both chains:
 ///   revolute: 103 + 12·V_j  (sine and matrix 40, fixed pose 2, value 12·V_j, product 10 + 11;
 ///     an axis 40)
-///   prismatic, translation: 57  (value and sum 24 + 12, product 10 + 11 of S)
+///   prismatic, translation: 57  (value and sum 24 + 12, product 10 + 11 of S). The error of the
+///     constant poses before a prismatic joint is part of their own shares.
 ///   rotation: 575  (2^-44 = 512u, and the products)
 ///
 /// A relative pose has the errors of both bodies' poses, transformed into one body's frame: twice

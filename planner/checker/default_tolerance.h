@@ -4,9 +4,9 @@
 
 namespace corridor {
 
-/// Returns the tolerance, metres, that the rounding of a model's motions needs. At this tolerance
-/// or a larger one, every free edge with a clearance above twice the tolerance is proved. This
-/// holds even if coordinates are large compared with the bodies.
+/// Returns a tolerance, metres, that is large enough for the rounding of a model's motions. With
+/// this tolerance or a larger one, every free edge with a clearance above twice the tolerance is
+/// proved. This holds even if coordinates are large compared with the bodies.
 ///
 /// The guarantee assumes that the angles of circles are in [−π, π].
 double roundingTolerance(const Model& model);

@@ -59,8 +59,8 @@ EdgeCosts sampleEdgeCosts(const Checker& checker, std::size_t edges, double seco
   for (std::size_t i = 0; i < edges && (i == 0 || !past(0.25)); ++i) {
     const Configuration from = randomState(space, random);
     ways.emplace_back(from, space.interpolate(from, randomState(space, random), kShareOfTheWay));
-    // The first query that needs a tree builds it. This time must not count for an edge, so each
-    // edge is certified once before the measurement.
+    // The first query that needs a tree builds the tree. The time to build trees must not count for
+    // an edge, so each edge is certified once before the measurement.
     motion.set(from, ways.back().second);
     scene.certify(motion, checker.options(), context);
   }
@@ -85,7 +85,7 @@ EdgeCosts sampleEdgeCosts(const Checker& checker, std::size_t edges, double seco
       const int trees = treesBuilt();
       double alone = queryAlone();
       // The queries of the whole edges end at the first contact, so they may leave a tree unbuilt.
-      // If this query built one, it is measured again.
+      // If the query of this pair built a tree, the query is measured again.
       if (treesBuilt() != trees) alone = queryAlone();
       std::size_t a = checker.bodyOf(pair.bodyA), b = checker.bodyOf(pair.bodyB);
       if (b < a) std::swap(a, b);

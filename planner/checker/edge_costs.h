@@ -7,8 +7,8 @@
 
 namespace corridor {
 
-/// The share of each pair of bodies in the time that a model's edges take, measured on a sample of
-/// edges.
+/// The times to certify a sample of a model's edges, and the share of each pair of bodies in these
+/// times.
 struct EdgeCosts {
   std::size_t edges = 0, free = 0;  ///< numbers of tested edges, and of free ones among them
   double freeSeconds = 0, otherSeconds = 0;  ///< medians of free and of other edges; 0: none

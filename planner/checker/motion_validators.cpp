@@ -24,7 +24,8 @@ void CountingMotionValidator::write(const Configuration& q, ob::State* state) co
 }
 
 bool CountingMotionValidator::count(bool valid) const {
-  // OMPL reads these as plain numbers, and its multi-threaded planners call this from all threads.
+  // OMPL declares the two counters as plain numbers, and its multi-threaded planners call this
+  // function from all their threads. So the counters are changed by atomic operations.
   std::atomic_ref(valid ? valid_ : invalid_).fetch_add(1, std::memory_order_relaxed);
   return valid;
 }
@@ -62,10 +63,11 @@ std::optional<CountingMotionValidator::FreePart> CertifiedMotionValidator::lastF
   if (!checker_.inBounds(to)) return FreePart{};
   const MotionResult result = checker_.certifyEdge(from, to, true);
   if (result.verdict == MotionVerdict::free) return std::nullopt;
-  // The tube covers the rounding of a state on the edge, so the first try nearly always succeeds.
-  // But the clearance with which [0, t0] was proved may be too small for a second proof, since
-  // `advancement` goes as close to contact as it can. So the loop goes back on the edge by a small
-  // step, and doubles the step in each turn.
+  // The edge is proved free on [0, certifiedUntil]. The loop tries to prove the state at the end of
+  // this interval, and the shorter edge to this state. The tube covers the rounding of the state,
+  // so the first try nearly always succeeds. It fails if the clearance is too small for a second
+  // proof: the method `advancement` goes as close to contact as it can. Then the loop goes back
+  // from certifiedUntil by a small step, and doubles the step after each failure.
   const double least = checker_.options().timeTolerance;
   for (double back = 0; result.certifiedUntil - back >= least; back = back > 0 ? 2 * back : least) {
     const double t = result.certifiedUntil - back;
@@ -76,7 +78,7 @@ std::optional<CountingMotionValidator::FreePart> CertifiedMotionValidator::lastF
 }
 
 bool DiscreteMotionValidator::isValid(const Configuration& state) const {
-  // Uses OMPL's state validity checker, so that the same rule applies to states and edges.
+  // Uses OMPL's state validity checker, so that states and samples of edges obey the same rule.
   ob::ScopedState<> scoped(si_->getStateSpace());
   write(state, scoped.get());
   return si_->isValid(scoped.get());
@@ -92,7 +94,7 @@ unsigned DiscreteMotionValidator::steps(const Configuration& from, const Configu
 bool DiscreteMotionValidator::isFree(const Configuration& from, const Configuration& to) const {
   if (checker_.space().ambiguous(from, to) || !isValid(to)) return false;
   const unsigned n = steps(from, to);
-  // The middles are tested first, as in OMPL: this finds contacts sooner.
+  // The middles are tested first, as in OMPL: this order finds contacts sooner.
   std::queue<std::pair<unsigned, unsigned>> parts;  // untested steps, first to last
   if (n > 1) parts.emplace(1, n - 1);
   for (; !parts.empty(); parts.pop()) {
@@ -117,8 +119,8 @@ std::optional<CountingMotionValidator::FreePart> DiscreteMotionValidator::lastFr
     if (i == n) return std::nullopt;
     last = {t, at};
   }
-  // The shorter edge from `from` to `last` has other samples than the whole edge. These must be
-  // free, too.
+  // The shorter edge from `from` to `last` has other samples than the whole edge. These other
+  // samples must be free, too.
   while (last.t > 0 && !isFree(from, last.state)) {
     last.t = last.t > 1.0 / n ? last.t / 2 : 0;
     last.state = checker_.space().interpolate(from, to, last.t);

@@ -19,7 +19,7 @@ namespace {
 
 using Verdict = NeverInContactResult::Verdict;
 
-/// Returns the frames from `f` up to, but without, its ancestor `top`.
+/// Returns the frames from `f` upwards to its ancestor `top`. The result excludes `top`.
 std::vector<std::size_t> upTo(const KinematicTree& tree, std::size_t f, std::size_t top) {
   std::vector<std::size_t> frames;
   for (; f != top; f = tree.frames[f].parent) frames.push_back(f);
@@ -30,9 +30,10 @@ struct Range {
   double lower = 0, upper = 0;
 };
 
-/// Returns the values of a variable that a proof must cover; nullopt if they are not bounded.
-/// @param wholeTurns every joint that the variable moves returns to the same pose after a full turn
-/// of the variable.
+/// Returns the values of a variable that a proof must cover, or nullopt if they are not bounded.
+/// @param wholeTurns whether every joint that the variable moves returns to the same pose after a
+/// full turn of the variable.
+/// @param beyond how far the proof must reach beyond each limit, rad or m.
 std::optional<Range> rangeOf(const ConfigurationSpace& space, std::size_t variable, bool wholeTurns,
                              double beyond) {
   const auto found =
@@ -50,8 +51,8 @@ std::optional<Range> rangeOf(const ConfigurationSpace& space, std::size_t variab
                std::nextafter(found->upper + beyond, infinity)};
 }
 
-/// The frames between two bodies, as a tree of their own, whose root is their lowest common
-/// ancestor. Its variables are lines, numbered by their first use.
+/// The frames between two bodies, as a separate tree. Its root is the lowest common ancestor of the
+/// two bodies' frames. All its variables are lines, numbered in the order of their first use.
 struct Between {
   KinematicTree tree;
   ConfigurationSpace space;
@@ -123,7 +124,7 @@ class Subdivision {
 
   NeverInContactResult run(std::vector<MotionPair> pairs) {
     setQuery(pairs);
-    constexpr std::size_t kMostHeld = 2'000'000;  // pairs of shapes in the queue: some 150 MB
+    constexpr std::size_t kMostHeld = 2'000'000;  // pairs of shapes in the queue: about 150 MB
     std::size_t held = pairs.size();
     std::deque<Box> boxes;
     boxes.push_back({between_.box, std::move(pairs)});
@@ -165,8 +166,8 @@ class Subdivision {
                         most = std::numeric_limits<std::uint64_t>::max() - begin;
     workEnd_ = begin + (options_.boxes < most / testsPerBox ? options_.boxes * testsPerBox : most);
     // The tolerance decides only when a time interval is no longer halved. In these queries nothing
-    // moves, so no interval is ever halved, and any positive tolerance will do: 1e-7 of the bodies'
-    // size, as usual.
+    // moves, so no interval is ever halved. Any positive tolerance is therefore sufficient; the
+    // code takes the usual 1e-7 of the bodies' size.
     double radius = std::numeric_limits<double>::infinity();
     for (const MotionPair& pair : pairs)
       radius = std::min({radius, pair.a->sphereRadius(), pair.b->sphereRadius()});
@@ -204,8 +205,9 @@ class Subdivision {
                                     displacements.begin());
   }
 
-  /// Adds to each variable roughly how far it can displace points of b in the box, metres. The
-  /// result decides only along which variable the box is halved. No verdict depends on it.
+  /// Adds to the entry of each variable an estimate of how far this variable can displace points of
+  /// b within the box, metres. The estimate decides only along which variable the box is halved. No
+  /// verdict depends on it.
   void addDisplacements(const RelativeMotion& relative, const Body& b,
                         std::vector<double>& displacements) const {
     const Vec3 center = relative.X_AB.m * b.sphereCenter() + relative.X_AB.t;

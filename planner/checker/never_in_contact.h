@@ -10,11 +10,12 @@
 
 namespace corridor {
 
-/// What a proof that two bodies never come into contact must cover, and how much work it may take.
+/// The options of a proof that two bodies never come into contact.
 struct NeverInContactOptions {
   double margin = 0;  ///< metres that the two bodies must keep apart; 0: they must not touch
-  /// How far the proof reaches beyond each limit of a joint, so that it also covers a tube around
-  /// paths: rad, or m for a prismatic joint. A joint that covers the whole circle needs none.
+  /// How far the proof reaches beyond each limit of a joint: rad, or m for a prismatic joint. With
+  /// this reach, the proof also covers a tube around paths. It is not used for a joint that covers
+  /// the whole circle.
   double beyondLimits = 0;
   /// Work limit: at most this many boxes of joint values are tested, with 1000 tests of volumes and
   /// triangles per box on average.
@@ -25,7 +26,7 @@ struct NeverInContactOptions {
 struct NeverInContactResult {
   enum class Verdict {
     proved,     ///< the bodies never come into contact, and always keep the margin
-    tooClose,   ///< at a joint value that was tested they touch, or are closer than the margin
+    tooClose,   ///< at tested joint values, the bodies touch or are closer than the margin
     workLimit,  ///< the work limit was reached
     /// No proof was tried, for one of these reasons: a body has a solid mesh; no joint moves one
     /// body against the other; a joint between the two is planar or floating, has no limits, or

@@ -23,7 +23,7 @@ Configuration randomConfiguration(const ConfigurationSpace& space,
     const bool circle = c.kind == Coordinate::Kind::circle;
     const double lower = circle ? -std::numbers::pi : c.lower,
                  upper = circle ? std::numbers::pi : c.upper;
-    // Never above `upper`, even if the product rounds up.
+    // `min` keeps the value at most `upper`, even if the product is rounded up.
     if (std::isfinite(upper - lower)) q[i] = std::min(lower + share * (upper - lower), upper);
   }
   return q;

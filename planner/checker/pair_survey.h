@@ -17,10 +17,10 @@ struct PairSurveyOptions {
   std::uint64_t seed = 1;      ///< seed of the random states
 };
 
-/// What is known about a pair of bodies of a model that its filter does not exclude.
+/// The result of a survey for one pair of bodies that the model's filter does not exclude.
 struct SurveyedPair {
   std::size_t a = 0, b = 0;  ///< bodies of the model, by index
-  std::size_t contacts = 0;  ///< in how many of the random states the two are not proved free
+  std::size_t contacts = 0;  ///< number of random states in which the two are not proved free
   /// True if a planar or floating joint lies between the two. Then nothing is proved, and the
   /// count has no meaning.
   bool movesFreely = false;
@@ -35,11 +35,11 @@ struct SurveyedPair {
 Configuration randomConfiguration(const ConfigurationSpace& space,
                                   const std::function<std::uint64_t()>& next);
 
-/// Tests all pairs that the model's filter does not exclude, in ascending order: first at random
-/// states, then, for pairs that were free in all of them, by a proof. The result depends on the
-/// model and the options only.
+/// Tests all pairs that the model's filter does not exclude, and returns them in ascending order.
+/// All pairs are tested at random states. For pairs that were free in all these states, a proof is
+/// tried. The result depends on the model and the options only.
 /// @param checker its margin must be 0: then a pair that is not free is in contact, or closer than
-/// twice the tolerance. Its model has bounds for all positions.
+/// twice the tolerance. Its model must have bounds for all positions.
 /// @param wantsProof decides for which pairs a proof is tried.
 std::vector<SurveyedPair> surveyPairs(
     const Checker& checker, const PairSurveyOptions& options,

@@ -13,8 +13,9 @@ namespace {
 
 bool inRegion(const Problem& problem, const Configuration& goal, const Configuration& q,
               double grow) {
-  // Each component of a normalised quaternion is off by less than 4u. The angle between two such
-  // quaternions is off by less than 32u, and computing the angle adds an error of as much.
+  // In units u = kUnit: each component of a normalised quaternion has an error below 4u. So the
+  // angle between two normalised quaternions has an error below 32u. Its computation adds at most
+  // another 32u.
   const double same = 64 * kUnit;
   const GoalRegion& region = *problem.task.goalRegion;
   for (const CoordinateGroup& group : problem.model.space.groups()) {

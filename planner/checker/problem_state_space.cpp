@@ -93,7 +93,7 @@ ProblemStateSpace::ProblemStateSpace(const ConfigurationSpace& space) : space_(s
       continue;
     }
     std::size_t end = i;
-    double weight = 0;  // scales the samplers' neighbourhoods in each subspace
+    double weight = 0;  // scales the distances at which samplers choose near states in a subspace
     while (end < coordinates.size() && coordinates[end].kind == Kind::line &&
            groups[end] == groups[i])
       weight = std::max(weight, coordinates[end++].weight);
@@ -114,8 +114,8 @@ ProblemStateSpace::ProblemStateSpace(const ConfigurationSpace& space) : space_(s
   if (alone && space.groups()[0].kind == Group::planar) type_ = ob::STATE_SPACE_SE2;
   if (alone && space.groups()[0].kind == Group::floating) type_ = ob::STATE_SPACE_SE3;
   lock();
-  // Layout: the compound state; the pointers to the states of its subspaces; these states, each
-  // followed by its numbers. All have the alignment of a pointer.
+  // The memory of a state has three parts: the compound state, the pointers to the states of its
+  // subspaces, and these states, each followed by its numbers. All have the alignment of a pointer.
   bytes_ = sizeof(StateType) + parts_.size() * sizeof(ob::State*);
   for (Part& part : parts_) {
     part.offset = bytes_;

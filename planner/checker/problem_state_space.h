@@ -13,9 +13,9 @@ namespace corridor {
 /// A ConfigurationSpace as an OMPL compound space. Consecutive lines of one group are a
 /// RealVectorStateSpace, circles are SO2, rotations are SO3.
 ///
-/// `interpolate`, `distance` and `equalStates` are Corridor's own. Those of OMPL 1.5.2 treat
-/// rotations below 9e-5 rad as distance 0, and its `interpolate` then returns `from`, even at t =
-/// 1. Near half turns, the last bit of a number decides the direction of OMPL's rotations.
+/// `interpolate`, `distance` and `equalStates` are Corridor's own. OMPL 1.5.2 computes the distance
+/// 0 for rotations below 9e-5 rad, and its `interpolate` then returns `from`, even at t = 1. Near
+/// half turns, the last bit of a number decides in which direction OMPL rotates.
 ///
 /// Samplers, bounds and `validSegmentCount` (the largest count of a subspace) are OMPL's. A single
 /// rigid body is sampled as by SE2StateSpace or SE3StateSpace.
@@ -29,7 +29,7 @@ class ProblemStateSpace : public ompl::base::CompoundStateSpace {
   Configuration read(const ompl::base::State* state) const;
   void write(const Configuration& q, ompl::base::State* state) const;
 
-  /// `state` may be either end: both are read before anything is written.
+  /// `state` may be the same object as `from` or `to`: both are read before `state` is written.
   void interpolate(const ompl::base::State* from, const ompl::base::State* to, double t,
                    ompl::base::State* state) const override;
   double distance(const ompl::base::State* a, const ompl::base::State* b) const override;
@@ -39,9 +39,9 @@ class ProblemStateSpace : public ompl::base::CompoundStateSpace {
   bool equalStates(const ompl::base::State* a, const ompl::base::State* b) const override;
   /// Returns the largest possible value of `distance`.
   double getMaximumExtent() const override;
-  /// Registers the default projection: the position of the first planar or floating joint. If there
-  /// is none, it is the values of the first joints, at most three, because these joints move the
-  /// robot the most.
+  /// Registers the default projection: the position of the first planar or floating joint. In a
+  /// space without such a joint, the projection consists of the values of the first joints, at most
+  /// three, because these joints move the robot the most.
   void registerProjections() override;
 
  private:
@@ -62,7 +62,7 @@ class ProblemStateSpace : public ompl::base::CompoundStateSpace {
 /// Checks that states of `si` can be read as configurations of a checker.
 /// @param configurations the checker's space.
 /// @throws std::invalid_argument if the space of `si` is not a ProblemStateSpace, or if its
-/// configurations have another number of numbers.
+/// configurations have another length.
 void requireProblemStateSpace(const ompl::base::SpaceInformation& si,
                               const ConfigurationSpace& configurations);
 

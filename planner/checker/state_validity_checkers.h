@@ -13,8 +13,8 @@ namespace corridor {
 ///
 /// The state space of `si` must be a ProblemStateSpace, made of the space of the checker's model.
 /// The checker must outlive the object.
-/// @throws std::invalid_argument from the constructors if the space is of another class, or has
-/// another number of numbers than the checker's.
+/// The constructors throw std::invalid_argument if the space is of another class, or if its
+/// configurations have another length than the checker's.
 class ClearanceChecker : public ompl::base::StateValidityChecker {
  public:
   double clearance(const ompl::base::State* state) const final;
@@ -34,9 +34,10 @@ class CertifiedStateValidityChecker : public ClearanceChecker {
   bool isValid(const ompl::base::State* state) const override;
 };
 
-/// For the discrete baseline. A state is valid if it is in bounds and an exact test of the rounded
-/// poses finds no tested pair in contact; the tube is ignored. If the checker's margin is above 0,
-/// the state must instead be in bounds and certified free.
+/// The test of states for the discrete baseline. If the checker's margin is 0, a state is valid if
+/// it is in bounds and an exact test of the rounded poses finds no tested pair in contact. This
+/// test ignores the tube. If the margin is above 0, a state is valid if it is in bounds and
+/// certified free.
 class ExactStateValidityChecker : public ClearanceChecker {
  public:
   ExactStateValidityChecker(const ompl::base::SpaceInformationPtr& si, const Checker& checker)

@@ -14,8 +14,8 @@ bool canMove(const JointModel& joint);
 /// Returns all joints that can move, except those that are held already.
 std::vector<std::size_t> allMoving(const ModelRobot& robot);
 
-/// Returns "finger 0.02, base not moved": the joints that are held and their values, except those
-/// in `heldByFile`. Returns "" if there are none.
+/// Returns a list of the held joints and their values, such as "finger 0.02, base not moved".
+/// Joints in `heldByFile` are left out. The list may be empty.
 std::string heldText(const ModelRobot& robot);
 
 /// Sets the joints that are planned for. Other joints without a value in `held` or `heldPoses` get

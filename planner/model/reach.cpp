@@ -11,16 +11,16 @@
 namespace corridor {
 namespace {
 
-/// The box in which a frame's origin may be, and the orientations that the frame may have: R only;
-/// R followed by a rotation about the world's z; or any.
+/// The box in which a frame's origin may be, and the orientations that the frame may have: R alone,
+/// R followed by any rotation about the world's z axis, or all orientations.
 struct FrameReach {
   ReachBox origin;
   Mat3 R = Mat3::Identity();
   enum class Turned { no, aboutZ, any } turned = Turned::no;
 };
 
-/// Returns a box that contains all possible places of the points of `box`. `box` is in the frame's
-/// coordinates; the result is relative to the frame's origin, along the world's axes.
+/// Returns a box that contains all possible positions of the points of `box`. `box` is in the
+/// frame's coordinates. The result is relative to the frame's origin, along the world's axes.
 ReachBox around(const FrameReach& frame, const ReachBox& box) {
   const Vec3 c = frame.R * (box.lower + box.upper) / 2,
              h = frame.R.cwiseAbs() * (box.upper - box.lower) / 2;
@@ -41,7 +41,7 @@ ReachBox operator+(const ReachBox& a, const ReachBox& b) {
   return {a.lower + b.lower, a.upper + b.upper};
 }
 
-/// Returns the bounds of a number of a configuration.
+/// Returns the bounds of one number of a configuration, infinite if the number is not a line.
 std::pair<double, double> rangeOf(const ConfigurationSpace& space, std::size_t number) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   for (const Coordinate& c : space.coordinates())
@@ -120,8 +120,8 @@ std::vector<ReachBox> reachOf(const Model& model) {
 bool outOfReach(const Task& task, const ReachBox& a, const ReachBox& b) {
   const Vec3 gap = (a.lower - b.upper).cwiseMax(b.lower - a.upper).cwiseMax(Vec3::Zero());
   const double size = (a.upper - a.lower).norm() + (b.upper - b.lower).norm();
-  // The tube displaces a point by at most the sum of the tube's lengths, plus the sum of its angles
-  // times the size.
+  // The tube displaces a point by at most the sum of the tube's lengths, plus the sum of the tube's
+  // angles times `size`.
   const double pad = task.margin + task.tube.sum() * (1 + size) + 1e-9 * size;
   return gap.norm() > pad;
 }

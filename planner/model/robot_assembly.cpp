@@ -64,8 +64,8 @@ class RobotAssembly {
     for (const char* axis : planar ? std::vector{"x", "y"} : std::vector{"x", "y", "z"})
       group.coordinates.push_back(
           model_.space.add({Kind::line, in + axis, 0, unknown, unknown, false, weight}));
-    // The space measures a rotation by its quaternion's angle, which is half the rotation angle. So
-    // the weight is doubled.
+    // For a `rotation`, the space measures the quaternion's angle, which is half the rotation
+    // angle. So the weight is doubled.
     group.coordinates.push_back(model_.space.add(
         planar ? Coordinate{Kind::circle, in + "yaw", 0, -pi, pi, true, robot_.rotationWeight}
                : Coordinate{Kind::rotation, in + "rotation", 0, 0, 0, true,
@@ -129,8 +129,8 @@ class RobotAssembly {
     return turn;
   }
 
-  /// Returns the pose of the child link in the parent link of a planar or floating joint that is
-  /// held at `pose`.
+  /// Returns the pose of a joint's child link in its parent link. The joint is planar or floating,
+  /// and held at `pose`.
   static RigidPose heldAt(const JointModel& joint, const RigidPose& pose) {
     if (joint.type == JointType::floating) return joint.X_PJ * pose;
     const Eigen::Quaterniond plane = fromZ(joint.axis);

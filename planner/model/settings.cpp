@@ -37,7 +37,7 @@ std::optional<InvalidName> invalidNameIn(const CheckerSettings& checker) {
   const std::string first = withDefaults({checker.trees.volume, "", ""}).overlap;
   const std::string& overlap = checker.trees.overlap;
   if (!measures || overlap.empty() || overlap == first) return std::nullopt;
-  return InvalidName{"overlap", quotedWord(overlap) + " is for edges certified and discrete; " +
+  return InvalidName{"overlap", quotedWord(overlap) + " needs edges: certified or discrete; " +
                                     wordOf(checker.edges) +
                                     " measures distances between volumes: leave overlap out"};
 }

@@ -21,7 +21,7 @@ enum class StateSampler { uniform, gaussian, obstacleBased, bridgeTest, maxClear
 enum class Objective { length, maxMinClearance, mechanicalWork };
 
 /// Returns the words that users write for the values of a choice, in the order of the enumeration.
-/// Choice: EdgeCheck, StateSampler or Objective.
+/// @tparam Choice EdgeCheck, StateSampler or Objective.
 template <class Choice>
 const std::vector<std::string>& wordsFor();
 template <>
@@ -49,8 +49,8 @@ std::optional<Choice> choiceNamed(std::string_view word) {
 /// Returns the method that proves edges; for `discrete`, the default method.
 EdgeMethod methodOf(EdgeCheck check);
 
-/// The finest resolution of sampled edges. A finer resolution has no use, and OMPL counts an edge's
-/// steps in 32 bits.
+/// The smallest legal resolution of sampled edges. A smaller value has no use, and OMPL counts the
+/// steps of an edge in 32 bits.
 inline constexpr double kFinestResolution = 1e-9;
 /// Returns whether a value is legal as OMPL's longest_valid_segment_fraction: from
 /// `kFinestResolution` to below 1.
@@ -75,7 +75,8 @@ struct CheckerSettings {
   TreeNames trees = {"obb", "", ""};
 };
 
-/// How a path is searched. Every value must be legal; readers check ranges and words.
+/// The settings of the search for a path. Every value must be legal; the readers of files check
+/// ranges and words.
 struct Settings {
   PlannerSettings planner;
   StateSampler sampler = StateSampler::uniform;
@@ -87,8 +88,8 @@ struct Settings {
 };
 
 /// Returns the first word of `trees` that is unknown or does not belong to the volume, or nullopt.
-/// The methods `adaptive` and `advancement` measure distances, so for them an overlap test other
-/// than the volume's first is wrong, too.
+/// The methods `adaptive` and `advancement` measure distances. With these two methods, an overlap
+/// test other than the volume's first is wrong, too.
 std::optional<InvalidName> invalidNameIn(const CheckerSettings& checker);
 
 }  // namespace corridor

@@ -26,7 +26,7 @@ struct Task {
                                         ///< metric
   /// Metres that the two bodies of every tested pair must keep apart; 0: touching is contact.
   double margin = 0;
-  /// The half width of the tube that the proof covers, as `tubeOf` returns it.
+  /// The half widths of the tube that the proof covers, as `tubeOf` returns them.
   Configuration tube;
 };
 
@@ -40,20 +40,22 @@ struct Task {
 /// links, the values of held joints, the deviation of a mimic joint from its rule, and the shapes
 /// and positions of links and obstacles. The margin is for them (planner/README.md lists more).
 ///
-/// Unset values stand for rounding only.
+/// If a value is unset, the proof covers only rounding in its coordinates.
 struct TubeSpec {
   std::optional<double> joints;    ///< for each single joint: rad, or m if it is prismatic
-  std::optional<double> slides;    ///< for each prismatic joint, in place of `joints`, m
+  std::optional<double> slides;    ///< for each prismatic joint, m; replaces `joints`
   std::optional<double> position;  ///< for each coordinate of planar and floating joints, m
   std::optional<double> rotation;  ///< for the rotation of planar and floating joints, rad
-  /// For single joints, by the names of their coordinates ("left/elbow"), in place of the above.
+  /// For single joints, by the names of their coordinates ("left/elbow"): rad, or m if prismatic.
+  /// These values replace `joints` and `slides`.
   std::map<std::string, double> named = {};
 };
 
 /// Returns the half width of the tube that a proof covers, for each number of a configuration (m,
-/// rad). Each half width is the value of `asked`, but at least 2^-40 of the coordinate's range, for
-/// rounding. For a coordinate of a position, this is the longest range of all coordinates of the
-/// joint. A rotation has its half width at the first of its four numbers.
+/// rad). Each half width is the value of `asked`, but at least 2^-40 of a range, for rounding. This
+/// is the coordinate's own range. For the position of a planar or floating joint, it is the longest
+/// range of the joint's position coordinates; for circles and rotations, it is 2π. A rotation has
+/// its half width at the first of its four numbers.
 /// @pre the bounds of all positions are set.
 Configuration tubeOf(const ConfigurationSpace& space, const TubeSpec& asked = {});
 

@@ -15,7 +15,7 @@
 namespace corridor {
 namespace {
 
-/// Returns whether there are obstacles, and none can be reached by a body of a robot.
+/// Returns whether the problem has obstacles, but no body of a robot can reach any of them.
 bool hasObstaclesOutOfReachOnly(const Problem& problem) {
   const Model& model = problem.model;
   const std::vector<ReachBox> reach = reachOf(model);
@@ -53,7 +53,7 @@ void addNotesOnPairs(Problem& problem) {
   if (nothingIsTested(problem)) notes.insert(notes.begin(), {kNothingTested, NoteWeight::coverage});
 }
 
-/// Returns the largest tube of the robot's single joints, rad or m.
+/// Returns the largest half width of the tube among the robot's single joints, rad or m.
 double largestTube(const ModelRobot& robot, const Problem& problem) {
   double largest = 0;
   for (const PlannedJoint& joint : robot.plannedJoints) {
@@ -64,8 +64,8 @@ double largestTube(const ModelRobot& robot, const Problem& problem) {
   return largest;
 }
 
-/// Adds to the tested pairs those that were proved never in contact, but only for a smaller margin
-/// or tube than the problem's. Adds a note.
+/// Includes the pairs that were proved never in contact in the tests, if the proof is for a smaller
+/// margin or tube than the problem's. If a pair was included, adds a note.
 void testBeyondProofs(Problem& problem) {
   std::size_t tested = 0;
   AllowedPair::Proof covered;
@@ -96,15 +96,15 @@ void testBeyondProofs(Problem& problem) {
     problem.source.notes.push_back(
         {std::to_string(tested) +
              (tested == 1 ? " pair of never_in_contact is" : " pairs of never_in_contact are") +
-             " tested: that proof covers a margin of up to " + shortest(covered.margin) +
+             " tested: the proof covers a margin of up to " + shortest(covered.margin) +
              " m and a tube of up to " + shortest(covered.beyondLimits) + " rad or m",
          NoteWeight::detail});
 }
 
-/// Larger lengths, in metres, are refused, because squares of sums of lengths must be finite.
+/// Metres. Larger lengths are refused, because squares of sums of lengths must be finite.
 constexpr double kLargestLength = 1e100;
 
-/// Returns the largest coordinate of the shapes in their frames.
+/// Returns the largest coordinate or radius of a body's shapes, metres, in the body's frame.
 double largestCoordinate(const ModelBody& body) {
   double most = 0;
   for (const PlacedShape& shape : body.shapes) {
@@ -115,8 +115,8 @@ double largestCoordinate(const ModelBody& body) {
   return most;
 }
 
-/// Returns the largest coordinate (m) of the frame's fixed translation, or of its joint's
-/// translation within the limits.
+/// Returns the largest coordinate (m) of two translations: the frame's fixed translation, and the
+/// translation of its joint within the joint's limits.
 double largestTranslation(const Frame& frame, const ConfigurationSpace& space) {
   const double fixed = frame.fixed.p.cwiseAbs().maxCoeff();
   const bool slides =

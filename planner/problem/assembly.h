@@ -6,12 +6,12 @@
 #include "planner/model/model_builder.h"
 #include "planner/problem/robot_file.h"
 
-/// The steps that all readers of problems share. They are the first and the last steps of making a
+/// The steps that all readers of problems share: the first and the last steps of making a
 /// `Problem`.
 namespace corridor {
 
-/// Returns the robot's notes. The last one lists the joints that are held without a value in the
-/// robot's file.
+/// Returns the robot's notes. If joints are held without a value in the robot's file, the last note
+/// lists these joints.
 std::vector<Note> notesOf(const RobotSetup& setup);
 
 /// Adds the robots to a model, and their notes and files to the source.

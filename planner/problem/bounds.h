@@ -7,12 +7,12 @@
 
 namespace corridor {
 
-/// Enlarges the bounds of the group so that they contain start and goals. @returns whether they had
-/// to be enlarged.
+/// Enlarges the group's bounds so that they contain start and goals. Returns false if the bounds
+/// contained start and goals before.
 bool enlargeBounds(Problem& problem, const CoordinateGroup& group);
 
-/// Returns why the group's position in `q` is outside of the bounds ("outside of the bounds: x = 9
-/// is not in [0, 1]"), or "".
+/// If the group's position in `q` is outside of the bounds, returns the reason, such as "outside of
+/// the bounds: x = 9 is not in [0, 1]". Otherwise returns "".
 std::string whyOutside(const ConfigurationSpace& space, const CoordinateGroup& group,
                        const Configuration& q);
 

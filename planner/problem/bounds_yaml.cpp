@@ -65,7 +65,7 @@ void narrow(const YamlMap& map, const std::string& key, bool degrees, const Plan
                                         shortest(upper) + "] is in radians; for degrees, write " +
                                         key + "_deg",
                                     NoteWeight::motion});
-  if (c.kind == Coordinate::Kind::circle) {  // with bounds, a continuous joint is no circle
+  if (c.kind == Coordinate::Kind::circle) {  // a continuous joint with bounds is a line
     c.kind = Coordinate::Kind::line;
     c.lower = lower;
     c.upper = upper;
@@ -97,7 +97,7 @@ void readOfJoints(const YamlValue& value, const std::string& path, const ModelRo
   });
 }
 
-/// Adds a fault for each planar or floating joint without bounds: these joints have no limits.
+/// Adds a fault for each planar or floating joint without bounds, since such joints have no limits.
 void requireBounds(const YamlMap& file, const Model& model) {
   for (const ModelRobot& robot : model.robots) {
     if (robot.isRigid()) continue;

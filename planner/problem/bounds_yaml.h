@@ -5,10 +5,11 @@
 
 namespace corridor {
 
-/// Reads `bounds` into a problem. @pre the problem's model is set. Bounds limit the positions of
-/// rigid robots and of planar and floating joints, and narrow the limits of single joints. Planar
-/// and floating joints need bounds. If a rigid robot has no bounds, call `setDefaultBounds` later.
-/// Faults are added to the file's list.
+/// Reads `bounds` into a problem. Bounds limit the positions of rigid robots and of planar and
+/// floating joints, and narrow the limits of single joints. Planar and floating joints need bounds.
+/// Rigid robots may have none; `setDefaultBounds`, called later, sets them. Faults are added to the
+/// file's list.
+/// @pre the problem's model is set.
 void readBounds(const YamlMap& file, Problem& problem);
 
 /// Sets the bounds of rigid robots without bounds to the bounding box of the world, enlarged to

@@ -5,9 +5,9 @@
 
 namespace corridor {
 
-/// Reads `points: {file: cloud.ply, radius: 0.01}`: the union of balls about the points of a file,
-/// or `octomap: {file: map.bt}`: the union of a map's occupied cubes. Sets the file, the parts and
-/// the note of `shape`, and adds the file to `files`.
+/// Reads one of two kinds of shapes: `points: {file: cloud.ply, radius: 0.01}` is the union of
+/// balls about the points of a file; `octomap: {file: map.bt}` is the union of a map's occupied
+/// cubes. Sets the file, the parts and the notes of `shape`, and adds the file to `files`.
 /// @param kind     "points" or "octomap": the key in `map`
 /// @param keys     the legal keys of the inner map
 /// @param options  unit and up-axis, for points only

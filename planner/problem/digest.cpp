@@ -9,8 +9,8 @@ namespace corridor {
 
 namespace {
 
-/// Returns the texts that were read in place of a file. A xacro file has one for each set of
-/// arguments, in the order of the robots. Other files have none.
+/// Returns the texts that were read instead of a file. A xacro file has one text for each set of
+/// arguments, in the order of the robots. Other files have no such text.
 std::vector<const std::string*> expandedTexts(const Problem& problem,
                                               const std::filesystem::path& file) {
   std::vector<const std::string*> texts;

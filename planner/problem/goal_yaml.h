@@ -6,8 +6,9 @@
 namespace corridor {
 
 /// Reads `start` and `goal` (one state or several, and `within`) into the problem. Faults are added
-/// to the file's list. @pre the problem's model is set, and so are the bounds that its file gives.
-/// @param optional if true, the keys may be absent; the problem's start or goals are then kept.
+/// to the file's list.
+/// @param optional whether the keys may be absent; the problem's start or goals are then kept.
+/// @pre the problem's model and the bounds of its file are set.
 void readStartAndGoals(const YamlMap& file, bool optional, Problem& problem);
 
 }  // namespace corridor

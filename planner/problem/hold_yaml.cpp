@@ -113,7 +113,7 @@ void holdState(const std::string& name, const std::vector<std::size_t>& planned,
   }
   if (!holds && place.path == "hold")
     robot.description.notes.push_back(
-        {"hold: the state " + quotedWord(name) + " gives no joint that is held",
+        {"hold: the state " + quotedWord(name) + " has no value for a held joint",
          NoteWeight::motion});
 }
 
@@ -131,7 +131,7 @@ void holdAsStart(const YamlMap& problem, std::vector<RobotSetup>& robots) {
     if (const YamlValue* from = value ? entryOf(*value, "from") : nullptr) value = from;
     if (!value || value->kind != YamlValue::Kind::Scalar) continue;
     const auto state = setup.robot.description.states.find(value->text);
-    // StateReader reports unknown states.
+    // Unknown and unusable states are skipped here, because StateReader reports them.
     if (state == setup.robot.description.states.end() || !state->second.unusable.empty()) continue;
     holdState(value->text, setup.robot.planned,
               {problem.source(), robot.empty() ? "start" : "start." + robot, value->line}, setup);

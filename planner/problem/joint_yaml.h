@@ -16,14 +16,16 @@ namespace corridor {
 std::string noSuchJoint(const std::string& name, const RobotModel& model);
 /// Returns why a joint has no value of its own ("is fixed", "follows pan (mimic)"), or "".
 std::string whyNotActive(const RobotModel& model, std::size_t joint);
-/// Returns "60 is outside of its limits, [-2, 2]".
-/// @param angle the joint's name if the value is an angle in radians, else "". If the value is
-/// plainly meant in degrees, the message says how to write degrees.
+/// Returns the message that a value is outside of its limits: "60 is outside of its limits, [-2,
+/// 2]".
+/// @param angle the joint's name if the value is an angle in radians, else "". With a name,
+/// `degreesHint` is appended to the message.
 std::string outsideLimits(double value, double lower, double upper, const std::string& angle = "");
 
-/// Returns "; in degrees, write pan_deg: 60" if a value in radians is plainly meant in degrees (it
-/// is more than a turn, and within the limits in degrees), or "".
-/// @param joint may have a robot's name before it: "left/pan".
+/// If a value in radians is obviously meant in degrees, returns a hint: "; in degrees, write
+/// pan_deg: 60". Such a value is more than a full turn in radians, and is within the limits if it
+/// is read as degrees. Otherwise returns "".
+/// @param joint the joint's name, also with the robot's name before it: "left/pan".
 std::string degreesHint(double value, double lower, double upper, const std::string& joint);
 
 /// Calls `read` for each entry of the map whose key is a joint's name, or a joint's name followed

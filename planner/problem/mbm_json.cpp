@@ -26,8 +26,8 @@ using Json = nlohmann::json;
 constexpr std::size_t kMostEvents = 20'000'000;
 constexpr int kMostDepth = 64;
 
-/// Reads one problem of a set. Faults have no line numbers, except for JSON errors. Their text
-/// names the key or the object instead ("goals[2]", "box1.size").
+/// Reads one problem of a set. Only faults of the JSON syntax have line numbers. All other faults
+/// name the key or the object ("goals[2]", "box1.size").
 class MbmReader {
  public:
   MbmReader(const std::filesystem::path& file, const std::string& index)
@@ -142,8 +142,8 @@ class MbmReader {
     return result;
   }
 
-  /// Returns the path of the file that `key` names: in the nearest folder above the set that
-  /// contains such a file.
+  /// Returns the path of the file that `key` names. The file is in the nearest folder above the set
+  /// that contains a file of this name.
   std::filesystem::path dataFile(const Json& set, const char* key) const {
     const std::string name = word(set, key);
     std::filesystem::path folder = std::filesystem::absolute(file_).lexically_normal();
@@ -177,7 +177,7 @@ class MbmReader {
       else if (const std::string why = whyNotActive(setup.robot.description, *j); !why.empty())
         fault("joint_names: " + text + " " + why);
       else if (isPoseJoint(setup.robot.description.joints[*j].type))
-        fault("joint_names: " + text + " has more than one value");
+        fault("joint_names: " + text + " is planar or floating; only single joints are supported");
       else
         active.push_back(*j);
     }

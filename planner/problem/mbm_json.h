@@ -9,8 +9,8 @@ namespace corridor {
 
 /// Reads one problem of a MotionBenchMaker set (format mbm-scene-1, JSON). URDF and SRDF are
 /// searched for in the folders above the file, the nearest first.
-/// @param index a value of `problems[].index` in the set. If it is empty, the call fails with a
-/// fault that lists the indices of the set.
+/// @param index a value of `problems[].index` in the set. If `index` is empty, the function throws
+/// a fault that lists the indices of the set.
 /// @throws InputError.
 Problem readMbmProblem(const std::filesystem::path& file, const std::string& index);
 

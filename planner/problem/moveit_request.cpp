@@ -14,7 +14,7 @@
 namespace corridor {
 namespace {
 
-// The fields of the messages. Unknown keys are faults, because a misspelt one may change the plan.
+// The fields of the messages. Unknown keys are faults, because a misspelt key may change the plan.
 const MapKeys kRequest{
     {"workspace_parameters", "start_state", "goal_constraints", "path_constraints",
      "trajectory_constraints", "reference_trajectories", "pipeline_id", "planner_id", "group_name",
@@ -32,7 +32,8 @@ const MapKeys kConstraints{{"name", "joint_constraints", "position_constraints",
 const MapKeys kJointConstraint{
     {"joint_name", "position", "tolerance_above", "tolerance_below", "weight"}, {}};
 
-/// Returns whether a message geometry_msgs/Transform is the identity, or was faulty.
+/// Returns whether a message geometry_msgs/Transform is the identity. Parts for which a fault was
+/// added count as the identity.
 bool isIdentity(const YamlMap& transform) {
   const auto p = readNamed(transform, "translation", {"x", "y", "z"});
   const auto q = readNamed(transform, "rotation", {"x", "y", "z", "w"});
@@ -41,7 +42,8 @@ bool isIdentity(const YamlMap& transform) {
          (!q || std::all_of(q->begin(), q->begin() + 3, isZero));
 }
 
-/// Returns the values of a message sensor_msgs/JointState by their joints' names.
+/// Returns the joint values of the request's start state, by the joints' names. Adds a fault for
+/// attached objects, and for a pose that is not the identity.
 std::map<std::string, double> jointValues(const YamlMap& request) {
   std::map<std::string, double> values;
   const YamlValue* const start = request.find("start_state");
@@ -124,7 +126,7 @@ void MoveitRequest::checkHeld(const std::map<std::string, double>& values, int l
     const auto held = robot.held.find(*j);
     if (held != robot.held.end() && std::abs(held->second - value) > limitSlack)
       source_.fault(line, path + ": " + name + " is held at " + shortest(held->second) +
-                              ", and can't get to " + shortest(value));
+                              ", and can't move to " + shortest(value));
   }
 }
 

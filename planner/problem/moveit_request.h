@@ -13,11 +13,11 @@ namespace corridor {
 /// A message moveit_msgs/MotionPlanRequest, written as YAML. The members read its parts, and add
 /// faults to the problem's list.
 ///
-/// The members read the group, the start state, and goals by joint values. If any of the following
-/// were ignored, the plan would be wrong, so each is a fault: attached objects, poses of joints
-/// with several variables, goals by positions or orientations of links, goals that move a held
-/// joint, constraints of the path, and unknown keys. All other fields are ignored, and so are the
-/// tolerances of goals.
+/// The members read the group, the start state, and goals that are joint values. Some content is a
+/// fault, because the plan would be wrong if this content were ignored: attached objects, poses of
+/// joints with several variables, goals that are positions or orientations of links, goals that
+/// move a held joint, constraints of the path, and unknown keys. All other fields, and the
+/// tolerances of goals, are ignored.
 class MoveitRequest {
  public:
   /// @throws InputError if the file is not YAML.
@@ -25,10 +25,10 @@ class MoveitRequest {
 
   /// Returns the name of the request's group, or "".
   std::string group();
-  /// Holds the joints of the robot that are not planned for at their values in the start state,
-  /// except those that the robot's `hold` gives.
+  /// For each joint of the robot that is not planned for: holds the joint at its value in the start
+  /// state. Skips joints without a value there, and joints whose value is in the robot's `hold`.
   void hold(RobotSetup& setup);
-  /// Read the start and the goals of the single robot.
+  /// Reads the start, or the goals, of the only robot into the problem.
   void readStart(Problem& problem);
   void readGoals(Problem& problem);
 
@@ -47,7 +47,7 @@ class MoveitRequest {
   YamlSource source_;
   std::map<std::string, double> start_;  // values in the start state, by joint
   int startLine_ = 0;
-  bool startIsRead_ = false;  // the start state was read without a fault
+  bool startIsRead_ = false;  // whether the start state was read without a fault
 };
 
 }  // namespace corridor

@@ -15,7 +15,7 @@
 namespace corridor {
 namespace {
 
-// The fields of the messages. Unknown keys are faults, because a misspelt one may move an obstacle.
+// The fields of the messages. Unknown keys are faults, because a misspelt key may move an obstacle.
 const MapKeys kScene{
     {"name", "robot_state", "robot_model_name", "fixed_frame_transforms",
      "allowed_collision_matrix", "link_padding", "link_scale", "object_colors", "world", "is_diff"},
@@ -30,8 +30,9 @@ const MapKeys kMatrix{
     {"entry_names", "entry_values", "default_entry_names", "default_entry_values"}, {}};
 const MapKeys kHeader{{"seq", "stamp", "frame_id"}, {}};
 
-/// Reads the frame of an object's header: the pose of that frame in the world.
-/// @param root, base  the robot's root link and its pose.
+/// Returns the pose in the world of the frame that an object's header names.
+/// @param root the name of the robot's root link.
+/// @param base the pose of this link in the world.
 Placement readFrame(const YamlMap& object, const std::string& root, const RigidPose& base) {
   const YamlValue* const header = object.find("header");
   if (!header) return {};
@@ -103,8 +104,7 @@ void MoveitScene::addWorld(const std::string& root, const RigidPose& base, Model
     if (!ids.insert(*id).second) object.fault("id", "another object has this name");
     if (const auto operation = object.text("operation");
         operation && lowered(*operation) != "add" && *operation != "0" && *operation != "2")
-      object.fault("operation",
-                   "only objects that are added are read (0), not " + quotedWord(*operation));
+      object.fault("operation", "only ADD (0) is supported, not " + quotedWord(*operation));
     for (const char* const key : {"planes", "plane_poses"})
       if (!isEmpty(object, key)) object.fault(key, "planes are not supported; use a flat box");
     if (const YamlValue* const pose = object.find("pose"))
@@ -162,9 +162,9 @@ std::vector<Note> MoveitScene::notesOn(const Model& model) {
   for (const YamlValue* const item : itemsOf(map, "entry_names"))
     if (!known.contains(item->text)) unknown.push_back(item->text);
   if (!unknown.empty())
-    notes.push_back({source_.file + ": its allowed_collision_matrix names " +
-                     std::to_string(unknown.size()) +
-                     " that are neither links nor obstacles: " + joinedFirst(unknown, 3)});
+    notes.push_back({source_.file +
+                     ": its allowed_collision_matrix has names of neither links nor obstacles (" +
+                     std::to_string(unknown.size()) + "): " + joinedFirst(unknown, 3)});
   return notes;
 }
 

@@ -11,9 +11,9 @@ namespace corridor {
 /// to the problem's list.
 ///
 /// The members read the collision objects (primitives and meshes), the octomap and the allowed
-/// collision matrix. If any of the following were ignored, the plan would be wrong, so each is a
-/// fault: attached objects, planes, padded or scaled links, objects in other frames than those of
-/// the world and of the robot's root, and unknown keys. All other fields are ignored.
+/// collision matrix. Some content is a fault, because the plan would be wrong if this content were
+/// ignored: attached objects, planes, padded or scaled links, objects in a frame other than the
+/// world's or that of the robot's root link, and unknown keys. All other fields are ignored.
 class MoveitScene {
  public:
   /// @throws InputError if the file is not YAML.
@@ -23,9 +23,9 @@ class MoveitScene {
   /// robot's root link are placed relative to the robot's base.
   /// @param root the name of the robot's root link.
   void addWorld(const std::string& root, const RigidPose& base, ModelBuilder& builder);
-  /// Excludes pairs of bodies from the tests as the allowed collision matrix says. As in MoveIt, a
-  /// matrix replaces the SRDF's pairs. The matrix's default entries are not read; pairs that only
-  /// they allow are tested.
+  /// Excludes the pairs of bodies that the allowed collision matrix allows to touch. As in MoveIt,
+  /// the matrix replaces the SRDF's pairs. The default entries of the matrix are not read, so pairs
+  /// that only a default entry allows are tested.
   void applyAllowed(Model& model);
   /// Returns notes if the scene seems to be made for another robot.
   std::vector<Note> notesOn(const Model& model);

@@ -9,15 +9,16 @@
 #include "planner/problem/yaml_reader.h"
 #include "planner/robot/placed_shape.h"
 
-/// Readers of the messages that shapes consist of in MoveIt's planning scenes. Each returns nullopt
-/// if a fault was added. @param path of the message, for messages.
+/// Readers of the ROS messages that describe shapes in MoveIt's planning scenes. Each reader
+/// returns nullopt if it added a fault. The parameter `path` is the path of the message's key in
+/// the file, for the text of faults.
 namespace corridor {
 
 /// Reads a message geometry_msgs/Pose.
 std::optional<Placement> readPose(const YamlValue& value, const std::string& path,
                                   YamlSource& source);
 
-/// Reads a message shape_msgs/SolidPrimitive. Its type is a word, or the number of the message.
+/// Reads a message shape_msgs/SolidPrimitive. Its type is a word or a number, such as `box` or 1.
 std::optional<Primitive> readPrimitive(const YamlValue& value, const std::string& path,
                                        YamlSource& source);
 
@@ -25,9 +26,10 @@ std::optional<Primitive> readPrimitive(const YamlValue& value, const std::string
 std::optional<TriangleMesh> readMesh(const YamlValue& value, const std::string& path,
                                      YamlSource& source);
 
-/// Reads a message octomap_msgs/Octomap: the union of the occupied cells, at the given place. As in
-/// MoveIt, its name is "<octomap>", cells without a measurement are free, and a cell is occupied if
-/// its probability is at least 0.5. Also returns nullopt if the map has no occupied cell.
+/// Reads a message octomap_msgs/Octomap. Returns the union of the occupied cells, placed at `at`.
+/// As in MoveIt, the shape's name is "<octomap>", cells without a measurement are free, and a cell
+/// is occupied if its probability is at least 0.5. Also returns nullopt if the map has no occupied
+/// cell.
 std::optional<PlacedShape> readOctomap(const YamlValue& value, const std::string& path,
                                        const Placement& at, YamlSource& source);
 

@@ -4,13 +4,13 @@
 
 namespace corridor {
 
-/// Returns whether no pair of bodies is tested. Every state and edge of such a problem counts as
+/// Returns whether no pair of bodies of the problem is tested. Then every state and edge counts as
 /// free, and every path counts as proved. So a missing obstacle or a wrong `allow` would look like
 /// success.
 bool nothingIsTested(const Problem& problem);
 
-/// The note for a problem without tested pairs. It is the first of Source::notes, and commands
-/// print it before any other output.
+/// The note for a problem without tested pairs. This note is the first of Source::notes, and
+/// commands print it before any other output.
 inline constexpr const char* kNothingTested =
     "no pair of bodies is tested, so nothing can collide and every state counts as free; corridor "
     "inspect --pairs lists the reasons";

@@ -6,9 +6,10 @@
 
 namespace corridor {
 
-/// Reads an OMPL.app benchmark file (`.cfg`) as OMPL.app does: two meshes, placed and recentred by
-/// its rules (`readOmplAppMesh`; planner/problem/README.md), start, goal, bounds and objective.
-/// Lengths are read as metres. The notes list the keys that are not used.
+/// Reads a benchmark file of OMPL.app (`.cfg`) as OMPL.app does. The file gives two meshes, start,
+/// goal, bounds and objective. The meshes are placed and recentred by OMPL.app's rules
+/// (`readOmplAppMesh`; planner/problem/README.md). Lengths are read as metres. The notes list the
+/// keys that are not used.
 /// @throws InputError with all faults.
 Problem readOmplAppCfg(const std::filesystem::path& file);
 

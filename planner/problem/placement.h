@@ -17,12 +17,12 @@ struct Orientation {
   Mat3 R = Mat3::Identity();
 };
 
-/// Return the rotation of roll, pitch and yaw (planner/robot/rpy.h).
+/// Returns the rotation of roll, pitch and yaw (planner/robot/rpy.h).
 Orientation fromRpyDegrees(const Vec3& degrees);
 Orientation fromRpy(const Vec3& radians);
 
-/// Returns the quaternion, normalised if its norm is outside of [0.5, 2]: squares of such
-/// components may over- or underflow. @pre it is not zero.
+/// Returns the quaternion, normalised if its norm is outside of [0.5, 2]. Squares of very large or
+/// very small components would overflow or underflow. @pre not zero.
 Eigen::Quaterniond ofOrdinarySize(const Eigen::Quaterniond& q);
 
 /// Returns the angle minus whole turns, a double in [−π, π] (collision/core/circle.h).
@@ -30,8 +30,8 @@ double wrappedYaw(double radians);
 /// Returns the angle brought into (-180, 180] degrees, without rounding.
 double wrappedYawDegrees(double degrees);
 
-/// Reads the orientation that a map gives by at most one of rpy_deg, rpy and quat_xyzw. Without any
-/// of them it is the identity. Returns nullopt if a fault was added.
+/// Reads the orientation that a map gives by at most one of rpy_deg, rpy and quat_xyzw. A map
+/// without these keys gives the identity. Returns nullopt if a fault was added.
 std::optional<Orientation> readOrientation(const YamlMap& map);
 
 /// The pose of a frame or a shape in two forms: as written in the file, and as the map that is
@@ -59,9 +59,8 @@ struct PoseForm {
   std::string mover;              ///< for messages: "the robot moves in SE3 (rigid: SE3)"
   const MapKeys* keys = nullptr;  ///< the legal keys
 };
-/// Reads a pose. Returns nullopt if a fault was added. A planar pose where a spatial one is
-/// expected, or a spatial pose where a planar one is expected, gives the single fault "goal of the
-/// wrong kind: …".
+/// Reads a pose. Returns nullopt if a fault was added. If the pose is planar but the form is
+/// spatial, or the other way round, the only fault is "goal of the wrong kind: …".
 /// @param path of the value: "start", "goal[0].left".
 /// @param notes gets a note if whole turns were subtracted from a yaw.
 std::optional<PlanarOrSpatialPose> readPose(const YamlValue& value, const std::string& path,

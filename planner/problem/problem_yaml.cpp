@@ -27,8 +27,8 @@ const std::vector<std::string>& wordsOf(const char* key) {
   return problemChoices().at(key);
 }
 
-/// Reads robot files. If several robots name the same file, it is read once, so that its faults are
-/// listed once.
+/// Reads robot files. If several robots name the same file, this file is read once, so that its
+/// faults are listed once.
 class RobotFiles {
  public:
   /// @param notes gets the notes of robots that can't be used.
@@ -151,7 +151,7 @@ std::pair<std::optional<MoveitScene>, std::optional<MoveitRequest>> readMoveit(
   return found;
 }
 
-/// Reads the problem's file, and the files that it names. `problem` has its notes even if an
+/// Reads the problem's file, and the files that it names. The notes are in `problem` even if an
 /// exception is thrown.
 void readYaml(const std::filesystem::path& file, Problem& problem) {
   const YamlValue document =

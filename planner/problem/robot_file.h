@@ -21,15 +21,15 @@ struct RobotSetup {
 /// files that it names, are added to `faults`. Returns nullopt if faults leave unknown which joints
 /// the robot has, or in which space (SE2 or SE3) a rigid robot moves. A rigid robot is returned
 /// even if shapes have faults; these shapes are left out.
-/// @param group the group that is planned for if the file has an SRDF, and neither `group` nor
-/// `joints`; empty: none.
+/// @param group the group that is planned for if the file has an SRDF, but neither `group` nor
+/// `joints`. Empty: no group.
 /// @param notesOfFaulty gets the notes if the result is nullopt; otherwise the notes are in the
 /// result's model.
 std::optional<RobotSetup> readRobotFile(const std::filesystem::path& file, FaultList& faults,
                                         std::vector<Note>& notesOfFaulty,
                                         const std::string& group = "");
 
-/// Reads a robot's file that is no part of a problem. @throws NotedInputError with all faults.
+/// Reads a robot's file that is not part of a problem. @throws NotedInputError with all faults.
 RobotSetup readRobotAlone(const std::filesystem::path& file);
 
 }  // namespace corridor

@@ -13,8 +13,8 @@ namespace {
 
 using Function = decltype(&::SHA256);
 
-/// Opens the library when it is needed, and leaves it open. A program that is linked to the library
-/// would load it at every start.
+/// Opens libcrypto at run time, and leaves it open. If the program were linked to libcrypto, it
+/// would load the library at every start.
 Function functionOfLibrary() {
   constexpr const char* kLibrary = "libcrypto.so." CORRIDOR_TEXT_OF(OPENSSL_SHLIB_VERSION);
   void* const library = ::dlopen(kLibrary, RTLD_NOW | RTLD_LOCAL);

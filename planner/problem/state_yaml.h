@@ -14,7 +14,7 @@ namespace corridor {
 class StateReader {
  public:
   /// All arguments must outlive the object.
-  /// @param problem its model must be set, and the bounds that its file gives.
+  /// @param problem its model and the bounds that its file gives must be set.
   StateReader(Problem& problem, YamlSource& source) : problem_(problem), source_(source) {}
 
   /// Returns the configuration, or nullopt after adding a fault.
@@ -55,7 +55,8 @@ class StateReader {
 };
 
 /// Returns the value to store in a coordinate. A circle's angle is brought into (−π, π]. A line's
-/// value that is beyond a limit by at most `limitSlack` is replaced by the limit. Both add a note.
+/// value that is beyond a limit by at most `limitSlack` is replaced by the limit. Each such change
+/// of a value adds a note.
 /// If a line's value is farther outside of its limits, returns nullopt and sets `why`.
 /// @param path the value's place in the file, for the note and for `why`.
 std::optional<double> coordinateValue(const Coordinate& coordinate, double value,

@@ -57,7 +57,7 @@ std::vector<std::string> readXacro(const YamlMap& file) {
   for (const YamlValue::Entry* entry : map.entries()) {
     const auto text = map.text(entry->key);
     if (text && (entry->key.starts_with('-') || entry->key.find(":=") != std::string::npos))
-      map.fault(entry->key, "is no name of an argument of xacro");
+      map.fault(entry->key, "is not the name of an argument of xacro");
     else if (text)
       arguments.push_back(entry->key + ":=" + *text);
   }
@@ -97,7 +97,8 @@ void addStatesOf(const std::string& group, RobotModel& model) {
   model.states.merge(added);
 }
 
-/// @param byDefault the group's name if the file has no key `group`.
+/// Returns the joints of the group that are planned for, and adds faults to the map's source.
+/// @param byDefault the name of the group that is used if the file has no key `group`.
 Joints readGroup(const YamlMap& map, const std::string& byDefault, RobotModel& model) {
   Joints active;
   const auto name = map.find("group") ? map.text("group") : std::optional(byDefault);
@@ -212,8 +213,8 @@ void readAllow(const YamlMap& file, RobotModel& model) {
   const YamlValue* value = file.find("never_in_contact");
   if (!value) return;
   const YamlMap map(*value, "never_in_contact", &robotKeys().at("never_in_contact"), file.source());
-  map.require("margin", "metres: what the proof of these pairs covers");
-  map.require("beyond_limits", "rad or m: by how much the proof goes beyond the limits of joints");
+  map.require("margin", "metres: the margin that the proof of these pairs covers");
+  map.require("beyond_limits", "rad or m: how far the proof goes beyond the limits of joints");
   map.require("pairs", "pairs of links, such as [[hand, foot]]");
   const auto margin = map.number("margin", Range::NotNegative),
              beyond = map.number("beyond_limits", Range::NotNegative);

@@ -12,7 +12,8 @@ namespace corridor {
 /// Returns nullopt if one of these files has a fault.
 /// @param group see readRobotFile.
 /// @param notesOfFaulty see readRobotFile.
-/// @param setup only its `files` are set, to the robot.yaml; the result has all members.
+/// @param setup contains the robot.yaml in `files`; its other members are not set yet. They are set
+/// in the result.
 std::optional<RobotSetup> readUrdfRobot(const YamlMap& map, const std::string& name,
                                         const std::string& group,
                                         const std::filesystem::path& folder, RobotSetup setup,
@@ -23,14 +24,14 @@ std::optional<RobotSetup> readUrdfRobot(const YamlMap& map, const std::string& n
 std::optional<RobotSetup> readBareUrdf(const std::filesystem::path& file, FaultList& faults,
                                        std::vector<Note>& notesOfFaulty);
 
-/// Rad or m. A value that exceeds a limit by at most `limitSlack` is replaced by the limit, with a
-/// note. Limits and values are often written with π rounded to four digits or more: 3.1416 is
-/// 7.4e-6 above π, 3.14159 is 2.7e-6 below it.
+/// The slack of limits, rad or m. A value that exceeds a limit by at most `limitSlack` is replaced
+/// by the limit, with a note. Limits and values are often written with π rounded to four digits or
+/// more: 3.1416 is 7.4e-6 above π, 3.14159 is 2.7e-6 below π.
 inline constexpr double limitSlack = 1e-5;
 
 /// Returns the value if it is in [lower, upper]. If it is beyond a limit by at most `limitSlack`,
 /// returns the limit and adds a note. Otherwise returns nullopt; the caller adds the fault.
-/// @param path for the note: "start.pan".
+/// @param path the value's path in the file, for the note: "start.pan".
 std::optional<double> withinLimits(double value, double lower, double upper,
                                    const std::string& path, std::vector<Note>& notes);
 

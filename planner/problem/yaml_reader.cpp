@@ -87,8 +87,8 @@ std::string parseNumber(std::string_view text, Range range, double& value) {
 
 namespace {
 
-/// Returns the legal key that a user meant by `key`: a similar one, or the one for which other
-/// programs use this word.
+/// Returns the legal key that a user probably meant by `key`: a similar key, or the key that other
+/// programs call `key`.
 std::optional<std::string> meantBy(const std::string& key, const std::vector<std::string>& legal) {
   static const std::map<std::string, std::string> others{
       {"pos", "at"},           {"position", "at"},          {"xyz", "at"},
@@ -191,7 +191,7 @@ std::optional<std::string> YamlMap::requireOne(const std::vector<std::string>& k
 
 namespace {
 
-/// Returns a complaint, or "" and sets `number`.
+/// Sets `number` and returns "", or returns a complaint.
 std::string parseNumber(const YamlValue& value, Range range, double& number) {
   return value.kind == YamlValue::Kind::Scalar && value.isPlain
              ? parseNumber(value.text, range, number)

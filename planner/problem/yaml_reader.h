@@ -16,8 +16,8 @@
 #include "planner/problem/yaml_value.h"
 #include "planner/robot/note.h"
 
-/// A strict reader of YAML files. It adds every fault to a list with its line, and reads on, so
-/// that a user sees all faults at once.
+/// A strict reader of YAML files. The reader adds every fault, with its line, to a list and reads
+/// on, so that a user sees all faults at once.
 namespace corridor {
 
 /// A key that is not supported.
@@ -39,7 +39,7 @@ struct YamlSource {
   FaultList& faults;
   /// The line of every legal key that was read, by its path ("checker.edges").
   std::map<std::string, int> lines;
-  std::vector<Note> notes = {};  ///< on single values; the file's reader collects them
+  std::vector<Note> notes = {};  ///< notes on values; the file's reader adds them to its own notes
 
   void fault(int line, std::string text) const { faults.add(file, line, std::move(text)); }
 };
@@ -61,10 +61,10 @@ std::string parseNumber(std::string_view text, Range range, double& value);
 /// One map of a file.
 class YamlMap {
  public:
-  /// Adds a fault if the value is no map, and a fault for each unknown, unsupported or repeated
+  /// Adds a fault if the value is not a map, and a fault for each unknown, unsupported or repeated
   /// key. If a key is repeated, its first value is used. `value` and `source` must outlive the
   /// object.
-  /// @param path of the map in its file: "", "planner", "planner.params".
+  /// @param path the path of the map in its file: "", "planner", "planner.params".
   /// @param keys the legal keys; nullptr: any key is legal.
   YamlMap(const YamlValue& value, std::string path, const MapKeys* keys, YamlSource& source);
 
@@ -77,19 +77,19 @@ class YamlMap {
 
   const YamlValue* find(std::string_view key) const;  ///< nullptr: absent
   /// Returns the same as `find`. Adds a fault if the key is absent, unless an earlier fault
-  /// explains its absence: the value is no map, the map has an unsupported key, or it has an
-  /// unknown key that is similar to this one.
+  /// explains its absence: the value is not a map, or the map has an unsupported key, or the map
+  /// has an unknown key that is similar to this one.
   /// @param purpose the value that the key should have, for the message.
   const YamlValue* require(std::string_view key, const std::string& purpose) const;
 
-  /// Returns the only one of `keys` that is present. Adds a fault if several are present, and,
-  /// under the conditions of `require`, if none is.
-  /// @param what the keys describe, for messages: "one shape".
+  /// Returns the only one of `keys` that is present. Adds a fault if several are present. If none
+  /// is present, adds a fault unless an earlier fault explains this, as `require` does.
+  /// @param what a description of the keys for messages: "one shape".
   std::optional<std::string> requireOne(const std::vector<std::string>& keys,
                                         const std::string& what, const std::string& purpose) const;
 
-  // Each returns nullopt if the key is absent, or if a fault was added: the value is of the wrong
-  // kind.
+  // Each of the following functions returns nullopt if the key is absent. If the value is of the
+  // wrong kind, the function adds a fault and returns nullopt.
   std::optional<double> number(std::string_view key, Range range = Range::Any) const;
   std::optional<std::uint64_t> wholeNumber(std::string_view key,
                                            const WholeRange& range = {}) const;
@@ -98,7 +98,8 @@ class YamlMap {
   std::optional<std::string> choice(std::string_view key, const std::vector<std::string>& of) const;
   /// Returns a list of exactly `count` numbers.
   std::optional<std::vector<double>> numbers(std::string_view key, std::size_t count) const;
-  /// Returns an angle in radians. The map has it in radians as `key`, or in degrees as `key_deg`.
+  /// Returns an angle in radians. The map contains this angle in radians as `key`, or in degrees as
+  /// `key_deg`.
   std::optional<double> angle(const std::string& key, Range range = Range::Any) const;
 
  private:
@@ -110,7 +111,7 @@ class YamlMap {
   std::vector<const YamlValue::Entry*> entries_;
   std::unordered_map<std::string_view, const YamlValue::Entry*> index_;  ///< `entries_` by key
   std::set<std::string> missed_;  ///< legal keys that an unknown key resembles
-  bool explainsMissing_ = false;  ///< the value is no map, or has an unsupported key
+  bool explainsMissing_ = false;  ///< the value is not a map, or has an unsupported key
 };
 
 /// Returns a number, or nullopt if a fault was added. @param path for messages.
@@ -133,8 +134,8 @@ bool hasKey(const YamlValue& value, std::string_view key);
 /// Returns whether a key is absent, or its value is an empty list, map or text.
 bool isEmpty(const YamlMap& map, std::string_view key);
 
-/// Returns the items of a list; none if the key is absent or has no value. A value of another kind
-/// is a fault.
+/// Returns the items of a list. If the key is absent or has no value, the result is empty. Adds a
+/// fault for a value of another kind.
 std::vector<const YamlValue*> itemsOf(const YamlMap& map, std::string_view key);
 
 /// Reads numbers from a list, or from a map by their names: [1, 2, 3] or {x: 1, y: 2, z: 3}.

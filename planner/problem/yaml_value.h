@@ -7,7 +7,7 @@
 namespace corridor {
 
 /// A value of a YAML document: a scalar, or a list or map with all values in it. Repeated keys are
-/// kept. Each value and each key has its line in the file, from 1.
+/// kept. Each value and each key has the number of its line in the file; the first line is 1.
 struct YamlValue {
   enum class Kind { Null, Scalar, List, Map };
   struct Entry;

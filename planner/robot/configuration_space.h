@@ -20,9 +20,9 @@ struct Coordinate {
     rotation,  ///< four numbers (qx, qy, qz, qw), not all 0, of any norm
   };
   Kind kind = Kind::line;
-  std::string name;  ///< "pan", "left/pan"; for a body that moves as a whole "x", "y", "z", "yaw",
-                     ///< "rotation", or "left/x"
-  std::size_t first = 0;        ///< index of its first number in a Configuration
+  std::string name;       ///< single joint: "pan", "left/pan"; rigid robot: "x", "y", "z", "yaw",
+                          ///< "rotation", "left/x"; planar or floating joint: "base/x"
+  std::size_t first = 0;  ///< index of its first number in a Configuration
   double lower = 0, upper = 0;  ///< used for lines only; inclusive
   bool angular = false;         ///< line only: in radians, not metres
   double weight = 1;            ///< factor of the difference (m or rad) in distances
@@ -35,8 +35,9 @@ struct Coordinate {
 struct CoordinateGroup {
   enum class Kind { joints, planar, floating };
   Kind kind = Kind::joints;
-  std::string name;                      ///< name of the joint or robot; empty for `joints`
-  std::vector<std::size_t> coordinates;  ///< indices: all joints; x, y, yaw; x, y, z, rotation
+  std::string name;  ///< name of the joint or robot; empty for `joints`
+  /// Indices. For `joints`: all single joints; `planar`: x, y, yaw; `floating`: x, y, z, rotation.
+  std::vector<std::size_t> coordinates;
 };
 
 /// The space of all configurations, and the definition of an edge in it. Along an edge, with t in
@@ -56,7 +57,7 @@ class ConfigurationSpace {
   const std::vector<Coordinate>& coordinates() const { return coordinates_; }
   std::vector<Coordinate>& coordinates() { return coordinates_; }
   const std::vector<CoordinateGroup>& groups() const { return groups_; }
-  std::size_t size() const { return size_; }  ///< how many numbers a Configuration has
+  std::size_t size() const { return size_; }  ///< the length of a Configuration
   /// Returns a name for each number: "x", "pan", …; for rotations "qx", "qy", "qz", "qw", after the
   /// coordinate's prefix.
   std::vector<std::string> numberNames() const;

@@ -9,9 +9,10 @@
 
 namespace corridor {
 
-/// Returns the difference of a and b in one coordinate, ≥ 0 and without the weight: metres, or
-/// radians the shorter way round. For a rotation it is the quaternion angle, half of the rotation
-/// angle. Defined here because planners spend much of their time in distances.
+/// Returns the absolute difference of a and b in one coordinate, without the weight: metres, or
+/// radians the shorter way round. For a rotation, the result is the quaternion angle, which is half
+/// the rotation angle. The function is inline because planners spend much of their time in
+/// distances.
 /// @param a, b pointers to all numbers of a configuration.
 inline double differenceOf(const Coordinate& c, const double* a, const double* b) {
   if (c.kind == Coordinate::Kind::rotation)

@@ -13,14 +13,14 @@
 namespace corridor {
 namespace {
 
-/// Metres; added to every error bound. Squares below 2^-1022 underflow, so lengths below 2^-500 may
-/// be computed as 0. For levers below 2^99 m this constant covers everything that underflow can
-/// take from a bound.
+/// An error, metres, that is added to every error bound. Squares below 2^-1022 underflow, so
+/// lengths below 2^-500 may be computed as 0. For levers below 2^99 m, this constant covers all
+/// errors by underflow.
 constexpr double kLeastError = 0x1p-400;
 
-constexpr std::size_t kItself = SIZE_MAX;  // in place of a view: the frame is the ancestor
+constexpr std::size_t kItself = SIZE_MAX;  // instead of a view: the frame is the ancestor itself
 
-/// The bound fixed + reach·|y| metres for a point at lever y from b's origin.
+/// An error bound for a point at lever y from the origin of frame b: fixed + reach·|y| metres.
 struct LeverError {
   double fixed = 0, reach = 0;
 };
@@ -28,10 +28,10 @@ struct LeverError {
 }  // namespace
 
 /// Poses are cached in *views*. A view is the pose of a frame in the coordinates of one of its
-/// ancestors. It is computed once per t, for all pairs with this lowest common ancestor, by one
-/// product of poses from the view of the parent. So the joints between the world and this ancestor
-/// are not evaluated for these pairs, and their rounding is not counted. If one frame of a pair is
-/// the ancestor itself, the view of the other frame is the relative pose.
+/// ancestors. A view is computed once per t, by one product of poses from the view of the parent
+/// frame. All pairs with this lowest common ancestor share the view. So for these pairs the joints
+/// between the world and the ancestor are not evaluated, and their rounding is not counted. If one
+/// frame of a pair is the ancestor itself, the view of the other frame is the relative pose.
 struct EdgeMotion::Impl {
   struct Place {  // pose of a frame in its nearest ancestor that is kept
     MovingJoint joint;
@@ -321,7 +321,7 @@ RelativeMotion EdgeMotion::relativeMotion(std::size_t pair, double t, double h) 
   w.screws = path.screws;
   w.speed = lengthFromAbove(w.linear);
   w.angle = lengthFromAbove(w.angular);
-  // Covers the products of errors, which are below 2^-20 of the errors.
+  // This factor covers the products of errors, which are below 2^-20 of the errors.
   constexpr double more = 1 + 0x1p-20;
   w.fixedError = roundedUp(more * (path.still.fixed + h * path.rate.fixed)) + kLeastError;
   w.reachError = roundedUp(more * (path.still.reach + h * path.rate.reach)) + kLeastError;

@@ -20,8 +20,8 @@ namespace corridor {
 struct Frame {
   enum class Joint {
     none,
-    revolute,     ///< revolute, by an angle about `axis`
-    prismatic,    ///< prismatic, by a length along `axis`
+    revolute,     ///< rotation by an angle about `axis`
+    prismatic,    ///< translation by a length along `axis`
     translation,  ///< translation by a vector of two (x, y) or three numbers
     rotation,     ///< free rotation, by a quaternion
   };
@@ -33,11 +33,11 @@ struct Frame {
   std::size_t parent = 0;
   RigidPose fixed;  ///< X_P0: pose in the parent's frame
   Joint joint = Joint::none;
-  Vec3 axis = Vec3::UnitZ();  ///< in the frame after `fixed`; any length but 0
+  Vec3 axis = Vec3::UnitZ();  ///< in the frame after `fixed`; of any length except 0
   /// Index of the first number in a Configuration. If it is `noVariable`, a `revolute` or
   /// `prismatic` joint is held at `offset`.
   std::size_t variable = noVariable;
-  std::size_t count = 1;              ///< `translation` only: how many numbers, 2 or 3
+  std::size_t count = 1;              ///< `translation` only: the number of its numbers, 2 or 3
   double multiplier = 1, offset = 0;  ///< `revolute`, `prismatic`: value = multiplier·q + offset
 
   bool moves() const { return joint != Joint::none && variable != noVariable; }
@@ -65,10 +65,11 @@ struct KinematicTree {
 
 /// Returns the pose of every frame in the world, computed in double. Each angle is off by up to
 /// 2^-51·(|multiplier·q| + |offset|), which matters if a mimic multiplies a large value. Certified
-/// queries don't use these poses: edge_motion.h bounds the errors of its own.
+/// queries don't use these poses. They use the poses of edge_motion.h, whose errors are bounded.
 std::vector<Transform> framePoses(const KinematicTree& tree, const Configuration& q);
 /// Computes the poses of some frames only, and stores them in X_WF.
-/// @param frames in ascending order. The parent of each must be in the list, or its pose in X_WF.
+/// @param frames in ascending order. For each frame, the parent must be in the list, or X_WF must
+/// already contain the parent's pose.
 void setFramePoses(const KinematicTree& tree, const Configuration& q,
                    std::span<const std::size_t> frames, std::vector<Transform>& X_WF);
 

@@ -7,11 +7,11 @@
 
 namespace corridor {
 
-/// What a note is about, the most important first.
+/// The importance of a note; the most important value comes first.
 enum class NoteWeight {
   coverage,  ///< a proof may cover less, or something else, than the user expects
   motion,    ///< values, limits or joints differ from what a file says
-  detail     ///< other decisions of the reader, and what it ignored without harm
+  detail     ///< other decisions of the reader, and content that it ignored without harm
 };
 
 /// A decision of a reader that a user may want to know.
@@ -40,8 +40,8 @@ class NotedInputError : public InputError {
   std::vector<Note> notes_;
 };
 
-/// Calls `read`, which adds to `notes`. If it throws an InputError, throws a NotedInputError with
-/// the same faults and the notes so far.
+/// Calls `read`, which adds to `notes`. If `read` throws an InputError, this function throws a
+/// NotedInputError with the same faults and the notes so far.
 template <class Read>
 void readWithNotes(const std::vector<Note>& notes, const Read& read) {
   try {

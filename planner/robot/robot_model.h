@@ -16,7 +16,7 @@ namespace corridor {
 enum class JointType { fixed, revolute, continuous, prismatic, planar, floating };
 
 /// The rule of a joint that mimics another one: value = multiplier·(value of `joint`) + offset. The
-/// reader resolves chains of mimics, so `joint` itself is no mimic.
+/// reader resolves chains of mimics, so `joint` itself is not a mimic.
 struct Mimic {
   std::size_t joint = 0;
   double multiplier = 1, offset = 0;
@@ -44,7 +44,7 @@ struct LinkModel {
 /// A pair of links that is never tested, and the reason: "adjacent", "SRDF: Never", "robot.yaml:
 /// allow".
 struct AllowedPair {
-  /// What a proof that the pair is never in contact covers.
+  /// The range that a proof covers: with it, the pair is never in contact.
   struct Proof {
     double margin = 0;        ///< metres that the links keep apart
     double beyondLimits = 0;  ///< rad or m by which joint values may be beyond their limits
@@ -61,15 +61,16 @@ inline constexpr std::string_view kNeverInContact = "robot.yaml: never_in_contac
 struct JointGroup {
   std::vector<std::string> joints;   ///< in the model's order
   std::vector<std::string> missing;  ///< names of members that the URDF lacks; they are left out
-  std::string unusable;  ///< why it can't be made: "r.srdf:4: group … has no joint"; or ""
+  /// The reason why the group can't be used, such as "r.srdf:4: group … has no joint", or "".
+  std::string unusable;
 };
 
 /// A named state: values of some joints, in rad and m. A planar joint has the values NAME/x, NAME/y
 /// and NAME/yaw, a floating one NAME/x … NAME/qw.
 struct NamedState {
   std::map<std::string, double> values;
-  std::string group;     ///< the SRDF's group that it belongs to, or ""
-  std::string unusable;  ///< why it can't be made, with file and line, or ""
+  std::string group;     ///< the SRDF's group that the state belongs to, or ""
+  std::string unusable;  ///< the reason why the state can't be used, with file and line, or ""
 };
 
 /// Returns the names of the groups or states that can be used.

@@ -17,8 +17,8 @@
 namespace corridor {
 namespace {
 
-/// A file in memory for a program's output. Unlike a pipe, it is never full, so the two outputs can
-/// be read one after the other when the program has ended.
+/// A file in memory for a program's output. Unlike a pipe, such a file is never full, so the two
+/// outputs can be read one after the other when the program has ended.
 class Output {
  public:
   Output() : file_(::memfd_create("output", MFD_CLOEXEC)) {
@@ -51,7 +51,8 @@ class Output {
   int file_;
 };
 
-/// Returns pointers to the words, and a null pointer at the end. Valid as long as `words`.
+/// Returns pointers to the words, and a null pointer at the end. The pointers are valid as long as
+/// `words` exists.
 std::vector<char*> pointersTo(const std::vector<std::string>& words) {
   std::vector<char*> pointers;
   for (const std::string& word : words) pointers.push_back(const_cast<char*>(word.c_str()));
@@ -69,11 +70,11 @@ ProgramEnd runProgram(const ProgramCall& call) {
   const pid_t parent = ::getpid();
   const pid_t child = ::fork();
   if (child < 0) throw std::system_error(errno, std::generic_category(), call.words[0]);
-  if (child == 0) {  // only functions that are safe after fork() in a process with threads
+  if (child == 0) {  // calls only functions that are safe after fork() in a process with threads
     ::setpgid(0, 0);
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (::getppid() != parent) ::_exit(127);
-    // This program ignores SIGXFSZ. A program that inherits this may hang at `ulimit -f`.
+    // Corridor ignores SIGXFSZ. A program that inherits this setting may hang at `ulimit -f`.
     ::signal(SIGXFSZ, SIG_DFL);
     const int nothing = ::open("/dev/null", O_RDONLY);
     if (nothing < 0 || ::dup2(nothing, STDIN_FILENO) < 0 || ::dup2(out.file(), STDOUT_FILENO) < 0 ||
@@ -82,7 +83,7 @@ ProgramEnd runProgram(const ProgramCall& call) {
     ::execve(words[0], words.data(), environment);
     ::_exit(127);
   }
-  ::setpgid(child, child);  // the child does the same: one of the two calls is first
+  ::setpgid(child, child);  // the child calls it, too, because either process may run first
   const auto latest =
       std::chrono::steady_clock::now() + std::chrono::duration<double>(call.seconds);
   ProgramEnd end;
@@ -91,7 +92,7 @@ ProgramEnd runProgram(const ProgramCall& call) {
   while (!ended && end.why == ProgramEnd::Why::itself) {
     const pid_t found = ::waitpid(child, &status, WNOHANG);
     if (found < 0 && errno == EINTR) continue;
-    // Where SIGCHLD is ignored, the status of a child is lost, so nothing is known of its success.
+    // If SIGCHLD is ignored, the status of a child is lost, and its success is unknown.
     if (found < 0) throw std::system_error(errno, std::generic_category(), call.words[0]);
     ended = found != 0;
     if (ended) break;

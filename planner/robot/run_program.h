@@ -11,7 +11,7 @@ namespace corridor {
 /// A program to run, without a shell.
 struct ProgramCall {
   std::vector<std::string> words;             ///< the program's path, then its arguments
-  std::filesystem::path folder = {};          ///< where it runs; empty: the current folder
+  std::filesystem::path folder = {};          ///< its working folder; empty: the current folder
   std::vector<std::string> environment = {};  ///< "NAME=value"; empty: that of this process
   double seconds = 60;                        ///< time limit
   /// Limit of each output, bytes. The outputs are kept in memory, which a program without a limit
@@ -20,22 +20,23 @@ struct ProgramCall {
   const std::atomic<bool>* interrupted = nullptr;  ///< stops the program when it becomes true
 };
 
-/// How a program ended. `late`, `interrupted`: it was killed. `tooMuchOutput`: it was killed, or
-/// had ended by then. In every case, the processes that remained in its group were killed.
+/// How a program ended. With `late` and `interrupted`, it was killed. With `tooMuchOutput`, it was
+/// killed or had already ended. In every case, the processes that remained in its group were
+/// killed.
 struct ProgramEnd {
   enum class Why { itself, late, interrupted, tooMuchOutput };
   Why why = Why::itself;
-  int exitStatus = -1;   ///< −1: it was killed, or ended by a signal
-  std::string out, err;  ///< what it has written; empty if it was too much
+  int exitStatus = -1;   ///< −1: the program was killed, or ended by a signal
+  std::string out, err;  ///< its standard output and error; empty with `tooMuchOutput`
 };
 
-/// Runs a program to its end. Its standard input is empty. It runs in a process group of its own,
-/// and is killed when the calling thread ends.
+/// Runs a program to its end. Its standard input is empty. The program runs in a process group of
+/// its own, and is killed when the calling thread ends.
 /// @throws std::system_error if no process can be created. If the program can't be started, its
 /// exit status is 127.
 ProgramEnd runProgram(const ProgramCall& call);
 
-/// Searches PATH for a program. Returns "" if there is none of this name.
+/// Searches PATH for a program. Returns "" if PATH has no program of this name.
 std::filesystem::path findProgram(const std::string& name);
 
 }  // namespace corridor

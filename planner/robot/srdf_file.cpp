@@ -19,7 +19,8 @@ Pair pairOf(const std::string& a, const std::string& b) {
 
 constexpr std::size_t mostPairs = 1'000'000;
 
-/// Reports each count of elements above its limit. @returns whether there is such a count.
+/// Adds a fault for each kind of element that occurs more often than its limit. Returns whether a
+/// fault was added.
 bool isTooLarge(XmlFile& file, std::size_t links) {
   const Element& root = *file.root();
   std::map<std::string_view, std::size_t> counts;  // number of elements with each name
@@ -51,8 +52,8 @@ bool isTooLarge(XmlFile& file, std::size_t links) {
   return file.faultCount() != before;
 }
 
-/// Reads the pairs of links that are not tested. An element that can't be read must not leave more
-/// pairs untested than the file wants. So the elements <disable_default_collisions> are ignored
+/// Reads the pairs of links that are not tested. If an element can't be read, no pair that the file
+/// wants to be tested may be left out. So the elements <disable_default_collisions> are ignored
 /// unless all <enable_collisions> can be read.
 class PairReader {
  public:
@@ -92,7 +93,7 @@ class PairReader {
     if (allowed_.insert(pairOf(a, b)).second) model_.allowed.push_back({a, b, reason});
   }
 
-  /// Returns the two links of a pair. nullopt: the URDF lacks one, or it isn't given.
+  /// Returns the two links of a pair, or nullopt if a link is not given or not in the URDF.
   std::optional<std::pair<std::size_t, std::size_t>> findPair(const Element& element) {
     const auto a = names_.findLink(element, "link1", "", unknown_);
     const auto b = names_.findLink(element, "link2", "", unknown_);

@@ -43,8 +43,8 @@ class GroupReader {
   void note(const Element& element, const std::string& text) {
     model_.notes.push_back({file_.at(element.GetLineNum(), text)});
   }
-  /// Makes notes of the faults that were reported since the last call. Returns the first of them,
-  /// or "".
+  /// Turns the faults that were reported since the last call into notes. Returns the text of the
+  /// first fault, or "".
   std::string noteFaults() {
     const std::vector<Fault> faults = file_.takeFaults();
     for (const Fault& fault : faults) model_.notes.push_back({fault.str()});
@@ -199,7 +199,7 @@ class GroupReader {
         states.push_back(std::move(state));
         return;
       }
-      State& before = states[first->second];  // as in MoveIt, the last one counts
+      State& before = states[first->second];  // as in MoveIt, the last definition counts
       note(element, owned("state", *name) + " is already defined on line " +
                         std::to_string(before.line) + "; that definition is ignored");
       before = std::move(state);

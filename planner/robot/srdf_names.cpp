@@ -72,7 +72,7 @@ void SrdfNames::note(const UnknownNames& unknown, const std::string& one, const 
 }
 
 std::optional<std::string> SrdfNames::noteOnOtherRobot() const {
-  constexpr std::size_t least = 5;  // two misspelt names of three don't make another robot
+  constexpr std::size_t least = 5;  // fewer unknown names are probably misspelt
   if (unknown_.size() < least || 2 * unknown_.size() < used_.size()) return std::nullopt;
   return std::to_string(unknown_.size()) + " of the " + std::to_string(used_.size()) +
          " links and joints that it names are not in the URDF; it seems to be the SRDF of another "

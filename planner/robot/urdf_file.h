@@ -16,7 +16,7 @@ namespace corridor {
 /// URDF, then the environment variables AMENT_PREFIX_PATH and ROS_PACKAGE_PATH.
 using PackageMap = std::map<std::string, std::filesystem::path>;
 
-/// How a URDF is read.
+/// The rules for reading a URDF.
 struct UrdfRules {
   PackageMap packages = {};
   /// If true, a link without <collision> gets the geometry of its <visual>. If false, the link has
@@ -31,7 +31,8 @@ struct UrdfRules {
   std::vector<std::string> xacro = {};  ///< arguments for a .xacro file: "prefix:=left_"
 };
 
-/// Reads a URDF with its collision geometry, by urdfdom, and checks what urdfdom doesn't.
+/// Reads a URDF with its collision geometry. urdfdom parses the file; this function also reports
+/// faults that urdfdom accepts.
 ///
 /// All faults are appended to `faults`, with file and line. The result is nullopt if the URDF has a
 /// fault. `files` receives the URDF and every mesh file, in the order in which they are first
@@ -46,10 +47,10 @@ std::optional<RobotModel> readUrdf(const std::filesystem::path& file, const Urdf
 /// Reads an SRDF into `model`: groups (joints, links, chains, subgroups), named states, and
 /// disabled collisions with their reasons. Virtual joints and end effectors are ignored.
 ///
-/// Only a file that can't be read at all is a fault. Names that the model lacks and elements that
-/// make no sense are notes, as in other readers of SRDF. A group with unknown members is made from
-/// its other members (`JointGroup::missing`). A group or state that can't be made is kept with the
-/// reason (`unusable`); it is a fault only for a problem that names it.
+/// Only a file that can't be read at all is a fault. For names that the model lacks, and for
+/// elements that can't be used, notes are added, as in other readers of SRDF. A group with unknown
+/// members consists of its other members (`JointGroup::missing`). A group or state that can't be
+/// used is kept with the reason (`unusable`); it is a fault only for a problem that names it.
 /// @param xacro arguments for a .xacro file.
 void readSrdf(const std::filesystem::path& file, RobotModel& model, std::vector<Fault>& faults,
               const std::vector<std::string>& xacro = {});

@@ -18,7 +18,7 @@ struct Range {
   std::string text() const { return "[" + shortest(lower) + ", " + shortest(upper) + "]"; }
 };
 
-/// Returns the joint's own range; a limit that is not given is 0, as in urdfdom.
+/// Returns the joint's own range. A limit that is not given is 0, as in urdfdom.
 Range rangeOf(const UrdfJoint& joint) {
   if (!joint.limit) return {};
   return {joint.limit->lower.value_or(0), joint.limit->upper.value_or(0)};
@@ -56,7 +56,7 @@ class Mimics {
  private:
   void findLeader(std::size_t j) {
     const UrdfJoint& joint = joints_[j];
-    // Other readers ignore what a fixed joint mimics, too.
+    // The <mimic> of a fixed joint is ignored, as in other readers of URDF.
     if (!joint.mimic || !joint.type || joint.type == JointType::fixed) return;
     const int line = joint.mimic->line;
     const std::string owner = owned("joint", joint.name);
@@ -75,7 +75,8 @@ class Mimics {
     leader_[j] = found->second;
   }
 
-  /// Handles a joint whose leader cannot lead: it moves by itself, within its own limits.
+  /// Handles a joint whose <mimic> names an unusable joint: one that is not in the file, or not of
+  /// one variable. The mimicking joint then moves by itself, within its own limits.
   void addLost(const UrdfJoint& joint, const std::string& why, const std::string& hint) {
     const std::string text = owned("joint", joint.name) + " mimics " +
                              quotedWord(joint.mimic->joint) + ", which is " + why;
@@ -95,7 +96,7 @@ class Mimics {
            NoteWeight::motion});
   }
 
-  /// Makes the rules of the joint and of those that lead it.
+  /// Makes the rules of a joint and of all joints that it follows.
   void resolve(std::size_t start) {
     std::vector<std::size_t> chain;
     std::size_t j = start;
@@ -187,7 +188,8 @@ class Mimics {
                         NoteWeight::motion});
   }
 
-  /// Adds a note if a follower leaves its own limits while its leader stays within its own.
+  /// Adds a note if a follower leaves its own limits while its leader stays within the leader's
+  /// limits.
   void noteFollower(const UrdfJoint& follower, const Mimic& rule) {
     if (!hasRange(follower) || !follower.limit) return;
     if (!follower.limit->lower && !follower.limit->upper) return;
@@ -204,7 +206,7 @@ class Mimics {
     const double a = stands ? rule.offset : rule.multiplier * limits.lower + rule.offset;
     const double b = stands ? rule.offset : rule.multiplier * limits.upper + rule.offset;
     const Range range{std::min(a, b), std::max(a, b)};
-    // Values that differ by rounding only don't disagree: two roundings on either side.
+    // The slack allows for rounding: ranges that differ only by two roundings at each end agree.
     const double slack =
         0x1p-50 * (std::abs(rule.offset) + std::abs(own.lower) + std::abs(own.upper));
     if (range.lower >= own.lower - slack && range.upper <= own.upper + slack) return;
@@ -220,7 +222,7 @@ class Mimics {
   std::vector<std::size_t> leader_;  // for each joint: the joint that it mimics
   std::vector<std::size_t> walk_;    // for each joint: the first joint of the walk that met it
   std::vector<std::optional<Mimic>> rules_;
-  int hints_ = 10;  // the time of a search for similar names grows with their number
+  int hints_ = 10;  // searches for similar names that are left; each takes time for all names
 };
 
 }  // namespace

@@ -9,8 +9,8 @@
 #include "planner/robot/xml_file.h"
 
 /// The elements of a URDF that are checked and read before urdfdom parses it. Internal: users of
-/// the library don't need this header. `readUrdfOutline` reports what is wrong within a single
-/// element; `checkUrdfTree` reports what is wrong between elements.
+/// the library don't need this header. `readUrdfOutline` reports faults within a single element;
+/// `checkUrdfTree` reports faults between elements.
 namespace corridor {
 
 struct UrdfCollision {
@@ -46,7 +46,8 @@ struct UrdfJoint {
   std::optional<UrdfMimic> mimic;
 };
 
-/// The links and joints in the order of the file. Those without a unique name are left out.
+/// The links and joints in the order of the file. Links and joints without a unique name are left
+/// out.
 struct UrdfOutline {
   std::string name;
   std::vector<UrdfLink> links;

@@ -27,7 +27,7 @@ std::vector<std::string> wordsOf(std::string_view text) {
   return words;
 }
 
-/// @returns what is wrong, or an empty string.
+/// Sets `value` and returns "", or returns a complaint.
 std::string parseNumber(const std::string& word, double& value) {
   const bool plus = word.size() > 1 && word[0] == '+' && word[1] != '-';
   const char* const begin = word.data() + (plus ? 1 : 0);
@@ -45,8 +45,9 @@ bool contains(const std::vector<std::string>& all, const std::string& one) {
   return std::find(all.begin(), all.end(), one) != all.end();
 }
 
-/// Returns whether ignoring the element would lose collision geometry: it contains a <collision>,
-/// or its name says that it is one ("collision_model") and it contains a <geometry>.
+/// Returns whether ignoring the element would lose collision geometry. This is so if the element is
+/// or contains a <collision>, or if its name contains "collision" ("collision_model") and it
+/// contains a <geometry>.
 bool holdsCollision(const XmlFile::Element& element) {
   const std::string_view name = element.Name();
   if (name == "collision") return true;

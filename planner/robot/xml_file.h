@@ -27,7 +27,7 @@ class XmlFile {
   XmlFile(std::filesystem::path file, const std::string& what,
           const std::vector<std::string>& xacro = {});
 
-  /// Returns the root element. nullptr if the file couldn't be read or has another root; a fault
+  /// Returns the root element, or nullptr if the file couldn't be read or has another root. A fault
   /// was then reported.
   Element* root() { return root_; }
   const std::filesystem::path& path() const { return path_; }
@@ -47,21 +47,22 @@ class XmlFile {
   /// Returns the faults, sorted by line.
   std::vector<Fault> takeFaults();
 
-  /// Returns a required attribute, which must not be empty. nullopt: a fault was reported.
+  /// Returns a required attribute, which must not be empty. Returns nullopt if a fault was
+  /// reported.
   std::optional<std::string> text(const Element& element, const char* attribute,
                                   const std::string& owner);
   /// Reads an attribute of `count` finite numbers. The attribute is rewritten in plain decimals,
-  /// which every reader reads as the same doubles. nullopt: the attribute is missing, or a fault
-  /// was reported.
+  /// which every reader reads as the same doubles. Returns nullopt if the attribute is missing, or
+  /// if a fault was reported.
   std::optional<std::vector<double>> numbers(Element& element, const char* attribute,
                                              std::size_t count, const std::string& owner);
   /// Reports a fault if the attribute is missing.
   void require(const Element& element, const char* attribute, const std::string& owner);
   /// Returns the first child of that name, or nullptr. Each further child of that name is a fault.
   Element* child(Element& parent, const char* name, const std::string& owner);
-  /// Checks for children that are in neither list. Such a child is a fault if ignoring it may lose
-  /// something: its name is similar to one in `read`, or it has collision geometry. For each other
-  /// name of a child, one note is added, for at most 100 names. Elements of other formats
+  /// Checks for children that are in neither list. Such a child is a fault if its name is similar
+  /// to one in `read`, or if it has collision geometry: ignoring the child may lose data. For each
+  /// other name of a child, one note is added, for at most 100 names. Elements of other formats
   /// ("drake:joint") are ignored.
   void checkChildren(Element& parent, const std::vector<std::string>& read,
                      const std::vector<std::string>& ignored, const std::string& owner,

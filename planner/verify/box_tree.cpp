@@ -23,7 +23,7 @@ void extend(BoxTree::Node& node, const Piece& piece) {
     return;
   }
   for (const Vec3& point : piece.part->points)
-    for (int i = 0; i < 3; ++i) {  // rounded outward; a disc is within its sphere
+    for (int i = 0; i < 3; ++i) {  // rounded outward; the disc about a point is within its sphere
       node.lower[i] =
           std::min(node.lower[i], std::nextafter(point[i] - piece.part->radius, -HUGE_VAL));
       node.upper[i] =
@@ -155,7 +155,7 @@ void BodyDistance::lookAlong(const RealVec& between) {
 Real BodyDistance::boxGap(std::uint32_t a, std::uint32_t b, Real enough) {
   const CentredBox boxOfA = boxA(a);
   const PlacedBox& boxOfB = boxB(b);
-  // Distance of boxes along a's axes, then along b's.
+  // Bounds the distance of the two boxes, first along a's axes, then along b's.
   const auto apart = [](const RealVec& between, const RealVec& halves) {
     const RealVec gaps = (between.cwiseAbs() - halves).cwiseMax(RealVec::Zero());
     return gaps.norm();
@@ -171,7 +171,7 @@ Real BodyDistance::boxGap(std::uint32_t a, std::uint32_t b, Real enough) {
       partB_ ? startOfB_ : direction_.dot(boxOfB.around.centre) - along.dot(boxOfB.around.half);
   gap = std::max(gap, startOfB - endOfA);
   if (gap >= enough) return gap;
-  // For a long triangle that is not along the axes, the slab along its normal is a better bound
+  // For a long triangle that is oblique to the axes, the slab along its normal gives a better bound
   // than its box.
   if (const std::uint32_t leaf = a_->node(a).leaf; leaf != BoxTree::noLeaf && !a_->hasParts())
     gap = std::max(gap, planeGap(a_->piece(leaf).normal, cornersA(leaf), boxOfB.around));

@@ -35,7 +35,7 @@ class BoxTree {
 
   /// @pre the mesh has a triangle.
   explicit BoxTree(const TriangleMesh& mesh);
-  /// @pre there is a part, and each has a point.
+  /// @pre at least one part; each part has at least one point.
   explicit BoxTree(std::span<const ConvexPart> parts);
 
   const Node& node(std::uint32_t i) const { return nodes_[i]; }  ///< 0 is the root
@@ -90,8 +90,8 @@ class BodyDistance {
   /// The result's `lower` also covers all pruned pairs: it is the smallest bound of all pruned node
   /// pairs and all tested pairs of leaf primitives. The box of a node of b, in a's frame, has the
   /// half extents |R|·(half extents) about the image of its centre. The caller must add the
-  /// rounding of the boxes, and all other rounding. That of the boxes is under 32u·S, where S
-  /// bounds all lengths: 3 sums of 3 products, and a root of three squares.
+  /// rounding of the boxes, and all other rounding. The rounding of the boxes is below 32u·S, where
+  /// S bounds all lengths: it consists of 3 sums of 3 products, and a root of three squares.
   BodyGap measure(PiecePair guess, Real doubt, Real stop,
                   const std::function<bool(PiecePair)>& touches);
 
@@ -131,7 +131,7 @@ class BodyDistance {
   /// until one reaches `enough`.
   Real boxGap(std::uint32_t a, std::uint32_t b, Real enough);
   Item item(std::uint32_t a, std::uint32_t b, Real enough) { return {a, b, boxGap(a, b, enough)}; }
-  /// Splits one node of a node pair into its children. @pre it is no leaf pair.
+  /// Splits one node of a node pair into its children. @pre the two nodes are not both leaves.
   std::array<Item, 2> split(const Item& item, Real enough);
   /// Returns a lower bound of the distance of a triangle and a box: the width of the slab along the
   /// triangle's normal, for the box on either side.

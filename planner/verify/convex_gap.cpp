@@ -8,8 +8,8 @@ namespace corridor::verify {
 namespace {
 
 constexpr int kMostSteps = 200;
-/// The search ends when upper and lower bound differ by less than this share of the size, which is
-/// near the rounding of their terms.
+/// The search ends when upper and lower bound differ by less than this share of the size. The
+/// rounding of the bounds is nearly as large.
 constexpr Real kFine = 0x1p-58L;
 
 /// A corner of the difference B − A, and the two points whose difference it is.
@@ -24,8 +24,9 @@ struct Nearest {
 };
 
 /// Finds the point of least norm in the affine hull (point, line, plane) of the chosen corners. If
-/// all its weights are positive, this point is also the nearest one of their convex hull. It then
-/// replaces `best` if it is nearer. The subset of all four corners must be tried last.
+/// all its weights are positive, this point is also the point of least norm in the convex hull of
+/// the chosen corners. The point then replaces `best` if it has a smaller norm. The subset of all
+/// four corners must be tried last.
 void trySubset(const std::vector<Corner>& corners, unsigned subset, Real size, Nearest& best) {
   std::array<std::size_t, 4> chosen{};
   int count = 0;
@@ -124,7 +125,8 @@ TriangleGap convexGap(const ConvexSet& a, const ConvexSet& b, const RealVec& gue
         }))
       break;  // no progress is possible
     corners.push_back(corner);
-    // Any point that is nearer than the last one has a positive weight at the new corner.
+    // A point that is nearer than the last one has a positive weight at the new corner. So only
+    // subsets with the new corner are tried.
     Nearest best;
     best.square = length * length;
     const unsigned newest = 1u << (corners.size() - 1);

@@ -8,8 +8,8 @@
 namespace corridor::verify {
 
 /// A convex set in the verifier's arithmetic: the hull of `points` swept by a sphere of `radius`.
-/// With `flatEnds` it is two points swept by a disc of `radius` perpendicular to `axis`. A triangle
-/// has three points and radius 0.
+/// With `flatEnds`, the set is the segment of two points swept by a disc of `radius` perpendicular
+/// to `axis`: a cylinder. A triangle has three points and radius 0.
 struct ConvexSet {
   std::vector<RealVec> points;
   Real radius = 0;
@@ -31,10 +31,11 @@ ConvexSet placed(const ConvexPart& part, const Placement& placement);
 /// bound.
 ///
 /// Method (Gilbert, Johnson, Keerthi 1988): finds the point of least norm in the difference of the
-/// two sets without their swept spheres, from at most four corners of the difference at a time. All
-/// subsets of the corners are tried, which is the simplest way to choose them. The rounding is
+/// two sets without their swept spheres. Each step uses at most four corners of this difference,
+/// and tries all subsets of these corners, which is the simplest way to choose one. The rounding is
 /// similar to that of TriangleGap, and far below 2^-50 of the size.
-/// @param guess the direction in which the search starts, from a to b, of any length; 0: none.
+/// @param guess the direction in which the search starts, from a to b, of any length. Zero: no
+/// guess.
 /// @param enough the search ends when `lower` reaches this value.
 TriangleGap convexGap(const ConvexSet& a, const ConvexSet& b,
                       const RealVec& guess = RealVec::Zero(),

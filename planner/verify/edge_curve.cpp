@@ -73,8 +73,8 @@ EdgeCurve::EdgeCurve(const KinematicTree& tree, const std::vector<Coordinate>& c
     if (c.kind != Coordinate::Kind::rotation) {
       const bool circle = c.kind == Coordinate::Kind::circle;
       const Real way = circle ? circleDifference(from[i], to[i]) : Real(to[i]) - Real(from[i]);
-      // `way` is off by u·|way|, or by 32u for a circle; each product and each sum is off by u of
-      // its value.
+      // `way` is off by u·|way|, or by 32u for a circle. Each product and each sum is off by u
+      // times its value.
       lines_[c.first] = {Real(from[i]), way,
                          std::abs(Real(from[i])) + std::abs(way) + (circle ? 4 : 0)};
       if (!circle) continue;
@@ -245,9 +245,9 @@ Configuration EdgeCurve::configuration(Real t) const {
 Reach EdgeCurve::reach(const KinematicChain& chain, Real radius, const Configuration& tube) const {
   Reach reach;
   // The loop goes from the frame back to the base. `length` is the length of the chain after the
-  // current joint. Each revolute joint i adds its share of `bend` with all joints after it: 2 |Δ_i|
-  // D. D is `speed` so far: the sum of |Δ_j| R_j (revolute) and |Δ_j| (prismatic) over the joints j
-  // after joint i. The same holds with τ in place of Δ.
+  // current joint. Each revolute joint i adds to `bend` its term with itself, |Δ_i|² R_i, and its
+  // terms with all joints j after it, 2 |Δ_i| D. Here D is `speed` so far: the sum of |Δ_j| R_j
+  // (revolute) and |Δ_j| (prismatic). The same holds with τ instead of Δ.
   Real length = radius, manyTurns = 1;
   const auto turn = [&](Real delta, Real stray) {
     reach.bend += delta * (delta * length + 2 * reach.speed);

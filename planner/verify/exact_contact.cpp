@@ -32,7 +32,7 @@ Point along(const Point& p, const Point& direction, const Rational& t) {
   return {p[0] + t * direction[0], p[1] + t * direction[1], p[2] + t * direction[2]};
 }
 
-/// Returns a common point of the closed segments pq and rs; either may be a single point.
+/// Returns a common point of the closed segments pq and rs. Either segment may be a single point.
 std::optional<Point> segmentsMeet(const Point& p, const Point& q, const Point& r, const Point& s) {
   const Point d1 = q - p, d2 = s - r, w = r - p, normal = cross(d1, d2);
   if (!isZero(normal)) {

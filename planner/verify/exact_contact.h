@@ -16,7 +16,7 @@ using Corners = std::array<Vec3, 3>;
 /// Decides whether the closed triangle `fixed` and the image of the closed triangle `moving` under
 /// `pose` share a point. The decision is exact for the given doubles. It is computed in rational
 /// arithmetic, without roots: R(q)·|q|² is a polynomial of the four numbers of the quaternion q.
-/// @returns a common point, rounded; nullopt if there is none.
+/// @returns a common point, rounded, or nullopt if the triangles have no common point.
 std::optional<Vec3> exactContact(const RigidPose& pose, const Corners& moving,
                                  const Corners& fixed);
 

@@ -92,7 +92,7 @@ TEST(CheckerVolumes, WrongWordsThrow) {
   EXPECT_EQ(message({"obb-binary", "", "gjk"}, "discrete"), "");
   EXPECT_EQ(message({"obb-binary", "", "sat"}, "adaptive"), "");
   EXPECT_EQ(message({"obb-binary", "", "gjk"}, "advancement"),
-            "checker.overlap: \"gjk\" is for edges certified and discrete; advancement measures "
+            "checker.overlap: \"gjk\" needs edges: certified or discrete; advancement measures "
             "distances between volumes: leave overlap out");
 }
 

@@ -251,7 +251,7 @@ TEST_F(Moveit, FaultsOfTheScene) {
               HasSubstr("unknown key \"postion\" in object \"a\".primitive_poses[0] (did you mean "
                         "\"position\"?)"));
   EXPECT_EQ(complaint(object("operation: 1, primitives: [{type: sphere, dimensions: [1]}]")),
-            a + ".operation: only objects that are added are read (0), not \"1\"");
+            a + ".operation: only ADD (0) is supported, not \"1\"");
   EXPECT_EQ(complaint("world:\n  collision_objects:\n    - {id: a, primitives: [{type: sphere, "
                       "dimensions: [1]}]}\n    - {id: a, primitives: [{type: sphere, dimensions: "
                       "[1]}]}\n"),
@@ -320,7 +320,7 @@ TEST_F(Moveit, FaultsOfTheRequest) {
       "request.yaml:11: goal_constraints[1].joint_constraints: there is no joint \"lft\" (did "
       "you mean \"lift\"?) (known: pan, lift, slide)\n"
       "request.yaml:11: goal_constraints[1].joint_constraints: slide is held at 0.04, and "
-      "can't get to 0.02\n"
+      "can't move to 0.02\n"
       "request.yaml:15: goal_constraints[1].joint_constraints.joint_name: \"lift\" is named "
       "twice");
   EXPECT_EQ(changed("[pan, lift, slide, follow,", "[pan, lift, slide, lift,"),
@@ -388,7 +388,7 @@ TEST_F(Moveit, ASceneOfAnotherRobotIsNoted) {
               testing::Contains(testing::EndsWith(
                   "scene.yaml: is for robot \"fetch\", and is used for \"armbot\"")));
   EXPECT_THAT(textsOf(p.source.notes),
-              testing::Contains(testing::EndsWith("names 1 that are neither links nor obstacles: "
+              testing::Contains(testing::EndsWith("has names of neither links nor obstacles (1): "
                                                   "fingre")));
 }
 

@@ -34,7 +34,7 @@ TEST_F(NeverInContactPairs, AreTestedBeyondTheProof) {
     const Problem p = readWith(pairs, beyond);
     EXPECT_EQ(skipped(p, "base", "finger"), "") << beyond;
     EXPECT_THAT(textsOf(p.source.notes),
-                Contains("1 pair of never_in_contact is tested: that proof covers a margin of up "
+                Contains("1 pair of never_in_contact is tested: the proof covers a margin of up "
                          "to 0.01 m and a tube of up to 0.002 rad or m"));
   }
 }
@@ -75,7 +75,7 @@ TEST_F(NeverInContactPairs, Faults) {
   EXPECT_EQ(faults("[[base, finger]]"),
             "arm.yaml:6: never_in_contact: a map (key: value) is needed, not a list");
   EXPECT_EQ(faults("{margin: 0.01, pairs: [[base, finger]]}"),
-            "arm.yaml:6: missing key \"beyond_limits\" in never_in_contact: rad or m: by how much "
+            "arm.yaml:6: missing key \"beyond_limits\" in never_in_contact: rad or m: how far "
             "the proof goes beyond the limits of joints");
   EXPECT_EQ(faults("{margin: -1, beyond_limits: 0, pairs: []}"),
             "arm.yaml:6: never_in_contact.margin: must be 0 or more, not -1");
