@@ -11,7 +11,8 @@ namespace corridor {
 /// The content of a solution file, which `corridor solve -o` writes and `corridor verify` reads:
 /// YAML, format corridor-solution-1 (keys in planner/README.md). Metres, radians.
 struct Solution {
-  std::string problem;  ///< the problem's file; relative to the solution file's folder if in a file
+  /// The problem's file. In a solution file, its name is relative to the folder of that file.
+  std::string problem;
   /// The digest of the problem and all its files; empty: not known (`.path` files).
   std::string digest;
   std::string space;  ///< "SE2" or "SE3"; empty if the states have named joints

@@ -34,7 +34,7 @@ namespace {
 /// The number of states of a goal region that planners get. It is small, because planners with an
 /// informed sampler keep an ellipse for each state.
 constexpr std::size_t kGoalSamples = 32;
-/// The least share of planner.time that simplifying gets, also if the planner used all of it.
+/// The least share of planner.time that simplifying gets, even if the planner used all of it.
 constexpr double kSimplifyShare = 0.05;
 constexpr double kProgressPeriod = 0.1;  // s
 /// Minimises the length of a path in the space's distance. OMPL's own class samples ellipses

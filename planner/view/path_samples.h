@@ -13,9 +13,9 @@ namespace corridor::view {
 struct PathSample {
   std::size_t edge = 0;  ///< index: the edge from state `edge` to the next
   double t = 0;          ///< time on the edge, in [0, 1]
-  /// The place in [0, 1] of the whole path, in proportion to how far the bodies move, so that
-  /// playing at an even rate looks even. From sample to sample, the largest distance that a corner
-  /// of the bodies' bounds moves counts.
+  /// The place on the whole path, in [0, 1]. It grows in proportion to how far the bodies move, so
+  /// that playing at an even rate looks even. How far they move between two samples is the largest
+  /// distance that a corner of the bodies' bounds moves.
   double at = 0;
   std::vector<Transform> X_WF;
 };
