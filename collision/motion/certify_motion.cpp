@@ -24,8 +24,8 @@ struct MotionScratch {
   std::vector<std::uint32_t> near;  ///< the pairs that the broad phase found, or all pairs
 };
 
-/// Returns one more than the largest index of a body in a pair that has a world sphere (`worldB` is
-/// set).
+/// Returns a number above the index of every body whose swept sphere, as seen from the world, the
+/// query may need. Only pairs whose `worldB` is set need such spheres.
 std::size_t bodyCountOf(const MotionQuery& query) {
   if (query.broadPhase) return query.broadPhase->bodies();
   std::size_t bodies = 0;
@@ -117,8 +117,8 @@ class Certifier {
   }
 
   /// Walks the open intervals depth first, the earlier half first. Everything before the interval
-  /// on top of the stack is therefore proved. And if some time cannot be decided, that time is
-  /// found before all other intervals are refined.
+  /// on top of the stack is therefore proved. If some time cannot be decided, it is found without
+  /// refining the later intervals first.
   MotionResult walkInOrder() {
     while (!open_.empty()) {
       const Interval w = open_.back();

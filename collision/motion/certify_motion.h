@@ -12,9 +12,9 @@
 
 namespace corridor {
 
-/// Two bodies that touch, by their indices in the scene, and the two triangles that touch, by their
-/// numbers in the meshes. For a body of convex parts, the number of the triangle is that of the
-/// part.
+/// Two bodies, by their indices in the scene, and a triangle of each, by its number in the mesh:
+/// those that touch, or, in an undecided answer, those that could not be decided. For a body of
+/// convex parts, the number of the triangle is that of the part.
 struct Contact {
   std::size_t bodyA = 0, bodyB = 0;
   std::uint32_t triangleA = 0, triangleB = 0;
