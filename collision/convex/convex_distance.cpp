@@ -160,16 +160,16 @@ class Pair {
     Real lower = search.gap * Real(1 / search.unit);
     if (!ballsInCores && radii_ > 0) {
       const Vector<Real> n = p.w * (Real(1) / gjk::length(p.w));
-      const Real unit(1 / search.unit);
+      const Real unitsPerMetre(1 / search.unit);
       if (a_.set().ball > 0) {
-        const Vector<Real> reach = ballPoint(a_, n) * (Real(a_.set().ball) * unit);
+        const Vector<Real> reach = ballPoint(a_, n) * (Real(a_.set().ball) * unitsPerMetre);
         p.a = p.a + reach;
         p.w = p.w - reach;
-        lower = lower - ballReach(a_, search.normal) * unit;
+        lower = lower - ballReach(a_, search.normal) * unitsPerMetre;
       }
       if (b_.set().ball > 0) {
-        p.w = p.w - ballPoint(b_, n) * (Real(b_.set().ball) * unit);
-        lower = lower - ballReach(b_, search.normal) * unit;
+        p.w = p.w - ballPoint(b_, n) * (Real(b_.set().ball) * unitsPerMetre);
+        lower = lower - ballReach(b_, search.normal) * unitsPerMetre;
       }
     }
     ConvexDistance result;
