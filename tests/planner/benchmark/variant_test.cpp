@@ -21,7 +21,7 @@ std::string complaintOf(const std::string& text,
   return "";
 }
 
-CheckerSettings specOf(const Variant& variant) {
+CheckerSettings settingsOf(const Variant& variant) {
   CheckerSettings checker;
   variant.apply(checker);
   return checker;
@@ -54,8 +54,8 @@ TEST(Variant, WithoutAKnobTheProblemsValueStays) {
 
 TEST(Variant, EveryEdgeMethodIsAVariant) {
   for (const std::string& edges : problemChoices().at("checker.edges")) {
-    EXPECT_EQ(wordOf(specOf(readVariant(edges)).edges), edges);
-    const CheckerSettings checker = specOf(readVariant(edges + ":0.001"));
+    EXPECT_EQ(wordOf(settingsOf(readVariant(edges)).edges), edges);
+    const CheckerSettings checker = settingsOf(readVariant(edges + ":0.001"));
     EXPECT_EQ(edges == "discrete" ? checker.resolution : checker.tolerance.value_or(0), 0.001);
   }
 }
@@ -63,8 +63,8 @@ TEST(Variant, EveryEdgeMethodIsAVariant) {
 TEST(Variant, CompetitorsSampleEdges) {
   const std::vector<BenchmarkCompetitor> peers{{"other", {}}};
   const Variant variant = readVariant("other:0.1", peers);
-  EXPECT_EQ(specOf(variant).edges, EdgeCheck::discrete);
-  EXPECT_EQ(specOf(variant).resolution, 0.1);
+  EXPECT_EQ(settingsOf(variant).edges, EdgeCheck::discrete);
+  EXPECT_EQ(settingsOf(variant).resolution, 0.1);
   ASSERT_TRUE(variant.competitor);
   EXPECT_EQ(variant.competitor->name, "other");
   EXPECT_FALSE(readVariant("discrete:0.1", peers).competitor);
@@ -75,7 +75,7 @@ TEST(Variant, BadOnesAreReportedInOneLine) {
   EXPECT_EQ(complaintOf("certifed"),
             "--variants: unknown variant \"certifed\" (did you mean "
             "\"certified\"?); there are: " +
-                names + "; each may have a knob: discrete:0.01");
+                names + "; a resolution or tolerance may follow: discrete:0.01");
   EXPECT_THAT(complaintOf("other:0.1"), testing::StartsWith("--variants: unknown variant"));
   EXPECT_THAT(complaintOf(""), testing::StartsWith("--variants: unknown variant \"\""));
   for (const char* knob : {"", "1", "0", "-0.1", "1e-10", "nan", "fine", "0.1abc", "0.1:0.2"})
