@@ -34,7 +34,7 @@ constexpr double kSnap = 1e-9;
 class PathShortener {
  public:
   PathShortener(const ConfigurationSpace& space, const EdgeTest& isFree,
-             const std::function<bool()>& stop)
+                const std::function<bool()>& stop)
       : space_(space), isFree_(isFree), stop_(stop) {}
 
   std::vector<Path> run(const Path& path);

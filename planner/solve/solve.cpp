@@ -52,19 +52,23 @@ class PathLengthObjective : public ob::PathLengthOptimizationObjective {
   }
 };
 
-/// Returns the default of the parameter `range` (the longest edge that a tree grows) where all
-/// coordinates are angles: 0.7 rad in the joint of the largest weight. Otherwise returns nullopt;
-/// OMPL's default is then used, 20 % of the space's extent. For arms OMPL's default is 3 to 6 rad,
-/// and nearly every edge of that length hits something. Measured on problems of two arms: with
-/// OMPL's default, planners that grow trees take 2 to 15 times as long.
-std::optional<double> defaultRangeForAngles(const ConfigurationSpace& space) {
-  double weight = 0;
-  for (const Coordinate& c : space.coordinates()) {
-    if (c.kind == Coordinate::Kind::rotation || (c.kind == Coordinate::Kind::line && !c.angular))
-      return std::nullopt;
-    weight = std::max(weight, c.weight);
+/// Returns the default of the parameter `range` (the longest edge that a tree grows) for a robot
+/// that has revolute or continuous joints, with or without slides and a moving base: 0.7 rad in the
+/// joint of the largest weight. Otherwise returns nullopt; OMPL's default is then used, 20 % of the
+/// space's extent. For arms OMPL's default is 3 to 6 rad, and nearly every edge of that length hits
+/// something. Measured on problems of two arms: with OMPL's default, planners that grow trees take
+/// 2 to 15 times as long.
+std::optional<double> defaultRangeForArms(const ConfigurationSpace& space) {
+  std::optional<double> range;
+  for (const CoordinateGroup& group : space.groups()) {
+    if (group.kind != CoordinateGroup::Kind::joints) continue;
+    for (const std::size_t member : group.coordinates) {
+      const Coordinate& c = space.coordinates()[member];
+      if (c.kind == Coordinate::Kind::circle || c.angular)
+        range = std::max(range.value_or(0), 0.7 * c.weight);
+    }
   }
-  return 0.7 * weight;
+  return range;
 }
 
 /// Returns the report's words for the trees: ", sphere", ", hull" or ", obb-binary, vertices, gjk".
@@ -141,7 +145,7 @@ void Solve::setUpPlanner() {
       makePlanner(si_, problem_.settings.planner.name, parameters, parameterAt("planner.name"));
   const bool given = std::any_of(parameters.begin(), parameters.end(),
                                  [](const PlannerParameter& p) { return p.key == "range"; });
-  if (const auto range = defaultRangeForAngles(problem_.model.space);
+  if (const auto range = defaultRangeForArms(problem_.model.space);
       range && !given && planner_->params().hasParam("range"))
     planner_->params().setParam("range", shortest(*range));
   for (const PlannerInfo& info : knownPlanners())

@@ -44,6 +44,24 @@ TEST(OwnProblems, AllAreListedHere) {
   EXPECT_EQ(folders, 12);
 }
 
+/// Slides and a moving base don't change the default range of an arm. Other robots have OMPL's.
+TEST(OwnProblems, DefaultRanges) {
+  for (const auto& [name, isArm] :
+       {std::pair("gantry_bins", true), {"rover_door", true}, {"cubicles", false}}) {
+    Problem problem = ownProblem(name);
+    problem.settings.simplify = Simplifier::none;
+    problem.settings.planner.time *= test::kSlowdown;
+    const auto path = [&](const std::map<std::string, std::string>& params) {
+      problem.settings.planner.params = params;
+      return solveProblem(problem).path;
+    };
+    const Path own = path({});
+    ASSERT_FALSE(own.empty()) << name;
+    EXPECT_EQ(own == path({{"range", "0.7"}}), isArm) << name;
+    EXPECT_EQ(own == path({{"range", "0"}}), !isArm) << name;
+  }
+}
+
 /// Some states must be in contact only because the two arms touch each other.
 TEST(TwoArms, AreTestedAgainstEachOther) {
   Problem problem = ownProblem("two_arms");
