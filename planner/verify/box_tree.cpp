@@ -105,11 +105,25 @@ std::uint32_t BoxTree::build(std::vector<std::uint32_t>& order, std::size_t begi
   return index;
 }
 
+template <>
+const BodyDistance::Frame<Real>& BodyDistance::frame() const {
+  return real_;
+}
+template <>
+const BodyDistance::Frame<double>& BodyDistance::frame() const {
+  return double_;
+}
+
 void BodyDistance::place(const BoxTree& a, const BoxTree& b, const Placement& X_AB) {
   a_ = &a;
   b_ = &b;
   X_AB_ = X_AB;
-  extents_ = X_AB.rotation.cwiseAbs();
+  real_ = {X_AB.rotation, X_AB.rotation.cwiseAbs(), X_AB.position};
+  double_ = {X_AB.rotation.cast<double>(), real_.extents.cast<double>(),
+             X_AB.position.cast<double>()};
+  const Real size = a.radius() + b.radius() + X_AB.position.norm();
+  boxError_ =
+      0x1p-400L < size && size < 0x1p400L ? 0x1p-44L * size : std::numeric_limits<Real>::infinity();
   partA_.reset();
   partB_.reset();
   if (a.hasParts() && a.size() == 1) partA_ = placed(*a.piece(0).part, Placement{});
@@ -119,86 +133,126 @@ void BodyDistance::place(const BoxTree& a, const BoxTree& b, const Placement& X_
   if (boxesB_.size() < b.size()) boxesB_.resize(b.size());
 }
 
-CentredBox BodyDistance::boxA(std::uint32_t node) const {
-  const RealVec lower = a_->node(node).lower.cast<Real>(),
-                upper = a_->node(node).upper.cast<Real>();
+template <class Number>
+BodyDistance::Box<Number> BodyDistance::boxOf(const BoxTree::Node& node) {
+  const Vec<Number> lower = node.lower.cast<Number>(), upper = node.upper.cast<Number>();
   return {(lower + upper) / 2, (upper - lower) / 2};
 }
 
-const BodyDistance::PlacedBox& BodyDistance::boxB(std::uint32_t node) {
-  PlacedBox& box = boxesB_[node];
-  if (box.stamp == stamp_) return box;
-  box.stamp = stamp_;
-  const RealVec lower = b_->node(node).lower.cast<Real>();
-  const RealVec upper = b_->node(node).upper.cast<Real>();
-  box.centre = X_AB_.rotation * ((lower + upper) / 2) + X_AB_.position;
-  box.half = (upper - lower) / 2;
+template <class Number>
+BodyDistance::PlacedBox<Number> BodyDistance::placedBox(std::uint32_t node) const {
+  const Frame<Number>& X = frame<Number>();
+  PlacedBox<Number> box;
+  box.along = boxOf<Number>(b_->node(node));
+  box.along.centre = X.rotation * box.along.centre + X.position;
   const std::uint32_t leaf = b_->node(node).leaf;
   if (leaf != BoxTree::noLeaf && !b_->hasParts()) {
-    const auto t = cornersB(leaf);
-    const RealVec least = t[0].cwiseMin(t[1]).cwiseMin(t[2]);
-    const RealVec most = t[0].cwiseMax(t[1]).cwiseMax(t[2]);
+    const auto t = cornersB<Number>(leaf);
+    const Vec<Number> least = t[0].cwiseMin(t[1]).cwiseMin(t[2]);
+    const Vec<Number> most = t[0].cwiseMax(t[1]).cwiseMax(t[2]);
     box.around = {(least + most) / 2, (most - least) / 2};
   } else {
-    box.around = {box.centre, extents_ * box.half};
+    box.around = {box.along.centre, X.extents * box.along.half};
   }
   return box;
 }
 
+const BodyDistance::PlacedBox<double>& BodyDistance::boxB(std::uint32_t node) {
+  StampedBox& known = boxesB_[node];
+  if (known.stamp != stamp_) known = {placedBox<double>(node), stamp_};
+  return known.box;
+}
+
+CentredBox BodyDistance::aroundA(std::uint32_t node) const {
+  const Box<Real> box = boxOf<Real>(a_->node(node));
+  return {box.centre, box.half};
+}
+
+CentredBox BodyDistance::aroundB(std::uint32_t node) {
+  if (!std::isfinite(boxError_)) {
+    const Box<Real> box = placedBox<Real>(node).around;
+    return {box.centre, box.half};
+  }
+  const Box<double>& box = boxB(node).around;
+  return {box.centre.cast<Real>(), box.half.cast<Real>() + RealVec::Constant(boxError_)};
+}
+
 void BodyDistance::lookAlong(const RealVec& between) {
   const Real length = between.norm();
-  direction_ = length > 0 ? RealVec(between / length) : RealVec::Zero();
-  if (partA_) endOfA_ = direction_.dot(partA_->farthest(direction_)) + partA_->ball();
-  if (partB_) startOfB_ = direction_.dot(partB_->farthest(-direction_)) - partB_->ball();
+  RealVec& direction = real_.direction;
+  direction = length > 0 ? RealVec(between / length) : RealVec::Zero();
+  double_.direction = direction.cast<double>();
+  if (partA_) endOfA_ = direction.dot(partA_->farthest(direction)) + partA_->ball();
+  if (partB_) startOfB_ = direction.dot(partB_->farthest(-direction)) - partB_->ball();
 }
 
 Real BodyDistance::boxGap(std::uint32_t a, std::uint32_t b, Real enough) {
-  const CentredBox boxOfA = boxA(a);
-  const PlacedBox& boxOfB = boxB(b);
+  if (std::isfinite(boxError_)) {
+    const Real bound =
+        boxGap<double>(a, b, boxB(b), static_cast<double>(enough + boxError_)) - boxError_;
+    if (bound >= enough || bound + 2 * boxError_ < enough) return bound;
+  }
+  return boxGap<Real>(a, b, placedBox<Real>(b), enough);
+}
+
+template <class Number>
+Number BodyDistance::boxGap(std::uint32_t a, std::uint32_t b, const PlacedBox<Number>& boxOfB,
+                            Number enough) const {
+  const Frame<Number>& X = frame<Number>();
+  const Box<Number> boxOfA = boxOf<Number>(a_->node(a));
   // Bounds the distance of the two boxes, first along a's axes, then along b's.
-  const auto apart = [](const RealVec& between, const RealVec& halves) {
-    const RealVec gaps = (between.cwiseAbs() - halves).cwiseMax(RealVec::Zero());
+  const auto apart = [](const Vec<Number>& between, const Vec<Number>& halves) {
+    const Vec<Number> gaps = (between.cwiseAbs() - halves).cwiseMax(Vec<Number>::Zero());
     return gaps.norm();
   };
-  Real gap = apart(boxOfB.around.centre - boxOfA.centre, boxOfB.around.half + boxOfA.half);
+  Number gap = apart(boxOfB.around.centre - boxOfA.centre, boxOfB.around.half + boxOfA.half);
   if (gap >= enough) return gap;
-  gap = std::max(gap, apart(X_AB_.rotation.transpose() * (boxOfB.centre - boxOfA.centre),
-                            boxOfB.half + extents_.transpose() * boxOfA.half));
+  gap = std::max(gap, apart(X.rotation.transpose() * (boxOfB.along.centre - boxOfA.centre),
+                            boxOfB.along.half + X.extents.transpose() * boxOfA.half));
   if (gap >= enough) return gap;
-  const RealVec along = direction_.cwiseAbs();
-  const Real endOfA = partA_ ? endOfA_ : direction_.dot(boxOfA.centre) + along.dot(boxOfA.half);
-  const Real startOfB =
-      partB_ ? startOfB_ : direction_.dot(boxOfB.around.centre) - along.dot(boxOfB.around.half);
+  const Vec<Number> along = X.direction.cwiseAbs();
+  const Number endOfA = partA_ ? static_cast<Number>(endOfA_)
+                               : X.direction.dot(boxOfA.centre) + along.dot(boxOfA.half);
+  const Number startOfB =
+      partB_ ? static_cast<Number>(startOfB_)
+             : X.direction.dot(boxOfB.around.centre) - along.dot(boxOfB.around.half);
   gap = std::max(gap, startOfB - endOfA);
   if (gap >= enough) return gap;
   // For a long triangle that is oblique to the axes, the slab along its normal gives a better bound
   // than its box.
   if (const std::uint32_t leaf = a_->node(a).leaf; leaf != BoxTree::noLeaf && !a_->hasParts())
-    gap = std::max(gap, planeGap(a_->piece(leaf).normal, cornersA(leaf), boxOfB.around));
+    gap = std::max(gap, planeGap<Number>(a_->piece(leaf).normal.template cast<Number>(),
+                                         cornersA<Number>(leaf), boxOfB.around));
   if (const std::uint32_t leaf = b_->node(b).leaf; leaf != BoxTree::noLeaf && !b_->hasParts())
-    gap = std::max(gap, planeGap(X_AB_.rotation * b_->piece(leaf).normal, cornersB(leaf), boxOfA));
+    gap =
+        std::max(gap, planeGap<Number>(X.rotation * b_->piece(leaf).normal.template cast<Number>(),
+                                       cornersB<Number>(leaf), boxOfA));
   return gap;
 }
 
-Real BodyDistance::planeGap(const RealVec& normal, const std::array<RealVec, 3>& corners,
-                            const CentredBox& box) {
+template <class Number>
+Number BodyDistance::planeGap(const Vec<Number>& normal, const std::array<Vec<Number>, 3>& corners,
+                              const Box<Number>& box) {
   // Any direction gives a true bound, so the corners need not be exactly in one plane.
-  const Real centre = normal.dot(box.centre), half = normal.cwiseAbs().dot(box.half);
-  const Real at[3] = {normal.dot(corners[0]), normal.dot(corners[1]), normal.dot(corners[2])};
+  const Number centre = normal.dot(box.centre), half = normal.cwiseAbs().dot(box.half);
+  const Number at[3] = {normal.dot(corners[0]), normal.dot(corners[1]), normal.dot(corners[2])};
   return std::max(centre - std::max({at[0], at[1], at[2]}),
                   std::min({at[0], at[1], at[2]}) - centre) -
          half;
 }
 
-std::array<RealVec, 3> BodyDistance::cornersA(std::uint32_t piece) const {
+template <class Number>
+std::array<BodyDistance::Vec<Number>, 3> BodyDistance::cornersA(std::uint32_t piece) const {
   const Corners& c = a_->piece(piece).corners;
-  return {c[0].cast<Real>(), c[1].cast<Real>(), c[2].cast<Real>()};
+  return {c[0].cast<Number>(), c[1].cast<Number>(), c[2].cast<Number>()};
 }
 
-std::array<RealVec, 3> BodyDistance::cornersB(std::uint32_t piece) const {
-  std::array<RealVec, 3> result;
+template <class Number>
+std::array<BodyDistance::Vec<Number>, 3> BodyDistance::cornersB(std::uint32_t piece) const {
+  const Frame<Number>& X = frame<Number>();
+  std::array<Vec<Number>, 3> result;
   for (std::size_t i = 0; i < 3; ++i)
-    result[i] = X_AB_.rotation * b_->piece(piece).corners[i].cast<Real>() + X_AB_.position;
+    result[i] = X.rotation * b_->piece(piece).corners[i].template cast<Number>() + X.position;
   return result;
 }
 
@@ -225,7 +279,7 @@ std::array<BodyDistance::Item, 2> BodyDistance::split(const Item& whole, Real en
   const BoxTree::Node &a = a_->node(whole.a), &b = b_->node(whole.b);
   const bool leafA = a.leaf != BoxTree::noLeaf, leafB = b.leaf != BoxTree::noLeaf;
   const bool splitB =
-      !leafB && (leafA || boxB(whole.b).around.half.maxCoeff() >= boxA(whole.a).half.maxCoeff());
+      !leafB && (leafA || boxB(whole.b).around.half.maxCoeff() >= boxOf<double>(a).half.maxCoeff());
   if (splitB) return {item(whole.a, b.left, enough), item(whole.a, b.right, enough)};
   return {item(a.left, whole.b, enough), item(a.right, whole.b, enough)};
 }
@@ -242,13 +296,13 @@ BodyGap BodyDistance::measure(PiecePair guess, Real doubt, Real stop,
       const auto a = cornersA(pair.a), b = cornersB(pair.b);
       const RealVec normals[2] = {a_->piece(pair.a).normal,
                                   X_AB_.rotation * b_->piece(pair.b).normal};
-      found.lower = slabWidth(a.data(), b.data(), direction_);
+      found.lower = slabWidth(a.data(), b.data(), real_.direction);
       for (const RealVec& n : normals)
         if (found.lower < enough)
           found.lower = std::max(
               {found.lower, slabWidth(a.data(), b.data(), n), slabWidth(a.data(), b.data(), -n)});
     }
-    if (found.lower < enough) found = gap(pair, direction_, enough);
+    if (found.lower < enough) found = gap(pair, real_.direction, enough);
     best.lower = std::min(best.lower, found.lower);
     if (found.upper < best.upper) {
       best.upper = found.upper;
@@ -294,7 +348,7 @@ bool BodyDistance::near(Real within, std::size_t most, const Settled& settled,
   while (!stack_.empty()) {
     const Item at = stack_.back();
     stack_.pop_back();
-    if (at.lower >= within || settled(boxA(at.a), boxB(at.b).around)) continue;
+    if (at.lower >= within || settled(aroundA(at.a), aroundB(at.b))) continue;
     const std::uint32_t leafA = a_->node(at.a).leaf, leafB = b_->node(at.b).leaf;
     if (leafA != BoxTree::noLeaf && leafB != BoxTree::noLeaf) {
       if (pairs.size() == most) return false;

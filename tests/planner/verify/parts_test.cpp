@@ -214,6 +214,32 @@ TEST(BodyDistance, EqualsTheDoubleLoop) {
   }
 }
 
+/// Two points: every bound of their boxes can be compared with their distance, which takes a few
+/// roundings in long double. Lengths from 1e-250 to 1e250: squares in double overflow and vanish.
+TEST(BodyDistance, BoxesOfTwoPointsNeverClaimMore) {
+  std::mt19937_64 random(test::testSeed(61));
+  std::uniform_real_distribution<double> exponent(-250, 250);
+  BodyDistance distance;
+  const auto never = [](PiecePair) { return false; };
+  for (int i = 0; i < 4000; ++i) {
+    const double scale = i % 2 ? 1 : std::pow(10.0, exponent(random));
+    const ConvexPart partA{{scale * randomVec(random, 1)}, 0, false};
+    const ConvexPart partB{{scale * randomVec(random, 1)}, 0, false};
+    const BoxTree a(std::span(&partA, 1)), b(std::span(&partB, 1));
+    Placement X_AB = placementOf(randomPose(random, 1));
+    X_AB.position *= scale;
+    distance.place(a, b, X_AB);
+    const RealVec between =
+        X_AB.rotation * partB.points[0].cast<Real>() + X_AB.position - partA.points[0].cast<Real>();
+    const Real size = a.radius() + b.radius() + X_AB.position.norm(), apart = between.norm();
+    for (const Real share : {0.25L, 1 - 0x1p-40L, 1 - 0x1p-46L, 1 - 0x1p-55L}) {
+      const BodyGap found = distance.measure({}, 0, share * apart, never);
+      EXPECT_LE(found.lower, apart + 0x1p-58L * size) << scale;
+      EXPECT_GE(found.lower, share * apart - 0x1p-58L * size) << scale;
+    }
+  }
+}
+
 using test::Arm;
 
 TEST(EdgeCurve, PointsStayWithinTheirReach) {
