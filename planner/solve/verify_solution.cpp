@@ -163,15 +163,15 @@ double sizeOf(const VerifyBody& body) {
 }
 
 /// Returns a tenth of the checker's tolerance, so that the verifier can decide paths that the
-/// checker certified. If `checkers` is unset, the checker's tolerance is `defaultTolerance` for the
-/// smallest tested body, or for a body of 1 m if all are larger.
+/// checker certified. If the checker's tolerance is unset, returns a tenth of `defaultTolerance`
+/// for the smallest tested shape, or for a shape of 1 m if all are larger.
 double toleranceOf(const Model& model, const PathProblem& plain,
-                   const std::optional<double>& checkers) {
+                   const std::optional<double>& checkerTolerance) {
   // The verifier needs a positive tolerance.
   const auto tenth = [](double tolerance) {
     return std::max(0.1 * tolerance, std::numeric_limits<double>::min());
   };
-  if (checkers) return tenth(*checkers);
+  if (checkerTolerance) return tenth(*checkerTolerance);
   double smallest = 1;
   for (const VerifyPair& pair : plain.pairs)
     for (const std::size_t body : {pair.a, pair.b})

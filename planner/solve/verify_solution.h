@@ -43,8 +43,9 @@ const char* verdictName(const VerifyReport& report);
 
 /// Returns the plain data that planner/verify reads: the model's bodies, the pairs that its filter
 /// does not exclude, and the task's margin and tube. The model must outlive the result.
-/// @param tolerance the checker's tolerance, metres; unset: its default. The verifier's tolerance
-/// is a tenth of that.
+/// @param tolerance the checker's tolerance, metres; the verifier uses a tenth of it. Unset: the
+/// verifier uses a tenth of the default tolerance for the smallest tested shape (for a shape of 1 m
+/// if all are larger). This may differ from a tenth of the checker's default.
 PathProblem plainProblem(const Model& model, const Task& task,
                          const std::optional<double>& tolerance = {});
 PathProblem plainProblem(const Problem& problem);
