@@ -71,7 +71,8 @@ std::string pointText(const Vec3& p, std::size_t count) {
   return text + "]";
 }
 
-/// Returns the pose of a planar or floating joint as `at: …`, with its rotation.
+/// Returns the pose of a planar or floating joint as `at: …`, and `yaw: …` for a planar joint. The
+/// rotation of a floating joint is the identity in all states here, so it is left out.
 std::string poseText(const Configuration& q, std::size_t first, bool planar) {
   const auto i = static_cast<Eigen::Index>(first);
   if (planar) return "at: " + pointText({q[i], q[i + 1], 0}, 2) + ", yaw: " + shortest(q[i + 2]);
@@ -109,7 +110,8 @@ std::optional<Configuration> configurationOf(const Model& model, const NamedStat
   return q;
 }
 
-/// Returns whether a problem may name the state: it gives no other value to a joint that is held.
+/// Returns whether a problem may refer to the state by its name: each held joint that the state
+/// names has the held value there.
 bool holdsAgree(const ModelRobot& robot, const NamedState& state) {
   return std::all_of(state.values.begin(), state.values.end(), [&](const auto& value) {
     const auto j = findJoint(robot.description, value.first);
@@ -283,7 +285,8 @@ int newProblem(const NewProblemArguments& a) {
     const Configuration q = randomConfiguration(alone.model.space, [] { return ~0ull >> 1; });
     return comment(std::string("NOT VALID: no ") + (i ? "other " : "") + "valid state was found" +
                    (rigid ? ""
-                          : " among the named states, the state with every joint at 0, and " +
+                          : " among the named states, the states with every joint near 0 and in "
+                            "the middle of its limits, and " +
                                 std::to_string(kRandomStates) + " random states") +
                    ". corridor check names the links that touch.") +
            key + ": " + stateText(alone.model, q) + "\n";

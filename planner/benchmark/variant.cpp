@@ -48,8 +48,8 @@ Variant readVariant(const std::string& text, const std::vector<BenchmarkCompetit
     variant.competitor = peer;
   }
   if (!known)
-    refuse("unknown variant " + quotedWord(name) + didYouMean(name, names) +
-           "; there are: " + joined(names) + "; each may have a knob: discrete:0.01");
+    refuse("unknown variant " + quotedWord(name) + didYouMean(name, names) + "; there are: " +
+           joined(names) + "; a resolution or tolerance may follow: discrete:0.01");
   if (colon == std::string::npos) {
     variant.checker = checkerMap({{"edges", edges}});
     return variant;

@@ -46,7 +46,8 @@ void requireValid(const CheckerOptions& options, const ConfigurationSpace& space
                                    (options.tube.array() >= 0).all()),
       "tube must have a number of 0 or more for each number of a configuration");
   require(options.method == EdgeMethod::directional || hasDefaultOverlap(options.trees.trees),
-          "adaptive and advancement measure distances; they need the volume's first overlap test");
+          "trees must have the default overlap test of their volume if method is adaptive or "
+          "advancement, which measure distances");
 }
 
 }  // namespace

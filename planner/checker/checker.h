@@ -43,8 +43,9 @@ class Checker {
   /// - The margin or the tolerance is not finite, the margin is negative, or the tolerance is not
   ///   above 0.
   /// - The tube has another length than a configuration, or contains a number that is not 0 or
-  /// more.
-  /// - The method measures distances, and an overlap test other than the volume's first is named.
+  ///   more.
+  /// - The method measures distances (`adaptive`, `advancement`), and the trees have another
+  ///   overlap test than their volume's default.
   /// - A mesh is invalid, or a solid mesh is not watertight.
   explicit Checker(const Model& model, const CheckerOptions& options = {});
   /// Makes the checker of a problem's model, with `checkerOptions`.

@@ -89,7 +89,7 @@ struct Settings {
 
 /// Returns the first word of `trees` that is unknown or does not belong to the volume, or nullopt.
 /// The methods `adaptive` and `advancement` measure distances. With these two methods, an overlap
-/// test other than the volume's first is wrong, too.
+/// test other than the volume's default is wrong, too.
 std::optional<InvalidName> invalidNameIn(const CheckerSettings& checker);
 
 }  // namespace corridor

@@ -78,7 +78,8 @@ void PairProver::addEdge(const Configuration& from, const Configuration& to) {
     finding.reason = "ambiguous half turn";
   else if (curve.jumps())
     finding.reason =
-        "a joint that mimics a continuous joint would jump where that passes 180 degrees";
+        "a joint that mimics a continuous joint would jump where the continuous joint passes 180 "
+        "degrees";
   noCurve_.push_back(finding.reason.empty() ? std::nullopt : std::optional(std::move(finding)));
   std::vector<PairReach> reaches;
   for (std::size_t p = 0; p < pairs_.size(); ++p) reaches.push_back(reachOf(edge, p));

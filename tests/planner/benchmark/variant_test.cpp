@@ -75,7 +75,7 @@ TEST(Variant, BadOnesAreReportedInOneLine) {
   EXPECT_EQ(complaintOf("certifed"),
             "--variants: unknown variant \"certifed\" (did you mean "
             "\"certified\"?); there are: " +
-                names + "; each may have a knob: discrete:0.01");
+                names + "; a resolution or tolerance may follow: discrete:0.01");
   EXPECT_THAT(complaintOf("other:0.1"), testing::StartsWith("--variants: unknown variant"));
   EXPECT_THAT(complaintOf(""), testing::StartsWith("--variants: unknown variant \"\""));
   for (const char* knob : {"", "1", "0", "-0.1", "1e-10", "nan", "fine", "0.1abc", "0.1:0.2"})

@@ -92,8 +92,8 @@ TEST(CheckerVolumes, WrongWordsThrow) {
   EXPECT_EQ(message({"obb-binary", "", "gjk"}, "discrete"), "");
   EXPECT_EQ(message({"obb-binary", "", "sat"}, "adaptive"), "");
   EXPECT_EQ(message({"obb-binary", "", "gjk"}, "advancement"),
-            "checker.overlap: \"gjk\" needs edges: certified or discrete; advancement measures "
-            "distances between volumes: leave overlap out");
+            "checker.overlap: \"gjk\" can't be used with edges: advancement, which measures "
+            "distances between volumes; leave overlap out, or use edges: certified");
 }
 
 }  // namespace

@@ -235,7 +235,8 @@ TEST(LargeValues, FractionsOfACircleDoNotPassItsSeam) {
     EXPECT_EQ(report.verdict, whole ? PathVerdict::proved : PathVerdict::refuted) << multiplier;
     if (!whole) {
       EXPECT_EQ(report.findings[0].reason,
-                "a joint that mimics a continuous joint would jump where that passes 180 degrees");
+                "a joint that mimics a continuous joint would jump where the continuous joint "
+                "passes 180 degrees");
     }
     EXPECT_EQ(sweep.checked(3, -3).verdict, whole ? MotionVerdict::free : MotionVerdict::undecided)
         << multiplier;
