@@ -103,8 +103,8 @@ struct Checker::Workspace {
 };
 
 /// One workspace per thread, created by the thread's first query. Later queries find it without a
-/// lock, in a list that only grows at its head. A thread may have the id of one that has ended, and
-/// then continues with its workspace.
+/// lock, in a list that only grows at its head. If a new thread gets the id of a thread that has
+/// ended, it reuses that thread's workspace.
 class Checker::Pool {
  public:
   Workspace& workspaceOfThread(const Checker& checker) {

@@ -69,8 +69,8 @@ class Checker {
   /// Returns whether a configuration is within the bounds, which are inclusive. A configuration
   /// that is not finite or has a zero quaternion is out of bounds.
   bool inBounds(const Configuration& q) const;
-  /// Decides whether a state is free, as an edge of zero length by the default method. Doesn't test
-  /// the bounds. @pre finite.
+  /// Decides whether a state is free, as an edge of zero length, always by
+  /// `EdgeMethod::directional`. Doesn't test the bounds. @pre finite.
   MotionResult certifyState(const Configuration& q) const;
   /// Decides whether an edge is free, by the method of the options. Doesn't test the bounds. @pre
   /// finite.
@@ -97,7 +97,7 @@ class Checker {
   /// Returns whether q is in bounds and `certifyState` is `free`.
   bool certifiedState(const Configuration& q) const;
   /// Returns whether both ends are in bounds (then the whole edge is) and the edge is proved free.
-  /// Uses the default method, not that of the options.
+  /// Always uses `EdgeMethod::directional`, not the method of the options.
   bool certifiedEdge(const Configuration& from, const Configuration& to) const;
 
   /// Returns the sum of the counters of all threads. No query may run during this call.

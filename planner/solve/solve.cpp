@@ -278,8 +278,8 @@ bool Solve::certified(const Path& path) {
 }
 
 void Solve::finish() {
-  // The path is copied, because CForest's path belongs to another space, a wrapper of ours. Its
-  // states belong to our space.
+  // CForest's path belongs to a space that wraps our space, but its states belong to our space. So
+  // the states are copied into a path of our space.
   og::PathGeometric path(si_);
   for (const ob::State* state :
        definition_->getSolutionPath()->as<og::PathGeometric>()->getStates())
