@@ -141,7 +141,7 @@ class StateFinder {
   bool isNew(const Configuration& q) const {
     return std::none_of(found_.begin(), found_.end(),
                         [&](const FoundState& f) { return model_.space.equal(f.q, q); }) &&
-           checker_.certifiedState(q);
+           checker_.isProvedFree(q);
   }
 
   void addNamed() {
@@ -182,7 +182,7 @@ class StateFinder {
     q = (q * 1000).array().round() / 1000;
     if (!isNew(q)) return;
     FoundState state{q, stateText(model_, q), "a random valid state"};
-    if (found_.empty() || checker_.certifiedEdge(found_.front().q, q))
+    if (found_.empty() || checker_.isProvedFree(found_.front().q, q))
       found_.push_back(std::move(state));
     else if (!spare_)
       spare_ = std::move(state);
@@ -191,7 +191,7 @@ class StateFinder {
   void add(const Configuration& q, const std::string& origin) {
     if (!isNew(q)) return;
     FoundState state{q, stateText(model_, q), origin};
-    if (found_.empty() || checker_.certifiedEdge(found_.front().q, q))
+    if (found_.empty() || checker_.isProvedFree(found_.front().q, q))
       found_.push_back(std::move(state));
   }
 
@@ -241,7 +241,7 @@ std::vector<FoundState> rigidStates(const Alone& alone, const Checker& checker) 
     Configuration q = Configuration::Zero(static_cast<Eigen::Index>(alone.model.space.size()));
     q[0] = x;
     if (alone.model.robots.front().description.mount == JointType::floating) q[6] = 1;
-    if (checker.certifiedState(q)) found.push_back({q, stateText(alone.model, q), "an example"});
+    if (checker.isProvedFree(q)) found.push_back({q, stateText(alone.model, q), "an example"});
   }
   return found;
 }

@@ -219,11 +219,11 @@ std::vector<Checker::PairNotFree> Checker::pairsNotFree(const Configuration& q) 
   return pairs;
 }
 
-bool Checker::certifiedState(const Configuration& q) const {
+bool Checker::isProvedFree(const Configuration& q) const {
   return inBounds(q) && certifyState(q).verdict == MotionVerdict::free;
 }
 
-bool Checker::certifiedEdge(const Configuration& from, const Configuration& to) const {
+bool Checker::isProvedFree(const Configuration& from, const Configuration& to) const {
   return inBounds(from) && inBounds(to) &&
          certifyEdge(from, to, false, EdgeMethod::directional).verdict == MotionVerdict::free;
 }

@@ -95,10 +95,10 @@ class Checker {
   std::vector<PairNotFree> pairsNotFree(const Configuration& q) const;
 
   /// Returns whether q is in bounds and `certifyState` is `free`.
-  bool certifiedState(const Configuration& q) const;
+  bool isProvedFree(const Configuration& q) const;
   /// Returns whether both ends are in bounds (then the whole edge is) and the edge is proved free.
   /// Always uses `EdgeMethod::directional`, not the method of the options.
-  bool certifiedEdge(const Configuration& from, const Configuration& to) const;
+  bool isProvedFree(const Configuration& from, const Configuration& to) const;
 
   /// Returns the sum of the counters of all threads. No query may run during this call.
   Counters counters() const;

@@ -88,7 +88,7 @@ TEST_P(RandomEdges, FreeOnesAreProved) {
       Configuration from = randomState(problem, random);
       if (left % 4 == 0) from = step(problem.task.start, 0.1, random);
       if (left % 4 == 2) from = step(problem.task.goals[0], 0.1, random);
-      if (!checker.certifiedState(from)) continue;
+      if (!checker.isProvedFree(from)) continue;
       const Configuration to =
           step(from, std::uniform_real_distribution<double>(0.1, 2)(random), random);
       if (!checker.inBounds(to)) continue;

@@ -62,7 +62,7 @@ TEST(CheckerVolumes, AgreeOnStatesAndEdges) {
         verdicts.push_back(checker.interference(from[n]).has_value());
         verdicts.push_back(checker.clearance(from[n]) > 0);
         verdicts.push_back(static_cast<int>(checker.certifyEdge(from[n], to[n], n % 2).verdict));
-        verdicts.push_back(checker.certifiedEdge(from[n], to[n]));
+        verdicts.push_back(checker.isProvedFree(from[n], to[n]));
       }
       if (usual.empty()) usual = verdicts;
       EXPECT_EQ(verdicts, usual);
