@@ -13,7 +13,8 @@ namespace corridor {
 /// (`certifyMotion`). They differ in cost, and therefore in what is left undecided at the work
 /// limit.
 enum class EdgeMethod {
-  /// Trees over space and time, with directional motion bounds: certify_motion.h. The default.
+  /// Trees over space and time, with directional motion bounds: certify_motion.h. The default,
+  /// which users call `certified`.
   directional,
   adaptive,     ///< bisection on distances (Schwarzer et al. 2005): adaptive_motion.h
   advancement,  ///< conservative advancement on distances: conservative_advancement.h

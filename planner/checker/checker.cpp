@@ -64,7 +64,7 @@ Scene makeScene(const Model& model, ObbFit fit) {
     if (!isNew) return placed[same->second].body.renamed(shape.name);
     return Body(shape.name, {shape.mesh, &shape.mesh->mesh}, shape.solid, params);
   };
-  const std::vector<Transform> X_WF = framesAtRest(model);
+  const std::vector<Transform> X_WF = staticFramePoses(model);
   for (const ModelBody& body : model.bodies) {
     firstShape.push_back(placed.size());
     const bool ownFrame = !body.robot && body.frame != 0;

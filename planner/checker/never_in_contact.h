@@ -31,9 +31,9 @@ struct NeverInContactResult {
     /// No proof was tried, for one of these reasons: a body has a solid mesh; no joint moves one
     /// body against the other; a joint between the two is planar or floating, has no limits, or
     /// mimics a continuous joint (except a revolute mimic with a whole multiplier).
-    unbounded,
+    notTried,
   };
-  Verdict verdict = Verdict::unbounded;
+  Verdict verdict = Verdict::notTried;
   std::uint64_t boxes = 0;  ///< number of boxes of joint values that were tested
 };
 

@@ -84,7 +84,7 @@ Corners boundsOf(const PlacedShape& shape, const Transform& X) {
 std::optional<Corners> boundsOfWorld(const Model& model) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Corners box{Vec3::Constant(infinity), Vec3::Constant(-infinity)};
-  const std::vector<Transform> X_WF = framesAtRest(model);
+  const std::vector<Transform> X_WF = staticFramePoses(model);
   for (const ModelBody& body : model.bodies) {
     if (body.robot) continue;
     for (const PlacedShape& shape : body.shapes) {

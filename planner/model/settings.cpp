@@ -15,7 +15,7 @@ const std::vector<std::string>& wordsFor<EdgeCheck>() {
 }
 
 template <>
-const std::vector<std::string>& wordsFor<StateSampler>() {
+const std::vector<std::string>& wordsFor<ValidSampler>() {
   static const std::vector<std::string> words{"uniform", "gaussian", "obstacle_based",
                                               "bridge_test", "max_clearance"};
   return words;

@@ -15,19 +15,19 @@ namespace corridor {
 /// How edges are checked: by a method that proves them, or by samples, as a baseline. The values
 /// before `discrete` correspond to those of `EdgeMethod`, in the same order.
 enum class EdgeCheck { certified, adaptive, advancement, discrete };
-/// OMPL's samplers of valid states.
-enum class StateSampler { uniform, gaussian, obstacleBased, bridgeTest, maxClearance };
+/// OMPL's samplers of valid states: its classes …ValidStateSampler.
+enum class ValidSampler { uniform, gaussian, obstacleBased, bridgeTest, maxClearance };
 /// The objectives that planners can optimise.
 enum class Objective { length, maxMinClearance, mechanicalWork };
 
 /// Returns the words that users write for the values of a choice, in the order of the enumeration.
-/// @tparam Choice EdgeCheck, StateSampler or Objective.
+/// @tparam Choice EdgeCheck, ValidSampler or Objective.
 template <class Choice>
 const std::vector<std::string>& wordsFor();
 template <>
 const std::vector<std::string>& wordsFor<EdgeCheck>();
 template <>
-const std::vector<std::string>& wordsFor<StateSampler>();
+const std::vector<std::string>& wordsFor<ValidSampler>();
 template <>
 const std::vector<std::string>& wordsFor<Objective>();
 
@@ -46,7 +46,7 @@ std::optional<Choice> choiceNamed(std::string_view word) {
   return std::nullopt;
 }
 
-/// Returns the method that proves edges; for `discrete`, the default method.
+/// Returns the method that proves edges; for `discrete`, `EdgeMethod::directional`.
 EdgeMethod methodOf(EdgeCheck check);
 
 /// The smallest legal resolution of sampled edges. A smaller value has no use, and OMPL counts the
@@ -79,7 +79,7 @@ struct CheckerSettings {
 /// ranges and words.
 struct Settings {
   PlannerSettings planner;
-  StateSampler sampler = StateSampler::uniform;
+  ValidSampler sampler = ValidSampler::uniform;
   std::optional<Objective> objective;  ///< `.cfg` only
   double objectiveThreshold = 0;
   bool simplify = true;

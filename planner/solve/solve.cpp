@@ -84,7 +84,7 @@ Solve::Solve(const Problem& problem, const SolveOptions& options)
       space_(std::make_shared<ProblemStateSpace>(problem.model.space)),
       start_(startOf(problem)),
       goals_(goalsOf(problem)) {
-  report_.motion = checker_.options();
+  report_.proofOptions = checker_.options();
   report_.seed = problem.settings.seed;
   report_.planner = problem.settings.planner.name;
   report_.checker =

@@ -237,8 +237,8 @@ VerifyReport verifySolution(const Problem& problem, const Solution& solution,
   report.digest = digestState(problem, solution);
   report.otherProblem = report.digest == DigestState::differs && other == DigestMismatch::refused;
   if (report.otherProblem) {
-    report.verdict = report.motion.verdict = PathVerdict::undecided;
-    report.motion.edges = static_cast<int>(solution.path.size()) - 1;
+    report.verdict = report.pathReport.verdict = PathVerdict::undecided;
+    report.pathReport.edges = static_cast<int>(solution.path.size()) - 1;
     std::vector<std::string> unused;
     report.reachesGoal = checkEnds(problem, solution.path, unused);  // for pictures
     return report;
@@ -248,8 +248,8 @@ VerifyReport verifySolution(const Problem& problem, const Solution& solution,
   PathProblem plain = plainProblem(problem);
   // A path of many states, such as a trajectory's samples, needs some hundred queries an edge.
   plain.workLimit = std::max<std::uint64_t>(plain.workLimit, 2000 * solution.path.size());
-  report.motion = verifyPath(plain, solution.path);
-  report.verdict = report.violations.empty() ? report.motion.verdict : PathVerdict::refuted;
+  report.pathReport = verifyPath(plain, solution.path);
+  report.verdict = report.violations.empty() ? report.pathReport.verdict : PathVerdict::refuted;
   return report;
 }
 

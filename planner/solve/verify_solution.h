@@ -29,7 +29,7 @@ struct VerifyReport {
   /// True if the digest differs and was not ignored. Then nothing was verified, and `verdict` is
   /// `undecided`.
   bool otherProblem = false;
-  PathReport motion;  ///< planner/verify's report on contacts and clearances
+  PathReport pathReport;  ///< planner/verify's report on contacts and clearances
   /// Faults of start, goal and bounds, one line each.
   std::vector<std::string> violations;
   bool reachesGoal = true;  ///< the last state is in the goal

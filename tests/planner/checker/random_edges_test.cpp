@@ -45,7 +45,7 @@ void checkEdge(const Problem& problem, const Checker& checker, const Configurati
     ++tally.free;
     Solution solution;
     solution.path = {from, to};
-    const PathReport report = verifySolution(problem, solution).motion;
+    const PathReport report = verifySolution(problem, solution).pathReport;
     EXPECT_NE(report.verdict, PathVerdict::refuted)
         << report.findings[0].a << " meets " << report.findings[0].b << " at "
         << report.findings[0].t << " from " << from.transpose() << " to " << to.transpose();
@@ -61,7 +61,7 @@ void checkEdge(const Problem& problem, const Checker& checker, const Configurati
     tally.self += moves(result.pair->bodyA) && moves(result.pair->bodyB);
     Solution solution;
     solution.path = {from, to};
-    EXPECT_EQ(verifySolution(problem, solution).motion.verdict, PathVerdict::refuted)
+    EXPECT_EQ(verifySolution(problem, solution).pathReport.verdict, PathVerdict::refuted)
         << "from " << from.transpose() << " to " << to.transpose();
   } else {
     ++tally.undecided;

@@ -57,7 +57,7 @@ TEST_P(Spaces, SolvedCertifiedAndVerified) {
     EXPECT_LE(problem.model.space.largestTurn(report.path[i - 1], report.path[i]), 1.5708);
   const VerifyReport verified = verifySolution(problem, makeSolution(problem, report));
   EXPECT_EQ(verified.verdict, PathVerdict::proved);
-  EXPECT_GT(verified.motion.provenClearance, 0);
+  EXPECT_GT(verified.pathReport.provenClearance, 0);
 }
 
 TEST_P(Spaces, SameSeedSamePathAnotherSeedAnother) {
@@ -110,7 +110,7 @@ TEST_P(Spaces, MutatedPathsAreRefuted) {
   // Straight through the wall.
   EXPECT_EQ(verdict([](Path& p) {
               p = {p.front(), p.back()};
-            }).motion.verdict,
+            }).pathReport.verdict,
             PathVerdict::refuted);
   const auto start = verdict([](Path& p) { p.front()[0] += 1e-9; });
   EXPECT_EQ(start.verdict, PathVerdict::refuted);
@@ -270,8 +270,8 @@ TEST(Solve, MaximisesTheLeastClearance) {
 TEST(Solve, SamplersSolve) {
   Problem problem = hallProblem(Rigid::SE2);
   problem.settings.planner.name = "PRM";
-  for (const std::string& sampler : wordsFor<StateSampler>()) {
-    problem.settings.sampler = choiceNamed<StateSampler>(sampler).value();
+  for (const std::string& sampler : wordsFor<ValidSampler>()) {
+    problem.settings.sampler = choiceNamed<ValidSampler>(sampler).value();
     EXPECT_EQ(solveProblem(problem).outcome, SolveOutcome::solved) << sampler;
   }
 }
