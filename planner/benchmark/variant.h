@@ -62,6 +62,7 @@ YamlValue checkerMap(const std::vector<std::pair<std::string, std::string>>& key
 /// others, it is the tolerance in metres.
 /// @throws InputError for an unknown name (it lists the known names), and for a KNOB that is no
 /// legal value: a resolution must fulfil isResolution, a tolerance must be above 0.
-Variant readVariant(const std::string& text, const std::vector<BenchmarkCompetitor>& peers = {});
+Variant readVariant(const std::string& text,
+                    const std::vector<BenchmarkCompetitor>& competitors = {});
 
 }  // namespace corridor

@@ -86,7 +86,7 @@ Away awayFrom(const ConfigurationSpace& space, const Configuration& a, const Con
   return away;
 }
 
-std::string inFact(const Away& away) {
+std::string awayText(const Away& away) {
   std::string text;
   const auto add = [&](Real value, const char* what) {
     if (value > 0) text += (text.empty() ? "" : ", ") + shortest(static_cast<double>(value)) + what;
@@ -119,7 +119,7 @@ bool isInGoal(const Problem& problem, const Away& away) {
 /// the goal.
 bool checkEnds(const Problem& problem, const Path& path, std::vector<std::string>& violations) {
   const Away start = awayFrom(problem.model.space, problem.task.start, path.front());
-  if (!isSame(start)) violations.push_back("the first state is not the start: " + inFact(start));
+  if (!isSame(start)) violations.push_back("the first state is not the start: " + awayText(start));
   Away nearest;
   nearest.distance = HUGE_VALL;
   for (const Configuration& goal : problem.task.goals) {
@@ -127,7 +127,7 @@ bool checkEnds(const Problem& problem, const Path& path, std::vector<std::string
     if (isInGoal(problem, away)) return true;
     if (away.distance < nearest.distance) nearest = away;
   }
-  violations.push_back("the last state is not in the goal: " + inFact(nearest));
+  violations.push_back("the last state is not in the goal: " + awayText(nearest));
   return false;
 }
 
