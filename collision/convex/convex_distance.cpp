@@ -11,9 +11,9 @@
 /// The bounds. Let g_A and g_B be the closest points of the cores, d = g_B − g_A, n = d/|d|, and r
 /// the radii of the swept spheres.
 /// * Upper bound: g_A + r_A·M_A m_A/|m_A| and g_B − r_B·M_B m_B/|m_B|, with m = Mᵀn, are points of
-/// the sets for any n and M. The distance of these two points is the upper bound.
-/// * Lower bound: the widest gap of the cores that GJK has found, minus r_A|m_A| + r_B|m_B| for the
-///   direction of that gap.
+///   the sets for any n and M. The distance of these two points is the upper bound.
+/// * Lower bound: the widest gap of the cores that GJK has found, minus the sum r_A|m_A| + r_B|m_B|
+///   for the direction of that gap.
 ///
 /// Under rotations both bounds agree when the search ends. Under a map of defect η they differ by
 /// up to some 3η·r, because the closest points of the ellipsoids are not on the line through the
@@ -160,16 +160,16 @@ class Pair {
     Real lower = search.gap * Real(1 / search.unit);
     if (!ballsInCores && radii_ > 0) {
       const Vector<Real> n = p.w * (Real(1) / gjk::length(p.w));
-      const Real unit(1 / search.unit);
+      const Real unitsPerMetre(1 / search.unit);
       if (a_.set().ball > 0) {
-        const Vector<Real> reach = ballPoint(a_, n) * (Real(a_.set().ball) * unit);
+        const Vector<Real> reach = ballPoint(a_, n) * (Real(a_.set().ball) * unitsPerMetre);
         p.a = p.a + reach;
         p.w = p.w - reach;
-        lower = lower - ballReach(a_, search.normal) * unit;
+        lower = lower - ballReach(a_, search.normal) * unitsPerMetre;
       }
       if (b_.set().ball > 0) {
-        p.w = p.w - ballPoint(b_, n) * (Real(b_.set().ball) * unit);
-        lower = lower - ballReach(b_, search.normal) * unit;
+        p.w = p.w - ballPoint(b_, n) * (Real(b_.set().ball) * unitsPerMetre);
+        lower = lower - ballReach(b_, search.normal) * unitsPerMetre;
       }
     }
     ConvexDistance result;

@@ -46,7 +46,7 @@ struct ConvexRange {
 /// Computes a proved range of the distance of two convex sets, in double only.
 ///
 /// The search stops as soon as the lower end exceeds `beyond`, or the upper end is at most `near`.
-/// If neither happens, both ends differ from the distance by at most some 2^-45·S, or 2^-20 of the
+/// If neither happens, both ends differ from the distance by at most 2^-41·S, or 2^-20 of the
 /// distance. The range may be wider if caps of cylinders face each other, or if the map of a sphere
 /// is not rigid.
 /// @param beyond, near  metres.

@@ -25,7 +25,7 @@ struct ConvexSet {
 /// holds in real arithmetic on the given doubles, for any finite map. The projection of the image
 /// onto n is that of the set onto Mᵀn, so orthogonality of M is not used.
 ///
-/// Error of a projection. Let F = ‖M‖_F, |n|₂ ≤ 1 + 4u and ρ ≥ |p| + ball + disc for all points.
+/// Error of a projection. Let F = ‖M‖_F, |n|₂ ≤ 1 + 5u and ρ ≥ |p| + ball + disc for all points.
 /// * Mᵀn has three roundings per component, so it is off by at most γ3·‖|M|‖₂·|n| < 3.1uF. In the
 /// product with p this is 3.1uFρ.
 /// * The product with p: γ3·|Mᵀn||p| < 3.1uFρ. The product n·t: 3.1u|t|.
@@ -45,7 +45,7 @@ class PosedSet {
  public:
   PosedSet(const ConvexSet& set, const Transform& X);
 
-  /// Returns max n·x over all points x of the image, off by at most `error()`. @pre |n| ≤ 1 + 4u.
+  /// Returns max n·x over all points x of the image, off by at most `error()`. @pre |n| ≤ 1 + 5u.
   double highest(const Vec3& n) const;
   double error() const { return error_; }
 

@@ -57,7 +57,7 @@ class Search {
       : unit(powerOfTwo(size)),
         a_(a, 1 / unit, ballsInCores),
         b_(b, 1 / unit, ballsInCores),
-        noise_(256 * Effort<Real>::unit * size / unit),
+        noise_(256 * Effort<Real>::roundoff * size / unit),
         curved_(a_.curved() || b_.curved()) {}
 
   /// Runs the search.

@@ -15,8 +15,8 @@ namespace corridor::gjk {
 
 /// Precision and limits of a search in one scalar type.
 ///
-/// `unit` is the relative error assumed per operation (for DoubleDouble, more than the error of the
-/// format). The search ends when upper and lower bound differ by less than `agreed` times the
+/// `roundoff` is the relative error assumed per operation (for DoubleDouble, more than the error of
+/// the format). The search ends when upper and lower bound differ by less than `agreed` times the
 /// distance. If closer bounds than those of double are needed, a search in double-double follows.
 /// `rounds` is the maximum number of rounds. Polytopes need about as many rounds as they have faces
 /// that point towards the other polytope. Rims of discs needed at most a hundred in tests.
@@ -24,12 +24,12 @@ template <class Real>
 struct Effort;
 template <>
 struct Effort<double> {
-  static constexpr double unit = 0x1p-53, agreed = 0x1p-36;
+  static constexpr double roundoff = 0x1p-53, agreed = 0x1p-36;
   static constexpr int rounds = 64;
 };
 template <>
 struct Effort<DoubleDouble> {
-  static constexpr double unit = 0x1p-98, agreed = 0;
+  static constexpr double roundoff = 0x1p-98, agreed = 0;
   static constexpr int rounds = 1000;
 };
 
@@ -146,7 +146,7 @@ class Support {
   /// rounding error was left, and the result is zero.
   Vector<Real> radial(const Vector<Real>& m) const {
     Vector<Real> e = m;
-    for (const double least : {Effort<Real>::unit, 0.5}) {
+    for (const double least : {Effort<Real>::roundoff, 0.5}) {
       e = e - axis_ * dot(e, axis_);
       const Real size = length(e);
       if (!(size > Real(least))) return {};

@@ -35,7 +35,7 @@ struct Check {
     if (c.points.empty()) return "a convex shape needs at least one point";
     for (std::size_t i = 0; i < c.points.size(); ++i)
       if (!c.points[i].allFinite())
-        return "point " + std::to_string(i) + " (from 0) of a convex shape is not finite";
+        return "point " + std::to_string(i) + " (counted from 0) of a convex shape is not finite";
     return std::nullopt;
   }
 };

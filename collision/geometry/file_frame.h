@@ -15,8 +15,8 @@ class FileFrame {
 
   bool isIdentity() const { return scale_ == 1 && up_ == 'z'; }
   double scale() const { return scale_; }
-  /// Rotates so that the up-axis becomes z. The axes that Collada calls "right" and "in" for this
-  /// up-axis become x and -y.
+  /// Scales to metres, and rotates so that the up-axis becomes z. The axes that Collada calls
+  /// "right" and "in" for this up-axis become x and -y.
   Vec3 operator*(const Vec3& p) const {
     Vec3 q = scale_ * p;
     switch (up_) {

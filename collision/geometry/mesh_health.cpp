@@ -219,12 +219,12 @@ std::vector<TriangleQuality> triangleQualities(const TriangleMesh& mesh) {
 std::optional<std::string> checkMesh(const TriangleMesh& mesh) {
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     if (!mesh.vertices[i].allFinite())
-      return "vertex " + std::to_string(i) + " (from 0) is not finite";
+      return "vertex " + std::to_string(i) + " (counted from 0) is not finite";
   }
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     for (const std::uint32_t corner : mesh.triangles[i]) {
       if (corner < mesh.vertices.size()) continue;
-      return "face " + std::to_string(i) + " (from 0): index " + std::to_string(corner) +
+      return "face " + std::to_string(i) + " (counted from 0): index " + std::to_string(corner) +
              " is out of range: there are " + std::to_string(mesh.vertices.size()) + " vertices";
     }
   }

@@ -181,7 +181,7 @@ class MapReader {
         ++full;
       }
     }
-    return joined(cube, full, before);
+    return joinIfFull(cube, full, before);
   }
 
   static NodeKind kindOf(std::uint16_t bits, int child) {
@@ -223,10 +223,14 @@ class MapReader {
       else
         addMissing(childOf(cube, child));
     }
-    return joined(cube, full, before);
+    return joinIfFull(cube, full, before);
   }
 
-  bool joined(const Cube& cube, int full, std::size_t before) {
+  /// If all eight children of the cube are occupied, replaces them by the cube. Returns whether
+  /// they are.
+  /// @param full the number of children that are occupied as a whole.
+  /// @param before the number of cubes before those of the children.
+  bool joinIfFull(const Cube& cube, int full, std::size_t before) {
     if (full < 8) return false;
     map_.cubes.resize(before);
     map_.cubes.push_back(cube);
@@ -235,7 +239,7 @@ class MapReader {
 
   void addOccupied(const Cube& cube) {
     add(cube);
-    measured(cube);
+    extendMeasuredBox(cube);
   }
   void addMissing(const Cube& cube) {
     if (!rules_.unknownIsOccupied) return;
@@ -244,7 +248,7 @@ class MapReader {
   }
   void addFree(const Cube& cube) {
     ++map_.free;
-    measured(cube);
+    extendMeasuredBox(cube);
   }
   void add(const Cube& cube) {
     if (map_.cubes.size() == kMostCubes) failCount();
@@ -257,7 +261,7 @@ class MapReader {
                         (rules_.unknownIsOccupied ? ", or a coarser resolution"
                                                   : "; use a coarser resolution"));
   }
-  void measured(const Cube& cube) {
+  void extendMeasuredBox(const Cube& cube) {
     for (std::size_t k = 0; k < 3; ++k) {
       low_[k] = std::min(low_[k], cube.corner[k]);
       high_[k] = std::max(high_[k], cube.corner[k] + cube.size);

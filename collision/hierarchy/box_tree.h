@@ -20,8 +20,9 @@ struct BoundingBox {
 };
 
 /// A binary tree of boxes, for the broad phase: it finds the boxes near a body without a test of
-/// each box. A leaf is one of the given boxes. The boxes are halved at the median of their centres,
-/// so the depth is the logarithm of their number, rounded up.
+/// each box. A leaf is one of the given boxes. Boxes are split by the surface-area heuristic
+/// (Goldsmith and Salmon 1987; in bins, as Wald 2007 does), so that a group of boxes far from all
+/// others is passed over near the root. The depth is at most `kMaxDepth`.
 class BoxTree {
  public:
   /// Builds the tree. Box number k is item k. Takes O(n log n) time.
@@ -60,7 +61,9 @@ class BoxTree {
   }
 
  private:
-  static constexpr std::size_t kMaxDepth = 32;  ///< the depth of a tree of 2^31 items
+  /// A tree of 2^31 items that is halved at the median has 31 levels. The others are for unequal
+  /// halves.
+  static constexpr std::size_t kMaxDepth = 48;
 
   struct Node {
     BoundingBox box;
@@ -68,7 +71,15 @@ class BoxTree {
     std::uint32_t item = 0;   ///< leaves only
   };
 
-  std::uint32_t build(std::span<const BoundingBox> boxes, std::span<std::uint32_t> items);
+  std::uint32_t build(std::span<const BoundingBox> boxes, std::span<std::uint32_t> items,
+                      std::size_t depth);
+  /// Sorts the items so that those of the left child come first, and returns their number. Both
+  /// children get at least one item.
+  /// @param all  the box around all items.
+  /// @param low, high  the bounds of twice the centres of the items.
+  static std::size_t split(std::span<const BoundingBox> boxes, std::span<std::uint32_t> items,
+                           const BoundingBox& all, const Vec3& low, const Vec3& high,
+                           std::size_t depth);
 
   std::vector<Node> nodes_;
 };

@@ -78,11 +78,11 @@ class Obb4Tree {
   std::uint32_t meshTriangle(std::uint32_t i) const { return meshTriangle_[i]; }
 
   const Vec3& origin() const { return origin_; }
-  /// The tree's unit, 2^unit, in metres.
+  /// The length of the tree's unit: 2^unit metres.
   double length() const { return length_; }
-  /// Largest |p − origin|₂ of all points, metres, rounded up.
+  /// Radii of two spheres that contain all points, metres, rounded up: `radius` of a sphere about
+  /// `origin()`, `reach` of a sphere about the origin of the mesh's frame.
   double radius() const { return radius_; }
-  /// Radius of a sphere about the frame's origin that contains all points, metres.
   double reach() const { return reach_; }
 
   std::size_t bytes() const;

@@ -71,7 +71,7 @@ class Bisection {
     const DistanceSteps::Measurement measured = steps_.measureAt(w.pair, t, h, false);
     if (measured.apart()) return std::nullopt;
     // If the motion bound is at most half of the tolerance, a clearance of twice the tolerance
-    // suffices for a proof, even if the clearance slack takes one tolerance.
+    // suffices for a proof, even if the clearance slack is as large as the tolerance.
     const bool narrow = measured.bound.bound <= steps_.options().tolerance / 2,
                last = h <= kLeastHalfWidth;
     if (measured.contact && (!earliest_ || last)) return steps_.contact(w.pair, w.t0, t, measured);

@@ -19,10 +19,10 @@ bool haveSameBodiesA(std::span<const MotionPair> x, std::span<const MotionPair> 
 
 BroadPhase::BroadPhase(std::span<const MotionPair> pairs) : pairs_(pairs) {
   for (const MotionPair& pair : pairs)
-    if (pair.worldB != MotionPair::kNone)
+    if (pair.worldMotionB != MotionPair::kNone)
       bodies_ = std::max({bodies_, pair.bodyA + 1, pair.bodyB + 1});
   const auto isTested = [&](const MotionPair& pair) {
-    return pair.restBox && pair.worldB != MotionPair::kNone;
+    return pair.restBox && pair.worldMotionB != MotionPair::kNone;
   };
   const auto followsIn = [&](const MotionPair& first, const MotionPair& pair) {
     return isTested(first) ? isTested(pair) && pair.bodyB == first.bodyB

@@ -24,13 +24,13 @@ struct MotionScratch {
   std::vector<std::uint32_t> near;  ///< the pairs that the broad phase found, or all pairs
 };
 
-/// Returns one more than the largest index of a body in a pair that has a world sphere (`worldB` is
-/// set).
+/// Returns a number above the index of every body whose swept sphere, as seen from the world, the
+/// query may need. Only pairs whose `worldMotionB` is set need such spheres.
 std::size_t bodyCountOf(const MotionQuery& query) {
   if (query.broadPhase) return query.broadPhase->bodies();
   std::size_t bodies = 0;
   for (const MotionPair& pair : query.pairs)
-    if (pair.worldB != MotionPair::kNone)
+    if (pair.worldMotionB != MotionPair::kNone)
       bodies = std::max({bodies, pair.bodyA + 1, pair.bodyB + 1});
   return bodies;
 }
@@ -79,19 +79,19 @@ class Certifier {
   /// Tests the first levels of halving, all intervals of a level before the next level. If this
   /// does not give the answer, fills the stack with the intervals that are left.
   std::optional<MotionResult> walkByLevels() {
-    const auto touchesInMiddle = [&](const Interval& w) {
-      return !source_.still() && touchesAt(w.middle(), w);
+    const auto findContactInMiddle = [&](const Interval& w) {
+      return !source_.still() && findContactAt(w.middle(), w);
     };
     bool far = false;
     std::array<Interval, 1 << SplitRules::kFirstLevels> intervals, below;
     intervals[0] = testBodies(query_, motions_, list_, far);
     std::size_t count = intervals[0].begin < intervals[0].end;
     // Many motions with a contact have one at their end.
-    if (!source_.still() && touchesAt(1, intervals[0])) return contact(0, false);
+    if (!source_.still() && findContactAt(1, intervals[0])) return contact(0, false);
     for (int level = 0; level < SplitRules::kFirstLevels && count; ++level) {
       std::size_t halves = 0;
       for (Interval w : std::span(intervals).first(count)) {
-        if (0 < level && level <= SplitRules::kSampledLevels && touchesInMiddle(w))
+        if (0 < level && level <= SplitRules::kSampledLevels && findContactInMiddle(w))
           return contact(0, false);
         if (level > 0 || !far) {
           const std::size_t later = list_.groups.size();
@@ -100,7 +100,7 @@ class Certifier {
           if (list_.groups.size() == later) continue;
           w.begin = later, w.end = list_.groups.size();
         }
-        if (level == 0 && touchesInMiddle(w)) return contact(0, false);
+        if (level == 0 && findContactInMiddle(w)) return contact(0, false);
         ++query_.context.counters.splits;
         const double t = w.middle();
         below[halves++] = {w.t0, t, w.begin, w.end};
@@ -117,8 +117,8 @@ class Certifier {
   }
 
   /// Walks the open intervals depth first, the earlier half first. Everything before the interval
-  /// on top of the stack is therefore proved. And if some time cannot be decided, that time is
-  /// found before all other intervals are refined.
+  /// on top of the stack is therefore proved. If some time cannot be decided, it is found without
+  /// refining the later intervals first.
   MotionResult walkInOrder() {
     while (!open_.empty()) {
       const Interval w = open_.back();
@@ -144,8 +144,9 @@ class Certifier {
     return known_ ? contact(known_->time, false) : MotionResult{};
   }
 
-  /// Reports whether a pair of bodies in this range of groups touches at the rounded pose at t.
-  bool touchesAt(double t, const Interval& range) {
+  /// Finds a pair of bodies in this range of groups that touches at the rounded pose at t. Keeps
+  /// the contact in `known_`, and returns whether there is one.
+  bool findContactAt(double t, const Interval& range) {
     motions_.select(t, 0);
     for (std::size_t g = range.begin; g < range.end && !outOfWork(); ++g) {
       const WorkList::Group group = list_.groups[g];
@@ -155,14 +156,17 @@ class Certifier {
       const bool wantBestBound = query_.certificate != nullptr;
       if (list_.isNotWalkedYet(group) && motions_.separation(pair, 0, wantBestBound).clearance > 0)
         continue;
-      if (touches(group.bodies, motions_.relative(pair.motion).X_AB, t, list_.nodePairsOf(group)))
+      if (findContact(group.bodies, motions_.relative(pair.motion).X_AB, t,
+                      list_.nodePairsOf(group)))
         return true;
     }
     return false;
   }
 
-  bool touches(std::uint32_t bodies, const Transform& X_AB, double t,
-               std::span<const NodePair4> start) {
+  /// Finds a contact of two bodies below these node pairs, at the pose X_AB at t. Keeps it in
+  /// `known_`, and returns whether there is one.
+  bool findContact(std::uint32_t bodies, const Transform& X_AB, double t,
+                   std::span<const NodePair4> start) {
     const auto hit = contactBelow(query_, bodies, X_AB, start);
     if (!hit) return false;
     const MotionPair& pair = query_.pairs[bodies];
@@ -170,15 +174,15 @@ class Certifier {
     return true;
   }
 
-  /// Reports whether the pair that was not separated touches at the interval's end, or later, but
+  /// Finds a contact of the pair that was not separated, at the interval's end, or later, but
   /// within the time tolerance of the interval's beginning. (An interval at whose end a contact
-  /// begins can never be proved.)
-  bool touchesAfter(const Interval& w, std::uint32_t bodies) {
+  /// begins can never be proved.) Keeps it in `known_`, and returns whether there is one.
+  bool findContactAfter(const Interval& w, std::uint32_t bodies) {
     for (double after = 0; !source_.still(); after = std::max(2 * after, 0x1p-40)) {
       const double t = std::min(w.t1 + after, 1.0);
       if (after > 0 && t - w.t0 > query_.options.timeTolerance) return false;
       const Transform X_AB = source_.relativeMotion(query_.pairs[bodies].motion, t, 0).X_AB;
-      if (touches(bodies, X_AB, t, kWholeTrees)) return true;
+      if (findContact(bodies, X_AB, t, kWholeTrees)) return true;
       if (t == 1) return false;
     }
     return false;
@@ -214,7 +218,7 @@ class Certifier {
     const bool clearance = found.kind == Descent::Kind::undecided;
     const auto near = [&] { return known_ && known_->time - w.t0 <= query_.options.timeTolerance; };
     const auto atEnd = [&] { return known_ && known_->time == w.t1; };
-    if (clearance && !near() && !atEnd()) touchesAfter(w, bodies);
+    if (clearance && !near() && !atEnd()) findContactAfter(w, bodies);
     if (atEnd() && clearance && !found.wide) return contact(w.t0, true);
     if (known_ && (near() || !query_.options.earliest)) return contact(w.t0, false);
     MotionResult result;

@@ -12,9 +12,9 @@
 
 namespace corridor {
 
-/// Two bodies that touch, by their indices in the scene, and the two triangles that touch, by their
-/// numbers in the meshes. For a body of convex parts, the number of the triangle is that of the
-/// part.
+/// Two bodies, by their indices in the scene, and a triangle of each, by its number in the mesh:
+/// those that touch, or, in an undecided answer, those that could not be decided. For a body of
+/// convex parts, the number of the triangle is that of the part.
 struct Contact {
   std::size_t bodyA = 0, bodyB = 0;
   std::uint32_t triangleA = 0, triangleB = 0;
@@ -114,13 +114,13 @@ struct MotionPair {
   /// The numbers of the motions of a and of b as seen from the world, or `kNone`. With these
   /// numbers, bodies that are far apart are separated by one swept sphere per body instead of one
   /// per pair.
-  /// * If a is at rest in the world (`restBox`), `worldA` is `kNone`. If a's frame is the world,
-  ///   `worldB` equals `motion`.
+  /// * If a is at rest in the world (`restBox`), `worldMotionA` is `kNone`.
+  /// * If a's frame is the world, `worldMotionB` equals `motion`.
   /// * If the motions are not known, both are `kNone`.
   /// * If they are known, a body has the same index and the same motion in all pairs of a query.
-  std::size_t worldA = kNone, worldB = kNone;
-  /// A box around a in the world, if a is at rest there; else null. With the box and `worldB`, a
-  /// broad phase can find the pair.
+  std::size_t worldMotionA = kNone, worldMotionB = kNone;
+  /// A box around a in the world, if a is at rest there; else null. With the box and
+  /// `worldMotionB`, a broad phase can find the pair.
   const BoundingBox* restBox = nullptr;
 };
 

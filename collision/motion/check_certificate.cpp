@@ -33,7 +33,7 @@ class CertificateCheck {
     workEnd_ = done + std::min(options.workLimit, std::numeric_limits<std::uint64_t>::max() - done);
   }
 
-  /// Proves that b keeps the margin plus half of the claim beyond it on all of [t0, t1]. Returns a
+  /// Proves that b keeps the distance margin + (clearance − margin)/2 on all of [t0, t1]. Returns a
   /// fault if this fails.
   std::optional<CertificateFault> faultIn(const FreeInterval& i) {
     const MotionPair& pair = pairs_[i.pair];

@@ -23,14 +23,14 @@ std::optional<EdgeMethod> edgeMethodNamed(std::string_view name) {
 MotionResult certifyMotionBy(EdgeMethod method, MotionSource& motion,
                              std::span<const MotionPair> pairs, const MotionOptions& options,
                              QueryContext& context) {
-  const MotionResult result = runEdgeMethod(method, motion, pairs, options, context);
+  const MotionResult result = certifyMotionUncounted(method, motion, pairs, options, context);
   count(motion, result, context.counters);
   return result;
 }
 
-MotionResult runEdgeMethod(EdgeMethod method, MotionSource& motion,
-                           std::span<const MotionPair> pairs, const MotionOptions& options,
-                           QueryContext& context) {
+MotionResult certifyMotionUncounted(EdgeMethod method, MotionSource& motion,
+                                    std::span<const MotionPair> pairs, const MotionOptions& options,
+                                    QueryContext& context) {
   switch (method) {
     case EdgeMethod::directional:
       break;

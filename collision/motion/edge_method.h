@@ -31,8 +31,8 @@ MotionResult certifyMotionBy(EdgeMethod method, MotionSource& motion,
                              std::span<const MotionPair> pairs, const MotionOptions& options,
                              QueryContext& context);
 /// The same without counting, for callers that count edges themselves.
-MotionResult runEdgeMethod(EdgeMethod method, MotionSource& motion,
-                           std::span<const MotionPair> pairs, const MotionOptions& options,
-                           QueryContext& context);
+MotionResult certifyMotionUncounted(EdgeMethod method, MotionSource& motion,
+                                    std::span<const MotionPair> pairs, const MotionOptions& options,
+                                    QueryContext& context);
 
 }  // namespace corridor

@@ -28,15 +28,17 @@ void IntervalMotions::compute(std::size_t motion) {
 IntervalMotions::Separation IntervalMotions::separation(const MotionPair& pair, double asked,
                                                         bool best) {
   const double enough = best ? HUGE_VAL : asked;
-  if (pair.worldB != pair.motion && pair.worldB != MotionPair::kNone) {  // a has its own frame
+  const bool aHasItsOwnFrame = pair.worldMotionB != pair.motion;
+  if (aHasItsOwnFrame && pair.worldMotionB != MotionPair::kNone) {
     const SweptSphere& b = worldSphere(pair);
     const double clearance =
-        pair.restBox ? clearanceBound(*pair.restBox, b, enough)
-                     : clearanceBound(worldSphere(pair.worldA, *pair.a, pair.bodyA), b, enough);
+        pair.restBox
+            ? clearanceBound(*pair.restBox, b, enough)
+            : clearanceBound(worldSphere(pair.worldMotionA, *pair.a, pair.bodyA), b, enough);
     if (clearance > asked) return {clearance};
   }
   // A sphere can be shared by several pairs only if its motion is seen from the world.
-  const SweptSphere sphere = pair.worldB == pair.motion
+  const SweptSphere sphere = pair.worldMotionB == pair.motion
                                  ? worldSphere(pair.motion, *pair.b, pair.bodyB)
                                  : sweptSphere(*pair.b, relative(pair.motion));
   const bool far = sphere.isotropic > SplitRules::kFar * pair.b->sphereRadius() &&

@@ -23,9 +23,10 @@ class IntervalMotions {
     return relative_;
   }
 
-  /// Returns the swept sphere of body b of a pair, as seen from the world. @pre worldB is known.
+  /// Returns the swept sphere of body b of a pair, as seen from the world. @pre worldMotionB is
+  /// known.
   const SweptSphere& worldSphere(const MotionPair& pair) {
-    return worldSphere(pair.worldB, *pair.b, pair.bodyB);
+    return worldSphere(pair.worldMotionB, *pair.b, pair.bodyB);
   }
 
   struct Separation {

@@ -95,10 +95,10 @@ class PairTest<Kdop<K>> {
 
   /// Returns axis L with the slack that every axis needs: the caller's error, and rounding. L is a
   /// slab direction of a, or M times a slab direction of b; then |L|₁ ≤ 3F and F ≥ |L|/√3, with F =
-  /// ‖M‖_F. So the weights of either body sum up to at most 9(1 + F)². Slab ends are below 4·reach,
-  /// since |n_i| ≤ √3 and a cylinder's slabs are around the corners of its box. A gap takes ten
-  /// sums and products. L·t takes 4u, and so does the rounding of MᵀL, from which `SlabSum::error`
-  /// was computed.
+  /// ‖M‖_F. So the weights of either body sum up to at most 9(1 + F)². Slab ends are below 4·reach:
+  /// |n_i| ≤ √3, and the slabs of a convex part that is a cylinder are around the corners of its
+  /// box. A gap takes ten sums and products. L·t takes 4u, and so does the rounding of MᵀL, from
+  /// which `SlabSum::error` was computed.
   static Axis axis(const Vec3& L, const Transform& X_AB, const VolumeBounds& a,
                    const VolumeBounds& b, double error) {
     Axis made;

@@ -59,8 +59,8 @@ HWY_INLINE void principalAxes8(const Covariances8& c, Axes8& out) {
   };
   const V zero = hn::Zero(d), one = set(1), third = set(1.0 / 3);
   // Eigenvalues that differ by less than `even` (relative) count as equal, since sums of floats are
-  // off by some 2^-22. The axes are then those of the coordinates; otherwise noise would rotate the
-  // axes of a cube.
+  // off by some 2^-22; otherwise noise would rotate the axes of a cube. If all three are equal, the
+  // axes are those of the coordinates. If two are equal, the axes of their plane are s and t below.
   const V even = set(0x1p-20);
   for (std::size_t at = 0; at < 8; at += hn::Lanes(d)) {
     const auto load = [&](int k) { return hn::Load(d, c.entry[k] + at); };
@@ -79,8 +79,8 @@ HWY_INLINE void principalAxes8(const Covariances8& c, Axes8& out) {
     const V determinant = dot(row0, cross(row1, row2));
     const auto largest = hn::Ge(determinant, zero);
     const V p3 = hn::Mul(p2, p);
-    // 2h is at most 2, except for rounding. If all eigenvalues are equal, h2 is 0/0; then the
-    // result is the identity.
+    // h2 = |determinant|/p³ is at most 2, except for rounding. If all eigenvalues are equal, h2 is
+    // 0/0; then the result is the identity.
     const V h2 = hn::Min(hn::Div(hn::Abs(determinant), p3), set(2));
     V x =
         hn::Add(set(1.7320508), hn::Mul(h2, hn::Sub(set(0.1606942), hn::Mul(h2, set(0.0133598)))));

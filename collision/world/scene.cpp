@@ -133,20 +133,20 @@ Scene::Scene(std::vector<Placed> bodies, std::vector<Pair> pairs)
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     const Placed &a = bodies_[pairs_[i].a], &b = bodies_[pairs_[i].b];
     MotionPair pair{&a.body, &b.body, motionsOfPairs[i], pairs_[i].a, pairs_[i].b};
-    if (b.frame != 0) pair.worldB = motionOf(0, b.frame);
+    if (b.frame != 0) pair.worldMotionB = motionOf(0, b.frame);
     if (a.restX_WF)
       pair.restBox = &restBoxes_.at(pair.bodyA);
     else if (a.frame == 0)
       pair.restBox = &a.body.box();
     else
-      pair.worldA = motionOf(0, a.frame);
+      pair.worldMotionA = motionOf(0, a.frame);
     motionPairs.push_back(pair);
   }
   // The pairs of a body with all bodies at rest are adjacent, although their motions may differ.
   const auto keyOf = [&](std::size_t i) {
     const MotionPair& pair = motionPairs[i];
-    const bool atRest = pair.restBox && pair.worldB != MotionPair::kNone;
-    return std::tuple(atRest ? pair.worldB : pair.motion, pair.bodyB, pair.motion);
+    const bool atRest = pair.restBox && pair.worldMotionB != MotionPair::kNone;
+    return std::tuple(atRest ? pair.worldMotionB : pair.motion, pair.bodyB, pair.motion);
   };
   const auto isBefore = [&](std::size_t i, std::size_t k) { return keyOf(i) < keyOf(k); };
   order_.resize(pairs_.size());
@@ -297,9 +297,10 @@ MotionResult Scene::certifyPairs(MotionSource& motion, const MotionOptions& opti
                                  QueryContext& context, EdgeMethod method,
                                  MotionCertificate* certificate) const {
   const bool isDefault = method == EdgeMethod::directional;
-  MotionResult result = isDefault ? certifyMotion(motion, motionPairs_, options, context,
-                                                  certificate, broadPhase_.get())
-                                  : runEdgeMethod(method, motion, motionPairs_, options, context);
+  MotionResult result =
+      isDefault
+          ? certifyMotion(motion, motionPairs_, options, context, certificate, broadPhase_.get())
+          : certifyMotionUncounted(method, motion, motionPairs_, options, context);
   if (!solidMeshes_ || provesNothingFree(result)) return result;
   IntervalMotions motions(motion, broadPhase_->bodies(), context);
   motions.select(0, 0);

@@ -26,11 +26,11 @@ class Scene {
   struct Placed {
     Body body;
     std::size_t frame = 0;
-    /// The pose of the frame, if the frame is at rest in the world; else empty. The broad phase
-    /// then finds the body as it finds bodies on frame 0. Queries of states use this pose, whatever
-    /// they are given for the frame. In queries of motions, the frame's pose must take each point
-    /// of the body to within 2^-46·(r + |t|) metres of where this pose takes it; r is the body's
-    /// radius.
+    /// Set only if the frame is at rest in the world: the pose of the frame. If it is set, the
+    /// broad phase finds the body as it finds bodies on frame 0. Queries of states use this pose,
+    /// whatever they are given for the frame. In queries of motions, the frame's pose must take
+    /// each point of the body to within 2^-46·(r + |t|) metres of where this pose takes it; r is
+    /// the body's radius.
     std::optional<Transform> restX_WF = std::nullopt;
   };
   struct Pair {

@@ -133,7 +133,7 @@ int inspectMeshFile(const InspectArguments& a) {
     std::string text = grouped(pairs.size());
     if (!pairs.empty())
       text += ", the first between triangles " + std::to_string(pairs[0].a) + " and " +
-              std::to_string(pairs[0].b) + " (from 0)";
+              std::to_string(pairs[0].b) + " (counted from 0)";
     out.line("self-intersections", text);
   }
   return kDone;

@@ -81,7 +81,7 @@ std::map<std::string, std::string> applyArguments(const SolveArguments& a, Probl
                 "needs --edges discrete, and edges are " + wordOf(problem.settings.checker.edges)});
     problem.settings.checker.resolution = *a.resolution;
   }
-  if (a.noSimplify) problem.settings.simplify = false;
+  if (a.noSimplify) problem.settings.simplify = Simplifier::none;
   return set;
 }
 

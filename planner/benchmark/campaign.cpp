@@ -124,7 +124,8 @@ Problem plannedProblem(const Campaign& campaign, const CampaignCell& cell, std::
     problem.settings.planner.params.clear();  // they belong to the problem's own planner
   problem.settings.planner.name = cell.planner.name;
   problem.settings.planner.time = campaign.time.value_or(problem.settings.planner.time);
-  problem.settings.simplify = campaign.simplify.value_or(problem.settings.simplify);
+  problem.settings.simplify =
+      cell.planner.simplify.value_or(campaign.simplify.value_or(problem.settings.simplify));
   problem.settings.seed = seed;
   return problem;
 }

@@ -18,6 +18,7 @@ struct CampaignPlanner {
   std::string name;  ///< OMPL's name
   /// Parameters. Unset: the problem's, if this is the problem's own planner; else OMPL's defaults.
   std::optional<std::map<std::string, std::string>> params;
+  std::optional<Simplifier> simplify = {};  ///< unset: the campaign's, or the problem's
   /// For error messages: "lecture.yaml:5: planners". Empty: the place of all planners.
   std::string place = {};
 };
@@ -34,7 +35,7 @@ struct Campaign {
   std::vector<CampaignPlanner> planners;  ///< empty: each problem's own planner
   std::uint64_t runs = 10, seed = 1;      ///< seeds: seed … seed + runs − 1
   std::optional<double> time;             ///< seconds per run; unset: the problem's own limit
-  std::optional<bool> simplify;           ///< unset: the problem's own setting
+  std::optional<Simplifier> simplify;     ///< unset: the problem's own setting
   /// Whether every path is verified. If not, nothing reports which paths are in collision.
   bool verify = true;
   BenchmarkLimits limits;

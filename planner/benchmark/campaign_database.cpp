@@ -407,11 +407,19 @@ std::string specOf(const Campaign& campaign, const CampaignCell& cell) {
     checker[entry.key] = entry.value.text;
   if (campaign.variants[cell.variant].competitor)
     checker["peer"] = campaign.variants[cell.variant].competitor->name;
-  return nlohmann::ordered_json{
-      {"problem", campaign.digests[cell.problem]}, {"checker", checker},
-      {"planner", planned.settings.planner.name},  {"params", planned.settings.planner.params},
-      {"time", planned.settings.planner.time},     {"memory_mb", campaign.limits.memory},
-      {"simplify", planned.settings.simplify},     {"verify", campaign.verify}}
+  // A Boolean unless OMPL's simplifier is named, as in databases of earlier versions.
+  const nlohmann::ordered_json simplify =
+      planned.settings.simplify == Simplifier::ompl
+          ? nlohmann::ordered_json(wordOf(Simplifier::ompl))
+          : nlohmann::ordered_json(planned.settings.simplify == Simplifier::corridor);
+  return nlohmann::ordered_json{{"problem", campaign.digests[cell.problem]},
+                                {"checker", checker},
+                                {"planner", planned.settings.planner.name},
+                                {"params", planned.settings.planner.params},
+                                {"time", planned.settings.planner.time},
+                                {"memory_mb", campaign.limits.memory},
+                                {"simplify", simplify},
+                                {"verify", campaign.verify}}
       .dump();
 }
 

@@ -109,7 +109,7 @@ class CampaignReader {
     campaign_.runs = map.wholeNumber("runs", kRuns).value_or(campaign_.runs);
     campaign_.seed = map.wholeNumber("seed", kSeeds).value_or(campaign_.seed);
     readLimits(map);
-    campaign_.simplify = map.boolean("simplify");
+    campaign_.simplify = readSimplifier(map);
     campaign_.verify = map.boolean("verify").value_or(true);
     faults_.throwIfAny();
     identifyProblems(campaign_);
@@ -119,6 +119,11 @@ class CampaignReader {
   }
 
  private:
+  static std::optional<Simplifier> readSimplifier(const YamlMap& map) {
+    const auto word = map.choice("simplify", wordsFor<Simplifier>());
+    return word ? choiceNamed<Simplifier>(*word) : std::nullopt;
+  }
+
   void place(const std::string& what, const std::string& key) {
     const auto line = source_.lines.find(key);
     const std::string at = line == source_.lines.end() ? "" : ":" + std::to_string(line->second);
@@ -176,6 +181,7 @@ class CampaignReader {
         for (const YamlValue::Entry* entry : values.entries())
           if (const auto text = values.text(entry->key)) (*planner.params)[entry->key] = *text;
       }
+      planner.simplify = readSimplifier(map);
       addPlanner(std::move(planner), item.line);
     }
   }
@@ -332,7 +338,7 @@ const std::map<std::string, MapKeys>& campaignKeys() {
          {{"format", "problems", "planners", "checkers", "runs", "seed", "limits", "simplify",
            "verify"},
           {}}},
-        {"planners[]", {{"name", "label", "params"}, {}}},
+        {"planners[]", {{"name", "label", "params", "simplify"}, {}}},
         {"checkers.*", {checker, {}}},
         {"limits", {{"time", "memory_mb"}, {}}},
     };

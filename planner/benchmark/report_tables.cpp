@@ -116,12 +116,28 @@ std::string processorOf(const std::string& cpu) {
   const auto begin = cpu.find_first_not_of(" \t", at + key.size());
   return begin == std::string::npos ? "" : cpu.substr(begin, cpu.find('\n', begin) - begin);
 }
+
+std::string simplifierText(Simplifier simplifier) {
+  switch (simplifier) {
+    case Simplifier::none:
+      return "no";
+    case Simplifier::corridor:
+      return "yes";
+    case Simplifier::ompl:
+      return "by OMPL’s simplifier";
+  }
+  return "";
+}
+
 std::string plannerText(const CampaignPlanner& planner) {
   std::string text = planner.name;
-  if (!planner.params)
-    return text + ", with the problem’s parameters where the problem names this planner";
-  for (const auto& [key, value] : *planner.params) text += ", " + key + ": " + value;
-  return planner.params->empty() ? text + ", with OMPL’s defaults" : text;
+  if (!planner.params) {
+    text += ", with the problem’s parameters where the problem names this planner";
+  } else {
+    for (const auto& [key, value] : *planner.params) text += ", " + key + ": " + value;
+    if (planner.params->empty()) text += ", with OMPL’s defaults";
+  }
+  return planner.simplify ? text + "; simplified: " + simplifierText(*planner.simplify) : text;
 }
 std::string competitorVersions(const Campaign& campaign) {
   std::string text;
@@ -204,9 +220,8 @@ std::string measuredTable(const Campaign& campaign, const std::vector<CampaignCe
   table.row(
       {"limits", (campaign.time ? digits(*campaign.time) + " s" : "each problem’s time limit") +
                      ", " + digits(campaign.limits.memory) + " MB per run"});
-  table.row({"simplified", !campaign.simplify   ? "each problem’s setting"
-                           : *campaign.simplify ? "yes"
-                                                : "no"});
+  table.row({"simplified",
+             campaign.simplify ? simplifierText(*campaign.simplify) : "each problem’s setting"});
   table.row({"verified", campaign.verify ? "yes" : "no"});
   if (campaign.planners.empty()) table.row({"planners", "each problem’s own"});
   for (const CampaignPlanner& planner : campaign.planners)

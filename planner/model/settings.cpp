@@ -27,6 +27,12 @@ const std::vector<std::string>& wordsFor<Objective>() {
   return words;
 }
 
+template <>
+const std::vector<std::string>& wordsFor<Simplifier>() {
+  static const std::vector<std::string> words{"true", "false", "ompl"};
+  return words;
+}
+
 EdgeMethod methodOf(EdgeCheck check) {
   return edgeMethodNamed(wordOf(check)).value_or(EdgeMethod::directional);
 }

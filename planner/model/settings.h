@@ -20,8 +20,12 @@ enum class ValidSampler { uniform, gaussian, obstacleBased, bridgeTest, maxClear
 /// The objectives that planners can optimise.
 enum class Objective { length, maxMinClearance, mechanicalWork };
 
+/// How a path is shortened: by Corridor's simplifier (solve/simplify_path.h), not at all, or by
+/// OMPL's `PathSimplifier::simplify`, as a baseline.
+enum class Simplifier { corridor, none, ompl };
+
 /// Returns the words that users write for the values of a choice, in the order of the enumeration.
-/// @tparam Choice EdgeCheck, ValidSampler or Objective.
+/// @tparam Choice EdgeCheck, ValidSampler, Objective or Simplifier.
 template <class Choice>
 const std::vector<std::string>& wordsFor();
 template <>
@@ -30,6 +34,8 @@ template <>
 const std::vector<std::string>& wordsFor<ValidSampler>();
 template <>
 const std::vector<std::string>& wordsFor<Objective>();
+template <>
+const std::vector<std::string>& wordsFor<Simplifier>();
 
 /// Returns the word of a value.
 template <class Choice>
@@ -82,7 +88,7 @@ struct Settings {
   ValidSampler sampler = ValidSampler::uniform;
   std::optional<Objective> objective;  ///< `.cfg` only
   double objectiveThreshold = 0;
-  bool simplify = true;
+  Simplifier simplify = Simplifier::corridor;
   CheckerSettings checker;
   std::uint64_t seed = 1;
 };

@@ -250,7 +250,8 @@ void readSettings(const IniFile& ini, Problem& problem) {
   problem.settings.planner.time =
       ini.number("benchmark.time_limit", Range::Positive).value_or(problem.settings.planner.time);
   if (const auto* entry = ini.find("benchmark.simplify"))
-    problem.settings.simplify = entry->value != "0" && entry->value != "false";
+    problem.settings.simplify =
+        entry->value != "0" && entry->value != "false" ? Simplifier::corridor : Simplifier::none;
 }
 
 /// Reads the file. `problem` has its notes even if an exception is thrown.

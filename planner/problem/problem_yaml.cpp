@@ -199,7 +199,8 @@ void readYaml(const std::filesystem::path& file, Problem& problem) {
   readPlanner(map, problem.settings.planner);
   if (const auto sampler = map.choice("sampler", wordsFor<ValidSampler>()))
     problem.settings.sampler = *choiceNamed<ValidSampler>(*sampler);
-  problem.settings.simplify = map.boolean("simplify").value_or(problem.settings.simplify);
+  if (const auto simplify = map.choice("simplify", wordsFor<Simplifier>()))
+    problem.settings.simplify = *choiceNamed<Simplifier>(*simplify);
   if (const YamlValue* checker = map.find("checker"))
     readCheckerKeys(YamlMap(*checker, "checker", keysOf("checker"), source),
                     problem.settings.checker);

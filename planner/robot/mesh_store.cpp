@@ -85,13 +85,15 @@ MeshStore::Place MeshStore::inPackage(const std::string& name) {
 
   const std::filesystem::path beside = (folder_ / package / rest).lexically_normal();
   if (whyNotOrdinaryFile(beside).empty()) return {beside, ""};
-  // The usual layout of a package is PACKAGE/urdf/robot.urdf.
-  const std::filesystem::path absolute =
-      std::filesystem::absolute(folder_.empty() ? "." : folder_).lexically_normal();
-  for (std::filesystem::path above = absolute; above != above.root_path();
-       above = above.parent_path())
-    if (above.filename() == package && whyNotOrdinaryFile(above / rest).empty())
-      return {above / rest, ""};
+  // The usual layout of a package is PACKAGE/urdf/robot.urdf. Other packages are beside it.
+  std::vector<std::filesystem::path> above{
+      std::filesystem::absolute(folder_.empty() ? "." : folder_).lexically_normal()};
+  while (above.back().has_relative_path()) above.push_back(above.back().parent_path());
+  for (const std::filesystem::path& folder : above) {
+    if (folder.filename() == package && whyNotOrdinaryFile(folder / rest).empty())
+      return {folder / rest, ""};
+    if (whyNotOrdinaryFile(folder / package / rest).empty()) return {folder / package / rest, ""};
+  }
   auto known = rosFolders_.find(package);
   if (known == rosFolders_.end())
     known = rosFolders_.emplace(package, foldersOfPackage(package)).first;
@@ -101,6 +103,16 @@ MeshStore::Place MeshStore::inPackage(const std::string& name) {
     return {known->second.front() / rest, "package " + quotedWord(package) + " is found at " +
                                               known->second.front().string() + ", but has no " +
                                               rest.string()};
+  // A package may have been copied into a folder of another name.
+  for (const std::filesystem::path& folder : above)
+    if (whyNotOrdinaryFile(folder / rest).empty()) {
+      guessed_.try_emplace(package, folder);
+      return {folder / rest, ""};
+    }
+  if (!missing_.insert(package).second) {  // reported before
+    meshes_[beside];
+    return {beside, ""};
+  }
   std::vector<std::string> names;
   for (const auto& entry : rules_.packages) names.push_back(entry.first);
   const std::string near = didYouMean(package, names);

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,8 @@ class MeshStore {
   Place add(const std::string& name);
   /// Returns the names of the Collada files whose up-axis is not z, and was not applied.
   std::vector<std::string> ignoredUpAxes() const;
+  /// Returns the packages that were found only as a folder of another name above the URDF.
+  const std::map<std::string, std::filesystem::path>& guessedPackages() const { return guessed_; }
   /// @pre `file` was returned by add(), and it was readable.
   const std::shared_ptr<const MeshFile>& get(const std::filesystem::path& file) const {
     return meshes_.at(file);
@@ -43,6 +46,8 @@ class MeshStore {
   std::vector<std::filesystem::path>& files_;
   /// The folders of each package that was searched for on ROS's paths.
   std::map<std::string, std::vector<std::filesystem::path>> rosFolders_;
+  std::map<std::string, std::filesystem::path> guessed_;  // see `guessedPackages`
+  std::set<std::string> missing_;                         // packages without a folder, reported
   std::map<std::filesystem::path, std::shared_ptr<const MeshFile>> meshes_;  // null: unreadable
 };
 

@@ -201,7 +201,8 @@ class GroupReader {
       }
       State& before = states[first->second];  // as in MoveIt, the last definition counts
       note(element, owned("state", *name) + " is already defined on line " +
-                        std::to_string(before.line) + "; that definition is ignored");
+                        std::to_string(before.line) +
+                        "; this definition replaces it, as in MoveIt");
       before = std::move(state);
     });
     for (State& state : states) {
@@ -235,11 +236,12 @@ class GroupReader {
     unknownValues_.add(unknown);
     state.unusable = noteFaults();
     if (state.values.empty() && ignored.empty() && state.unusable.empty())
-      state.unusable = file_.at(
-          element.GetLineNum(),
-          owner + (unknown.names().empty() ? " has no value"
-                                           : " has no value of this robot: the URDF lacks " +
-                                                 joinedFirst(unknown.names())));
+      state.unusable =
+          file_.at(element.GetLineNum(),
+                   owner + (unknown.names().empty()
+                                ? " has no value"
+                                : " gives no joint of this robot a value: the URDF lacks " +
+                                      joinedFirst(unknown.names())));
     return state;
   }
 

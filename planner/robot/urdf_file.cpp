@@ -222,6 +222,12 @@ std::optional<RobotModel> readUrdf(const std::filesystem::path& file, const Urdf
     const UrdfOutline outline = readUrdfOutline(xml, rules, meshes, notes);
     const std::vector<std::size_t> order = checkUrdfTree(outline, xml);
     const std::vector<std::optional<Mimic>> mimics = resolveMimics(outline, xml, notes);
+    for (const auto& [package, folder] : meshes.guessedPackages())
+      notes.push_back({file.string() + ": package " + quotedWord(package) +
+                           " has no folder of this name; " + folder.string() +
+                           ", which contains the meshes and the URDF, is used (packages: in "
+                           "robot.yaml names another one)",
+                       NoteWeight::coverage});
     if (const auto ignored = meshes.ignoredUpAxes(); !ignored.empty())
       notes.push_back({file.string() + ": the up-axis of " + joinedFirst(ignored) +
                            " is not z; it is not applied (ROS's rule), and collada_up: file in "

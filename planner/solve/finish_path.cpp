@@ -15,19 +15,6 @@ namespace corridor {
 
 namespace og = ompl::geometric;
 
-namespace {
-
-/// Attempts per call of OMPL's simplifier. The simplifier does not test for a time-out within a
-/// call, so a call must be short.
-constexpr unsigned kAttempts = 10;
-/// After this many rounds in a row without progress, simplifying ends.
-constexpr int kEmptyRounds = 8;
-/// The maximum number of rounds of each kind. No measured path needed more. The limit ends the work
-/// on a path that each round shortens by little more than 0.1 %, which counts as progress.
-constexpr int kRounds = 60;
-
-}  // namespace
-
 Path readPath(const og::PathGeometric& path) {
   Path states;
   for (const ompl::base::State* state : const_cast<og::PathGeometric&>(path).getStates())
@@ -35,26 +22,9 @@ Path readPath(const og::PathGeometric& path) {
   return states;
 }
 
-std::vector<Path> simplifiedVersions(const std::shared_ptr<ompl::base::SpaceInformation>& si,
-                                     og::PathGeometric& path, const std::function<bool()>& stop) {
-  std::vector<Path> versions{readPath(path)};
-  og::PathSimplifier simplifier(si);
-  const auto repeat = [&](auto attempt) {
-    for (int round = 0, empty = 0; round < kRounds && empty < kEmptyRounds && !stop(); ++round) {
-      const double before = path.length();
-      const std::size_t states = path.getStateCount();
-      attempt();
-      const bool better = path.getStateCount() < states || path.length() < before * (1 - 1e-3);
-      empty = better ? 0 : empty + 1;
-      if (better) versions.push_back(readPath(path));
-    }
-  };
-  for (int pass = 0; pass < 2 && path.getStateCount() > 2; ++pass) {
-    repeat([&] { simplifier.reduceVertices(path, kAttempts, kAttempts); });
-    repeat([&] { simplifier.shortcutPath(path, kAttempts, kAttempts); });
-  }
-  repeat([&] { simplifier.collapseCloseVertices(path, kAttempts, kAttempts); });
-  return versions;
+void simplifyByOmpl(const std::shared_ptr<ompl::base::SpaceInformation>& si,
+                    og::PathGeometric& path, const std::function<bool()>& stop) {
+  og::PathSimplifier(si).simplify(path, ompl::base::PlannerTerminationCondition(stop));
 }
 
 Path withShortTurns(const ConfigurationSpace& space, const Path& path) {

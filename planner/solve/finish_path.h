@@ -6,11 +6,11 @@
 
 #include "planner/checker/checker.h"
 
-namespace ompl::geometric {
-class PathGeometric;
-}
 namespace ompl::base {
 class SpaceInformation;
+}
+namespace ompl::geometric {
+class PathGeometric;
 }
 
 namespace corridor {
@@ -20,12 +20,11 @@ using Path = std::vector<Configuration>;
 /// Returns the configurations of an OMPL path. @pre the path's space is a ProblemStateSpace.
 Path readPath(const ompl::geometric::PathGeometric& path);
 
-/// Simplifies a path and returns its versions, from the planner's own to the simplest, so that an
-/// earlier version can be used if a later one can't be certified. Ends when simplifying no longer
-/// improves the path, or when `stop` returns true. The first and the last state stay.
-std::vector<Path> simplifiedVersions(const std::shared_ptr<ompl::base::SpaceInformation>& si,
-                                     ompl::geometric::PathGeometric& path,
-                                     const std::function<bool()>& stop);
+/// Shortens a path by OMPL's `PathSimplifier::simplify`, with random numbers and edge tests of its
+/// own: the baseline of `simplifiedVersions` (simplify_path.h). It ends when OMPL finds no more
+/// improvement, or soon after `stop` returns true. The first and the last state stay.
+void simplifyByOmpl(const std::shared_ptr<ompl::base::SpaceInformation>& si,
+                    ompl::geometric::PathGeometric& path, const std::function<bool()>& stop);
 
 /// Returns the path without repeated states, and with states inserted on its edges so that no
 /// circle or rotation turns by more than 90° between two states. Every edge is then far from a half

@@ -21,6 +21,7 @@
 #include "planner/checker/state_validity_checkers.h"
 #include "planner/problem/yaml_reader.h"
 #include "planner/solve/ompl_goal.h"
+#include "planner/solve/simplify_path.h"
 #include "planner/solve/solve_steps.h"
 #include "planner/solve/why_not_free.h"
 
@@ -196,6 +197,13 @@ void Solve::setUpObjective() {
   definition_->setOptimizationObjective(objective);
 }
 
+/// Returns whether the time has run out, and remembers it: then the path depends on the clock.
+bool Solve::endsByTime(double until) {
+  const bool over = clock_.seconds() >= until;
+  if (over) endedByTime_ = true;
+  return over;
+}
+
 void Solve::reportProgress() {
   if (!options_.progress) return;
   const std::unique_lock lock(progressMutex_, std::try_to_lock);
@@ -239,7 +247,7 @@ ob::PlannerStatus Solve::plan(const ob::PlannerTerminationCondition& orElse) {
   const double until = problem_.settings.planner.time;
   const ob::PlannerTerminationCondition stop([this, until, &orElse] {
     reportProgress();
-    return clock_.seconds() >= until || interrupted() || orElse.eval();
+    return endsByTime(until) || interrupted() || orElse.eval();
   });
   planner_->setProblemDefinition(definition_);
   planner_->setup();
@@ -255,6 +263,7 @@ ob::PlannerStatus Solve::plan(const ob::PlannerTerminationCondition& orElse) {
                                                                         : SolveOutcome::notFound;
     report_.why = whyNotFound(status);
   }
+  if (endedByTime_) report_.repeats = false;
   report_.time = clock_.seconds();
   report_.processorTime = clock_.processorSeconds();
   report_.searchProcessorTime += report_.processorTime - processorBefore;
@@ -277,6 +286,29 @@ bool Solve::certified(const Path& path) {
   return holds;
 }
 
+/// Returns the versions of the path, from the planner's own to the shortest.
+std::vector<Path> Solve::simplified(og::PathGeometric& path) {
+  std::vector<Path> versions{readPath(path)};
+  const Simplifier simplifier = problem_.settings.simplify;
+  // Shortcuts would reduce the clearance.
+  if (simplifier == Simplifier::none || maximisesClearance()) return versions;
+  const double until = std::max(problem_.settings.planner.time,
+                                clock_.seconds() + kSimplifyShare * problem_.settings.planner.time);
+  const auto stop = [&] { return endsByTime(until) || interrupted(); };
+  if (simplifier == Simplifier::ompl) {
+    simplifyByOmpl(si_, path, stop);
+    versions.push_back(readPath(path));
+    return versions;
+  }
+  ob::ScopedState<> from(si_), to(si_);
+  const auto isFree = [&](const Configuration& a, const Configuration& b) {
+    space_->write(a, from.get());
+    space_->write(b, to.get());
+    return si_->checkMotion(from.get(), to.get());
+  };
+  return simplifiedVersions(problem_.model.space, versions.front(), isFree, stop);
+}
+
 void Solve::finish() {
   // CForest's path belongs to a space that wraps our space, but its states belong to our space. So
   // the states are copied into a path of our space.
@@ -286,17 +318,7 @@ void Solve::finish() {
     path.append(state);
   report_.rawStates = path.getStateCount();
   report_.rawLength = lengthOf(problem_.model.space, readPath(path));
-  std::vector<Path> versions;
-  if (problem_.settings.simplify &&
-      !maximisesClearance()) {  // shortcuts would reduce the clearance
-    const double until =
-        std::max(problem_.settings.planner.time,
-                 clock_.seconds() + kSimplifyShare * problem_.settings.planner.time);
-    versions =
-        simplifiedVersions(si_, path, [&] { return clock_.seconds() >= until || interrupted(); });
-  } else {
-    versions = {readPath(path)};
-  }
+  const std::vector<Path> versions = simplified(path);
   for (std::size_t i = versions.size(); i-- > 0 && report_.outcome != SolveOutcome::solved;) {
     Path states = withShortTurns(problem_.model.space, versions[i]);
     if (!joinsStartAndGoal(states)) continue;

@@ -53,7 +53,8 @@ struct SolveReport {
   bool certified = false;  ///< every edge of `path` was proved by the final certification
   std::string checker;     ///< "certified", "adaptive, sphere", "discrete, resolution 0.01", …
   std::string planner;
-  /// Whether the planner gives the same path for the same seed, if the time does not run out.
+  /// Whether the same problem and seed give the same path again: the planner repeats, and neither
+  /// planning nor simplifying ended because the time ran out.
   bool repeats = true;
   std::uint64_t seed = 0;
   double time = 0, planningTime = 0;  ///< seconds of the whole solve, and until the planner ended
@@ -79,9 +80,8 @@ struct SolveReport {
 /// completed. Simplifying gets the rest of planner.time, but at least 5 % of planner.time. The
 /// final certification takes its time in addition.
 ///
-/// The same problem and seed give the same path, if `repeats` is true for the planner and the time
-/// does not run out. OMPL has one random seed per process: don't call this from two threads at
-/// once.
+/// The same problem and seed give the same path if `SolveReport::repeats` is true. OMPL has one
+/// random seed per process: don't call this from two threads at once.
 /// @throws InputError for a start or goals that are in contact, too close or out of bounds, and for
 /// an unknown planner, parameter or sampler.
 SolveReport solveProblem(const Problem& problem, const SolveOptions& options = {});

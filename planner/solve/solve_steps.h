@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <ctime>
 #include <memory>
 #include <mutex>
@@ -85,6 +86,8 @@ class Solve {
   void setUpPlanner();
   void setUpObjective();
   void reportProgress();
+  bool endsByTime(double until);
+  std::vector<Path> simplified(ompl::geometric::PathGeometric& path);
   void finish();
   bool certified(const Path& path);
   bool joinsStartAndGoal(const Path& path) const;
@@ -102,6 +105,7 @@ class Solve {
   ompl::base::ProblemDefinitionPtr definition_;
   ompl::base::PlannerPtr planner_;
   bool optimises_ = false;
+  std::atomic<bool> endedByTime_ = false;  // set by any thread of the planner
   std::mutex progressMutex_;
   double lastProgress_ = 0;
   SolveReport report_;

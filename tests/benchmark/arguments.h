@@ -69,8 +69,8 @@ class Arguments {
     const auto shared = test::dataFolder();
     return text("--data", shared ? shared->string() : "");
   }
-  /// Returns the workloads of `data()` whose names contain one of --workload's texts, or all of
-  /// them. @throws std::runtime_error if there is none.
+  /// Returns the workloads of `data()` whose names contain one of --workload's texts; without
+  /// --workload, all workloads. @throws std::runtime_error if there is none.
   std::vector<std::string> workloads() const {
     if (data().empty())
       throw std::runtime_error("--data DIR is required if $CORRIDOR_DATA is not set");

@@ -200,7 +200,7 @@ class Report {
       : set_(set),
         rounds_(rounds),
         wrong_{"edge_error_" + underscored(set.name),
-               set.name + ": contacts missed and free edges lost (none is drawn as 1 of " +
+               set.name + ": contacts missed and free edges lost (0 is drawn as 1 of " +
                    std::to_string(2 * set.cases.size()) + ")",
                "µs per edge",
                "share of the edges",

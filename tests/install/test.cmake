@@ -32,7 +32,8 @@ foreach(header ${headers})
     endif()
     if(include MATCHES "<(boost|assimp|hwy|libqhull|yaml-cpp|nlohmann|CLI|tinyxml2|urdf|console_bridge)"
        OR (include MATCHES "<ompl" AND NOT header MATCHES "/planner/(checker|solve)/"))
-      message(FATAL_ERROR "${header}: ${include}: users of the library need not have it")
+      message(FATAL_ERROR "${header}: ${include}: an installed header must not include it, "
+                          "since users of the library need not have it")
     endif()
   endforeach()
 endforeach()

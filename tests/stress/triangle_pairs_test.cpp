@@ -65,8 +65,8 @@ double lost(double x, double y) {
   return (x - (sum - part)) + (y - part);
 }
 
-/// Returns the triangle scaled by 2 from one of its corners, which contains it; nullopt if a
-/// coordinate would be rounded.
+/// Returns the triangle scaled by 2 from its first corner: it contains the given triangle. Returns
+/// nullopt if a coordinate would be rounded.
 std::optional<Triangle> grown(const Triangle& t) {
   Triangle g = t;
   for (int k = 1; k < 3; ++k)

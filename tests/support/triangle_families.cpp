@@ -108,7 +108,7 @@ void sharedEdge(Random& random, Triangle& a, Triangle& b) {
 }
 
 /// A corner of a is in b's face, or on its boundary. All other points of a are on one side of b's
-/// plane.
+/// plane, or in it.
 void cornerOnFace(Random& random, Triangle& a, Triangle& b) {
   const int size = anySize(random);
   const Vec3 p = grid(random, size), u = grid(random, size), v = grid(random, size);
@@ -175,8 +175,10 @@ PlacedPair byExactRotation(Random& random, const Triangle& a, const Triangle& b)
   return pair;
 }
 /// Rotated by a rational (Pythagorean) rotation times its denominator, which maps integers to
-/// integers. Doubles hold exactly only 24 of all rotation matrices, the signed permutations: if
-/// three squares sum up to a multiple of 4, all three numbers are even.
+/// integers. Without that factor, doubles hold only 24 rotation matrices exactly, the signed
+/// permutations: a row of doubles is (x, y, z)/2^k with integers, and x² + y² + z² = 4^k. If k > 0,
+/// all three are even, because only then is a sum of three squares a multiple of 4. So the row can
+/// be reduced until k = 0.
 PlacedPair byRationalRotation(Random& random, const Triangle& a, const Triangle& b) {
   const double w = integer(random, -5, 5), x = integer(random, -5, 5), y = integer(random, -5, 5),
                z = integer(random, 1, 5);

@@ -88,7 +88,8 @@ class Touching {
         for (int i = 0; i < n; ++i) hull.points.push_back(size * vector().normalized());
         f.part = placed(hull, {});
         f.x = f.m = hull.points[0];  // a corner, with the direction from the centre as its normal
-        // Two points that make the hull's inside lie along −m.
+        // Four more points around −0.5·x: the hull contains −0.5·x, so the segment from x along −m
+        // is inside the hull.
         for (const double side : {-0.1 * size, 0.1 * size}) {
           const Vec3 u = f.x.unitOrthogonal();
           f.part.points.push_back(-0.5 * f.x + side * u);

@@ -130,11 +130,11 @@ TEST_F(Collada, Complaints) {
   EXPECT_EQ(complaint("a.dae", "hello"),
             "a.dae: cannot be read by assimp: Unable to read file, malformed XML");
   EXPECT_EQ(complaint("a.dae", collada("", "nan")),
-            "a.dae: vertex 0 (from 0) is not finite (this format is read in float, which ends "
-            "at 3.4e38)");
+            "a.dae: vertex 0 (counted from 0) is not finite (this format is read in float, which "
+            "ends at 3.4e38)");
   EXPECT_EQ(complaint("a.dae", collada("", "1e39")),
-            "a.dae: vertex 0 (from 0) is not finite (this format is read in float, which ends "
-            "at 3.4e38)");
+            "a.dae: vertex 0 (counted from 0) is not finite (this format is read in float, which "
+            "ends at 3.4e38)");
   EXPECT_EQ(complaint("a.3mf", "hello"),
             "a.3mf: the format has a unit, which assimp does not report; state the unit");
   std::string noMesh = collada("");

@@ -20,7 +20,7 @@ TEST(Primitive, Complaints) {
             "a cylinder's radius and length must be positive and finite, not 1 0");
   EXPECT_EQ(checkPrimitive(Convex{}), "a convex shape needs at least one point");
   EXPECT_EQ(checkPrimitive(Convex{{Vec3::Zero(), Vec3(0, nan, 0)}}),
-            "point 1 (from 0) of a convex shape is not finite");
+            "point 1 (counted from 0) of a convex shape is not finite");
   EXPECT_EQ(checkPrimitive(Convex{{Vec3::Zero()}}), std::nullopt);
 }
 

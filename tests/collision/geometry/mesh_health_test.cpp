@@ -207,9 +207,10 @@ TEST(CheckMesh, Complains) {
   EXPECT_EQ(checkMesh(tetrahedron()), std::nullopt);
   TriangleMesh mesh = tetrahedron();
   mesh.triangles[2][1] = 4;
-  EXPECT_EQ(checkMesh(mesh), "face 2 (from 0): index 4 is out of range: there are 4 vertices");
+  EXPECT_EQ(checkMesh(mesh),
+            "face 2 (counted from 0): index 4 is out of range: there are 4 vertices");
   mesh.vertices[3].y() = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(checkMesh(mesh), "vertex 3 (from 0) is not finite");
+  EXPECT_EQ(checkMesh(mesh), "vertex 3 (counted from 0) is not finite");
 }
 
 }  // namespace

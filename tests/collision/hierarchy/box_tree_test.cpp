@@ -2,6 +2,7 @@
 #include "collision/hierarchy/box_tree.h"
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 #include <set>
 
@@ -69,6 +70,69 @@ TEST(BoxTree, FindsWhatATestOfAllBoxesFinds) {
                 count >= 2)
           << "the second visit stops the walk";
       EXPECT_EQ(visits, static_cast<int>(std::min<std::size_t>(count, 2)));
+    }
+  }
+}
+
+BoundingBox cube(const Vec3& c, double half) {
+  const Vec3 h = Vec3::Constant(half);
+  return {c - h, c + h, (c - h).cwiseAbs().sum() + (c + h).cwiseAbs().sum()};
+}
+
+/// A crowd of boxes far away costs nearly nothing: its box is tested once.
+TEST(BoxTree, PassesOverAFarCrowdNearTheRoot) {
+  std::vector<BoundingBox> near, all;
+  for (int i = 0; i < 8; ++i) near.push_back(cube(Vec3(i % 2, i / 2 % 2, i / 4), 0.1));
+  all = near;
+  for (int i = 0; i < 10000; ++i)
+    all.push_back(cube(Vec3(10 + 0.2 * (i % 100), 5 + 0.2 * (i / 100), 0.5), 0.05));
+  const auto testsIn = [](const std::vector<BoundingBox>& boxes) {
+    std::size_t tests = 0, found = 0;
+    BoxTree(boxes).walk(
+        [&](const BoundingBox& box) {
+          ++tests;
+          return gap(box, Vec3(1, 1, 1));
+        },
+        0.2, [&](std::size_t) { return ++found == boxes.size(); });
+    EXPECT_EQ(found, 1U);
+    return tests;
+  };
+  EXPECT_LE(testsIn(all), testsIn(near) + 2);
+}
+
+/// Boxes for which the heuristic can't choose, or would make a tree that is too deep.
+TEST(BoxTree, FindsAllOfOddBoxes) {
+  std::vector<std::vector<BoundingBox>> sets(4);
+  for (int i = 0; i < 1000; ++i) {
+    sets[0].push_back(cube(Vec3(1, 2, 3), 0));                           // one point
+    sets[1].push_back(cube(Vec3(i, 0, 0), 0));                           // points of a line
+    sets[2].push_back(cube(Vec3::Constant(std::ldexp(1.0, -i)), 1e-9));  // ever closer to 0
+    sets[3].push_back(cube(Vec3(1e200 * (i - 500), 1e308 * (i % 3 - 1), i), 1e100));  // overflow
+  }
+  for (const std::vector<BoundingBox>& boxes : sets) {
+    const BoxTree tree(boxes);
+    std::set<std::size_t> found;
+    tree.walk([](const BoundingBox&) { return 0.0; }, 0,
+              [&](std::size_t i) {
+                found.insert(i);
+                return false;
+              });
+    EXPECT_EQ(found.size(), boxes.size());
+    for (std::size_t i = 0; i < boxes.size(); i += 37) {  // inner boxes contain each leaf
+      bool seen = false;
+      const Vec3 p = boxes[i].lower;
+      tree.walk(
+          [&](const BoundingBox& box) {
+            return (box.lower.array() <= p.array()).all() && (p.array() <= box.upper.array()).all()
+                       ? 0.0
+                       : 1.0;
+          },
+          0,
+          [&](std::size_t k) {
+            seen = seen || k == i;
+            return false;
+          });
+      EXPECT_TRUE(seen) << i;
     }
   }
 }

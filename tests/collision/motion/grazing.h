@@ -17,7 +17,8 @@ struct Grazing {
   enum Feature { cornerOnFace, faceOnCorner, edgeOnEdge, features };
   TriangleMesh fixed, moving;
   RigidPose from, to;
-  /// True if no corner is ever below its height at the end. The verdict is then known.
+  /// True if the lowest corner of the moving mesh is never lower than the lowest corner at the end.
+  /// The verdict is then known.
   bool known = false;
 
   Grazing(std::mt19937_64& random, Feature feature, bool slides, double gap, double size) {
@@ -74,7 +75,7 @@ struct Grazing {
     }
     const ReferenceMotion motion(from, to);
     known = true;
-    const auto heights = [&](long double t) {
+    const auto lowestHeight = [&](long double t) {
       const auto R = motion.rotation(t);
       const auto nL = n.cast<long double>().eval();
       const long double base = (motion.position(t) / size - x.cast<long double>()).dot(nL);
@@ -84,9 +85,9 @@ struct Grazing {
       return lowest;
     };
     for (int i = 0; i <= 200 && known && !slides; ++i)
-      known = heights(i / 200.0L) >= heights(1) - 1e-17L;
+      known = lowestHeight(i / 200.0L) >= lowestHeight(1) - 1e-17L;
     for (int k = 1; k < 12 && known && !slides; ++k)
-      known = heights(1 - std::pow(10.0L, -k)) >= heights(1) - 1e-17L;
+      known = lowestHeight(1 - std::pow(10.0L, -k)) >= lowestHeight(1) - 1e-17L;
   }
 };
 

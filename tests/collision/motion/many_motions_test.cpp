@@ -49,8 +49,14 @@ TEST(ManyMotions, CertificateChangesNoVerdict) {
                    ChainMotion({slide(Vec3::UnitX(), 0, 1)}),
                    ChainMotion({slide(Vec3::UnitY(), 1.78, 1.78), slide(Vec3::UnitX(), 0, 1)})});
   const std::vector<MotionPair> pairs = {
-      {.a = &obstacle, .b = &tip, .motion = 0, .bodyA = 0, .bodyB = 1, .worldB = 0},
-      {.a = &left, .b = &right, .motion = 1, .bodyA = 2, .bodyB = 3, .worldA = 2, .worldB = 3}};
+      {.a = &obstacle, .b = &tip, .motion = 0, .bodyA = 0, .bodyB = 1, .worldMotionB = 0},
+      {.a = &left,
+       .b = &right,
+       .motion = 1,
+       .bodyA = 2,
+       .bodyB = 3,
+       .worldMotionA = 2,
+       .worldMotionB = 3}};
   MotionOptions options;
   options.tolerance = 1e-7;
   options.margin = 0.1;
@@ -71,7 +77,7 @@ TEST(ManyMotions, CertificateChangesNoVerdict) {
 TEST(ManyMotions, ManyRevolutionsEndAtTheWorkLimit) {
   const Body hub = cube(0.1), tip = cube(0.05, Vec3(1, 0, 0));
   Motions motions({ChainMotion({{.from = 0, .to = 1e6}})});
-  const MotionPair pair = {.a = &hub, .b = &tip, .worldB = 0};
+  const MotionPair pair = {.a = &hub, .b = &tip, .worldMotionB = 0};
   MotionOptions options;
   options.tolerance = 1e-7;
   options.workLimit = 10'000;

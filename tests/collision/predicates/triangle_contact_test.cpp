@@ -167,16 +167,16 @@ TEST(TriangleContact, SubnormalsThatAreReadAsZero) {
 }
 #endif
 
-/// Corners are off the other triangle's plane by the smallest step of a grid, for grids of 4 to 200
-/// bits. Each integer type is therefore used up to its last bit, so that an overflow would be
-/// detected.
+/// A corner is in the other triangle's plane, or about one unit off it, on grids of 4 to 200 bits.
+/// Beyond 50 bits, another corner is on a finer grid. Each integer type is therefore used up to its
+/// last bit, so that an overflow would be detected.
 TEST(TriangleContact, GridsOfAnyNumberOfBits) {
   std::mt19937_64 random(test::testSeed(53));
   int touching = 0, cases = 0;
   for (int bits = 4; bits <= 200; bits += bits < 90 ? 1 : 10)
     for (int n = 0; n < 60 / test::kSlowdown + 2; ++n, ++cases) {
-      // A coordinate has at most 50 bits. All corners use the grid's highest bits; b[1], scaled by
-      // `gridStep`, uses the lowest.
+      // A coordinate has at most 50 bits. b[1], scaled by `gridStep`, uses the grid's lowest bits;
+      // all other corners use its highest bits.
       const auto integer = [&] {
         const int used = std::min(bits, 50);
         return static_cast<double>(static_cast<std::int64_t>(random() >> (64 - used)) -

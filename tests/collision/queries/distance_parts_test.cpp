@@ -150,7 +150,7 @@ TEST(DistanceOfParts, BoxesAsMeshes) {
         EXPECT_NEAR(found, truth.distance, 2e-12 * truth.distance + 8 * kUnit * size) << n;
         ++apart;
       }
-      // The second of two rounds moves the bodies close to contact.
+      // Before the second round, the bodies are moved close to contact.
       const Vec3 way = truth.p_WA - truth.p_WB;
       X_WB.t += way * (1 - std::pow(10.0, -1 - n % 11));
       truth = distance(Posed(meshA, X_WA), Posed(meshB, X_WB), {}, context);

@@ -26,16 +26,17 @@ using test::corners;
 using test::errorScale;
 using test::soup;
 
-struct Body {
-  explicit Body(const TriangleMesh& m) : mesh(m), tree(m) {}
+struct MeshAndTree {
+  explicit MeshAndTree(const TriangleMesh& m) : mesh(m), tree(m) {}
   TriangleMesh mesh;
   Obb4Tree tree;
 };
 
 /// Runs every query on two bodies, once starting from `last` and once from no pair, and compares
 /// the answers. Returns whether the bodies touch.
-bool expectSame(const Body& a, const Transform& X_WA, const Body& b, const Transform& X_WB,
-                QueryContext& context, LastPair& last, const std::string& where) {
+bool expectSame(const MeshAndTree& a, const Transform& X_WA, const MeshAndTree& b,
+                const Transform& X_WB, QueryContext& context, LastPair& last,
+                const std::string& where) {
   SCOPED_TRACE(where);
   const auto hit = interference(Posed(a.tree, X_WA), Posed(b.tree, X_WB), context),
              warm = interference(Posed(a.tree, X_WA), Posed(b.tree, X_WB), context, &last);
@@ -71,7 +72,7 @@ TEST(Obb4LastPair, MotionsOfManyBodies) {
   std::mt19937_64 random(test::testSeed(41));
   int touching = 0, cases = 0;
   for (int n = 0; n < 6; ++n) {
-    std::deque<Body> bodies;
+    std::deque<MeshAndTree> bodies;
     for (const int count : {1, 12, 60, 200}) bodies.emplace_back(soup(random, count, 0.15));
     std::vector<Transform> from, to;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
@@ -114,7 +115,7 @@ TriangleMesh slats(int count) {
 /// fewer boxes.
 TEST(Obb4LastPair, DecidesTheNextQuery) {
   std::mt19937_64 random(test::testSeed(42));
-  const Body a(slats(40)), b(soup(random, 100, 0.1));
+  const MeshAndTree a(slats(40)), b(soup(random, 100, 0.1));
   Transform X;
   X.t = Vec3(0, 0, 2);
   QueryContext context;
@@ -147,7 +148,7 @@ TEST(Obb4LastPair, DecidesTheNextQuery) {
 /// For unrelated queries, the stored pair may cost at most a thousandth of the triangle tests.
 TEST(Obb4LastPair, CostsLittleForUnrelatedQueries) {
   std::mt19937_64 random(test::testSeed(43));
-  const Body a(soup(random, 300, 0.1)), b(soup(random, 300, 0.1));
+  const MeshAndTree a(soup(random, 300, 0.1)), b(soup(random, 300, 0.1));
   QueryContext used, fresh;
   LastPair last;
   std::uint64_t more = 0, all = 0;
@@ -169,12 +170,14 @@ TEST(Obb4LastPair, OfOtherTrees) {
   std::mt19937_64 random(test::testSeed(44));
   TriangleMesh far = slats(1);
   for (Vec3& v : far.vertices) v += Vec3(0, 0, 50);
-  const std::vector<Body> bodies = {Body(slats(60)), Body(soup(random, 150, 0.2)), Body(far),
-                                    Body(soup(random, 1, 0.3)), Body(slats(2))};
+  const std::vector<MeshAndTree> bodies = {
+      MeshAndTree(slats(60)), MeshAndTree(soup(random, 150, 0.2)), MeshAndTree(far),
+      MeshAndTree(soup(random, 1, 0.3)), MeshAndTree(slats(2))};
   QueryContext context;
   LastPair last;
   for (int n = 0; n < 200 / test::kSlowdown; ++n) {
-    const Body &bodyA = bodies[random() % bodies.size()], &bodyB = bodies[random() % bodies.size()];
+    const MeshAndTree &bodyA = bodies[random() % bodies.size()],
+                      &bodyB = bodies[random() % bodies.size()];
     const Obb4Tree &a = bodyA.tree, &b = bodyB.tree;
     Transform X = anyPose(random, 0.3);
     X.t.z() += n % 2 ? 3 : 0;

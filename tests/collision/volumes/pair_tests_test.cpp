@@ -140,8 +140,8 @@ TYPED_TEST(PairTests, NoFalseSeparationUnderMapsFarFromRigid) {
 }
 
 /// This shear keeps the lengths of all three axes, and only changes the angles between them. It
-/// tilts b, which is a needle whose end touches a. The needle's box has no width along the normal
-/// of a face that the shear also tilts.
+/// tilts b, which is a needle whose end touches a. The needle's box has width 0 along one of its
+/// own face normals, and the shear tilts this normal, too.
 TYPED_TEST(PairTests, ShearsAreNoRotations) {
   std::mt19937_64 random(test::testSeed(45));
   for (int n = 0; n < 2'000; ++n) {

@@ -124,7 +124,8 @@ TEST(PartUnions, StaticQueries) {
   EXPECT_GT(apart, 30);
 }
 
-/// One of many balls is inside a solid box. Some of the maps are not rigid.
+/// Many balls at random places: in some poses, one of them is inside a solid box. Some of the maps
+/// are not rigid.
 TEST(PartUnions, PartsInsideSolids) {
   std::mt19937_64 random(testSeed(302));
   const Body solid("", box(Vec3(-1, -1, -1), Vec3(1, 1, 1)), true);

@@ -190,8 +190,9 @@ TEST_F(InspectCube, BadInputIsOneLineAndExit2) {
   expectFault("inspect cube.obj --against cube.obj --self-intersections",
               "--self-intersections: can't be used with --against");
   write("crossed.obj", "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 1 1 -1\nv 1 1 1\nv 9 9 0\nf 1 2 3\nf 4 5 6\n");
-  EXPECT_THAT(run("inspect crossed.obj --self-intersections").out,
-              HasSubstr("self-intersections: 1, the first between triangles 0 and 1 (from 0)"));
+  EXPECT_THAT(
+      run("inspect crossed.obj --self-intersections").out,
+      HasSubstr("self-intersections: 1, the first between triangles 0 and 1 (counted from 0)"));
   expectFault("inspect problem.yaml --unit mm",
               "--unit: needs a mesh, and problem.yaml is a problem");
   expectFault("inspect robot.yaml --up y", "--up: needs a mesh, and robot.yaml is a robot");

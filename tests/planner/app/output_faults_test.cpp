@@ -97,7 +97,7 @@ class FileFaults : public OutputFaults {
   }
 };
 
-/// With a limit on the size of files (`ulimit -f`) of half the file, the file that existed before
+/// If no file may be larger than half of the new file (`ulimit -f`), the file that existed before
 /// must stay unchanged.
 TEST_P(FileFaults, FilesThatMayNotGrow) {
   for (const std::string& file : GetParam().files) {

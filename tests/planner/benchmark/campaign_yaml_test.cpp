@@ -71,7 +71,8 @@ TEST_F(CampaignYaml, EveryKey) {
   const Campaign c = read(
       "format: corridor-campaign-1\n"
       "problems: [hall.yaml, room.yaml, hall.yaml]\n"
-      "planners: [RRTConnect, {name: RRT, label: short, params: {range: 0.2}}, {name: PRM}]\n"
+      "planners: [RRTConnect, {name: RRT, label: short, params: {range: 0.2}}, {name: PRM, "
+      "simplify: ompl}]\n"
       "checkers:\n"
       "  certified: {edges: certified, tolerance: 1e-6}\n"
       "  sampled: {edges: discrete, resolution: [0.1, 0.01], fit: [hull, vertices]}\n"
@@ -99,10 +100,13 @@ TEST_F(CampaignYaml, EveryKey) {
   EXPECT_EQ(c.seed, 3u);
   EXPECT_EQ(c.time, 2.5);
   EXPECT_EQ(c.limits.memory, 512);
-  EXPECT_EQ(c.simplify, false);
+  EXPECT_EQ(c.simplify, Simplifier::none);
   EXPECT_FALSE(c.verify);
   const Problem planned = plannedProblem(c, cellsOf(c)[0], 9);
-  EXPECT_FALSE(planned.settings.simplify);
+  EXPECT_EQ(planned.settings.simplify, Simplifier::none);
+  EXPECT_EQ(plannedProblem(c, cellsOf(c)[8], 9).settings.simplify, Simplifier::none);
+  ASSERT_EQ(cellsOf(c)[10].planner.name, "PRM");
+  EXPECT_EQ(plannedProblem(c, cellsOf(c)[10], 9).settings.simplify, Simplifier::ompl);
   EXPECT_EQ(planned.settings.planner.time, 2.5);
   EXPECT_EQ(planned.settings.seed, 9u);
 }
@@ -136,6 +140,14 @@ TEST_F(CampaignYaml, NamesMustBeOneLine) {
   for (const char* wrong : {"checkers: {\"a\\nb\": {}}\n", "checkers: {\"\": {}}\n",
                             "checkers: {a: {}}\nplanners: [{name: RRT, label: \"x\\ty\"}]\n"})
     EXPECT_THROW(read(kStart + std::string(wrong)), InputError) << wrong;
+}
+
+TEST_F(CampaignYaml, UnknownSimplifiers) {
+  EXPECT_THAT(faults(std::string(kStart) + "checkers: {a: {}}\nsimplify: fast\n"
+                                           "planners: [{name: RRT, simplify: omlp}]\n"),
+              ElementsAre("c.yaml:4: simplify: one of true, false, ompl is needed, not \"fast\"",
+                          "c.yaml:5: planners[].simplify: one of true, false, ompl is needed, not "
+                          "\"omlp\" (did you mean \"ompl\"?)"));
 }
 
 TEST_F(CampaignYaml, MemoryHasARange) {

@@ -310,14 +310,17 @@ TEST_F(Report, FoldsThePlotsOfManyProblems) {
 }
 
 TEST_F(Report, DescribesTheMeasurement) {
-  campaign_.planners = {{"short", "RRT", {{{"range", "0.2"}}}}, {"KPIECE1", "KPIECE1", {}}};
-  campaign_.simplify = false;
+  campaign_.planners = {{"short", "RRT", {{{"range", "0.2"}}}},
+                        {"KPIECE1", "KPIECE1", {}},
+                        {"by OMPL", "RRT", {{}}, Simplifier::ompl}};
+  campaign_.simplify = Simplifier::none;
   writeReport(campaign_, cells_, folder_, {{"2026-05-04 03:02:01", "abc", 2, 60}});
   const std::string text = test::contents(folder_ / "report.html");
   for (const char* said :
        {"session of 2026-05-04 03:02:01 UTC</td><td>60 runs, 2 at a time, by commit abc<",
         "planner “short”</td><td>RRT, range: 0.2<", "OMPL 1.5.2", "simplified</td><td>no<",
-        "planner “KPIECE1”</td><td>KPIECE1, with the problem’s parameters"})
+        "planner “KPIECE1”</td><td>KPIECE1, with the problem’s parameters",
+        "RRT, with OMPL’s defaults; simplified: by OMPL’s simplifier<"})
     EXPECT_THAT(text, HasSubstr(said));
 }
 

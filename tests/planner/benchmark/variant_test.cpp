@@ -21,7 +21,7 @@ std::string complaintOf(const std::string& text,
   return "";
 }
 
-CheckerSettings specOf(const Variant& variant) {
+CheckerSettings settingsOf(const Variant& variant) {
   CheckerSettings checker;
   variant.apply(checker);
   return checker;
@@ -54,8 +54,8 @@ TEST(Variant, WithoutAKnobTheProblemsValueStays) {
 
 TEST(Variant, EveryEdgeMethodIsAVariant) {
   for (const std::string& edges : problemChoices().at("checker.edges")) {
-    EXPECT_EQ(wordOf(specOf(readVariant(edges)).edges), edges);
-    const CheckerSettings checker = specOf(readVariant(edges + ":0.001"));
+    EXPECT_EQ(wordOf(settingsOf(readVariant(edges)).edges), edges);
+    const CheckerSettings checker = settingsOf(readVariant(edges + ":0.001"));
     EXPECT_EQ(edges == "discrete" ? checker.resolution : checker.tolerance.value_or(0), 0.001);
   }
 }
@@ -63,8 +63,8 @@ TEST(Variant, EveryEdgeMethodIsAVariant) {
 TEST(Variant, CompetitorsSampleEdges) {
   const std::vector<BenchmarkCompetitor> competitors{{"other", {}}};
   const Variant variant = readVariant("other:0.1", competitors);
-  EXPECT_EQ(specOf(variant).edges, EdgeCheck::discrete);
-  EXPECT_EQ(specOf(variant).resolution, 0.1);
+  EXPECT_EQ(settingsOf(variant).edges, EdgeCheck::discrete);
+  EXPECT_EQ(settingsOf(variant).resolution, 0.1);
   ASSERT_TRUE(variant.competitor);
   EXPECT_EQ(variant.competitor->name, "other");
   EXPECT_FALSE(readVariant("discrete:0.1", competitors).competitor);

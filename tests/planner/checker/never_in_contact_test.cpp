@@ -86,8 +86,9 @@ TEST(NeverInContact, ProvesAnArmThatJustMissesItself) {
 }
 
 TEST(NeverInContact, NeverProvesAnArmThatJustTouchesItself) {
-  // The balls overlap by 0.1 mm, in a tiny region at each limit of the elbow. The middles of boxes,
-  // tested breadth first, may or may not meet this region before the work limit.
+  // The balls overlap by 0.1 mm, in a tiny region of joint values at each limit of the elbow. The
+  // middles of boxes of joint values, tested breadth first, may or may not meet this region before
+  // the work limit.
   const NeverInContactResult result =
       prove(planarArm(kElbow, kTouching + 0.5e-4), "base", "hand", {.boxes = 20000});
   EXPECT_NE(result.verdict, Verdict::proved);

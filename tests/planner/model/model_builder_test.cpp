@@ -72,7 +72,7 @@ TEST(ModelBuilder, MakesWhatTheReaderMakes) {
     EXPECT_EQ(model.bodies[i].frame, read.bodies[i].frame);
   }
   EXPECT_EQ(testedPairs(model), testedPairs(read));
-  // The tested pairs must be all pairs except those of two obstacles, in ascending order, and none
+  // `forEachPair` must visit all pairs except those of two obstacles, in ascending order, and none
   // twice.
   Pairs all, expected;
   forEachPair(model, [&](std::size_t a, std::size_t b, std::string_view why) {

@@ -39,7 +39,7 @@ TEST_F(NeverInContactPairs, AreTestedBeyondTheProof) {
   }
 }
 
-/// Pairs with another reason, too, are never tested.
+/// Pairs that are excluded for another reason, too, are never tested.
 TEST_F(NeverInContactPairs, OtherReasonsStay) {
   const Problem p = readWith("[[base, lower], [base, upper], [upper, finger]]",
                              "margin: 0.05\nallow: [[upper, "

@@ -132,7 +132,7 @@ TEST_F(ProblemFaults, WrongTypes) {
   EXPECT_EQ(with("planner: {params: {range: [1]}}\n"),
             "problem.yaml:8: planner.params.range: a word is needed, not a list");
   EXPECT_EQ(with("simplify: yes\n"),
-            "problem.yaml:8: simplify: true or false is needed, not \"yes\"");
+            "problem.yaml:8: simplify: one of true, false, ompl is needed, not \"yes\"");
   EXPECT_EQ(with("seed: -1\n"),
             "problem.yaml:8: seed: a whole number from 0 to 2^64 - 1 is needed, not \"-1\"");
   EXPECT_EQ(with("seed: 1.5\n"),

@@ -78,7 +78,7 @@ TEST_F(ProblemYaml, EveryKeyIsRead) {
   EXPECT_EQ(p.settings.planner.params,
             (std::map<std::string, std::string>{{"range", "0.6"}, {"goal_bias", "0.1"}}));
   EXPECT_EQ(p.settings.sampler, ValidSampler::gaussian);
-  EXPECT_FALSE(p.settings.simplify);
+  EXPECT_EQ(p.settings.simplify, Simplifier::none);
   EXPECT_EQ(p.settings.checker.edges, EdgeCheck::discrete);
   EXPECT_EQ(p.settings.checker.resolution, 0.02);
   EXPECT_EQ(p.settings.checker.tolerance, 1e-5);
@@ -105,7 +105,7 @@ TEST_F(ProblemYaml, Defaults) {
   EXPECT_EQ(p.task.margin, 0);
   EXPECT_EQ(p.task.tube.head(3), Vec3::Constant(0x1p-40 * 5)) << "of the longest range";
   EXPECT_EQ(p.task.tube[3], 0x1p-40 * 2 * std::numbers::pi);
-  EXPECT_TRUE(p.settings.simplify);
+  EXPECT_EQ(p.settings.simplify, Simplifier::corridor);
   EXPECT_EQ(p.settings.seed, 1u);
   // The weight is per radian of the quaternion's angle, half the rotation angle. So a weight of 1
   // is half a metre per radian of rotation.

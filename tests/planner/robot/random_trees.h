@@ -30,8 +30,8 @@ class RandomTrees {
   ConfigurationSpace space;
   Configuration from, to;
 
-  /// A tree of up to `joints` joints, each of one or more degrees of freedom. Its base is at most
-  /// `far` from the world's origin.
+  /// A tree of up to `joints` joints, each of one or more degrees of freedom. Each coordinate of
+  /// its base, in the world, is between -far and far, metres.
   void makeTree(std::size_t joints, double far = 1) {
     tree = {};
     space = {};

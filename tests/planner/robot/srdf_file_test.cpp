@@ -247,7 +247,7 @@ TEST_F(SrdfFile, StatesThatCannotBeMade) {
 r.srdf:3: state "s": joint "left1": joint value: a number is needed, not "x"
 r.srdf:4: state "t": joint "left2": <joint> has no value
 r.srdf:5: state "u": joint "base": joint value: 3 numbers are needed, not "1"
-r.srdf:7: state "v" is already defined on line 6; that definition is ignored
+r.srdf:7: state "v" is already defined on line 6; this definition replaces it, as in MoveIt
 r.srdf:11: state "home" names the group "f", which the SRDF lacks; its values are taken as they are
 r.srdf:12: there is already a state "e/home"; this definition is ignored
 r.srdf:9: 1 value of a state is left out, because the URDF lacks left9 (did you mean "left1"?)
@@ -267,8 +267,8 @@ r.srdf:9: 1 value of a state is left out, because the URDF lacks left9 (did you 
                         "needed, not \"1\""),
           testing::Pair("w", "r.srdf:8: state \"w\" has no value"),
           testing::Pair("x",
-                        "r.srdf:9: state \"x\" has no value of this robot: the URDF lacks "
-                        "left9")));
+                        "r.srdf:9: state \"x\" gives no joint of this robot a value: the URDF "
+                        "lacks left9")));
   EXPECT_EQ(model_.states.at("v").values.at("left1"), 2) << "the last one counts, as in MoveIt";
   EXPECT_EQ(model_.states.at("e/home").values.at("left1"), 0);
 }

@@ -232,6 +232,30 @@ TEST_F(UrdfFile, MeshesAreFoundInPackagesBesideAndAbove) {
   ASSERT_EQ(model.links[0].shapes.size(), 5u);
 }
 
+TEST_F(UrdfFile, PackagesBesideAFolderAboveOrOfAnotherName) {
+  const std::string wedge = "v 0 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n";
+  write("src/hand/meshes/a.obj", wedge);
+  write("src/clone/meshes/b.obj", wedge);
+  write("src/clone/urdf/r.urdf",
+        "<robot name=\"r\">" +
+            link("a", collision("<mesh filename=\"package://hand/meshes/a.obj\"/>") +
+                          collision("<mesh filename=\"package://arm/meshes/b.obj\"/>")) +
+            "</robot>");
+  std::vector<Fault> faults;
+  const auto model = readUrdf(folder_ / "src/clone/urdf/r.urdf", {}, faults, files_);
+  ASSERT_TRUE(model) << faults.front().str();
+  EXPECT_EQ(files_,
+            (std::vector{folder_ / "src/clone/urdf/r.urdf", folder_ / "src/hand/meshes/a.obj",
+                         folder_ / "src/clone/meshes/b.obj"}));
+  ASSERT_EQ(model->notes.size(), 1u);
+  EXPECT_THAT(
+      model->notes[0].text,
+      testing::EndsWith(
+          "package \"arm\" has no folder of this name; " + (folder_ / "src/clone").string() +
+          ", which contains the meshes and the URDF, is used (packages: in robot.yaml "
+          "names another one)"));
+}
+
 /// Sets an environment variable during its lifetime. No other thread runs.
 class WithVariable {
  public:

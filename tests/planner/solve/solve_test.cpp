@@ -75,6 +75,37 @@ TEST_P(Spaces, SameSeedSamePathAnotherSeedAnother) {
   EXPECT_NE(first, bits());
 }
 
+/// Each simplifier returns a path that is proved, and no longer than the planner's own.
+TEST_P(Spaces, Simplifiers) {
+  Problem problem = hallProblem(GetParam());
+  double raw = 0;
+  for (const Simplifier simplifier : {Simplifier::none, Simplifier::corridor, Simplifier::ompl}) {
+    problem.settings.simplify = simplifier;
+    const SolveReport report = solveProblem(problem);
+    ASSERT_EQ(report.outcome, SolveOutcome::solved) << report.why;
+    EXPECT_TRUE(report.certified);
+    EXPECT_TRUE(report.repeats);
+    EXPECT_EQ(report.version > 0, simplifier != Simplifier::none);
+    if (simplifier == Simplifier::none) raw = report.length.metres;
+    EXPECT_LE(report.length.metres, raw * (simplifier == Simplifier::none ? 1 : 0.99))
+        << wordOf(simplifier);
+    EXPECT_EQ(verifySolution(problem, makeSolution(problem, report)).verdict, PathVerdict::proved);
+  }
+}
+
+/// A planner that uses all its time ends by the clock, so another run may find another path.
+TEST_P(Spaces, APathThatDependsOnTheClockDoesNotRepeat) {
+  Problem problem = hallProblem(GetParam());
+  problem.settings.planner.name = "RRTstar";
+  for (const bool first : {true, false}) {
+    problem.settings.planner.stopAtFirst = first;
+    problem.settings.planner.time = first ? 20 : 0.5;
+    const SolveReport report = solveProblem(problem);
+    if (first) ASSERT_EQ(report.outcome, SolveOutcome::solved) << report.why;
+    EXPECT_EQ(report.repeats, first);
+  }
+}
+
 TEST_P(Spaces, GoalRegion) {
   Problem problem = hallProblem(GetParam());
   problem.task.goalRegion = GoalRegion{0.3, 0.2, 0};
@@ -415,7 +446,7 @@ TEST(Arm, EveryKindOfPlannerSolvesCertifiedAndVerified) {
 
 TEST(Arm, DefaultRangeIsAShareOfARevolution) {
   Problem problem = armProblem();
-  problem.settings.simplify = false;
+  problem.settings.simplify = Simplifier::none;
   problem.settings.planner.stopAtFirst = true;
   const auto path = [&](const char* range) {
     problem.settings.planner.params.clear();

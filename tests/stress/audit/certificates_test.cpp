@@ -20,8 +20,8 @@ constexpr EdgeMethod kMethods[] = {EdgeMethod::directional, EdgeMethod::adaptive
                                    EdgeMethod::advancement};
 
 /// If the bodies come closer than the margin, a certificate must be refused, whatever clearance it
-/// claims. (`checkCertificate` proves the margin plus half of the claim beyond it.) At least nine
-/// in ten certificates that the query returns for free edges must be accepted.
+/// claims. (`checkCertificate` proves only the distance margin + (clearance − margin)/2.) At least
+/// nine in ten certificates that the query returns for free edges must be accepted.
 TEST(Certificates, AcceptedImpliesTheMarginIsKept) {
   const std::uint64_t seed = test::testSeed(5);
   const long count = countOf(500, 50'000);

@@ -93,7 +93,8 @@ int main(int count, char** arguments) {
     }
   }
   if (inputs.empty()) {
-    std::cerr << "fuzz target: name files of inputs, or folders of them\n";
+    std::cerr << "usage: fuzz_TARGET [--mutations N] [--longest SECONDS] FILE|FOLDER…: at least "
+                 "one input file is needed\n";
     return 2;
   }
   const auto kept = std::filesystem::temp_directory_path() / "input";

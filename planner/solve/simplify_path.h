@@ -1,0 +1,33 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "planner/solve/finish_path.h"
+
+namespace corridor {
+
+/// Returns whether the edge between two configurations is free.
+using EdgeTest = std::function<bool(const Configuration& from, const Configuration& to)>;
+
+/// Shortens a path by shortcuts: edges between two places of the path that are shorter than the
+/// part of the path between them. Lengths are distances of the space.
+///
+/// Edge tests are the cost of simplifying, so no edge is tested twice, and few edges are tested:
+/// 1. From the whole path downwards, a part of the path is replaced by one edge if this edge is
+///    free. Otherwise both halves of the part are tried.
+/// 2. Up to three rounds try shortcuts over halves, quarters, … of the path, and then shortcuts
+///    across its corners. The corner with the largest gain is next. A shortcut across a corner
+///    first takes the whole shorter edge at this corner; each time it fails, it is halved. A
+///    shortcut that gains less than a thousandth of the length is not tried.
+/// 3. States are removed where the edge between their neighbours is free.
+///
+/// Returns the versions of the path, from the path itself to the shortest, so that an earlier
+/// version can be used if a later one can't be certified. The first and the last state stay. The
+/// result depends on the arguments only, as long as `stop` returns false; no random numbers are
+/// used. If `stop` returns true, no further edge is tested.
+/// @pre the path is not empty, and its edges are free.
+std::vector<Path> simplifiedVersions(const ConfigurationSpace& space, const Path& path,
+                                     const EdgeTest& isFree, const std::function<bool()>& stop);
+
+}  // namespace corridor
