@@ -42,7 +42,7 @@ class Mesh:
             for a, b in ((t[0], t[1]), (t[1], t[2]), (t[2], t[0])):
                 key, sign = ((a, b), 1) if a < b else ((b, a), -1)
                 balance[key] = balance.get(key, 0) + sign
-        assert not any(balance.values()), 'the mesh has a hole'
+        assert not any(balance.values()), 'the mesh has a hole, or a triangle faces the wrong way'
         assert self.volume() > 0, 'the mesh is inside out'
 
     def volume(self):

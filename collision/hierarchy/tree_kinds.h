@@ -35,7 +35,8 @@ struct VolumeKind {
 /// Returns all kinds of bounding volume, the default first.
 const std::vector<VolumeKind>& volumeKinds();
 
-/// Reports whether a kind has its volume's first overlap test. Distance queries require this.
+/// Reports whether a kind has its volume's default overlap test, the first in
+/// `VolumeKind::overlaps`. Distance queries require this.
 bool hasDefaultOverlap(TreeKind trees);
 
 /// The words by which users choose trees. An empty word stands for the default.

@@ -71,7 +71,7 @@ std::vector<std::string> wordsOf(const std::string& option, const std::vector<st
 /// Returns the competitors that are available. Their modules are opened only if a variant names a
 /// competitor or something unknown. @throws InputError if a variant names a competitor that is not
 /// available.
-std::vector<BenchmarkCompetitor> peersOf(const std::vector<std::string>& variants) {
+std::vector<BenchmarkCompetitor> competitorsOf(const std::vector<std::string>& variants) {
   const std::vector<std::string>& edges = problemChoices().at("checker.edges");
   bool needed = false;
   for (const std::string& word : variants) {
@@ -92,11 +92,11 @@ Campaign campaignOfProblems(const BenchmarkArguments& a) {
   FaultList faults;
   std::vector<std::string> variants = wordsOf("--variants", a.variants);
   if (variants.empty()) variants = {"certified", "discrete:0.01"};
-  std::vector<BenchmarkCompetitor> peers;
-  faults.collect([&] { peers = peersOf(variants); });
+  std::vector<BenchmarkCompetitor> competitors;
+  faults.collect([&] { competitors = competitorsOf(variants); });
   faults.throwIfAny();
   for (const std::string& word : variants)
-    faults.collect([&] { campaign.variants.push_back(readVariant(word, peers)); });
+    faults.collect([&] { campaign.variants.push_back(readVariant(word, competitors)); });
   for (const std::string& file : a.files) {
     faults.collect([&] {
       for (const std::string& problem : problemsOf(file))

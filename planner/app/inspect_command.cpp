@@ -187,14 +187,14 @@ int inspectFile(const InspectArguments& a, bool inFolder) {
                 "needs two meshes, and " + a.file + " is a " + (robot ? "robot" : "problem")});
   }
   const std::string kind = robot ? "robot" : problem ? "problem" : "mesh";
-  const auto isOf = [&](const char* option, bool given, const std::string& what) {
+  const auto requireKind = [&](const char* option, bool given, const std::string& what) {
     if (given && kind != what)
       throw InputError(Fault{option, 0, "needs a " + what + ", and " + a.file + " is a " + kind});
   };
-  isOf("--pairs", a.pairs, "problem");
-  isOf("--unit", a.unit.has_value(), "mesh");
-  isOf("--up", a.up.has_value(), "mesh");
-  isOf("--self-intersections", a.selfIntersections, "mesh");
+  requireKind("--pairs", a.pairs, "problem");
+  requireKind("--unit", a.unit.has_value(), "mesh");
+  requireKind("--up", a.up.has_value(), "mesh");
+  requireKind("--self-intersections", a.selfIntersections, "mesh");
   if (a.against && a.selfIntersections)
     throw InputError(Fault{"--self-intersections", 0, "can't be used with --against"});
   if (a.against) return inspectCost(a);
@@ -202,10 +202,10 @@ int inspectFile(const InspectArguments& a, bool inFolder) {
 }
 
 int inspectCommand(const InspectArguments& a) {
-  InspectArguments of = a;
+  InspectArguments resolved = a;
   const std::string robot = robotInFolder(a.file);
-  if (!robot.empty()) of.file = robot;
-  return inspectFile(of, !robot.empty());
+  if (!robot.empty()) resolved.file = robot;
+  return inspectFile(resolved, !robot.empty());
 }
 
 }  // namespace

@@ -141,7 +141,7 @@ int inspectCost(const InspectArguments& a) {
   const std::vector<Transform> asked = withFarPoses(poses, meshA.mesh, meshB.mesh);
   std::vector<BatchResult> results;
   for (const VolumeKind& volume : volumeKinds())
-    results.push_back(runPoses({meshA.mesh, meshB.mesh, asked, Asked::interference,
+    results.push_back(runPoses({meshA.mesh, meshB.mesh, asked, QueryKind::interference,
                                 treesNamed({volume.name, "", ""}), 0, kPasses}));
   // If the first test decides a query, the query's time is the cost of a call, not of tests. So its
   // pose is left out. All volumes are compared at the same poses: those at which the root boxes of

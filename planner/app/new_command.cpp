@@ -115,7 +115,7 @@ void addNewRobot(CLI::App& parent, int& status) {
   command->add_option("--srdf", a.srdf,
                       "its SRDF: groups, named states, and pairs of links that may touch");
   addFileOptions(*command, a.file);
-  const char* reading = "How the URDF is read (each is written to the file)";
+  const char* reading = "How the URDF is read (the file gets a key for each of these options)";
   command->add_option("--package", a.packages, "NAME=FOLDER of package://NAME/…; may be repeated")
       ->allow_extra_args(false)
       ->group(reading);
@@ -142,7 +142,7 @@ void addNewRobot(CLI::App& parent, int& status) {
       ->group(pairs);
   command
       ->add_option("--beyond-limits", a.beyondLimits,
-                   "a proof also covers joint values that are by this beyond a limit, in rad or m: "
+                   "a proof also covers joint values beyond a limit, up to this far (rad or m): "
                    "use the largest tube of your problems (default 0.01)")
       ->check(isLength())
       ->group(pairs);

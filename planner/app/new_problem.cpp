@@ -71,7 +71,8 @@ std::string pointText(const Vec3& p, std::size_t count) {
   return text + "]";
 }
 
-/// Returns the pose of a planar or floating joint as `at: …`, with its rotation.
+/// Returns the pose of a planar or floating joint as `at: …`, and `yaw: …` for a planar joint. The
+/// rotation of a floating joint is the identity in all states here, so it is left out.
 std::string poseText(const Configuration& q, std::size_t first, bool planar) {
   const auto i = static_cast<Eigen::Index>(first);
   if (planar) return "at: " + pointText({q[i], q[i + 1], 0}, 2) + ", yaw: " + shortest(q[i + 2]);
@@ -109,7 +110,8 @@ std::optional<Configuration> configurationOf(const Model& model, const NamedStat
   return q;
 }
 
-/// Returns whether a problem may name the state: it gives no other value to a joint that is held.
+/// Returns whether a problem may refer to the state by its name: each held joint that the state
+/// names has the held value there.
 bool holdsAgree(const ModelRobot& robot, const NamedState& state) {
   return std::all_of(state.values.begin(), state.values.end(), [&](const auto& value) {
     const auto j = findJoint(robot.description, value.first);
@@ -139,7 +141,7 @@ class StateFinder {
   bool isNew(const Configuration& q) const {
     return std::none_of(found_.begin(), found_.end(),
                         [&](const FoundState& f) { return model_.space.equal(f.q, q); }) &&
-           checker_.certifiedState(q);
+           checker_.isProvedFree(q);
   }
 
   void addNamed() {
@@ -180,7 +182,7 @@ class StateFinder {
     q = (q * 1000).array().round() / 1000;
     if (!isNew(q)) return;
     FoundState state{q, stateText(model_, q), "a random valid state"};
-    if (found_.empty() || checker_.certifiedEdge(found_.front().q, q))
+    if (found_.empty() || checker_.isProvedFree(found_.front().q, q))
       found_.push_back(std::move(state));
     else if (!spare_)
       spare_ = std::move(state);
@@ -189,7 +191,7 @@ class StateFinder {
   void add(const Configuration& q, const std::string& origin) {
     if (!isNew(q)) return;
     FoundState state{q, stateText(model_, q), origin};
-    if (found_.empty() || checker_.certifiedEdge(found_.front().q, q))
+    if (found_.empty() || checker_.isProvedFree(found_.front().q, q))
       found_.push_back(std::move(state));
   }
 
@@ -239,7 +241,7 @@ std::vector<FoundState> rigidStates(const Alone& alone, const Checker& checker) 
     Configuration q = Configuration::Zero(static_cast<Eigen::Index>(alone.model.space.size()));
     q[0] = x;
     if (alone.model.robots.front().description.mount == JointType::floating) q[6] = 1;
-    if (checker.certifiedState(q)) found.push_back({q, stateText(alone.model, q), "an example"});
+    if (checker.isProvedFree(q)) found.push_back({q, stateText(alone.model, q), "an example"});
   }
   return found;
 }
@@ -283,7 +285,8 @@ int newProblem(const NewProblemArguments& a) {
     const Configuration q = randomConfiguration(alone.model.space, [] { return ~0ull >> 1; });
     return comment(std::string("NOT VALID: no ") + (i ? "other " : "") + "valid state was found" +
                    (rigid ? ""
-                          : " among the named states, the state with every joint at 0, and " +
+                          : " among the named states, the states with every joint near 0 and in "
+                            "the middle of its limits, and " +
                                 std::to_string(kRandomStates) + " random states") +
                    ". corridor check names the links that touch.") +
            key + ": " + stateText(alone.model, q) + "\n";

@@ -236,14 +236,15 @@ std::string testedText(const NewRobotArguments& a, const Model& model,
       undecided.push_back(&pair);
     else
       ++others;
-  std::string text = comment("Tested: " + counted(tested.size(), "pair") +
-                                 ". In contact in some of " + counted(a.samples, "random state") +
-                                 ": " + grouped(inContact) + ". Closer than " + shortest(a.margin) +
-                                 " m at some joint values: " + grouped(close) +
-                                 ". Without bounds, or not tried: " + grouped(others) +
-                                 ". Not decided within --work " + std::to_string(a.work) + ": " +
-                                 grouped(undecided.size()) + (undecided.empty() ? "." : ":"),
-                             2);
+  std::string text = comment(
+      "Tested: " + counted(tested.size(), "pair") + ". In contact in some of " +
+          counted(a.samples, "random state") + ": " + grouped(inContact) + ". Closer than " +
+          shortest(a.margin) + " m at some joint values: " + grouped(close) +
+          ". No proof possible (such as a joint without limits, a planar or "
+          "floating joint, a solid mesh), or none tried: " +
+          grouped(others) + ". Not decided within --work " + std::to_string(a.work) + ": " +
+          grouped(undecided.size()) + (undecided.empty() ? "." : ":"),
+      2);
   for (const SurveyedPair* pair : undecided) text += "  # - " + pairText(model, *pair) + "\n";
   return text;
 }
@@ -260,10 +261,10 @@ std::string pairsText(const NewRobotArguments& a, const Model& model, const Pair
     text +=
         "never_in_contact:\n" +
         comment(counted(pairs.proved.size(), "pair") +
-                    " proved: for all joint values within the limits, and beyond_limits (rad or "
-                    "m) beyond them, the two links keep the margin (m). Problems with a larger "
-                    "margin or tube test these pairs. If the URDF, a mesh or a key above changes, "
-                    "write this file again.",
+                    " proved: the two links keep the margin (m) for all joint values within the "
+                    "limits, where each limit is extended by beyond_limits (rad or m). Problems "
+                    "with a larger margin or tube test these pairs. If the URDF, a mesh or a key "
+                    "above changes, write this file again.",
                 2) +
         "  margin: " + shortest(a.margin) + "\n  beyond_limits: " + shortest(a.beyondLimits) +
         "\n  pairs:\n";
@@ -272,8 +273,9 @@ std::string pairsText(const NewRobotArguments& a, const Model& model, const Pair
   if (!pairs.always.empty()) {
     text += comment("DECIDE: " + counted(pairs.always.size(), "pair") + " in contact in all of " +
                     counted(a.samples, "random state") +
-                    ", so that no state may ever be valid. If the shapes overlap by design, "
-                    "remove the # of allow and of these pairs; if not, correct the URDF.");
+                    ". While these pairs are tested, probably no state is valid. If the shapes "
+                    "overlap by design, remove the # of allow and of these pairs; if not, correct "
+                    "the URDF.");
     text += "# allow:\n";
     for (const SurveyedPair& pair : pairs.always) text += "#   - " + pairText(model, pair) + "\n";
   }
@@ -328,7 +330,8 @@ int newRobot(const NewRobotArguments& a) {
                         grouped(pairs.always.size()) + " in contact in all random states, " +
                         grouped(pairs.tested.size()) + " others");
   if (!pairs.always.empty())
-    out.line("decide", "the pairs that are marked DECIDE in the file: no state may ever be valid",
+    out.line("decide",
+             "the pairs that are marked DECIDE in the file; until then probably no state is valid",
              Tone::bad);
   if (!pairs.contradicted.empty())
     out.line("check",

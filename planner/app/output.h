@@ -79,8 +79,9 @@ Vec3 rpyDegrees(const Mat3& R);
 std::string poseText(const RigidPose& pose);
 nlohmann::ordered_json poseJson(const RigidPose& pose);  ///< position, quat_xyzw
 /// Returns a path's length: "2 m, turning 3 rad" if the space has a planar or floating joint, else
-/// "2 m, 3 rad". Leaves out metres or radians if no coordinate of the space has that unit. The text
-/// ends with "(sum over the joints)", or "bodies", if the space has several of them (summands()).
+/// "2 m, 3 rad". Leaves out metres or radians if no coordinate of the space has that unit. If the
+/// space has more than one joint or body, the text ends with the result of summands(): "(sum over
+/// the joints)", "(sum over the bodies)" or "(sum over joints and bodies)".
 std::string lengthText(const ConfigurationSpace& space, double metres, double radians);
 /// Returns "1e-12 m, 6e-12 rad": the largest half width of a tube in lengths and in angles. Leaves
 /// out the unit that no coordinate of the space has.

@@ -112,7 +112,8 @@ void addPose(CLI::App& program, int& status) {
       ->required();
   command->add_option("--state", a.state,
                       "a named state, or joint values such as \"pan: 0.3, lift_deg: 20\"; joints "
-                      "without a value are at 0, or where the robot's file holds them");
+                      "without a value are where the robot's file holds them, or else at 0 or at "
+                      "the limit nearest to 0");
   command->add_option("--link", a.links, "print only this link; may be repeated")
       ->allow_extra_args(false);
   addJson(*command, a.json);

@@ -66,14 +66,14 @@ BatchResult runOn(const Batch& batch, const Make& make) {
   result.buildMsB = millisecondsSince(start);
   result.bytesA = a.bytes();
   result.bytesB = b.bytes();
-  switch (batch.asked) {
-    case Asked::interference:
+  switch (batch.kind) {
+    case QueryKind::interference:
       result.answers =
           timed(batch.poses.size(), batch.repeat, [&](std::size_t i, QueryContext& context) {
             return interference<Overlap>(Posed(a), Posed(b, batch.poses[i]), context).has_value();
           });
       break;
-    case Asked::distance:
+    case QueryKind::distance:
       result.distances.resize(batch.poses.size());
       result.answers =
           timed(batch.poses.size(), batch.repeat, [&](std::size_t i, QueryContext& context) {
@@ -81,13 +81,13 @@ BatchResult runOn(const Batch& batch, const Make& make) {
             return result.distances[i].distance == 0;
           });
       break;
-    case Asked::tolerance:
+    case QueryKind::tolerance:
       result.answers =
           timed(batch.poses.size(), batch.repeat, [&](std::size_t i, QueryContext& context) {
             return closerThan(Posed(a), Posed(b, batch.poses[i]), batch.tolerance, context);
           });
       break;
-    case Asked::contacts: {
+    case QueryKind::contacts: {
       std::vector<std::vector<TriangleContact>> found(batch.poses.size());
       result.answers =
           timed(batch.poses.size(), batch.repeat, [&](std::size_t i, QueryContext& context) {
@@ -172,17 +172,17 @@ BatchResult runMotions(TriangleMesh meshA, TriangleMesh meshB,
   return result;
 }
 
-bool testsOverlap(Asked asked) {
-  return asked == Asked::interference || asked == Asked::contacts;
+bool testsOverlap(QueryKind kind) {
+  return kind == QueryKind::interference || kind == QueryKind::contacts;
 }
 
-const std::vector<QueryKind>& queryKinds() {
-  static const std::vector<QueryKind> kinds = {
-      {"interference", Asked::interference, "pose,hit,bv_tests,triangle_tests"},
-      {"contacts", Asked::contacts, "pose,a,b,px,py,pz,qx,qy,qz"},
-      {"distance", Asked::distance, "pose,distance,ax,ay,az,bx,by,bz"},
-      {"tolerance", Asked::tolerance, "pose,closer"}};
-  return kinds;
+const std::vector<NamedQuery>& namedQueries() {
+  static const std::vector<NamedQuery> queries = {
+      {"interference", QueryKind::interference, "pose,hit,bv_tests,triangle_tests"},
+      {"contacts", QueryKind::contacts, "pose,a,b,px,py,pz,qx,qy,qz"},
+      {"distance", QueryKind::distance, "pose,distance,ax,ay,az,bx,by,bz"},
+      {"tolerance", QueryKind::tolerance, "pose,closer"}};
+  return queries;
 }
 
 }  // namespace corridor::app

@@ -17,24 +17,25 @@
 namespace corridor::app {
 
 /// The kind of query that is run at every pose.
-enum class Asked { interference, contacts, distance, tolerance };
+enum class QueryKind { interference, contacts, distance, tolerance };
 /// Returns true if the query tests whether volumes overlap, so that the choice of an overlap test
 /// matters. The other queries compute how far volumes are apart.
-bool testsOverlap(Asked asked);
-struct QueryKind {
+bool testsOverlap(QueryKind kind);
+/// A kind of query, as users choose it and as its results are printed.
+struct NamedQuery {
   std::string name;
-  Asked asked;
+  QueryKind kind;
   std::string header;  ///< the first line of its CSV
 };
-const std::vector<QueryKind>& queryKinds();
+const std::vector<NamedQuery>& namedQueries();
 
 /// One query of two meshes at many poses of b, with a at the identity.
 struct Batch {
   const TriangleMesh &a, &b;
   const std::vector<Transform>& poses;
-  Asked asked = Asked::interference;
+  QueryKind kind = QueryKind::interference;
   TreeChoice trees;
-  double tolerance = 0;  ///< metres, for `Asked::tolerance` only
+  double tolerance = 0;  ///< metres, for `QueryKind::tolerance` only
   int repeat = 1;        ///< passes over all poses
 };
 
@@ -57,8 +58,8 @@ struct MotionAnswer {
 };
 struct BatchResult {
   std::vector<Answer> answers;  ///< per pose or motion; hit: contact, or closer than the tolerance
-  std::vector<Distance> distances;    ///< per pose, only for `Asked::distance`
-  std::vector<ContactRow> contacts;   ///< only for `Asked::contacts`
+  std::vector<Distance> distances;    ///< per pose, only for `QueryKind::distance`
+  std::vector<ContactRow> contacts;   ///< only for `QueryKind::contacts`
   std::vector<MotionAnswer> motions;  ///< per motion
   double tolerance = 0;               ///< metres, for motions: the tolerance used
   double buildMsA = 0, buildMsB = 0;

@@ -40,12 +40,12 @@ constexpr std::uint64_t kMostQueries = 1'000'000'000;
 
 /// Returns the query of this name, or the first if no name is given.
 /// @throws InputError for an unknown name; it lists the names.
-const QueryKind& queryNamed(const std::optional<std::string>& name) {
-  if (!name) return queryKinds().front();
+const NamedQuery& queryNamed(const std::optional<std::string>& name) {
+  if (!name) return namedQueries().front();
   std::vector<std::string> names;
-  for (const QueryKind& kind : queryKinds()) {
-    if (kind.name == *name) return kind;
-    names.push_back(kind.name);
+  for (const NamedQuery& query : namedQueries()) {
+    if (query.name == *name) return query;
+    names.push_back(query.name);
   }
   throw InputError(Fault{"--query", 0,
                          "unknown query " + quotedWord(*name) + didYouMean(*name, names) +
@@ -159,23 +159,22 @@ int queryCommand(const QueryArguments& a) {
   checkOptions(a);
   requireWritable(a.savePoses, "--save-poses");
   if (a.motions) return queryMotions(a);
-  const QueryKind& query = queryNamed(a.query);
+  const NamedQuery& query = queryNamed(a.query);
   const TreeNames trees = chosenTrees(a);
-  if (query.asked == Asked::tolerance && !a.tolerance)
+  if (query.kind == QueryKind::tolerance && !a.tolerance)
     throw InputError(
         Fault{"--tolerance", 0, "is needed with --query tolerance: a distance in metres"});
-  if (query.asked != Asked::tolerance && a.tolerance)
+  if (query.kind != QueryKind::tolerance && a.tolerance)
     throw InputError(Fault{"--tolerance", 0, "needs --query tolerance or --motions"});
-  if (!testsOverlap(query.asked))
+  if (!testsOverlap(query.kind))
     requireDefaultOverlap(trees, "--query interference or contacts", query.name);
   const MeshFile meshA = readMeshFile(a.meshA), meshB = readMeshFile(a.meshB);
   const std::vector<Transform> poses = posesOf(a, meshA.mesh, meshB.mesh);
   checkRepeats(a, poses.size(), "pose");
   requireNotAnInput(a.savePoses, "--save-poses", {a.meshA, a.meshB}, "the query");
   if (a.savePoses) writePoses(*a.savePoses, poses);
-  const BatchResult result =
-      runPoses({meshA.mesh, meshB.mesh, poses, query.asked, treesNamed(trees),
-                a.tolerance.value_or(0), static_cast<int>(a.repeat)});
+  const BatchResult result = runPoses({meshA.mesh, meshB.mesh, poses, query.kind, treesNamed(trees),
+                                       a.tolerance.value_or(0), static_cast<int>(a.repeat)});
   printCsv(query, result);
   const auto hits = std::count_if(result.answers.begin(), result.answers.end(),
                                   [](const Answer& answer) { return answer.hit; });
@@ -261,7 +260,7 @@ void addQuery(CLI::App& program, int& status) {
   };
   command
       ->add_option("--query", a.query,
-                   "the query; the first is the default: " + named(queryKinds()))
+                   "the query; the first is the default: " + named(namedQueries()))
       ->group(asked);
   command
       ->add_option("--volume", a.volume,

@@ -10,16 +10,16 @@
 
 namespace corridor::app {
 
-void printCsv(const QueryKind& kind, const BatchResult& result) {
-  std::string text = kind.header + "\n";
+void printCsv(const NamedQuery& query, const BatchResult& result) {
+  std::string text = query.header + "\n";
   char line[256];
-  if (kind.asked == Asked::contacts) {
+  if (query.kind == QueryKind::contacts) {
     for (const ContactRow& c : result.contacts) {
       std::snprintf(line, sizeof line, "%zu,%u,%u,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n", c.pose,
                     c.a, c.b, c.p.x(), c.p.y(), c.p.z(), c.q.x(), c.q.y(), c.q.z());
       text += line;
     }
-  } else if (kind.asked == Asked::distance) {
+  } else if (query.kind == QueryKind::distance) {
     for (std::size_t i = 0; i < result.distances.size(); ++i) {
       const Distance& d = result.distances[i];
       std::snprintf(line, sizeof line, "%zu,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n", i,
@@ -27,7 +27,7 @@ void printCsv(const QueryKind& kind, const BatchResult& result) {
                     d.p_WB.z());
       text += line;
     }
-  } else if (kind.asked == Asked::tolerance) {
+  } else if (query.kind == QueryKind::tolerance) {
     for (std::size_t i = 0; i < result.answers.size(); ++i)
       text += std::to_string(i) + ',' + (result.answers[i].hit ? "1\n" : "0\n");
   } else {

@@ -10,7 +10,7 @@
 /// @throws InputError if it can't be printed.
 namespace corridor::app {
 
-void printCsv(const QueryKind& kind, const BatchResult& result);
+void printCsv(const NamedQuery& query, const BatchResult& result);
 void printMotions(const BatchResult& result);
 
 /// Prints the summary, one entry `key=value` per line: first `words`, whose entries describe the

@@ -52,9 +52,9 @@ std::map<std::string, std::string> applyArguments(const SolveArguments& a, Probl
     set["planner.name"] = "--planner";
   }
   if (a.sampler) {
-    const auto sampler = choiceNamed<StateSampler>(*a.sampler);
+    const auto sampler = choiceNamed<ValidSampler>(*a.sampler);
     if (!sampler)
-      throw InputError(Fault{"--sampler", 0, notOneOf(*a.sampler, wordsFor<StateSampler>())});
+      throw InputError(Fault{"--sampler", 0, notOneOf(*a.sampler, wordsFor<ValidSampler>())});
     problem.settings.sampler = *sampler;
   }
   for (const std::string& assignment : a.set) {
@@ -161,8 +161,8 @@ ordered_json jsonOf(const SolveReport& r, const Problem& p, const std::string& p
                     {"triangle_tests", r.counters.triangleTests},
                     {"checker", r.checker},
                     {"certified", r.certified},
-                    {"tolerance_m", r.motion.tolerance},
-                    {"margin_m", r.motion.margin},
+                    {"tolerance_m", r.proofOptions.tolerance},
+                    {"margin_m", r.proofOptions.margin},
                     {"tube", tubeJson(p.model.space, p.task.tube)}};
   if (!p.source.notes.empty()) j["notes"] = textsOf(p.source.notes);
   if (!r.warnings.empty()) {

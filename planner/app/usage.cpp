@@ -66,10 +66,11 @@ std::string usageFault(const CLI::App& program, const CLI::ParseError& error,
       name += " " + command->get_name();
     }
     const std::vector<std::string> words = command->remaining();
-    const bool isKind = !command->get_subcommands([](const CLI::App*) { return true; }).empty();
+    const bool hasSubcommands =
+        !command->get_subcommands([](const CLI::App*) { return true; }).empty();
     if (dynamic_cast<const CLI::ExtrasError*>(&error)) fault = unknownWord(program, *command);
     if (dynamic_cast<const CLI::ArgumentMismatch*>(&error)) fault = repeatedOption(*command);
-    if (isKind && !words.empty() && !words.front().starts_with('-'))
+    if (hasSubcommands && !words.empty() && !words.front().starts_with('-'))
       fault = unknownCommand(*command, words.front());
     if (fault.empty()) fault = error.what();
     return fault + "; see corridor " + name + " --help";

@@ -68,17 +68,17 @@ ordered_json jsonOf(const Verified& verified, const Problem& problem, const Veri
                     {"digest", nameOf(r.digest)},
                     {"notes", textsOf(problem.source.notes)},
                     {"warnings", verified.warnings},
-                    {"edges", r.motion.edges},
-                    {"edges_proved", r.motion.edgesProved},
-                    {"proven_clearance_m", numberJson(r.motion.provenClearance)},
-                    {"smallest_distance_met_m", numberJson(r.motion.smallestDistanceMet)},
+                    {"edges", r.pathReport.edges},
+                    {"edges_proved", r.pathReport.edgesProved},
+                    {"proven_clearance_m", numberJson(r.pathReport.provenClearance)},
+                    {"smallest_distance_met_m", numberJson(r.pathReport.smallestDistanceMet)},
                     {"margin_m", r.margin},
                     {"tube", tubeJson(problem.model.space, r.tube)},
                     {"numbers", problem.model.space.numberNames()},
-                    {"distance_queries", r.motion.distanceQueries},
+                    {"distance_queries", r.pathReport.distanceQueries},
                     {"violations", r.violations},
                     {"findings", ordered_json::array()}};
-  for (const PathFinding& finding : r.motion.findings) j["findings"].push_back(jsonOf(finding));
+  for (const PathFinding& finding : r.pathReport.findings) j["findings"].push_back(jsonOf(finding));
   return j;
 }
 
@@ -90,19 +90,21 @@ void print(const VerifyReport& r, const Problem& problem, const VerifyArguments&
   if (r.otherProblem) return;
   for (const std::string& note : condensed(textsOf(problem.source.notes))) out.line("note", note);
   out.line("edges proved",
-           std::to_string(r.motion.edgesProved) + " of " + std::to_string(r.motion.edges));
-  if (r.motion.verdict == PathVerdict::proved)
+           std::to_string(r.pathReport.edgesProved) + " of " + std::to_string(r.pathReport.edges));
+  if (r.pathReport.verdict == PathVerdict::proved)
     out.line("clearance", nothingIsTested(problem)
                               ? "none: no pair is tested"
-                              : "at least " + rounded(r.motion.provenClearance) + " m, at most " +
-                                    rounded(r.motion.smallestDistanceMet) + " m");
+                              : "at least " + rounded(r.pathReport.provenClearance) +
+                                    " m, at most " + rounded(r.pathReport.smallestDistanceMet) +
+                                    " m");
   if (r.margin > 0) out.line("margin", rounded(r.margin) + " m");
   out.line("tube", tubeText(problem.model.space, r.tube));
   out.line("start, goal, bounds", r.violations.empty() ? "hold" : "violated",
            r.violations.empty() ? Tone::plain : Tone::bad);
   for (const std::string& violation : r.violations) out.line("violation", violation);
-  for (const PathFinding& finding : r.motion.findings) out.line("finding", text(finding, problem));
-  out.line("distance queries", grouped(r.motion.distanceQueries));
+  for (const PathFinding& finding : r.pathReport.findings)
+    out.line("finding", text(finding, problem));
+  out.line("distance queries", grouped(r.pathReport.distanceQueries));
 }
 
 int verifyCommand(const VerifyArguments& a) {

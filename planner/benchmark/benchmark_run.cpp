@@ -149,8 +149,8 @@ OmplRecord recordOf(const ompl::tools::Benchmark::CompleteExperiment& experiment
 
 std::string firstFinding(const VerifyReport& report) {
   if (!report.violations.empty()) return report.violations.front();
-  if (report.motion.findings.empty()) return "";
-  const PathFinding& f = report.motion.findings.front();
+  if (report.pathReport.findings.empty()) return "";
+  const PathFinding& f = report.pathReport.findings.front();
   return "edge " + std::to_string(f.edge) + " at t = " + shortest(f.t) + ": " + f.reason +
          (f.a.empty() ? "" : ": " + f.a + " and " + f.b) +
          (f.gap > 0 ? ", " + shortest(f.gap) + " m apart" : "");
@@ -225,9 +225,9 @@ void verifyRun(const Problem& problem, const Path& path, BenchmarkRun& run) {
   run.verificationTime = clock.seconds();
   run.verdict = verdictName(report);
   if (report.verdict != PathVerdict::proved) run.finding = firstFinding(report);
-  if (std::isfinite(report.motion.smallestDistanceMet)) {
-    run.provenClearance = report.motion.provenClearance;
-    run.leastDistance = report.motion.smallestDistanceMet;
+  if (std::isfinite(report.pathReport.smallestDistanceMet)) {
+    run.provenClearance = report.pathReport.provenClearance;
+    run.leastDistance = report.pathReport.smallestDistanceMet;
   }
 }
 

@@ -41,7 +41,8 @@ struct BenchmarkRun {
   std::string finding;
   /// Computed by the verifier, in metres, without subtracting the margin. The whole path, tube
   /// included, is proved to keep a distance of at least `provenClearance`. `leastDistance` is the
-  /// least distance that the verifier met along the path. −1: none (no obstacle, or no verdict).
+  /// least distance of a tested pair that the verifier met along the path. −1: none (no tested
+  /// pair, or no verdict).
   double provenClearance = -1, leastDistance = -1;
 
   /// Everything that `corridor solve` does except reading files; see SolveReport. `time` is the sum

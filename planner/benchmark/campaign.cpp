@@ -12,7 +12,8 @@
 namespace corridor {
 namespace {
 
-/// Seconds for setting up one run while checking it: goals are sampled and trees are built.
+/// Time limit in seconds, for each cell, of the child process that sets up all cells to find their
+/// faults. Setting up a cell samples goals and builds trees.
 constexpr double kCheckPatience = 120;
 /// Limits the memory for the results: some kilobytes per run.
 constexpr std::uint64_t kMostRuns = 1'000'000;

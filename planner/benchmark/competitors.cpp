@@ -92,10 +92,10 @@ BenchmarkCompetitor competitorNamed(const std::string& name) {
 }
 
 std::vector<BenchmarkCompetitor> availableCompetitors() {
-  std::vector<BenchmarkCompetitor> peers;
+  std::vector<BenchmarkCompetitor> competitors;
   for (const std::string& name : competitorNames())
-    if (whyUnavailable(name).empty()) peers.push_back(competitorNamed(name));
-  return peers;
+    if (whyUnavailable(name).empty()) competitors.push_back(competitorNamed(name));
+  return competitors;
 }
 
 }  // namespace corridor

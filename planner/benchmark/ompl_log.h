@@ -22,9 +22,9 @@ std::string omplLog(const Campaign& campaign, const CampaignResult& result, std:
 std::map<std::string, std::string> omplProperties(const Campaign& campaign,
                                                   const CampaignCell& cell,
                                                   const BenchmarkRun& run);
-/// Returns the name and the parameters ("resolution REAL" → "0.01") of an experiment: a problem
-/// with a variant.
+/// Returns the name of an experiment: a problem with a variant.
 std::string omplExperimentName(const Campaign& campaign, const CampaignCell& cell);
+/// Returns the parameters of an experiment: "resolution REAL" → "0.01".
 std::map<std::string, std::string> omplParameters(const Campaign& campaign,
                                                   const CampaignCell& cell);
 /// Returns the planner's label if it differs from its name, else the name that OMPL recorded, such

@@ -25,8 +25,8 @@ Plot refutedShareOfAll(const Campaign& campaign, const std::vector<CampaignCell>
 /// has run: the share of these runs for which a variant returned a path that is not refuted, within
 /// x times the time of the quickest variant with such a path.
 Plot profileOfAll(const Campaign& campaign, const std::vector<CampaignCell>& cells);
-/// For a problem, the share of returned paths whose least distance to an obstacle is at most x.
-/// Paths in collision have the distance 0, so a line begins, at x = 0, at their share.
+/// For a problem, the share of returned paths whose least distance of a tested pair is at most x.
+/// Paths in contact have the distance 0, so a line begins, at x = 0, at their share.
 Plot clearances(const Campaign& campaign, const std::vector<CampaignCell>& cells,
                 std::size_t problem);
 /// One point per run, for all problems: the time predicted by N_v·C_v + N_p·C_p against the

@@ -33,19 +33,19 @@ YamlValue checkerMap(const std::vector<std::pair<std::string, std::string>>& key
   return map;
 }
 
-Variant readVariant(const std::string& text, const std::vector<BenchmarkCompetitor>& peers) {
+Variant readVariant(const std::string& text, const std::vector<BenchmarkCompetitor>& competitors) {
   const auto colon = text.find(':');
   const std::string name = text.substr(0, colon);
   std::vector<std::string> names = problemChoices().at("checker.edges");
   Variant variant{text, {}, {}};
   std::string edges = name;
   bool known = std::find(names.begin(), names.end(), name) != names.end();
-  for (const BenchmarkCompetitor& peer : peers) {
-    names.push_back(peer.name);
-    if (peer.name != name) continue;
+  for (const BenchmarkCompetitor& competitor : competitors) {
+    names.push_back(competitor.name);
+    if (competitor.name != name) continue;
     known = true;
-    edges = peer.edges;
-    variant.competitor = peer;
+    edges = competitor.edges;
+    variant.competitor = competitor;
   }
   if (!known)
     refuse("unknown variant " + quotedWord(name) + didYouMean(name, names) + "; there are: " +

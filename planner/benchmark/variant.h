@@ -60,8 +60,9 @@ YamlValue checkerMap(const std::vector<std::pair<std::string, std::string>>& key
 /// Reads NAME or NAME:KNOB, where NAME is a value of `checker: {edges: …}` or a competitor's name.
 /// For sampled edges, KNOB is the resolution (OMPL's longest_valid_segment_fraction); for all
 /// others, it is the tolerance in metres.
-/// @throws InputError for an unknown name (it lists the known names), and for a knob that is not a
-/// number or out of range: a resolution by isResolution, a tolerance above 0.
-Variant readVariant(const std::string& text, const std::vector<BenchmarkCompetitor>& peers = {});
+/// @throws InputError for an unknown name (it lists the known names), and for a KNOB that is no
+/// legal value: a resolution must fulfil isResolution, a tolerance must be above 0.
+Variant readVariant(const std::string& text,
+                    const std::vector<BenchmarkCompetitor>& competitors = {});
 
 }  // namespace corridor

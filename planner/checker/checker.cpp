@@ -46,7 +46,8 @@ void requireValid(const CheckerOptions& options, const ConfigurationSpace& space
                                    (options.tube.array() >= 0).all()),
       "tube must have a number of 0 or more for each number of a configuration");
   require(options.method == EdgeMethod::directional || hasDefaultOverlap(options.trees.trees),
-          "adaptive and advancement measure distances; they need the volume's first overlap test");
+          "trees must have the default overlap test of their volume if method is adaptive or "
+          "advancement, which measure distances");
 }
 
 }  // namespace
@@ -63,7 +64,7 @@ Scene makeScene(const Model& model, ObbFit fit) {
     if (!isNew) return placed[same->second].body.renamed(shape.name);
     return Body(shape.name, {shape.mesh, &shape.mesh->mesh}, shape.solid, params);
   };
-  const std::vector<Transform> X_WF = framesAtRest(model);
+  const std::vector<Transform> X_WF = staticFramePoses(model);
   for (const ModelBody& body : model.bodies) {
     firstShape.push_back(placed.size());
     const bool ownFrame = !body.robot && body.frame != 0;
@@ -102,8 +103,8 @@ struct Checker::Workspace {
 };
 
 /// One workspace per thread, created by the thread's first query. Later queries find it without a
-/// lock, in a list that only grows at its head. A thread may have the id of one that has ended, and
-/// then continues with its workspace.
+/// lock, in a list that only grows at its head. If a new thread gets the id of a thread that has
+/// ended, it reuses that thread's workspace.
 class Checker::Pool {
  public:
   Workspace& workspaceOfThread(const Checker& checker) {
@@ -218,11 +219,11 @@ std::vector<Checker::PairNotFree> Checker::pairsNotFree(const Configuration& q) 
   return pairs;
 }
 
-bool Checker::certifiedState(const Configuration& q) const {
+bool Checker::isProvedFree(const Configuration& q) const {
   return inBounds(q) && certifyState(q).verdict == MotionVerdict::free;
 }
 
-bool Checker::certifiedEdge(const Configuration& from, const Configuration& to) const {
+bool Checker::isProvedFree(const Configuration& from, const Configuration& to) const {
   return inBounds(from) && inBounds(to) &&
          certifyEdge(from, to, false, EdgeMethod::directional).verdict == MotionVerdict::free;
 }

@@ -43,8 +43,9 @@ class Checker {
   /// - The margin or the tolerance is not finite, the margin is negative, or the tolerance is not
   ///   above 0.
   /// - The tube has another length than a configuration, or contains a number that is not 0 or
-  /// more.
-  /// - The method measures distances, and an overlap test other than the volume's first is named.
+  ///   more.
+  /// - The method measures distances (`adaptive`, `advancement`), and the trees have another
+  ///   overlap test than their volume's default.
   /// - A mesh is invalid, or a solid mesh is not watertight.
   explicit Checker(const Model& model, const CheckerOptions& options = {});
   /// Makes the checker of a problem's model, with `checkerOptions`.
@@ -68,8 +69,8 @@ class Checker {
   /// Returns whether a configuration is within the bounds, which are inclusive. A configuration
   /// that is not finite or has a zero quaternion is out of bounds.
   bool inBounds(const Configuration& q) const;
-  /// Decides whether a state is free, as an edge of zero length by the default method. Doesn't test
-  /// the bounds. @pre finite.
+  /// Decides whether a state is free, as an edge of zero length, always by
+  /// `EdgeMethod::directional`. Doesn't test the bounds. @pre finite.
   MotionResult certifyState(const Configuration& q) const;
   /// Decides whether an edge is free, by the method of the options. Doesn't test the bounds. @pre
   /// finite.
@@ -94,10 +95,10 @@ class Checker {
   std::vector<PairNotFree> pairsNotFree(const Configuration& q) const;
 
   /// Returns whether q is in bounds and `certifyState` is `free`.
-  bool certifiedState(const Configuration& q) const;
+  bool isProvedFree(const Configuration& q) const;
   /// Returns whether both ends are in bounds (then the whole edge is) and the edge is proved free.
-  /// Uses the default method, not that of the options.
-  bool certifiedEdge(const Configuration& from, const Configuration& to) const;
+  /// Always uses `EdgeMethod::directional`, not the method of the options.
+  bool isProvedFree(const Configuration& from, const Configuration& to) const;
 
   /// Returns the sum of the counters of all threads. No query may run during this call.
   Counters counters() const;

@@ -72,7 +72,7 @@ std::optional<CountingMotionValidator::FreePart> CertifiedMotionValidator::lastF
   for (double back = 0; result.certifiedUntil - back >= least; back = back > 0 ? 2 * back : least) {
     const double t = result.certifiedUntil - back;
     const Configuration at = checker_.space().interpolate(from, to, t);
-    if (checker_.certifiedState(at) && isFree(from, at)) return FreePart{t, at};
+    if (checker_.isProvedFree(at) && isFree(from, at)) return FreePart{t, at};
   }
   return FreePart{};
 }

@@ -20,8 +20,8 @@ namespace corridor {
 ///
 /// The state space of `si` must be a ProblemStateSpace, made of the space of the checker's model.
 /// The checker must outlive the validator.
-/// @throws std::invalid_argument from the constructors if the space is of another class, or has
-/// another number of numbers than the checker's.
+/// @throws std::invalid_argument from the constructors if the space is of another class, or if its
+/// configurations have another length than the checker's.
 class CountingMotionValidator : public ompl::base::MotionValidator {
  public:
   bool checkMotion(const ompl::base::State* s1, const ompl::base::State* s2) const final;

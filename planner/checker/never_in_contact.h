@@ -31,19 +31,20 @@ struct NeverInContactResult {
     /// No proof was tried, for one of these reasons: a body has a solid mesh; no joint moves one
     /// body against the other; a joint between the two is planar or floating, has no limits, or
     /// mimics a continuous joint (except a revolute mimic with a whole multiplier).
-    unbounded,
+    notTried,
   };
-  Verdict verdict = Verdict::unbounded;
+  Verdict verdict = Verdict::notTried;
   std::uint64_t boxes = 0;  ///< number of boxes of joint values that were tested
 };
 
 /// Proves for pairs of bodies of a model that they never come into contact, whatever the values of
 /// the joints.
 ///
-/// `proved` is never wrong: for all joint values within the limits (and by `beyondLimits` beyond
-/// them), in real arithmetic, the two bodies keep more than the margin. This holds for each link
-/// as the model describes it. It does not depend on the pose of the robot's base. A joint with a
-/// range of a full turn or more is proved for all angles. The other verdicts prove nothing.
+/// `proved` is never wrong: for all joint values within the limits, or beyond them by at most
+/// `beyondLimits`, in real arithmetic, the two bodies keep more than the margin. This holds for the
+/// shapes of the links as the model stores them. It does not depend on the pose of the robot's
+/// base. A joint with a range of a full turn or more is proved for all angles. The other verdicts
+/// prove nothing.
 ///
 /// Only joints between the two bodies count: those on the path through the tree of frames. Their
 /// ranges form a box of joint values. A box is proved by one motion query in which nothing moves,

@@ -19,12 +19,12 @@ double ClearanceChecker::clearance(const ompl::base::State* state) const {
 }
 
 bool CertifiedStateValidityChecker::isValid(const ompl::base::State* state) const {
-  return checker_.certifiedState(configurationOf(*si_, state));
+  return checker_.isProvedFree(configurationOf(*si_, state));
 }
 
 bool ExactStateValidityChecker::isValid(const ompl::base::State* state) const {
   const Configuration q = configurationOf(*si_, state);
-  if (checker_.options().margin > 0) return checker_.certifiedState(q);
+  if (checker_.options().margin > 0) return checker_.isProvedFree(q);
   return checker_.inBounds(q) && !checker_.interference(q);
 }
 

@@ -63,8 +63,12 @@ std::string whyBadBounds(const Corners& corners, std::size_t dimensions) {
     const auto k = static_cast<Eigen::Index>(i);
     const double lower = corners.lower[k], upper = corners.upper[k];
     if (lower < upper && std::isfinite(upper - lower)) continue;
-    return std::string("lower corner first, then the upper one: in ") + "xyz"[i] + ", " +
-           shortest(lower) + " is not below " + shortest(upper);
+    const std::string in = std::string("in ") + "xyz"[i] + ", ";
+    if (lower < upper)
+      return in + "the range from " + shortest(lower) + " to " + shortest(upper) +
+             " is larger than any double";
+    return "lower corner first, then the upper one: " + in + shortest(lower) + " is not below " +
+           shortest(upper);
   }
   return "";
 }
@@ -80,7 +84,7 @@ Corners boundsOf(const PlacedShape& shape, const Transform& X) {
 std::optional<Corners> boundsOfWorld(const Model& model) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Corners box{Vec3::Constant(infinity), Vec3::Constant(-infinity)};
-  const std::vector<Transform> X_WF = framesAtRest(model);
+  const std::vector<Transform> X_WF = staticFramePoses(model);
   for (const ModelBody& body : model.bodies) {
     if (body.robot) continue;
     for (const PlacedShape& shape : body.shapes) {

@@ -33,12 +33,12 @@ std::vector<std::size_t> moversOf(const KinematicTree& tree) {
   return mover;
 }
 
-std::vector<Transform> framesAtRest(const Model& model) {
+std::vector<Transform> staticFramePoses(const Model& model) {
   const auto size = static_cast<Eigen::Index>(model.space.size());
   return framePoses(model.tree, Configuration::Zero(size));
 }
 
-FramePoses::FramePoses(const Model& model) : tree_(model.tree), X_WF_(framesAtRest(model)) {
+FramePoses::FramePoses(const Model& model) : tree_(model.tree), X_WF_(staticFramePoses(model)) {
   const std::vector<std::size_t> movers = moversOf(tree_);
   for (std::size_t frame = 0; frame < movers.size(); ++frame)
     if (movers[frame] != 0) moving_.push_back(frame);
@@ -56,7 +56,7 @@ bool hasPoseJoints(const ConfigurationSpace& space) {
   });
 }
 
-bool hasJoints(const ConfigurationSpace& space) {
+bool hasSingleJoints(const ConfigurationSpace& space) {
   const auto& groups = space.groups();
   return std::any_of(groups.begin(), groups.end(), [](const CoordinateGroup& group) {
     return group.kind == CoordinateGroup::Kind::joints;

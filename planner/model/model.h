@@ -134,9 +134,10 @@ double pairCount(const Model& model);
 /// with the same mover never move against each other.
 std::vector<std::size_t> moversOf(const KinematicTree& tree);
 
-/// Returns the map of each frame, as `framePoses` does. Only those of frames that never move (all
-/// frames of obstacles) are of use; the others may even be NaN.
-std::vector<Transform> framesAtRest(const Model& model);
+/// Returns the poses of all frames that never move, such as all frames of obstacles, by the indices
+/// of the frames. The other poses are of no use. They may even be NaN: they are computed for a
+/// configuration of zeros, whose quaternions are no rotations.
+std::vector<Transform> staticFramePoses(const Model& model);
 
 /// The poses of a model's frames, for states that follow each other. Those that never move are
 /// computed once, so that a state costs nothing for obstacles on frames of their own.
@@ -157,6 +158,6 @@ class FramePoses {
 bool hasPoseJoints(const ConfigurationSpace& space);
 /// Returns whether the space has a coordinate of a single joint (revolute, continuous or
 /// prismatic).
-bool hasJoints(const ConfigurationSpace& space);
+bool hasSingleJoints(const ConfigurationSpace& space);
 
 }  // namespace corridor

@@ -17,10 +17,12 @@ namespace {
 constexpr const char* kPlace = "ModelBuilder";
 
 /// Excludes pairs of a robot's links from the tests: pairs that SRDF and robot.yaml allow, and
-/// adjacent links. Two links are adjacent under three conditions. One is above the other in the
-/// tree. No link between them has shapes. At most one joint between them is not fixed, and this
-/// joint is neither planar nor floating. Links with two moving joints between them, or with a
-/// planar or floating joint, can meet anywhere.
+/// adjacent links. Two links are adjacent if all of this holds:
+/// - One is above the other in the tree.
+/// - No link between them has shapes.
+/// - At most one joint between them is not fixed, and this joint is neither planar nor floating.
+/// Links with two moving joints between them, or with a planar or floating joint, can meet
+/// anywhere.
 void skipLinks(Model& model, std::size_t robot) {
   const RobotModel& description = model.robots[robot].description;
   // A frame of the robot has at most one body.
@@ -59,8 +61,9 @@ void skipLinks(Model& model, std::size_t robot) {
       break;
     }
   }
-  // Last, because a proof may not cover the margin and tube of a problem. The pair is then included
-  // again, unless it has another reason.
+  // Last, so that a pair keeps any other reason not to be tested. If the proof does not cover the
+  // margin or tube of a problem, the problem's reader removes the reason kNeverInContact, and no
+  // other: the pair is tested again (testBeyondProofs).
   skipAllowed(true);
 }
 
@@ -120,7 +123,8 @@ ModelBuilder& ModelBuilder::addRigidBody(const std::string& name, JointType type
 ModelBuilder& ModelBuilder::addObstacle(std::string name, std::vector<PlacedShape> shapes,
                                         const std::optional<RigidPose>& X_WO) {
   if (shapes.empty()) return *this;
-  // Robots come first. Without the end at the first obstacle, n obstacles would take n² steps.
+  // Robots come first. The search stops at the first obstacle: otherwise adding n obstacles would
+  // take n² steps.
   const auto links = model_.bodies | std::views::take_while([](const ModelBody& body) {
                        return body.robot.has_value();
                      });

@@ -15,7 +15,7 @@ const std::vector<std::string>& wordsFor<EdgeCheck>() {
 }
 
 template <>
-const std::vector<std::string>& wordsFor<StateSampler>() {
+const std::vector<std::string>& wordsFor<ValidSampler>() {
   static const std::vector<std::string> words{"uniform", "gaussian", "obstacle_based",
                                               "bridge_test", "max_clearance"};
   return words;
@@ -40,12 +40,13 @@ EdgeMethod methodOf(EdgeCheck check) {
 std::optional<InvalidName> invalidNameIn(const CheckerSettings& checker) {
   if (auto wrong = invalidNameIn(checker.trees)) return wrong;
   const bool measures = methodOf(checker.edges) != EdgeMethod::directional;
-  const std::string first = withDefaults({checker.trees.volume, "", ""}).overlap;
+  const std::string byDefault = withDefaults({checker.trees.volume, "", ""}).overlap;
   const std::string& overlap = checker.trees.overlap;
-  if (!measures || overlap.empty() || overlap == first) return std::nullopt;
-  return InvalidName{"overlap", quotedWord(overlap) + " needs edges: certified or discrete; " +
-                                    wordOf(checker.edges) +
-                                    " measures distances between volumes: leave overlap out"};
+  if (!measures || overlap.empty() || overlap == byDefault) return std::nullopt;
+  return InvalidName{"overlap", quotedWord(overlap) +
+                                    " can't be used with edges: " + wordOf(checker.edges) +
+                                    ", which measures distances between volumes; leave overlap "
+                                    "out, or use edges: certified"};
 }
 
 }  // namespace corridor

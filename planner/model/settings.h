@@ -15,8 +15,8 @@ namespace corridor {
 /// How edges are checked: by a method that proves them, or by samples, as a baseline. The values
 /// before `discrete` correspond to those of `EdgeMethod`, in the same order.
 enum class EdgeCheck { certified, adaptive, advancement, discrete };
-/// OMPL's samplers of valid states.
-enum class StateSampler { uniform, gaussian, obstacleBased, bridgeTest, maxClearance };
+/// OMPL's samplers of valid states: its classes …ValidStateSampler.
+enum class ValidSampler { uniform, gaussian, obstacleBased, bridgeTest, maxClearance };
 /// The objectives that planners can optimise.
 enum class Objective { length, maxMinClearance, mechanicalWork };
 
@@ -25,13 +25,13 @@ enum class Objective { length, maxMinClearance, mechanicalWork };
 enum class Simplifier { corridor, none, ompl };
 
 /// Returns the words that users write for the values of a choice, in the order of the enumeration.
-/// @tparam Choice EdgeCheck, StateSampler, Objective or Simplifier.
+/// @tparam Choice EdgeCheck, ValidSampler, Objective or Simplifier.
 template <class Choice>
 const std::vector<std::string>& wordsFor();
 template <>
 const std::vector<std::string>& wordsFor<EdgeCheck>();
 template <>
-const std::vector<std::string>& wordsFor<StateSampler>();
+const std::vector<std::string>& wordsFor<ValidSampler>();
 template <>
 const std::vector<std::string>& wordsFor<Objective>();
 template <>
@@ -52,7 +52,7 @@ std::optional<Choice> choiceNamed(std::string_view word) {
   return std::nullopt;
 }
 
-/// Returns the method that proves edges; for `discrete`, the default method.
+/// Returns the method that proves edges; for `discrete`, `EdgeMethod::directional`.
 EdgeMethod methodOf(EdgeCheck check);
 
 /// The smallest legal resolution of sampled edges. A smaller value has no use, and OMPL counts the
@@ -85,7 +85,7 @@ struct CheckerSettings {
 /// ranges and words.
 struct Settings {
   PlannerSettings planner;
-  StateSampler sampler = StateSampler::uniform;
+  ValidSampler sampler = ValidSampler::uniform;
   std::optional<Objective> objective;  ///< `.cfg` only
   double objectiveThreshold = 0;
   Simplifier simplify = Simplifier::corridor;
@@ -95,7 +95,7 @@ struct Settings {
 
 /// Returns the first word of `trees` that is unknown or does not belong to the volume, or nullopt.
 /// The methods `adaptive` and `advancement` measure distances. With these two methods, an overlap
-/// test other than the volume's first is wrong, too.
+/// test other than the volume's default is wrong, too.
 std::optional<InvalidName> invalidNameIn(const CheckerSettings& checker);
 
 }  // namespace corridor

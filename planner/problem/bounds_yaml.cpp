@@ -56,9 +56,12 @@ void narrow(const YamlMap& map, const std::string& key, bool degrees, const Plan
   const double unit = degrees ? std::numbers::pi / 180 : 1;
   const double lower = (*given)[0] * unit, upper = (*given)[1] * unit;
   Coordinate& c = problem.model.space.coordinates()[planned.coordinate];
-  if (!(lower < upper) || !std::isfinite(upper - lower))
+  if (!(lower < upper))
     return map.fault(key, "the lower bound first, then the upper one: " + shortest((*given)[0]) +
                               " is not below " + shortest((*given)[1]));
+  if (!std::isfinite(upper - lower))
+    return map.fault(key, "the range from " + shortest((*given)[0]) + " to " +
+                              shortest((*given)[1]) + " is larger than any double");
   if (!degrees && planned.type != JointType::prismatic &&
       (seemsDegrees(lower) || seemsDegrees(upper)))
     problem.source.notes.push_back({map.pathOf(key) + ": [" + shortest(lower) + ", " +

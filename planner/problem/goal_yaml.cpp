@@ -40,7 +40,8 @@ std::string example(const std::string& what, const Problem& problem) {
 
 void readWithin(const YamlValue& value, Problem& problem, YamlSource& source) {
   const YamlMap map(value, "goal.within", &problemKeys().at("goal.within"), source);
-  const bool joints = hasJoints(problem.model.space), wholes = hasPoseJoints(problem.model.space);
+  const bool joints = hasSingleJoints(problem.model.space),
+             wholes = hasPoseJoints(problem.model.space);
   for (const char* key : {"at", "angle", "angle_deg"})
     if (!wholes && map.find(key))
       map.fault(key,

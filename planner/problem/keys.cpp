@@ -105,7 +105,7 @@ const std::map<std::string, std::vector<std::string>>& problemChoices() {
       {"world.*.up", {"x", "y", "z"}},
       {"world.*.octomap.unknown", {"free", "occupied"}},
       {"planner.stop", {"first", "time"}},
-      {"sampler", wordsFor<StateSampler>()},
+      {"sampler", wordsFor<ValidSampler>()},
       {"checker.edges", wordsFor<EdgeCheck>()},
       {"checker.volume", volumeNames()},
       {"checker.fit", ofAnyVolume(&VolumeKind::fits)},

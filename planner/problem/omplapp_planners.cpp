@@ -52,9 +52,9 @@ struct Instance {
 }  // namespace
 
 void readSampler(const IniFile& ini, const IniFile::Entry& entry, Problem& problem) {
-  const std::vector<std::string>& words = wordsFor<StateSampler>();
+  const std::vector<std::string>& words = wordsFor<ValidSampler>();
   problem.source.lines["sampler"] = entry.line;
-  if (const auto sampler = choiceNamed<StateSampler>(entry.value))
+  if (const auto sampler = choiceNamed<ValidSampler>(entry.value))
     problem.settings.sampler = *sampler;
   else
     ini.fault(entry, notOneOf(entry.value, words));

@@ -197,8 +197,8 @@ void readYaml(const std::filesystem::path& file, Problem& problem) {
   problem.task.margin = map.number("margin", Range::NotNegative).value_or(problem.task.margin);
   const TubeSpec tube = readTube(map, problem.model.space, known);
   readPlanner(map, problem.settings.planner);
-  if (const auto sampler = map.choice("sampler", wordsFor<StateSampler>()))
-    problem.settings.sampler = *choiceNamed<StateSampler>(*sampler);
+  if (const auto sampler = map.choice("sampler", wordsFor<ValidSampler>()))
+    problem.settings.sampler = *choiceNamed<ValidSampler>(*sampler);
   if (const auto simplify = map.choice("simplify", wordsFor<Simplifier>()))
     problem.settings.simplify = *choiceNamed<Simplifier>(*simplify);
   if (const YamlValue* checker = map.find("checker"))

@@ -58,7 +58,7 @@ void readNamed(const YamlMap& map, const ConfigurationSpace& space, TubeSpec& tu
 
 }  // namespace
 
-TubeSpec readTube(const YamlMap& file, const ConfigurationSpace& space, bool known) {
+TubeSpec readTube(const YamlMap& file, const ConfigurationSpace& space, bool isComplete) {
   TubeSpec tube;
   const YamlValue* value = file.find("tube");
   if (!value) return tube;
@@ -67,7 +67,7 @@ TubeSpec readTube(const YamlMap& file, const ConfigurationSpace& space, bool kno
   tube.slides = map.number("slides", Range::NotNegative);
   tube.position = map.number("position", Range::NotNegative);
   tube.rotation = map.angle("rotation", Range::NotNegative);
-  if (!known) return tube;
+  if (!isComplete) return tube;
   readNamed(map, space, tube);
   const std::vector<const Coordinate*> joints = singleJoints(space);
   for (const char* key : {"joints", "joints_deg"})

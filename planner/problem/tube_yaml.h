@@ -6,8 +6,8 @@
 namespace corridor {
 
 /// Reads the `tube` of a problem.
-/// @param known whether `space` is complete; otherwise the robots have faults, and keys that depend
-/// on the robots are not checked.
-TubeSpec readTube(const YamlMap& file, const ConfigurationSpace& space, bool known);
+/// @param isComplete whether `space` has the joints of all robots. Otherwise the robots have
+/// faults, and keys that depend on the robots are not checked.
+TubeSpec readTube(const YamlMap& file, const ConfigurationSpace& space, bool isComplete);
 
 }  // namespace corridor

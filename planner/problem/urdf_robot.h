@@ -25,8 +25,8 @@ std::optional<RobotSetup> readBareUrdf(const std::filesystem::path& file, FaultL
                                        std::vector<Note>& notesOfFaulty);
 
 /// The slack of limits, rad or m. A value that exceeds a limit by at most `limitSlack` is replaced
-/// by the limit, with a note. Limits and values are often written with π rounded to four digits or
-/// more: 3.1416 is 7.4e-6 above π, 3.14159 is 2.7e-6 below π.
+/// by the limit, with a note. Limits and values are often written with π rounded to four decimals
+/// or more: 3.1416 is 7.4e-6 above π, 3.14159 is 2.7e-6 below π.
 inline constexpr double limitSlack = 1e-5;
 
 /// Returns the value if it is in [lower, upper]. If it is beyond a limit by at most `limitSlack`,

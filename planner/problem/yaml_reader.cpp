@@ -121,11 +121,12 @@ YamlMap::YamlMap(const YamlValue& value, std::string path, const MapKeys* keys, 
       continue;
     }
     if (keys && std::find(keys->legal.begin(), keys->legal.end(), entry.key) == keys->legal.end()) {
-      const auto later = std::find_if(keys->later.begin(), keys->later.end(),
-                                      [&](const UnsupportedKey& l) { return l.key == entry.key; });
-      if (later != keys->later.end()) {
+      const auto unsupported =
+          std::find_if(keys->unsupported.begin(), keys->unsupported.end(),
+                       [&](const UnsupportedKey& k) { return k.key == entry.key; });
+      if (unsupported != keys->unsupported.end()) {
         source.fault(entry.line,
-                     quotedWord(entry.key) + in + " is not supported yet; " + later->instead);
+                     quotedWord(entry.key) + in + " is not supported yet; " + unsupported->instead);
         explainsMissing_ = true;
         continue;
       }

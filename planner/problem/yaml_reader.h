@@ -30,7 +30,7 @@ struct UnsupportedKey {
 /// what to do instead.
 struct MapKeys {
   std::vector<std::string> legal;
-  std::vector<UnsupportedKey> later;
+  std::vector<UnsupportedKey> unsupported;
 };
 
 /// A file while it is read: the list of its faults, and the lines of its keys.

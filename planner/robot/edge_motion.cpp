@@ -57,10 +57,11 @@ struct EdgeMotion::Impl {
     std::size_t a = kItself, b = kItself;  // views, from the lowest common ancestor
     std::vector<Step> steps;               // from a's side to b's
     std::vector<ScrewMotion> screws;
-    // Valid for the edge numbered `edge`, and computed when the motion is first queried. `still`:
-    // the error of the pose and of the axes. `rate`: the error of the twist per unit of h.
+    // Valid for the edge numbered `edge`, and computed when the motion is first queried.
+    // `poseError`: the error of the pose and of the axes. `twistError`: the error of the twist per
+    // unit of h.
     std::uint64_t edge = 0;
-    LeverError still, rate;
+    LeverError poseError, twistError;
   };
 
   const ConfigurationSpace& space;
@@ -222,7 +223,7 @@ void EdgeMotion::Impl::setErrors(Path& path) {
     pose.fixed += turned.fixed;
     pose.reach += turned.reach;
   }
-  path.rate = {};
+  path.twistError = {};
   const double arithmetic = (16 + static_cast<double>(path.steps.size())) * kUnit;
   double lever = 0;  // L, an upper bound of the distance from the joint's origin to b's
   for (auto step = path.steps.rbegin(); step != path.steps.rend(); ++step) {
@@ -236,15 +237,15 @@ void EdgeMotion::Impl::setErrors(Path& path) {
         const double pointError = view.shiftError + turned.fixed + axisError * lever;
         axes.fixed = std::max(axes.fixed, pointError);
         axes.reach = std::max(axes.reach, axisError);
-        path.rate.fixed += rate * (pose.fixed + pointError) + joint.rateError() * lever;
-        path.rate.reach += rate * (pose.reach + axisError) + joint.rateError();
+        path.twistError.fixed += rate * (pose.fixed + pointError) + joint.rateError() * lever;
+        path.twistError.reach += rate * (pose.reach + axisError) + joint.rateError();
       } else {
-        path.rate.fixed += rate * axisError + joint.rateError();
+        path.twistError.fixed += rate * axisError + joint.rateError();
       }
     }
     if (!step->up) lever += joint.length();
   }
-  path.still = {pose.fixed + axes.fixed, pose.reach + axes.reach};
+  path.poseError = {pose.fixed + axes.fixed, pose.reach + axes.reach};
 }
 
 EdgeMotion::EdgeMotion(const KinematicTree& tree, const ConfigurationSpace& space,
@@ -323,8 +324,8 @@ RelativeMotion EdgeMotion::relativeMotion(std::size_t pair, double t, double h) 
   w.angle = lengthFromAbove(w.angular);
   // This factor covers the products of errors, which are below 2^-20 of the errors.
   constexpr double more = 1 + 0x1p-20;
-  w.fixedError = roundedUp(more * (path.still.fixed + h * path.rate.fixed)) + kLeastError;
-  w.reachError = roundedUp(more * (path.still.reach + h * path.rate.reach)) + kLeastError;
+  w.fixedError = roundedUp(more * (path.poseError.fixed + h * path.twistError.fixed)) + kLeastError;
+  w.reachError = roundedUp(more * (path.poseError.reach + h * path.twistError.reach)) + kLeastError;
   return w;
 }
 

@@ -117,8 +117,8 @@ MeshStore::Place MeshStore::inPackage(const std::string& name) {
   for (const auto& entry : rules_.packages) names.push_back(entry.first);
   const std::string near = didYouMean(package, names);
   return {beside,
-          beside.string() + " is not a file, and package " + quotedWord(package) +
-              " has no folder" +
+          beside.string() + " is not a file, and no folder of package " + quotedWord(package) +
+              " was found" +
               (near.empty()
                    ? "; add packages: {" + package +
                          ": FOLDER} to robot.yaml, or set ROS_PACKAGE_PATH or AMENT_PREFIX_PATH"

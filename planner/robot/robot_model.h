@@ -44,7 +44,7 @@ struct LinkModel {
 /// A pair of links that is never tested, and the reason: "adjacent", "SRDF: Never", "robot.yaml:
 /// allow".
 struct AllowedPair {
-  /// The range that a proof covers: with it, the pair is never in contact.
+  /// The range that a proof covers: within it, the pair is never in contact.
   struct Proof {
     double margin = 0;        ///< metres that the links keep apart
     double beyondLimits = 0;  ///< rad or m by which joint values may be beyond their limits

@@ -43,9 +43,9 @@ Path withShortTurns(const ConfigurationSpace& space, const Path& path) {
 }
 
 bool certifiedPath(const Checker& checker, const Path& path) {
-  if (path.empty() || !checker.certifiedState(path.front())) return false;
+  if (path.empty() || !checker.isProvedFree(path.front())) return false;
   for (std::size_t i = 1; i < path.size(); ++i)
-    if (!checker.certifiedEdge(path[i - 1], path[i])) return false;
+    if (!checker.isProvedFree(path[i - 1], path[i])) return false;
   return true;
 }
 

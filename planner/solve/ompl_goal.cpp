@@ -118,7 +118,7 @@ std::vector<Configuration> sampleGoals(const Problem& problem, const Checker& ch
   std::mt19937_64 random(problem.settings.seed);
   for (std::size_t tries = 0; tries < kTries * count && found.size() < count; ++tries) {
     Configuration q = randomNear(problem, goals[tries % goals.size()], random);
-    if (inGoal(problem, goals, q, -kShrink) && checker.certifiedState(q))
+    if (inGoal(problem, goals, q, -kShrink) && checker.isProvedFree(q))
       found.push_back(std::move(q));
   }
   return found;

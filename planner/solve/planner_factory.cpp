@@ -279,7 +279,7 @@ ob::PlannerPtr makePlanner(const ob::SpaceInformationPtr& si, const std::string&
   return planner;
 }
 
-void setValidStateSampler(ob::SpaceInformation& si, StateSampler sampler) {
+void setValidStateSampler(ob::SpaceInformation& si, ValidSampler sampler) {
   const auto use = [&]<class Sampler>(std::type_identity<Sampler>) {
     si.setValidStateSamplerAllocator(
         [](const ob::SpaceInformation* space) -> ob::ValidStateSamplerPtr {
@@ -287,15 +287,15 @@ void setValidStateSampler(ob::SpaceInformation& si, StateSampler sampler) {
         });
   };
   switch (sampler) {
-    case StateSampler::uniform:
+    case ValidSampler::uniform:
       return use(std::type_identity<ob::UniformValidStateSampler>{});
-    case StateSampler::gaussian:
+    case ValidSampler::gaussian:
       return use(std::type_identity<ob::GaussianValidStateSampler>{});
-    case StateSampler::obstacleBased:
+    case ValidSampler::obstacleBased:
       return use(std::type_identity<ob::ObstacleBasedValidStateSampler>{});
-    case StateSampler::bridgeTest:
+    case ValidSampler::bridgeTest:
       return use(std::type_identity<ob::BridgeTestValidStateSampler>{});
-    case StateSampler::maxClearance:
+    case ValidSampler::maxClearance:
       return use(std::type_identity<ob::MaximizeClearanceValidStateSampler>{});
   }
 }

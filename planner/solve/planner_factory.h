@@ -48,6 +48,6 @@ std::shared_ptr<ompl::base::Planner> makePlanner(
     const std::vector<PlannerParameter>& parameters, const PlannerParameter& nameAt = {});
 
 /// Sets the sampler of valid states.
-void setValidStateSampler(ompl::base::SpaceInformation& si, StateSampler sampler);
+void setValidStateSampler(ompl::base::SpaceInformation& si, ValidSampler sampler);
 
 }  // namespace corridor

@@ -208,8 +208,8 @@ Solution makeSolution(const Problem& problem, const SolveReport& report, std::st
   solution.seed = report.seed;
   solution.certified = report.certified;
   solution.checker = report.checker;
-  solution.tolerance = report.motion.tolerance;
-  solution.margin = report.motion.margin;
+  solution.tolerance = report.proofOptions.tolerance;
+  solution.margin = report.proofOptions.margin;
   solution.tube = problem.task.tube;
   solution.path = report.path;
   return solution;

@@ -89,7 +89,7 @@ Solve::Solve(const Problem& problem, const SolveOptions& options)
       space_(std::make_shared<ProblemStateSpace>(problem.model.space)),
       start_(startOf(problem)),
       goals_(goalsOf(problem)) {
-  report_.motion = checker_.options();
+  report_.proofOptions = checker_.options();
   report_.seed = problem.settings.seed;
   report_.planner = problem.settings.planner.name;
   report_.checker =
@@ -314,8 +314,8 @@ std::vector<Path> Solve::simplified(og::PathGeometric& path) {
 }
 
 void Solve::finish() {
-  // The path is copied, because CForest's path belongs to another space, a wrapper of ours. Its
-  // states belong to our space.
+  // CForest's path belongs to a space that wraps our space, but its states belong to our space. So
+  // the states are copied into a path of our space.
   og::PathGeometric path(si_);
   for (const ob::State* state :
        definition_->getSolutionPath()->as<og::PathGeometric>()->getStates())

@@ -65,10 +65,10 @@ struct SolveReport {
   /// Counts of all queries: states, edges, undecided, and N_v, N_p of the cost model.
   Counters counters;
   PathLength length;
-  std::size_t rawStates = 0;  ///< states of the planner's own path, before simplifying
-  PathLength rawLength;       ///< length of the planner's own path
-  int version = 0;            ///< index of the simplified version returned; 0: the planner's own
-  MotionOptions motion;       ///< tolerance and margin of the proof; its tube is the problem's
+  std::size_t rawStates = 0;   ///< states of the planner's own path, before simplifying
+  PathLength rawLength;        ///< length of the planner's own path
+  int version = 0;             ///< index of the simplified version returned; 0: the planner's own
+  MotionOptions proofOptions;  ///< tolerance and margin of the proof; its tube is the problem's
 };
 
 /// Solves a problem: checks start and goals (one free goal is enough), plans, simplifies, and

@@ -86,7 +86,7 @@ Away awayFrom(const ConfigurationSpace& space, const Configuration& a, const Con
   return away;
 }
 
-std::string inFact(const Away& away) {
+std::string awayText(const Away& away) {
   std::string text;
   const auto add = [&](Real value, const char* what) {
     if (value > 0) text += (text.empty() ? "" : ", ") + shortest(static_cast<double>(value)) + what;
@@ -119,7 +119,7 @@ bool isInGoal(const Problem& problem, const Away& away) {
 /// the goal.
 bool checkEnds(const Problem& problem, const Path& path, std::vector<std::string>& violations) {
   const Away start = awayFrom(problem.model.space, problem.task.start, path.front());
-  if (!isSame(start)) violations.push_back("the first state is not the start: " + inFact(start));
+  if (!isSame(start)) violations.push_back("the first state is not the start: " + awayText(start));
   Away nearest;
   nearest.distance = HUGE_VALL;
   for (const Configuration& goal : problem.task.goals) {
@@ -127,7 +127,7 @@ bool checkEnds(const Problem& problem, const Path& path, std::vector<std::string
     if (isInGoal(problem, away)) return true;
     if (away.distance < nearest.distance) nearest = away;
   }
-  violations.push_back("the last state is not in the goal: " + inFact(nearest));
+  violations.push_back("the last state is not in the goal: " + awayText(nearest));
   return false;
 }
 
@@ -163,15 +163,15 @@ double sizeOf(const VerifyBody& body) {
 }
 
 /// Returns a tenth of the checker's tolerance, so that the verifier can decide paths that the
-/// checker certified. If `checkers` is unset, the checker's tolerance is `defaultTolerance` for the
-/// smallest tested body, or for a body of 1 m if all are larger.
+/// checker certified. If the checker's tolerance is unset, returns a tenth of `defaultTolerance`
+/// for the smallest tested shape, or for a shape of 1 m if all are larger.
 double toleranceOf(const Model& model, const PathProblem& plain,
-                   const std::optional<double>& checkers) {
+                   const std::optional<double>& checkerTolerance) {
   // The verifier needs a positive tolerance.
   const auto tenth = [](double tolerance) {
     return std::max(0.1 * tolerance, std::numeric_limits<double>::min());
   };
-  if (checkers) return tenth(*checkers);
+  if (checkerTolerance) return tenth(*checkerTolerance);
   double smallest = 1;
   for (const VerifyPair& pair : plain.pairs)
     for (const std::size_t body : {pair.a, pair.b})
@@ -237,8 +237,8 @@ VerifyReport verifySolution(const Problem& problem, const Solution& solution,
   report.digest = digestState(problem, solution);
   report.otherProblem = report.digest == DigestState::differs && other == DigestMismatch::refused;
   if (report.otherProblem) {
-    report.verdict = report.motion.verdict = PathVerdict::undecided;
-    report.motion.edges = static_cast<int>(solution.path.size()) - 1;
+    report.verdict = report.pathReport.verdict = PathVerdict::undecided;
+    report.pathReport.edges = static_cast<int>(solution.path.size()) - 1;
     std::vector<std::string> unused;
     report.reachesGoal = checkEnds(problem, solution.path, unused);  // for pictures
     return report;
@@ -248,8 +248,8 @@ VerifyReport verifySolution(const Problem& problem, const Solution& solution,
   PathProblem plain = plainProblem(problem);
   // A path of many states, such as a trajectory's samples, needs some hundred queries an edge.
   plain.workLimit = std::max<std::uint64_t>(plain.workLimit, 2000 * solution.path.size());
-  report.motion = verifyPath(plain, solution.path);
-  report.verdict = report.violations.empty() ? report.motion.verdict : PathVerdict::refuted;
+  report.pathReport = verifyPath(plain, solution.path);
+  report.verdict = report.violations.empty() ? report.pathReport.verdict : PathVerdict::refuted;
   return report;
 }
 

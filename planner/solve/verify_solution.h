@@ -29,7 +29,7 @@ struct VerifyReport {
   /// True if the digest differs and was not ignored. Then nothing was verified, and `verdict` is
   /// `undecided`.
   bool otherProblem = false;
-  PathReport motion;  ///< planner/verify's report on contacts and clearances
+  PathReport pathReport;  ///< planner/verify's report on contacts and clearances
   /// Faults of start, goal and bounds, one line each.
   std::vector<std::string> violations;
   bool reachesGoal = true;  ///< the last state is in the goal
@@ -43,8 +43,9 @@ const char* verdictName(const VerifyReport& report);
 
 /// Returns the plain data that planner/verify reads: the model's bodies, the pairs that its filter
 /// does not exclude, and the task's margin and tube. The model must outlive the result.
-/// @param tolerance the checker's tolerance, metres; unset: its default. The verifier's tolerance
-/// is a tenth of that.
+/// @param tolerance the checker's tolerance, metres; the verifier uses a tenth of it. Unset: the
+/// verifier uses a tenth of the default tolerance for the smallest tested shape (for a shape of 1 m
+/// if all are larger). This may differ from a tenth of the checker's default.
 PathProblem plainProblem(const Model& model, const Task& task,
                          const std::optional<double>& tolerance = {});
 PathProblem plainProblem(const Problem& problem);

@@ -156,7 +156,7 @@ NearestFree withFewDigits(const Configuration& exact, const Configuration& from,
     Configuration q = exact;
     for (Eigen::Index i = 0; i < q.size(); ++i)
       if (isPrinted(i)) q[i] = std::strtod(number(q[i], digits).c_str(), nullptr);
-    if (checker.certifiedState(q)) return {q, digits, away};
+    if (checker.isProvedFree(q)) return {q, digits, away};
   }
   return {exact, 17, away};
 }
@@ -164,7 +164,7 @@ NearestFree withFewDigits(const Configuration& exact, const Configuration& from,
 /// Searches for a free configuration near q: on shells that grow by a tenth, then by bisection
 /// along the first free direction. Returns nullopt if none of the shells has one.
 std::optional<NearestFree> nearestFree(const Configuration& q, const Checker& checker) {
-  const auto freeAt = [&](const Configuration& step) { return checker.certifiedState(q + step); };
+  const auto freeAt = [&](const Configuration& step) { return checker.isProvedFree(q + step); };
   double size = 1, farthest = std::numbers::pi;  // for joints: rad or m
   if (onlyPose(checker.space())) {
     size = 0;

@@ -14,8 +14,8 @@ struct BodyMotion {
   Perturbation perturbation;  ///< empty if the caller bounds the tube by other means
 };
 
-/// Returns a frame's motion, which `state` and `perturbation` give in the coordinates of the
-/// chain's base, in those of a frame that is placed at `at` in the base.
+/// Converts the motion of a frame from the coordinates of its chain's base (`state`,
+/// `perturbation`) to those of a frame that has the placement `at` in the base.
 /// @pre `state` and `perturbation` belong to the same kinematic chain, at the same t.
 BodyMotion motionSeenFrom(const Placement& at, const FrameState& state, Perturbation perturbation);
 

@@ -21,8 +21,8 @@ constexpr int kFindings = 100;
 constexpr int kDepth = 60;
 /// An edge is first halved into 2^kCoarse intervals. In this phase the interval with the smallest
 /// bound is halved next: this order finds a deep collision quickly. Afterwards the shortest
-/// interval is halved next: this order finds an undecidable place before all other intervals are as
-/// short.
+/// interval is halved next: this order goes deep first, so it finds an undecidable place without
+/// halving all other intervals to the same length.
 constexpr int kCoarse = 5;
 /// After the proof, the bound of the clearance is refined. The refinement may take kRefinement
 /// queries, plus four times the number of queries of the proof. It ends when the bound reaches the

@@ -180,16 +180,16 @@ class PageData {
         {"margin_m", r.margin}};
     if (!s.digest.empty()) solution["seed"] = s.seed;
     ordered_json& verdict = json_["verdict"] = {{"verdict", verdictName(r)},
-                                                {"edges", r.motion.edges},
-                                                {"edges_proved", r.motion.edgesProved},
+                                                {"edges", r.pathReport.edges},
+                                                {"edges_proved", r.pathReport.edgesProved},
                                                 {"reaches_goal", r.reachesGoal},
                                                 {"violations", r.violations},
                                                 {"findings", ordered_json::array()}};
-    if (r.motion.verdict == PathVerdict::proved) {
-      verdict["clearance_m"] = r.motion.provenClearance;
-      verdict["distance_met_m"] = r.motion.smallestDistanceMet;
+    if (r.pathReport.verdict == PathVerdict::proved) {
+      verdict["clearance_m"] = r.pathReport.provenClearance;
+      verdict["distance_met_m"] = r.pathReport.smallestDistanceMet;
     }
-    for (const PathFinding& f : r.motion.findings)
+    for (const PathFinding& f : r.pathReport.findings)
       verdict["findings"].push_back({{"verdict", nameOf(f.verdict)},
                                      {"reason", f.reason},
                                      {"edge", f.edge},
@@ -207,7 +207,7 @@ class PageData {
   }
 
   void addPath() {
-    const std::vector<PathFinding>& findings = path_->report.motion.findings;
+    const std::vector<PathFinding>& findings = path_->report.pathReport.findings;
     const PathSamples samples = samplePath(problem_, path_->solution.path, findings);
     std::vector<float> at, t, poses;
     std::vector<std::uint32_t> edges;

@@ -16,7 +16,8 @@ LAYERS = [
     "planner/view", "planner/benchmark", "planner/app",
 ]
 
-# The verifier shares only plain data with the checker. So the headers that it may include are listed one by one.
+# The verifier shares only plain data and the test of the floating-point mode with the checker. So the headers that it
+# may include are listed one by one.
 VERIFIER = {
     "collision/core/floating_point.h",
     "collision/core/rigid_pose.h",

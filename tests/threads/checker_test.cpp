@@ -63,7 +63,7 @@ void ask(const Checker& checker, const Edge& edge, Answers& answers) {
   answers.add(checker.certifyState(edge.from));
   answers.add(checker.certifyEdge(edge.from, edge.to, false));
   answers.add(checker.certifyEdge(edge.from, edge.to, true));
-  answers.addVerdict(checker.certifiedEdge(edge.from, edge.to));
+  answers.addVerdict(checker.isProvedFree(edge.from, edge.to));
   answers.addVerdict(checker.interference(edge.to).has_value());
   answers.add(checker.clearance(edge.from));
   for (const Checker::PairNotFree& pair : checker.pairsNotFree(edge.to)) {

@@ -160,7 +160,7 @@ std::size_t expectTheSameOfOneThread(const Problem& problem, const Recorder& rec
   std::size_t asked = 0, wrong = 0;
   for (const auto& log : recorder.logs()) {
     for (const AskedState& state : log->states)
-      wrong += checker.certifiedState(state.q) != state.valid;
+      wrong += checker.isProvedFree(state.q) != state.valid;
     for (const AskedMotion& motion : log->motions) {
       const bool valid =
           checker.inBounds(motion.to) &&

@@ -123,16 +123,16 @@ class Stage {
     this.controls[0].enabled = !top;
     this.controls[1].enabled = top;
     this.moved = false;
-    this.frame();
+    this.fitToPage();
     this.onView();
   }
 
   resize() {
-    if (this.frame()) this.drawNow();  // at once: setting a canvas's size clears it
+    if (this.fitToPage()) this.drawNow();  // at once: setting a canvas's size clears it
   }
 
   /** Fits canvas and cameras to the page. @returns whether the size is not empty and has changed. */
-  frame() {
+  fitToPage() {
     const {clientWidth: width, clientHeight: height} = this.canvas.parentElement;
     if (!width || !height || !this.points) return false;
     const changed = width !== this.width || height !== this.height;

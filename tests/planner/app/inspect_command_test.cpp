@@ -179,10 +179,11 @@ TEST_F(InspectCube, BadInputIsOneLineAndExit2) {
   write("package.urdf",
         "<robot name=\"r\">\n<link name=\"a\"><collision><geometry><mesh "
         "filename=\"package://p/m.obj\"/></geometry></collision></link>\n</robot>\n");
-  expectFault("inspect package.urdf",
-              "package.urdf:2: link \"a\": mesh \"package://p/m.obj\": p/m.obj is not a file, "
-              "and package \"p\" has no folder; add packages: {p: FOLDER} to robot.yaml, or set "
-              "ROS_PACKAGE_PATH or AMENT_PREFIX_PATH");
+  expectFault(
+      "inspect package.urdf",
+      "package.urdf:2: link \"a\": mesh \"package://p/m.obj\": p/m.obj is not a file, "
+      "and no folder of package \"p\" was found; add packages: {p: FOLDER} to robot.yaml, or set "
+      "ROS_PACKAGE_PATH or AMENT_PREFIX_PATH");
   expectFault("inspect cube.obj --pairs", "--pairs: needs a problem, and cube.obj is a mesh");
   expectFault("inspect problem.yaml --self-intersections",
               "--self-intersections: needs a mesh, and problem.yaml is a problem");

@@ -75,7 +75,8 @@ TEST_F(NewCommand, WritesARobotWithItsPairs) {
             "robot: reach.yaml\n"
             "pairs: 0 adjacent, 1 proved never in contact, 1 in contact in all random states, 1 "
             "others\n"
-            "decide: the pairs that are marked DECIDE in the file: no state may ever be valid\n");
+            "decide: the pairs that are marked DECIDE in the file; until then probably no state is "
+            "valid\n");
   const std::string file = read("reach.yaml");
   EXPECT_THAT(file, HasSubstr("format: corridor-robot-1\nname: reach\nurdf: reach.urdf\n"));
   EXPECT_THAT(file, HasSubstr("\nnever_in_contact:\n  # 1 pair proved: "));

@@ -33,11 +33,11 @@ using testing::HasSubstr;
 using testing::StartsWith;
 
 Campaign campaignOf(const std::vector<std::string>& variants, std::uint64_t runs,
-                    const std::vector<BenchmarkCompetitor>& peers = {}) {
+                    const std::vector<BenchmarkCompetitor>& competitors = {}) {
   Campaign campaign;
   campaign.problems = {hallProblem(Rigid::SE3)};
   for (const std::string& variant : variants)
-    campaign.variants.push_back(readVariant(variant, peers));
+    campaign.variants.push_back(readVariant(variant, competitors));
   campaign.runs = runs;
   identifyProblems(campaign);
   return campaign;

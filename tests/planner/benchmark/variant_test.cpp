@@ -12,9 +12,9 @@ namespace corridor {
 namespace {
 
 std::string complaintOf(const std::string& text,
-                        const std::vector<BenchmarkCompetitor>& peers = {}) {
+                        const std::vector<BenchmarkCompetitor>& competitors = {}) {
   try {
-    readVariant(text, peers);
+    readVariant(text, competitors);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -61,13 +61,13 @@ TEST(Variant, EveryEdgeMethodIsAVariant) {
 }
 
 TEST(Variant, CompetitorsSampleEdges) {
-  const std::vector<BenchmarkCompetitor> peers{{"other", {}}};
-  const Variant variant = readVariant("other:0.1", peers);
+  const std::vector<BenchmarkCompetitor> competitors{{"other", {}}};
+  const Variant variant = readVariant("other:0.1", competitors);
   EXPECT_EQ(settingsOf(variant).edges, EdgeCheck::discrete);
   EXPECT_EQ(settingsOf(variant).resolution, 0.1);
   ASSERT_TRUE(variant.competitor);
   EXPECT_EQ(variant.competitor->name, "other");
-  EXPECT_FALSE(readVariant("discrete:0.1", peers).competitor);
+  EXPECT_FALSE(readVariant("discrete:0.1", competitors).competitor);
 }
 
 TEST(Variant, BadOnesAreReportedInOneLine) {

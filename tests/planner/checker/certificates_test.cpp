@@ -47,7 +47,7 @@ TEST_P(Certificates, AreAccepted) {
   int free = 0, accepted = 0;
   for (int n = 0; n < 100 * wanted && free < wanted; ++n) {
     const Configuration from = randomState(problem.model.space, random);
-    if (!checker.certifiedState(from)) continue;
+    if (!checker.isProvedFree(from)) continue;
     // 1 to 20 % of the way to another state.
     const double share = std::pow(10.0, std::uniform_real_distribution(-2.0, -0.7)(random));
     const Configuration to =

@@ -104,7 +104,7 @@ TEST(Clearance, AgreesWithValidity) {
     for (int i = 0; i < 400; ++i) {
       const Configuration q = Vec3(3 * u(random), 2.4 * u(random), 2.4 * u(random));
       const double clearance = checker.clearance(q);
-      if (checker.certifiedState(q)) {
+      if (checker.isProvedFree(q)) {
         ++valid;
         EXPECT_GT(clearance, 0);
       } else {

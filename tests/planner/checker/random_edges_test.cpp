@@ -45,7 +45,7 @@ void checkEdge(const Problem& problem, const Checker& checker, const Configurati
     ++tally.free;
     Solution solution;
     solution.path = {from, to};
-    const PathReport report = verifySolution(problem, solution).motion;
+    const PathReport report = verifySolution(problem, solution).pathReport;
     EXPECT_NE(report.verdict, PathVerdict::refuted)
         << report.findings[0].a << " meets " << report.findings[0].b << " at "
         << report.findings[0].t << " from " << from.transpose() << " to " << to.transpose();
@@ -61,7 +61,7 @@ void checkEdge(const Problem& problem, const Checker& checker, const Configurati
     tally.self += moves(result.pair->bodyA) && moves(result.pair->bodyB);
     Solution solution;
     solution.path = {from, to};
-    EXPECT_EQ(verifySolution(problem, solution).motion.verdict, PathVerdict::refuted)
+    EXPECT_EQ(verifySolution(problem, solution).pathReport.verdict, PathVerdict::refuted)
         << "from " << from.transpose() << " to " << to.transpose();
   } else {
     ++tally.undecided;
@@ -88,7 +88,7 @@ TEST_P(RandomEdges, FreeOnesAreProved) {
       Configuration from = randomState(problem, random);
       if (left % 4 == 0) from = step(problem.task.start, 0.1, random);
       if (left % 4 == 2) from = step(problem.task.goals[0], 0.1, random);
-      if (!checker.certifiedState(from)) continue;
+      if (!checker.isProvedFree(from)) continue;
       const Configuration to =
           step(from, std::uniform_real_distribution<double>(0.1, 2)(random), random);
       if (!checker.inBounds(to)) continue;

@@ -62,7 +62,7 @@ TEST(CheckerVolumes, AgreeOnStatesAndEdges) {
         verdicts.push_back(checker.interference(from[n]).has_value());
         verdicts.push_back(checker.clearance(from[n]) > 0);
         verdicts.push_back(static_cast<int>(checker.certifyEdge(from[n], to[n], n % 2).verdict));
-        verdicts.push_back(checker.certifiedEdge(from[n], to[n]));
+        verdicts.push_back(checker.isProvedFree(from[n], to[n]));
       }
       if (usual.empty()) usual = verdicts;
       EXPECT_EQ(verdicts, usual);
@@ -92,8 +92,8 @@ TEST(CheckerVolumes, WrongWordsThrow) {
   EXPECT_EQ(message({"obb-binary", "", "gjk"}, "discrete"), "");
   EXPECT_EQ(message({"obb-binary", "", "sat"}, "adaptive"), "");
   EXPECT_EQ(message({"obb-binary", "", "gjk"}, "advancement"),
-            "checker.overlap: \"gjk\" needs edges: certified or discrete; advancement measures "
-            "distances between volumes: leave overlap out");
+            "checker.overlap: \"gjk\" can't be used with edges: advancement, which measures "
+            "distances between volumes; leave overlap out, or use edges: certified");
 }
 
 }  // namespace

@@ -115,10 +115,10 @@ TEST(ModelBuilder, RigidBodiesInMemory) {
     return q;
   };
   EXPECT_EQ(checker.tube(), tubeOf(model.space));
-  EXPECT_TRUE(checker.certifiedEdge(at(1.2), at(2)));
-  EXPECT_FALSE(checker.certifiedEdge(at(1.05), at(2))) << "closer than the margin";
-  EXPECT_FALSE(checker.certifiedEdge(at(-2), at(2)));
-  EXPECT_FALSE(checker.certifiedState(at(2.5))) << "out of bounds";
+  EXPECT_TRUE(checker.isProvedFree(at(1.2), at(2)));
+  EXPECT_FALSE(checker.isProvedFree(at(1.05), at(2))) << "closer than the margin";
+  EXPECT_FALSE(checker.isProvedFree(at(-2), at(2)));
+  EXPECT_FALSE(checker.isProvedFree(at(2.5))) << "out of bounds";
 }
 
 TEST(ModelBuilder, ReportsAllFaultsAtOnce) {

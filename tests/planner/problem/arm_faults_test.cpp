@@ -80,6 +80,9 @@ TEST_F(ArmFaults, Bounds) {
       with("bounds: {lift: [1, -1]}\n"),
       "problem.yaml:7: bounds.lift: the lower bound first, then the upper one: 1 is not below "
       "-1");
+  EXPECT_EQ(with("bounds: {lift: [-1e308, 1e308]}\n"),
+            "problem.yaml:7: bounds.lift: the range from -1e+308 to 1e+308 is larger than any "
+            "double");
   EXPECT_EQ(with("bounds: {slide: [0.02, 0.03]}\n"),
             "problem.yaml:7: bounds.slide: is not planned for; remove its bounds");
   EXPECT_EQ(with("bounds: {pan: [-0.5, 0.5]}\n"),

@@ -58,7 +58,7 @@ TEST_F(OmplAppCfg, SpatialProblemWithEverything) {
   EXPECT_EQ(p.task.goalThreshold, 0.1);
   EXPECT_EQ(p.settings.objective, Objective::length);
   EXPECT_EQ(p.settings.objectiveThreshold, 3);
-  EXPECT_EQ(p.settings.sampler, StateSampler::gaussian);
+  EXPECT_EQ(p.settings.sampler, ValidSampler::gaussian);
   EXPECT_EQ(p.settings.checker.resolution, 0.02);
   EXPECT_EQ(lowerOf(p), Vec3(-1, -1, -1));
   EXPECT_EQ(upperOf(p), Vec3(5, 9, 9));
@@ -90,7 +90,7 @@ TEST_F(OmplAppCfg, TheLastOfRepeatedKeysOfAPlannerIsUsed) {
           "problem.longest_valid_segment_fraction=0.03\nrrt.range=4\nproblem.sampler=gaussian\n"
           "problem.longest_valid_segment_fraction=0.04\n"));
   EXPECT_EQ(p.settings.planner.params, (std::map<std::string, std::string>{{"range", "4"}}));
-  EXPECT_EQ(p.settings.sampler, StateSampler::gaussian);
+  EXPECT_EQ(p.settings.sampler, ValidSampler::gaussian);
   EXPECT_EQ(p.settings.checker.resolution, 0.04);
 }
 
@@ -307,7 +307,7 @@ TEST(OmplAppProblems, AgreeWithTheReference) {
     EXPECT_EQ(p.task.goalThreshold, 1e-6);
   }
   EXPECT_EQ(readProblem(*folder / "3D/alpha-1.5.cfg").settings.sampler,
-            StateSampler::obstacleBased);
+            ValidSampler::obstacleBased);
   EXPECT_EQ(readProblem(*folder / "3D/Home.cfg").settings.objective, Objective::length);
   EXPECT_EQ(readProblem(*folder / "3D/cubicles_opt.cfg").settings.planner.time, 300);
 }

@@ -180,8 +180,8 @@ TEST_F(ProblemFaults, VolumesThatCannotBeCombined) {
       "problem.yaml:8: checker.fit: \"hull\" is for volumes obb, obb-binary, rss; volume aabb "
       "has: plain");
   EXPECT_EQ(with("checker: {edges: adaptive, volume: obb-binary, overlap: gjk}\n"),
-            "problem.yaml:8: checker.overlap: \"gjk\" needs edges: certified or discrete; "
-            "adaptive measures distances between volumes: leave overlap out");
+            "problem.yaml:8: checker.overlap: \"gjk\" can't be used with edges: adaptive, which "
+            "measures distances between volumes; leave overlap out, or use edges: certified");
 }
 
 TEST_F(ProblemFaults, Ranges) {
@@ -268,6 +268,9 @@ TEST_F(ProblemFaults, Bounds) {
   EXPECT_EQ(
       complaintOf(start + "bounds: {at: [[0, 3, 0], [9, 2, 1]]}\n"),
       "problem.yaml:7: bounds.at: lower corner first, then the upper one: in y, 3 is not below 2");
+  EXPECT_EQ(complaintOf(start + "bounds: {at: [[-1e308, 0, 0], [1e308, 2, 1]]}\n"),
+            "problem.yaml:7: bounds.at: in x, the range from -1e+308 to 1e+308 is larger than any "
+            "double");
   EXPECT_EQ(complaintOf(start + "bounds: {at: [[0, 0], [9, 9]]}\n"),
             "problem.yaml:7: bounds.at: a list of 3 numbers is needed, not a list of 2");
   EXPECT_EQ(complaintOf(start + "bounds: {at: [0, 0, 0]}\n"),

@@ -77,7 +77,7 @@ TEST_F(ProblemYaml, EveryKeyIsRead) {
   EXPECT_EQ(p.settings.planner.stopAtFirst, false);
   EXPECT_EQ(p.settings.planner.params,
             (std::map<std::string, std::string>{{"range", "0.6"}, {"goal_bias", "0.1"}}));
-  EXPECT_EQ(p.settings.sampler, StateSampler::gaussian);
+  EXPECT_EQ(p.settings.sampler, ValidSampler::gaussian);
   EXPECT_EQ(p.settings.simplify, Simplifier::none);
   EXPECT_EQ(p.settings.checker.edges, EdgeCheck::discrete);
   EXPECT_EQ(p.settings.checker.resolution, 0.02);
@@ -98,7 +98,7 @@ TEST_F(ProblemYaml, Defaults) {
   EXPECT_EQ(p.settings.planner.name, "RRTConnect");
   EXPECT_EQ(p.settings.planner.time, 20);
   EXPECT_FALSE(p.settings.planner.stopAtFirst);
-  EXPECT_EQ(p.settings.sampler, StateSampler::uniform);
+  EXPECT_EQ(p.settings.sampler, ValidSampler::uniform);
   EXPECT_EQ(p.settings.checker.edges, EdgeCheck::certified);
   EXPECT_EQ(p.settings.checker.trees.volume, "obb");
   EXPECT_EQ(treesNamed(p.settings.checker.trees).trees, TreeKind::obb4);

@@ -326,25 +326,28 @@ TEST_F(UrdfFaults, MeshFiles) {
   rules_.packages["arm_description"] = folder_;
   EXPECT_EQ(complaint("package://arm_description/none.stl"),
             of + "\"package://arm_description/none.stl\": none.stl: no such file");
-  EXPECT_EQ(complaint("package://arm_descripton/a.stl"),
-            of + "\"package://arm_descripton/a.stl\": arm_descripton/a.stl is not a file, and "
-                 "package \"arm_descripton\" has no folder (did you mean \"arm_description\"?)");
-  EXPECT_EQ(complaint("package://hand/a.stl"),
-            of + "\"package://hand/a.stl\": hand/a.stl is not a file, and package \"hand\" has no "
-                 "folder; add packages: {hand: FOLDER} to robot.yaml, or set ROS_PACKAGE_PATH or "
-                 "AMENT_PREFIX_PATH");
+  EXPECT_EQ(
+      complaint("package://arm_descripton/a.stl"),
+      of + "\"package://arm_descripton/a.stl\": arm_descripton/a.stl is not a file, and "
+           "no folder of package \"arm_descripton\" was found (did you mean \"arm_description\"?)");
+  EXPECT_EQ(
+      complaint("package://hand/a.stl"),
+      of + "\"package://hand/a.stl\": hand/a.stl is not a file, and no folder of package \"hand\" "
+           "was found; add packages: {hand: FOLDER} to robot.yaml, or set ROS_PACKAGE_PATH or "
+           "AMENT_PREFIX_PATH");
   // A missing package is reported once.
-  EXPECT_EQ(complaintOfParts(link("a", collision("<mesh filename=\"package://hand/a.stl\"/>") +
-                                           collision("<mesh filename=\"package://hand/b.stl\"/>") +
-                                           collision("<mesh filename=\"package://foot/b.stl\"/>"))),
-            of +
-                "\"package://hand/a.stl\": hand/a.stl is not a file, and package \"hand\" has no "
-                "folder; add packages: {hand: FOLDER} to robot.yaml, or set ROS_PACKAGE_PATH or "
-                "AMENT_PREFIX_PATH\n" +
-                of +
-                "\"package://foot/b.stl\": foot/b.stl is not a file, and package \"foot\" has "
-                "no folder; add packages: {foot: FOLDER} to robot.yaml, or set "
-                "ROS_PACKAGE_PATH or AMENT_PREFIX_PATH");
+  EXPECT_EQ(
+      complaintOfParts(link("a", collision("<mesh filename=\"package://hand/a.stl\"/>") +
+                                     collision("<mesh filename=\"package://hand/b.stl\"/>") +
+                                     collision("<mesh filename=\"package://foot/b.stl\"/>"))),
+      of +
+          "\"package://hand/a.stl\": hand/a.stl is not a file, and no folder of package \"hand\" "
+          "was found; add packages: {hand: FOLDER} to robot.yaml, or set ROS_PACKAGE_PATH or "
+          "AMENT_PREFIX_PATH\n" +
+          of +
+          "\"package://foot/b.stl\": foot/b.stl is not a file, and no folder of package \"foot\" "
+          "was found; add packages: {foot: FOLDER} to robot.yaml, or set "
+          "ROS_PACKAGE_PATH or AMENT_PREFIX_PATH");
   // An unreadable mesh file is reported once, at the place where the URDF names it first.
   write("bad.obj", "v 0 0 0\nv 1 0 nan\n");
   EXPECT_EQ(complaintOfParts(link("a", collision("<mesh filename=\"bad.obj\"/>") +

@@ -86,7 +86,7 @@ TEST(TwoArms, AreTestedAgainstEachOther) {
     for (const Coordinate& c : problem.model.space.coordinates())
       q[static_cast<Eigen::Index>(c.first)] =
           std::uniform_real_distribution(std::max(c.lower, -1.5), std::min(c.upper, 1.5))(random);
-    const bool free = alone.certifiedState(q), freeTogether = together.certifiedState(q);
+    const bool free = alone.isProvedFree(q), freeTogether = together.isProvedFree(q);
     EXPECT_TRUE(free || !freeTogether);
     differ += free && !freeTogether;
   }

@@ -57,7 +57,7 @@ TEST_P(Spaces, SolvedCertifiedAndVerified) {
     EXPECT_LE(problem.model.space.largestTurn(report.path[i - 1], report.path[i]), 1.5708);
   const VerifyReport verified = verifySolution(problem, makeSolution(problem, report));
   EXPECT_EQ(verified.verdict, PathVerdict::proved);
-  EXPECT_GT(verified.motion.provenClearance, 0);
+  EXPECT_GT(verified.pathReport.provenClearance, 0);
 }
 
 TEST_P(Spaces, SameSeedSamePathAnotherSeedAnother) {
@@ -141,7 +141,7 @@ TEST_P(Spaces, MutatedPathsAreRefuted) {
   // Straight through the wall.
   EXPECT_EQ(verdict([](Path& p) {
               p = {p.front(), p.back()};
-            }).motion.verdict,
+            }).pathReport.verdict,
             PathVerdict::refuted);
   const auto start = verdict([](Path& p) { p.front()[0] += 1e-9; });
   EXPECT_EQ(start.verdict, PathVerdict::refuted);
@@ -301,8 +301,8 @@ TEST(Solve, MaximisesTheLeastClearance) {
 TEST(Solve, SamplersSolve) {
   Problem problem = hallProblem(Rigid::SE2);
   problem.settings.planner.name = "PRM";
-  for (const std::string& sampler : wordsFor<StateSampler>()) {
-    problem.settings.sampler = choiceNamed<StateSampler>(sampler).value();
+  for (const std::string& sampler : wordsFor<ValidSampler>()) {
+    problem.settings.sampler = choiceNamed<ValidSampler>(sampler).value();
     EXPECT_EQ(solveProblem(problem).outcome, SolveOutcome::solved) << sampler;
   }
 }
@@ -357,7 +357,7 @@ TEST(Solve, AdviceForAStartBetweenPlatesHolds) {
                         &problem.task.start[1]),
             2)
       << complaint;
-  EXPECT_TRUE(Checker(problem).certifiedState(problem.task.start)) << complaint;
+  EXPECT_TRUE(Checker(problem).isProvedFree(problem.task.start)) << complaint;
 }
 
 /// The validator of this test accepts every edge that is longer than the planner's edges, so

@@ -212,7 +212,7 @@ TEST(ViewPage, DistancesAreThoseOfTheChecker) {
     const auto metres = page.array<double>(json["metres"]),
                points = page.array<double>(json["points"]);
     const PathSamples samples =
-        samplePath(problem, path, viewed(problem, path).report.motion.findings);
+        samplePath(problem, path, viewed(problem, path).report.pathReport.findings);
     ASSERT_GT(sample.size(), 20U);
     bool contact = false, apart = false;
     for (std::size_t i = 0; i < sample.size(); ++i) {
@@ -244,12 +244,12 @@ TEST(ViewPage, FindingsHaveTheirPlaces) {
   const PageReader page(viewPage(problem, refuted));
   EXPECT_EQ(page.json["verdict"]["verdict"], "refuted");
   const auto& findings = page.json["verdict"]["findings"];
-  ASSERT_EQ(findings.size(), refuted.report.motion.findings.size());
+  ASSERT_EQ(findings.size(), refuted.report.pathReport.findings.size());
   ASSERT_GE(findings.size(), 1U);
   const auto t = page.array<double>(page.json["path"]["t"]);
   const auto edge = page.array<int>(page.json["path"]["edge"]);
   for (std::size_t i = 0; i < findings.size(); ++i) {
-    const PathFinding& real = refuted.report.motion.findings[i];
+    const PathFinding& real = refuted.report.pathReport.findings[i];
     const std::size_t sample = page.json["path"]["findings"][i];
     if (real.t > 0) {
       EXPECT_EQ(edge[sample], real.edge);
