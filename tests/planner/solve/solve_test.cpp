@@ -101,8 +101,10 @@ TEST_P(Spaces, APathThatDependsOnTheClockDoesNotRepeat) {
     problem.settings.planner.stopAtFirst = first;
     problem.settings.planner.time = first ? 20 : 0.5;
     const SolveReport report = solveProblem(problem);
-    if (first) ASSERT_EQ(report.outcome, SolveOutcome::solved) << report.why;
     EXPECT_EQ(report.repeats, first);
+    if (first) {
+      EXPECT_EQ(report.outcome, SolveOutcome::solved) << report.why;
+    }
   }
 }
 
