@@ -185,29 +185,38 @@ const char* PairProver::whyStuck(const PairReach& reach, const Measured& m) cons
   return clear > problem_.tolerance ? kTooLarge : "clearance below the tolerance";
 }
 
-PairProver::Measured PairProver::measure(const TimeInterval& interval, std::size_t pair,
-                                         PiecePair guess, Real stop) {
+PairProver::Measured PairProver::place(const TimeInterval& interval, std::size_t pair) {
   const Pair& p = pairs_[pair];
-  const PairReach& reach = reaches_[interval.edge][pair];
   Measured m;
   m.a = stateOf(interval.edge, p.chainA, interval.middle);
   m.b = stateOf(interval.edge, p.chainB, interval.middle);
   const RealMat back = m.a.at.rotation.transpose();
-  const Placement X_AB{back * m.b.at.rotation, back * (m.b.at.position - m.a.at.position)};
-  distance_.place(treeOf(p.a), treeOf(p.b), X_AB);
+  m.X_AB = {back * m.b.at.rotation, back * (m.b.at.position - m.a.at.position)};
+  distance_.place(treeOf(p.a), treeOf(p.b), m.X_AB);
+  return m;
+}
+
+void PairProver::measure(const PairReach& reach, std::size_t pair, PiecePair guess, Real stop,
+                         Measured& m) {
+  const Pair& p = pairs_[pair];
   const auto touches = [&](PiecePair pieces) {
     if (!reach.sharp) return false;
     const Piece &a = treeOf(p.a).piece(pieces.a), &b = treeOf(p.b).piece(pieces.b);
     if (a.part || b.part) return distance_.gap(pieces).upper <= reach.rounding;
     RigidPose pose;
-    pose.p = X_AB.position.cast<double>();
-    pose.q = Eigen::Quaternion<Real>(X_AB.rotation).cast<double>();
+    pose.p = m.X_AB.position.cast<double>();
+    pose.q = Eigen::Quaternion<Real>(m.X_AB.rotation).cast<double>();
     m.contact = exactContact(pose, b.corners, a.corners);
     return m.contact.has_value();
   };
   m.gap =
       distance_.measure(guess, reach.sharp ? reach.rounding : 0, stop + reach.rounding, touches);
-  return m;
+}
+
+Real PairProver::secondOrder(const PairReach& reach, Real half) const {
+  return tubeMatters(reach)
+             ? (half * half * reach.sum.bend + half * reach.sum.bendCross + reach.sum.bendTube) / 2
+             : half * half * reach.sum.bend / 2 + reach.sum.tube;
 }
 
 PairAnswer PairProver::decide(const TimeInterval& interval, const OpenPair& open,
@@ -215,9 +224,24 @@ PairAnswer PairProver::decide(const TimeInterval& interval, const OpenPair& open
   const PairReach& reach = reaches_[interval.edge][open.pair];
   const Real motionBound = reach.sum.speed * interval.half, pad = reach.sum.tube + reach.rounding;
   const Real margin = problem_.margin;
-  const Real stop = std::max<Real>(margin, usefulBound) + motionBound + pad;
-  const Measured m = measure(interval, open.pair, open.guess, stop);
+  Measured m = place(interval, open.pair);
   PairAnswer answer;
+  if (motionBound > problem_.tolerance) {
+    // Both bounds reduce the distance by at least this much, so no interval can be proved whose
+    // distance is smaller. The distance of one pair of primitives shows that at once, for most of
+    // the intervals that are too long. Only a pair that is refuted must be measured.
+    const Real least =
+        std::min(motionBound + pad, secondOrder(reach, interval.half) + reach.rounding);
+    const Real upper = distance_.gap(open.guess).upper;
+    if (margin + pad < upper && upper <= margin + least) {
+      answer.closest = open.guess;
+      answer.bound = open.bound;
+      answer.upper = upper;
+      answer.reason = kTooLarge;  // for an interval that can't be halved any more
+      return answer;
+    }
+  }
+  measure(reach, open.pair, open.guess, std::max<Real>(margin, usefulBound) + motionBound + pad, m);
   answer.closest = m.gap.pair;
   answer.upper = m.gap.upper;
   answer.point = m.contact ? RealVec(m.contact->cast<Real>()) : m.gap.onB;
@@ -248,14 +272,11 @@ Real PairProver::boundPiecewise(const TimeInterval& interval, std::size_t pair, 
   motion.tube = reach.sum.tube;
   motion.rounding = reach.rounding;
   Perturbation a, b;
+  motion.secondOrder = secondOrder(reach, half);
   if (tubeMatters(reach)) {
     const EdgeCurve& curve = curves_[interval.edge];
     a = curve.perturbationAt(chains_[pairs_[pair].chainA], interval.middle, problem_.tube);
     b = curve.perturbationAt(chains_[pairs_[pair].chainB], interval.middle, problem_.tube);
-    motion.secondOrder =
-        (half * half * reach.sum.bend + half * reach.sum.bendCross + reach.sum.bendTube) / 2;
-  } else {
-    motion.secondOrder = half * half * reach.sum.bend / 2 + reach.sum.tube;
   }
   motion.a = motionSeenFrom(m.a.at, m.a, std::move(a));
   motion.b = motionSeenFrom(m.a.at, m.b, std::move(b));

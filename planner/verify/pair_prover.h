@@ -89,6 +89,7 @@ class PairProver {
     BodyGap gap;
     std::optional<Vec3> contact;  ///< a common point of two triangles, in a's frame
     FrameState a, b;
+    Placement X_AB;
   };
 
   bool isState(const Configuration& state) const;
@@ -97,7 +98,12 @@ class PairProver {
   const BoxTree& treeOf(std::size_t body) const { return trees_[treeOf_[body]]; }
   PairReach reachOf(std::size_t edge, std::size_t pair) const;
   const FrameState& stateOf(std::size_t edge, std::size_t chainIndex, Real t);
-  Measured measure(const TimeInterval& interval, std::size_t pair, PiecePair guess, Real stop);
+  /// Sets the bodies' placement at the middle of the interval, for `distance_` and the result.
+  Measured place(const TimeInterval& interval, std::size_t pair);
+  /// Measures the distance of the placed bodies.
+  void measure(const PairReach& reach, std::size_t pair, PiecePair guess, Real stop, Measured& m);
+  /// Returns the terms of second order that reduce the distance in an interval, in any direction.
+  Real secondOrder(const PairReach& reach, Real half) const;
   /// Returns a lower bound of the clearance by boundBySlabs().
   Real boundPiecewise(const TimeInterval& interval, std::size_t pair, const Measured& m,
                       Real usefulBound);
