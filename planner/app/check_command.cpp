@@ -14,6 +14,7 @@
 #include "planner/app/standard_streams.h"
 #include "planner/benchmark/csv_text.h"
 #include "planner/checker/problem_goal.h"
+#include "planner/checker/still_pairs.h"
 #include "planner/problem/bounds.h"
 #include "planner/problem/state_yaml.h"
 #include "planner/solve/solve.h"
@@ -78,9 +79,10 @@ CheckedState checkState(const Checker& checker, Configuration q, std::vector<Not
   return checked;
 }
 
-int checkStates(const Problem& problem, const CheckArguments& a) {
+int checkStates(Problem problem, const CheckArguments& a) {
   const std::vector<StateRow> rows = readStateRows(*a.states, problem.model.space);
   const Checker checker(problem);
+  addAll(notesOn(closeStillPairs(checker, startOf(problem)), problem.model), problem.source.notes);
   bool all = true;
   std::size_t noted = 0;
   ordered_json states = ordered_json::array();
@@ -123,9 +125,10 @@ int checkStates(const Problem& problem, const CheckArguments& a) {
   return all ? kDone : kNegativeResult;
 }
 
-int checkEnds(const Problem& problem, const CheckArguments& a) {
+int checkEnds(Problem problem, const CheckArguments& a) {
   checkSettings(problem);
   const Checker checker(problem);
+  addAll(notesOn(closeStillPairs(checker, startOf(problem)), problem.model), problem.source.notes);
   const ResultPrinter out(a.json);
   ordered_json ends;
   const auto checkEnd = [&](const std::string& name, const Configuration& q) {
@@ -152,8 +155,8 @@ int checkEnds(const Problem& problem, const CheckArguments& a) {
 }
 
 int checkCommand(const CheckArguments& a) {
-  const Problem problem = readProblemOf(a.problem);
-  return a.states ? checkStates(problem, a) : checkEnds(problem, a);
+  Problem problem = readProblemOf(a.problem);
+  return a.states ? checkStates(std::move(problem), a) : checkEnds(std::move(problem), a);
 }
 
 }  // namespace

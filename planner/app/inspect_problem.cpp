@@ -9,6 +9,7 @@
 #include "planner/app/output.h"
 #include "planner/checker/edge_costs.h"
 #include "planner/checker/problem_goal.h"
+#include "planner/checker/still_pairs.h"
 #include "planner/model/reach.h"
 #include "planner/problem/digest.h"
 #include "planner/solve/state_rows.h"
@@ -37,7 +38,9 @@ class ProblemReport {
     reportNumbers();
     reportBodies();
     reportPairs();
-    const std::vector<std::string> notes = textsOf(problem_.source.notes);
+    std::vector<Note> all = problem_.source.notes;
+    addAll(notesOn(closeStillPairs(checker_, startOf(problem_)), problem_.model), all);
+    const std::vector<std::string> notes = textsOf(all);
     json_["notes"] = notes;
     for (const std::string& note : notes) out_.line("note", note);
     const bool free = reportEnds();

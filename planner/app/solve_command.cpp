@@ -32,7 +32,7 @@ namespace {
 
 struct SolveArguments {
   std::vector<std::string> problems;
-  std::optional<std::string> planner, sampler, stop, edges;
+  std::optional<std::string> planner, sampler, stop, edges, simplify;
   std::optional<double> time, resolution;
   std::optional<std::uint64_t> seed;
   std::vector<std::string> set;  ///< key=value
@@ -81,6 +81,7 @@ std::map<std::string, std::string> applyArguments(const SolveArguments& a, Probl
                 "needs --edges discrete, and edges are " + wordOf(problem.settings.checker.edges)});
     problem.settings.checker.resolution = *a.resolution;
   }
+  if (a.simplify) problem.settings.simplify = choiceNamed<Simplifier>(*a.simplify).value();
   if (a.noSimplify) problem.settings.simplify = Simplifier::none;
   return set;
 }
@@ -213,6 +214,7 @@ Solved solveOne(const std::string& file, const SolveArguments& a,
   SolveReport report = solveProblem(problem, options);
   if (show) std::fputs("\r\033[K", stderr);
   for (const Fault& fault : report.warnings) warn(fault.str());
+  addAll(report.notes, problem.source.notes);
   if (report.outcome == SolveOutcome::solved) {
     if (a.output == "-")
       std::cout << solutionText(makeSolution(problem, report, digest));
@@ -319,8 +321,15 @@ void addSolve(CLI::App& program, int& status) {
                    "random seed; with most planners the same seed gives the same path")
       ->check(isSeed())
       ->group(planning);
-  command
-      ->add_flag("--no-simplify", a.noSimplify, "return the planner's path without simplifying it")
+  CLI::Option* const simplify =
+      command
+          ->add_option("--simplify", a.simplify,
+                       "how the path is shortened: true (default), false, or ompl: by OMPL's "
+                       "simplifier, for comparison")
+          ->check(isOneOf(wordsFor<Simplifier>()))
+          ->group(planning);
+  command->add_flag("--no-simplify", a.noSimplify, "the same as --simplify false")
+      ->excludes(simplify)
       ->group(planning);
   const char* checking = "Checking";
   command

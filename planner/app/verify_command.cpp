@@ -7,6 +7,8 @@
 #include "planner/app/commands.h"
 #include "planner/app/options.h"
 #include "planner/app/output.h"
+#include "planner/checker/problem_goal.h"
+#include "planner/checker/still_pairs.h"
 #include "planner/problem/nothing_tested.h"
 #include "planner/solve/verify_solution.h"
 
@@ -108,7 +110,9 @@ void print(const VerifyReport& r, const Problem& problem, const VerifyArguments&
 }
 
 int verifyCommand(const VerifyArguments& a) {
-  const Problem problem = readProblemOf(a.problem);
+  Problem problem = readProblemOf(a.problem);
+  addAll(notesOn(closeStillPairs(Checker(problem), startOf(problem)), problem.model),
+         problem.source.notes);
   const Solution solution = readSolution(a.solution, problem.model.space);
   const Verified verified =
       verifyWithWarning(problem, solution, a.problem, a.solution, a.ignoreDigest);

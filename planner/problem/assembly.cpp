@@ -34,20 +34,10 @@ bool hasObstaclesOutOfReachOnly(const Problem& problem) {
 }
 
 void addNotesOnPairs(Problem& problem) {
-  const std::vector<ModelBody>& bodies = problem.model.bodies;
-  std::vector<std::string> still;
-  forEachPair(problem.model, [&](std::size_t a, std::size_t b, std::string_view why) {
-    if (why == kNeverMove && bodies[a].robot != bodies[b].robot)
-      still.push_back(bodies[a].name + " ~ " + bodies[b].name);
-  });
   std::vector<Note>& notes = problem.source.notes;
   if (hasObstaclesOutOfReachOnly(problem))
     notes.push_back(
         {"no obstacle is within reach; are all lengths in metres?", NoteWeight::coverage});
-  if (!still.empty())
-    notes.push_back(
-        {"not tested, since they never move against each other: " + joinedFirst(still, 4),
-         NoteWeight::coverage});
   for (const ModelBody& body : problem.model.bodies)
     for (const PlacedShape& shape : body.shapes) addAll(shape.notes, notes);
   if (nothingIsTested(problem)) notes.insert(notes.begin(), {kNothingTested, NoteWeight::coverage});

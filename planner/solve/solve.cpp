@@ -19,6 +19,7 @@
 #include "collision/core/spelling.h"
 #include "planner/checker/problem_goal.h"
 #include "planner/checker/state_validity_checkers.h"
+#include "planner/checker/still_pairs.h"
 #include "planner/problem/yaml_reader.h"
 #include "planner/solve/ompl_goal.h"
 #include "planner/solve/simplify_path.h"
@@ -175,6 +176,7 @@ void Solve::setUpEnds() {
   space_->write(start_, start.get());
   definition_->addStartState(start);
   definition_->setGoal(std::make_shared<OmplGoal>(si_, problem_, goalSamples_));
+  report_.notes = notesOn(closeStillPairs(checker_, start_), problem_.model);
 }
 
 void Solve::setUpObjective() {

@@ -48,6 +48,7 @@ struct SolveReport {
   SolveOutcome outcome = SolveOutcome::notFound;
   std::string why;              ///< why not solved, in one line; empty if solved
   std::vector<Fault> warnings;  ///< goals that are not used, although others are, and why
+  std::vector<Note> notes;      ///< on pairs that never move against each other (still_pairs.h)
 
   Path path;  ///< empty unless solved; no rotation by more than 90° between two states
   bool certified = false;  ///< every edge of `path` was proved by the final certification

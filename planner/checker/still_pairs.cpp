@@ -1,0 +1,128 @@
+#include "planner/checker/still_pairs.h"
+
+#include <optional>
+
+#include "collision/core/floating_point.h"
+#include "collision/core/spelling.h"
+#include "collision/world/body_queries.h"
+
+namespace corridor {
+namespace {
+
+/// Returns for each frame the nearest frame with a moving or held joint, among the frame itself and
+/// its ancestors; 0 if there is none. Frames of one such joint are joined by fixed joints only.
+std::vector<std::size_t> jointsAbove(const KinematicTree& tree) {
+  std::vector<std::size_t> joint(tree.frames.size(), 0);
+  for (std::size_t i = 1; i < tree.frames.size(); ++i)
+    joint[i] = tree.frames[i].joint != Frame::Joint::none ? i : joint[tree.frames[i].parent];
+  return joint;
+}
+
+/// A box around the points of a model body in the world, rounded.
+struct Box {
+  Vec3 lower = Vec3::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
+};
+
+Box boxOf(const ModelBody& body, const Transform& X_WF) {
+  Box box;
+  for (const PlacedShape& shape : body.shapes)
+    forEachPoint(shape, [&](const Vec3& p, double radius) {
+      const Vec3 p_W = X_WF * p;
+      box.lower = box.lower.cwiseMin(p_W - Vec3::Constant(radius));
+      box.upper = box.upper.cwiseMax(p_W + Vec3::Constant(radius));
+    });
+  return box;
+}
+
+/// Tests the shapes of two bodies against each other.
+class StillTest {
+ public:
+  StillTest(const Checker& checker, const Configuration& q)
+      : checker_(checker),
+        X_WF_(framePoses(checker.model().tree, q)),
+        boxes_(checker.model().bodies.size()) {
+    firstShape_.push_back(0);
+    for (const ModelBody& body : checker.model().bodies)
+      firstShape_.push_back(firstShape_.back() + body.shapes.size());
+  }
+
+  std::optional<StillPair> operator()(std::size_t a, std::size_t b) {
+    const double margin = checker_.options().margin;
+    const Box &boxA = boxAround(a), &boxB = boxAround(b);
+    // 2^-40 of the sizes covers the rounding of the boxes.
+    const double size =
+                     boxA.lower.norm() + boxA.upper.norm() + boxB.lower.norm() + boxB.upper.norm(),
+                 within = margin + 0x1p-40 * size;
+    if ((boxA.lower - boxB.upper).maxCoeff() > within ||
+        (boxB.lower - boxA.upper).maxCoeff() > within)
+      return std::nullopt;
+    bool close = false;
+    for (std::size_t s = firstShape_[a]; s < firstShape_[a + 1]; ++s)
+      for (std::size_t t = firstShape_[b]; t < firstShape_[b + 1]; ++t) {
+        if (interference(posed(s), posed(t), context_)) return StillPair{a, b, true};
+        close = close || (margin > 0 && closerThan(posed(s), posed(t), margin, context_));
+      }
+    return close ? std::optional(StillPair{a, b, false}) : std::nullopt;
+  }
+
+ private:
+  const Box& boxAround(std::size_t body) {
+    std::optional<Box>& box = boxes_[body];
+    const ModelBody& modelBody = checker_.model().bodies[body];
+    if (!box) box = boxOf(modelBody, X_WF_[modelBody.frame]);
+    return *box;
+  }
+  Posed<Body> posed(std::size_t shape) const {
+    const Scene::Placed& placed = checker_.scene().bodies()[shape];
+    return Posed(placed.body, X_WF_[placed.frame]);
+  }
+
+  const Checker& checker_;
+  std::vector<Transform> X_WF_;
+  std::vector<std::optional<Box>> boxes_;
+  std::vector<std::size_t> firstShape_;  // for each body, its first shape in the scene
+  QueryContext context_;
+};
+
+}  // namespace
+
+std::vector<StillPair> closeStillPairs(const Checker& checker, const Configuration& q) {
+  requireStandardFloatingPoint();
+  const Model& model = checker.model();
+  const std::vector<std::size_t> jointOf = jointsAbove(model.tree);
+  StillTest test(checker, q);
+  std::vector<StillPair> found;
+  forEachPair(model, [&](std::size_t a, std::size_t b, std::string_view why) {
+    if (why != kNeverMove) return;
+    const ModelBody &bodyA = model.bodies[a], &bodyB = model.bodies[b];
+    if (bodyA.robot == bodyB.robot && jointOf[bodyA.frame] == jointOf[bodyB.frame]) return;
+    if (const auto pair = test(a, b)) found.push_back(*pair);
+  });
+  return found;
+}
+
+std::vector<Note> notesOn(const std::vector<StillPair>& pairs, const Model& model) {
+  constexpr std::size_t kShown = 6;
+  std::vector<Note> notes;
+  for (const bool touches : {true, false}) {
+    std::vector<std::string> names;
+    const StillPair* first = nullptr;
+    for (const StillPair& pair : pairs)
+      if (pair.touches == touches) {
+        if (!first) first = &pair;
+        names.push_back(model.bodies[pair.a].name + " ~ " + model.bodies[pair.b].name);
+      }
+    if (!first) continue;
+    notes.push_back(
+        {"in every state, these bodies " +
+             std::string(touches ? "touch" : "are closer than the margin") + ": " +
+             joinedFirst(names, kShown) +
+             "; no proof covers them, since they never move against each other (allow: [[" +
+             model.bodies[first->a].name + ", " + model.bodies[first->b].name +
+             "]] if this is intended)",
+         NoteWeight::coverage});
+  }
+  return notes;
+}
+
+}  // namespace corridor

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include "planner/checker/checker.h"
+#include "planner/robot/note.h"
+
+namespace corridor {
+
+/// Two bodies that never move against each other, by their indices in the model.
+struct StillPair {
+  std::size_t a = 0, b = 0;
+  bool touches = false;  ///< false: the bodies are apart, but not farther than the margin
+};
+
+/// Returns the pairs of bodies that are not tested, because they never move against each other, and
+/// that touch or are within the margin, in every state. Such a pair shows a wrong pose of a base or
+/// an obstacle, or a wrong value of a held joint. Pairs of one robot whose links are joined by
+/// fixed joints only are left out: their overlap is part of the robot.
+///
+/// The poses are those at `q`, rounded. @pre q is finite.
+/// @throws std::runtime_error as `Checker::interference` does.
+std::vector<StillPair> closeStillPairs(const Checker& checker, const Configuration& q);
+
+/// Returns notes that name these pairs.
+std::vector<Note> notesOn(const std::vector<StillPair>& pairs, const Model& model);
+
+}  // namespace corridor

@@ -1,0 +1,109 @@
+#include "planner/checker/still_pairs.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "planner/checker/problem_goal.h"
+#include "planner/problem/problem.h"
+#include "tests/support/support.h"
+
+namespace corridor {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+std::string ball(const std::string& name, double radius) {
+  return "<link name='" + name + "'><collision><geometry><sphere radius='" +
+         std::to_string(radius) + "'/></geometry></collision></link>";
+}
+
+std::string joint(const std::string& type, const std::string& parent, const std::string& child,
+                  const std::string& at) {
+  return "<joint name='to_" + child + "' type='" + type + "'><parent link='" + parent +
+         "'/><child link='" + child + "'/><origin xyz='" + at + "'/><axis xyz='0 1 0'/>" +
+         "<limit lower='-1' upper='1' effort='1' velocity='1'/></joint>";
+}
+
+/// A robot with a base, a plate fixed to it, an arm, and a finger and a thumb on slides that can be
+/// held.
+class StillPairs : public testing::Test {
+ protected:
+  StillPairs() : folder_(test::newFolder()) {
+    std::ofstream(folder_ / "arm.urdf")
+        << "<robot name='arm'>" << ball("base", 0.1) << ball("plate", 0.05) << ball("arm", 0.1)
+        << ball("finger", 0.05) << ball("thumb", 0.05)
+        << joint("fixed", "base", "plate", "0.12 0 0") << joint("revolute", "base", "arm", "0 0 1")
+        << joint("prismatic", "arm", "finger", "0.5 0 0")
+        << joint("prismatic", "arm", "thumb", "0.5 0 0.02") << "</robot>";
+  }
+  ~StillPairs() override { std::filesystem::remove_all(folder_); }
+
+  /// Returns the pairs of a problem with these keys, "a ~ b: touch" or "a ~ b: close", and their
+  /// notes.
+  std::vector<std::string> pairsOf(const std::string& keys) {
+    std::ofstream(folder_ / "problem.yaml")
+        << "format: corridor-problem-1\nrobot: {urdf: arm.urdf, joints: [to_arm], hold: "
+           "{to_finger: "
+        << held_ << "}}\nstart: {to_arm: 0}\ngoal: {to_arm: 0.5}\n"
+        << keys;
+    const Problem problem = readProblem(folder_ / "problem.yaml");
+    const Checker checker(problem);
+    const auto pairs = closeStillPairs(checker, startOf(problem));
+    notes_ = textsOf(notesOn(pairs, problem.model));
+    std::vector<std::string> texts;
+    for (const StillPair& pair : pairs)
+      texts.push_back(problem.model.bodies[pair.a].name + " ~ " +
+                      problem.model.bodies[pair.b].name + (pair.touches ? ": touch" : ": close"));
+    return texts;
+  }
+
+  std::filesystem::path folder_;
+  double held_ = 0.3;
+  std::vector<std::string> notes_;
+};
+
+TEST_F(StillPairs, TouchOrAreWithinTheMargin) {
+  EXPECT_THAT(pairsOf("world: {far: {box: [1, 1, 0.2], at: [0, 0, -0.3]}}\n"), IsEmpty())
+      << "the plate overlaps the base, to which it is fixed";
+  EXPECT_THAT(notes_, IsEmpty());
+
+  const std::string world =
+      "world:\n  table: {box: [1, 1, 0.2], at: [0, 0, -0.199]}\n"
+      "  wall: {box: [0.1, 0.1, 0.1], at: [0, 0.155, 0]}\n";
+  EXPECT_THAT(pairsOf(world), ElementsAre("base ~ table: touch"));
+  EXPECT_THAT(pairsOf(world + "margin: 0.01\n"),
+              ElementsAre("base ~ table: touch", "base ~ wall: close"));
+  EXPECT_THAT(notes_,
+              ElementsAre("in every state, these bodies touch: base ~ table; no proof covers them, "
+                          "since they never move against each other (allow: [[base, table]] if "
+                          "this is intended)",
+                          "in every state, these bodies are closer than the margin: base ~ wall; "
+                          "no proof covers them, since they never move against each other (allow: "
+                          "[[base, wall]] if this is intended)"));
+  EXPECT_THAT(pairsOf(world + "allow: [[base, table]]\n"), IsEmpty());
+}
+
+TEST_F(StillPairs, OfHeldJointsOnAMovingLink) {
+  held_ = 0.05;
+  EXPECT_THAT(pairsOf("margin: 0.001\n"), ElementsAre("finger ~ thumb: touch"));
+  held_ = 0.3;
+  EXPECT_THAT(pairsOf("margin: 0.001\n"), IsEmpty());
+}
+
+/// A held link in an obstacle is not reported as free without a word.
+TEST_F(StillPairs, SolidMeshAroundTheBase) {
+  std::ofstream(folder_ / "cube.obj")
+      << "v -2 -2 -0.5\nv 2 -2 -0.5\nv 2 2 -0.5\nv -2 2 -0.5\n"
+         "v -2 -2 0.5\nv 2 -2 0.5\nv 2 2 0.5\nv -2 2 0.5\n"
+         "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+  EXPECT_THAT(pairsOf("world: {cube: {mesh: cube.obj, solid: true}}\n"),
+              ElementsAre("base ~ cube: touch", "plate ~ cube: touch"));
+  EXPECT_THAT(pairsOf("world: {cube: {mesh: cube.obj}}\n"), IsEmpty()) << "a surface";
+}
+
+}  // namespace
+}  // namespace corridor
