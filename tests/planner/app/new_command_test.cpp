@@ -182,6 +182,12 @@ TEST_F(NewCommand, WritesAProblemThatCanBeSolved) {
   // No named states.
   ASSERT_EQ(run("new problem reach.urdf -o x.yaml").status, 1);
   EXPECT_THAT(read("x.yaml"), HasSubstr("# NOT VALID: "));
+  const std::string why =
+      "most often in contact, in 1,002 tried states: \\[inner, hand\\] in 100 %, \\[side, hand\\] "
+      "in [0-9]+ %";
+  EXPECT_THAT(read("out.txt"), testing::ContainsRegex("why: " + why + "; allow the pairs "));
+  EXPECT_THAT(read("x.yaml"), HasSubstr("# Why: most often in contact, in 1,002 tried states: "
+                                        "[inner, hand] in 100 %"));
   ASSERT_EQ(run("new robot reach.urdf --srdf reach.srdf -o reach.yaml").status, 0);
   ASSERT_EQ(run("new problem reach.yaml -o one.yaml").status, 0);
   EXPECT_THAT(read("one.yaml"), HasSubstr("\nstart: left\n"));
