@@ -129,9 +129,11 @@ void addNewRobot(CLI::App& parent, int& status) {
     command->get_option(option)->group(reading);
   const char* pairs = "Pairs of links";
   command
-      ->add_option("--work", a.work,
-                   "how many boxes of joint values the proof of one pair may take (default 20000; "
-                   "0: prove nothing)")
+      ->add_option(
+          "--work", a.work,
+          "how many boxes of joint values the proofs of all pairs may take together, where "
+          "100 tests of volumes and triangles count as one more box (default 250000: "
+          "some seconds; 0: prove nothing)")
       ->check(isWithin<std::uint64_t>(0, 1'000'000'000, "a whole number from 0 to 1000000000"))
       ->group(pairs);
   command
@@ -156,9 +158,9 @@ void addNewRobot(CLI::App& parent, int& status) {
       ->group(pairs);
   command->footer(
       std::string("Example: corridor new robot mine.urdf --srdf mine.srdf -o robot.yaml\n"
-                  "Pairs that are proved never in contact are written under allow. Pairs that are "
-                  "in contact in every random state are written as comments, for you to decide. "
-                  "All other pairs are tested.\n") +
+                  "Pairs that are proved never in contact are written under never_in_contact. "
+                  "Pairs that are in contact in at least 95 % of the random states are written as "
+                  "comments, for you to decide. All other pairs are tested.\n") +
       kExitStatus);
   command->callback([arguments, &status] { status = newRobot(*arguments); });
 }

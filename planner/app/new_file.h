@@ -22,9 +22,9 @@ struct NewRobotArguments {
   std::optional<std::string> srdf;
   std::vector<std::string> packages;  ///< NAME=FOLDER
   std::optional<std::string> visuals, limits, colladaUp;
-  double margin = 0.01;        ///< metres that a pair must keep to count as never in contact
-  double beyondLimits = 0.01;  ///< how far beyond a joint limit a proof also holds, rad or m
-  std::uint64_t work = 20000;  ///< boxes of joint values tested per pair
+  double margin = 0.01;          ///< metres that a pair must keep to count as never in contact
+  double beyondLimits = 0.01;    ///< how far beyond a joint limit a proof also holds, rad or m
+  std::uint64_t work = 250'000;  ///< for the proofs of all pairs, as PairSurveyOptions::work
   std::uint64_t samples = 1000;
   std::uint64_t seed = 1;
   NewFileArguments file;

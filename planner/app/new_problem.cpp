@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <random>
 #include <utility>
@@ -21,6 +22,8 @@ namespace fs = std::filesystem;
 
 /// How many random states are tried.
 constexpr int kRandomStates = 1000;
+/// How many of the pairs that touch are named if no valid state is found.
+constexpr std::size_t kNamedPairs = 5;
 
 /// A valid state, how it is written, and where it comes from.
 struct FoundState {
@@ -136,12 +139,41 @@ class StateFinder {
     return std::move(found_);
   }
 
+  /// Returns which pairs were in contact in most of the states that `find` tried, and what to do;
+  /// "" if none was. The pairs are written as the key `allow` lists them.
+  std::string whyNotValid() const {
+    std::vector<std::pair<std::size_t, std::pair<std::size_t, std::size_t>>> most;
+    for (const auto& [pair, count] : contacts_) most.emplace_back(count, pair);
+    // The map's order remains among equal counts.
+    std::stable_sort(most.begin(), most.end(),
+                     [](const auto& a, const auto& b) { return a.first > b.first; });
+    std::string text;
+    for (std::size_t i = 0; i < std::min(most.size(), kNamedPairs); ++i) {
+      const auto& [count, pair] = most[i];
+      const std::size_t percent = 100 * count / tried_;
+      text += (i ? ", " : "") +
+              yamlList({model_.bodies[pair.first].name, model_.bodies[pair.second].name}) + " in " +
+              (percent > 0 ? std::to_string(percent) : "less than 1") + " %";
+    }
+    if (text.empty()) return "";
+    return "most often in contact, in " + counted(tried_, "tried state") + ": " + text +
+           (most.size() > kNamedPairs ? ", …" : "") +
+           "; allow the pairs that overlap by design (allow), or plan for fewer joints (joints or "
+           "group in a robot.yaml)";
+  }
+
  private:
-  /// Returns whether the state is valid, and differs from all states found so far.
-  bool isNew(const Configuration& q) const {
-    return std::none_of(found_.begin(), found_.end(),
-                        [&](const FoundState& f) { return model_.space.equal(f.q, q); }) &&
-           checker_.isProvedFree(q);
+  /// Returns whether the state is valid, and differs from all states found so far. Counts the pairs
+  /// that are in contact in it.
+  bool isNew(const Configuration& q) {
+    if (std::any_of(found_.begin(), found_.end(),
+                    [&](const FoundState& f) { return model_.space.equal(f.q, q); }))
+      return false;
+    if (!checker_.inBounds(q)) return false;
+    ++tried_;
+    if (checker_.isProvedFree(q)) return true;
+    for (const Checker::PairNotFree& pair : checker_.pairsNotFree(q)) ++contacts_[{pair.a, pair.b}];
+    return false;
   }
 
   void addNamed() {
@@ -200,6 +232,8 @@ class StateFinder {
   std::mt19937_64 random_;
   std::vector<FoundState> found_;
   std::optional<FoundState> spare_;
+  std::size_t tried_ = 0;                                                // states
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> contacts_;  // number of states
 };
 
 /// Returns the line `bounds` for a rigid robot, or for all planar and floating joints; "" if there
@@ -268,8 +302,9 @@ int newProblem(const NewProblemArguments& a) {
   const Alone alone = modelOf(std::move(setup.robot));
   const Checker checker(alone.model);
   const bool rigid = alone.model.robots.front().isRigid();
-  const std::vector<FoundState> found =
-      rigid ? rigidStates(alone, checker) : StateFinder(checker, a.seed).find();
+  StateFinder finder(checker, a.seed);
+  const std::vector<FoundState> found = rigid ? rigidStates(alone, checker) : finder.find();
+  const std::string why = found.size() == 2 || rigid ? "" : finder.whyNotValid();
 
   std::string text = comment("A problem, written by corridor new problem. Edit it, then:");
   text +=
@@ -289,7 +324,8 @@ int newProblem(const NewProblemArguments& a) {
                             "the middle of its limits, and " +
                                 std::to_string(kRandomStates) + " random states") +
                    ". corridor check names the links that touch.") +
-           key + ": " + stateText(alone.model, q) + "\n";
+           ((i > 0 && found.empty()) || why.empty() ? "" : comment("Why: " + why)) + key + ": " +
+           stateText(alone.model, q) + "\n";
   };
   text += end("start", 0) + end("goal", 1) + boundsText(alone) + kMore;
   writeNewFile(a.file, text);
@@ -301,6 +337,7 @@ int newProblem(const NewProblemArguments& a) {
       out.line(i == 0 ? "start" : "goal", found[i].origin);
     else
       out.line(i == 0 ? "start" : "goal", "no valid state was found", Tone::bad);
+  if (!why.empty()) out.line("why", why);
   return found.size() == 2 ? kDone : kNegativeResult;
 }
 

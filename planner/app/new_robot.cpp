@@ -1,15 +1,15 @@
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <utility>
 
 #include "collision/core/fault_list.h"
 #include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
 #include "planner/app/commands.h"
+#include "planner/app/interrupt.h"
 #include "planner/app/new_file.h"
+#include "planner/app/new_robot_pairs.h"
 #include "planner/app/output.h"
-#include "planner/checker/pair_survey.h"
 #include "planner/model/model_builder.h"
 #include "planner/model/planned_joints.h"
 #include "planner/robot/joint_types.h"
@@ -19,12 +19,15 @@ namespace corridor::app {
 namespace {
 
 namespace fs = std::filesystem;
-using Verdict = NeverInContactResult::Verdict;
 
 /// Half the edge of the box in which random states place a planar or floating joint, metres.
 /// Contacts of pairs that such a joint moves against each other are not used, so any length will
 /// do.
 constexpr double kAnywhere = 1;
+
+/// If a robot without groups has more moving joints than two arms, the file explains how to choose
+/// among them.
+constexpr std::size_t kManyJoints = 14;
 
 /// A URDF, and the SRDF if one is given.
 struct RobotFiles {
@@ -84,47 +87,6 @@ Model modelOf(RobotModel description, const std::string& urdf) {
   return builder.addRobot(std::move(robot)).build();
 }
 
-/// The pairs of links, by what is known about them.
-struct Pairs {
-  std::vector<SurveyedPair> proved, always, tested;
-  /// Pairs that the SRDF allows to touch, though they were in contact in some random states only.
-  std::vector<std::pair<SurveyedPair, std::string>> contradicted;
-  std::size_t adjacent = 0, bySrdf = 0;
-};
-
-Pairs sortedPairs(const Checker& checker, const std::vector<AllowedPair>& allowed,
-                  const NewRobotArguments& a) {
-  const Model& model = checker.model();
-  std::map<std::pair<std::string, std::string>, std::string> reasons;
-  for (const AllowedPair& pair : allowed)
-    reasons.emplace(std::minmax(pair.a, pair.b), pair.reason);  // the first reason counts
-  const auto reasonOf = [&](std::size_t i, std::size_t k) {
-    const auto found = reasons.find(std::minmax(model.bodies[i].name, model.bodies[k].name));
-    return found == reasons.end() ? std::string() : found->second;
-  };
-  Pairs pairs;
-  forEachPair(model, [&](std::size_t, std::size_t, std::string_view why) {
-    pairs.adjacent += why == "adjacent";
-  });
-  const auto surveyed = surveyPairs(
-      checker, {{a.margin, a.beyondLimits, a.work}, a.samples, a.seed},
-      [&](std::size_t i, std::size_t k) { return a.work > 0 && reasonOf(i, k).empty(); });
-  for (const SurveyedPair& pair : surveyed) {
-    if (const std::string reason = reasonOf(pair.a, pair.b); !reason.empty()) {
-      ++pairs.bySrdf;
-      if (!pair.movesFreely && 0 < pair.contacts && pair.contacts < a.samples)
-        pairs.contradicted.emplace_back(pair, reason);
-    } else if (pair.proof && pair.proof->verdict == Verdict::proved) {
-      pairs.proved.push_back(pair);
-    } else if (!pair.movesFreely && a.samples > 0 && pair.contacts == a.samples) {
-      pairs.always.push_back(pair);
-    } else {
-      pairs.tested.push_back(pair);
-    }
-  }
-  return pairs;
-}
-
 std::string jointText(const RobotModel& model, const JointModel& joint) {
   std::string text = yamlWord(joint.name) + ": " + nameOf(joint.type);
   if (joint.mimic) return text + ", follows " + yamlWord(model.joints[joint.mimic->joint].name);
@@ -168,6 +130,11 @@ std::string jointsText(const RobotModel& model, bool hasSrdf) {
     else
       text += comment("group: " + yamlWord(name) + "  # " + counted(joints.size(), "joint") + ": " +
                       joined(joints));
+  if (groups.empty() && all.size() > kManyJoints)
+    text += comment("Without joints, all " + std::to_string(all.size()) +
+                    " are planned for, also those of wheels and fingers: a path is hard to find, "
+                    "and few states are valid. Remove the # of joints, and keep the joints between "
+                    "the base and the hand that you plan for.");
   text += comment("joints: " + yamlList(all));
   text +=
       comment("hold: {NAME: 0}  # values of joints that are not planned for, or a state's name");
@@ -218,80 +185,6 @@ std::string readingText(const NewRobotArguments& a, const RobotModel& model,
   return text;
 }
 
-std::string pairText(const Model& model, const SurveyedPair& pair) {
-  return yamlList({model.bodies[pair.a].name, model.bodies[pair.b].name});
-}
-
-/// Returns how many pairs are tested, and why, as a comment.
-std::string testedText(const NewRobotArguments& a, const Model& model,
-                       const std::vector<SurveyedPair>& tested) {
-  std::size_t inContact = 0, close = 0, others = 0;
-  std::vector<const SurveyedPair*> undecided;
-  for (const SurveyedPair& pair : tested)
-    if (pair.contacts > 0 && !pair.movesFreely)
-      ++inContact;
-    else if (pair.proof && pair.proof->verdict == Verdict::tooClose)
-      ++close;
-    else if (pair.proof && pair.proof->verdict == Verdict::workLimit)
-      undecided.push_back(&pair);
-    else
-      ++others;
-  std::string text = comment(
-      "Tested: " + counted(tested.size(), "pair") + ". In contact in some of " +
-          counted(a.samples, "random state") + ": " + grouped(inContact) + ". Closer than " +
-          shortest(a.margin) + " m at some joint values: " + grouped(close) +
-          ". No proof possible (such as a joint without limits, a planar or "
-          "floating joint, a solid mesh), or none tried: " +
-          grouped(others) + ". Not decided within --work " + std::to_string(a.work) + ": " +
-          grouped(undecided.size()) + (undecided.empty() ? "." : ":"),
-      2);
-  for (const SurveyedPair* pair : undecided) text += "  # - " + pairText(model, *pair) + "\n";
-  return text;
-}
-
-std::string pairsText(const NewRobotArguments& a, const Model& model, const Pairs& pairs) {
-  std::string text =
-      "\n" +
-      comment("Pairs of links that are not tested, besides adjacent links (" +
-              grouped(pairs.adjacent) + ")" +
-              (a.srdf ? " and those of the SRDF (" + grouped(pairs.bySrdf) + ")" : "") + ":");
-  if (pairs.proved.empty()) {
-    text += comment("No pair was proved never in contact.");
-  } else {
-    text +=
-        "never_in_contact:\n" +
-        comment(counted(pairs.proved.size(), "pair") +
-                    " proved: the two links keep the margin (m) for all joint values within the "
-                    "limits, where each limit is extended by beyond_limits (rad or m). Problems "
-                    "with a larger margin or tube test these pairs. If the URDF, a mesh or a key "
-                    "above changes, write this file again.",
-                2) +
-        "  margin: " + shortest(a.margin) + "\n  beyond_limits: " + shortest(a.beyondLimits) +
-        "\n  pairs:\n";
-    for (const SurveyedPair& pair : pairs.proved) text += "  - " + pairText(model, pair) + "\n";
-  }
-  if (!pairs.always.empty()) {
-    text += comment("DECIDE: " + counted(pairs.always.size(), "pair") + " in contact in all of " +
-                    counted(a.samples, "random state") +
-                    ". While these pairs are tested, probably no state is valid. If the shapes "
-                    "overlap by design, remove the # of allow and of these pairs; if not, correct "
-                    "the URDF.");
-    text += "# allow:\n";
-    for (const SurveyedPair& pair : pairs.always) text += "#   - " + pairText(model, pair) + "\n";
-  }
-  text += testedText(a, model, pairs.tested);
-  if (!pairs.contradicted.empty()) {
-    text += "\n" + comment(
-                       "CHECK: the SRDF excludes these pairs from all tests, but they were in "
-                       "contact in some of the random states, and free in others. A path may "
-                       "lead through such a contact unnoticed.");
-    for (const auto& [pair, reason] : pairs.contradicted)
-      text += comment("- " + pairText(model, pair) + ": in " + grouped(pair.contacts) + " of " +
-                      grouped(a.samples) + " (" + reason + ")");
-  }
-  return text;
-}
-
 }  // namespace
 
 int newRobot(const NewRobotArguments& a) {
@@ -305,7 +198,13 @@ int newRobot(const NewRobotArguments& a) {
   }
   const Model model = modelOf(std::move(files.model), a.urdf);
   const Checker checker(model);
-  const Pairs pairs = sortedPairs(checker, files.allowed, a);
+  // Until here the default action of a signal ends the program: nothing is written yet.
+  const std::atomic<bool>& interrupted = listenForInterrupts();
+  const SortedPairs pairs = sortedPairs(checker, files.allowed, a, interrupted);
+  if (interrupted) {
+    warn("interrupted; nothing is written");
+    return interruptedStatus();
+  }
 
   std::string text = comment(
       "A robot with joints, written by corridor new robot. Edit it as you "
@@ -327,11 +226,12 @@ int newRobot(const NewRobotArguments& a) {
   out.line("pairs", grouped(pairs.adjacent) + " adjacent" +
                         (a.srdf ? ", " + grouped(pairs.bySrdf) + " by the SRDF" : "") + ", " +
                         grouped(pairs.proved.size()) + " proved never in contact, " +
-                        grouped(pairs.always.size()) + " in contact in all random states, " +
-                        grouped(pairs.tested.size()) + " others");
-  if (!pairs.always.empty())
+                        grouped(pairs.nearlyAlways.size()) +
+                        " in contact in nearly all random states, " + grouped(pairs.tested.size()) +
+                        " others");
+  if (!pairs.nearlyAlways.empty())
     out.line("decide",
-             "the pairs that are marked DECIDE in the file; until then probably no state is valid",
+             "the pairs that are marked DECIDE in the file; until then hardly any state is valid",
              Tone::bad);
   if (!pairs.contradicted.empty())
     out.line("check",

@@ -115,6 +115,7 @@ std::optional<Between> framesBetween(const Model& model, std::size_t a, std::siz
 struct Box {
   std::vector<Range> ranges;
   std::vector<MotionPair> open;  // the pairs of shapes that are not separated yet
+  double share = 1;              // of the box of all joint values
 };
 
 class Subdivision {
@@ -127,10 +128,11 @@ class Subdivision {
     constexpr std::size_t kMostHeld = 2'000'000;  // pairs of shapes in the queue: about 150 MB
     std::size_t held = pairs.size();
     std::deque<Box> boxes;
-    boxes.push_back({between_.box, std::move(pairs)});
+    boxes.push_back({between_.box, std::move(pairs), 1});
     while (!boxes.empty()) {
+      if (held > kMostHeld) return exhausted();
       if (result_.boxes >= options_.boxes || context_.counters.work() >= workEnd_ ||
-          held > kMostHeld)
+          (options_.interrupted && *options_.interrupted))
         return answer(Verdict::workLimit);
       ++result_.boxes;
       Box box = std::move(boxes.front());
@@ -138,11 +140,15 @@ class Subdivision {
       held -= box.open.size();
       const std::size_t widest = test(box);
       if (tooClose_) return answer(Verdict::tooClose);
-      if (box.open.empty()) continue;
+      if (box.open.empty()) {
+        result_.provedShare += box.share;
+        continue;
+      }
       // Both halves have the same middle value as a limit, so they cover the whole box.
       const auto [lower, upper] = box.ranges[widest];
       const double middle = lower + (upper - lower) / 2;
-      if (!(lower < middle && middle < upper)) return answer(Verdict::workLimit);
+      if (!(lower < middle && middle < upper)) return exhausted();
+      box.share /= 2;
       boxes.push_back(box);
       boxes.back().ranges[widest].upper = middle;
       box.ranges[widest].lower = middle;
@@ -155,16 +161,19 @@ class Subdivision {
  private:
   NeverInContactResult answer(Verdict verdict) {
     result_.verdict = verdict;
+    result_.tests = context_.counters.work() - workBegin_;
     return result_;
   }
 
-  /// Each box may take 1000 tests of bounding volumes and triangles on average. Without this
-  /// limit, a pair of detailed meshes could take a thousand times as long as a pair of boxes.
+  NeverInContactResult exhausted() {
+    result_.exhausted = true;
+    return answer(Verdict::workLimit);
+  }
+
   void setQuery(const std::vector<MotionPair>& pairs) {
-    constexpr std::uint64_t testsPerBox = 1000;
-    const std::uint64_t begin = context_.counters.work(),
-                        most = std::numeric_limits<std::uint64_t>::max() - begin;
-    workEnd_ = begin + (options_.boxes < most / testsPerBox ? options_.boxes * testsPerBox : most);
+    workBegin_ = context_.counters.work();
+    workEnd_ = workBegin_ +
+               std::min(options_.tests, std::numeric_limits<std::uint64_t>::max() - workBegin_);
     // The tolerance decides only when a time interval is no longer halved. In these queries nothing
     // moves, so no interval is ever halved. Any positive tolerance is therefore sufficient; the
     // code takes the usual 1e-7 of the bodies' size.
@@ -226,7 +235,7 @@ class Subdivision {
   const NeverInContactOptions& options_;
   QueryContext& context_;
   MotionOptions query_;
-  std::uint64_t workEnd_ = 0;
+  std::uint64_t workBegin_ = 0, workEnd_ = 0;
   NeverInContactResult result_;
   bool tooClose_ = false;
 };

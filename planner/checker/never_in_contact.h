@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -17,9 +18,13 @@ struct NeverInContactOptions {
   /// this reach, the proof also covers a tube around paths. It is not used for a joint that covers
   /// the whole circle.
   double beyondLimits = 0;
-  /// Work limit: at most this many boxes of joint values are tested, with 1000 tests of volumes and
-  /// triangles per box on average.
+  /// Work limit: at most this many boxes of joint values are tested.
   std::uint64_t boxes = 20000;
+  /// A second work limit, so that a pair of detailed meshes does not take a thousand times as long
+  /// as a pair of boxes: at most about this many tests of volumes and triangles.
+  std::uint64_t tests = 20'000'000;
+  /// If this flag becomes true, the proof ends before the next box, with `workLimit`. May be null.
+  const std::atomic<bool>* interrupted = nullptr;
 };
 
 /// The answer of a proof, and its work.
@@ -27,7 +32,7 @@ struct NeverInContactResult {
   enum class Verdict {
     proved,     ///< the bodies never come into contact, and always keep the margin
     tooClose,   ///< at tested joint values, the bodies touch or are closer than the margin
-    workLimit,  ///< the work limit was reached
+    workLimit,  ///< a work limit was reached, or the proof was interrupted
     /// No proof was tried, for one of these reasons: a body has a solid mesh; no joint moves one
     /// body against the other; a joint between the two is planar or floating, has no limits, or
     /// mimics a continuous joint (except a revolute mimic with a whole multiplier).
@@ -35,6 +40,13 @@ struct NeverInContactResult {
   };
   Verdict verdict = Verdict::notTried;
   std::uint64_t boxes = 0;  ///< number of boxes of joint values that were tested
+  std::uint64_t tests = 0;  ///< number of tests of volumes and triangles
+  /// The share of all joint values for which the pair is proved, from 0 to 1. It estimates how far
+  /// a proof got that reached a work limit; only the verdict `proved` is a proof.
+  double provedShare = 0;
+  /// True if the verdict is `workLimit` and larger work limits change nothing: the memory for boxes
+  /// is full, or a box is too small to be halved.
+  bool exhausted = false;
 };
 
 /// Proves for pairs of bodies of a model that they never come into contact, whatever the values of

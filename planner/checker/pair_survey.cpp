@@ -4,10 +4,78 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <queue>
 #include <random>
+#include <tuple>
 #include <utility>
 
 namespace corridor {
+namespace {
+
+using Verdict = NeverInContactResult::Verdict;
+
+/// The first attempt to prove a pair gets this many boxes, and each further attempt four times as
+/// many as the one before. All attempts at a pair together take at most 4/3 of its last attempt.
+constexpr std::uint64_t kFirstBoxes = 80, kMoreBoxes = 4, kMostBoxes = 20480;
+/// So many tests of volumes and triangles count as one box. They take about as long as those parts
+/// of a box's test that are not counted, such as making its motion.
+constexpr std::uint64_t kTestsPerBox = 100;
+/// An attempt may take this many tests for each of its boxes, on average.
+constexpr std::uint64_t kMostTestsPerBox = 1000;
+
+bool isSet(const std::atomic<bool>* flag) {
+  return flag && *flag;
+}
+
+/// An attempt to prove a pair.
+struct Attempt {
+  double cost = 0;  ///< the attempt with the smallest cost comes first
+  std::size_t pair = 0;
+  std::uint64_t boxes = 0;
+
+  bool operator>(const Attempt& other) const {
+    return std::tie(cost, pair) > std::tie(other.cost, other.pair);
+  }
+};
+
+/// Tries to prove pairs within one work limit. See surveyPairs.
+void proveWithin(const Checker& checker, const PairSurveyOptions& options,
+                 const std::vector<std::size_t>& wanted, PairSurveyProgress& progress,
+                 std::vector<SurveyedPair>& pairs) {
+  std::priority_queue<Attempt, std::vector<Attempt>, std::greater<>> attempts;
+  for (const std::size_t pair : wanted)
+    // The cost of a repeated attempt is not negative, so all first attempts come before it.
+    attempts.push(
+        {-1, pair, std::clamp<std::uint64_t>(options.work / wanted.size(), 1, kFirstBoxes)});
+  const NeverInContact prover(checker.model(), checker.scene());
+  QueryContext context;
+  NeverInContactOptions proof{.margin = options.margin,
+                              .beyondLimits = options.beyondLimits,
+                              .interrupted = options.interrupted};
+  while (!attempts.empty() && progress.work < options.work && !isSet(options.interrupted)) {
+    const Attempt attempt = attempts.top();
+    attempts.pop();
+    SurveyedPair& pair = pairs[attempt.pair];
+    const std::uint64_t left = options.work - progress.work;
+    // An attempt with no more boxes than the last one would decide nothing.
+    if (pair.proof && left <= pair.proof->boxes) continue;
+    proof.boxes = std::min(attempt.boxes, left);
+    proof.tests = kTestsPerBox * std::min(kMostTestsPerBox / kTestsPerBox * proof.boxes, left);
+    pair.proof = prover.prove(pair.a, pair.b, proof, context);
+    progress.work += std::min(left, pair.proof->boxes + pair.proof->tests / kTestsPerBox);
+    progress.proved += pair.proof->verdict == Verdict::proved;
+    if (pair.proof->verdict == Verdict::workLimit && !pair.proof->exhausted &&
+        attempt.boxes <= kMostBoxes / kMoreBoxes) {
+      const std::uint64_t boxes = kMoreBoxes * attempt.boxes;
+      attempts.push({static_cast<double>(boxes) * std::max(0.0, 1 - pair.proof->provedShare),
+                     attempt.pair, boxes});
+    }
+    progress.undecided = attempts.size();
+    if (options.progress) options.progress(progress);
+  }
+}
+
+}  // namespace
 
 Configuration randomConfiguration(const ConfigurationSpace& space,
                                   const std::function<std::uint64_t()>& next) {
@@ -39,17 +107,20 @@ std::vector<SurveyedPair> surveyPairs(
     indexOf[{a, b}] = pairs.size();
     pairs.push_back({a, b, 0, movesFreely(model, a, b), std::nullopt});
   });
+  PairSurveyProgress progress;
   std::mt19937_64 random(options.seed);
-  for (std::size_t i = 0; i < options.samples; ++i) {
+  while (progress.samples < options.samples && !isSet(options.interrupted)) {
     const Configuration q = randomConfiguration(model.space, [&] { return random(); });
     for (const Checker::PairNotFree& pair : checker.pairsNotFree(q))
       ++pairs[indexOf.at({pair.a, pair.b})].contacts;
+    ++progress.samples;
+    if (options.progress) options.progress(progress);
   }
-  const NeverInContact prover(model, checker.scene());
-  QueryContext context;
-  for (SurveyedPair& pair : pairs)
-    if (pair.contacts == 0 && !pair.movesFreely && wantsProof(pair.a, pair.b))
-      pair.proof = prover.prove(pair.a, pair.b, options.proof, context);
+  std::vector<std::size_t> wanted;
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    if (pairs[i].contacts == 0 && !pairs[i].movesFreely && wantsProof(pairs[i].a, pairs[i].b))
+      wanted.push_back(i);
+  if (options.work > 0) proveWithin(checker, options, wanted, progress, pairs);
   return pairs;
 }
 

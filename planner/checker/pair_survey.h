@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -11,10 +12,28 @@
 
 namespace corridor {
 
+/// What a survey did so far.
+struct PairSurveyProgress {
+  std::size_t samples = 0;  ///< random states tested
+  /// The work of the proofs, in the unit of `PairSurveyOptions::work`; 0 until all states are
+  /// tested.
+  std::uint64_t work = 0;
+  std::size_t proved = 0;     ///< pairs proved never in contact
+  std::size_t undecided = 0;  ///< pairs whose proof may go on
+};
+
 struct PairSurveyOptions {
-  NeverInContactOptions proof;
+  double margin = 0;        ///< as `NeverInContactOptions::margin`, metres
+  double beyondLimits = 0;  ///< as `NeverInContactOptions::beyondLimits`, rad or m
+  /// Work limit for the proofs of all pairs together: the number of boxes of joint values that are
+  /// tested, where 100 tests of volumes and triangles count as one box more. 0: no proof is tried.
+  std::uint64_t work = 250'000;
   std::size_t samples = 1000;  ///< how many random states are tested
   std::uint64_t seed = 1;      ///< seed of the random states
+  /// Called after each random state and each attempt at a proof. May be empty.
+  std::function<void(const PairSurveyProgress&)> progress;
+  /// If this flag becomes true, the survey ends soon, and its result is incomplete. May be null.
+  const std::atomic<bool>* interrupted = nullptr;
 };
 
 /// The result of a survey for one pair of bodies that the model's filter does not exclude.
@@ -24,7 +43,7 @@ struct SurveyedPair {
   /// True if a planar or floating joint lies between the two. Then nothing is proved, and the
   /// count has no meaning.
   bool movesFreely = false;
-  /// The answer of `NeverInContact`; unset if no proof was tried.
+  /// The answer of the last attempt by `NeverInContact`; unset if no proof was tried.
   std::optional<NeverInContactResult> proof;
 };
 
@@ -37,10 +56,17 @@ Configuration randomConfiguration(const ConfigurationSpace& space,
 
 /// Tests all pairs that the model's filter does not exclude, and returns them in ascending order.
 /// All pairs are tested at random states. For pairs that were free in all these states, a proof is
-/// tried. The result depends on the model and the options only.
+/// tried. Unless the survey is interrupted, the result depends on the model and the options only.
+///
+/// The proofs share the work limit. First, each pair gets an attempt of a few boxes. An attempt
+/// that does not decide its pair is repeated with four times the boxes, up to 20,480. The next
+/// attempt is always the one with the smallest product of its boxes and the share of joint values
+/// that the last attempt left unproved. So pairs that are nearly proved come first. The last
+/// attempt before the limit gets the boxes that are left.
 /// @param checker its margin must be 0: then a pair that is not free is in contact, or closer than
 /// twice the tolerance. Its model must have bounds for all positions.
 /// @param wantsProof decides for which pairs a proof is tried.
+/// @throws std::invalid_argument as NeverInContact::prove
 std::vector<SurveyedPair> surveyPairs(
     const Checker& checker, const PairSurveyOptions& options,
     const std::function<bool(std::size_t a, std::size_t b)>& wantsProof);

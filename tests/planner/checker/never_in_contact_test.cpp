@@ -1,5 +1,6 @@
 #include "planner/checker/never_in_contact.h"
 
+#include <atomic>
 #include <cmath>
 #include <fstream>
 #include <random>
@@ -130,6 +131,30 @@ TEST(NeverInContact, StopsAtTheWorkLimit) {
   EXPECT_EQ(result.verdict, Verdict::workLimit);
   EXPECT_EQ(result.boxes, 10u);
   EXPECT_EQ(prove(model, "base", "hand", {.boxes = 0}).verdict, Verdict::workLimit);
+  const NeverInContactResult tests = prove(model, "base", "hand", {.tests = 0});
+  EXPECT_EQ(tests.verdict, Verdict::workLimit);
+  EXPECT_EQ(tests.boxes, 0u);
+  const std::atomic<bool> interrupted = true;
+  const NeverInContactResult none = prove(model, "base", "hand", {.interrupted = &interrupted});
+  EXPECT_EQ(none.verdict, Verdict::workLimit);
+  EXPECT_EQ(none.boxes, 0u);
+}
+
+TEST(NeverInContact, ReportsTheShareThatIsProved) {
+  const Model model = planarArm(kElbow, kTouching - kGap / 2);
+  double last = 0;
+  for (const std::uint64_t boxes : {0u, 5u, 10u, 20000u}) {
+    const NeverInContactResult result = prove(model, "base", "hand", {.boxes = boxes});
+    EXPECT_GE(result.provedShare, last);
+    EXPECT_EQ(result.verdict == Verdict::proved, boxes == 20000);
+    EXPECT_FALSE(result.exhausted);
+    // Shares are powers of two, and their sums are exact.
+    EXPECT_EQ(result.provedShare == 1, result.verdict == Verdict::proved);
+    last = result.provedShare;
+  }
+  // The centres are 1.6 m apart if the elbow is at 1.287 rad: 48 % of all states are in contact.
+  const NeverInContactResult half = prove(planarArm(kElbow, 0.8), "base", "hand", {.boxes = 1000});
+  EXPECT_LE(half.provedShare, 0.52);
 }
 
 /// A contact at one value of a joint only, which no sample meets: two balls touch at the limit of

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "planner/app/new_file.h"
+#include "planner/checker/pair_survey.h"
+
+namespace corridor::app {
+
+/// The pairs of links of a new robot, by what is known about them.
+struct SortedPairs {
+  std::vector<SurveyedPair> proved;
+  /// In contact in at least 95 % of the random states; those with the most contacts come first.
+  std::vector<SurveyedPair> nearlyAlways;
+  std::vector<SurveyedPair> tested;  ///< all others
+  /// Pairs that the SRDF allows to touch, though they were in contact in some random states only,
+  /// with the SRDF's reason.
+  std::vector<std::pair<SurveyedPair, std::string>> contradicted;
+  std::size_t adjacent = 0, bySrdf = 0;
+};
+
+/// Surveys the pairs, and shows the progress if stderr is a terminal.
+/// @param allowed the SRDF's pairs. They must not be in the model's filter.
+/// @returns pairs without meaning if `interrupted` became true.
+SortedPairs sortedPairs(const Checker& checker, const std::vector<AllowedPair>& allowed,
+                        const NewRobotArguments& arguments, const std::atomic<bool>& interrupted);
+
+/// Returns the part of the robot's file on pairs of links.
+std::string pairsText(const NewRobotArguments& arguments, const Model& model,
+                      const SortedPairs& pairs);
+
+}  // namespace corridor::app
