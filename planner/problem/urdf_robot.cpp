@@ -124,6 +124,13 @@ Joints readGroup(const YamlMap& map, const std::string& byDefault, RobotModel& m
       model.notes.push_back({"the group " + quotedWord(*name) + " is used without " +
                                  joinedFirst(group.missing) + ", which the URDF lacks",
                              NoteWeight::motion});
+    if (!group.virtualJoints.empty())
+      model.notes.push_back(
+          {"the group " + quotedWord(*name) + " is used without " +
+               joinedFirst(group.virtualJoints) +
+               (group.virtualJoints.size() == 1 ? ", which is a virtual joint of the SRDF"
+                                                : ", which are virtual joints of the SRDF"),
+           NoteWeight::motion});
     addStatesOf(*name, model);
     if (active.empty())
       map.fault("group", "the group " + quotedWord(*name) + " has no joint that moves by itself");

@@ -216,6 +216,25 @@ TEST_F(ArmProblem, TubeOfSingleJoints) {
             "problem.yaml:7: tube.slides: there is no prismatic joint here that is planned for");
 }
 
+/// The base of a mobile manipulator is often a virtual joint of the SRDF.
+TEST_F(ArmProblem, AGroupIsUsedWithoutItsVirtualJoints) {
+  write("mobile.srdf",
+        "<robot name='armbot'>\n"
+        "<virtual_joint name='world' type='planar' parent_frame='odom' child_link='base'/>\n"
+        "<group name='cart'><joint name='world'/></group>\n"
+        "<group name='all'><group name='cart'/><joint name='pan'/><joint name='lift'/></group>\n"
+        "</robot>\n");
+  write("arm.yaml", "format: corridor-robot-1\nurdf: arm.urdf\nsrdf: mobile.srdf\ngroup: all\n");
+  const Problem p = read(armHead + "start: {pan: 0, lift: 0.5}\ngoal: {pan: 1, lift: 0.3}\n");
+  EXPECT_THAT(namesOf(p), ElementsAre("pan", "lift"));
+  EXPECT_THAT(textsOf(p.source.notes),
+              Contains("the group \"all\" is used without world, which is a virtual joint of the "
+                       "SRDF"));
+  EXPECT_THAT(textsOf(p.source.notes),
+              Contains(testing::HasSubstr("mobile.srdf:2: virtual joint \"world\" (planar) is not "
+                                          "used: the robot stands still")));
+}
+
 TEST_F(ArmProblem, AUrdfAloneIsARobot) {
   const Problem p = read(
       "format: corridor-problem-1\nrobot: arm.urdf\nstart: {pan: 0, lift: 0, slide: 0.02}\n"
