@@ -136,7 +136,7 @@ bool reportUnusable(const char* kind, const std::string& name, const std::string
 }
 
 int inspectRobot(const InspectArguments& a) {
-  const RobotSetup setup = readRobotAlone(a.file);
+  const RobotSetup setup = readRobotAlone(a.file, RobotUse::describe);
   const RobotModel& model = setup.robot.description;
   const std::vector<std::string> notes = textsOf(notesOf(setup));
   ordered_json j = {{"format", "corridor-inspect-robot-2"},

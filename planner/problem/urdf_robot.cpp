@@ -159,6 +159,13 @@ Joints readJointList(const YamlMap& map, const RobotModel& model) {
   return active;
 }
 
+/// Adds the note that no joint of the robot can move.
+void noteThatNoneMoves(const std::filesystem::path& urdf, ModelRobot& robot) {
+  robot.description.notes.push_back(
+      {urdf.string() + ": " + whyNoneMoves(robot) + "; problems refuse this robot",
+       NoteWeight::motion});
+}
+
 /// Reads `states`: maps of joint values, by the state's name. A state replaces the SRDF's state of
 /// the same name.
 void readStates(const YamlMap& file, RobotModel& model) {
@@ -263,8 +270,8 @@ std::optional<double> withinLimits(double value, double lower, double upper,
 
 std::optional<RobotSetup> readUrdfRobot(const YamlMap& map, const std::string& name,
                                         const std::string& group,
-                                        const std::filesystem::path& folder, RobotSetup setup,
-                                        std::vector<Note>& notesOfFaulty) {
+                                        const std::filesystem::path& folder, RobotUse use,
+                                        RobotSetup setup, std::vector<Note>& notesOfFaulty) {
   for (const char* key : {"shapes", "reference"})
     if (map.find(key)) map.fault(key, "is for rigid robots; this one's shapes are in its URDF");
   UrdfRules rules{.packages = readPackages(map, folder)};
@@ -299,8 +306,10 @@ std::optional<RobotSetup> readUrdfRobot(const YamlMap& map, const std::string& n
     active = readGroup(map, group, setup.robot.description);
   else if (map.find("joints"))
     active = readJointList(map, setup.robot.description);
-  else if ((active = allMoving(setup.robot)).empty())
-    map.fault("urdf", "has no joint that moves by itself");
+  else if ((active = allMoving(setup.robot)).empty() && use == RobotUse::plan)
+    map.fault("urdf", whyNoneMoves(setup.robot));
+  else if (active.empty())
+    noteThatNoneMoves(*urdf, setup.robot);
   for (const std::size_t j : active)
     if (setup.robot.held.contains(j) || setup.robot.heldPoses.contains(j))
       map.fault("hold", setup.robot.description.joints[j].name +
@@ -316,15 +325,17 @@ std::optional<RobotSetup> readUrdfRobot(const YamlMap& map, const std::string& n
   return setup;
 }
 
-std::optional<RobotSetup> readBareUrdf(const std::filesystem::path& file, FaultList& faults,
-                                       std::vector<Note>& notesOfFaulty) {
+std::optional<RobotSetup> readBareUrdf(const std::filesystem::path& file, RobotUse use,
+                                       FaultList& faults, std::vector<Note>& notesOfFaulty) {
   RobotSetup setup;
   auto model = readModel(file, {}, std::nullopt, faults, setup.files, notesOfFaulty);
   if (!model) return std::nullopt;
   setup.robot.description = std::move(*model);
   const Joints active = allMoving(setup.robot);
-  if (active.empty()) {
-    faults.add(file.string(), 0, "has no joint that moves by itself");
+  if (active.empty() && use == RobotUse::describe) {
+    noteThatNoneMoves(file, setup.robot);
+  } else if (active.empty()) {
+    faults.add(file.string(), 0, whyNoneMoves(setup.robot));
     addAll(setup.robot.description.notes, notesOfFaulty);
     return std::nullopt;
   }

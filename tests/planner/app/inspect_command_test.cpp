@@ -48,6 +48,26 @@ TEST_F(InspectCommand, ReportsTheReachWithMimicJoints) {
   EXPECT_EQ(links[5]["reach_m"], links[4]["reach_m"]);
 }
 
+/// Such a robot can't be planned for, but can be described.
+TEST_F(InspectCommand, DescribesARobotThatCannotMove) {
+  write("still.urdf",
+        "<robot name='still'><link name='a'/>\n<link name='b'/>\n<joint name='j' "
+        "type='revolute'><parent link='a'/><child link='b'/><limit lower='0' upper='0' effort='1' "
+        "velocity='1'/></joint></robot>");
+  const std::string why = "has no joint that moves by itself: j: lower = upper = 0";
+  write("still.yaml", "format: corridor-robot-1\nurdf: still.urdf\n");
+  for (const std::string file : {"still.urdf", "still.yaml"}) {
+    const Result result = run("inspect " + file);
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_THAT(result.out, HasSubstr("joint: \"j\": revolute, a to b, 0 to 0 rad\n"));
+    EXPECT_THAT(result.out,
+                HasSubstr("note: still.urdf: " + why + "; problems refuse this robot\n"));
+    EXPECT_EQ(run("pose " + file).status, 0);
+  }
+  expectFault("new problem still.urdf", "still.urdf: " + why);
+  expectFault("new problem still.yaml", "still.yaml:2: urdf: " + why);
+}
+
 TEST_F(InspectProblem, ReportsPosesOfObstaclesAndHeldJoints) {
   write(
       "robot.yaml",
