@@ -85,4 +85,16 @@ std::string quotedWord(std::string_view word) {
   return text + (end < word.size() ? "…\"" : "\"");
 }
 
+std::string quotedPath(std::string_view path) {
+  constexpr std::size_t longest = 60;
+  if (path.size() <= longest) return quotedWord(path);
+  std::size_t begin = path.size() - longest;
+  while (begin < path.size() && (path[begin] & 0xC0) == 0x80)
+    ++begin;  // never cut inside a UTF-8 character
+  std::size_t slash = path.find('/', begin);
+  while (slash != path.npos && path.substr(slash + 1).starts_with('/')) ++slash;
+  if (slash != path.npos && slash + 1 < path.size()) begin = slash;
+  return "\"…" + quotedWord(path.substr(begin)).substr(1);
+}
+
 }  // namespace corridor

@@ -40,4 +40,8 @@ std::string notOneOf(std::string_view word, const std::vector<std::string>& word
 /// Returns the word for a message: in double quotes, at most 60 bytes, control characters as '?'.
 std::string quotedWord(std::string_view word);
 
+/// Returns the name of a file for a message, as quotedWord(). A longer name is cut at its begin, at
+/// a slash if possible: "…/collision/link5.stl".
+std::string quotedPath(std::string_view path);
+
 }  // namespace corridor

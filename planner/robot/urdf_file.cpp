@@ -228,6 +228,8 @@ std::optional<RobotModel> readUrdf(const std::filesystem::path& file, const Urdf
                            ", which contains the meshes and the URDF, is used (packages: in "
                            "robot.yaml names another one)",
                        NoteWeight::coverage});
+    if (const std::string slashes = meshes.noteOnSlashes(); !slashes.empty())
+      notes.push_back({file.string() + ": " + slashes});
     if (const auto ignored = meshes.ignoredUpAxes(); !ignored.empty())
       notes.push_back({file.string() + ": the up-axis of " + joinedFirst(ignored) +
                            " is not z; it is not applied (ROS's rule), and collada_up: file in "

@@ -39,7 +39,7 @@ void checkMesh(XmlFile& file, Element& shape, MeshStore& meshes, UrdfCollision& 
   collision.mesh = place.file;
   if (!place.complaint.empty())
     file.fault(shape.FindAttribute("filename")->GetLineNum(),
-               owner + ": mesh " + quotedWord(*name) + ": " + place.complaint);
+               owner + ": mesh " + quotedPath(*name) + ": " + place.complaint);
 }
 
 void checkShape(XmlFile& file, Element& shape, MeshStore& meshes, UrdfCollision& collision,

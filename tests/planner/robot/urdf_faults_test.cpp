@@ -318,6 +318,12 @@ TEST_F(UrdfFaults, MeshFiles) {
   EXPECT_EQ(complaint("none.stl"), of + "\"none.stl\": none.stl: no such file");
   EXPECT_EQ(complaint("package://none.stl"),
             of + "\"package://none.stl\": package://NAME/FILE is needed");
+  EXPECT_EQ(complaint("package:///"), of + "\"package:///\": package://NAME/FILE is needed");
+  EXPECT_EQ(complaint("package:////none/a.stl"),
+            of + "\"package:////none/a.stl\": package://NAME/FILE is needed");
+  EXPECT_THAT(
+      complaint("package://a_package_of_a_very_very_long_name/meshes/collision/left/link5.stl"),
+      testing::StartsWith(of + "\"…/meshes/collision/left/link5.stl\": "));
   EXPECT_EQ(complaint("file://none.stl"),
             of + "\"file://none.stl\": file:///FOLDER/FILE is needed");
   EXPECT_EQ(complaint("http://x.org/a.stl"),

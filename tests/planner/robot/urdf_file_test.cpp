@@ -232,6 +232,21 @@ TEST_F(UrdfFile, MeshesAreFoundInPackagesBesideAndAbove) {
   ASSERT_EQ(model.links[0].shapes.size(), 5u);
 }
 
+TEST_F(UrdfFile, ThreeSlashesAreReadAsTwo) {
+  write("hand/a.obj", "v 0 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n");
+  const std::string three = collision("<mesh filename=\"package:///hand/a.obj\"/>");
+  const std::string note = ": package:///NAME/FILE is read as package://NAME/FILE";
+  const RobotModel one = modelOf(link("a", three));
+  EXPECT_EQ(files_, (std::vector{folder_ / "r.urdf", folder_ / "hand/a.obj"}));
+  EXPECT_THAT(textsOf(one.notes), testing::ElementsAre((folder_ / "r.urdf").string() +
+                                                       ": mesh \"package:///hand/a.obj\"" + note));
+  const RobotModel two =
+      modelOf(link("a", three + collision("<mesh filename=\"package://hand/a.obj\"/>") + three));
+  EXPECT_THAT(textsOf(two.notes),
+              testing::ElementsAre((folder_ / "r.urdf").string() +
+                                   ": mesh \"package:///hand/a.obj\" and 1 more" + note));
+}
+
 TEST_F(UrdfFile, PackagesBesideAFolderAboveOrOfAnotherName) {
   const std::string wedge = "v 0 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n";
   write("src/hand/meshes/a.obj", wedge);
