@@ -23,7 +23,8 @@ using AllowedBodies = std::vector<std::array<std::size_t, 2>>;
 /// Completes a problem whose other members are set: excludes the allowed pairs from the tests, and
 /// sets the tube. Pairs that never move against each other are not tested. If the two bodies of
 /// such a pair belong to different robots, or to a robot and the world, a note lists the pair. Adds
-/// a note if no pair is tested.
+/// a note if no pair is tested, and one for each obstacle that is far larger than the robots, or
+/// far away.
 /// @throws InputError if the problem has more than 10^7 pairs, or a coordinate above 1e100 m.
 void finishProblem(const AllowedBodies& allowed, const TubeSpec& tube, Problem& problem);
 

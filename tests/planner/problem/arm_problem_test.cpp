@@ -411,6 +411,40 @@ TEST_F(ArmProblem, AnObstacleWithTheNameOfALink) {
               testing::Not(Contains(testing::HasSubstr("within reach"))));
 }
 
+/// Lengths in millimetres are noted, even if other obstacles are within reach.
+TEST_F(ArmProblem, ObstaclesThatAreFarTooLarge) {
+  using testing::AllOf;
+  using testing::EndsWith;
+  using testing::HasSubstr;
+  using testing::Not;
+  using testing::StartsWith;
+  write("shelf.obj", "v 0 0 0\nv 800 0 0\nv 0 600 0\nf 1 2 3\n");
+  write("block.obj", "v 0 0 0\nv 90 0 0\nv 0 90 0\nv 0 0 90\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+  write("dots.xyz", "0 0 0\n0 0 1900\n");
+  const Problem p =
+      read(armHead + "  shelf: {mesh: shelf.obj, at: [0.5, 0.5, 0]}\n  block: {mesh: block.obj}\n" +
+           "  dots: {points: {file: dots.xyz, radius: 0.01}}\n  beam: {box: [400, 1, 1]}\n" +
+           "  ball: {sphere: 0.1, at: [500, 0, 0]}\n" +
+           "  floor: {box: [100, 100, 0.1], at: [0, 0, -1]}\n" +
+           "  small: {mesh: shelf.obj, unit: mm, at: [0.5, 0.5, 0]}\n" + armStates);
+  const std::vector<std::string> notes = textsOf(p.source.notes);
+  const auto isNoted = [](const std::string& name, const std::string& what,
+                          const std::string& hint) {
+    return Contains(
+        AllOf(StartsWith("obstacle \"" + name + "\" is " + what + ", while the robot reaches "),
+              EndsWith(" m; " + hint)));
+  };
+  const std::string unit = "if its lengths are in millimetres, write unit: mm";
+  EXPECT_THAT(notes, isNoted("shelf", "800 m long", unit));
+  EXPECT_THAT(notes, isNoted("block", "90 m long", unit));
+  EXPECT_THAT(notes, isNoted("dots", "1900.02 m long", unit));
+  EXPECT_THAT(notes, isNoted("beam", "400 m long", "are its lengths in metres?"));
+  EXPECT_THAT(notes, Contains(AllOf(StartsWith("obstacle \"ball\" is 49"), HasSubstr(" m away"),
+                                    EndsWith("are its lengths in metres?"))));
+  for (const char* const name : {"post", "floor", "small"})
+    EXPECT_THAT(notes, Not(Contains(HasSubstr("\"" + std::string(name) + "\" is"))));
+}
+
 /// Two groups have a state of the same name. The one of the planned group needs no prefix.
 TEST_F(ArmProblem, AStateOfThePlannedGroupNeedsNoPrefix) {
   std::string text = srdf;

@@ -306,17 +306,6 @@ TEST_F(UrdfFile, MeshesAreFoundInTheFoldersOfRos) {
             "workspace/src/repository/arm, but has no none.obj");
 }
 
-TEST_F(UrdfFile, MeshesInMillimetresAreNoted) {
-  write("big.obj", "v 0 0 0\nv 1000 0 0\nv 0 200 0\nf 1 2 3\n");
-  const RobotModel model = modelOf(link("a", collision("<mesh filename=\"big.obj\"/>")));
-  EXPECT_THAT(textsOf(model.notes),
-              testing::ElementsAre((folder_ / "r.urdf").string() +
-                                   ":2: shape \"a\" is 1000 m long; if its mesh is in "
-                                   "millimetres, it needs scale=\"0.001 0.001 0.001\""));
-  EXPECT_TRUE(modelOf(link("a", collision("<mesh filename=\"big.obj\" scale=\"1e-3 1e-3 1e-3\"/>")))
-                  .notes.empty());
-}
-
 /// Links without <collision> are named in a note, or get the shapes of their visuals.
 TEST_F(UrdfFile, Visuals) {
   const auto visual = [](const std::string& shape) {
