@@ -39,7 +39,7 @@ class ProblemReport {
     reportPairs();
     const std::vector<std::string> notes = textsOf(problem_.source.notes);
     json_["notes"] = notes;
-    for (const std::string& note : notes) out_.line("note", note);
+    for (const std::string& note : condensed(notes)) out_.line("note", note);
     const bool free = reportEnds();
     reportTrees();
     reportCosts();

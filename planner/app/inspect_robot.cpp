@@ -190,7 +190,7 @@ int inspectRobot(const InspectArguments& a) {
       text += (text.empty() ? "" : ", ") + joint + ": " + rounded(value);
     out.line("state", quotedWord(name) + ": {" + text + "}");
   }
-  for (const std::string& note : notes) out.line("note", note);
+  for (const std::string& note : condensed(notes)) out.line("note", note);
   if (a.json) std::cout << j.dump(2) << '\n';
   return kDone;
 }
