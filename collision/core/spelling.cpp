@@ -53,7 +53,7 @@ std::string didYouMean(std::string_view word, const std::vector<std::string>& ca
 }
 
 std::string knownWords(const std::vector<std::string>& words) {
-  return " (known: " + joinedFirst(words) + ")";
+  return words.empty() ? "" : " (known: " + joinedFirst(words) + ")";
 }
 
 std::string joinedFirst(const std::vector<std::string>& words, std::size_t most) {

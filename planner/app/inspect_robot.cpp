@@ -101,16 +101,18 @@ ordered_json partsJson(const PlacedShape& shape) {
 }  // namespace
 
 std::string shapeText(const PlacedShape& shape) {
+  // The shapes of a MoveIt message have no file of their own.
+  const std::string file = shape.file.empty() ? "" : ", " + shape.file.string();
   if (!shape.mesh && shape.primitive) return nameOf(*shape.primitive);
   if (!shape.mesh) {
     const bool balls = shape.parts.front().radius > 0;
     const auto [lower, upper] = boundsOf(shape);
     return counted(shape.parts.size(), balls ? "ball" : "cube") +
-           (balls ? " of radius " + rounded(shape.parts.front().radius) + " m, " : ", ") +
-           shape.file.string() + ", from " + rounded(lower) + " to " + rounded(upper);
+           (balls ? " of radius " + rounded(shape.parts.front().radius) + " m" : "") + file +
+           ", from " + rounded(lower) + " to " + rounded(upper);
   }
-  return counted(shape.mesh->mesh.triangles.size(), "triangle") +
-         (shape.solid ? " (solid), " : ", ") + shape.file.string();
+  return counted(shape.mesh->mesh.triangles.size(), "triangle") + (shape.solid ? " (solid)" : "") +
+         file;
 }
 
 ordered_json shapeJson(const PlacedShape& shape) {

@@ -112,8 +112,10 @@ Joints readGroup(const YamlMap& map, const std::string& byDefault, RobotModel& m
       map.fault("group", map.find("srdf")->text + " names no group, so there is no " +
                              quotedWord(*name) + "; use joints: [NAME, …]");
     else
-      map.fault("group", "there is no group " + quotedWord(*name) + " in the SRDF" +
-                             didYouMean(*name, known) + knownWords(known));
+      map.fault("group",
+                "there is no group " + quotedWord(*name) + " in the SRDF" +
+                    didYouMean(*name, known) +
+                    (known.empty() ? ", and none of its groups can be used" : knownWords(known)));
   } else if (const JointGroup& group = found->second; !group.unusable.empty()) {
     map.fault("group", "the group " + quotedWord(*name) + " can't be used: " + group.unusable);
   } else {

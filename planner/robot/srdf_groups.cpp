@@ -92,11 +92,20 @@ class GroupReader {
       if (const auto inner = groupNames_.find(*name))
         group.subgroups.push_back(*inner);
       else if (group.unusable.empty())
-        group.unusable = file_.at(element.GetLineNum(), owner + ": there is no " +
-                                                            owned("group", *name) + " in the SRDF" +
-                                                            didYouMean(*name, groupNames_.all()));
+        group.unusable =
+            file_.at(element.GetLineNum(), owner + ": there is no " + owned("group", *name) +
+                                               " in the SRDF" + similarGroup(*name));
     });
     if (const std::string fault = noteFaults(); !fault.empty()) group.unusable = fault;
+  }
+
+  /// Returns a suggestion for the name of a group: a similar name, or a longer one: lf_leg for lf.
+  std::string similarGroup(const std::string& name) const {
+    const std::string hint = didYouMean(name, groupNames_.all());
+    if (!hint.empty()) return hint;
+    for (const std::string& longer : groupNames_.all())
+      if (longer.starts_with(name)) return " (did you mean " + quotedWord(longer) + "?)";
+    return "";
   }
 
   Joints jointsAbove(std::size_t link) const {

@@ -27,6 +27,11 @@ TEST(Spelling, SuggestsOnlyWhatMayBeMeant) {
   EXPECT_EQ(didYouMean("dijkstra", planners), "");
 }
 
+TEST(Spelling, KnownWords) {
+  EXPECT_EQ(knownWords({"a", "b"}), " (known: a, b)");
+  EXPECT_EQ(knownWords({}), "");
+}
+
 TEST(Spelling, QuotesForMessages) {
   EXPECT_EQ(quotedWord("a\nb"), "\"a?b\"");
   EXPECT_EQ(quotedWord("Tür"), "\"Tür\"");

@@ -204,6 +204,10 @@ TEST_F(InspectCube, BadInputIsOneLineAndExit2) {
       "package.urdf:2: link \"a\": mesh \"package://p/m.obj\": p/m.obj is not a file, "
       "and no folder of package \"p\" was found; add packages: {p: FOLDER} to robot.yaml, or set "
       "ROS_PACKAGE_PATH or AMENT_PREFIX_PATH");
+  write("cube.srdf", "<robot name=\"cube\"/>");
+  expectFault("inspect cube.srdf",
+              "cube.srdf: is an SRDF, which only adds to a URDF; name the URDF, or a robot.yaml "
+              "with the keys urdf and srdf");
   expectFault("inspect cube.obj --pairs", "--pairs: needs a problem, and cube.obj is a mesh");
   expectFault("inspect problem.yaml --self-intersections",
               "--self-intersections: needs a mesh, and problem.yaml is a problem");

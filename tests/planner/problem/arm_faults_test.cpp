@@ -210,6 +210,12 @@ TEST_F(ArmFaults, RobotFiles) {
   EXPECT_EQ(robot("srdf: bare.srdf\ngroup: amr\n"),
             "arm.yaml:4: group: bare.srdf names no group, so there is no \"amr\"; use joints: "
             "[NAME, …]");
+  write("other.srdf",
+        "<robot name='armbot'><group name='legs'><joint name='hip'/></group></robot>\n");
+  EXPECT_EQ(
+      robot("srdf: other.srdf\ngroup: arm\n"),
+      "arm.yaml:4: group: there is no group \"arm\" in the SRDF, and none of its groups can be "
+      "used");
   EXPECT_EQ(robot("srdf: arm.srdf\ngroup: nothing\n"),
             "arm.yaml:4: group: the group \"nothing\" has no joint that moves by itself");
   EXPECT_EQ(robot("srdf: arm.srdf\ngroup: arm\njoints: [pan]\n"),

@@ -230,6 +230,15 @@ r.srdf:14: <disable_collisions> has no link2
   EXPECT_EQ(group("up"), "left1 left2 weld ");
 }
 
+TEST_F(SrdfFile, LongerNamesOfGroupsAreSuggested) {
+  EXPECT_EQ(complaintOfSrdf(R"(<group name="left_arm"><joint name="left1"/></group>
+<group name="both"><group name="left"/></group>)"),
+            "no complaint");
+  EXPECT_THAT(model_.groups.at("both").unusable,
+              testing::EndsWith("there is no group \"left\" in the SRDF (did you mean "
+                                "\"left_arm\"?)"));
+}
+
 TEST_F(SrdfFile, StatesThatCannotBeMade) {
   EXPECT_EQ(
       notesOf(R"(<group name="e"><joint name="left1"/></group>
