@@ -53,7 +53,7 @@ std::string didYouMean(std::string_view word, const std::vector<std::string>& ca
 }
 
 std::string knownWords(const std::vector<std::string>& words) {
-  return " (known: " + joinedFirst(words) + ")";
+  return words.empty() ? "" : " (known: " + joinedFirst(words) + ")";
 }
 
 std::string joinedFirst(const std::vector<std::string>& words, std::size_t most) {
@@ -83,6 +83,18 @@ std::string quotedWord(std::string_view word) {
   for (const char c : word.substr(0, end))
     text += static_cast<unsigned char>(c) < 32 || c == 127 ? '?' : c;
   return text + (end < word.size() ? "…\"" : "\"");
+}
+
+std::string quotedPath(std::string_view path) {
+  constexpr std::size_t longest = 60;
+  if (path.size() <= longest) return quotedWord(path);
+  std::size_t begin = path.size() - longest;
+  while (begin < path.size() && (path[begin] & 0xC0) == 0x80)
+    ++begin;  // never cut inside a UTF-8 character
+  std::size_t slash = path.find('/', begin);
+  while (slash != path.npos && path.substr(slash + 1).starts_with('/')) ++slash;
+  if (slash != path.npos && slash + 1 < path.size()) begin = slash;
+  return "\"…" + quotedWord(path.substr(begin)).substr(1);
 }
 
 }  // namespace corridor

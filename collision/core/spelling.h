@@ -24,7 +24,7 @@ std::optional<std::string> mostSimilar(std::string_view word,
 /// to a message, or stand within it.
 std::string didYouMean(std::string_view word, const std::vector<std::string>& candidates);
 
-/// Returns ` (known: a, b, c)`, with at most 30 words (`joinedFirst`).
+/// Returns ` (known: a, b, c)`, with at most 30 words (`joinedFirst`), or "" if there is no word.
 std::string knownWords(const std::vector<std::string>& words);
 
 /// Returns "a, b, c", or the first `most` words and the number of the others: "a, b, c and 970
@@ -39,5 +39,9 @@ std::string notOneOf(std::string_view word, const std::vector<std::string>& word
 
 /// Returns the word for a message: in double quotes, at most 60 bytes, control characters as '?'.
 std::string quotedWord(std::string_view word);
+
+/// Returns the name of a file for a message, as quotedWord(). A longer name is cut at its begin, at
+/// a slash if possible: "…/collision/link5.stl".
+std::string quotedPath(std::string_view path);
 
 }  // namespace corridor

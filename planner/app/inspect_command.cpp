@@ -173,6 +173,10 @@ std::string robotInFolder(const std::filesystem::path& folder) {
 /// @param inFolder true if `a.file` is the robot that `robotInFolder` found.
 int inspectFile(const InspectArguments& a, bool inFolder) {
   const std::string extension = std::filesystem::path(a.file).extension().string();
+  if (lowered(extension) == ".srdf" && whyNotOrdinaryFile(a.file).empty())
+    throw InputError(Fault{a.file, 0,
+                           "is an SRDF, which only adds to a URDF; name the URDF, or a robot.yaml "
+                           "with the keys urdf and srdf"});
   const bool yaml = extension == ".yaml" || extension == ".yml";
   const bool robot =
       inFolder || extension == ".urdf" || extension == ".xacro" || (yaml && isRobotFile(a.file));

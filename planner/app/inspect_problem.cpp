@@ -42,7 +42,7 @@ class ProblemReport {
     addAll(notesOn(closeStillPairs(checker_, startOf(problem_)), problem_.model), all);
     const std::vector<std::string> notes = textsOf(all);
     json_["notes"] = notes;
-    for (const std::string& note : notes) out_.line("note", note);
+    for (const std::string& note : condensed(notes)) out_.line("note", note);
     const bool free = reportEnds();
     reportTrees();
     reportCosts();

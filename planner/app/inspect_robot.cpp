@@ -101,16 +101,18 @@ ordered_json partsJson(const PlacedShape& shape) {
 }  // namespace
 
 std::string shapeText(const PlacedShape& shape) {
+  // The shapes of a MoveIt message have no file of their own.
+  const std::string file = shape.file.empty() ? "" : ", " + shape.file.string();
   if (!shape.mesh && shape.primitive) return nameOf(*shape.primitive);
   if (!shape.mesh) {
     const bool balls = shape.parts.front().radius > 0;
     const auto [lower, upper] = boundsOf(shape);
     return counted(shape.parts.size(), balls ? "ball" : "cube") +
-           (balls ? " of radius " + rounded(shape.parts.front().radius) + " m, " : ", ") +
-           shape.file.string() + ", from " + rounded(lower) + " to " + rounded(upper);
+           (balls ? " of radius " + rounded(shape.parts.front().radius) + " m" : "") + file +
+           ", from " + rounded(lower) + " to " + rounded(upper);
   }
-  return counted(shape.mesh->mesh.triangles.size(), "triangle") +
-         (shape.solid ? " (solid), " : ", ") + shape.file.string();
+  return counted(shape.mesh->mesh.triangles.size(), "triangle") + (shape.solid ? " (solid)" : "") +
+         file;
 }
 
 ordered_json shapeJson(const PlacedShape& shape) {
@@ -136,7 +138,7 @@ bool reportUnusable(const char* kind, const std::string& name, const std::string
 }
 
 int inspectRobot(const InspectArguments& a) {
-  const RobotSetup setup = readRobotAlone(a.file);
+  const RobotSetup setup = readRobotAlone(a.file, RobotUse::describe);
   const RobotModel& model = setup.robot.description;
   const std::vector<std::string> notes = textsOf(notesOf(setup));
   ordered_json j = {{"format", "corridor-inspect-robot-2"},
@@ -190,7 +192,7 @@ int inspectRobot(const InspectArguments& a) {
       text += (text.empty() ? "" : ", ") + joint + ": " + rounded(value);
     out.line("state", quotedWord(name) + ": {" + text + "}");
   }
-  for (const std::string& note : notes) out.line("note", note);
+  for (const std::string& note : condensed(notes)) out.line("note", note);
   if (a.json) std::cout << j.dump(2) << '\n';
   return kDone;
 }

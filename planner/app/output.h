@@ -34,7 +34,7 @@ class ResultPrinter {
 /// first of them, with the number of the others.
 /// @param rest how to see the others, for the end of the note.
 std::vector<std::string> condensed(const std::vector<std::string>& notes,
-                                   const std::string& rest = "; inspect lists all");
+                                   const std::string& rest = "; inspect --json lists all");
 
 /// Prints the faults on stderr, one a line, and then the notes on what could be read.
 void printFaults(const InputError& error);

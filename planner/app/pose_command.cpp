@@ -59,7 +59,7 @@ void applyState(const std::string& state, RobotSetup& setup) {
 int poseCommand(const PoseArguments& a) {
   std::filesystem::path file = a.file;
   if (std::filesystem::is_directory(file)) file /= "robot.yaml";
-  RobotSetup setup = readRobotAlone(file);
+  RobotSetup setup = readRobotAlone(file, RobotUse::describe);
   if (setup.robot.isRigid())
     throw InputError(Fault{a.file, 0, "is a rigid robot; only a robot with joints has links"});
   if (a.state) applyState(*a.state, setup);

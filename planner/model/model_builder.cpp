@@ -106,7 +106,7 @@ ModelBuilder& ModelBuilder::addRobot(const std::filesystem::path& urdf,
             " that moves by itself, or it is named twice");
   }
   if (options.joints.empty() && (active = allMoving(robot)).empty())
-    faults_.push_back({urdf.string(), 0, "has no joint that moves by itself"});
+    faults_.push_back({urdf.string(), 0, whyNoneMoves(robot)});
   if (faults_.size() > before) return *this;
   chooseJoints(robot, active);
   return addRobot(std::move(robot));

@@ -1,9 +1,11 @@
 #include "planner/model/planned_joints.h"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 
 #include "collision/core/shortest.h"
+#include "collision/core/spelling.h"
 #include "planner/robot/joint_types.h"
 
 namespace corridor {
@@ -19,6 +21,33 @@ std::vector<std::size_t> allMoving(const ModelRobot& robot) {
         !robot.heldPoses.contains(j))
       all.push_back(j);
   return all;
+}
+
+std::string whyNoneMoves(const ModelRobot& robot) {
+  const std::string none = "has no joint that moves by itself";
+  std::vector<std::string> still;  // joints whose limits are equal
+  std::optional<double> limit;     // of all of these joints
+  bool isHeld = false;
+  const std::vector<JointModel>& joints = robot.description.joints;
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    if (!movesItself(joints[j])) continue;
+    if (canMove(joints[j])) {
+      isHeld = true;
+      continue;
+    }
+    if (still.empty())
+      limit = joints[j].lower;
+    else if (limit != joints[j].lower)
+      limit.reset();
+    still.push_back(joints[j].name);
+  }
+  if (isHeld) return none + ", except those in hold";
+  if (!still.empty())
+    return none + ": " + joinedFirst(still) + ": lower = upper" +
+           (limit ? " = " + shortest(*limit) : "");
+  return none +
+         "; for a vehicle, add a planar or floating joint on an empty link to the URDF, or use "
+         "rigid: SE3 in a robot.yaml";
 }
 
 std::string heldText(const ModelRobot& robot) {

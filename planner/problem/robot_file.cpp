@@ -96,11 +96,11 @@ std::optional<RobotSetup> readRigid(const YamlMap& map, const std::string& name,
 }  // namespace
 
 std::optional<RobotSetup> readRobotFile(const std::filesystem::path& file, FaultList& faults,
-                                        std::vector<Note>& notesOfFaulty,
-                                        const std::string& group) {
+                                        std::vector<Note>& notesOfFaulty, const std::string& group,
+                                        RobotUse use) {
   RobotSetup setup;
   if (file.extension() == ".urdf" || isXacro(file))
-    return readBareUrdf(file, faults, notesOfFaulty);
+    return readBareUrdf(file, use, faults, notesOfFaulty);
 
   setup.files.push_back(file);
   YamlValue document;
@@ -119,18 +119,19 @@ std::optional<RobotSetup> readRobotFile(const std::filesystem::path& file, Fault
                                    "and y, rotates about z), or urdf: arm.urdf (has joints)");
   std::optional<RobotSetup> read;
   if (kind == "urdf")
-    read = readUrdfRobot(map, name, group, file.parent_path(), std::move(setup), notesOfFaulty);
+    read =
+        readUrdfRobot(map, name, group, file.parent_path(), use, std::move(setup), notesOfFaulty);
   if (kind == "rigid") read = readRigid(map, name, file.parent_path(), std::move(setup));
   addAll(source.notes, read ? read->robot.description.notes : notesOfFaulty);
   return read;
 }
 
-RobotSetup readRobotAlone(const std::filesystem::path& file) {
+RobotSetup readRobotAlone(const std::filesystem::path& file, RobotUse use) {
   std::optional<RobotSetup> setup;
   std::vector<Note> notes;
   readWithNotes(notes, [&] {
     FaultList faults(file.string());
-    setup = readRobotFile(file, faults, notes);
+    setup = readRobotFile(file, faults, notes, "", use);
     if (setup) notes = setup->robot.description.notes;
     faults.throwIfAny();
   });

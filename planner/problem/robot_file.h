@@ -17,6 +17,12 @@ struct RobotSetup {
   std::vector<std::filesystem::path> files;  ///< the robot's file, then the files that it names
 };
 
+/// What a robot's file is read for.
+enum class RobotUse {
+  plan,     ///< a robot of which no joint can move is a fault
+  describe  ///< a robot of which no joint can move is a note
+};
+
 /// Reads a file of the format corridor-robot-1, or a bare URDF. The faults of this file, and of the
 /// files that it names, are added to `faults`. Returns nullopt if faults leave unknown which joints
 /// the robot has, or in which space (SE2 or SE3) a rigid robot moves. A rigid robot is returned
@@ -27,9 +33,10 @@ struct RobotSetup {
 /// result's model.
 std::optional<RobotSetup> readRobotFile(const std::filesystem::path& file, FaultList& faults,
                                         std::vector<Note>& notesOfFaulty,
-                                        const std::string& group = "");
+                                        const std::string& group = "",
+                                        RobotUse use = RobotUse::plan);
 
 /// Reads a robot's file that is not part of a problem. @throws NotedInputError with all faults.
-RobotSetup readRobotAlone(const std::filesystem::path& file);
+RobotSetup readRobotAlone(const std::filesystem::path& file, RobotUse use = RobotUse::plan);
 
 }  // namespace corridor

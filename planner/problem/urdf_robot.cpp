@@ -112,8 +112,10 @@ Joints readGroup(const YamlMap& map, const std::string& byDefault, RobotModel& m
       map.fault("group", map.find("srdf")->text + " names no group, so there is no " +
                              quotedWord(*name) + "; use joints: [NAME, …]");
     else
-      map.fault("group", "there is no group " + quotedWord(*name) + " in the SRDF" +
-                             didYouMean(*name, known) + knownWords(known));
+      map.fault("group",
+                "there is no group " + quotedWord(*name) + " in the SRDF" +
+                    didYouMean(*name, known) +
+                    (known.empty() ? ", and none of its groups can be used" : knownWords(known)));
   } else if (const JointGroup& group = found->second; !group.unusable.empty()) {
     map.fault("group", "the group " + quotedWord(*name) + " can't be used: " + group.unusable);
   } else {
@@ -124,6 +126,13 @@ Joints readGroup(const YamlMap& map, const std::string& byDefault, RobotModel& m
       model.notes.push_back({"the group " + quotedWord(*name) + " is used without " +
                                  joinedFirst(group.missing) + ", which the URDF lacks",
                              NoteWeight::motion});
+    if (!group.virtualJoints.empty())
+      model.notes.push_back(
+          {"the group " + quotedWord(*name) + " is used without " +
+               joinedFirst(group.virtualJoints) +
+               (group.virtualJoints.size() == 1 ? ", which is a virtual joint of the SRDF"
+                                                : ", which are virtual joints of the SRDF"),
+           NoteWeight::motion});
     addStatesOf(*name, model);
     if (active.empty())
       map.fault("group", "the group " + quotedWord(*name) + " has no joint that moves by itself");
@@ -150,6 +159,13 @@ Joints readJointList(const YamlMap& map, const RobotModel& model) {
       active.push_back(*j);
   }
   return active;
+}
+
+/// Adds the note that no joint of the robot can move.
+void noteThatNoneMoves(const std::filesystem::path& urdf, ModelRobot& robot) {
+  robot.description.notes.push_back(
+      {urdf.string() + ": " + whyNoneMoves(robot) + "; problems refuse this robot",
+       NoteWeight::motion});
 }
 
 /// Reads `states`: maps of joint values, by the state's name. A state replaces the SRDF's state of
@@ -256,8 +272,8 @@ std::optional<double> withinLimits(double value, double lower, double upper,
 
 std::optional<RobotSetup> readUrdfRobot(const YamlMap& map, const std::string& name,
                                         const std::string& group,
-                                        const std::filesystem::path& folder, RobotSetup setup,
-                                        std::vector<Note>& notesOfFaulty) {
+                                        const std::filesystem::path& folder, RobotUse use,
+                                        RobotSetup setup, std::vector<Note>& notesOfFaulty) {
   for (const char* key : {"shapes", "reference"})
     if (map.find(key)) map.fault(key, "is for rigid robots; this one's shapes are in its URDF");
   UrdfRules rules{.packages = readPackages(map, folder)};
@@ -292,8 +308,10 @@ std::optional<RobotSetup> readUrdfRobot(const YamlMap& map, const std::string& n
     active = readGroup(map, group, setup.robot.description);
   else if (map.find("joints"))
     active = readJointList(map, setup.robot.description);
-  else if ((active = allMoving(setup.robot)).empty())
-    map.fault("urdf", "has no joint that moves by itself");
+  else if ((active = allMoving(setup.robot)).empty() && use == RobotUse::plan)
+    map.fault("urdf", whyNoneMoves(setup.robot));
+  else if (active.empty())
+    noteThatNoneMoves(*urdf, setup.robot);
   for (const std::size_t j : active)
     if (setup.robot.held.contains(j) || setup.robot.heldPoses.contains(j))
       map.fault("hold", setup.robot.description.joints[j].name +
@@ -309,15 +327,17 @@ std::optional<RobotSetup> readUrdfRobot(const YamlMap& map, const std::string& n
   return setup;
 }
 
-std::optional<RobotSetup> readBareUrdf(const std::filesystem::path& file, FaultList& faults,
-                                       std::vector<Note>& notesOfFaulty) {
+std::optional<RobotSetup> readBareUrdf(const std::filesystem::path& file, RobotUse use,
+                                       FaultList& faults, std::vector<Note>& notesOfFaulty) {
   RobotSetup setup;
   auto model = readModel(file, {}, std::nullopt, faults, setup.files, notesOfFaulty);
   if (!model) return std::nullopt;
   setup.robot.description = std::move(*model);
   const Joints active = allMoving(setup.robot);
-  if (active.empty()) {
-    faults.add(file.string(), 0, "has no joint that moves by itself");
+  if (active.empty() && use == RobotUse::describe) {
+    noteThatNoneMoves(file, setup.robot);
+  } else if (active.empty()) {
+    faults.add(file.string(), 0, whyNoneMoves(setup.robot));
     addAll(setup.robot.description.notes, notesOfFaulty);
     return std::nullopt;
   }

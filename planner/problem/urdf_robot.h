@@ -16,13 +16,13 @@ namespace corridor {
 /// in the result.
 std::optional<RobotSetup> readUrdfRobot(const YamlMap& map, const std::string& name,
                                         const std::string& group,
-                                        const std::filesystem::path& folder, RobotSetup setup,
-                                        std::vector<Note>& notesOfFaulty);
+                                        const std::filesystem::path& folder, RobotUse use,
+                                        RobotSetup setup, std::vector<Note>& notesOfFaulty);
 
 /// Reads a URDF without a robot.yaml: all its moving joints are planned for. Returns nullopt if the
 /// URDF has a fault. @param notesOfFaulty see readRobotFile.
-std::optional<RobotSetup> readBareUrdf(const std::filesystem::path& file, FaultList& faults,
-                                       std::vector<Note>& notesOfFaulty);
+std::optional<RobotSetup> readBareUrdf(const std::filesystem::path& file, RobotUse use,
+                                       FaultList& faults, std::vector<Note>& notesOfFaulty);
 
 /// The slack of limits, rad or m. A value that exceeds a limit by at most `limitSlack` is replaced
 /// by the limit, with a note. Limits and values are often written with π rounded to four decimals

@@ -126,6 +126,14 @@ bool isIndentedByTab(const std::string& text, int line) {
   return text.substr(begin, end - begin).find('\t') != std::string::npos;
 }
 
+/// Returns yaml-cpp's message, or a clearer one for a missing bracket.
+std::string explained(const std::string& message) {
+  if (message == YAML::ErrorMsg::END_OF_MAP_FLOW) return "a } is missing, here or above";
+  if (message == YAML::ErrorMsg::END_OF_SEQ_FLOW) return "a ] is missing, here or above";
+  if (message == YAML::ErrorMsg::FLOW_END) return "a } or ] is missing, or there is one too many";
+  return message;
+}
+
 }  // namespace
 
 YamlValue parseYaml(const std::string& file, const std::string& text, const YamlLimits& limits) {
@@ -141,7 +149,7 @@ YamlValue parseYaml(const std::string& file, const std::string& text, const Yaml
     const bool tab = isIndentedByTab(text, error.mark.line);
     throw InputError(Fault{file, error.mark.line + 1,
                            tab ? "is not YAML: the line is indented by a tab; use blanks"
-                               : "is not YAML: " + error.msg});
+                               : "is not YAML: " + explained(error.msg)});
   }
 }
 

@@ -72,8 +72,19 @@ std::vector<std::string> MeshStore::ignoredUpAxes() const {
   return names;
 }
 
+std::string MeshStore::noteOnSlashes() const {
+  if (threeSlashes_ == 0) return "";
+  return "mesh " + quotedPath(firstThreeSlashes_) +
+         (threeSlashes_ == 1 ? "" : " and " + std::to_string(threeSlashes_ - 1) + " more") +
+         ": package:///NAME/FILE is read as package://NAME/FILE";
+}
+
 MeshStore::Place MeshStore::inPackage(const std::string& name) {
-  const std::string inside = name.substr(packageScheme.size());
+  std::string inside = name.substr(packageScheme.size());
+  if (inside.starts_with('/') && inside.size() > 1) {
+    inside.erase(0, 1);
+    if (threeSlashes_++ == 0) firstThreeSlashes_ = name;
+  }
   const std::size_t slash = inside.find('/');
   if (slash == 0 || slash == inside.npos || slash + 1 == inside.size())
     return {{}, "package://NAME/FILE is needed"};

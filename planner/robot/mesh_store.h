@@ -32,6 +32,9 @@ class MeshStore {
   std::vector<std::string> ignoredUpAxes() const;
   /// Returns the packages that were found only as a folder of another name above the URDF.
   const std::map<std::string, std::filesystem::path>& guessedPackages() const { return guessed_; }
+  /// Returns the note on names that begin with package:///, or "". Other readers, such as
+  /// Pinocchio, accept them, too.
+  std::string noteOnSlashes() const;
   /// @pre `file` was returned by add(), and it was readable.
   const std::shared_ptr<const MeshFile>& get(const std::filesystem::path& file) const {
     return meshes_.at(file);
@@ -48,6 +51,8 @@ class MeshStore {
   std::map<std::string, std::vector<std::filesystem::path>> rosFolders_;
   std::map<std::string, std::filesystem::path> guessed_;  // see `guessedPackages`
   std::set<std::string> missing_;                         // packages without a folder, reported
+  std::size_t threeSlashes_ = 0;   // number of names that begin with package:///
+  std::string firstThreeSlashes_;  // the first of these names
   std::map<std::filesystem::path, std::shared_ptr<const MeshFile>> meshes_;  // null: unreadable
 };
 

@@ -61,6 +61,8 @@ inline constexpr std::string_view kNeverInContact = "robot.yaml: never_in_contac
 struct JointGroup {
   std::vector<std::string> joints;   ///< in the model's order
   std::vector<std::string> missing;  ///< names of members that the URDF lacks; they are left out
+  /// Names of members that are planar or floating virtual joints of the SRDF; they are left out.
+  std::vector<std::string> virtualJoints;
   /// The reason why the group can't be used, such as "r.srdf:4: group … has no joint", or "".
   std::string unusable;
 };

@@ -2,6 +2,7 @@
 #include <set>
 
 #include "collision/core/spelling.h"
+#include "planner/robot/joint_types.h"
 #include "planner/robot/srdf_groups.h"
 #include "planner/robot/srdf_names.h"
 #include "planner/robot/urdf_file.h"
@@ -46,6 +47,7 @@ bool isTooLarge(XmlFile& file, std::size_t links) {
   require(counts["disable_default_collisions"] * links,
           "pairs of links by <disable_default_collisions>", mostPairs);
   require(counts["group"], "<group>", 1000);
+  require(counts["virtual_joint"], "<virtual_joint>", 1000);
   require(counts["group_state"], "<group_state>", 10'000);
   require(members, "members of groups", 100'000);
   require(chains, "<chain>", 1000);
@@ -129,6 +131,30 @@ class PairReader {
   UnknownNames unknown_;
 };
 
+/// Reads the virtual joints. A note names each planar or floating one, unless the URDF has such a
+/// joint above the same link.
+void readVirtualJoints(XmlFile& file, SrdfNames& names, RobotModel& model) {
+  forEach(*file.root(), "virtual_joint", [&](Element& element) {
+    const char* const name = element.Attribute("name");
+    if (!name) return;
+    const char* const typeName = element.Attribute("type");
+    const auto type = jointType(typeName ? typeName : "");
+    const bool moves = type && isPoseJoint(*type);
+    if (!names.addVirtual(name, moves) || !moves) return;
+    const char* const child = element.Attribute("child_link");
+    const auto link = child ? names.links().find(child) : std::nullopt;
+    for (const JointModel& joint : model.joints)
+      if (link && joint.child == *link && isPoseJoint(joint.type)) return;
+    model.notes.push_back(
+        {file.at(element.GetLineNum(),
+                 owned("virtual joint", name) + " (" + nameOf(*type) +
+                     ") is not used: the robot stands still at the problem's base; for a base "
+                     "that moves, add a " +
+                     nameOf(*type) + " joint on an empty link to the URDF"),
+         NoteWeight::motion});
+  });
+}
+
 /// Reads the file. Elements that can't be read become notes, not faults, because an SRDF only adds
 /// to the URDF: a group or state is needed only if the problem names it.
 void readAll(XmlFile& file, RobotModel& model) {
@@ -151,9 +177,7 @@ void readAll(XmlFile& file, RobotModel& model) {
         {file.at(link->GetLineNum(), "it has <link> elements; it seems to be a URDF, not an SRDF"),
          NoteWeight::coverage});
   SrdfNames names(file, model);
-  forEach(root, "virtual_joint", [&](Element& element) {
-    if (const char* joint = element.Attribute("name")) names.addVirtual(joint);
-  });
+  readVirtualJoints(file, names, model);
   readSrdfGroups(file, names, model);
   UnknownNames passive;
   forEach(root, "passive_joint",

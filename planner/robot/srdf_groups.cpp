@@ -19,7 +19,8 @@ struct Group {
   Element* element = nullptr;
   Joints joints;
   std::vector<std::size_t> subgroups;
-  UnknownNames missing;  ///< members that the URDF lacks
+  UnknownNames missing;                 ///< members that the URDF lacks
+  std::set<std::string> virtualJoints;  ///< members that are planar or floating virtual joints
   std::string unusable;  ///< the reason why the group can't be made, with file and line, or ""
 };
 
@@ -60,7 +61,7 @@ class GroupReader {
         return note(element, owned("group", *name) + " is already defined on line " +
                                  std::to_string(groups_[*first].element->GetLineNum()) +
                                  "; this definition is ignored");
-      groups_.push_back({&element, {}, {}, {}, ""});
+      groups_.push_back({&element, {}, {}, {}, {}, ""});
       groupNames_.add(*name);
     });
     for (std::size_t i = 0; i < groups_.size(); ++i) readMembers(i);
@@ -77,6 +78,8 @@ class GroupReader {
     forEach(*group.element, "joint", [&](Element& element) {
       if (const auto joint = names_.findJoint(element, "name", owner, group.missing))
         group.joints.insert(*joint);
+      if (const char* name = element.Attribute("name"); name && names_.isMovingVirtual(name))
+        group.virtualJoints.insert(name);
     });
     forEach(*group.element, "link", [&](Element& element) {
       const auto link = names_.findLink(element, "name", owner, group.missing);
@@ -89,11 +92,20 @@ class GroupReader {
       if (const auto inner = groupNames_.find(*name))
         group.subgroups.push_back(*inner);
       else if (group.unusable.empty())
-        group.unusable = file_.at(element.GetLineNum(), owner + ": there is no " +
-                                                            owned("group", *name) + " in the SRDF" +
-                                                            didYouMean(*name, groupNames_.all()));
+        group.unusable =
+            file_.at(element.GetLineNum(), owner + ": there is no " + owned("group", *name) +
+                                               " in the SRDF" + similarGroup(*name));
     });
     if (const std::string fault = noteFaults(); !fault.empty()) group.unusable = fault;
+  }
+
+  /// Returns a suggestion for the name of a group: a similar name, or a longer one: lf_leg for lf.
+  std::string similarGroup(const std::string& name) const {
+    const std::string hint = didYouMean(name, groupNames_.all());
+    if (!hint.empty()) return hint;
+    for (const std::string& longer : groupNames_.all())
+      if (longer.starts_with(name)) return " (did you mean " + quotedWord(longer) + "?)";
+    return "";
   }
 
   Joints jointsAbove(std::size_t link) const {
@@ -140,18 +152,30 @@ class GroupReader {
     return joinedFirst(names);
   }
 
+  /// Returns why a group has no joint, after the group's name.
+  static std::string whyNoJoint(const JointGroup& group) {
+    if (!group.missing.empty())
+      return " has no joint of this robot: the URDF lacks " + joinedFirst(group.missing);
+    if (!group.virtualJoints.empty())
+      return " has no joint of the URDF; virtual joints are not used: " +
+             joinedFirst(group.virtualJoints);
+    return " has no joint";
+  }
+
   /// Returns the group with the members of all groups in it, at any depth.
   JointGroup made(std::size_t root) {
     JointGroup result;
     Joints joints;
     UnknownNames missing;
+    std::set<std::string> virtualJoints;
     std::vector<bool> seen(groups_.size(), false);
     std::vector<std::size_t> open{root};
     for (std::size_t k = 0; k < open.size(); ++k) {
       const Group& group = groups_[open[k]];
       joints.insert(group.joints.begin(), group.joints.end());
       missing.add(group.missing);
-      expanded_ += group.joints.size() + group.missing.names().size();
+      virtualJoints.insert(group.virtualJoints.begin(), group.virtualJoints.end());
+      expanded_ += group.joints.size() + group.missing.names().size() + group.virtualJoints.size();
       if (result.unusable.empty()) result.unusable = group.unusable;
       if (expanded_ > mostExpanded) {
         result.unusable = file_.at(groups_[root].element->GetLineNum(),
@@ -165,13 +189,10 @@ class GroupReader {
       }
     }
     result.missing = missing.names();
+    result.virtualJoints.assign(virtualJoints.begin(), virtualJoints.end());
     if (result.unusable.empty() && joints.empty())
-      result.unusable =
-          file_.at(groups_[root].element->GetLineNum(),
-                   owned("group", groupNames_[root]) +
-                       (missing.names().empty() ? " has no joint"
-                                                : " has no joint of this robot: the URDF lacks " +
-                                                      joinedFirst(missing.names())));
+      result.unusable = file_.at(groups_[root].element->GetLineNum(),
+                                 owned("group", groupNames_[root]) + whyNoJoint(result));
     if (result.unusable.empty())
       for (const std::size_t j : joints) result.joints.push_back(names_.joints()[j]);
     return result;
@@ -228,8 +249,12 @@ class GroupReader {
                         ", which the SRDF lacks; its values are taken as they are");
     std::vector<std::string> ignored;
     UnknownNames unknown;
-    forEach(element, "joint",
-            [&](Element& joint) { readValue(joint, owner, unknown, state, ignored); });
+    bool hasVirtual = false;
+    forEach(element, "joint", [&](Element& joint) {
+      const char* const name = joint.Attribute("name");
+      hasVirtual |= name && names_.isVirtual(name);
+      readValue(joint, owner, unknown, state, ignored);
+    });
     if (!ignored.empty())
       note(element, owner + ": the values of joints that do not move by themselves are ignored: " +
                         joined(ignored));
@@ -238,10 +263,11 @@ class GroupReader {
     if (state.values.empty() && ignored.empty() && state.unusable.empty())
       state.unusable =
           file_.at(element.GetLineNum(),
-                   owner + (unknown.names().empty()
-                                ? " has no value"
-                                : " gives no joint of this robot a value: the URDF lacks " +
-                                      joinedFirst(unknown.names())));
+                   owner + (!unknown.names().empty()
+                                ? " gives no joint of this robot a value: the URDF lacks " +
+                                      joinedFirst(unknown.names())
+                            : hasVirtual ? " has values of virtual joints only, which are not used"
+                                         : " has no value"));
     return state;
   }
 

@@ -26,8 +26,8 @@ SrdfNames::SrdfNames(XmlFile& file, const RobotModel& model) : file_(file) {
   for (const JointModel& joint : model.joints) joints_.add(joint.name);
 }
 
-void SrdfNames::addVirtual(const std::string& joint) {
-  if (!joints_.find(joint)) virtualJoints_.insert(joint);
+bool SrdfNames::addVirtual(const std::string& joint, bool moves) {
+  return !joints_.find(joint) && virtualJoints_.emplace(joint, moves).second;
 }
 
 std::optional<std::size_t> SrdfNames::find(const XmlFile::Element& element, const char* attribute,
@@ -53,7 +53,7 @@ std::optional<std::size_t> SrdfNames::findJoint(const XmlFile::Element& element,
                                                 const char* attribute, const std::string& owner,
                                                 UnknownNames& unknown) {
   const char* const name = element.Attribute(attribute);
-  if (name && virtualJoints_.contains(name)) return std::nullopt;
+  if (name && isVirtual(name)) return std::nullopt;
   return find(element, attribute, owner, joints_, unknown);
 }
 
@@ -63,7 +63,7 @@ void SrdfNames::note(const UnknownNames& unknown, const std::string& one, const 
   std::string text =
       (unknown.count() == 1 ? "1 " + one : std::to_string(unknown.count()) + " " + many) +
       joinedFirst(unknown.names(), 3);
-  if (unknown.names().size() == 1 && !noteOnOtherRobot()) {
+  if (unknown.names().size() == 1 && unknown.names()[0] != "root_joint" && !noteOnOtherRobot()) {
     std::vector<std::string> known = links_.all();
     known.insert(known.end(), joints_.all().begin(), joints_.all().end());
     text += didYouMean(unknown.names()[0], known);

@@ -60,9 +60,17 @@ class SrdfNames {
   const NameIndex& links() const { return links_; }
   const NameIndex& joints() const { return joints_; }
 
-  /// Adds a virtual joint. `findJoint` does not find it, and does not report it as unknown either.
-  /// Virtual joints are ignored, because the problem file places the robot in the world.
-  void addVirtual(const std::string& joint);
+  /// Adds a virtual joint, unless the URDF has a joint of this name. `findJoint` does not find a
+  /// virtual joint, and does not report it as unknown either. Virtual joints are not used, because
+  /// the problem file places the robot in the world.
+  /// @returns whether it was added.
+  bool addVirtual(const std::string& joint, bool moves);
+  bool isVirtual(const std::string& joint) const { return virtualJoints_.contains(joint); }
+  /// Returns whether this is a virtual joint that was added with `moves`.
+  bool isMovingVirtual(const std::string& joint) const {
+    const auto found = virtualJoints_.find(joint);
+    return found != virtualJoints_.end() && found->second;
+  }
 
   /// Return the index of the link or joint that an attribute names. nullopt: the attribute is
   /// missing (a fault was reported), the name was added to `unknown`, or it is a virtual joint's.
@@ -72,7 +80,9 @@ class SrdfNames {
                                        const std::string& owner, UnknownNames& unknown);
 
   /// Adds a note that counts the elements with unknown names and lists these names: "1 " + `one` +
-  /// "a", or "5 " + `many` + the names, of which at most three are listed.
+  /// "a", or "5 " + `many` + the names, of which at most three are listed. A single name gets a
+  /// suggestion, except root_joint: many SRDF files give this virtual joint a value without
+  /// declaring it, and no joint of the URDF is meant.
   void note(const UnknownNames& unknown, const std::string& one, const std::string& many,
             std::vector<Note>& notes) const;
   /// Returns the note that the file seems to be made for another robot, or nullopt. The note is
@@ -86,8 +96,8 @@ class SrdfNames {
 
   XmlFile& file_;
   NameIndex links_, joints_;
-  std::unordered_set<std::string> virtualJoints_;
-  std::unordered_set<std::string> used_, unknown_;  // names of links and joints in the SRDF
+  std::unordered_map<std::string, bool> virtualJoints_;  // value: whether it moves
+  std::unordered_set<std::string> used_, unknown_;       // names of links and joints in the SRDF
 };
 
 }  // namespace corridor

@@ -161,17 +161,28 @@ class UrdfBuilder {
   /// Adds a note if a mesh is longer than 20 m. It is then probably in millimetres: a link of more
   /// than 20 mm.
   void noteLargeMesh(const MeshFile& file, const std::string& shape, int line) {
-    constexpr double longest = 20;
     Vec3 lower = file.mesh.vertices.front(), upper = lower;
     for (const Vec3& vertex : file.mesh.vertices) {
       lower = lower.cwiseMin(vertex);
       upper = upper.cwiseMax(vertex);
     }
-    if (const double length = (upper - lower).maxCoeff(); length > longest)
+    if (const double length = (upper - lower).maxCoeff(); length > kLongest)
       model_.notes.push_back({file_.at(line, owned("shape", shape) + " is " + shortest(length) +
                                                  " m long; if its mesh is in millimetres, it needs "
                                                  "scale=\"0.001 0.001 0.001\""),
                               NoteWeight::coverage});
+  }
+
+  /// Adds a note if a coordinate of a joint's origin is larger than 20 m, as for a mesh.
+  void noteFarOrigin(const JointModel& joint) {
+    const Vec3& p = joint.X_PJ.p;
+    if (p.cwiseAbs().maxCoeff() > kLongest)
+      model_.notes.push_back(
+          {file_.at(joint.line, owned("joint", joint.name) + ": its origin, [" + shortest(p.x()) +
+                                    ", " + shortest(p.y()) + ", " + shortest(p.z()) +
+                                    "], is in metres, as URDF requires; are "
+                                    "these millimetres?"),
+           NoteWeight::coverage});
   }
 
   void addJoint(const UrdfJoint& outline) {
@@ -186,6 +197,7 @@ class UrdfBuilder {
       return file_.fault(outline.line,
                          owned("joint", outline.name) + ": urdfdom doesn't return it");
     joint.X_PJ = poseOf(source->parent_to_joint_origin_transform, outline.rpy);
+    noteFarOrigin(joint);
     if (joint.type != JointType::fixed && joint.type != JointType::floating)
       joint.axis = axisOf(source->axis);
     if (joint.type == JointType::revolute || joint.type == JointType::prismatic) {
@@ -194,6 +206,9 @@ class UrdfBuilder {
       joint.upper = limit.upper.value_or(0);
     }
   }
+
+  /// Metres. Meshes and origins with larger lengths are probably in millimetres.
+  static constexpr double kLongest = 20;
 
   const UrdfOutline& outline_;
   const urdf::ModelInterface& urdf_;
@@ -228,6 +243,8 @@ std::optional<RobotModel> readUrdf(const std::filesystem::path& file, const Urdf
                            ", which contains the meshes and the URDF, is used (packages: in "
                            "robot.yaml names another one)",
                        NoteWeight::coverage});
+    if (const std::string slashes = meshes.noteOnSlashes(); !slashes.empty())
+      notes.push_back({file.string() + ": " + slashes});
     if (const auto ignored = meshes.ignoredUpAxes(); !ignored.empty())
       notes.push_back({file.string() + ": the up-axis of " + joinedFirst(ignored) +
                            " is not z; it is not applied (ROS's rule), and collada_up: file in "

@@ -45,7 +45,8 @@ std::optional<RobotModel> readUrdf(const std::filesystem::path& file, const Urdf
                                    std::vector<Note>* notesOfFaulty = nullptr);
 
 /// Reads an SRDF into `model`: groups (joints, links, chains, subgroups), named states, and
-/// disabled collisions with their reasons. Virtual joints and end effectors are ignored.
+/// disabled collisions with their reasons. End effectors are ignored. Virtual joints are not used;
+/// a note names each planar or floating one.
 ///
 /// Only a file that can't be read at all is a fault. For names that the model lacks, and for
 /// elements that can't be used, notes are added, as in other readers of SRDF. A group with unknown

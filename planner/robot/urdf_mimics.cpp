@@ -165,8 +165,17 @@ class Mimics {
     }
     const auto& [lower, upper, line] = *joint.limit;
     const Range range = rangeOf(joint);
-    if (joint.type == JointType::revolute &&
-        (seemsDegrees(range.lower) || seemsDegrees(range.upper)))
+    // A joint of several turns has limits of at most 30 rad; degrees are at most a few hundred.
+    constexpr double mostRadians = 30, mostDegrees = 1000;
+    const double largest = std::max(std::abs(range.lower), std::abs(range.upper));
+    const bool isRevolute = joint.type == JointType::revolute;
+    if (isRevolute && largest > mostDegrees)
+      notes_.push_back({file_.at(line, owner + ": its limits, " + range.text() +
+                                           ", are in radians; a joint without limits is of type "
+                                           "continuous"),
+                        NoteWeight::motion});
+    else if (isRevolute &&
+             (largest > mostRadians || seemsDegrees(range.lower) || seemsDegrees(range.upper)))
       notes_.push_back({file_.at(line, owner + ": its limits, " + range.text() +
                                            ", are in radians, as URDF requires; are these "
                                            "degrees?"),

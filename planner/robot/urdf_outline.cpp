@@ -39,7 +39,7 @@ void checkMesh(XmlFile& file, Element& shape, MeshStore& meshes, UrdfCollision& 
   collision.mesh = place.file;
   if (!place.complaint.empty())
     file.fault(shape.FindAttribute("filename")->GetLineNum(),
-               owner + ": mesh " + quotedWord(*name) + ": " + place.complaint);
+               owner + ": mesh " + quotedPath(*name) + ": " + place.complaint);
 }
 
 void checkShape(XmlFile& file, Element& shape, MeshStore& meshes, UrdfCollision& collision,
@@ -267,6 +267,17 @@ bool isXacro(XmlFile& file, const Element& element) {
   return false;
 }
 
+/// Returns whether this is an SRDF instead of a URDF, and reports it.
+bool isSrdf(XmlFile& file, const Element& root) {
+  if (root.FirstChildElement("link")) return false;
+  for (const char* const kind : {"group", "group_state", "virtual_joint", "disable_collisions"})
+    if (root.FirstChildElement(kind)) {
+      file.fault(root.GetLineNum(), "the robot has no <link>; it seems to be an SRDF, not a URDF");
+      return true;
+    }
+  return false;
+}
+
 using Lines = std::unordered_map<std::string, int>;
 
 /// Appends `named` to `all`, unless its name is missing or already taken; a taken name is a fault.
@@ -341,7 +352,7 @@ UrdfOutline readUrdfOutline(XmlFile& file, const UrdfRules& rules, MeshStore& me
                             std::vector<Note>& notes) {
   UrdfOutline outline;
   Element& root = *file.root();
-  if (isXacro(file, root) || isTooLarge(file, rules, root)) return outline;
+  if (isXacro(file, root) || isSrdf(file, root) || isTooLarge(file, rules, root)) return outline;
   Lines links, joints;
   std::vector<std::string> visible, soft;  // names for the notes
   outline.name = file.text(root, "name", "").value_or("");

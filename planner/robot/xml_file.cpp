@@ -101,6 +101,14 @@ std::string explained(tinyxml2::XMLError error) {
   }
 }
 
+/// Returns whether a <robot> is opened and never closed.
+bool isUnclosed(std::string_view text) {
+  const std::size_t robot = text.find("<robot");
+  if (robot == text.npos || text.find("</robot", robot) != text.npos) return false;
+  const std::size_t end = text.find('>', robot);
+  return end == text.npos || text[end - 1] != '/';
+}
+
 }  // namespace
 
 std::string owned(const std::string& kind, std::string_view name) {
@@ -131,7 +139,11 @@ void XmlFile::open(const std::string& what, const std::vector<std::string>& xacr
   }
   if (const std::string why = whyTooMuch(text); !why.empty()) return fault(0, why);
   if (const auto error = document_.Parse(text.data(), text.size()); error != tinyxml2::XML_SUCCESS)
-    return fault(document_.ErrorLineNum(), "is not valid XML: " + explained(error));
+    return fault(document_.ErrorLineNum(),
+                 "is not valid XML: " + explained(error) +
+                     (error != tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED && isUnclosed(text)
+                          ? "; there is no </robot>, so the file may end early"
+                          : ""));
   Element* const first = document_.RootElement();
   if (!first) return fault(0, "<robot> is missing; " + what + " is needed");
   if (std::string_view(first->Name()) != "robot")

@@ -27,10 +27,24 @@ TEST(Spelling, SuggestsOnlyWhatMayBeMeant) {
   EXPECT_EQ(didYouMean("dijkstra", planners), "");
 }
 
+TEST(Spelling, KnownWords) {
+  EXPECT_EQ(knownWords({"a", "b"}), " (known: a, b)");
+  EXPECT_EQ(knownWords({}), "");
+}
+
 TEST(Spelling, QuotesForMessages) {
   EXPECT_EQ(quotedWord("a\nb"), "\"a?b\"");
   EXPECT_EQ(quotedWord("Tür"), "\"Tür\"");
   EXPECT_EQ(quotedWord(std::string(59, 'x') + "ü"), "\"" + std::string(59, 'x') + "…\"");
+}
+
+TEST(QuotedPath, KeepsTheEndOfALongName) {
+  EXPECT_EQ(quotedPath("meshes/a\nb.stl"), "\"meshes/a?b.stl\"");
+  EXPECT_EQ(quotedPath(std::string(60, 'x')), "\"" + std::string(60, 'x') + "\"");
+  EXPECT_EQ(quotedPath(std::string(61, 'x')), "\"…" + std::string(60, 'x') + "\"");
+  EXPECT_EQ(quotedPath("ü" + std::string(59, 'x')), "\"…" + std::string(59, 'x') + "\"");
+  EXPECT_EQ(quotedPath(std::string(50, 'x') + "/collision/link5.stl"), "\"…/collision/link5.stl\"");
+  EXPECT_EQ(quotedPath(std::string(61, 'x') + "/"), "\"…" + std::string(59, 'x') + "/\"");
 }
 
 }  // namespace

@@ -79,7 +79,8 @@ BoundingBox cube(const Vec3& c, double half) {
   return {c - h, c + h, (c - h).cwiseAbs().sum() + (c + h).cwiseAbs().sum()};
 }
 
-/// A crowd of boxes far away costs nearly nothing: its box is tested once.
+/// A crowd of boxes far away costs little: near the root, its boxes are tested and passed over.
+/// With halves at the median, the near boxes would be ten levels deep.
 TEST(BoxTree, PassesOverAFarCrowdNearTheRoot) {
   std::vector<BoundingBox> near, all;
   for (int i = 0; i < 8; ++i) near.push_back(cube(Vec3(i % 2, i / 2 % 2, i / 4), 0.1));
@@ -97,7 +98,7 @@ TEST(BoxTree, PassesOverAFarCrowdNearTheRoot) {
     EXPECT_EQ(found, 1U);
     return tests;
   };
-  EXPECT_LE(testsIn(all), testsIn(near) + 2);
+  EXPECT_LE(testsIn(all), testsIn(near) + 8);
 }
 
 /// Boxes for which the heuristic can't choose, or would make a tree that is too deep.

@@ -105,7 +105,7 @@ TEST_F(CheckCommand, StatesMayHaveAHeader) {
   EXPECT_EQ(fault("shoulder elbow\n"), "states.csv: no states\n");
 }
 
-/// Notes that differ only in names are counted. inspect and --json list all.
+/// Notes that differ only in names are counted. --json lists all.
 TEST_F(CheckCommand, RepeatedNotesAreCounted) {
   std::string urdf = read("arm.urdf");
   for (const std::string effort : {" effort=\"1\"", " effort=\"1\""})
@@ -114,9 +114,15 @@ TEST_F(CheckCommand, RepeatedNotesAreCounted) {
   const Result checked = run("check arm.yaml");
   EXPECT_THAT(checked.out, HasSubstr("note: arm.urdf:"));
   EXPECT_THAT(checked.out, HasSubstr("joint \"shoulder\": <limit> has no effort (and 1 more like "
-                                     "this; inspect lists all)\n"));
+                                     "this; inspect --json lists all)\n"));
   EXPECT_THAT(checked.out, testing::Not(HasSubstr("joint \"elbow\"")));
-  EXPECT_THAT(run("inspect arm.yaml").out, HasSubstr("joint \"elbow\": <limit> has no effort"));
+  for (const std::string file : {"arm.yaml", "arm.urdf"}) {
+    const std::string text = run("inspect " + file).out;
+    EXPECT_THAT(text, HasSubstr("<limit> has no effort (and 1 more like this; inspect --json lists "
+                                "all)\n"));
+    EXPECT_THAT(text, testing::Not(HasSubstr("joint \"elbow\": <limit>")));
+    EXPECT_EQ(nlohmann::json::parse(run("inspect " + file + " --json").out)["notes"].size(), 2u);
+  }
   EXPECT_EQ(nlohmann::json::parse(run("check arm.yaml --json").out)["notes"].size(), 2u);
 }
 

@@ -48,6 +48,26 @@ TEST_F(InspectCommand, ReportsTheReachWithMimicJoints) {
   EXPECT_EQ(links[5]["reach_m"], links[4]["reach_m"]);
 }
 
+/// Such a robot can't be planned for, but can be described.
+TEST_F(InspectCommand, DescribesARobotThatCannotMove) {
+  write("still.urdf",
+        "<robot name='still'><link name='a'/>\n<link name='b'/>\n<joint name='j' "
+        "type='revolute'><parent link='a'/><child link='b'/><limit lower='0' upper='0' effort='1' "
+        "velocity='1'/></joint></robot>");
+  const std::string why = "has no joint that moves by itself: j: lower = upper = 0";
+  write("still.yaml", "format: corridor-robot-1\nurdf: still.urdf\n");
+  for (const std::string file : {"still.urdf", "still.yaml"}) {
+    const Result result = run("inspect " + file);
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_THAT(result.out, HasSubstr("joint: \"j\": revolute, a to b, 0 to 0 rad\n"));
+    EXPECT_THAT(result.out,
+                HasSubstr("note: still.urdf: " + why + "; problems refuse this robot\n"));
+    EXPECT_EQ(run("pose " + file).status, 0);
+  }
+  expectFault("new problem still.urdf", "still.urdf: " + why);
+  expectFault("new problem still.yaml", "still.yaml:2: urdf: " + why);
+}
+
 TEST_F(InspectProblem, ReportsPosesOfObstaclesAndHeldJoints) {
   write(
       "robot.yaml",
@@ -184,6 +204,10 @@ TEST_F(InspectCube, BadInputIsOneLineAndExit2) {
       "package.urdf:2: link \"a\": mesh \"package://p/m.obj\": p/m.obj is not a file, "
       "and no folder of package \"p\" was found; add packages: {p: FOLDER} to robot.yaml, or set "
       "ROS_PACKAGE_PATH or AMENT_PREFIX_PATH");
+  write("cube.srdf", "<robot name=\"cube\"/>");
+  expectFault("inspect cube.srdf",
+              "cube.srdf: is an SRDF, which only adds to a URDF; name the URDF, or a robot.yaml "
+              "with the keys urdf and srdf");
   expectFault("inspect cube.obj --pairs", "--pairs: needs a problem, and cube.obj is a mesh");
   expectFault("inspect problem.yaml --self-intersections",
               "--self-intersections: needs a mesh, and problem.yaml is a problem");

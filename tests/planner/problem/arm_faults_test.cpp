@@ -210,6 +210,12 @@ TEST_F(ArmFaults, RobotFiles) {
   EXPECT_EQ(robot("srdf: bare.srdf\ngroup: amr\n"),
             "arm.yaml:4: group: bare.srdf names no group, so there is no \"amr\"; use joints: "
             "[NAME, …]");
+  write("other.srdf",
+        "<robot name='armbot'><group name='legs'><joint name='hip'/></group></robot>\n");
+  EXPECT_EQ(
+      robot("srdf: other.srdf\ngroup: arm\n"),
+      "arm.yaml:4: group: there is no group \"arm\" in the SRDF, and none of its groups can be "
+      "used");
   EXPECT_EQ(robot("srdf: arm.srdf\ngroup: nothing\n"),
             "arm.yaml:4: group: the group \"nothing\" has no joint that moves by itself");
   EXPECT_EQ(robot("srdf: arm.srdf\ngroup: arm\njoints: [pan]\n"),
@@ -237,7 +243,28 @@ TEST_F(ArmFaults, RobotFiles) {
             "one out");
   write("statue.urdf", "<robot name='statue'><link name='stone'/></robot>");
   EXPECT_EQ(complaintOf("format: corridor-problem-1\nrobot: statue.urdf\nstart: {}\ngoal: {}\n"),
-            "statue.urdf: has no joint that moves by itself");
+            "statue.urdf: has no joint that moves by itself; for a vehicle, add a planar or "
+            "floating joint on an empty link to the URDF, or use rigid: SE3 in a robot.yaml");
+}
+
+TEST_F(ArmFaults, RobotsThatCannotMove) {
+  const auto stiff = [](const std::string& name, const std::string& child,
+                        const std::string& limit) {
+    return "<link name='" + child + "'/>" +
+           joint(name, "revolute", "stone", child,
+                 "<limit lower='" + limit + "' upper='" + limit + "' effort='1' velocity='1'/>");
+  };
+  const std::string problem =
+      "format: corridor-problem-1\nrobot: stiff.urdf\nstart: {}\ngoal: {}\n";
+  const std::string begin = "<robot name='stiff'><link name='stone'/>";
+  write("stiff.urdf", begin + stiff("j1", "a", "0") + stiff("j2", "b", "0") + "</robot>");
+  EXPECT_EQ(complaintOf(problem),
+            "stiff.urdf: has no joint that moves by itself: j1, j2: lower = upper = 0");
+  write("stiff.urdf", begin + stiff("j1", "a", "0") + stiff("j2", "b", "0.5") + "</robot>");
+  EXPECT_EQ(complaintOf(problem),
+            "stiff.urdf: has no joint that moves by itself: j1, j2: lower = upper");
+  EXPECT_EQ(robot("hold: {pan: 0, lift: 0, slide: 0.02}\n"),
+            "arm.yaml:2: urdf: has no joint that moves by itself, except those in hold");
 }
 
 TEST_F(ArmFaults, SeveralRobots) {

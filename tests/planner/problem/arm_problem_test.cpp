@@ -214,6 +214,25 @@ TEST_F(ArmProblem, TubeOfSingleJoints) {
             "problem.yaml:7: tube.slides: there is no prismatic joint here that is planned for");
 }
 
+/// The base of a mobile manipulator is often a virtual joint of the SRDF.
+TEST_F(ArmProblem, AGroupIsUsedWithoutItsVirtualJoints) {
+  write("mobile.srdf",
+        "<robot name='armbot'>\n"
+        "<virtual_joint name='world' type='planar' parent_frame='odom' child_link='base'/>\n"
+        "<group name='cart'><joint name='world'/></group>\n"
+        "<group name='all'><group name='cart'/><joint name='pan'/><joint name='lift'/></group>\n"
+        "</robot>\n");
+  write("arm.yaml", "format: corridor-robot-1\nurdf: arm.urdf\nsrdf: mobile.srdf\ngroup: all\n");
+  const Problem p = read(armHead + "start: {pan: 0, lift: 0.5}\ngoal: {pan: 1, lift: 0.3}\n");
+  EXPECT_THAT(namesOf(p), ElementsAre("pan", "lift"));
+  EXPECT_THAT(textsOf(p.source.notes),
+              Contains("the group \"all\" is used without world, which is a virtual joint of the "
+                       "SRDF"));
+  EXPECT_THAT(textsOf(p.source.notes),
+              Contains(testing::HasSubstr("mobile.srdf:2: virtual joint \"world\" (planar) is not "
+                                          "used: the robot stands still")));
+}
+
 TEST_F(ArmProblem, AUrdfAloneIsARobot) {
   const Problem p = read(
       "format: corridor-problem-1\nrobot: arm.urdf\nstart: {pan: 0, lift: 0, slide: 0.02}\n"
@@ -388,6 +407,40 @@ TEST_F(ArmProblem, AnObstacleWithTheNameOfALink) {
               Contains("no obstacle is within reach; are all lengths in metres?"));
   EXPECT_THAT(textsOf(read(armHead + armStates).source.notes),
               testing::Not(Contains(testing::HasSubstr("within reach"))));
+}
+
+/// Lengths in millimetres are noted, even if other obstacles are within reach.
+TEST_F(ArmProblem, ObstaclesThatAreFarTooLarge) {
+  using testing::AllOf;
+  using testing::EndsWith;
+  using testing::HasSubstr;
+  using testing::Not;
+  using testing::StartsWith;
+  write("shelf.obj", "v 0 0 0\nv 800 0 0\nv 0 600 0\nf 1 2 3\n");
+  write("block.obj", "v 0 0 0\nv 90 0 0\nv 0 90 0\nv 0 0 90\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+  write("dots.xyz", "0 0 0\n0 0 1900\n");
+  const Problem p =
+      read(armHead + "  shelf: {mesh: shelf.obj, at: [0.5, 0.5, 0]}\n  block: {mesh: block.obj}\n" +
+           "  dots: {points: {file: dots.xyz, radius: 0.01}}\n  beam: {box: [400, 1, 1]}\n" +
+           "  ball: {sphere: 0.1, at: [500, 0, 0]}\n" +
+           "  floor: {box: [100, 100, 0.1], at: [0, 0, -1]}\n" +
+           "  small: {mesh: shelf.obj, unit: mm, at: [0.5, 0.5, 0]}\n" + armStates);
+  const std::vector<std::string> notes = textsOf(p.source.notes);
+  const auto isNoted = [](const std::string& name, const std::string& what,
+                          const std::string& hint) {
+    return Contains(
+        AllOf(StartsWith("obstacle \"" + name + "\" is " + what + ", while the robot reaches "),
+              EndsWith(" m; " + hint)));
+  };
+  const std::string unit = "if its lengths are in millimetres, write unit: mm";
+  EXPECT_THAT(notes, isNoted("shelf", "800 m long", unit));
+  EXPECT_THAT(notes, isNoted("block", "90 m long", unit));
+  EXPECT_THAT(notes, isNoted("dots", "1900.02 m long", unit));
+  EXPECT_THAT(notes, isNoted("beam", "400 m long", "are its lengths in metres?"));
+  EXPECT_THAT(notes, Contains(AllOf(StartsWith("obstacle \"ball\" is 49"), HasSubstr(" m away"),
+                                    EndsWith("are its lengths in metres?"))));
+  for (const char* const name : {"post", "floor", "small"})
+    EXPECT_THAT(notes, Not(Contains(HasSubstr("\"" + std::string(name) + "\" is"))));
 }
 
 /// Two groups have a state of the same name. The one of the planned group needs no prefix.

@@ -46,7 +46,9 @@ TEST_F(ProblemFaults, AreOfOneLineWithoutControlCharacters) {
 
 TEST_F(ProblemFaults, Syntax) {
   EXPECT_EQ(complaintOf("format: corridor-problem-1\nrobot: [robot.yaml\nworld: {}\n"),
-            "problem.yaml:3: is not YAML: end of sequence flow not found");
+            "problem.yaml:3: is not YAML: a ] is missing, here or above");
+  EXPECT_EQ(complaintOf("format: corridor-problem-1\nworld: {a: [1, 2}\n"),
+            "problem.yaml:2: is not YAML: a } or ] is missing, or there is one too many");
   EXPECT_EQ(with("margin: *m\n"),
             "problem.yaml:8: is not YAML: the referenced anchor is not defined");
   EXPECT_EQ(with("margin: &m 1\nseed: *m\n"),
@@ -355,7 +357,8 @@ TEST_F(ProblemFaults, Robots) {
   EXPECT_EQ(complaintOfRobot("format: corridor-robot-1\nrigid: SE3\nshapes:\n  - {mesh: wedge.obj, "
                              "name: a}\n  - {mesh: wedge.obj, name: a}\n"),
             "robot.yaml:5: shapes[1].name: \"a\" is the name of another shape");
-  EXPECT_EQ(complaintOfRobot("rigid: {\n"), "robot.yaml:2: is not YAML: end of map flow not found");
+  EXPECT_EQ(complaintOfRobot("rigid: {\n"),
+            "robot.yaml:2: is not YAML: a } is missing, here or above");
 }
 
 TEST_F(ProblemFaults, ReportsProblemAndRobotAtOnce) {

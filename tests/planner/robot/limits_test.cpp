@@ -103,6 +103,8 @@ TEST_F(RobotLimits, SrdfCounts) {
             "r.srdf:1: has 1000001 <disable_collisions>; at most 1000000 are read");
   EXPECT_EQ(complaintOfSrdf(many("<group/>", 1001)),
             "r.srdf:1: has 1001 <group>; at most 1000 are read");
+  EXPECT_EQ(complaintOfSrdf(many("<virtual_joint/>", 1001)),
+            "r.srdf:1: has 1001 <virtual_joint>; at most 1000 are read");
   EXPECT_EQ(complaintOfSrdf(many("<group_state/>", 10'001)),
             "r.srdf:1: has 10001 <group_state>; at most 10000 are read");
   EXPECT_EQ(

@@ -230,6 +230,15 @@ r.srdf:14: <disable_collisions> has no link2
   EXPECT_EQ(group("up"), "left1 left2 weld ");
 }
 
+TEST_F(SrdfFile, LongerNamesOfGroupsAreSuggested) {
+  EXPECT_EQ(complaintOfSrdf(R"(<group name="left_arm"><joint name="left1"/></group>
+<group name="both"><group name="left"/></group>)"),
+            "no complaint");
+  EXPECT_THAT(model_.groups.at("both").unusable,
+              testing::EndsWith("there is no group \"left\" in the SRDF (did you mean "
+                                "\"left_arm\"?)"));
+}
+
 TEST_F(SrdfFile, StatesThatCannotBeMade) {
   EXPECT_EQ(
       notesOf(R"(<group name="e"><joint name="left1"/></group>
@@ -300,6 +309,51 @@ TEST_F(SrdfFile, AVirtualJointHidesNoJointOfTheRobot) {
 <group name="a"><joint name="left1"/></group>)"),
             "no complaint");
   EXPECT_EQ(group("a"), "left1 ");
+}
+
+TEST_F(SrdfFile, VirtualJointsThatMoveAreNoted) {
+  EXPECT_EQ(
+      notesOf(R"(<virtual_joint name="world" type="planar" parent_frame="odom" child_link="ground"/>
+<virtual_joint name="root" type="floating" parent_frame="odom" child_link="ground"/>
+<virtual_joint name="weld0" type="fixed" parent_frame="odom" child_link="ground"/>
+<virtual_joint name="base" type="planar" parent_frame="odom" child_link="ground"/>
+<virtual_joint name="again" type="planar" parent_frame="odom" child_link="trunk"/>)"),
+      R"(r.srdf:2: virtual joint "world" (planar) is not used: the robot stands still at the problem's base; for a base that moves, add a planar joint on an empty link to the URDF
+r.srdf:3: virtual joint "root" (floating) is not used: the robot stands still at the problem's base; for a base that moves, add a floating joint on an empty link to the URDF
+)") << "not for fixed ones, nor for a link or name of the URDF's own planar joint";
+}
+
+TEST_F(SrdfFile, GroupsWithVirtualJoints) {
+  EXPECT_EQ(complaintOfSrdf(R"(
+<virtual_joint name="world" type="planar" parent_frame="odom" child_link="ground"/>
+<virtual_joint name="weld0" type="fixed" parent_frame="odom" child_link="ground"/>
+<group name="mobile"><joint name="world"/></group>
+<group name="all"><group name="mobile"/><joint name="left1"/><joint name="weld0"/></group>
+<group name="fixed"><joint name="weld0"/><joint name="left1"/></group>)"),
+            "no complaint");
+  EXPECT_EQ(group("all"), "left1 ");
+  EXPECT_THAT(model_.groups.at("all").virtualJoints, testing::ElementsAre("world"));
+  EXPECT_TRUE(model_.groups.at("fixed").virtualJoints.empty());
+  EXPECT_THAT(model_.groups.at("mobile").unusable,
+              testing::EndsWith("r.srdf:5: group \"mobile\" has no joint of the URDF; virtual "
+                                "joints are not used: world"));
+}
+
+/// Many SRDF files give root_joint a value without a <virtual_joint>.
+TEST_F(SrdfFile, ValuesOfVirtualJointsGetNoSuggestion) {
+  model_.joints[0].name = "foot_joint";
+  EXPECT_EQ(notesOf(R"(<group name="left"><joint name="left1"/></group>
+<group_state name="up" group="left"><joint name="root_joint" value="0 0 1 0 0 0 1"/><joint name="left1" value="1"/></group_state>)"),
+            "r.srdf:3: 1 value of a state is left out, because the URDF lacks root_joint\n");
+  EXPECT_EQ(
+      notesOf(R"(<virtual_joint name="world" type="fixed" parent_frame="odom" child_link="ground"/>
+<group name="left"><joint name="left1"/></group>
+<group_state name="high" group="left"><joint name="world" value="1 2 3"/></group_state>)"),
+      "");
+  EXPECT_THAT(
+      model_.states.at("high").unusable,
+      testing::EndsWith(
+          "r.srdf:4: state \"high\" has values of virtual joints only, which are not used"));
 }
 
 TEST_F(SrdfFile, AFileThatCannotBeReadIsAFault) {

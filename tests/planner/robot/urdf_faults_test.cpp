@@ -41,6 +41,13 @@ TEST_F(UrdfFaults, Files) {
   EXPECT_EQ(complaintOf("<robot/>"),
             "r.urdf:1: <robot> has no name\nr.urdf:1: the robot has no <link>; at least one is "
             "needed");
+  EXPECT_EQ(complaintOfParts("<group name=\"arm\"><joint name=\"j\"/></group>"),
+            "r.urdf:1: the robot has no <link>; it seems to be an SRDF, not a URDF");
+  EXPECT_EQ(complaintOf("<robot name=\"r\">\n<link name=\"a\"/>\n<link name=\"b\">\n"),
+            "r.urdf:3: is not valid XML: text, an element or an end tag is misplaced; there is no "
+            "</robot>, so the file may end early");
+  EXPECT_EQ(complaintOf("<robot name=r/>\n"),
+            "r.urdf:1: is not valid XML: an attribute cannot be read; name=\"value\" is needed");
   EXPECT_EQ(complaintOfParts(link("a", "\n<xacro:if value=\"1\"/>\n")),
             "r.urdf:3: <xacro:if>: this is a xacro file; expand it first: xacro FILE > "
             "robot.urdf");
@@ -318,6 +325,12 @@ TEST_F(UrdfFaults, MeshFiles) {
   EXPECT_EQ(complaint("none.stl"), of + "\"none.stl\": none.stl: no such file");
   EXPECT_EQ(complaint("package://none.stl"),
             of + "\"package://none.stl\": package://NAME/FILE is needed");
+  EXPECT_EQ(complaint("package:///"), of + "\"package:///\": package://NAME/FILE is needed");
+  EXPECT_EQ(complaint("package:////none/a.stl"),
+            of + "\"package:////none/a.stl\": package://NAME/FILE is needed");
+  EXPECT_THAT(
+      complaint("package://a_package_of_a_very_very_long_name/meshes/collision/left/link5.stl"),
+      testing::StartsWith(of + "\"…/meshes/collision/left/link5.stl\": "));
   EXPECT_EQ(complaint("file://none.stl"),
             of + "\"file://none.stl\": file:///FOLDER/FILE is needed");
   EXPECT_EQ(complaint("http://x.org/a.stl"),

@@ -232,6 +232,21 @@ TEST_F(UrdfFile, MeshesAreFoundInPackagesBesideAndAbove) {
   ASSERT_EQ(model.links[0].shapes.size(), 5u);
 }
 
+TEST_F(UrdfFile, ThreeSlashesAreReadAsTwo) {
+  write("hand/a.obj", "v 0 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n");
+  const std::string three = collision("<mesh filename=\"package:///hand/a.obj\"/>");
+  const std::string note = ": package:///NAME/FILE is read as package://NAME/FILE";
+  const RobotModel one = modelOf(link("a", three));
+  EXPECT_EQ(files_, (std::vector{folder_ / "r.urdf", folder_ / "hand/a.obj"}));
+  EXPECT_THAT(textsOf(one.notes), testing::ElementsAre((folder_ / "r.urdf").string() +
+                                                       ": mesh \"package:///hand/a.obj\"" + note));
+  const RobotModel two =
+      modelOf(link("a", three + collision("<mesh filename=\"package://hand/a.obj\"/>") + three));
+  EXPECT_THAT(textsOf(two.notes),
+              testing::ElementsAre((folder_ / "r.urdf").string() +
+                                   ": mesh \"package:///hand/a.obj\" and 1 more" + note));
+}
+
 TEST_F(UrdfFile, PackagesBesideAFolderAboveOrOfAnotherName) {
   const std::string wedge = "v 0 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n";
   write("src/hand/meshes/a.obj", wedge);
@@ -289,17 +304,6 @@ TEST_F(UrdfFile, MeshesAreFoundInTheFoldersOfRos) {
   EXPECT_EQ(complaintOfParts(link("a", collision("<mesh filename=\"package://arm/none.obj\"/>"))),
             "r.urdf:2: link \"a\": mesh \"package://arm/none.obj\": package \"arm\" is found at "
             "workspace/src/repository/arm, but has no none.obj");
-}
-
-TEST_F(UrdfFile, MeshesInMillimetresAreNoted) {
-  write("big.obj", "v 0 0 0\nv 1000 0 0\nv 0 200 0\nf 1 2 3\n");
-  const RobotModel model = modelOf(link("a", collision("<mesh filename=\"big.obj\"/>")));
-  EXPECT_THAT(textsOf(model.notes),
-              testing::ElementsAre((folder_ / "r.urdf").string() +
-                                   ":2: shape \"a\" is 1000 m long; if its mesh is in "
-                                   "millimetres, it needs scale=\"0.001 0.001 0.001\""));
-  EXPECT_TRUE(modelOf(link("a", collision("<mesh filename=\"big.obj\" scale=\"1e-3 1e-3 1e-3\"/>")))
-                  .notes.empty());
 }
 
 /// Links without <collision> are named in a note, or get the shapes of their visuals.
