@@ -77,7 +77,7 @@ Model modelOf(RobotModel description, const std::string& urdf) {
   ModelRobot robot;
   robot.description = std::move(description);
   const std::vector<std::size_t> moving = allMoving(robot);
-  if (moving.empty()) throw InputError(Fault{urdf, 0, "has no joint that moves by itself"});
+  if (moving.empty()) throw InputError(Fault{urdf, 0, whyNoneMoves(robot)});
   ModelBuilder builder;
   for (const std::size_t j : moving)
     if (isPoseJoint(robot.description.joints[j].type))

@@ -8,112 +8,20 @@
 #include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
 #include "planner/model/planned_joints.h"
-#include "planner/model/reach.h"
 #include "planner/problem/nothing_tested.h"
+#include "planner/problem/reach_notes.h"
 #include "planner/problem/shape_yaml.h"
 #include "planner/robot/joint_types.h"
 
 namespace corridor {
 namespace {
 
-/// Returns whether the problem has obstacles, but no body of a robot can reach any of them.
-bool hasObstaclesOutOfReachOnly(const Problem& problem) {
-  const Model& model = problem.model;
-  const std::vector<ReachBox> reach = reachOf(model);
-  const auto isReached = [&](std::size_t obstacle) {
-    for (std::size_t b = 0; b < model.bodies.size() && model.bodies[b].robot; ++b)
-      if (!outOfReach(problem.task, reach[obstacle], reach[b])) return true;
-    return false;
-  };
-  std::size_t obstacles = 0;
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    if (model.bodies[b].robot) continue;
-    if (isReached(b)) return false;
-    ++obstacles;
-  }
-  return obstacles > 0;
-}
-
 void addNotesOnPairs(Problem& problem) {
   std::vector<Note>& notes = problem.source.notes;
-  if (hasObstaclesOutOfReachOnly(problem))
-    notes.push_back(
-        {"no obstacle is within reach; are all lengths in metres?", NoteWeight::coverage});
+  addAll(notesOnReach(problem), notes);
   for (const ModelBody& body : problem.model.bodies)
     for (const PlacedShape& shape : body.shapes) addAll(shape.notes, notes);
   if (nothingIsTested(problem)) notes.insert(notes.begin(), {kNothingTested, NoteWeight::coverage});
-}
-
-/// Returns half of the longest side of the box that contains all bodies of a robot in all
-/// configurations, for the robot with the longest side; metres. Sets `boxes` to these boxes, one a
-/// robot. 0 without bodies of robots.
-double halfReach(const Model& model, const std::vector<ReachBox>& reach,
-                 std::vector<ReachBox>& boxes) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  boxes.assign(model.robots.size(), {Vec3::Constant(infinity), Vec3::Constant(-infinity)});
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    if (!model.bodies[b].robot) continue;
-    ReachBox& box = boxes[*model.bodies[b].robot];
-    box.lower = box.lower.cwiseMin(reach[b].lower);
-    box.upper = box.upper.cwiseMax(reach[b].upper);
-  }
-  double most = 0;
-  for (const ReachBox& box : boxes) most = std::max(most, (box.upper - box.lower).maxCoeff() / 2);
-  return most;
-}
-
-/// Returns the hint for an obstacle whose lengths may be in millimetres. Primitives and octomaps
-/// have no key `unit`.
-std::string unitHint(const ModelBody& obstacle) {
-  for (const PlacedShape& shape : obstacle.shapes) {
-    const bool isMap = !shape.mesh && !shape.primitive && shape.parts.front().radius == 0;
-    if (!shape.file.empty() && !isMap) return "; if its lengths are in millimetres, write unit: mm";
-  }
-  return "; are its lengths in metres?";
-}
-
-/// Returns the length with three decimals.
-std::string metres(double length) {
-  return shortest(std::round(length * 1000) / 1000) + " m";
-}
-
-/// Adds a note for each obstacle that is far larger than the robots, or far away from them: its
-/// lengths are probably in millimetres. A floor may be large in two directions, so all three sides
-/// of a mesh or cloud must be long, or one must be very long.
-void addNotesOnSizes(Problem& problem) {
-  // An arm reaches 0.3 m to 3 m. A floor of 100 m gets no note. A shelf of 0.4 m does, if it is in
-  // millimetres; so does a mesh whose three sides are all above 0.09 m.
-  constexpr double longestPerReach = 100, leastLongest = 200, thickPerReach = 30;
-  constexpr int mostNotes = 100;
-  const Model& model = problem.model;
-  const std::vector<ReachBox> reach = reachOf(model);
-  std::vector<ReachBox> robots;
-  const double own = halfReach(model, reach, robots);
-  if (!(own > 0)) return;
-  const double longest = std::max(longestPerReach * own, leastLongest);
-  int notes = 0;
-  for (std::size_t b = 0; b < model.bodies.size() && notes < mostNotes; ++b) {
-    const ModelBody& body = model.bodies[b];
-    if (body.robot) continue;
-    const Vec3 size = reach[b].upper - reach[b].lower;
-    double away = std::numeric_limits<double>::infinity();
-    for (const ReachBox& box : robots) {
-      const Vec3 gap =
-          (reach[b].lower - box.upper).cwiseMax(box.lower - reach[b].upper).cwiseMax(Vec3::Zero());
-      away = std::min(away, gap.norm());
-    }
-    const bool isRead = !body.shapes.front().file.empty();
-    const bool isLarge =
-        size.maxCoeff() > longest || (isRead && size.minCoeff() > thickPerReach * own);
-    if (!isLarge && !(away > longest)) continue;
-    ++notes;
-    problem.source.notes.push_back(
-        {"obstacle " + quotedWord(body.name) + " is " +
-             (isLarge ? metres(size.maxCoeff()) + " long" : metres(away) + " away") +
-             (robots.size() == 1 ? ", while the robot reaches " : ", while the robots reach ") +
-             metres(own) + unitHint(body),
-         NoteWeight::coverage});
-  }
 }
 
 /// Returns the largest half width of the tube among the robot's single joints, rad or m.
@@ -240,7 +148,6 @@ void finishProblem(const AllowedBodies& allowed, const TubeSpec& tube, Problem& 
   for (const auto& [a, b] : allowed) problem.model.filter.skip(a, b, "allow");
   problem.task.tube = tubeOf(problem.model.space, tube);
   testBeyondProofs(problem);
-  addNotesOnSizes(problem);
   addNotesOnPairs(problem);
 }
 

@@ -318,7 +318,10 @@ TEST_F(NewCommand, BadInputIsOneLineAndExit2) {
         "new robot " + robot,
         robot + ": a URDF is needed; corridor new problem takes a robot.yaml or its folder");
   write("still.urdf", "<robot name='still'><link name='a'/></robot>");
-  expectFault("new robot still.urdf", "still.urdf: has no joint that moves by itself");
+  expectFault(
+      "new robot still.urdf",
+      "still.urdf: has no joint that moves by itself; for a vehicle, add a planar or floating "
+      "joint on an empty link to the URDF, or use rigid: SE3 in a robot.yaml");
 }
 
 }  // namespace

@@ -45,11 +45,12 @@ class StillPairs : public testing::Test {
   /// Returns the pairs of a problem with these keys, "a ~ b: touch" or "a ~ b: close", and their
   /// notes.
   std::vector<std::string> pairsOf(const std::string& keys) {
-    std::ofstream(folder_ / "problem.yaml")
-        << "format: corridor-problem-1\nrobot: {urdf: arm.urdf, joints: [to_arm], hold: "
-           "{to_finger: "
-        << held_ << "}}\nstart: {to_arm: 0}\ngoal: {to_arm: 0.5}\n"
-        << keys;
+    std::ofstream(folder_ / "robot.yaml")
+        << "format: corridor-robot-1\nurdf: arm.urdf\njoints: [to_arm]\nhold: {to_finger: " << held_
+        << "}\n";
+    std::ofstream(folder_ / "problem.yaml") << "format: corridor-problem-1\nrobot: robot.yaml\n"
+                                            << "start: {to_arm: 0}\ngoal: {to_arm: 0.5}\n"
+                                            << keys;
     const Problem problem = readProblem(folder_ / "problem.yaml");
     const Checker checker(problem);
     const auto pairs = closeStillPairs(checker, startOf(problem));

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <vector>
+
+#include "planner/problem/problem.h"
+
+namespace corridor {
+
+/// Returns notes on lengths that are probably in another unit than metres: if no obstacle is within
+/// reach of a robot, and for each obstacle that is far larger than the robots, or far away.
+std::vector<Note> notesOnReach(const Problem& problem);
+
+}  // namespace corridor
