@@ -1,7 +1,6 @@
 #include "planner/model/planned_joints.h"
 
 #include <algorithm>
-#include <optional>
 #include <string>
 
 #include "collision/core/shortest.h"
@@ -26,7 +25,8 @@ std::vector<std::size_t> allMoving(const ModelRobot& robot) {
 std::string whyNoneMoves(const ModelRobot& robot) {
   const std::string none = "has no joint that moves by itself";
   std::vector<std::string> still;  // joints whose limits are equal
-  std::optional<double> limit;     // of all of these joints
+  double limit = 0;                // of the first of these joints
+  bool isEqual = true;             // for all of these joints
   bool isHeld = false;
   const std::vector<JointModel>& joints = robot.description.joints;
   for (std::size_t j = 0; j < joints.size(); ++j) {
@@ -35,16 +35,14 @@ std::string whyNoneMoves(const ModelRobot& robot) {
       isHeld = true;
       continue;
     }
-    if (still.empty())
-      limit = joints[j].lower;
-    else if (limit != joints[j].lower)
-      limit.reset();
+    if (still.empty()) limit = joints[j].lower;
+    isEqual = isEqual && joints[j].lower == limit;
     still.push_back(joints[j].name);
   }
   if (isHeld) return none + ", except those in hold";
   if (!still.empty())
     return none + ": " + joinedFirst(still) + ": lower = upper" +
-           (limit ? " = " + shortest(*limit) : "");
+           (isEqual ? " = " + shortest(limit) : "");
   return none +
          "; for a vehicle, add a planar or floating joint on an empty link to the URDF, or use "
          "rigid: SE3 in a robot.yaml";
