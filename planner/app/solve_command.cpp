@@ -151,6 +151,7 @@ ordered_json jsonOf(const SolveReport& r, const Problem& p, const std::string& p
                     {"result", nameOf(r.outcome)},
                     {"planner", r.planner},
                     {"seed", r.seed},
+                    {"restarts", r.restarts},
                     {"repeats", r.repeats},
                     {"time_s", r.time},
                     {"planning_time_s", r.planningTime},

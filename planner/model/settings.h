@@ -70,6 +70,10 @@ struct PlannerSettings {
   /// Whether to stop at the first solution. Unset: planners that optimise use all the time, and the
   /// others stop at the first solution.
   std::optional<bool> stopAtFirst;
+  /// The number of edges after which the search starts again, with other random numbers. Each
+  /// search may test twice as many edges as the one before. 0: it never starts again. Unset: see
+  /// `Solve::defaultRestart`.
+  std::optional<std::uint64_t> restart;
   std::map<std::string, std::string> params;  ///< by OMPL's own names
 };
 

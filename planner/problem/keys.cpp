@@ -48,7 +48,7 @@ Keys makeProblemKeys() {
       {"goal.within", {{"at", "angle_deg", "angle", "joints_deg", "joints"}, {}}},
       {"bounds", {{"at"}, {}}},
       {"tube", {{"joints_deg", "joints", "slides", "position", "rotation_deg", "rotation"}, {}}},
-      {"planner", {{"name", "time", "stop", "params"}, {}}},
+      {"planner", {{"name", "time", "stop", "restart", "params"}, {}}},
       {"checker",
        {{"edges", "resolution", "tolerance", "volume", "fit", "overlap"},
         {{"peer", "Corridor's own checker is used; leave it out"}}}},

@@ -117,6 +117,7 @@ void readPlanner(const YamlMap& file, PlannerSettings& planner) {
   planner.time = map.number("time", Range::Positive).value_or(planner.time);
   if (const auto stop = map.choice("stop", wordsOf("planner.stop")))
     planner.stopAtFirst = *stop == "first";
+  if (const auto edges = map.wholeNumber("restart")) planner.restart = edges;
   const YamlValue* params = map.find("params");
   if (!params) return;
   const YamlMap paramMap(*params, "planner.params", nullptr, file.source());

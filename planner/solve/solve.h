@@ -58,6 +58,7 @@ struct SolveReport {
   /// planning nor simplifying ended because the time ran out.
   bool repeats = true;
   std::uint64_t seed = 0;
+  std::uint64_t restarts = 0;         ///< how often the search started again (planner.restart)
   double time = 0, planningTime = 0;  ///< seconds of the whole solve, and until the planner ended
   double setUpTime = 0;               ///< seconds until the planner began
   double certificationTime = 0;       ///< seconds of the final certification

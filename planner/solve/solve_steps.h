@@ -84,6 +84,8 @@ class Solve {
   void checkEnds();
   void setUpSpace();
   void setUpPlanner();
+  std::uint64_t defaultRestart() const;
+  ompl::base::PlannerStatus search(const ompl::base::PlannerTerminationCondition& stop);
   void setUpObjective();
   void reportProgress();
   bool endsByTime(double until);

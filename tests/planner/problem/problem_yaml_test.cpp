@@ -32,6 +32,7 @@ planner:
   name: RRT
   time: 2.5
   stop: time
+  restart: 500
   params:
     range: 0.6
     goal_bias: "0.1"
@@ -79,6 +80,7 @@ TEST_F(ProblemYaml, EveryKeyIsRead) {
             (std::map<std::string, std::string>{{"range", "0.6"}, {"goal_bias", "0.1"}}));
   EXPECT_EQ(p.settings.sampler, ValidSampler::gaussian);
   EXPECT_EQ(p.settings.simplify, Simplifier::none);
+  EXPECT_EQ(p.settings.planner.restart, 500U);
   EXPECT_EQ(p.settings.checker.edges, EdgeCheck::discrete);
   EXPECT_EQ(p.settings.checker.resolution, 0.02);
   EXPECT_EQ(p.settings.checker.tolerance, 1e-5);

@@ -463,6 +463,22 @@ TEST(Arm, DefaultRangeIsAShareOfARevolution) {
   EXPECT_NE(own, path("0"));
 }
 
+/// A search that starts again often is still found, is counted, and repeats.
+TEST(Arm, SearchesStartAgainAfterTooManyEdges) {
+  Problem problem = armProblem();
+  problem.settings.planner.name = "RRT";
+  EXPECT_EQ(solveProblem(problem).restarts, 0U);
+  problem.settings.planner.restart = 1;
+  const SolveReport report = solveProblem(problem);
+  ASSERT_EQ(report.outcome, SolveOutcome::solved) << report.why;
+  EXPECT_GT(report.restarts, 1U);
+  EXPECT_TRUE(report.repeats);
+  EXPECT_EQ(solveProblem(problem).path, report.path);
+  EXPECT_EQ(verifySolution(problem, makeSolution(problem, report)).verdict, PathVerdict::proved);
+  problem.settings.planner.restart = 0;
+  EXPECT_EQ(solveProblem(problem).restarts, 0U);
+}
+
 TEST(Arm, OneFreeGoalOfSeveralIsEnoughAndTheOthersAreReported) {
   Problem problem = armProblem();
   problem.task.goals = {Vec3(std::numbers::pi / 4, 0, 0), Vec3(2, -0.5, 0.3), Vec3(-2, 0, 0)};
