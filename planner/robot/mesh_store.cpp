@@ -58,11 +58,38 @@ std::vector<std::filesystem::path> foldersOfPackage(const std::string& package) 
   return found;
 }
 
+/// Returns the name of the package whose root is this folder: by its package.xml, or else the
+/// folder's name.
+std::string packageNameOf(const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / "package.xml";
+  if (!whyNotOrdinaryFile(file).empty()) return folder.filename().string();
+  constexpr std::string_view begin = "<name>", end = "</name>", blanks = " \t\r\n";
+  std::string text;
+  try {
+    text = readTextFile(file, "a ROS package");
+  } catch (const InputError&) {
+    return folder.filename().string();
+  }
+  const std::size_t from = text.find(begin), to = text.find(end);
+  if (from == text.npos || to == text.npos || to < from) return folder.filename().string();
+  const std::string name = text.substr(from + begin.size(), to - from - begin.size());
+  const std::size_t first = name.find_first_not_of(blanks), last = name.find_last_not_of(blanks);
+  return first == name.npos ? folder.filename().string() : name.substr(first, last - first + 1);
+}
+
 }  // namespace
 
 MeshStore::MeshStore(const std::filesystem::path& urdf, const UrdfRules& rules,
                      std::vector<std::filesystem::path>& files)
     : folder_(urdf.parent_path()), rules_(rules), files_(files) {}
+
+bool MeshStore::isDoubtful(const std::string& package) const {
+  const std::filesystem::path& folder = guessed_.at(package);
+  return used_.contains(folder) ||
+         std::any_of(guessed_.begin(), guessed_.end(), [&](const auto& other) {
+           return other.first != package && other.second == folder;
+         });
+}
 
 std::vector<std::string> MeshStore::ignoredUpAxes() const {
   std::vector<std::string> names;
@@ -100,23 +127,32 @@ MeshStore::Place MeshStore::inPackage(const std::string& name) {
   std::vector<std::filesystem::path> above{
       std::filesystem::absolute(folder_.empty() ? "." : folder_).lexically_normal()};
   while (above.back().has_relative_path()) above.push_back(above.back().parent_path());
-  for (const std::filesystem::path& folder : above) {
-    if (folder.filename() == package && whyNotOrdinaryFile(folder / rest).empty())
-      return {folder / rest, ""};
-    if (whyNotOrdinaryFile(folder / package / rest).empty()) return {folder / package / rest, ""};
-  }
+  above.pop_back();  // the root of the file system
+  const auto found = [&](const std::filesystem::path& folder) -> Place {
+    used_.insert(folder);
+    return {folder / rest, ""};
+  };
+  for (const std::filesystem::path& folder : above)
+    if (packageNameOf(folder) == package && whyNotOrdinaryFile(folder / rest).empty())
+      return found(folder);
   auto known = rosFolders_.find(package);
   if (known == rosFolders_.end())
     known = rosFolders_.emplace(package, foldersOfPackage(package)).first;
   for (const std::filesystem::path& folder : known->second)
-    if (whyNotOrdinaryFile(folder / rest).empty()) return {folder / rest, ""};
+    if (whyNotOrdinaryFile(folder / rest).empty()) return found(folder);
   if (!known->second.empty())
     return {known->second.front() / rest, "package " + quotedWord(package) + " is found at " +
                                               known->second.front().string() + ", but has no " +
                                               rest.string()};
-  // A package may have been copied into a folder of another name.
   for (const std::filesystem::path& folder : above)
-    if (whyNotOrdinaryFile(folder / rest).empty()) {
+    if (whyNotOrdinaryFile(folder / package / rest).empty()) return found(folder / package);
+  // A package may have been copied into a folder of another name, without its package.xml. All of
+  // its files are then in one folder.
+  const auto guess = guessed_.find(package);
+  for (const std::filesystem::path& folder : above)
+    if ((guess == guessed_.end() ? !std::filesystem::exists(folder / "package.xml")
+                                 : guess->second == folder) &&
+        whyNotOrdinaryFile(folder / rest).empty()) {
       guessed_.try_emplace(package, folder);
       return {folder / rest, ""};
     }

@@ -30,8 +30,11 @@ class MeshStore {
   Place add(const std::string& name);
   /// Returns the names of the Collada files whose up-axis is not z, and was not applied.
   std::vector<std::string> ignoredUpAxes() const;
-  /// Returns the packages that were found only as a folder of another name above the URDF.
+  /// Returns the packages of which only a folder of another name above the URDF has the meshes.
   const std::map<std::string, std::filesystem::path>& guessedPackages() const { return guessed_; }
+  /// Returns whether the folder of a guessed package is also the folder of another package. The
+  /// meshes may then be those of the other package, with the same file names.
+  bool isDoubtful(const std::string& package) const;
   /// Returns the note on names that begin with package:///, or "". Other readers, such as
   /// Pinocchio, accept them, too.
   std::string noteOnSlashes() const;
@@ -49,6 +52,7 @@ class MeshStore {
   std::vector<std::filesystem::path>& files_;
   /// The folders of each package that was searched for on ROS's paths.
   std::map<std::string, std::vector<std::filesystem::path>> rosFolders_;
+  std::set<std::filesystem::path> used_;                  // folders found by a package's name
   std::map<std::string, std::filesystem::path> guessed_;  // see `guessedPackages`
   std::set<std::string> missing_;                         // packages without a folder, reported
   std::size_t threeSlashes_ = 0;   // number of names that begin with package:///

@@ -237,12 +237,20 @@ std::optional<RobotModel> readUrdf(const std::filesystem::path& file, const Urdf
     const UrdfOutline outline = readUrdfOutline(xml, rules, meshes, notes);
     const std::vector<std::size_t> order = checkUrdfTree(outline, xml);
     const std::vector<std::optional<Mimic>> mimics = resolveMimics(outline, xml, notes);
-    for (const auto& [package, folder] : meshes.guessedPackages())
-      notes.push_back({file.string() + ": package " + quotedWord(package) +
-                           " has no folder of this name; " + folder.string() +
-                           ", which contains the meshes and the URDF, is used (packages: in "
-                           "robot.yaml names another one)",
-                       NoteWeight::coverage});
+    for (const auto& [package, folder] : meshes.guessedPackages()) {
+      const std::string none =
+          "package " + quotedWord(package) + " has no folder of this name; " + folder.string();
+      if (meshes.isDoubtful(package))
+        xml.fault(0, none +
+                         " has files of its meshes' names, but is the folder of another package; "
+                         "add packages: {" +
+                         package + ": FOLDER} to robot.yaml");
+      else
+        notes.push_back({file.string() + ": " + none +
+                             ", in which its mesh files were found, is used (packages: in "
+                             "robot.yaml names another one)",
+                         NoteWeight::coverage});
+    }
     if (const std::string slashes = meshes.noteOnSlashes(); !slashes.empty())
       notes.push_back({file.string() + ": " + slashes});
     if (const auto ignored = meshes.ignoredUpAxes(); !ignored.empty())

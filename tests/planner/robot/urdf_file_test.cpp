@@ -251,24 +251,40 @@ TEST_F(UrdfFile, PackagesBesideAFolderAboveOrOfAnotherName) {
   const std::string wedge = "v 0 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n";
   write("src/hand/meshes/a.obj", wedge);
   write("src/clone/meshes/b.obj", wedge);
-  write("src/clone/urdf/r.urdf",
-        "<robot name=\"r\">" +
-            link("a", collision("<mesh filename=\"package://hand/meshes/a.obj\"/>") +
-                          collision("<mesh filename=\"package://arm/meshes/b.obj\"/>")) +
-            "</robot>");
   std::vector<Fault> faults;
-  const auto model = readUrdf(folder_ / "src/clone/urdf/r.urdf", {}, faults, files_);
+  const auto read = [&](const std::string& first, const std::string& second) {
+    write("src/clone/urdf/r.urdf",
+          "<robot name=\"r\">" +
+              link("a", collision("<mesh filename=\"package://" + first + "\"/>") +
+                            collision("<mesh filename=\"package://" + second + "\"/>")) +
+              "</robot>");
+    files_.clear();
+    faults.clear();
+    return readUrdf(folder_ / "src/clone/urdf/r.urdf", {}, faults, files_);
+  };
+  auto model = read("hand/meshes/a.obj", "arm/meshes/b.obj");
   ASSERT_TRUE(model) << faults.front().str();
   EXPECT_EQ(files_,
             (std::vector{folder_ / "src/clone/urdf/r.urdf", folder_ / "src/hand/meshes/a.obj",
                          folder_ / "src/clone/meshes/b.obj"}));
   ASSERT_EQ(model->notes.size(), 1u);
-  EXPECT_THAT(
-      model->notes[0].text,
-      testing::EndsWith(
-          "package \"arm\" has no folder of this name; " + (folder_ / "src/clone").string() +
-          ", which contains the meshes and the URDF, is used (packages: in robot.yaml "
-          "names another one)"));
+  EXPECT_THAT(model->notes[0].text,
+              testing::EndsWith("package \"arm\" has no folder of this name; " +
+                                (folder_ / "src/clone").string() +
+                                ", in which its mesh files were found, is used (packages: in "
+                                "robot.yaml names another one)"));
+  // The folder belongs to another package, too: the mesh may be that package's own.
+  EXPECT_FALSE(read("clone/meshes/b.obj", "arm/meshes/b.obj"));
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_THAT(faults[0].str(), testing::HasSubstr("is the folder of another package"));
+  // Its package.xml names the package, or another one.
+  write("src/clone/package.xml", "<package><name> arm </name></package>");
+  model = read("hand/meshes/a.obj", "arm/meshes/b.obj");
+  ASSERT_TRUE(model);
+  EXPECT_TRUE(model->notes.empty());
+  write("src/clone/package.xml", "<package><name>foot</name></package>");
+  EXPECT_FALSE(read("hand/meshes/a.obj", "arm/meshes/b.obj"));
+  EXPECT_EQ(faults.size(), 1u);
 }
 
 /// Sets an environment variable during its lifetime. No other thread runs.
