@@ -77,12 +77,13 @@ struct CentredBox {
 /// Computes distances of two bodies, with b placed in the frame of a. Owns the scratch memory.
 ///
 /// Boxes are compared in double, which takes a fraction of the time of long double. Let S be the
-/// sum of both radii and the distance of the two frames, and u = 2^-53. All lengths below are at
-/// most √3·S. A coordinate of a placed box takes the rounding of the placement, three products and
-/// three sums: it is off by less than 35u·S. The difference of two boxes along the axes of b takes
-/// another such step, so each of its coordinates is off by less than 90u·S, and its norm by less
-/// than 170u·S. Widths of slabs take fewer steps. `boxError_` is 512u·S. A bound in double that is
-/// closer to the decisive distance than this is computed again in long double.
+/// sum of both radii and the distance of the two frames, and u = 2^-53. Every length that
+/// occurs is at most √3·S. A coordinate of a placed box takes the rounding of the placement, three
+/// products and three sums: it is off by less than 35u·S. The difference of two boxes along the
+/// axes of b takes another such step, so each of its coordinates is off by less than 90u·S, and its
+/// norm by less than 170u·S. Widths of slabs take fewer steps. `boxError_` is 512u·S. If a
+/// bound in double differs from the distance that decides by less than this, it is computed again
+/// in long double.
 class BodyDistance {
  public:
   /// Sets the bodies and their relative placement. Both trees must outlive all queries.

@@ -226,18 +226,22 @@ PairAnswer PairProver::decide(const TimeInterval& interval, const OpenPair& open
   const Real margin = problem_.margin;
   Measured m = place(interval, open.pair);
   PairAnswer answer;
-  if (motionBound > problem_.tolerance) {
-    // Both bounds reduce the distance by at least this much, so no interval can be proved whose
-    // distance is smaller. The distance of one pair of primitives shows that at once, for most of
-    // the intervals that are too long. Only a pair that is refuted must be measured.
+  if (open.bound <= margin && motionBound > problem_.tolerance) {
+    // Each of the two bounds below subtracts at least `least` from the distance at the middle. If
+    // the distance is at most margin + least, the interval can't be proved, and is halved without
+    // measuring it. The distance of one pair of primitives is an upper bound that shows this for
+    // most intervals that are too long. If it is at most margin + pad, the pair may be refuted
+    // here, so it is measured. (Other primitives may touch at this middle; a shorter interval finds
+    // them, if the contact is not at this time only.)
     const Real least =
         std::min(motionBound + pad, secondOrder(reach, interval.half) + reach.rounding);
     const Real upper = distance_.gap(open.guess).upper;
     if (margin + pad < upper && upper <= margin + least) {
       answer.closest = open.guess;
       answer.bound = open.bound;
+      answer.estimate = upper - motionBound - pad;
       answer.upper = upper;
-      answer.reason = kTooLarge;  // for an interval that can't be halved any more
+      answer.reason = "no interval is short enough to be proved";
       return answer;
     }
   }
@@ -251,6 +255,7 @@ PairAnswer PairProver::decide(const TimeInterval& interval, const OpenPair& open
     return answer;
   }
   answer.bound = std::max(open.bound, m.gap.lower - motionBound - pad);
+  answer.estimate = answer.bound;
   if (answer.bound <= margin && (interval.half > 0 || tubeMatters(reach)))
     answer.bound = std::max(answer.bound, boundPiecewise(interval, open.pair, m, usefulBound));
   if (answer.bound > margin) {

@@ -24,8 +24,9 @@ struct TimeInterval {
 struct OpenPair {
   std::size_t pair = 0;
   PiecePair guess;  ///< a pair of leaf primitives that is likely close
-  Real bound = -std::numeric_limits<Real>::infinity();  ///< proved for the longer interval; see
-                                                        ///< PairAnswer::bound
+  Real bound = -std::numeric_limits<Real>::infinity();     ///< proved for the longer interval; see
+                                                           ///< PairAnswer::bound
+  Real estimate = -std::numeric_limits<Real>::infinity();  ///< see PairAnswer::estimate
 };
 
 /// The answer about a pair of bodies in a time interval. Lengths in metres.
@@ -37,6 +38,8 @@ struct PairAnswer {
   std::optional<PathVerdict> verdict;
   /// In the whole interval, every curve in the tube keeps at least this distance.
   Real bound = -std::numeric_limits<Real>::infinity();
+  /// An estimate of `bound`, for the order of tests only. It is not proved.
+  Real estimate = -std::numeric_limits<Real>::infinity();
   Real upper = std::numeric_limits<Real>::infinity();  ///< ≥ the distance at the middle
   PiecePair closest;                ///< the closest pair of leaf primitives at the middle
   RealVec point = RealVec::Zero();  ///< a contact, or the closest point of b; in a's frame

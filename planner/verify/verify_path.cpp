@@ -20,7 +20,7 @@ constexpr int kFindings = 100;
 /// on rounding allow 63.
 constexpr int kDepth = 60;
 /// An edge is first halved into 2^kCoarse intervals. In this phase the interval with the smallest
-/// bound is halved next: this order finds a deep collision quickly. Afterwards the shortest
+/// estimate is halved next: this order finds a deep collision quickly. Afterwards the shortest
 /// interval is halved next: this order goes deep first, so it finds an undecidable place without
 /// halving all other intervals to the same length.
 constexpr int kCoarse = 5;
@@ -35,7 +35,8 @@ struct Interval {
   TimeInterval time;
   int depth = 0;  ///< time.half = 2^-(depth + 1), unless it is a single time
   std::vector<OpenPair> pairs;
-  Real bound = -kInfinity;  ///< the smallest bound of these pairs
+  Real bound = -kInfinity;     ///< of a proved interval: the smallest bound of these pairs
+  Real estimate = -kInfinity;  ///< of an open interval: the smallest estimate of these pairs
 };
 
 std::array<Interval, 2> halvesOf(const Interval& whole) {
@@ -53,7 +54,7 @@ struct NextOnTop {
   bool operator()(const Interval& a, const Interval& b) const {
     const bool coarseA = a.depth < kCoarse, coarseB = b.depth < kCoarse;
     if (coarseA != coarseB) return coarseB;
-    return coarseA || a.depth == b.depth ? a.bound > b.bound : a.depth < b.depth;
+    return coarseA || a.depth == b.depth ? a.estimate > b.estimate : a.depth < b.depth;
   }
 };
 struct WorstOnTop {
@@ -111,8 +112,9 @@ void Verifier::add(const PathFinding& finding) {
 }
 
 Interval Verifier::intervalOf(const TimeInterval& time) const {
-  Interval interval{time, 0, {}, -kInfinity};
-  for (std::size_t p = 0; p < prover_.pairs(); ++p) interval.pairs.push_back({p, {}, -kInfinity});
+  Interval interval{time, 0, {}, -kInfinity, -kInfinity};
+  for (std::size_t p = 0; p < prover_.pairs(); ++p)
+    interval.pairs.push_back({p, {}, -kInfinity, -kInfinity});
   return interval;
 }
 
@@ -121,6 +123,7 @@ bool Verifier::test(const Interval& interval, OpenPair& open) {
   ++queries_;
   open.guess = answer.closest;
   open.bound = answer.bound;
+  open.estimate = answer.estimate;
   smallest_ = std::min(smallest_, answer.upper);
   if (!answer.verdict && (interval.depth >= kDepth || outOfWork())) {
     answer.verdict = PathVerdict::undecided;
@@ -137,12 +140,12 @@ bool Verifier::test(const Interval& interval, OpenPair& open) {
 void Verifier::testAll(Interval& interval) {
   const std::size_t edge = interval.time.edge;
   std::vector<OpenPair> left;
-  interval.bound = kInfinity;
+  interval.estimate = kInfinity;
   for (OpenPair& open : interval.pairs) {
     if (undecided_.count({edge, open.pair}) > 0) continue;
     if (test(interval, open)) {
       left.push_back(open);
-      interval.bound = std::min(interval.bound, open.bound);
+      interval.estimate = std::min(interval.estimate, open.estimate);
     } else if (closed(edge)) {
       return;
     } else if (undecided_.count({edge, open.pair}) > 0) {
@@ -150,7 +153,7 @@ void Verifier::testAll(Interval& interval) {
     } else if (interval.time.half == 0) {
       leastAtStates_ = std::min(leastAtStates_, open.bound);
     } else if (open.bound < usefulBound()) {
-      proved_.push({interval.time, interval.depth, {open}, open.bound});
+      proved_.push({interval.time, interval.depth, {open}, open.bound, open.estimate});
     }
   }
   interval.pairs = std::move(left);

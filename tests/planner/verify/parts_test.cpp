@@ -226,8 +226,11 @@ TEST(BodyDistance, BoxesOfTwoPointsNeverClaimMore) {
     const ConvexPart partA{{scale * randomVec(random, 1)}, 0, false};
     const ConvexPart partB{{scale * randomVec(random, 1)}, 0, false};
     const BoxTree a(std::span(&partA, 1)), b(std::span(&partB, 1));
-    Placement X_AB = placementOf(randomPose(random, 1));
-    X_AB.position *= scale;
+    Placement X_AB;  // as of the verifier: a rotation up to the rounding of long double
+    X_AB.rotation = Eigen::Quaternion<Real>(randomPose(random, 1).q.cast<Real>())
+                        .normalized()
+                        .toRotationMatrix();
+    X_AB.position = (scale * randomVec(random, 1)).cast<Real>();
     distance.place(a, b, X_AB);
     const RealVec between =
         X_AB.rotation * partB.points[0].cast<Real>() + X_AB.position - partA.points[0].cast<Real>();
