@@ -36,7 +36,8 @@ struct Bins {
 
   int of(const BoundingBox& box) const {
     const double place = (box.lower[axis] + box.upper[axis] - low) / (high - low);
-    return std::min(kBins - 1, static_cast<int>(kBins * place));
+    if (!(place > 0)) return 0;  // also if the box is infinite, and its centre not a number
+    return place < 1 ? static_cast<int>(kBins * place) : kBins - 1;
   }
 };
 
@@ -125,7 +126,8 @@ std::size_t BoxTree::split(std::span<const BoundingBox> boxes, std::span<std::ui
   if (area(all) > 0 && depth + std::bit_width(items.size()) < kMaxDepth) {
     Split best;
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      if (!(high[axis] > low[axis]) || !std::isfinite(high[axis] - low[axis])) continue;
+      const double width = high[axis] - low[axis];  // 0 if it underflows and is flushed to zero
+      if (!(width > 0) || !std::isfinite(width)) continue;
       const Split found = bestSplit(boxes, items, {axis, low[axis], high[axis]});
       if (found.cost < best.cost) best = found;
     }
@@ -139,9 +141,13 @@ std::size_t BoxTree::split(std::span<const BoundingBox> boxes, std::span<std::ui
   Eigen::Index axis = 0;
   (high - low).maxCoeff(&axis);
   const std::size_t half = items.size() / 2;
+  const auto key = [&](std::uint32_t item) {
+    const double x = twiceCentre(boxes[item])[axis];
+    return x == x ? x : -std::numeric_limits<double>::infinity();
+  };
   std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(half), items.end(),
                    [&](std::uint32_t a, std::uint32_t b) {
-                     const double x = twiceCentre(boxes[a])[axis], y = twiceCentre(boxes[b])[axis];
+                     const double x = key(a), y = key(b);
                      // Ties are broken by index, so that every standard library builds the same
                      // tree.
                      return x < y || (x == y && a < b);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <set>
 
@@ -110,6 +111,11 @@ TEST(BoxTree, FindsAllOfOddBoxes) {
     sets[2].push_back(cube(Vec3::Constant(std::ldexp(1.0, -i)), 1e-9));  // ever closer to 0
     sets[3].push_back(cube(Vec3(1e200 * (i - 500), 1e308 * (i % 3 - 1), i), 1e100));  // overflow
   }
+  std::vector<BoundingBox> infinite = sets[1];
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < infinite.size(); i += 3)
+    infinite[i] = {Vec3::Constant(-infinity), Vec3::Constant(infinity), infinity};
+  sets.push_back(infinite);
   for (const std::vector<BoundingBox>& boxes : sets) {
     const BoxTree tree(boxes);
     std::set<std::size_t> found;
