@@ -37,7 +37,8 @@ class ProgressLine {
 
   void show(const PairSurveyProgress& p) {
     const auto percent = [](std::uint64_t part, std::uint64_t whole) {
-      return std::to_string(100 * part / whole) + " %";
+      const double share = static_cast<double>(part) / static_cast<double>(whole);
+      return std::to_string(static_cast<int>(100 * std::min(share, 1.0))) + " %";
     };
     std::string text = a_.urdf + ": ";
     if (p.samples < a_.samples)

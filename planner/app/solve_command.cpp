@@ -202,6 +202,7 @@ Solved solveOne(const std::string& file, const SolveArguments& a,
   SolveOptions options;
   options.valueOrigins = applyArguments(a, problem);
   options.interrupted = &interrupted;
+  options.noteStillPairs = true;
   const bool show = !a.quiet && ::isatty(STDERR_FILENO) != 0;
   if (show) {
     options.progress = [&](const SolveProgress& p) {

@@ -111,11 +111,12 @@ void print(const VerifyReport& r, const Problem& problem, const VerifyArguments&
 
 int verifyCommand(const VerifyArguments& a) {
   Problem problem = readProblemOf(a.problem);
-  addAll(notesOn(closeStillPairs(Checker(problem), startOf(problem)), problem.model),
-         problem.source.notes);
   const Solution solution = readSolution(a.solution, problem.model.space);
   const Verified verified =
       verifyWithWarning(problem, solution, a.problem, a.solution, a.ignoreDigest);
+  if (hasStillPairs(problem.model))
+    addAll(notesOn(closeStillPairs(Checker(problem), startOf(problem)), problem.model),
+           problem.source.notes);
   if (!a.json) {
     print(verified.report, problem, a);
   } else if (!a.quiet) {

@@ -407,11 +407,9 @@ std::string specOf(const Campaign& campaign, const CampaignCell& cell) {
     checker[entry.key] = entry.value.text;
   if (campaign.variants[cell.variant].competitor)
     checker["peer"] = campaign.variants[cell.variant].competitor->name;
-  // A Boolean unless OMPL's simplifier is named, as in databases of earlier versions.
-  const nlohmann::ordered_json simplify =
-      planned.settings.simplify == Simplifier::ompl
-          ? nlohmann::ordered_json(wordOf(Simplifier::ompl))
-          : nlohmann::ordered_json(planned.settings.simplify == Simplifier::corridor);
+  // In earlier versions `true` was another simplifier. Runs of the two must not be mixed.
+  const bool isOwn = planned.settings.simplify == Simplifier::corridor;
+  const std::string simplify = isOwn ? "corridor" : wordOf(planned.settings.simplify);
   return nlohmann::ordered_json{{"problem", campaign.digests[cell.problem]},
                                 {"checker", checker},
                                 {"planner", planned.settings.planner.name},

@@ -86,6 +86,14 @@ class StillTest {
 
 }  // namespace
 
+bool hasStillPairs(const Model& model) {
+  bool has = false;
+  forEachPair(model, [&](std::size_t, std::size_t, std::string_view why) {
+    has = has || why == kNeverMove;
+  });
+  return has;
+}
+
 std::vector<StillPair> closeStillPairs(const Checker& checker, const Configuration& q) {
   requireStandardFloatingPoint();
   const Model& model = checker.model();

@@ -13,13 +13,18 @@ struct StillPair {
   bool touches = false;  ///< false: the bodies are apart, but not farther than the margin
 };
 
+/// Returns whether the model has bodies that never move against each other, and are not excluded
+/// from the tests for another reason.
+bool hasStillPairs(const Model& model);
+
 /// Returns the pairs of bodies that are not tested, because they never move against each other, and
 /// that touch or are within the margin, in every state. Such a pair shows a wrong pose of a base or
 /// an obstacle, or a wrong value of a held joint. Pairs of one robot whose links are joined by
 /// fixed joints only are left out: their overlap is part of the robot.
 ///
 /// The poses are those at `q`, rounded. @pre q is finite.
-/// @throws std::runtime_error as `Checker::interference` does.
+/// @throws std::runtime_error as `Checker::interference` does; std::invalid_argument if a pose is
+/// not finite.
 std::vector<StillPair> closeStillPairs(const Checker& checker, const Configuration& q);
 
 /// Returns notes that name these pairs.

@@ -63,7 +63,7 @@ std::string metres(double length) {
 
 /// Adds a note for each obstacle that is far larger than the robots, or far away from them: its
 /// lengths are probably in millimetres. A floor may be large in two directions, so all three sides
-/// of a mesh or cloud must be long, or one must be very long.
+/// must be long, or one side of a mesh or cloud must be very long.
 void addNotesOnSizes(const Problem& problem, const std::vector<ReachBox>& reach,
                      std::vector<Note>& notes) {
   // An arm reaches 0.3 m to 3 m. A floor of 100 m gets no note. A shelf of 0.4 m does, if it is in
@@ -88,7 +88,7 @@ void addNotesOnSizes(const Problem& problem, const std::vector<ReachBox>& reach,
     }
     const bool isRead = !body.shapes.front().file.empty();
     const bool isLarge =
-        size.maxCoeff() > longest || (isRead && size.minCoeff() > thickPerReach * own);
+        (isRead && size.maxCoeff() > longest) || size.minCoeff() > thickPerReach * own;
     if (!isLarge && !(away > longest)) continue;
     ++count;
     notes.push_back(

@@ -185,7 +185,8 @@ void Solve::setUpEnds() {
   space_->write(start_, start.get());
   definition_->addStartState(start);
   definition_->setGoal(std::make_shared<OmplGoal>(si_, problem_, goalSamples_));
-  report_.notes = notesOn(closeStillPairs(checker_, start_), problem_.model);
+  if (options_.noteStillPairs)
+    report_.notes = notesOn(closeStillPairs(checker_, start_), problem_.model);
 }
 
 void Solve::setUpObjective() {
@@ -296,7 +297,7 @@ ob::PlannerStatus Solve::plan(const ob::PlannerTerminationCondition& orElse) {
                                                                         : SolveOutcome::notFound;
     report_.why = whyNotFound(status);
   }
-  if (endedByTime_) report_.repeats = false;
+  if (endedByTime_ || interrupted()) report_.repeats = false;
   report_.time = clock_.seconds();
   report_.processorTime = clock_.processorSeconds();
   report_.searchProcessorTime += report_.processorTime - processorBefore;

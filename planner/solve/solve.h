@@ -25,6 +25,9 @@ struct SolveOptions {
   std::function<void(const SolveProgress&)> progress;
   /// When this becomes true, solving ends soon, without a result.
   const std::atomic<bool>* interrupted = nullptr;
+  /// Whether to note pairs of bodies that never move against each other, and touch or are within
+  /// the margin (checker/still_pairs.h).
+  bool noteStillPairs = false;
   /// For messages: the origins of values that were not read from the problem's file, by key, such
   /// as "planner.name" → "--planner".
   std::map<std::string, std::string> valueOrigins;
@@ -48,7 +51,7 @@ struct SolveReport {
   SolveOutcome outcome = SolveOutcome::notFound;
   std::string why;              ///< why not solved, in one line; empty if solved
   std::vector<Fault> warnings;  ///< goals that are not used, although others are, and why
-  std::vector<Note> notes;      ///< on pairs that never move against each other (still_pairs.h)
+  std::vector<Note> notes;      ///< with `SolveOptions::noteStillPairs`
 
   Path path;  ///< empty unless solved; no rotation by more than 90° between two states
   bool certified = false;  ///< every edge of `path` was proved by the final certification

@@ -1,7 +1,9 @@
 #include "planner/checker/still_pairs.h"
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <numbers>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -93,6 +95,41 @@ TEST_F(StillPairs, OfHeldJointsOnAMovingLink) {
   EXPECT_THAT(pairsOf("margin: 0.001\n"), ElementsAre("finger ~ thumb: touch"));
   held_ = 0.3;
   EXPECT_THAT(pairsOf("margin: 0.001\n"), IsEmpty());
+}
+
+/// Bases of two robots; and a large mesh that is named twice, so that each has a frame of its own.
+TEST_F(StillPairs, OfTwoRobotsAndObstaclesOnFrames) {
+  std::ofstream(folder_ / "robot.yaml")
+      << "format: corridor-robot-1\nurdf: arm.urdf\njoints: [to_arm]\nhold: {to_finger: 0.3}\n";
+  constexpr int kRings = 100, kPerRing = 300;  // shared meshes have 50,000 triangles or more
+  std::ofstream obj(folder_ / "ball.obj");
+  for (int i = 0; i <= kRings; ++i)
+    for (int k = 0; k < kPerRing; ++k) {
+      const double up = std::numbers::pi * i / kRings, round = 2 * std::numbers::pi * k / kPerRing;
+      obj << "v " << 0.1 * std::sin(up) * std::cos(round) << ' '
+          << 0.1 * std::sin(up) * std::sin(round) << ' ' << 0.1 * std::cos(up) << '\n';
+    }
+  for (int i = 0; i < kRings; ++i)
+    for (int k = 0; k < kPerRing; ++k) {
+      const int next = (k + 1) % kPerRing, below = (i + 1) * kPerRing + 1;
+      const int p = i * kPerRing + k + 1, q = i * kPerRing + next + 1;
+      obj << "f " << p << ' ' << below + k << ' ' << below + next << "\nf " << p << ' '
+          << below + next << ' ' << q << '\n';
+    }
+  obj.close();
+  std::ofstream(folder_ / "problem.yaml")
+      << "format: corridor-problem-1\n"
+         "robots: {left: {file: robot.yaml}, right: {file: robot.yaml, base: {at: [0, 0.15, 0]}}}\n"
+         "world:\n  near: {mesh: ball.obj, at: [-0.15, 0, 0]}\n"
+         "  far: {mesh: ball.obj, at: [-5, 0, 0]}\n"
+         "start: {left: {to_arm: 0}, right: {to_arm: 0}}\n"
+         "goal: {left: {to_arm: 0.5}, right: {to_arm: 0.5}}\n";
+  const Problem problem = readProblem(folder_ / "problem.yaml");
+  const Checker checker(problem);
+  std::vector<std::string> texts;
+  for (const StillPair& pair : closeStillPairs(checker, startOf(problem)))
+    texts.push_back(problem.model.bodies[pair.a].name + " ~ " + problem.model.bodies[pair.b].name);
+  EXPECT_THAT(texts, testing::UnorderedElementsAre("left/base ~ right/base", "left/base ~ near"));
 }
 
 /// A held link in an obstacle is not reported as free without a word.

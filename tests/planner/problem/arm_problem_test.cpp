@@ -421,9 +421,9 @@ TEST_F(ArmProblem, ObstaclesThatAreFarTooLarge) {
   write("dots.xyz", "0 0 0\n0 0 1900\n");
   const Problem p =
       read(armHead + "  shelf: {mesh: shelf.obj, at: [0.5, 0.5, 0]}\n  block: {mesh: block.obj}\n" +
-           "  dots: {points: {file: dots.xyz, radius: 0.01}}\n  beam: {box: [400, 1, 1]}\n" +
+           "  dots: {points: {file: dots.xyz, radius: 0.01}}\n  beam: {box: [400, 90, 90]}\n" +
            "  ball: {sphere: 0.1, at: [500, 0, 0]}\n" +
-           "  floor: {box: [100, 100, 0.1], at: [0, 0, -1]}\n" +
+           "  floor: {box: [1000, 1000, 0.1], at: [0, 0, -1]}\n" +
            "  small: {mesh: shelf.obj, unit: mm, at: [0.5, 0.5, 0]}\n" + armStates);
   const std::vector<std::string> notes = textsOf(p.source.notes);
   const auto isNoted = [](const std::string& name, const std::string& what,
