@@ -30,6 +30,11 @@ class ResultPrinter {
   bool quiet_;
 };
 
+/// Inserts notes before all others.
+inline void addFirst(const std::vector<Note>& notes, std::vector<Note>& to) {
+  to.insert(to.begin(), notes.begin(), notes.end());
+}
+
 /// Returns the notes for people to read. If notes differ in names and numbers only, it returns the
 /// first of them, with the number of the others.
 /// @param rest how to see the others, for the end of the note.

@@ -216,7 +216,7 @@ Solved solveOne(const std::string& file, const SolveArguments& a,
   SolveReport report = solveProblem(problem, options);
   if (show) std::fputs("\r\033[K", stderr);
   for (const Fault& fault : report.warnings) warn(fault.str());
-  addAll(report.notes, problem.source.notes);
+  addFirst(report.notes, problem.source.notes);
   if (report.outcome == SolveOutcome::solved) {
     if (a.output == "-")
       std::cout << solutionText(makeSolution(problem, report, digest));

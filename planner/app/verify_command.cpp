@@ -115,8 +115,8 @@ int verifyCommand(const VerifyArguments& a) {
   const Verified verified =
       verifyWithWarning(problem, solution, a.problem, a.solution, a.ignoreDigest);
   if (hasStillPairs(problem.model))
-    addAll(notesOn(closeStillPairs(Checker(problem), startOf(problem)), problem.model),
-           problem.source.notes);
+    addFirst(notesOn(closeStillPairs(Checker(problem), startOf(problem)), problem.model),
+             problem.source.notes);
   if (!a.json) {
     print(verified.report, problem, a);
   } else if (!a.quiet) {
