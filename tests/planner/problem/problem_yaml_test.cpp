@@ -123,11 +123,11 @@ TEST_F(ProblemYaml, Defaults) {
 TEST_F(ProblemYaml, LinesAreKeptForLaterFaults) {
   const Problem p = read(everything);
   EXPECT_EQ(p.source.lines.at("planner.name"), 12);
-  EXPECT_EQ(p.source.lines.at("planner.params.range"), 16);
+  EXPECT_EQ(p.source.lines.at("planner.params.range"), 17);
   EXPECT_EQ(p.source.lines.at("start"), 6);
-  EXPECT_EQ(p.source.lines.at("checker.edges"), 20);
+  EXPECT_EQ(p.source.lines.at("checker.edges"), 21);
   const std::string file = (folder_ / "problem.yaml").string();
-  EXPECT_EQ(p.source.faultAt("planner.params.rnage", "no").str(), file + ":15: no");
+  EXPECT_EQ(p.source.faultAt("planner.params.rnage", "no").str(), file + ":16: no");
   EXPECT_EQ(p.source.faultAt("elsewhere.key", "no").str(), file + ": no");
 }
 

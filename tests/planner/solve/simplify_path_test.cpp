@@ -189,5 +189,69 @@ TEST(SimplifyPath, KeepsItsPromisesAmongRandomDiscs) {
   EXPECT_GT(shorter, paths * 9 / 10);
 }
 
+/// Returns a space of two continuous joints and a floating base.
+ConfigurationSpace circlesAndRotation() {
+  ConfigurationSpace space;
+  CoordinateGroup joints, base;
+  for (const char* const name : {"pan", "roll"}) {
+    Coordinate circle;
+    circle.kind = Coordinate::Kind::circle;
+    circle.name = name;
+    joints.coordinates.push_back(space.add(circle));
+  }
+  base.kind = CoordinateGroup::Kind::floating;
+  for (const char* const name : {"x", "y", "z", "rotation"}) {
+    Coordinate coordinate;
+    coordinate.name = name;
+    if (base.coordinates.size() == 3) coordinate.kind = Coordinate::Kind::rotation;
+    coordinate.lower = -10, coordinate.upper = 10;
+    base.coordinates.push_back(space.add(coordinate));
+  }
+  space.addGroup(joints);
+  space.addGroup(base);
+  return space;
+}
+
+/// Edges are free if they are short. So each part of a free edge is free, over the seam of circles
+/// and along slerps, too.
+TEST(SimplifyPath, KeepsItsPromisesOnCirclesAndRotations) {
+  constexpr double kLongest = 0.8;
+  std::mt19937_64 random(test::testSeed(252));
+  std::normal_distribution<double> step(0, 0.15);
+  const ConfigurationSpace space = circlesAndRotation();
+  const EdgeTest isFree = [&](const Configuration& a, const Configuration& b) {
+    return space.distance(a, b) <= kLongest;
+  };
+  const auto lengthOf = [&](const Path& path) {
+    double sum = 0;
+    for (std::size_t i = 1; i < path.size(); ++i) sum += space.distance(path[i - 1], path[i]);
+    return sum;
+  };
+  int shorter = 0;
+  for (int i = 0; i < 50; ++i) {
+    Configuration q = Configuration::Zero(9);
+    q << 3, -3, 0, 0, 0, 0, 0, 0, 1;
+    Path path{q};
+    while (path.size() < 40) {
+      Configuration next = path.back();
+      for (double& number : next) number += step(random);
+      space.normalise(next);
+      if (isFree(path.back(), next)) path.push_back(next);
+    }
+    if (i % 5 == 0) path.push_back(path.front());  // a closed path, if its last edge is free
+    if (!isFree(path[path.size() - 2], path.back())) path.pop_back();
+    const std::vector<Path> versions = simplifiedVersions(space, path, isFree, never);
+    for (std::size_t v = 1; v < versions.size(); ++v) {
+      EXPECT_EQ(versions[v].front(), path.front());
+      EXPECT_EQ(versions[v].back(), path.back());
+      EXPECT_LE(lengthOf(versions[v]), lengthOf(versions[v - 1]) * (1 + 1e-9));
+      for (std::size_t s = 1; s < versions[v].size(); ++s)
+        EXPECT_LE(space.distance(versions[v][s - 1], versions[v][s]), kLongest * (1 + 1e-9));
+    }
+    shorter += lengthOf(versions.back()) < 0.8 * lengthOf(path);
+  }
+  EXPECT_GT(shorter, 40);
+}
+
 }  // namespace
 }  // namespace corridor
