@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -106,8 +107,38 @@ bool printsFile(const SolveArguments& a) {
   return a.output == "-" || a.picture == "-";
 }
 
-void print(const SolveReport& r, const Problem& p, const std::string& problem,
-           const SolveArguments& a) {
+struct Solved {
+  Problem problem;
+  SolveReport report;
+  double readingTime = 0;  ///< seconds to read the problem's files
+};
+
+/// A phase of `solve`: its key in JSON, its name, and its seconds.
+struct Phase {
+  const char* key;
+  const char* name;
+  double seconds;
+};
+
+/// Returns the phases in their order. The first one is not part of `SolveReport::time`.
+std::vector<Phase> phasesOf(const Solved& solved) {
+  const SolveReport& r = solved.report;
+  const bool finished = r.outcome == SolveOutcome::solved;
+  return {{"read_s", "reading", solved.readingTime},
+          {"set_up_s", "set-up", r.setUpTime},
+          {"search_s", "search", r.planningTime - r.setUpTime},
+          {"simplify_s", "simplification",
+           finished ? r.time - r.planningTime - r.certificationTime : 0},
+          {"certify_s", "certification", r.certificationTime}};
+}
+
+/// Returns seconds as milliseconds.
+std::string milliseconds(double seconds) {
+  return rounded(1e3 * seconds) + " ms";
+}
+
+void print(const Solved& result, const std::string& problem, const SolveArguments& a) {
+  const auto& [p, r, readingTime] = result;
   const bool solved = r.outcome == SolveOutcome::solved;
   if (printsFile(a)) {
     if (!solved) warn(std::string(nameOf(r.outcome)) + ": " + r.why);
@@ -121,8 +152,11 @@ void print(const SolveReport& r, const Problem& p, const std::string& problem,
   for (const std::string& note : condensed(textsOf(p.source.notes))) out.line("note", note);
   out.line("planner", r.planner);
   out.line("seed", std::to_string(r.seed));
-  out.line("time", rounded(r.time) + " s, of which " + rounded(r.planningTime) +
-                       " s until the planner ended");
+  std::string phases;
+  for (const Phase& phase : phasesOf(result))
+    phases +=
+        (phases.empty() ? "" : ", ") + std::string(phase.name) + " " + milliseconds(phase.seconds);
+  out.line("time", phases);
   out.line("states checked", grouped(r.counters.states));
   out.line("edges checked", grouped(r.counters.edges));
   out.line("undecided", grouped(r.counters.undecided));
@@ -137,16 +171,10 @@ void print(const SolveReport& r, const Problem& p, const std::string& problem,
   if (a.picture) out.line("picture", *a.picture);
 }
 
-/// Returns the seconds of each phase of a solve.
-ordered_json phasesJson(const SolveReport& r) {
-  const bool finished = r.outcome == SolveOutcome::solved;
-  return {{"set_up_s", r.setUpTime},
-          {"search_s", r.planningTime - r.setUpTime},
-          {"simplify_s", finished ? r.time - r.planningTime - r.certificationTime : 0},
-          {"certify_s", r.certificationTime}};
-}
-
-ordered_json jsonOf(const SolveReport& r, const Problem& p, const std::string& problem) {
+ordered_json jsonOf(const Solved& result, const std::string& problem) {
+  const auto& [p, r, readingTime] = result;
+  ordered_json phases;
+  for (const Phase& phase : phasesOf(result)) phases[phase.key] = phase.seconds;
   ordered_json j = {{"problem", problem},
                     {"result", nameOf(r.outcome)},
                     {"planner", r.planner},
@@ -155,7 +183,7 @@ ordered_json jsonOf(const SolveReport& r, const Problem& p, const std::string& p
                     {"repeats", r.repeats},
                     {"time_s", r.time},
                     {"planning_time_s", r.planningTime},
-                    {"phases", phasesJson(r)},
+                    {"phases", phases},
                     {"states_checked", r.counters.states},
                     {"edges_checked", r.counters.edges},
                     {"undecided", r.counters.undecided},
@@ -187,14 +215,11 @@ ordered_json jsonOf(const SolveReport& r, const Problem& p, const std::string& p
   return j;
 }
 
-struct Solved {
-  Problem problem;
-  SolveReport report;
-};
-
 Solved solveOne(const std::string& file, const SolveArguments& a,
                 const std::atomic<bool>& interrupted) {
+  const auto before = std::chrono::steady_clock::now();
   Problem problem = readProblemOf(file);
+  const std::chrono::duration<double> reading = std::chrono::steady_clock::now() - before;
   // Computed before planning, because the files may change while the planner runs.
   const std::string digest = a.output ? digestOf(problem) : "";
   requireNotAnInput(a.output, "--output", problem.source.files, "the problem");
@@ -227,7 +252,7 @@ Solved solveOne(const std::string& file, const SolveArguments& a,
     else if (a.picture)
       writeWhole(*a.picture, svgPicture(problem, report.path, from));
   }
-  return {std::move(problem), std::move(report)};
+  return {std::move(problem), std::move(report), reading.count()};
 }
 
 int solveCommand(const SolveArguments& a) {
@@ -259,14 +284,15 @@ int solveCommand(const SolveArguments& a) {
   ordered_json results = ordered_json::array();
   for (const std::string& file : a.problems) {
     try {
-      const auto [problem, report] = solveOne(file, a, interrupted);
+      const Solved solved = solveOne(file, a, interrupted);
       if (a.json) {
-        results.push_back(jsonOf(report, problem, file));
+        results.push_back(jsonOf(solved, file));
       } else {
         if (&file != &a.problems.front()) ResultPrinter(a.quiet).blank();
-        print(report, problem, file, a);
+        print(solved, file, a);
       }
-      if (report.outcome != SolveOutcome::solved) status = std::max(status, int{kNegativeResult});
+      if (solved.report.outcome != SolveOutcome::solved)
+        status = std::max(status, int{kNegativeResult});
     } catch (const InputError& error) {
       if (a.problems.size() == 1) throw;
       printFaults(error);  // the other problems are still solved
