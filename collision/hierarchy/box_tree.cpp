@@ -84,21 +84,45 @@ Split bestSplit(std::span<const BoundingBox> boxes, std::span<const std::uint32_
 }  // namespace
 
 BoxTree::BoxTree(std::span<const BoundingBox> boxes) {
-  if (boxes.size() > std::size_t{1} << 31)
-    throw std::invalid_argument("a BoxTree holds at most 2^31 boxes");
+  if (boxes.size() >= std::size_t{1} << 31)
+    throw std::invalid_argument("a BoxTree holds fewer than 2^31 boxes");
   std::vector<std::uint32_t> items(boxes.size());
   std::iota(items.begin(), items.end(), std::uint32_t{0});
-  nodes_.reserve(2 * boxes.size());
-  if (!items.empty()) build(boxes, items, 0);
+  leaves_.assign(boxes.size(), kNone);
+  build(boxes, std::move(items), 0);
 }
 
-std::uint32_t BoxTree::build(std::span<const BoundingBox> boxes, std::span<std::uint32_t> items,
-                             std::size_t depth) {
-  const auto index = static_cast<std::uint32_t>(nodes_.size());
-  nodes_.emplace_back();
+void BoxTree::rebuild() {
+  rebuild(0);
+}
+
+void BoxTree::rebuild(std::size_t depth) {
+  std::vector<BoundingBox> boxes(leaves_.size());
+  std::vector<std::uint32_t> items;
+  for (std::uint32_t item = 0; item < leaves_.size(); ++item)
+    if (leaves_[item] != kNone) {
+      boxes[item] = nodes_[leaves_[item]].box;
+      items.push_back(item);
+    }
+  build(boxes, std::move(items), depth);
+}
+
+void BoxTree::build(std::span<const BoundingBox> boxes, std::vector<std::uint32_t> items,
+                    std::size_t depth) {
+  nodes_.clear();
+  links_.clear();
+  unused_.clear();
+  nodes_.reserve(2 * items.size());
+  links_.reserve(2 * items.size());
+  size_ = items.size();
+  root_ = items.empty() ? kNone : buildNode(boxes, items, depth);
+}
+
+std::uint32_t BoxTree::buildNode(std::span<const BoundingBox> boxes, std::span<std::uint32_t> items,
+                                 std::size_t depth) {
+  const std::uint32_t index = add(boxes[items[0]], items[0], kNone);
   if (items.size() == 1) {
-    nodes_[index].box = boxes[items[0]];
-    nodes_[index].item = items[0];
+    leaves_[items[0]] = index;
     return index;
   }
   BoundingBox box = boxes[items[0]];
@@ -108,12 +132,13 @@ std::uint32_t BoxTree::build(std::span<const BoundingBox> boxes, std::span<std::
     low = low.cwiseMin(twiceCentre(boxes[item]));
     high = high.cwiseMax(twiceCentre(boxes[item]));
   }
-  box.terms = std::max(box.terms, box.lower.cwiseAbs().sum() + box.upper.cwiseAbs().sum());
-  nodes_[index].box = box;
-  const std::size_t left = split(boxes, items, box, low, high, depth);
-  build(boxes, items.first(left), depth + 1);
-  const std::uint32_t right = build(boxes, items.subspan(left), depth + 1);
+  const std::size_t count = split(boxes, items, box, low, high, depth);
+  const std::uint32_t left = buildNode(boxes, items.first(count), depth + 1),
+                      right = buildNode(boxes, items.subspan(count), depth + 1);
+  nodes_[index].left = left;
   nodes_[index].right = right;
+  links_[left].parent = links_[right].parent = index;
+  fit(index);
   return index;
 }
 
@@ -153,6 +178,135 @@ std::size_t BoxTree::split(std::span<const BoundingBox> boxes, std::span<std::ui
                      return x < y || (x == y && a < b);
                    });
   return half;
+}
+
+std::uint32_t BoxTree::add(const BoundingBox& box, std::uint32_t left, std::uint32_t right) {
+  auto index = static_cast<std::uint32_t>(nodes_.size());
+  if (unused_.empty()) {
+    nodes_.emplace_back();
+    links_.emplace_back();
+  } else {
+    index = unused_.back();
+    unused_.pop_back();
+    links_[index] = {};
+  }
+  nodes_[index] = {box, left, right};
+  return index;
+}
+
+void BoxTree::fit(std::uint32_t node) {
+  Node& n = nodes_[node];
+  n.box = nodes_[n.left].box;
+  extend(n.box, nodes_[n.right].box);
+  n.box.terms = std::max(n.box.terms, n.box.lower.cwiseAbs().sum() + n.box.upper.cwiseAbs().sum());
+  links_[node].height = 1 + std::max(links_[n.left].height, links_[n.right].height);
+}
+
+void BoxTree::fitUpwards(std::uint32_t node) {
+  for (; node != kNone; node = links_[node].parent) fit(node);
+}
+
+void BoxTree::setChild(std::uint32_t parent, std::uint32_t before, std::uint32_t after) {
+  links_[after].parent = parent;
+  if (parent == kNone)
+    root_ = after;
+  else if (nodes_[parent].left == before)
+    nodes_[parent].left = after;
+  else
+    nodes_[parent].right = after;
+}
+
+std::uint32_t BoxTree::leafOf(std::size_t item) const {
+  if (!contains(item)) throw std::invalid_argument("the BoxTree does not contain the item");
+  return leaves_[item];
+}
+
+std::uint32_t BoxTree::siblingFor(const BoundingBox& box) const {
+  const auto with = [&](std::uint32_t node) {
+    BoundingBox both = nodes_[node].box;
+    extend(both, box);
+    return area(both);
+  };
+  std::uint32_t at = root_;
+  while (!nodes_[at].isLeaf()) {
+    // A new parent here costs its own surface. Further down, this node's growth comes in addition.
+    const double here = with(at), growth = here - area(nodes_[at].box);
+    const auto below = [&](std::uint32_t child) {
+      const double whole = with(child);
+      return growth + (nodes_[child].isLeaf() ? whole : whole - area(nodes_[child].box));
+    };
+    const double left = below(nodes_[at].left), right = below(nodes_[at].right);
+    if (here < left && here < right) break;
+    at = right < left ? nodes_[at].right : nodes_[at].left;
+  }
+  return at;
+}
+
+void BoxTree::insert(std::size_t item, const BoundingBox& box) {
+  if (item >= std::size_t{1} << 31)
+    throw std::invalid_argument("numbers of items in a BoxTree must be below 2^31");
+  if (contains(item)) throw std::invalid_argument("the BoxTree contains the item already");
+  if (item >= leaves_.size()) leaves_.resize(item + 1, kNone);
+  const std::uint32_t leaf = add(box, static_cast<std::uint32_t>(item), kNone);
+  leaves_[item] = leaf;
+  ++size_;
+  if (root_ == kNone) {
+    root_ = leaf;
+    return;
+  }
+  const std::uint32_t sibling = siblingFor(box), above = links_[sibling].parent;
+  const std::uint32_t parent = add(box, sibling, leaf);
+  setChild(above, sibling, parent);
+  links_[sibling].parent = links_[leaf].parent = parent;
+  fitUpwards(parent);
+  // Counting from half of the depth leaves levels for the next insertions.
+  if (links_[root_].height > kMaxDepth) rebuild(kMaxDepth / 2);
+}
+
+void BoxTree::remove(std::size_t item) {
+  const std::uint32_t leaf = leafOf(item), parent = links_[leaf].parent;
+  leaves_[item] = kNone;
+  --size_;
+  unused_.push_back(leaf);
+  if (parent == kNone) {
+    root_ = kNone;
+    return;
+  }
+  const std::uint32_t sibling =
+      nodes_[parent].left == leaf ? nodes_[parent].right : nodes_[parent].left;
+  const std::uint32_t above = links_[parent].parent;
+  setChild(above, parent, sibling);
+  unused_.push_back(parent);
+  fitUpwards(above);
+}
+
+void BoxTree::refit(std::size_t item, const BoundingBox& box) {
+  const std::uint32_t leaf = leafOf(item);
+  nodes_[leaf].box = box;
+  fitUpwards(links_[leaf].parent);
+}
+
+bool BoxTree::check() const {
+  const auto holds = [](const BoundingBox& outer, const BoundingBox& inner) {
+    return (outer.lower.array() <= inner.lower.array()).all() &&
+           (outer.upper.array() >= inner.upper.array()).all() && outer.terms >= inner.terms;
+  };
+  std::size_t items = 0;
+  for (std::size_t item = 0; item < leaves_.size(); ++item) {
+    if (leaves_[item] == kNone) continue;
+    ++items;
+    std::uint32_t node = leaves_[item];
+    if (!nodes_[node].isLeaf() || nodes_[node].left != item) return false;
+    std::size_t depth = 0;
+    for (; links_[node].parent != kNone; node = links_[node].parent, ++depth) {
+      const std::uint32_t parent = links_[node].parent;
+      if (nodes_[parent].left != node && nodes_[parent].right != node) return false;
+      if (!holds(nodes_[parent].box, nodes_[node].box)) return false;
+      if (links_[parent].height <= links_[node].height) return false;
+    }
+    if (node != root_ || depth > kMaxDepth) return false;
+  }
+  return items == size_ && (root_ == kNone) == (size_ == 0);
 }
 
 }  // namespace corridor

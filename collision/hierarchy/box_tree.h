@@ -23,10 +23,34 @@ struct BoundingBox {
 /// each box. A leaf is one of the given boxes. Boxes are split by the surface-area heuristic
 /// (Goldsmith and Salmon 1987; in bins, as Wald 2007 does), so that a group of boxes far from all
 /// others is passed over near the root. The depth is at most `kMaxDepth`.
+///
+/// Bodies that move, come or go change the tree in the time of its depth (`refit`, `insert`,
+/// `remove`; Catto's dynamic tree in Box2D is similar). If an insertion makes it too deep, it is
+/// built again. Answers of `walk` do not depend on how a tree came about, but their cost does:
+/// `rebuild` a tree whose bodies have changed places.
 class BoxTree {
  public:
+  BoxTree() = default;  ///< no items
   /// Builds the tree. Box number k is item k. Takes O(n log n) time.
   explicit BoxTree(std::span<const BoundingBox> boxes);
+
+  std::size_t size() const { return size_; }  ///< number of items
+  bool contains(std::size_t item) const { return item < leaves_.size() && leaves_[item] != kNone; }
+
+  /// Adds an item. Memory is proportional to the largest number of an item.
+  /// @throws std::invalid_argument if the tree contains the item, or its number is 2^31 or more.
+  void insert(std::size_t item, const BoundingBox& box);
+  /// Removes an item. @throws std::invalid_argument if the tree does not contain the item.
+  void remove(std::size_t item);
+  /// Replaces the box of an item, and adapts the boxes around it.
+  /// @throws std::invalid_argument if the tree does not contain the item.
+  void refit(std::size_t item, const BoundingBox& box);
+  /// Builds the tree of the same items again.
+  void rebuild();
+
+  /// Returns whether the tree is sound: each inner box contains its children's boxes, the depth is
+  /// within its limit, and each item is one leaf.
+  bool check() const;
 
   /// Calls visit(item) for each item whose boxes, from the root to the leaf, satisfy bound(box) ≤
   /// within. The child with the lower bound is visited first. Stops if `visit` returns true.
@@ -35,23 +59,23 @@ class BoxTree {
   /// @returns whether `visit` stopped the walk.
   template <class Bound, class Visit>
   bool walk(const Bound& bound, const double& within, const Visit& visit) const {
-    if (nodes_.empty()) return false;
+    if (root_ == kNone) return false;
     struct Open {
       std::uint32_t node;
       double bound;
     };
     std::array<Open, kMaxDepth + 1> open;  // one sibling per level, and the node itself
     std::size_t count = 0;
-    open[count++] = {0, bound(nodes_[0].box)};
+    open[count++] = {root_, bound(nodes_[root_].box)};
     while (count > 0) {
       const Open next = open[--count];
       if (next.bound > within) continue;
       const Node& node = nodes_[next.node];
-      if (node.right == 0) {
-        if (visit(std::size_t{node.item})) return true;
+      if (node.isLeaf()) {
+        if (visit(std::size_t{node.left})) return true;
         continue;
       }
-      const Open left{next.node + 1, bound(nodes_[next.node + 1].box)},
+      const Open left{node.left, bound(nodes_[node.left].box)},
           right{node.right, bound(nodes_[node.right].box)};
       const bool leftFirst = left.bound <= right.bound;
       open[count++] = leftFirst ? right : left;
@@ -65,14 +89,35 @@ class BoxTree {
   /// halves.
   static constexpr std::size_t kMaxDepth = 48;
 
+  static constexpr std::uint32_t kNone = 0xffffffff;
+
+  /// 64 bytes, so that a walk reads one cache line per node.
   struct Node {
     BoundingBox box;
-    std::uint32_t right = 0;  ///< the left child follows its parent; 0: a leaf
-    std::uint32_t item = 0;   ///< leaves only
+    std::uint32_t left = kNone, right = kNone;  ///< the children; of a leaf: the item, and kNone
+    bool isLeaf() const { return right == kNone; }
+  };
+  /// What only changes of the tree need.
+  struct Link {
+    std::uint32_t parent = kNone;
+    std::uint32_t height = 0;  ///< levels below the node
   };
 
-  std::uint32_t build(std::span<const BoundingBox> boxes, std::span<std::uint32_t> items,
-                      std::size_t depth);
+  std::uint32_t add(const BoundingBox& box, std::uint32_t left, std::uint32_t right);
+  std::uint32_t leafOf(std::size_t item) const;
+  /// Returns the node beside which a new leaf costs the least surface.
+  std::uint32_t siblingFor(const BoundingBox& box) const;
+  void setChild(std::uint32_t parent, std::uint32_t before, std::uint32_t after);
+  /// Fits a node and all nodes above it to their children.
+  void fitUpwards(std::uint32_t node);
+  void fit(std::uint32_t node);
+
+  /// @param depth  the depth at which the root counts: the larger, the fewer levels the tree gets.
+  void rebuild(std::size_t depth);
+  void build(std::span<const BoundingBox> boxes, std::vector<std::uint32_t> items,
+             std::size_t depth);
+  std::uint32_t buildNode(std::span<const BoundingBox> boxes, std::span<std::uint32_t> items,
+                          std::size_t depth);
   /// Sorts the items so that those of the left child come first, and returns their number. Both
   /// children get at least one item.
   /// @param all  the box around all items.
@@ -82,6 +127,11 @@ class BoxTree {
                            std::size_t depth);
 
   std::vector<Node> nodes_;
+  std::vector<Link> links_;            // for each node
+  std::vector<std::uint32_t> leaves_;  // for each item, its node; kNone: not contained
+  std::vector<std::uint32_t> unused_;  // nodes that were removed
+  std::uint32_t root_ = kNone;
+  std::size_t size_ = 0;
 };
 
 }  // namespace corridor

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <map>
-#include <ranges>
 
 #include "collision/core/spelling.h"
 #include "planner/model/planned_joints.h"
@@ -125,10 +124,10 @@ ModelBuilder& ModelBuilder::addObstacle(std::string name, std::vector<PlacedShap
   if (shapes.empty()) return *this;
   // Robots come first. The search stops at the first obstacle: otherwise adding n obstacles would
   // take n² steps.
-  const auto links = model_.bodies | std::views::take_while([](const ModelBody& body) {
-                       return body.robot.has_value();
-                     });
-  if (std::ranges::find(links, name, &ModelBody::name) != links.end()) name.insert(0, "world/");
+  const auto found =
+      std::find_if(model_.bodies.begin(), model_.bodies.end(),
+                   [&](const ModelBody& body) { return !body.robot || body.name == name; });
+  if (found != model_.bodies.end() && found->robot) name.insert(0, "world/");
   std::size_t frame = 0;
   if (X_WO) frame = model_.tree.add({.name = name, .fixed = *X_WO});
   model_.bodies.push_back({std::move(name), frame, std::nullopt, std::move(shapes)});

@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <random>
 #include <set>
+#include <stdexcept>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -142,6 +145,97 @@ TEST(BoxTree, FindsAllOfOddBoxes) {
       EXPECT_TRUE(seen) << i;
     }
   }
+}
+
+/// Random changes: after each of them the tree finds what a test of all boxes finds.
+TEST(BoxTree, ChangesLikeAListOfBoxes) {
+  std::mt19937_64 random(testSeed(242));
+  std::uniform_real_distribution<double> real(-1, 1);
+  const auto any = [&] {
+    const double x = real(random), y = real(random), z = real(random);
+    return Vec3(x, y, z);
+  };
+  const auto anyBox = [&] { return cube(5 * any(), 0.2 * std::abs(real(random))); };
+  for (int round = 0; round < 20; ++round) {
+    std::map<std::size_t, BoundingBox> boxes;
+    BoxTree tree;
+    if (round % 2) {  // starts with a built tree
+      std::vector<BoundingBox> start;
+      for (std::size_t i = 0; i < 100; ++i) boxes[i] = start.emplace_back(anyBox());
+      tree = BoxTree(start);
+    }
+    for (int change = 0; change < 400; ++change) {
+      const std::size_t item = random() % 150;
+      if (!boxes.contains(item)) {
+        EXPECT_THROW(tree.remove(item), std::invalid_argument);
+        EXPECT_THROW(tree.refit(item, anyBox()), std::invalid_argument);
+        tree.insert(item, boxes[item] = anyBox());
+      } else if (change % 3 == 0) {
+        tree.remove(item);
+        boxes.erase(item);
+      } else {
+        EXPECT_THROW(tree.insert(item, anyBox()), std::invalid_argument);
+        tree.refit(item, boxes[item] = anyBox());
+      }
+      if (change % 100 == 99) tree.rebuild();
+      ASSERT_TRUE(tree.check()) << round << ", " << change;
+      ASSERT_EQ(tree.size(), boxes.size());
+      const Vec3 p = 5 * any();
+      const double within = std::abs(real(random));
+      std::set<std::size_t> expected, found;
+      for (const auto& [number, box] : boxes)
+        if (gap(box, p) <= within) expected.insert(number);
+      tree.walk([&](const BoundingBox& box) { return gap(box, p); }, within,
+                [&](std::size_t i) {
+                  EXPECT_TRUE(found.insert(i).second);
+                  return false;
+                });
+      ASSERT_EQ(found, expected);
+    }
+    while (!boxes.empty()) {  // down to an empty tree, and up again
+      tree.remove(boxes.begin()->first);
+      boxes.erase(boxes.begin());
+      ASSERT_TRUE(tree.check());
+    }
+    EXPECT_EQ(tree.size(), 0U);
+    tree.insert(7, anyBox());
+    EXPECT_TRUE(tree.check());
+    EXPECT_TRUE(tree.contains(7));
+    EXPECT_FALSE(tree.contains(6));
+  }
+}
+
+/// Sorted insertions make deep trees: the tree is built again before it is too deep.
+TEST(BoxTree, SortedInsertionsStayWithinTheDepth) {
+  BoxTree tree;
+  for (std::size_t i = 0; i < 3000; ++i) {
+    tree.insert(i, cube(Vec3::Constant(std::ldexp(1.0, static_cast<int>(i % 1000) - 500)), 0));
+    if (i % 100 == 0) {
+      ASSERT_TRUE(tree.check()) << i;
+    }
+  }
+  EXPECT_TRUE(tree.check());
+  EXPECT_THROW(tree.insert(std::size_t{1} << 31, cube(Vec3::Zero(), 1)), std::invalid_argument);
+}
+
+/// A few boxes that move cost far fewer tests than all boxes, also without a new build.
+TEST(BoxTree, FindsLittleAfterMovesOfAFew) {
+  std::vector<BoundingBox> boxes;
+  for (int i = 0; i < 4096; ++i) boxes.push_back(cube(Vec3(i % 16, i / 16 % 16, i / 256), 0.3));
+  BoxTree tree(boxes);
+  for (std::size_t i = 0; i < 100; ++i) {
+    const double shift = 0.01 * static_cast<double>(i);
+    tree.refit(i * 37, cube(Vec3(15 - shift, shift, 8), 0.3));
+  }
+  ASSERT_TRUE(tree.check());
+  std::size_t tests = 0;
+  tree.walk(
+      [&](const BoundingBox& box) {
+        ++tests;
+        return gap(box, Vec3(3, 9, 12));
+      },
+      0.5, [](std::size_t) { return false; });
+  EXPECT_LT(tests, 1000U);
 }
 
 }  // namespace
