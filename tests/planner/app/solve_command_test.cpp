@@ -88,10 +88,10 @@ TEST_F(SolveArm, JsonHasThePathAndThePhases) {
   }
   EXPECT_NEAR(sum, report["time_s"], 1e-9);
   EXPECT_GE(report["phases"]["read_s"], 0);
-  EXPECT_THAT(
-      run("solve arm.yaml").out,
-      ContainsRegex("time: reading .* ms, set-up .* ms, search .* ms, simplification .* ms, "
-                    "certification .* ms\n"));
+  EXPECT_THAT(run("solve arm.yaml").out,
+              testing::ContainsRegex(
+                  "time: reading .* ms, set-up .* ms, search .* ms, simplification .* ms, "
+                  "certification .* ms\n"));
 }
 
 /// Joints may have any names: the joints' types decide whether a problem has a rigid body.
