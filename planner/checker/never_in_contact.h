@@ -44,8 +44,8 @@ struct NeverInContactResult {
   /// The share of all joint values for which the pair is proved, from 0 to 1. It estimates how far
   /// a proof got that reached a work limit; only the verdict `proved` is a proof.
   double provedShare = 0;
-  /// True if the verdict is `workLimit` and larger work limits change nothing: the memory for boxes
-  /// is full, or a box is too small to be halved.
+  /// True if the proof ended for another reason than `boxes`, `tests` or an interrupt: too many
+  /// boxes are open, or a box is too small to be halved. Larger limits don't help then.
   bool exhausted = false;
 };
 
