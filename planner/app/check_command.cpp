@@ -82,8 +82,7 @@ CheckedState checkState(const Checker& checker, Configuration q, std::vector<Not
 int checkStates(Problem problem, const CheckArguments& a) {
   const std::vector<StateRow> rows = readStateRows(*a.states, problem.model.space);
   const Checker checker(problem);
-  addFirst(notesOn(closeStillPairs(checker, startOf(problem)), problem.model),
-           problem.source.notes);
+  addFirst(notesOnStillPairs(checker, startOf(problem)), problem.source.notes);
   bool all = true;
   std::size_t noted = 0;
   ordered_json states = ordered_json::array();
@@ -129,8 +128,7 @@ int checkStates(Problem problem, const CheckArguments& a) {
 int checkEnds(Problem problem, const CheckArguments& a) {
   checkSettings(problem);
   const Checker checker(problem);
-  addFirst(notesOn(closeStillPairs(checker, startOf(problem)), problem.model),
-           problem.source.notes);
+  addFirst(notesOnStillPairs(checker, startOf(problem)), problem.source.notes);
   const ResultPrinter out(a.json);
   ordered_json ends;
   const auto checkEnd = [&](const std::string& name, const Configuration& q) {

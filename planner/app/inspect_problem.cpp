@@ -39,7 +39,7 @@ class ProblemReport {
     reportBodies();
     reportPairs();
     std::vector<Note> all = problem_.source.notes;
-    addFirst(notesOn(closeStillPairs(checker_, startOf(problem_)), problem_.model), all);
+    addFirst(notesOnStillPairs(checker_, startOf(problem_)), all);
     const std::vector<std::string> notes = textsOf(all);
     json_["notes"] = notes;
     for (const std::string& note : condensed(notes)) out_.line("note", note);

@@ -115,8 +115,7 @@ int verifyCommand(const VerifyArguments& a) {
   const Verified verified =
       verifyWithWarning(problem, solution, a.problem, a.solution, a.ignoreDigest);
   if (hasStillPairs(problem.model))
-    addFirst(notesOn(closeStillPairs(Checker(problem), startOf(problem)), problem.model),
-             problem.source.notes);
+    addFirst(notesOnStillPairs(Checker(problem), startOf(problem)), problem.source.notes);
   if (!a.json) {
     print(verified.report, problem, a);
   } else if (!a.quiet) {

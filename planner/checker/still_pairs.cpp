@@ -4,6 +4,7 @@
 
 #include "collision/core/floating_point.h"
 #include "collision/core/spelling.h"
+#include "collision/hierarchy/box_tree.h"
 #include "collision/world/body_queries.h"
 
 namespace corridor {
@@ -18,13 +19,9 @@ std::vector<std::size_t> jointsAbove(const KinematicTree& tree) {
   return joint;
 }
 
-/// A box around the points of a model body in the world, rounded.
-struct Box {
-  Vec3 lower = Vec3::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
-};
-
-Box boxOf(const ModelBody& body, const Transform& X_WF) {
-  Box box;
+/// Returns a box around the points of a model body in the world, rounded.
+BoundingBox boxOf(const ModelBody& body, const Transform& X_WF) {
+  BoundingBox box;
   for (const PlacedShape& shape : body.shapes)
     forEachPoint(shape, [&](const Vec3& p, double radius) {
       const Vec3 p_W = X_WF * p;
@@ -48,7 +45,7 @@ class StillTest {
 
   std::optional<StillPair> operator()(std::size_t a, std::size_t b) {
     const double margin = checker_.options().margin;
-    const Box &boxA = boxAround(a), &boxB = boxAround(b);
+    const BoundingBox &boxA = boxAround(a), &boxB = boxAround(b);
     // 2^-40 of the sizes covers the rounding of the boxes.
     const double size =
                      boxA.lower.norm() + boxA.upper.norm() + boxB.lower.norm() + boxB.upper.norm(),
@@ -66,8 +63,8 @@ class StillTest {
   }
 
  private:
-  const Box& boxAround(std::size_t body) {
-    std::optional<Box>& box = boxes_[body];
+  const BoundingBox& boxAround(std::size_t body) {
+    std::optional<BoundingBox>& box = boxes_[body];
     const ModelBody& modelBody = checker_.model().bodies[body];
     if (!box) box = boxOf(modelBody, X_WF_[modelBody.frame]);
     return *box;
@@ -79,7 +76,7 @@ class StillTest {
 
   const Checker& checker_;
   std::vector<Transform> X_WF_;
-  std::vector<std::optional<Box>> boxes_;
+  std::vector<std::optional<BoundingBox>> boxes_;
   std::vector<std::size_t> firstShape_;  // for each body, its first shape in the scene
   QueryContext context_;
 };
@@ -109,7 +106,9 @@ std::vector<StillPair> closeStillPairs(const Checker& checker, const Configurati
   return found;
 }
 
-std::vector<Note> notesOn(const std::vector<StillPair>& pairs, const Model& model) {
+std::vector<Note> notesOnStillPairs(const Checker& checker, const Configuration& q) {
+  const Model& model = checker.model();
+  const std::vector<StillPair> pairs = closeStillPairs(checker, q);
   constexpr std::size_t kShown = 6;
   std::vector<Note> notes;
   for (const bool touches : {true, false}) {

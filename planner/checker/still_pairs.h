@@ -27,7 +27,7 @@ bool hasStillPairs(const Model& model);
 /// not finite.
 std::vector<StillPair> closeStillPairs(const Checker& checker, const Configuration& q);
 
-/// Returns notes that name these pairs.
-std::vector<Note> notesOn(const std::vector<StillPair>& pairs, const Model& model);
+/// Returns notes that name the pairs of `closeStillPairs`.
+std::vector<Note> notesOnStillPairs(const Checker& checker, const Configuration& q);
 
 }  // namespace corridor

@@ -106,6 +106,15 @@ std::string MeshStore::noteOnSlashes() const {
          ": package:///NAME/FILE is read as package://NAME/FILE";
 }
 
+const std::vector<MeshStore::Folder>& MeshStore::foldersAbove() {
+  if (!above_.empty()) return above_;
+  auto folder = std::filesystem::absolute(folder_.empty() ? "." : folder_).lexically_normal();
+  for (; folder.has_relative_path(); folder = folder.parent_path())  // up to the root
+    above_.push_back(
+        {folder, packageNameOf(folder), whyNotOrdinaryFile(folder / "package.xml").empty()});
+  return above_;
+}
+
 MeshStore::Place MeshStore::inPackage(const std::string& name) {
   std::string inside = name.substr(packageScheme.size());
   if (inside.starts_with('/') && inside.size() > 1) {
@@ -124,17 +133,14 @@ MeshStore::Place MeshStore::inPackage(const std::string& name) {
   const std::filesystem::path beside = (folder_ / package / rest).lexically_normal();
   if (whyNotOrdinaryFile(beside).empty()) return {beside, ""};
   // The usual layout of a package is PACKAGE/urdf/robot.urdf. Other packages are beside it.
-  std::vector<std::filesystem::path> above{
-      std::filesystem::absolute(folder_.empty() ? "." : folder_).lexically_normal()};
-  while (above.back().has_relative_path()) above.push_back(above.back().parent_path());
-  above.pop_back();  // the root of the file system
+  const std::vector<Folder>& above = foldersAbove();
   const auto found = [&](const std::filesystem::path& folder) -> Place {
     used_.insert(folder);
     return {folder / rest, ""};
   };
-  for (const std::filesystem::path& folder : above)
-    if (packageNameOf(folder) == package && whyNotOrdinaryFile(folder / rest).empty())
-      return found(folder);
+  for (const Folder& folder : above)
+    if (folder.package == package && whyNotOrdinaryFile(folder.path / rest).empty())
+      return found(folder.path);
   auto known = rosFolders_.find(package);
   if (known == rosFolders_.end())
     known = rosFolders_.emplace(package, foldersOfPackage(package)).first;
@@ -144,18 +150,19 @@ MeshStore::Place MeshStore::inPackage(const std::string& name) {
     return {known->second.front() / rest, "package " + quotedWord(package) + " is found at " +
                                               known->second.front().string() + ", but has no " +
                                               rest.string()};
-  for (const std::filesystem::path& folder : above)
-    if (whyNotOrdinaryFile(folder / package / rest).empty()) return found(folder / package);
+  for (const Folder& folder : above)
+    if (whyNotOrdinaryFile(folder.path / package / rest).empty())
+      return found(folder.path / package);
   // A package may have been copied into a folder of another name, without its package.xml. All of
   // its files are then in one folder.
   const auto guess = guessed_.find(package);
-  for (const std::filesystem::path& folder : above)
-    if ((guess == guessed_.end() ? !std::filesystem::exists(folder / "package.xml")
-                                 : guess->second == folder) &&
-        whyNotOrdinaryFile(folder / rest).empty()) {
-      guessed_.try_emplace(package, folder);
-      return {folder / rest, ""};
-    }
+  for (const Folder& folder : above) {
+    const bool isCandidate =
+        guess == guessed_.end() ? !folder.hasPackageXml : guess->second == folder.path;
+    if (!isCandidate || !whyNotOrdinaryFile(folder.path / rest).empty()) continue;
+    guessed_.try_emplace(package, folder.path);
+    return {folder.path / rest, ""};
+  }
   if (!missing_.insert(package).second) {  // reported before
     meshes_[beside];
     return {beside, ""};

@@ -44,6 +44,13 @@ class MeshStore {
   }
 
  private:
+  struct Folder {
+    std::filesystem::path path;
+    std::string package;  ///< the name of the package whose root the folder would be
+    bool hasPackageXml = false;
+  };
+  /// Returns the folders that contain the URDF, the innermost first; without the root.
+  const std::vector<Folder>& foldersAbove();
   Place locate(const std::string& name);
   Place inPackage(const std::string& name);
 
@@ -52,6 +59,7 @@ class MeshStore {
   std::vector<std::filesystem::path>& files_;
   /// The folders of each package that was searched for on ROS's paths.
   std::map<std::string, std::vector<std::filesystem::path>> rosFolders_;
+  std::vector<Folder> above_;                             // see `foldersAbove`
   std::set<std::filesystem::path> used_;                  // folders found by a package's name
   std::map<std::string, std::filesystem::path> guessed_;  // see `guessedPackages`
   std::set<std::string> missing_;                         // packages without a folder, reported

@@ -185,8 +185,7 @@ void Solve::setUpEnds() {
   space_->write(start_, start.get());
   definition_->addStartState(start);
   definition_->setGoal(std::make_shared<OmplGoal>(si_, problem_, goalSamples_));
-  if (options_.noteStillPairs)
-    report_.notes = notesOn(closeStillPairs(checker_, start_), problem_.model);
+  if (options_.noteStillPairs) report_.notes = notesOnStillPairs(checker_, start_);
 }
 
 void Solve::setUpObjective() {

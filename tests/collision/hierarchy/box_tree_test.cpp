@@ -21,13 +21,17 @@ double gap(const BoundingBox& box, const Vec3& p) {
   return (p - box.upper).cwiseMax(box.lower - p).cwiseMax(Vec3::Zero()).norm();
 }
 
+/// Returns a vector of three numbers in [-1, 1].
+Vec3 anyVec(std::mt19937_64& random) {
+  std::uniform_real_distribution<double> real(-1, 1);
+  const double x = real(random), y = real(random), z = real(random);
+  return {x, y, z};
+}
+
 TEST(BoxTree, FindsWhatATestOfAllBoxesFinds) {
   std::mt19937_64 random(testSeed(241));
   std::uniform_real_distribution<double> real(-1, 1);
-  const auto any = [&] {
-    const double x = real(random), y = real(random), z = real(random);
-    return Vec3(x, y, z);
-  };
+  const auto any = [&] { return anyVec(random); };
   for (const std::size_t count : {0, 1, 2, 3, 7, 64, 1000}) {
     std::vector<BoundingBox> boxes;
     for (std::size_t i = 0; i < count; ++i) {
@@ -151,10 +155,7 @@ TEST(BoxTree, FindsAllOfOddBoxes) {
 TEST(BoxTree, ChangesLikeAListOfBoxes) {
   std::mt19937_64 random(testSeed(242));
   std::uniform_real_distribution<double> real(-1, 1);
-  const auto any = [&] {
-    const double x = real(random), y = real(random), z = real(random);
-    return Vec3(x, y, z);
-  };
+  const auto any = [&] { return anyVec(random); };
   const auto anyBox = [&] { return cube(5 * any(), 0.2 * std::abs(real(random))); };
   for (int round = 0; round < 20; ++round) {
     std::map<std::size_t, BoundingBox> boxes;

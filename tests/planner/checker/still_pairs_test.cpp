@@ -56,7 +56,7 @@ class StillPairs : public testing::Test {
     const Problem problem = readProblem(folder_ / "problem.yaml");
     const Checker checker(problem);
     const auto pairs = closeStillPairs(checker, startOf(problem));
-    notes_ = textsOf(notesOn(pairs, problem.model));
+    notes_ = textsOf(notesOnStillPairs(checker, startOf(problem)));
     std::vector<std::string> texts;
     for (const StillPair& pair : pairs)
       texts.push_back(problem.model.bodies[pair.a].name + " ~ " +
