@@ -11,6 +11,16 @@
 namespace corridor {
 namespace {
 
+/// Numbers of items are below this.
+constexpr std::size_t kItems = std::size_t{1} << 31;
+
+/// @throws std::invalid_argument if a bound is not a number: bounds of distances from such a box
+/// mean nothing, and a walk could miss it.
+void requireNumbers(const BoundingBox& box) {
+  if (box.lower.hasNaN() || box.upper.hasNaN())
+    throw std::invalid_argument("the bounds of a box must be numbers");
+}
+
 /// Number of bins per axis in which the surface-area heuristic counts boxes.
 constexpr int kBins = 16;
 
@@ -84,12 +94,11 @@ Split bestSplit(std::span<const BoundingBox> boxes, std::span<const std::uint32_
 }  // namespace
 
 BoxTree::BoxTree(std::span<const BoundingBox> boxes) {
-  if (boxes.size() >= std::size_t{1} << 31)
-    throw std::invalid_argument("a BoxTree holds fewer than 2^31 boxes");
-  std::vector<std::uint32_t> items(boxes.size());
-  std::iota(items.begin(), items.end(), std::uint32_t{0});
+  if (boxes.size() >= kItems) throw std::invalid_argument("a BoxTree holds fewer than 2^31 boxes");
+  std::vector<std::uint32_t> numbers(boxes.size());
+  std::iota(numbers.begin(), numbers.end(), std::uint32_t{0});
   leaves_.assign(boxes.size(), kNone);
-  build(boxes, std::move(items), 0);
+  build(boxes, numbers, 0);
 }
 
 void BoxTree::rebuild() {
@@ -97,44 +106,49 @@ void BoxTree::rebuild() {
 }
 
 void BoxTree::rebuild(std::size_t depth) {
-  std::vector<BoundingBox> boxes(leaves_.size());
-  std::vector<std::uint32_t> items;
+  std::vector<BoundingBox> boxes;
+  std::vector<std::uint32_t> numbers;
+  boxes.reserve(size_);
+  numbers.reserve(size_);
   for (std::uint32_t item = 0; item < leaves_.size(); ++item)
     if (leaves_[item] != kNone) {
-      boxes[item] = nodes_[leaves_[item]].box;
-      items.push_back(item);
+      boxes.push_back(nodes_[leaves_[item]].box);
+      numbers.push_back(item);
     }
-  build(boxes, std::move(items), depth);
+  build(boxes, numbers, depth);
 }
 
-void BoxTree::build(std::span<const BoundingBox> boxes, std::vector<std::uint32_t> items,
+void BoxTree::build(std::span<const BoundingBox> boxes, std::span<const std::uint32_t> numbers,
                     std::size_t depth) {
   nodes_.clear();
   links_.clear();
   unused_.clear();
-  nodes_.reserve(2 * items.size());
-  links_.reserve(2 * items.size());
-  size_ = items.size();
-  root_ = items.empty() ? kNone : buildNode(boxes, items, depth);
+  nodes_.reserve(2 * boxes.size());
+  links_.reserve(2 * boxes.size());
+  size_ = boxes.size();
+  std::vector<std::uint32_t> order(boxes.size());
+  std::iota(order.begin(), order.end(), std::uint32_t{0});
+  root_ = order.empty() ? kNone : buildNode(boxes, numbers, order, depth);
 }
 
-std::uint32_t BoxTree::buildNode(std::span<const BoundingBox> boxes, std::span<std::uint32_t> items,
-                                 std::size_t depth) {
-  const std::uint32_t index = add(boxes[items[0]], items[0], kNone);
-  if (items.size() == 1) {
-    leaves_[items[0]] = index;
+std::uint32_t BoxTree::buildNode(std::span<const BoundingBox> boxes,
+                                 std::span<const std::uint32_t> numbers,
+                                 std::span<std::uint32_t> order, std::size_t depth) {
+  const std::uint32_t index = add(boxes[order[0]], numbers[order[0]], kNone);
+  if (order.size() == 1) {
+    leaves_[numbers[order[0]]] = index;
     return index;
   }
-  BoundingBox box = boxes[items[0]];
+  BoundingBox box = boxes[order[0]];
   Vec3 low = twiceCentre(box), high = low;
-  for (const std::uint32_t item : items) {
-    extend(box, boxes[item]);
-    low = low.cwiseMin(twiceCentre(boxes[item]));
-    high = high.cwiseMax(twiceCentre(boxes[item]));
+  for (const std::uint32_t i : order) {
+    extend(box, boxes[i]);
+    low = low.cwiseMin(twiceCentre(boxes[i]));
+    high = high.cwiseMax(twiceCentre(boxes[i]));
   }
-  const std::size_t count = split(boxes, items, box, low, high, depth);
-  const std::uint32_t left = buildNode(boxes, items.first(count), depth + 1),
-                      right = buildNode(boxes, items.subspan(count), depth + 1);
+  const std::size_t count = split(boxes, order, box, low, high, depth);
+  const std::uint32_t left = buildNode(boxes, numbers, order.first(count), depth + 1),
+                      right = buildNode(boxes, numbers, order.subspan(count), depth + 1);
   nodes_[index].left = left;
   nodes_[index].right = right;
   links_[left].parent = links_[right].parent = index;
@@ -206,6 +220,26 @@ void BoxTree::fitUpwards(std::uint32_t node) {
   for (; node != kNone; node = links_[node].parent) fit(node);
 }
 
+void BoxTree::rotateUpwards(std::uint32_t node) {
+  for (; node != kNone; node = links_[node].parent) {
+    const std::uint32_t left = nodes_[node].left, right = nodes_[node].right;
+    const std::uint32_t low = links_[left].height, high = links_[right].height;
+    if (std::max(low, high) > std::min(low, high) + 1) {
+      const std::uint32_t taller = low > high ? left : right;
+      // The taller child takes the place of the node, which takes the shorter of its children.
+      const bool leftTaller =
+          links_[nodes_[taller].left].height > links_[nodes_[taller].right].height;
+      const std::uint32_t moved = leftTaller ? nodes_[taller].right : nodes_[taller].left;
+      setChild(links_[node].parent, node, taller);
+      setChild(taller, moved, node);
+      setChild(node, taller, moved);
+      fit(node);
+      node = taller;
+    }
+    fit(node);
+  }
+}
+
 void BoxTree::setChild(std::uint32_t parent, std::uint32_t before, std::uint32_t after) {
   links_[after].parent = parent;
   if (parent == kNone)
@@ -235,15 +269,19 @@ std::uint32_t BoxTree::siblingFor(const BoundingBox& box) const {
       const double whole = with(child);
       return growth + (nodes_[child].isLeaf() ? whole : whole - area(nodes_[child].box));
     };
-    const double left = below(nodes_[at].left), right = below(nodes_[at].right);
-    if (here < left && here < right) break;
-    at = right < left ? nodes_[at].right : nodes_[at].left;
+    const std::uint32_t left = nodes_[at].left, right = nodes_[at].right;
+    const double costLeft = below(left), costRight = below(right);
+    if (here < costLeft && here < costRight) break;
+    // Equal costs, or infinite boxes, whose growth is not a number: the shorter side.
+    const bool isShorter = links_[left].height <= links_[right].height;
+    at = costLeft < costRight || (!(costRight < costLeft) && isShorter) ? left : right;
   }
   return at;
 }
 
 void BoxTree::insert(std::size_t item, const BoundingBox& box) {
-  if (item >= std::size_t{1} << 31)
+  requireNumbers(box);
+  if (item >= kItems)
     throw std::invalid_argument("numbers of items in a BoxTree must be below 2^31");
   if (contains(item)) throw std::invalid_argument("the BoxTree contains the item already");
   if (item >= leaves_.size()) leaves_.resize(item + 1, kNone);
@@ -259,6 +297,10 @@ void BoxTree::insert(std::size_t item, const BoundingBox& box) {
   setChild(above, sibling, parent);
   links_[sibling].parent = links_[leaf].parent = parent;
   fitUpwards(parent);
+  // A tree by surfaces may be deeper than a balanced one. Only a tree that is far deeper is
+  // balanced where it grows.
+  const std::size_t balanced = std::bit_width(size_);
+  if (links_[root_].height > std::min(2 * balanced + 4, kMaxDepth - 4)) rotateUpwards(parent);
   // Counting from half of the depth leaves levels for the next insertions.
   if (links_[root_].height > kMaxDepth) rebuild(kMaxDepth / 2);
 }
@@ -281,6 +323,7 @@ void BoxTree::remove(std::size_t item) {
 }
 
 void BoxTree::refit(std::size_t item, const BoundingBox& box) {
+  requireNumbers(box);
   const std::uint32_t leaf = leafOf(item);
   nodes_[leaf].box = box;
   fitUpwards(links_[leaf].parent);
@@ -300,13 +343,15 @@ bool BoxTree::check() const {
     std::size_t depth = 0;
     for (; links_[node].parent != kNone; node = links_[node].parent, ++depth) {
       const std::uint32_t parent = links_[node].parent;
-      if (nodes_[parent].left != node && nodes_[parent].right != node) return false;
+      if ((nodes_[parent].left == node) == (nodes_[parent].right == node)) return false;
       if (!holds(nodes_[parent].box, nodes_[node].box)) return false;
       if (links_[parent].height <= links_[node].height) return false;
     }
     if (node != root_ || depth > kMaxDepth) return false;
   }
-  return items == size_ && (root_ == kNone) == (size_ == 0);
+  const std::size_t used = nodes_.size() - unused_.size();  // a binary tree of `size_` leaves
+  return items == size_ && (root_ == kNone) == (size_ == 0) &&
+         used == (size_ == 0 ? 0 : 2 * size_ - 1);
 }
 
 }  // namespace corridor

@@ -25,9 +25,9 @@ struct BoundingBox {
 /// others is passed over near the root. The depth is at most `kMaxDepth`.
 ///
 /// Bodies that move, come or go change the tree in the time of its depth (`refit`, `insert`,
-/// `remove`; Catto's dynamic tree in Box2D is similar). If an insertion makes it too deep, it is
-/// built again. Answers of `walk` do not depend on how a tree came about, but their cost does:
-/// `rebuild` a tree whose bodies have changed places.
+/// `remove`; Catto's dynamic tree in Box2D is similar). Where an insertion makes it far deeper than
+/// a balanced tree, it is balanced by rotations. Answers of `walk` do not depend on how a tree came
+/// about, but their cost does: `rebuild` a tree whose bodies have changed places.
 class BoxTree {
  public:
   BoxTree() = default;  ///< no items
@@ -38,16 +38,20 @@ class BoxTree {
   bool contains(std::size_t item) const { return item < leaves_.size() && leaves_[item] != kNone; }
 
   /// Adds an item. Memory is proportional to the largest number of an item.
-  /// @throws std::invalid_argument if the tree contains the item, or its number is 2^31 or more.
+  /// @throws std::invalid_argument if the tree contains the item, its number is 2^31 or more, or a
+  /// bound of the box is not a number.
   void insert(std::size_t item, const BoundingBox& box);
   /// Removes an item. @throws std::invalid_argument if the tree does not contain the item.
   void remove(std::size_t item);
   /// Replaces the box of an item, and adapts the boxes around it.
-  /// @throws std::invalid_argument if the tree does not contain the item.
+  /// @throws std::invalid_argument if the tree does not contain the item, or a bound of the box is
+  /// not a number.
   void refit(std::size_t item, const BoundingBox& box);
   /// Builds the tree of the same items again.
   void rebuild();
 
+  /// Returns the number of levels below the root; 0 without items.
+  std::size_t height() const { return root_ == kNone ? 0 : links_[root_].height; }
   /// Returns whether the tree is sound: each inner box contains its children's boxes, the depth is
   /// within its limit, and each item is one leaf.
   bool check() const;
@@ -110,13 +114,18 @@ class BoxTree {
   void setChild(std::uint32_t parent, std::uint32_t before, std::uint32_t after);
   /// Fits a node and all nodes above it to their children.
   void fitUpwards(std::uint32_t node);
+  /// The same; also rotates each node with children of heights that differ by more than 1.
+  void rotateUpwards(std::uint32_t node);
   void fit(std::uint32_t node);
 
   /// @param depth  the depth at which the root counts: the larger, the fewer levels the tree gets.
   void rebuild(std::size_t depth);
-  void build(std::span<const BoundingBox> boxes, std::vector<std::uint32_t> items,
+  /// @param numbers  of the items, in the order of the boxes
+  void build(std::span<const BoundingBox> boxes, std::span<const std::uint32_t> numbers,
              std::size_t depth);
-  std::uint32_t buildNode(std::span<const BoundingBox> boxes, std::span<std::uint32_t> items,
+  /// @param order  the boxes of this node, by their places in `boxes`; it is sorted.
+  std::uint32_t buildNode(std::span<const BoundingBox> boxes,
+                          std::span<const std::uint32_t> numbers, std::span<std::uint32_t> order,
                           std::size_t depth);
   /// Sorts the items so that those of the left child come first, and returns their number. Both
   /// children get at least one item.

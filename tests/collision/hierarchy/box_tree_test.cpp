@@ -206,17 +206,46 @@ TEST(BoxTree, ChangesLikeAListOfBoxes) {
   }
 }
 
-/// Sorted insertions make deep trees: the tree is built again before it is too deep.
-TEST(BoxTree, SortedInsertionsStayWithinTheDepth) {
-  BoxTree tree;
-  for (std::size_t i = 0; i < 3000; ++i) {
-    tree.insert(i, cube(Vec3::Constant(std::ldexp(1.0, static_cast<int>(i % 1000) - 500)), 0));
-    if (i % 100 == 0) {
-      ASSERT_TRUE(tree.check()) << i;
+/// Insertions in an order, or of equal or infinite boxes, that would make a list of an unbalanced
+/// tree. The depth of the walk is what bounds its cost.
+TEST(BoxTree, InsertionsInOrderMakeNoDeepTree) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const BoundingBox everywhere{Vec3::Constant(-infinity), Vec3::Constant(infinity), infinity};
+  const auto row = [](std::size_t i) { return cube(Vec3(static_cast<double>(i), 0, 0), 0.3); };
+  const auto halves = [](std::size_t i) {
+    return cube(Vec3::Constant(std::ldexp(1.0, static_cast<int>(i % 1000) - 500)), 0);
+  };
+  const auto same = [](std::size_t) { return cube(Vec3(1, 2, 3), 0.3); };
+  const auto afterInfinite = [&](std::size_t i) { return i == 0 ? everywhere : row(i); };
+  constexpr std::size_t count = 3000;
+  const auto depthOf = [&](const auto& boxOf) {
+    BoxTree tree;
+    for (std::size_t i = 0; i < count; ++i) {
+      tree.insert(i, boxOf(i));
+      if (i % 100 == 0) {
+        EXPECT_TRUE(tree.check()) << i;
+      }
     }
-  }
-  EXPECT_TRUE(tree.check());
+    EXPECT_TRUE(tree.check());
+    return tree.height();
+  };
+  // Balancing begins beyond 2·12 + 4 levels, and may leave a few more.
+  EXPECT_LE(depthOf(row), 32U);
+  EXPECT_LE(depthOf(halves), 32U);
+  EXPECT_LE(depthOf(same), 32U);
+  EXPECT_LE(depthOf(afterInfinite), 32U);
+}
+
+TEST(BoxTree, RefusesWhatItCantFind) {
+  BoxTree tree;
+  BoundingBox wrong = cube(Vec3::Zero(), 1);
+  wrong.upper[1] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(tree.insert(0, wrong), std::invalid_argument);
   EXPECT_THROW(tree.insert(std::size_t{1} << 31, cube(Vec3::Zero(), 1)), std::invalid_argument);
+  EXPECT_EQ(tree.size(), 0U);
+  tree.insert(0, cube(Vec3::Zero(), 1));
+  EXPECT_THROW(tree.refit(0, wrong), std::invalid_argument);
+  EXPECT_TRUE(tree.check());
 }
 
 /// A few boxes that move cost far fewer tests than all boxes, also without a new build.
