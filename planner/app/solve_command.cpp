@@ -132,9 +132,8 @@ std::vector<Phase> phasesOf(const Solved& solved) {
           {"certify_s", "certification", r.certificationTime}};
 }
 
-/// Returns seconds as milliseconds.
-std::string milliseconds(double seconds) {
-  return rounded(1e3 * seconds) + " ms";
+std::string durationText(double seconds) {
+  return seconds < 1 ? rounded(1e3 * seconds) + " ms" : rounded(seconds) + " s";
 }
 
 void print(const Solved& result, const std::string& problem, const SolveArguments& a) {
@@ -155,8 +154,9 @@ void print(const Solved& result, const std::string& problem, const SolveArgument
   std::string phases;
   for (const Phase& phase : phasesOf(result))
     phases +=
-        (phases.empty() ? "" : ", ") + std::string(phase.name) + " " + milliseconds(phase.seconds);
+        (phases.empty() ? "" : ", ") + std::string(phase.name) + " " + durationText(phase.seconds);
   out.line("time", phases);
+  if (r.restarts > 0) out.line("restarts of the search", grouped(r.restarts));
   out.line("states checked", grouped(r.counters.states));
   out.line("edges checked", grouped(r.counters.edges));
   out.line("undecided", grouped(r.counters.undecided));
@@ -263,6 +263,10 @@ int solveCommand(const SolveArguments& a) {
   if (a.from && !a.picture)
     throw InputError(Fault{"--from", 0, "needs --picture, which is not given"});
   if (a.from) viewDirection(*a.from, "--from");
+  if (a.output && lowered(std::filesystem::path(*a.output).extension().string()) == ".path")
+    throw InputError(Fault{"--output", 0,
+                           "solutions are written as YAML, and .path is a format of OMPL: a name "
+                           "that ends in .yaml is needed"});
   if (a.output != "-") requireWritable(a.output, "--output");
   if (a.picture && lowered(std::filesystem::path(*a.picture).extension().string()) == ".png")
     throw InputError(Fault{"--picture", 0,

@@ -238,17 +238,16 @@ std::optional<RobotModel> readUrdf(const std::filesystem::path& file, const Urdf
     const std::vector<std::size_t> order = checkUrdfTree(outline, xml);
     const std::vector<std::optional<Mimic>> mimics = resolveMimics(outline, xml, notes);
     for (const auto& [package, folder] : meshes.guessedPackages()) {
-      const std::string none =
-          "package " + quotedWord(package) + " has no folder of this name; " + folder.string();
+      const std::string missing = "package " + quotedWord(package) + " was not found; ";
       if (meshes.isDoubtful(package))
-        xml.fault(0, none +
+        xml.fault(0, missing + folder.string() +
                          " has files of its meshes' names, but is the folder of another package; "
                          "add packages: {" +
                          package + ": FOLDER} to robot.yaml");
       else
-        notes.push_back({file.string() + ": " + none +
-                             ", in which its mesh files were found, is used (packages: in "
-                             "robot.yaml names another one)",
+        notes.push_back({file.string() + ": " + missing + "its files are taken from " +
+                             folder.string() + ", above the URDF (packages: {" + package +
+                             ": FOLDER} in robot.yaml sets another folder)",
                          NoteWeight::coverage});
     }
     if (const std::string slashes = meshes.noteOnSlashes(); !slashes.empty())

@@ -162,7 +162,7 @@ void Solve::setUpPlanner() {
 /// passages need more edges, and profit from a large tree.
 std::uint64_t Solve::defaultRestart() const {
   const bool isArm = hasSingleJoints(problem_.model.space);
-  return isArm && report_.repeats && !optimises_ ? 8000 : 0;
+  return isArm && report_.repeats ? 8000 : 0;
 }
 
 void Solve::setUp() {
@@ -188,6 +188,11 @@ void Solve::setUpEnds() {
   if (options_.noteStillPairs) report_.notes = notesOnStillPairs(checker_, start_);
 }
 
+bool Solve::stopsAtFirst() const {
+  return problem_.settings.planner.stopAtFirst.value_or(!problem_.settings.objective &&
+                                                        !optimises_);
+}
+
 void Solve::setUpObjective() {
   const std::optional<Objective>& wanted = problem_.settings.objective;
   ob::OptimizationObjectivePtr objective;
@@ -202,7 +207,7 @@ void Solve::setUpObjective() {
   // Without `planner.stop`, planning uses all its time if the problem names an objective, or if
   // `knownPlanners` says that the planner optimises. Otherwise it stops at the first solution; this
   // includes PRM, although its specification in OMPL says that it optimises.
-  const bool first = problem_.settings.planner.stopAtFirst.value_or(!wanted && !optimises_);
+  const bool first = stopsAtFirst();
   // Every free path has a clearance of at least 0: with a threshold of 0, planning would stop at
   // the first path.
   const double threshold = maximisesClearance() && !(problem_.settings.objectiveThreshold > 0)
@@ -240,8 +245,9 @@ std::string Solve::whyNotFound(ob::PlannerStatus status) const {
     case ob::PlannerStatus::CRASH:
       return problem_.settings.planner.name + " crashed";
     case ob::PlannerStatus::APPROXIMATE_SOLUTION:
-      text = "the best path found ends " +
-             shortest(std::round(definition_->getSolutionDifference() * 1e4) / 1e4) +
+      text = std::string(report_.restarts > 0 ? "the best path of the last search"
+                                              : "the best path found") +
+             " ends " + shortest(std::round(definition_->getSolutionDifference() * 1e4) / 1e4) +
              " from the goal";
       break;
     default:
@@ -258,7 +264,9 @@ std::string Solve::whyNotFound(ob::PlannerStatus status) const {
 
 /// Runs the planner. If it tests too many edges without a solution, starts it again.
 ob::PlannerStatus Solve::search(const ob::PlannerTerminationCondition& stop) {
-  std::uint64_t edges = problem_.settings.planner.restart.value_or(defaultRestart());
+  // A planner that uses all its time improves its path as long as it can.
+  std::uint64_t edges =
+      stopsAtFirst() ? problem_.settings.planner.restart.value_or(defaultRestart()) : 0;
   for (std::uint64_t until = 0;; edges *= 2) {
     until += edges;
     const ob::PlannerTerminationCondition enough(

@@ -84,6 +84,7 @@ class Solve {
   void checkEnds();
   void setUpSpace();
   void setUpPlanner();
+  bool stopsAtFirst() const;
   std::uint64_t defaultRestart() const;
   ompl::base::PlannerStatus search(const ompl::base::PlannerTerminationCondition& stop);
   void setUpObjective();

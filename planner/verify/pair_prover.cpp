@@ -235,11 +235,13 @@ PairAnswer PairProver::decide(const TimeInterval& interval, const OpenPair& open
     // them, if the contact is not at this time only.)
     const Real least =
         std::min(motionBound + pad, secondOrder(reach, interval.half) + reach.rounding);
-    const Real upper = distance_.gap(open.guess).upper;
+    const TriangleGap guessed = distance_.gap(open.guess);
+    const Real upper = guessed.upper;
     if (margin + pad < upper && upper <= margin + least) {
       answer.closest = open.guess;
       answer.bound = open.bound;
       answer.estimate = upper - motionBound - pad;
+      answer.point = guessed.onB;
       answer.upper = upper;
       answer.reason = "no interval is short enough to be proved";
       return answer;

@@ -68,6 +68,11 @@ TEST_F(SolveArm, WritesTheSolutionToStandardOutput) {
   EXPECT_EQ(run("solve arm.yaml --picture a.png").err,
             "--picture: pictures are SVG: a name that ends in .svg is needed; corridor view "
             "--image draws PNG\n");
+  const Result ompl = run("solve arm.yaml -o one.path");
+  EXPECT_EQ(ompl.status, 2);
+  EXPECT_EQ(ompl.err,
+            "--output: solutions are written as YAML, and .path is a format of OMPL: a name that "
+            "ends in .yaml is needed\n");
   const Result same = run("solve arm.yaml -o one.svg --picture ./one.svg");
   EXPECT_EQ(same.status, 2);
   EXPECT_EQ(same.err, "--picture: is the file of --output; name another one\n");

@@ -269,10 +269,10 @@ TEST_F(UrdfFile, PackagesBesideAFolderAboveOrOfAnotherName) {
                          folder_ / "src/clone/meshes/b.obj"}));
   ASSERT_EQ(model->notes.size(), 1u);
   EXPECT_THAT(model->notes[0].text,
-              testing::EndsWith("package \"arm\" has no folder of this name; " +
-                                (folder_ / "src/clone").string() +
-                                ", in which its mesh files were found, is used (packages: in "
-                                "robot.yaml names another one)"));
+              testing::EndsWith(
+                  "package \"arm\" was not found; its files are taken from " +
+                  (folder_ / "src/clone").string() +
+                  ", above the URDF (packages: {arm: FOLDER} in robot.yaml sets another folder)"));
   // The folder belongs to another package, too: the mesh may be that package's own.
   EXPECT_FALSE(read("clone/meshes/b.obj", "arm/meshes/b.obj"));
   ASSERT_EQ(faults.size(), 1u);

@@ -70,6 +70,14 @@ TEST(Arm, SearchesStartAgainAfterTooManyEdges) {
   EXPECT_TRUE(report.repeats);
   EXPECT_EQ(solveProblem(problem).path, report.path);
   EXPECT_EQ(verifySolution(problem, makeSolution(problem, report)).verdict, PathVerdict::proved);
+  problem.settings.planner.name = "RRTstar";  // with stop: time, it uses all its time
+  problem.settings.planner.stopAtFirst = false;
+  problem.settings.planner.time = 0.5;
+  const SolveReport optimised = solveProblem(problem);
+  EXPECT_EQ(optimised.restarts, 0U);
+  EXPECT_GE(optimised.planningTime, 0.5);
+  problem.settings.planner = PlannerSettings();
+  problem.settings.planner.name = "RRT";
   problem.settings.planner.restart = 0;
   EXPECT_EQ(solveProblem(problem).restarts, 0U);
 }
