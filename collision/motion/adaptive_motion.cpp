@@ -83,8 +83,7 @@ class Bisection {
       return result;
     }
     ++steps_.counters().splits;
-    // `need` exceeds the missing distance by the margin. The margin is the same for all pairs, so
-    // the order is not affected.
+    // `need` exceeds the missing distance by the pair's margin. This affects the order only.
     const double need = measured.bound.needed - measured.gap;
     push({w.t0, t, need, w.pair});
     // Intervals after a block are not needed.

@@ -63,7 +63,7 @@ class Certifier {
     std::vector<std::uint32_t>& near = query_.context.scratch.of<MotionScratch>().near;
     if (query_.broadPhase && !query_.certificate) {
       motions_.select(0.5, 0.5);
-      query_.broadPhase->find(motions_, query_.requiredDistance(), near);
+      query_.broadPhase->find(motions_, query_.largestRequiredDistance(), near);
     } else {
       near.resize(query_.pairs.size());
       std::iota(near.begin(), near.end(), std::uint32_t{0});

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "collision/core/query_context.h"
+#include "collision/core/rounding.h"
 #include "collision/hierarchy/body.h"
 #include "collision/hierarchy/tree_kinds.h"
 #include "collision/motion/relative_motion.h"
@@ -56,12 +59,33 @@ struct MotionResult {
 
 class BroadPhase;
 
+/// Margins of single pairs: of links with padding, or to prove how far each pair stays apart.
+class PairMargins {
+ public:
+  /// @param metres one margin for each pair of the query, in its order; finite, 0 or more.
+  explicit PairMargins(std::vector<double> metres) : metres_(std::move(metres)) {
+    for (const double margin : metres_) largest_ = std::max(largest_, margin);
+  }
+
+  std::size_t size() const { return metres_.size(); }
+  double operator[](std::size_t pair) const { return metres_[pair]; }
+  const std::vector<double>& all() const { return metres_; }
+  double largest() const { return largest_; }
+
+ private:
+  std::vector<double> metres_;
+  double largest_ = 0;
+};
+
 /// The parameters of a motion query.
 struct MotionOptions {
   /// Metres, above 0. The caller must set it. A motion whose clearance beyond margin and tube is
   /// below twice the tolerance may be `undecided`.
   double tolerance = 0;
   double margin = 0;  ///< metres that all pairs must keep apart; 0: touching is contact
+  /// Metres that single pairs must keep apart in addition to `margin`, one for each pair of the
+  /// query; null: none. Not owned.
+  const PairMargins* pairMargins = nullptr;
   /// Clearance slack, metres: the clearance beyond margin and tube that `free` requires. A motion
   /// with less is never `free`.
   double clearanceSlack = 0;
@@ -77,6 +101,17 @@ struct MotionOptions {
   /// The kind of trees to walk. The bounds of whole bodies, which are tested before any tree, are
   /// the same for all kinds.
   TreeKind trees = TreeKind::obb4;
+
+  /// Returns the distance that a pair must keep, metres, rounded up.
+  double marginOf(std::size_t pair) const {
+    const double more = pairMargins ? (*pairMargins)[pair] : 0;
+    return more > 0 ? roundedUp(margin + more) : margin;
+  }
+  /// Returns a distance that no pair must exceed by its margin, metres.
+  double largestMargin() const {
+    const double more = pairMargins ? pairMargins->largest() : 0;
+    return more > 0 ? roundedUp(margin + more) : margin;
+  }
 };
 
 /// The relative motions along an edge. Each distinct relative motion of two frames has a number,

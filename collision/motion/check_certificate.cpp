@@ -46,9 +46,9 @@ class CertificateCheck {
                         context_);
     };
     const MotionBound bound = motionBoundOf(*pair.b, relative);
-    const double beyond = std::max(0.0, i.clearance - options_.margin);
-    const double needed =
-        roundedUp(options_.margin + roundedUp(beyond / 2) + bound.isotropic + bound.pad);
+    const double margin = options_.marginOf(i.pair);
+    const double beyond = std::max(0.0, i.clearance - margin);
+    const double needed = roundedUp(margin + roundedUp(beyond / 2) + bound.isotropic + bound.pad);
     if (needed < HUGE_VAL && !closer(needed)) {
       // No surfaces touch in this interval, so b cannot enter or leave a. For an interval from t =
       // 0, the middle therefore decides containment at t = 0. Later intervals need no such test.
@@ -60,8 +60,8 @@ class CertificateCheck {
     // the claim is false.
     if (!(bound.isotropic >= std::max(beyond, options_.tolerance) / 4) ||
         !(i.t0 < middle && middle < i.t1))
-      return CertificateFault{
-          closer(options_.margin + 0.75 * beyond) ? Kind::refuted : Kind::unproved, i.pair, middle};
+      return CertificateFault{closer(margin + 0.75 * beyond) ? Kind::refuted : Kind::unproved,
+                              i.pair, middle};
     const auto first = faultIn({i.pair, i.t0, middle, i.clearance});
     return first ? first : faultIn({i.pair, middle, i.t1, i.clearance});
   }
@@ -83,8 +83,11 @@ bool isOnGrid(const FreeInterval& i) {
   return onGrid(i.t0) && onGrid(i.t1) && i.t0 < i.t1;
 }
 
-bool areOptions(const MotionOptions& options) {
+bool areOptions(const MotionOptions& options, std::size_t pairs) {
   const auto finite = [](double x) { return x >= 0 && x < HUGE_VAL; };
+  if (const PairMargins* own = options.pairMargins;
+      own && !(own->size() == pairs && std::all_of(own->all().begin(), own->all().end(), finite)))
+    return false;
   return finite(options.margin) && finite(options.clearanceSlack) && finite(options.tolerance) &&
          options.tolerance > 0;
 }
@@ -97,15 +100,17 @@ std::optional<CertificateFault> checkCertificate(MotionSource& motion,
                                                  const MotionCertificate& certificate,
                                                  QueryContext& context) {
   if (!standardFloatingPoint()) return CertificateFault{Kind::floatingPoint, 0, 0};
-  if (!areOptions(options) || !(until >= 0 && until <= 1))
+  if (!areOptions(options, pairs.size()) || !(until >= 0 && until <= 1))
     return CertificateFault{Kind::malformed, 0, until};
   const bool claims = until > 0 || !certificate.free.empty();
   if (claims && motion.ambiguous()) return CertificateFault{Kind::ambiguous, 0, 0};
   std::vector<FreeInterval> intervals = certificate.free;
-  const double least = roundedDown(options.margin + options.clearanceSlack);
+  const auto leastOf = [&](std::size_t pair) {
+    return roundedDown(options.marginOf(pair) + options.clearanceSlack);
+  };
   for (const FreeInterval& i : intervals)
     if (i.pair >= pairs.size() || !isOnGrid(i) ||
-        !(i.clearance >= least && i.clearance > 0 && i.clearance < HUGE_VAL))
+        !(i.clearance >= leastOf(i.pair) && i.clearance > 0 && i.clearance < HUGE_VAL))
       return CertificateFault{Kind::malformed, i.pair, i.t0};
   std::sort(intervals.begin(), intervals.end(), [](const FreeInterval& x, const FreeInterval& y) {
     return x.pair != y.pair ? x.pair < y.pair : x.t0 < y.t0;

@@ -54,7 +54,7 @@ DistanceSteps::Bound DistanceSteps::boundOf(std::uint32_t pair,
   const Body& b = *pairs_[pair].b;
   const MotionBound goes =
       motionBound(relative, relative.X_AB * b.sphereCenter(), b.sphereRadius());
-  return {goes.isotropic, roundedUp(options_.margin + goes.isotropic + goes.pad)};
+  return {goes.isotropic, roundedUp(options_.marginOf(pair) + goes.isotropic + goes.pad)};
 }
 
 DistanceSteps::Bound DistanceSteps::bound(std::uint32_t pair, double t, double h) {
@@ -63,7 +63,7 @@ DistanceSteps::Bound DistanceSteps::bound(std::uint32_t pair, double t, double h
 
 bool DistanceSteps::staysAway(std::uint32_t pair, double t, double h) {
   const Body &a = *pairs_[pair].a, &b = *pairs_[pair].b;
-  return !mayMeet(a, sweptSphere(b, relativeMotion(pair, t, h)), options_.margin);
+  return !mayMeet(a, sweptSphere(b, relativeMotion(pair, t, h)), options_.marginOf(pair));
 }
 
 DistanceSteps::Measurement DistanceSteps::measureAt(std::uint32_t pair, double t, double h,
@@ -82,11 +82,11 @@ DistanceSteps::Measurement DistanceSteps::measureAt(std::uint32_t pair, double t
       surfaceDistance(posedA, posedB, measure, context_, options_.trees, &context_.lastPair(pair));
   measured.s = found.a;
   measured.t = found.b;
-  measured.gap = std::max(0.0, found.distance - options_.margin);
+  const double margin = options_.marginOf(pair);
+  measured.gap = std::max(0.0, found.distance - margin);
   // If the pose overflows, a distance of 0 only means that nothing is known.
-  measured.contact =
-      w.X_AB.isFinite() &&
-      (found.distance == 0 || distanceUpperBound(posedA, posedB, found) <= options_.margin);
+  measured.contact = w.X_AB.isFinite() &&
+                     (found.distance == 0 || distanceUpperBound(posedA, posedB, found) <= margin);
   measured.hopeless = !(found.distance > needed - bound);
   if (found.distance > needed)
     measured.lower = distanceLowerBound(posedA, posedB, found, measure, context_, options_.trees);

@@ -23,7 +23,7 @@ void record(const MotionQuery& query, double t0, double t1, const WorkList::Grou
   const double beyond = std::min(group.clearance, clearance);
   query.certificate->free.push_back(
       {group.bodies, t0, t1,
-       roundedDown(query.options.margin + query.options.clearanceSlack + beyond)});
+       roundedDown(query.options.marginOf(group.bodies) + query.options.clearanceSlack + beyond)});
 }
 
 /// The result of testing the bounds of a whole pair of bodies.
@@ -32,7 +32,7 @@ struct BodiesAnswer {
 };
 BodiesAnswer testBounds(const MotionQuery& query, double t0, double t1,
                         const WorkList::Group& group, IntervalMotions& motions) {
-  const double asked = query.requiredDistance();
+  const double asked = query.requiredDistance(group.bodies);
   const auto [clearance, far] =
       motions.separation(query.pairs[group.bodies], asked, query.certificate != nullptr);
   if (!(clearance > asked)) return {false, far};
@@ -81,9 +81,12 @@ IntervalAnswer testInterval(const MotionQuery& query, const Interval& interval,
     RelativeMotion relative = motions.relative(motion);
     relative.fixedError += query.options.clearanceSlack;  // required for a proof, not for a contact
     const std::size_t later = list.nodePairs.size();
-    const DescentOptions asked = {query.options.margin,        query.options.tolerance,
-                                  h <= Rules::kLeastHalfWidth, query.workEnd,
-                                  thresholds.boxPairsLeft,     query.certificate != nullptr};
+    const DescentOptions asked = {query.options.marginOf(group.bodies),
+                                  query.options.tolerance,
+                                  h <= Rules::kLeastHalfWidth,
+                                  query.workEnd,
+                                  thresholds.boxPairsLeft,
+                                  query.certificate != nullptr};
     const Descent found = walkTrees(query, group, relative, asked, list);
     group.clearance = std::min(group.clearance, found.clearance);
     if (list.nodePairs.size() > later) {

@@ -37,8 +37,14 @@ struct MotionQuery {
   std::uint64_t workEnd;           ///< `Counters::work` at which the query stops
   const BroadPhase* broadPhase;    ///< of `pairs`; null: each pair is tested
 
-  /// Returns the distance, metres, that two bodies must exceed to be proved free.
-  double requiredDistance() const { return roundedUp(options.margin + options.clearanceSlack); }
+  /// Returns the distance, metres, that the bodies of a pair must exceed to be proved free.
+  double requiredDistance(std::size_t pair) const {
+    return roundedUp(options.marginOf(pair) + options.clearanceSlack);
+  }
+  /// Returns the largest `requiredDistance`.
+  double largestRequiredDistance() const {
+    return roundedUp(options.largestMargin() + options.clearanceSlack);
+  }
 };
 
 /// The result of testing one interval.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include "collision/core/posed.h"
 #include "collision/core/query_context.h"
@@ -14,6 +15,9 @@ namespace corridor {
 struct DistanceOptions {
   double relative = 0;
   double absolute = 0;  ///< metres
+  /// Metres, 0 or more. If the distance is larger, the result may be infinite, with meaningless
+  /// witness points. A query that needs only short distances is faster with this limit.
+  double upTo = std::numeric_limits<double>::infinity();
 };
 
 /// The distance of two bodies, and witness points that have this distance. `a` and `b` are the

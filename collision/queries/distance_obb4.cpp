@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cassert>
 #include <cmath>
 #include <optional>
 #include <tuple>
@@ -10,6 +9,7 @@
 #include "collision/core/rounding.h"
 #include "collision/predicates/triangle_contact.h"
 #include "collision/queries/closer_triangles.h"
+#include "collision/queries/distance_obb4_parts.h"
 #include "collision/queries/interference_obb4.h"
 #include "collision/queries/nearest_triangles.h"
 
@@ -27,9 +27,9 @@
 HWY_BEFORE_NAMESPACE();
 namespace corridor::HWY_NAMESPACE {
 
-/// The distance query on two 4-wide OBB trees. Bounds pairs of triangles in float, sixteen at a
-/// time. Pairs that may be the closest are bounded again in double. Those that may then still be
-/// the closest are measured in double-double.
+/// The distance query on two 4-wide OBB trees of triangles. Bounds pairs of triangles in float,
+/// sixteen at a time. Pairs that may be the closest are bounded again in double. Those that may
+/// then still be the closest are measured in double-double.
 class Nearest {
  public:
   Nearest(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b, const Obb4TreePose& pose,
@@ -41,7 +41,8 @@ class Nearest {
         counters_(context.counters),
         leaves_(a_, b_, pose, counters_),
         candidates_(context.scratch.of<Candidates>().pairs),
-        nearest_(a.X_W, a_.reach(), b.X_W, b_.reach(), options, context) {
+        nearest_(a.X_W, a_.reach(), b.X_W, b_.reach(), options, context),
+        limit_(pose.inUnitsOfA(options.upTo)) {
     candidates_.clear();
   }
 
@@ -60,11 +61,7 @@ class Nearest {
     while (pairs) {
       NodeLeafPairs some(na, nb);
       while (pairs) {
-        auto least = static_cast<unsigned>(std::countr_zero(pairs));
-        for (unsigned rest = pairs & (pairs - 1); rest; rest &= rest - 1) {
-          const auto bit = static_cast<unsigned>(std::countr_zero(rest));
-          if (keys[bit] < keys[least]) least = bit;
-        }
+        const unsigned least = leastOf(pairs, keys);
         if (beyond(keys[least])) pairs = 0;
         if (!pairs || (some.count() && some.count() + some.sizeOf(least) > 16)) break;
         some.add(least);
@@ -104,9 +101,7 @@ class Nearest {
     std::vector<BoundedPair> pairs;
   };
 
-  bool beyond(float square) const {
-    return square > 0 && square > limit_ * limit_ * (1 + 0x1p-20F);
-  }
+  bool beyond(float square) const { return isBeyond(square, limit_); }
 
   void measure(NodeLeafPairs& pairs) {
     leaves_.forEachNearSixteen(
@@ -155,7 +150,7 @@ class Nearest {
   NearestTriangles nearest_;
   float least_ = HUGE_VALF;  // least upper bound so far, in a's unit
   PrimitivePair closest_;    // the pair with that bound, in leaf order
-  float limit_ = HUGE_VALF;  // in a's unit: pairs that are farther apart are skipped
+  float limit_;              // in a's unit: pairs that are farther apart are skipped
 };
 
 Distance obb4Distance(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b, const Obb4TreePose& pose,
@@ -174,6 +169,7 @@ Distance obb4Distance(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b, const 
   return query.result();
 }
 
+/// The tolerance query on two 4-wide OBB trees of triangles.
 class Closer {
  public:
   Closer(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b, const Obb4TreePose& pose, double d,
@@ -257,8 +253,9 @@ bool provedCloser(const Triangle& a, const Transform& X_WA, const Triangle& b,
 
 Distance distance(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b,
                   const DistanceOptions& options, QueryContext& context, LastPair* last) {
-  assert(!a.shape.hasParts() && !b.shape.hasParts());
   const Obb4TreePose pose(a.shape, a.X_W, b.shape, b.X_W, HUGE_VAL);
+  if (a.shape.hasParts() || b.shape.hasParts())
+    return distanceWithParts(a, b, pose, options, context);
   // First, search for contact only. If the trees touch, this ends far sooner than the search below,
   // which would visit all pairs that may touch.
   if (const auto hit = touchingLeafTriangles(kWholeTrees, a, b, pose, context, last)) {
@@ -273,12 +270,12 @@ bool closerThan(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b, double d, Qu
                 LastPair* last) {
   if (d == 0) return interference(a, b, context, last).has_value();
   const Obb4Tree &treeA = a.shape, &treeB = b.shape;
-  assert(!treeA.hasParts() && !treeB.hasParts());
   const Obb4TreePose pose(treeA, a.X_W, treeB, b.X_W, d);
   if (pose.apart) {
     ++context.counters.boxTests;
     return false;
   }
+  if (treeA.hasParts() || treeB.hasParts()) return closerThanWithParts(a, b, pose, d, context);
   if (last && last->trusted() && last->isIn(treeA.triangleCount(), treeB.triangleCount())) {
     const bool closer =
         provedCloser(treeA.triangle(last->a), a.X_W, treeB.triangle(last->b), b.X_W,

@@ -6,18 +6,16 @@
 
 namespace corridor {
 
-/// `distance` (distance.h, with the same guarantees) for 4-wide OBB trees of triangles, several
-/// times faster. @pre No tree holds convex parts. (For convex parts, queries of bodies use
-/// binary trees.)
+/// `distance` (distance.h, with the same guarantees) for 4-wide OBB trees, several times faster.
 ///
-/// @param last if not null, the closest pair of the last query of these trees: the search starts
-/// from it, and the pair found is stored there. The start changes the distance only within the
-/// guaranteed error. It may change which of several closest pairs of triangles is reported.
+/// @param last for triangles, if not null, the closest pair of the last query of these trees: the
+/// search starts from it, and the pair found is stored there. The start changes the distance only
+/// within the guaranteed error. It may change which of several closest pairs of triangles is
+/// reported.
 Distance distance(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b,
                   const DistanceOptions& options, QueryContext& context, LastPair* last = nullptr);
 
-/// `closerThan` (distance.h, with the same guarantees) for 4-wide OBB trees of triangles, several
-/// times faster. @pre d = 0, or no tree holds convex parts.
+/// `closerThan` (distance.h, with the same guarantees) for 4-wide OBB trees, several times faster.
 /// @param last as for `distance`, but it never changes the answer.
 bool closerThan(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b, double d, QueryContext& context,
                 LastPair* last = nullptr);

@@ -4,6 +4,7 @@
 
 #include "collision/convex/convex_contact.h"
 #include "collision/predicates/triangle_contact.h"
+#include "collision/queries/obb4_leaf_set.h"
 #include "collision/queries/triangle_intersection.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -18,17 +19,6 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace corridor::HWY_NAMESPACE {
-
-/// A tree's leaf primitive as a convex set, and the corners that the set refers to.
-struct ItemSet {
-  Triangle corners;
-  ConvexSet set;
-  ItemSet(const Obb4Tree& tree, std::uint32_t item)
-      : corners(tree.hasParts() ? Triangle() : tree.triangle(item)),
-        set(tree.hasParts() ? ConvexSet(tree.part(item)) : ConvexSet(corners)) {}
-  ItemSet(const ItemSet&) = delete;
-  ItemSet& operator=(const ItemSet&) = delete;
-};
 
 /// The query for touching pairs. Node pairs and pairs of triangles are filtered in float; the exact
 /// predicate decides the triangles that remain, `convexSetsTouch` decides convex parts. Calls
@@ -62,8 +52,8 @@ class Touching {
     if (a_.hasParts() || b_.hasParts())
       return forEachLeafPrimitivePair(
           na, nb, pairs, [&](unsigned, std::uint32_t s, std::uint32_t t) {
-            const ItemSet setA(a_, s), setB(b_, t);
-            const PredicateResult touch = convexSetsTouch({setA.set, X_WA_}, {setB.set, X_WB_});
+            const Obb4LeafSet setA(a_, s), setB(b_, t);
+            const PredicateResult touch = convexSetsTouch({setA.set(), X_WA_}, {setB.set(), X_WB_});
             counters_.addTest(touch.exact);
             return touch && found_(s, t);
           });

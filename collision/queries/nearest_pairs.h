@@ -26,7 +26,9 @@ class NearestPairs {
   NearestPairs(const DistanceOptions& options, QueryContext& context)
       : options_(options),
         relative_(options.relative + kTieShare),
-        candidates_(context.scratch.of<Candidates>().pairs) {
+        candidates_(context.scratch.of<Candidates>().pairs),
+        // A pair that is `upTo` apart must still improve the result; see `canImprove`.
+        upper_((options.upTo * (1 + relative_) + options.absolute) * (1 + 0x1p-48)) {
     candidates_.clear();
   }
 
@@ -91,7 +93,7 @@ class NearestPairs {
   const DistanceOptions& options_;
   double relative_;
   std::vector<BoundedPair>& candidates_;
-  double upper_ = HUGE_VAL;
+  double upper_;
   bool contact_ = false;
 };
 

@@ -1,12 +1,27 @@
 #pragma once
 
+#include <concepts>
+
 #include "collision/convex/convex_contact.h"
 #include "collision/convex/convex_distance.h"
 #include "collision/queries/interference.h"
+#include "collision/queries/interference_obb4.h"
 #include "collision/queries/nearest_pairs.h"
+#include "collision/queries/obb4_leaf_set.h"
 #include "collision/queries/touching_pairs.h"
 
 namespace corridor {
+
+/// Calls `f(set of a, set of b)` with two leaf primitives as convex sets, numbered in leaf order.
+template <class Tree, class F>
+auto withLeafSets(const Tree& a, std::uint32_t s, const Tree& b, std::uint32_t t, const F& f) {
+  if constexpr (std::same_as<Tree, Obb4Tree>) {
+    const Obb4LeafSet setA(a, s), setB(b, t);
+    return f(setA.set(), setB.set());
+  } else {
+    return f(convexSetOf(a, s), convexSetOf(b, t));
+  }
+}
 
 /// The part of a distance query that tests leaf primitives, for convex parts, or convex parts and
 /// triangles. `NearestTriangles` is its counterpart for triangles.
@@ -43,9 +58,11 @@ class NearestParts : public NearestPairs {
   template <class Tree>
   Distance result(const Tree& a, const Tree& b) {
     const auto measure = [&](std::uint32_t s, std::uint32_t t) {
-      ConvexDistance d = convexDistance({convexSetOf(a, s), X_WA_}, {convexSetOf(b, t), X_WB_});
-      context_.counters.exactTests += d.exact;
-      return d;
+      return withLeafSets(a, s, b, t, [&](const ConvexSet& setA, const ConvexSet& setB) {
+        ConvexDistance d = convexDistance({setA, X_WA_}, {setB, X_WB_});
+        context_.counters.exactTests += d.exact;
+        return d;
+      });
     };
     Distance best = closest(a, b, measure);
     if (!contact() && best.distance > band_) return best;

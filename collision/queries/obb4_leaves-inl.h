@@ -58,6 +58,21 @@ bool forEachLeafPrimitivePair(const Obb4Tree::Node& na, const Obb4Tree::Node& nb
   return false;
 }
 
+/// Returns the pair of this mask (bits as in `walkObb4`) that has the least key. @pre pairs != 0.
+inline unsigned leastOf(unsigned pairs, const float* keys) {
+  auto least = static_cast<unsigned>(std::countr_zero(pairs));
+  for (unsigned rest = pairs & (pairs - 1); rest; rest &= rest - 1) {
+    const auto bit = static_cast<unsigned>(std::countr_zero(rest));
+    if (keys[bit] < keys[least]) least = bit;
+  }
+  return least;
+}
+
+/// Returns whether a squared distance exceeds the limit of a query.
+inline bool isBeyond(float square, float limit) {
+  return square > 0 && square > limit * limit * (1 + 0x1p-20F);
+}
+
 /// Pairs of triangles in leaves of two nodes. The i-th triangle of a lane's leaf has the number
 /// 4·lane + i.
 class NodeLeafPairs {

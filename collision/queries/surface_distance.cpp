@@ -10,20 +10,17 @@
 namespace corridor {
 namespace {
 
-/// Calls `query` with both bodies' trees of the kind `trees`. If one body is a convex part, binary
-/// trees of OBBs replace 4-wide trees.
+/// Calls `query` with both bodies' trees of the kind `trees`.
 template <class Query>
 auto onTrees(TreeKind trees, const Posed<Body>& a, const Posed<Body>& b, LastPair* last,
              const Query& query) {
-  const bool convex = !a.shape.isMesh() || !b.shape.isMesh();
-  return withTrees(trees == TreeKind::obb4 && convex ? TreeKind::obbBinary : trees, a.shape,
-                   b.shape, [&]<class Tree>(auto, const Tree& ta, const Tree& tb) {
-                     const Posed posedA(ta, a.X_W), posedB(tb, b.X_W);
-                     if constexpr (std::same_as<Tree, Obb4Tree>)
-                       return query(posedA, posedB, last);
-                     else
-                       return query(posedA, posedB);
-                   });
+  return withTrees(trees, a.shape, b.shape, [&]<class Tree>(auto, const Tree& ta, const Tree& tb) {
+    const Posed posedA(ta, a.X_W), posedB(tb, b.X_W);
+    if constexpr (std::same_as<Tree, Obb4Tree>)
+      return query(posedA, posedB, last);
+    else
+      return query(posedA, posedB);
+  });
 }
 
 /// A reported distance is off by at most this share of itself plus `errorOf`. The share is twice

@@ -13,8 +13,7 @@ namespace corridor {
 /// is inside a `solid` mesh; the functions in `world/body_queries.h` do. Both build the trees that
 /// they need.
 /// @param trees the kind of trees. Distance queries bound distances of volumes and never test
-/// overlap. So kinds that differ only in their overlap tests are equivalent. A convex part has no
-/// 4-wide tree for distances: a binary tree of OBBs replaces it.
+/// overlap. So kinds that differ only in their overlap tests are equivalent.
 /// @param last  as for `distance` and `closerThan` of 4-wide OBB trees; other trees don't use it.
 Distance surfaceDistance(const Posed<Body>& a, const Posed<Body>& b, const DistanceOptions& options,
                          QueryContext& context, TreeKind trees = TreeKind::obb4,

@@ -76,9 +76,17 @@ BoundingBox boxUnder(const Body& body, const Transform& X) {
   return box;
 }
 
+void require(const PairMargins& margins, std::size_t pairs) {
+  if (margins.size() != pairs)
+    throw std::invalid_argument("a query with margins of pairs needs one for each pair");
+  if (!std::all_of(margins.all().begin(), margins.all().end(),
+                   [](double x) { return x >= 0 && std::isfinite(x); }))
+    throw std::invalid_argument("the margins of pairs must be finite and not negative");
+}
+
 /// Checks the numbers of every motion query. With a negative margin, for example, `free` would be
 /// possible although bodies touch.
-void require(const MotionOptions& options) {
+void require(const MotionOptions& options, std::size_t pairs) {
   const auto finite = [](double x, bool zeroToo) {
     return std::isfinite(x) && (zeroToo ? x >= 0 : x > 0);
   };
@@ -88,6 +96,7 @@ void require(const MotionOptions& options) {
     throw std::invalid_argument("margin and clearance slack must be finite and not negative");
   if (!finite(options.timeTolerance, false))
     throw std::invalid_argument("the time tolerance must be positive and finite");
+  if (options.pairMargins) require(*options.pairMargins, pairs);
 }
 
 }  // namespace
@@ -199,19 +208,16 @@ void Scene::forNearPairs(std::span<const Transform> X_WF, const double& within,
   for (const std::size_t frame : posedFrames_)
     if (frame >= X_WF.size() || !X_WF[frame].isFinite())
       throw std::invalid_argument("every frame must have a finite pose");
-  const auto mapOf = [&](std::size_t body) -> const Transform& {
-    const Placed& placed = bodies_[body];
-    return placed.restX_WF ? *placed.restX_WF : X_WF[placed.frame];
-  };
   auto& spheres = context.scratch.of<SweptSpheres>();
   spheres.makeRoom(bodies_.size());
   spheres.forget();
   const auto worldSphere = [&](std::size_t body) -> const SweptSphere& {
-    return spheres.of(body, [&] { return sweptSphere(bodies_[body].body, atRest(mapOf(body))); });
+    return spheres.of(body,
+                      [&] { return sweptSphere(bodies_[body].body, atRest(mapOf(body, X_WF))); });
   };
   const auto visitPair = [&](std::size_t k) {
     const MotionPair& pair = motionPairs_[k];
-    const Transform &X_WA = mapOf(pair.bodyA), &X_WB = mapOf(pair.bodyB);
+    const Transform &X_WA = mapOf(pair.bodyA, X_WF), &X_WB = mapOf(pair.bodyB, X_WF);
     if (X_WA == Transform()) {  // a's own box is in the world
       if (!mayMeet(*pair.a, worldSphere(pair.bodyB), within)) return false;
     } else {
@@ -261,6 +267,28 @@ double Scene::clearance(std::span<const Transform> X_WF, QueryContext& context,
                  return least == 0;
                });
   return least;
+}
+
+std::vector<Scene::NearPair> Scene::pairsWithin(std::span<const Transform> X_WF,
+                                                const PairMargins& within,
+                                                const DistanceOptions& options,
+                                                QueryContext& context, TreeKind trees) const {
+  require(within, pairs_.size());
+  ++context.counters.states;
+  std::vector<NearPair> near;
+  forNearPairs(
+      X_WF, within.largest(), context,
+      [&](const MotionPair& pair, const Posed<Body>& a, const Posed<Body>& b, LastPair& last) {
+        const auto k = static_cast<std::size_t>(&pair - motionPairs_.data());
+        DistanceOptions own = options;
+        own.upTo = within[k];
+        const Distance found = distance(a, b, own, context, trees, &last);
+        if (found.distance <= within[k]) near.push_back({k, found});
+        return false;
+      });
+  std::sort(near.begin(), near.end(),
+            [](const NearPair& x, const NearPair& y) { return x.pair < y.pair; });
+  return near;
 }
 
 namespace {
@@ -345,7 +373,7 @@ MotionResult Scene::withContainment(MotionResult result, std::span<const std::ui
 
 MotionResult Scene::certify(MotionSource& motion, const MotionOptions& options,
                             QueryContext& context, EdgeMethod method) const {
-  require(options);
+  require(options, pairs_.size());
   const MotionResult result = certifyPairs(motion, options, context, method);
   count(motion, result, context.counters);
   return result;
@@ -353,7 +381,7 @@ MotionResult Scene::certify(MotionSource& motion, const MotionOptions& options,
 
 MotionResult Scene::certify(MotionSource& motion, const MotionOptions& options,
                             QueryContext& context, MotionCertificate& certificate) const {
-  require(options);
+  require(options, pairs_.size());
   const MotionResult result =
       certifyPairs(motion, options, context, EdgeMethod::directional, &certificate);
   count(motion, result, context.counters);
@@ -362,7 +390,7 @@ MotionResult Scene::certify(MotionSource& motion, const MotionOptions& options,
 
 std::vector<MotionResult> Scene::certifyEachPair(MotionSource& motion, const MotionOptions& options,
                                                  QueryContext& context) const {
-  require(options);
+  require(options, pairs_.size());
   std::vector<MotionResult> results;
   results.resize(pairs_.size());
   MotionResult counted;  // counts as one query, which is undecided if any pair is
@@ -371,7 +399,7 @@ std::vector<MotionResult> Scene::certifyEachPair(MotionSource& motion, const Mot
   if (isCurve) {  // pairs that are not found are free
     IntervalMotions motions(motion, broadPhase_->bodies(), context);
     motions.select(0.5, 0.5);
-    broadPhase_->find(motions, roundedUp(options.margin + options.clearanceSlack), near);
+    broadPhase_->find(motions, roundedUp(options.largestMargin() + options.clearanceSlack), near);
   } else {
     near.resize(pairs_.size());
     std::iota(near.begin(), near.end(), std::uint32_t{0});
@@ -379,7 +407,10 @@ std::vector<MotionResult> Scene::certifyEachPair(MotionSource& motion, const Mot
   const std::vector<std::uint32_t> tested = near;  // queries below use the scratch memory
   for (const std::uint32_t i : tested) {
     MotionResult& result = results[order_[i]];
-    result = certifyMotion(motion, {&motionPairs_[i], 1}, options, context);
+    MotionOptions own = options;
+    own.margin = options.marginOf(i);
+    own.pairMargins = nullptr;
+    result = certifyMotion(motion, {&motionPairs_[i], 1}, own, context);
     if (solidMeshes_) result = withContainment(result, {&i, 1}, motion, context, nullptr);
     if (result.verdict == MotionVerdict::undecided) counted = result;
   }

@@ -11,6 +11,7 @@
 #include "collision/core/query_context.h"
 #include "collision/hierarchy/body.h"
 #include "collision/motion/edge_method.h"
+#include "collision/queries/distance.h"
 
 namespace corridor {
 
@@ -83,6 +84,19 @@ class Scene {
   double clearance(std::span<const Transform> X_WF, QueryContext& context,
                    TreeKind trees = TreeKind::obb4) const;
 
+  /// A pair of bodies that are near each other.
+  struct NearPair {
+    std::size_t pair = 0;  ///< its index in `motionPairs()`
+    Distance distance;     ///< with witness points in the world
+  };
+  /// Returns the pairs whose distance is at most a length of their own, with their distances, in
+  /// the order of `motionPairs()`. The errors of the distances are those of queries/distance.h; the
+  /// option `upTo` is not used.
+  /// @param within metres, one length for each pair.
+  std::vector<NearPair> pairsWithin(std::span<const Transform> X_WF, const PairMargins& within,
+                                    const DistanceOptions& options, QueryContext& context,
+                                    TreeKind trees = TreeKind::obb4) const;
+
   /// Decides whether the motion is free, by the given method (`certifyMotion` describes the
   /// answers). If a body is inside a solid one, the answer is a contact at t = 0. Motion number i
   /// of `motion` is that of `framePairs()[i]`.
@@ -114,6 +128,11 @@ class Scene {
   /// Returns the frame of a body, or the world if the frame is at rest.
   std::size_t frameOrWorld(std::size_t body) const {
     return bodies_[body].restX_WF ? 0 : bodies_[body].frame;
+  }
+  /// Returns the map of a body; @pre its frame has one.
+  const Transform& mapOf(std::size_t body, std::span<const Transform> X_WF) const {
+    const Placed& placed = bodies_[body];
+    return placed.restX_WF ? *placed.restX_WF : X_WF[placed.frame];
   }
   template <class Visit>
   void forNearPairs(std::span<const Transform> X_WF, const double& within, QueryContext& context,

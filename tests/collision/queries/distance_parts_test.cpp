@@ -5,9 +5,13 @@
 
 #include "collision/convex/convex_distance.h"
 #include "collision/core/rounding.h"
+#include "collision/hierarchy/obb4_tree.h"
 #include "collision/queries/distance.h"
+#include "collision/queries/distance_obb4.h"
 #include "collision/queries/interference.h"
+#include "collision/queries/interference_obb4.h"
 #include "tests/collision/hierarchy/volumes.h"
+#include "tests/collision/queries/every_target.h"
 #include "tests/support/soups.h"
 #include "tests/support/support.h"
 
@@ -88,9 +92,11 @@ Distance checked(const Tree& a, const Items& itemsA, const Transform& X_WA, cons
   return d;
 }
 
-TYPED_TEST(PartsDistance, AgreesWithBruteForceAndIsSymmetric) {
+/// Compares trees of random parts and meshes with brute force.
+/// @param treeOf makes a tree of a mesh, or of a list of parts.
+template <class TreeOf>
+void compareWithBruteForce(const TreeOf& treeOf) {
   std::mt19937_64 random(test::testSeed(41));
-  using Tree = VolumeTree<TypeParam>;
   int touching = 0, apart = 0;
   for (int n = 0; n < 120; ++n) {
     SCOPED_TRACE(n);
@@ -100,8 +106,8 @@ TYPED_TEST(PartsDistance, AgreesWithBruteForceAndIsSymmetric) {
                                   single = {test::parts(random, 5, 0.3)[n % 5]};
     const bool meshFirst = n % 3 == 0;
     const Items itemsA = meshFirst ? Items(mesh) : Items(few), itemsB(n % 2 ? few : single);
-    const Tree a = meshFirst ? Tree(mesh, params) : Tree(few, params),
-               b = n % 2 ? Tree(few, params) : Tree(single[0]);
+    const auto a = meshFirst ? treeOf(mesh, params) : treeOf(few, params),
+               b = treeOf(n % 2 ? few : single, params);
     const Transform X_WA = anyPose(random, n % 4 ? 1 : 1e3);
     Transform X_WB{anyPose(random, 1).m, X_WA.t + anyPose(random, n % 5 ? 0.8 : 0.1).t};
     for (int closer = 0; closer < 2; ++closer) {
@@ -113,6 +119,63 @@ TYPED_TEST(PartsDistance, AgreesWithBruteForceAndIsSymmetric) {
   }
   EXPECT_GT(touching, 4);
   EXPECT_GT(apart, 100);
+}
+
+TYPED_TEST(PartsDistance, AgreesWithBruteForceAndIsSymmetric) {
+  using Tree = VolumeTree<TypeParam>;
+  compareWithBruteForce([](const auto& items, const TreeParams& params) {
+    if constexpr (requires { items.triangles; })
+      return Tree(items, params);
+    else
+      return items.size() == 1 ? Tree(items[0]) : Tree(items, params);
+  });
+}
+
+class Obb4PartsDistance : public test::EveryTarget {};
+INSTANTIATE_TEST_SUITE_P(Simd, Obb4PartsDistance, testing::ValuesIn(test::simdTargets()),
+                         test::targetName);
+
+TEST_P(Obb4PartsDistance, AgreesWithBruteForceAndIsSymmetric) {
+  compareWithBruteForce([](const auto& items, const TreeParams&) {
+    if constexpr (requires { items.triangles; })
+      return Obb4Tree(items);
+    else
+      return Obb4Tree(std::make_shared<const std::vector<ConvexPart>>(items));
+  });
+}
+
+/// 4-wide trees find the distances of binary trees for bodies of many parts and triangles, and test
+/// few of them.
+TEST_P(Obb4PartsDistance, EqualsThatOfBinaryTrees) {
+  std::mt19937_64 random(test::testSeed(2502));
+  const TriangleMesh mesh = test::soup(random, 3000, 0.02);
+  const auto parts =
+      std::make_shared<const std::vector<ConvexPart>>(test::parts(random, 400, 0.05));
+  const Obb4Tree a(mesh), b(parts);
+  const VolumeTree<Obb> binaryA(mesh), binaryB(*parts);
+  std::uint64_t tests = 0;
+  int queries = 0;
+  for (int n = 0; n < 60; ++n) {
+    const Transform X_WA = anyPose(random, 1);
+    const Transform X_WB{anyPose(random, 1).m, X_WA.t + anyPose(random, 3).t};
+    QueryContext one, other;
+    const double wide = distance(Posed(a, X_WA), Posed(b, X_WB), {}, one).distance,
+                 binary = distance(Posed(binaryA, X_WA), Posed(binaryB, X_WB), {}, other).distance;
+    const double allowed = 1e-12 * binary + 4 * kUnit * 20;
+    EXPECT_NEAR(wide, binary, 2 * allowed);
+    EXPECT_EQ(wide == 0, binary == 0);
+    for (const double share : {0.5, 0.99, 1.01, 2.0}) {
+      if (binary == 0) break;
+      EXPECT_EQ(closerThan(Posed(a, X_WA), Posed(b, X_WB), share * binary, one), share > 1);
+    }
+    if (binary == 0) continue;
+    ++queries;
+    QueryContext count;
+    distance(Posed(a, X_WA), Posed(b, X_WB), {}, count);
+    tests += count.counters.triangleTests;
+  }
+  ASSERT_GT(queries, 20);
+  EXPECT_LT(tests / static_cast<std::uint64_t>(queries), 3000);  // of 1.2 million pairs
 }
 
 TriangleMesh boxMesh(const Vec3& size) {
