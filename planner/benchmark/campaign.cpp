@@ -127,6 +127,8 @@ Problem plannedProblem(const Campaign& campaign, const CampaignCell& cell, std::
   problem.settings.simplify =
       cell.planner.simplify.value_or(campaign.simplify.value_or(problem.settings.simplify));
   problem.settings.seed = seed;
+  // The path of each variant is as short as its simplifier makes it: competitors keep no clearance.
+  problem.settings.prefer.clearance = 0;
   return problem;
 }
 

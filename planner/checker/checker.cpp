@@ -172,15 +172,23 @@ MotionResult Checker::certifyState(const Configuration& q) const {
 
 MotionResult Checker::certifyEdge(const Configuration& from, const Configuration& to,
                                   bool earliest) const {
-  return certifyEdge(from, to, earliest, method_);
-}
-
-MotionResult Checker::certifyEdge(const Configuration& from, const Configuration& to, bool earliest,
-                                  EdgeMethod method) const {
-  if (!standardFloatingPoint()) return refused();
-  Workspace& workspace = workspaceOfThread();
   MotionOptions options = options_;
   options.earliest = earliest;
+  return certify(from, to, options, method_);
+}
+
+MotionResult Checker::certifyEdge(const Configuration& from, const Configuration& to,
+                                  const PairMargins& more, bool earliest) const {
+  MotionOptions options = options_;
+  options.earliest = earliest;
+  options.pairMargins = &more;
+  return certify(from, to, options, EdgeMethod::directional);
+}
+
+MotionResult Checker::certify(const Configuration& from, const Configuration& to,
+                              const MotionOptions& options, EdgeMethod method) const {
+  if (!standardFloatingPoint()) return refused();
+  Workspace& workspace = workspaceOfThread();
   workspace.motion.set(from, to);
   return scene_.certify(workspace.motion, options, workspace.context, method);
 }
@@ -196,6 +204,14 @@ double Checker::clearance(const Configuration& q) const {
   Workspace& workspace = workspaceOfThread();
   return scene_.clearance(workspace.poses.at(q), workspace.context, options_.trees) -
          options_.margin;
+}
+
+std::vector<Scene::NearPair> Checker::pairsWithin(const Configuration& q,
+                                                  const PairMargins& within) const {
+  requireStandardFloatingPoint();
+  Workspace& workspace = workspaceOfThread();
+  return scene_.pairsWithin(workspace.poses.at(q), within, {.relative = 1e-3}, workspace.context,
+                            options_.trees);
 }
 
 std::vector<Checker::PairNotFree> Checker::pairsNotFree(const Configuration& q) const {
@@ -225,7 +241,7 @@ bool Checker::isProvedFree(const Configuration& q) const {
 
 bool Checker::isProvedFree(const Configuration& from, const Configuration& to) const {
   return inBounds(from) && inBounds(to) &&
-         certifyEdge(from, to, false, EdgeMethod::directional).verdict == MotionVerdict::free;
+         certify(from, to, options_, EdgeMethod::directional).verdict == MotionVerdict::free;
 }
 
 }  // namespace corridor

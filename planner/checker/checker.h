@@ -75,6 +75,12 @@ class Checker {
   /// Decides whether an edge is free, by the method of the options. Doesn't test the bounds. @pre
   /// finite.
   MotionResult certifyEdge(const Configuration& from, const Configuration& to, bool earliest) const;
+  /// Decides whether an edge keeps, for each pair, the margin of the options plus a margin of its
+  /// own, always by `EdgeMethod::directional`. Doesn't test the bounds. @pre finite.
+  /// @param more one margin for each pair of `Scene::motionPairs()`, metres.
+  /// @throws std::invalid_argument for numbers that are not finite or are negative.
+  MotionResult certifyEdge(const Configuration& from, const Configuration& to,
+                           const PairMargins& more, bool earliest = false) const;
   /// Tests exactly whether a tested pair is in contact at the rounded poses of the frames. Margin,
   /// tolerance and tube are ignored. @pre finite.
   /// @throws std::runtime_error if the processor's floating-point mode makes the bounds invalid
@@ -86,6 +92,9 @@ class Checker {
   /// result is 0 − margin, since no penetration depth is computed. If no pair is tested, the result
   /// is infinite. @pre finite.
   double clearance(const Configuration& q) const;
+  /// Returns the pairs of shapes whose distance is at most a length of their own
+  /// (`Scene::pairsWithin`). The distances may exceed the true ones by a thousandth. @pre finite.
+  std::vector<Scene::NearPair> pairsWithin(const Configuration& q, const PairMargins& within) const;
   /// Two bodies of the model, by index, for which a state is not free.
   struct PairNotFree {
     std::size_t a = 0, b = 0;
@@ -107,8 +116,8 @@ class Checker {
   struct Workspace;
   class Pool;
   Workspace& workspaceOfThread() const;
-  MotionResult certifyEdge(const Configuration& from, const Configuration& to, bool earliest,
-                           EdgeMethod method) const;
+  MotionResult certify(const Configuration& from, const Configuration& to,
+                       const MotionOptions& options, EdgeMethod method) const;
 
   const Model& model_;
   Scene scene_;

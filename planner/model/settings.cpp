@@ -49,4 +49,15 @@ std::optional<InvalidName> invalidNameIn(const CheckerSettings& checker) {
                                     "out, or use edges: certified"};
 }
 
+std::optional<std::string> whyNoClearance(double margin, const Settings& settings) {
+  if (margin > 0) return "the path keeps a margin or prefers a clearance, not both; leave one out";
+  if (settings.simplify != Simplifier::corridor)
+    return "is kept by Corridor's simplifier; it needs simplify: true";
+  if (settings.checker.edges == EdgeCheck::discrete)
+    return "is proved along edges, and checker.edges: discrete proves none";
+  if (settings.objective == Objective::maxMinClearance)
+    return "is not for planners that maximise the clearance themselves";
+  return std::nullopt;
+}
+
 }  // namespace corridor

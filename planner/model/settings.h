@@ -85,6 +85,15 @@ struct CheckerSettings {
   TreeNames trees = {"obb", "", ""};
 };
 
+/// What paths should keep where this is possible, besides what they must.
+struct PreferSettings {
+  /// Metres that the pairs should keep apart (solve/clearance_targets.h); 0: as close as the
+  /// shortest path gets. Unset: see `preferredClearance`.
+  std::optional<double> clearance;
+  /// By how much the path may be longer than the shortest that was found, as a share of its length.
+  double detour = 0.1;
+};
+
 /// The settings of the search for a path. Every value must be legal; the readers of files check
 /// ranges and words.
 struct Settings {
@@ -93,9 +102,14 @@ struct Settings {
   std::optional<Objective> objective;  ///< `.cfg` only
   double objectiveThreshold = 0;
   Simplifier simplify = Simplifier::corridor;
+  PreferSettings prefer;
   CheckerSettings checker;
   std::uint64_t seed = 1;
 };
+
+/// Returns why a path can't be moved away from obstacles, in words for a message about the
+/// clearance that is preferred; nullopt if it can be.
+std::optional<std::string> whyNoClearance(double margin, const Settings& settings);
 
 /// Returns the first word of `trees` that is unknown or does not belong to the volume, or nullopt.
 /// The methods `adaptive` and `advancement` measure distances. With these two methods, an overlap

@@ -151,4 +151,9 @@ void finishProblem(const AllowedBodies& allowed, const TubeSpec& tube, Problem& 
   addNotesOnPairs(problem);
 }
 
+void setMargin(Problem& problem, double margin) {
+  problem.task.margin = margin;
+  testBeyondProofs(problem);
+}
+
 }  // namespace corridor

@@ -33,6 +33,8 @@ class MbmReader {
   MbmReader(const std::filesystem::path& file, const std::string& index)
       : file_(file), index_(index), faults_(file.string()) {}
 
+  std::vector<std::string> indices() { return indicesOf(parse()); }
+
   Problem read() {
     readWithNotes(problem_.source.notes, [&] { readAll(); });
     return std::move(problem_);
@@ -89,13 +91,19 @@ class MbmReader {
     }
   }
 
-  /// Returns the problem whose index is `index_`.
-  const Json& choose(const Json& set) const {
+  std::vector<std::string> indicesOf(const Json& set) const {
     if (!set.is_object() || set.value("format", Json()) != Json("mbm-scene-1"))
       stop("a set of problems (format: mbm-scene-1) is needed");
     std::vector<std::string> indices;
+    for (const Json& problem : list(set, "problems"))
+      indices.push_back(field(problem, "index").dump());
+    return indices;
+  }
+
+  /// Returns the problem whose index is `index_`.
+  const Json& choose(const Json& set) const {
+    const std::vector<std::string> indices = indicesOf(set);
     const Json& problems = list(set, "problems");
-    for (const Json& problem : problems) indices.push_back(field(problem, "index").dump());
     const auto found = std::find(indices.begin(), indices.end(), index_);
     if (found != indices.end()) return problems[static_cast<std::size_t>(found - indices.begin())];
     const std::string example =
@@ -239,6 +247,10 @@ class MbmReader {
 
 Problem readMbmProblem(const std::filesystem::path& file, const std::string& index) {
   return MbmReader(file, index).read();
+}
+
+std::vector<std::string> mbmIndices(const std::filesystem::path& file) {
+  return MbmReader(file, "").indices();
 }
 
 }  // namespace corridor

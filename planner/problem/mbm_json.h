@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "planner/problem/problem.h"
 
@@ -13,5 +14,8 @@ namespace corridor {
 /// a fault that lists the indices of the set.
 /// @throws InputError.
 Problem readMbmProblem(const std::filesystem::path& file, const std::string& index);
+
+/// Returns the values of `problems[].index` in a set, in its order. @throws InputError.
+std::vector<std::string> mbmIndices(const std::filesystem::path& file);
 
 }  // namespace corridor

@@ -51,4 +51,8 @@ struct Problem {
 /// notes on what could be read, it is a NotedInputError, which holds them.
 Problem readProblem(const std::filesystem::path& path);
 
+/// Replaces the margin of a problem. Pairs of links whose proof of being never in contact does not
+/// cover the new margin are then tested, with a note. @pre metres, finite, 0 or more.
+void setMargin(Problem& problem, double margin);
+
 }  // namespace corridor

@@ -125,6 +125,18 @@ void readPlanner(const YamlMap& file, PlannerSettings& planner) {
     if (const auto text = paramMap.text(entry->key)) planner.params[entry->key] = *text;
 }
 
+/// Reads `prefer`. @pre margin, simplify and checker have been read.
+void readPrefer(const YamlMap& file, double margin, Settings& settings) {
+  const YamlValue* value = file.find("prefer");
+  if (!value) return;
+  const YamlMap map(*value, "prefer", keysOf("prefer"), file.source());
+  PreferSettings& prefer = settings.prefer;
+  prefer.clearance = map.number("clearance", Range::NotNegative);
+  prefer.detour = map.number("detour", Range::NotNegative).value_or(prefer.detour);
+  if (!(prefer.clearance.value_or(0) > 0)) return;
+  if (const auto why = whyNoClearance(margin, settings)) map.fault("clearance", *why);
+}
+
 /// Reads `moveit: {scene: FILE, request: FILE}`.
 std::pair<std::optional<MoveitScene>, std::optional<MoveitRequest>> readMoveit(
     const YamlMap& problem, const std::filesystem::path& folder,
@@ -205,6 +217,7 @@ void readYaml(const std::filesystem::path& file, Problem& problem) {
   if (const YamlValue* checker = map.find("checker"))
     readCheckerKeys(YamlMap(*checker, "checker", keysOf("checker"), source),
                     problem.settings.checker);
+  readPrefer(map, problem.task.margin, problem.settings);
   problem.settings.seed = map.wholeNumber("seed").value_or(problem.settings.seed);
   if (known) {  // the form of states and bounds depends on the robots
     readBounds(map, problem);

@@ -42,10 +42,13 @@ Path withShortTurns(const ConfigurationSpace& space, const Path& path) {
   return states;
 }
 
-bool certifiedPath(const Checker& checker, const Path& path) {
+bool certifiedPath(const Checker& checker, const Path& path, const EdgeMemory* proved) {
   if (path.empty() || !checker.isProvedFree(path.front())) return false;
-  for (std::size_t i = 1; i < path.size(); ++i)
-    if (!checker.isProvedFree(path[i - 1], path[i])) return false;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const bool known = proved && proved->knowsFree(path[i - 1], path[i]);
+    if (known ? !checker.inBounds(path[i]) : !checker.isProvedFree(path[i - 1], path[i]))
+      return false;
+  }
   return true;
 }
 
@@ -64,6 +67,12 @@ PathLength lengthOf(const ConfigurationSpace& space, const Path& path) {
         (turns ? length.radians : length.metres) += differenceOf(joint, path[i - 1], path[i]);
       }
     }
+  return length;
+}
+
+double distanceAlong(const ConfigurationSpace& space, const Path& path) {
+  double length = 0;
+  for (std::size_t i = 1; i < path.size(); ++i) length += space.distance(path[i - 1], path[i]);
   return length;
 }
 

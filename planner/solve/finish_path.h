@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "planner/checker/checker.h"
+#include "planner/solve/edge_memory.h"
 
 namespace ompl::base {
 class SpaceInformation;
@@ -33,7 +34,9 @@ Path withShortTurns(const ConfigurationSpace& space, const Path& path);
 
 /// Tests the path again, by the checker's certified method, whatever method the planner used.
 /// Returns whether all states are in bounds and all edges are certified.
-bool certifiedPath(const Checker& checker, const Path& path);
+/// @param proved if not null, the edges that it knows to be free are not tested again: this method
+/// must have proved them.
+bool certifiedPath(const Checker& checker, const Path& path, const EdgeMemory* proved = nullptr);
 
 /// The length of a path, summed over its edges. `metres`: |Δp| of planar and floating joints, and
 /// |Δq| of prismatic joints. `radians`: the rotation angles of planar and floating joints, and |Δq|
@@ -42,6 +45,8 @@ struct PathLength {
   double metres = 0, radians = 0;
 };
 PathLength lengthOf(const ConfigurationSpace& space, const Path& path);
+/// Returns the length of a path in the space's distance.
+double distanceAlong(const ConfigurationSpace& space, const Path& path);
 
 /// Returns, for messages, over what the lengths are summed besides the edges: "sum over the
 /// joints". Returns "" if the space has only one joint or body.

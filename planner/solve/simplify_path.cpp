@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <map>
 #include <optional>
 #include <queue>
 #include <utility>
@@ -33,14 +32,13 @@ constexpr double kSnap = 1e-9;
 
 class PathShortener {
  public:
-  PathShortener(const ConfigurationSpace& space, const EdgeTest& isFree,
+  PathShortener(const ConfigurationSpace& space, EdgeMemory& edges,
                 const std::function<bool()>& stop)
-      : space_(space), isFree_(isFree), stop_(stop) {}
+      : space_(space), edges_(edges), stop_(stop) {}
 
   std::vector<Path> run(const Path& path);
 
  private:
-  using Numbers = std::vector<double>;
   double distance(const Configuration& a, const Configuration& b) const {
     return space_.distance(a, b);
   }
@@ -51,9 +49,8 @@ class PathShortener {
   void setPath(Path path);
 
   const ConfigurationSpace& space_;
-  const EdgeTest& isFree_;
+  EdgeMemory& edges_;
   const std::function<bool()>& stop_;
-  std::map<std::pair<Numbers, Numbers>, bool> tested_;  // whether an edge is free
   Path path_;
   std::vector<double> lengthTo_;  // of the path from its first state to each state
 };
@@ -186,14 +183,9 @@ Path Corners::path() const {
   return path;
 }
 
-/// Returns whether an edge is free. Each edge is tested once; false if `stop` returns true.
+/// Returns whether an edge is free. Tests no edge once `stop` returns true.
 bool PathShortener::testEdge(const Configuration& from, const Configuration& to) {
-  const auto numbers = [](const Configuration& q) {
-    return Numbers(q.data(), q.data() + q.size());
-  };
-  const auto [edge, isNew] = tested_.try_emplace({numbers(from), numbers(to)}, false);
-  if (isNew && !stop_()) edge->second = isFree_(from, to);
-  return edge->second;
+  return stop_() ? edges_.knowsFree(from, to) : edges_.isFree(from, to);
 }
 
 /// Sets the path, without repeated states.
@@ -302,8 +294,8 @@ std::vector<Path> PathShortener::run(const Path& path) {
 }  // namespace
 
 std::vector<Path> simplifiedVersions(const ConfigurationSpace& space, const Path& path,
-                                     const EdgeTest& isFree, const std::function<bool()>& stop) {
-  return PathShortener(space, isFree, stop).run(path);
+                                     EdgeMemory& edges, const std::function<bool()>& stop) {
+  return PathShortener(space, edges, stop).run(path);
 }
 
 }  // namespace corridor

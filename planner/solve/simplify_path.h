@@ -3,12 +3,10 @@
 #include <functional>
 #include <vector>
 
+#include "planner/solve/edge_memory.h"
 #include "planner/solve/finish_path.h"
 
 namespace corridor {
-
-/// Returns whether the edge between two configurations is free.
-using EdgeTest = std::function<bool(const Configuration& from, const Configuration& to)>;
 
 /// Shortens a path by shortcuts: edges between two places of the path that are shorter than the
 /// part of the path between them. Lengths are distances of the space.
@@ -28,6 +26,12 @@ using EdgeTest = std::function<bool(const Configuration& from, const Configurati
 /// used. If `stop` returns true, no further edge is tested.
 /// @pre the path is not empty, and its edges are free.
 std::vector<Path> simplifiedVersions(const ConfigurationSpace& space, const Path& path,
-                                     const EdgeTest& isFree, const std::function<bool()>& stop);
+                                     EdgeMemory& edges, const std::function<bool()>& stop);
+inline std::vector<Path> simplifiedVersions(const ConfigurationSpace& space, const Path& path,
+                                            const EdgeTest& isFree,
+                                            const std::function<bool()>& stop) {
+  EdgeMemory edges(isFree);
+  return simplifiedVersions(space, path, edges, stop);
+}
 
 }  // namespace corridor

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "collision/core/read_file.h"
+#include "collision/core/shortest.h"
 #include "planner/problem/format_key.h"
 #include "planner/problem/yaml_reader.h"
 #include "planner/solve/state_rows.h"
@@ -66,8 +67,9 @@ std::string yamlOf(const Solution& solution) {
        << "certified: " << (solution.certified ? "true" : "false") << "\n"
        << "checker: " << yamlText(solution.checker) << "\n"
        << "tolerance: " << digits(solution.tolerance) << "  # m\n"
-       << "margin: " << digits(solution.margin) << "  # m\n"
-       << "tube: ";
+       << "margin: " << digits(solution.margin) << "  # m\n";
+  if (solution.clearance > 0) text << "clearance: " << shortest(solution.clearance) << "  # m\n";
+  text << "tube: ";
   if (space.empty())
     text << row(solution.tube) << "  # m, rad, of each number";
   else
@@ -171,9 +173,10 @@ Solution readYaml(const std::filesystem::path& file, const ConfigurationSpace& s
   YamlSource source{file.string(), faults, {}};
   Solution solution;
   if (hasFormat(document, kFormat, source)) {
-    static const MapKeys keys{{"format", "problem", "digest", "space", "joints", "planner", "seed",
-                               "certified", "checker", "tolerance", "margin", "tube", "path"},
-                              {}};
+    static const MapKeys keys{
+        {"format", "problem", "digest", "space", "joints", "planner", "seed", "certified",
+         "checker", "tolerance", "margin", "clearance", "tube", "path"},
+        {}};
     const YamlMap map(document, "", &keys, source);
     solution.problem = map.text("problem").value_or("");
     solution.digest = map.text("digest").value_or("");
@@ -183,6 +186,7 @@ Solution readYaml(const std::filesystem::path& file, const ConfigurationSpace& s
     solution.checker = map.text("checker").value_or("");
     solution.tolerance = map.number("tolerance", Range::NotNegative).value_or(0);
     solution.margin = map.number("margin", Range::NotNegative).value_or(0);
+    solution.clearance = map.number("clearance", Range::NotNegative).value_or(0);
     solution.space = rigidSpaceOf(space);
     solution.numbers = space.numberNames();
     if (sameSpace(map, solution, source)) {
@@ -210,6 +214,7 @@ Solution makeSolution(const Problem& problem, const SolveReport& report, std::st
   solution.checker = report.checker;
   solution.tolerance = report.proofOptions.tolerance;
   solution.margin = report.proofOptions.margin;
+  if (report.clearance) solution.clearance = report.clearance->proved;
   solution.tube = problem.task.tube;
   solution.path = report.path;
   return solution;

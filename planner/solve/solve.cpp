@@ -21,6 +21,7 @@
 #include "planner/checker/state_validity_checkers.h"
 #include "planner/checker/still_pairs.h"
 #include "planner/problem/yaml_reader.h"
+#include "planner/solve/keep_clearance.h"
 #include "planner/solve/ompl_goal.h"
 #include "planner/solve/simplify_path.h"
 #include "planner/solve/solve_steps.h"
@@ -320,7 +321,9 @@ bool Solve::joinsStartAndGoal(const Path& path) const {
 
 bool Solve::certified(const Path& path) {
   const double before = clock_.seconds(), processorBefore = clock_.processorSeconds();
-  const bool holds = certifiedPath(checker_, path);
+  const bool isKnown = edges_ && testsAreProofs();
+  const bool holds = certifiedPath(checker_, path, isKnown ? &*edges_ : nullptr);
+  if (holds && targets_) report_.clearance = proveClearance(checker_, *targets_, path, *onTarget_);
   report_.certificationTime += clock_.seconds() - before;
   // `plan` counts the whole of `finish` as search, so the certification is subtracted here.
   report_.searchProcessorTime -= clock_.processorSeconds() - processorBefore;
@@ -342,12 +345,25 @@ std::vector<Path> Solve::simplified(og::PathGeometric& path) {
     return versions;
   }
   ob::ScopedState<> from(si_), to(si_);
-  const auto isFree = [&](const Configuration& a, const Configuration& b) {
+  edges_.emplace([&](const Configuration& a, const Configuration& b) {
     space_->write(a, from.get());
     space_->write(b, to.get());
     return si_->checkMotion(from.get(), to.get());
-  };
-  return simplifiedVersions(problem_.model.space, versions.front(), isFree, stop);
+  });
+  versions = simplifiedVersions(problem_.model.space, versions.front(), *edges_, stop);
+  if (preferredClearance(problem_) > 0) versions.push_back(withClearance(versions.back(), stop));
+  return versions;
+}
+
+Path Solve::withClearance(const Path& path, const std::function<bool()>& stop) {
+  const ConfigurationSpace& space = problem_.model.space;
+  targets_.emplace(checker_, preferredClearance(problem_), path.front(), path.back());
+  onTarget_.emplace(
+      [this](const Configuration& a, const Configuration& b) { return targets_->areKept(a, b); });
+  const double length = distanceAlong(space, path);
+  return corridor::withClearance(*targets_, space, path,
+                                 (1 + problem_.settings.prefer.detour) * length, *edges_,
+                                 *onTarget_, stop);
 }
 
 void Solve::finish() {

@@ -4,12 +4,14 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "collision/core/counters.h"
 #include "collision/core/error.h"
 #include "planner/problem/problem.h"
 #include "planner/solve/finish_path.h"
+#include "planner/solve/prove_clearance.h"
 
 namespace corridor {
 
@@ -70,6 +72,8 @@ struct SolveReport {
   /// Counts of all queries: states, edges, undecided, and N_v, N_p of the cost model.
   Counters counters;
   PathLength length;
+  /// Unset if no clearance is preferred (keep_clearance.h).
+  std::optional<PathClearance> clearance;
   std::size_t rawStates = 0;   ///< states of the planner's own path, before simplifying
   PathLength rawLength;        ///< length of the planner's own path
   int version = 0;             ///< index of the simplified version returned; 0: the planner's own

@@ -4,6 +4,7 @@
 #include <ctime>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,9 @@
 
 #include "planner/checker/motion_validators.h"
 #include "planner/checker/problem_state_space.h"
+#include "planner/solve/clearance_targets.h"
 #include "planner/solve/planner_factory.h"
+#include "planner/solve/simplify_path.h"
 #include "planner/solve/solve.h"
 
 namespace corridor {
@@ -75,6 +78,10 @@ class Solve {
 
  private:
   bool discrete() const { return problem_.settings.checker.edges == EdgeCheck::discrete; }
+  /// Returns whether tests of edges for the planner prove as much as the final certification.
+  bool testsAreProofs() const {
+    return problem_.settings.checker.edges == EdgeCheck::certified && !options_.adaptChecking;
+  }
   bool maximisesClearance() const {
     return problem_.settings.objective == Objective::maxMinClearance;
   }
@@ -91,6 +98,7 @@ class Solve {
   void reportProgress();
   bool endsByTime(double until);
   std::vector<Path> simplified(ompl::geometric::PathGeometric& path);
+  Path withClearance(const Path& path, const std::function<bool()>& stop);
   void finish();
   bool certified(const Path& path);
   bool joinsStartAndGoal(const Path& path) const;
@@ -107,6 +115,10 @@ class Solve {
   std::shared_ptr<CountingMotionValidator> validator_;
   ompl::base::ProblemDefinitionPtr definition_;
   ompl::base::PlannerPtr planner_;
+  std::optional<EdgeMemory> edges_;  // set by `simplified`: the edges that are tested in it
+  // Set if a clearance is preferred: the targets, and the edges that keep them.
+  std::optional<ClearanceTargets> targets_;
+  std::optional<EdgeMemory> onTarget_;
   bool optimises_ = false;
   std::atomic<bool> endedByTime_ = false;  // set by any thread of the planner
   std::mutex progressMutex_;

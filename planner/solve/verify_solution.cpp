@@ -246,6 +246,7 @@ VerifyReport verifySolution(const Problem& problem, const Solution& solution,
   report.reachesGoal = checkEnds(problem, solution.path, report.violations);
   checkBounds(problem, solution.path, report.violations);
   PathProblem plain = plainProblem(problem);
+  plain.wantedClearance = solution.clearance;
   // A path of many states, such as a trajectory's samples, needs some hundred queries an edge.
   plain.workLimit = std::max<std::uint64_t>(plain.workLimit, 2000 * solution.path.size());
   report.pathReport = verifyPath(plain, solution.path);

@@ -19,6 +19,8 @@ void require(const PathProblem& problem, const std::vector<Configuration>& state
   if (states.empty()) refuse("states must not be empty");
   if (!(problem.margin >= 0 && std::isfinite(problem.margin)))
     refuse("margin must be finite and not negative");
+  if (!(problem.wantedClearance >= 0 && std::isfinite(problem.wantedClearance)))
+    refuse("wantedClearance must be finite and not negative");
   if (!(problem.tolerance > 0 && std::isfinite(problem.tolerance)))
     refuse("tolerance must be finite and positive");
   if (static_cast<std::size_t>(problem.tube.size()) != problem.space->size())

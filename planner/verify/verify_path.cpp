@@ -90,8 +90,13 @@ class Verifier {
     return found != findings_.end() &&
            (found->second.verdict == PathVerdict::refuted || outOfWork());
   }
-  /// A larger bound than this would not change the reported clearance.
-  Real usefulBound() const { return kRefined * smallest_; }
+  /// A larger bound than this would not change the reported clearance. It never increases.
+  Real usefulBound() const { return goalFor(smallest_); }
+  /// Returns the clearance at which refining ends, if the clearance is at most `most`.
+  Real goalFor(Real most) const {
+    const Real wanted = problem_.wantedClearance;
+    return wanted < most ? std::max(kRefined * most, wanted) : kRefined * most;
+  }
 
   const PathProblem& problem_;
   PairProver prover_;
@@ -205,7 +210,7 @@ void Verifier::refine() {
   while (!proved_.empty() && queries_ < limit) {
     const Interval worst = proved_.top();
     const Reach& reach = prover_.reach(worst.time.edge, worst.pairs[0].pair);
-    if (worst.bound >= kRefined * (smallest_ - reach.tube) ||
+    if (worst.bound >= goalFor(smallest_ - reach.tube) ||
         reach.speed * worst.time.half <= problem_.tolerance || worst.depth >= kDepth)
       break;
     proved_.pop();

@@ -60,7 +60,10 @@ struct PathProblem {
   const ConfigurationSpace* space = nullptr;  ///< not owned; only its `coordinates()` are read
   std::vector<VerifyBody> bodies;
   std::vector<VerifyPair> pairs;
-  double margin = 0;     ///< metres; a clearance of at most `margin` is a violation
+  double margin = 0;  ///< metres; a clearance of at most `margin` is a violation
+  /// Metres. `PathReport::provenClearance` is refined until it reaches this value, if the path may
+  /// have such a clearance. It does not change the verdict.
+  double wantedClearance = 0;
   Configuration tube;    ///< the proof holds for all curves in the tube (planner/model/task.h)
   double tolerance = 0;  ///< metres, > 0
   std::uint64_t workLimit = 2'000'000;  ///< distance queries; then the edges left are undecided
@@ -109,7 +112,7 @@ struct PathReport {
   /// path is not proved, the value is 0. If no pair is tested, it is infinite. The value is refined
   /// until one of three conditions holds:
   /// - It reaches 90 % of the difference between `smallestDistanceMet` and the displacement by the
-  ///   tube.
+  ///   tube, and `PathProblem::wantedClearance` if that is below this difference.
   /// - The motion bound of the worst interval is below the tolerance.
   /// - A limit of queries is reached.
   double provenClearance = 0;
@@ -126,7 +129,7 @@ struct PathReport {
 /// every edge is undecided.
 /// @throws std::invalid_argument in these cases:
 /// - `states` is empty, or a pointer is null.
-/// - Margin, tube or tolerance is negative or not finite, or the tolerance is 0.
+/// - Margin, wanted clearance, tube or tolerance is negative or not finite, or the tolerance is 0.
 /// - The tube has another length than a configuration.
 /// - A body has neither a mesh nor parts, or both, or an empty mesh or part.
 /// - A pair names a body that does not exist.

@@ -15,7 +15,7 @@ class ProblemFaults : public ProblemTest {
 
 constexpr const char* topKeys =
     " (known: format, robot, robots, base, world, allow, start, goal, moveit, bounds, margin, "
-    "tube, "
+    "prefer, tube, "
     "planner, sampler, simplify, checker, seed)";
 
 TEST_F(ProblemFaults, Files) {
@@ -309,6 +309,31 @@ TEST_F(ProblemFaults, KeysThatAreNotForRigidRobots) {
   EXPECT_EQ(complaintOfRobot(std::string(robot3) + "srdf: a.srdf\nweights: {joints: {pan: 1}}\n"),
             "robot.yaml:5: srdf: is for robots with joints (urdf: FILE); this one is rigid\n"
             "robot.yaml:6: weights.joints: this robot is rigid and has no joints");
+}
+
+TEST_F(ProblemFaults, Prefer) {
+  EXPECT_EQ(with("prefer: {clearance: -1}\n"),
+            "problem.yaml:8: prefer.clearance: must be 0 or more, not -1");
+  EXPECT_EQ(with("prefer: {clearance: .inf}\n"),
+            "problem.yaml:8: prefer.clearance: a finite number is needed, not \".inf\"");
+  EXPECT_EQ(with("prefer: {detour: -0.1}\n"),
+            "problem.yaml:8: prefer.detour: must be 0 or more, not -0.1");
+  EXPECT_EQ(with("prefer: {detour: .nan}\n"),
+            "problem.yaml:8: prefer.detour: a finite number is needed, not \".nan\"");
+  EXPECT_EQ(with("prefer: 0.1\n"), "problem.yaml:8: prefer: a map (key: value) is needed, not \"0.1\"");
+  EXPECT_EQ(with("prefer: {margin: 1}\n"),
+            "problem.yaml:8: unknown key \"margin\" in prefer (known: clearance, detour)");
+  EXPECT_EQ(with("margin: 0.01\nprefer: {clearance: 0.1}\n"),
+            "problem.yaml:9: prefer.clearance: the path keeps a margin or prefers a clearance, not "
+            "both; leave one out");
+  for (const char* other : {"simplify: false\n", "simplify: ompl\n"})
+    EXPECT_EQ(with(std::string(other) + "prefer: {clearance: 0.1}\n"),
+              "problem.yaml:9: prefer.clearance: is kept by Corridor's simplifier; it needs "
+              "simplify: true");
+  EXPECT_EQ(with("checker: {edges: discrete}\nprefer: {clearance: 0.1}\n"),
+            "problem.yaml:9: prefer.clearance: is proved along edges, and checker.edges: discrete "
+            "proves none");
+  EXPECT_EQ(with("margin: 0.01\nprefer: {clearance: 0, detour: 0}\n"), "no complaint");
 }
 
 TEST_F(ProblemFaults, Meshes) {

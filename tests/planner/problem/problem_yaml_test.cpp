@@ -40,6 +40,7 @@ sampler: gaussian
 simplify: false
 checker: {edges: discrete, resolution: 0.02, tolerance: 1e-5, volume: obb-binary, fit: hull, overlap: gjk}
 allow: [[wedge, stone]]
+prefer: {clearance: 0, detour: 0.25}
 seed: 18446744073709551615
 )";
 
@@ -68,6 +69,8 @@ TEST_F(ProblemYaml, EveryKeyIsRead) {
   EXPECT_EQ(lowerOf(p), Vec3(-9, -9, -9));
   EXPECT_EQ(upperOf(p), Vec3(9, 8, 7));
   EXPECT_EQ(p.task.margin, 0.005);
+  EXPECT_EQ(p.settings.prefer.clearance, 0);
+  EXPECT_EQ(p.settings.prefer.detour, 0.25);
   EXPECT_EQ(pairCount(p.model), 2);
   EXPECT_EQ(p.model.filter.whyNotTested(0, 1), "");
   EXPECT_EQ(p.model.filter.whyNotTested(0, 2), "allow");

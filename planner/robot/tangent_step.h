@@ -1,0 +1,26 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "planner/robot/configuration_space.h"
+
+namespace corridor {
+
+/// A small change of a configuration: one number for each line and circle (m, rad), and a rotation
+/// vector (rad, in the frame before the rotation) for each rotation, in the order of the
+/// coordinates.
+using TangentStep = Eigen::VectorXd;
+
+/// Returns the number of numbers of a step: the degrees of freedom of the space.
+Eigen::Index tangentSize(const ConfigurationSpace& space);
+
+/// Returns the factor of each number of a step in the space's distance: a step of length x in one
+/// coordinate alone has the distance factor·x.
+TangentStep tangentWeights(const ConfigurationSpace& space);
+
+/// Returns the configuration that a step leads to. Lines stay within their bounds: the step ends
+/// there. Angles are brought into [−π, π], and quaternions to norm 1. @pre q is finite.
+Configuration displaced(const ConfigurationSpace& space, const Configuration& q,
+                        const TangentStep& step);
+
+}  // namespace corridor

@@ -1,0 +1,244 @@
+#include "planner/solve/clearance_targets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "collision/core/rigid_pose.h"
+#include "planner/robot/kinematic_tree.h"
+
+namespace corridor {
+
+namespace {
+
+/// The share of its distance at an end of the path that a pair should keep.
+constexpr double kShareOfEnds = 0.7;
+/// How far pairs are moved apart, in multiples of their targets. The path near such a state then
+/// keeps the targets as well.
+constexpr double kAim = 1.5;
+/// A step away from obstacles takes pairs into account that are closer than this multiple of their
+/// targets.
+constexpr double kNear = 2;
+/// Newton steps of `movedApart`.
+constexpr int kSteps = 3;
+/// Sweeps over the pairs in each Newton step. The pairs are few, and their gradients similar.
+constexpr int kSweeps = 20;
+/// The least part of the way to the aim that a step tries.
+constexpr double kLeastPart = 1.0 / 16;
+/// The share of the distance asked for that a step may miss: sweeps approach the solution.
+constexpr double kUnmet = 0.1;
+/// The longest step of `movedApart` in the space's distance: for arms, radians in a joint.
+constexpr double kLongestStep = 0.5;
+/// Samples of an edge: one for each 0.05 of its length, but at least and at most:
+constexpr double kSampleLength = 0.05;
+constexpr int kLeastSamples = 4, kMostSamples = 32;
+/// Halvings of the step between samples, in the search for the worst place.
+constexpr int kRefinements = 4;
+
+/// @param ofEnds gets the smallest distance at start and goal, if one is below the clearance.
+PairMargins targetsOf(const Checker& checker, double clearance, const Configuration& start,
+                      const Configuration& goal, double& ofEnds) {
+  std::vector<double> targets(checker.scene().motionPairs().size(), clearance);
+  const PairMargins within(std::vector(targets.size(), clearance / kShareOfEnds));
+  for (const Configuration* end : {&start, &goal})
+    for (const Scene::NearPair& near : checker.pairsWithin(*end, within)) {
+      const double distance = near.distance.distance;
+      targets[near.pair] = std::min(targets[near.pair], kShareOfEnds * distance);
+      if (distance < clearance) ofEnds = std::min(ofEnds, distance);
+    }
+  return PairMargins(std::move(targets));
+}
+
+/// Returns these frames and all frames above them, in ascending order.
+std::vector<std::size_t> framesAbove(const KinematicTree& tree, std::vector<std::size_t> frames) {
+  for (std::size_t i = 0; i < frames.size(); ++i)
+    if (frames[i] != 0) frames.push_back(tree.frames[frames[i]].parent);
+  std::sort(frames.begin(), frames.end());
+  frames.erase(std::unique(frames.begin(), frames.end()), frames.end());
+  return frames;
+}
+
+/// A pair that should get farther apart by `need` metres, to first order. A step of `step` changes
+/// its distance by `change` > 0; `step` is the direction of the largest change.
+struct Constraint {
+  std::size_t pair = 0;
+  double distance = 0;
+  TangentStep gradient, step;
+  double change = 0, need = 0, multiplier = 0;
+};
+
+/// Returns the constraints of the pairs that a step can move apart.
+std::vector<Constraint> constraintsOf(const std::vector<Scene::NearPair>& near,
+                                      const std::vector<TangentStep>& gradients,
+                                      const TangentStep& weights) {
+  std::vector<Constraint> constraints;
+  for (std::size_t i = 0; i < near.size(); ++i) {
+    Constraint c{near[i].pair, near[i].distance.distance, gradients[i],
+                 gradients[i].cwiseQuotient(weights.cwiseAbs2())};
+    c.change = c.gradient.dot(c.step);
+    if (c.change > 0) constraints.push_back(std::move(c));
+  }
+  return constraints;
+}
+
+/// Returns the shortest step with gradient·step ≥ need for all pairs, by Hildreth's method (1957),
+/// or nullopt if it finds none.
+std::optional<TangentStep> shortestStep(std::vector<Constraint>& constraints, Eigen::Index size) {
+  TangentStep step = TangentStep::Zero(size);
+  for (Constraint& c : constraints) c.multiplier = 0;
+  for (int sweep = 0; sweep < kSweeps; ++sweep)
+    for (Constraint& c : constraints) {
+      const double more = std::max((c.need - c.gradient.dot(step)) / c.change, -c.multiplier);
+      c.multiplier += more;
+      step += more * c.step;
+    }
+  for (const Constraint& c : constraints)
+    if (c.gradient.dot(step) < c.need - kUnmet * std::abs(c.need)) return std::nullopt;
+  return step;
+}
+
+}  // namespace
+
+ClearanceTargets::ClearanceTargets(const Checker& checker, double clearance,
+                                   const Configuration& start, const Configuration& goal)
+    : checker_(checker),
+      clearance_(clearance),
+      ofEnds_(std::numeric_limits<double>::infinity()),
+      targets_(targetsOf(checker, clearance, start, goal, ofEnds_)),
+      clearances_(std::vector(targets_.size(), clearance)),
+      near_(targets_.all()),
+      weights_(tangentWeights(checker.space())) {
+  std::vector<double> near = targets_.all();
+  for (double& length : near) length *= kNear;
+  near_ = PairMargins(std::move(near));
+}
+
+/// Returns the pair with the smallest share of its length, if that is below 1.
+ClearanceTargets::Worst ClearanceTargets::worstIn(const Configuration& q,
+                                                  const PairMargins& lengths) const {
+  Worst worst;
+  for (const Scene::NearPair& near : checker_.pairsWithin(q, lengths))
+    if (const double share = near.distance.distance / lengths[near.pair]; share < worst.share)
+      worst = {share, 0, near.distance.distance, near.pair};
+  return worst;
+}
+
+/// Searches an edge at samples, and then around the worst of them, for the pair with the smallest
+/// share of its length.
+ClearanceTargets::Worst ClearanceTargets::worstOn(const Configuration& from,
+                                                  const Configuration& to,
+                                                  const PairMargins& lengths) const {
+  const ConfigurationSpace& space = checker_.space();
+  const double samples = std::ceil(space.distance(from, to) / kSampleLength);
+  const int count = static_cast<int>(std::clamp<double>(samples, kLeastSamples, kMostSamples));
+  Worst worst;
+  const auto sample = [&](double t) {
+    if (t < 0 || t > 1) return;
+    Worst here = worstIn(space.interpolate(from, to, t), lengths);
+    here.t = t;
+    if (here.share < worst.share) worst = here;
+  };
+  for (int i = 0; i <= count; ++i) sample(double(i) / count);
+  double step = 0.5 / count;
+  for (int k = 0; k < kRefinements && worst.share < 1; ++k, step /= 2) {
+    const double t = worst.t;
+    sample(t - step);
+    sample(t + step);
+  }
+  return worst;
+}
+
+std::optional<ClearanceTargets::Worst> ClearanceTargets::missedOn(const Configuration& from,
+                                                                  const Configuration& to) const {
+  if (areKept(from, to)) return std::nullopt;
+  return worstOn(from, to, targets_);
+}
+
+std::optional<ClearanceTargets::Worst> ClearanceTargets::closestOn(const Configuration& from,
+                                                                   const Configuration& to) const {
+  const Worst closest = worstOn(from, to, clearances_);
+  if (closest.share < 1) return closest;
+  return std::nullopt;
+}
+
+double ClearanceTargets::least() const {
+  const std::vector<double>& all = targets_.all();
+  return all.empty() ? clearance_ : *std::min_element(all.begin(), all.end());
+}
+
+/// Returns the gradients of the distances of pairs, per number of a step. The closest points stay
+/// fixed to their frames: to first order, this does not change the distances.
+std::vector<TangentStep> ClearanceTargets::gradientsOf(const std::vector<Scene::NearPair>& near,
+                                                       const Configuration& q) const {
+  // The error of the difference is the rounding of positions (some 1e-15 m) over this step. The
+  // error of linearity is its square times the size of the robot.
+  constexpr double kDifference = 1e-6;
+  struct Ends {
+    std::size_t frameA, frameB;
+    Vec3 p_A, p_B, apart, normal;
+  };
+  const Scene& scene = checker_.scene();
+  const KinematicTree& tree = checker_.model().tree;
+  std::vector<std::size_t> frames;
+  for (const Scene::NearPair& pair : near)
+    for (const std::size_t body :
+         {scene.motionPairs()[pair.pair].bodyA, scene.motionPairs()[pair.pair].bodyB})
+      frames.push_back(scene.bodies()[body].frame);
+  frames = framesAbove(tree, std::move(frames));
+  std::vector<Transform> X_WF(tree.frames.size());
+  setFramePoses(tree, q, frames, X_WF);
+  std::vector<Ends> ends;
+  for (const Scene::NearPair& pair : near) {
+    const std::size_t a = scene.bodies()[scene.motionPairs()[pair.pair].bodyA].frame,
+                      b = scene.bodies()[scene.motionPairs()[pair.pair].bodyB].frame;
+    const Vec3 apart = pair.distance.p_WB - pair.distance.p_WA;
+    ends.push_back({a, b, rigidInverse(X_WF[a]) * pair.distance.p_WA,
+                    rigidInverse(X_WF[b]) * pair.distance.p_WB, apart,
+                    apart.norm() > 0 ? Vec3(apart.normalized()) : Vec3(Vec3::Zero())});
+  }
+  const Eigen::Index size = weights_.size();
+  std::vector<TangentStep> gradients(near.size(), TangentStep::Zero(size));
+  for (Eigen::Index i = 0; i < size; ++i)
+    // The difference is one-sided. At an upper bound the step ends at once, so it goes down.
+    for (const double difference : {kDifference, -kDifference}) {
+      const Configuration moved =
+          displaced(checker_.space(), q, difference * TangentStep::Unit(size, i));
+      if (moved == q) continue;
+      setFramePoses(tree, moved, frames, X_WF);
+      for (std::size_t k = 0; k < ends.size(); ++k) {
+        const Ends& e = ends[k];
+        gradients[k][i] =
+            e.normal.dot(X_WF[e.frameB] * e.p_B - X_WF[e.frameA] * e.p_A - e.apart) / difference;
+      }
+      break;
+    }
+  return gradients;
+}
+
+std::optional<Configuration> ClearanceTargets::movedApart(const Configuration& q) const {
+  Configuration moved = q;
+  for (int n = 0; n < kSteps; ++n) {
+    const std::vector<Scene::NearPair> near = checker_.pairsWithin(moved, near_);
+    double share = kAim;
+    for (const Scene::NearPair& pair : near)
+      share = std::min(share, pair.distance.distance / targets_[pair.pair]);
+    if (share >= kAim) break;
+    std::vector<Constraint> constraints = constraintsOf(near, gradientsOf(near, moved), weights_);
+    // In a narrow place, not all pairs can reach the aim. Then the aim is nearer to the share.
+    std::optional<TangentStep> step;
+    for (double part = 1; !step && part >= kLeastPart; part /= 2) {
+      for (Constraint& c : constraints)
+        c.need = (share + part * (kAim - share)) * targets_[c.pair] - c.distance;
+      step = shortestStep(constraints, weights_.size());
+    }
+    if (!step) break;
+    const double length = step->cwiseProduct(weights_).norm();
+    if (length > kLongestStep) *step *= kLongestStep / length;
+    moved = displaced(checker_.space(), moved, *step);
+  }
+  if (moved == q) return std::nullopt;
+  return moved;
+}
+
+}  // namespace corridor

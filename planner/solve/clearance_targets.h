@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "planner/checker/checker.h"
+#include "planner/robot/tangent_step.h"
+
+namespace corridor {
+
+/// The distances that the pairs of a scene should keep along a path from a start to a goal. The
+/// target of a pair is `clearance`, or 70 % of its distance at the start or at the goal if that is
+/// less: a path can't keep more than its ends. (With 70 %, it takes little work to prove that the
+/// edges at the ends keep the targets.)
+///
+/// The share of a pair in a state is its distance over its target, at most 1.
+class ClearanceTargets {
+ public:
+  /// @param checker has the margin 0; it must outlive the object.
+  /// @param clearance metres, above 0. @pre start and goal are free and finite.
+  ClearanceTargets(const Checker& checker, double clearance, const Configuration& start,
+                   const Configuration& goal);
+
+  double clearance() const { return clearance_; }
+  /// Returns the smallest target, metres.
+  double least() const;
+  /// Returns the smallest distance of a pair at the start and at the goal, metres; infinite if no
+  /// pair is closer than `clearance()` there.
+  double ofEnds() const { return ofEnds_; }
+  /// Returns the targets, metres, one for each pair of `Scene::motionPairs()`.
+  const PairMargins& all() const { return targets_; }
+
+  /// Returns whether every pair is proved to keep its target on the whole edge.
+  bool areKept(const Configuration& from, const Configuration& to) const {
+    return checker_.certifyEdge(from, to, targets_).verdict == MotionVerdict::free;
+  }
+  /// The pair with the smallest share at a place of an edge.
+  struct Worst {
+    double share = 1;     ///< 1: no sampled pair is below its target
+    double t = 0;         ///< time on the edge
+    double distance = 0;  ///< metres; 0 if no pair is below its target
+    std::size_t pair = 0;
+  };
+  /// Returns nullopt if every pair is proved to keep its target on the whole edge. Otherwise
+  /// returns the pair with the smallest share at samples of the edge; its share may be 1.
+  std::optional<Worst> missedOn(const Configuration& from, const Configuration& to) const;
+  /// Returns the closest pair at samples of an edge, whatever its target, or nullopt if no pair is
+  /// closer than `clearance()`.
+  std::optional<Worst> closestOn(const Configuration& from, const Configuration& to) const;
+
+  /// Returns a configuration near q at which the pairs that miss their targets are farther apart:
+  /// they reach 1.5 times their targets, to first order, or less if other pairs are in the way. The
+  /// step is the shortest in the space's distance that does so. It ends at joint limits. Returns
+  /// nullopt if no step helps, or none is needed.
+  std::optional<Configuration> movedApart(const Configuration& q) const;
+
+ private:
+  Worst worstOn(const Configuration& from, const Configuration& to,
+                const PairMargins& lengths) const;
+  Worst worstIn(const Configuration& q, const PairMargins& lengths) const;
+  std::vector<TangentStep> gradientsOf(const std::vector<Scene::NearPair>& near,
+                                       const Configuration& q) const;
+
+  const Checker& checker_;
+  double clearance_, ofEnds_;
+  PairMargins targets_, clearances_, near_;
+  TangentStep weights_;
+};
+
+}  // namespace corridor

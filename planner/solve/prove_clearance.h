@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "planner/solve/clearance_targets.h"
+#include "planner/solve/finish_path.h"
+
+namespace corridor {
+
+/// How far a path stays away from contact.
+struct PathClearance {
+  /// Metres: every tested pair is proved to keep more than this on the whole path, tube included.
+  /// Two significant digits; at most the preferred clearance. 0: nothing was proved.
+  double proved = 0;
+  /// The smallest distance found, and where: the pair of bodies, and the time on the edge from
+  /// state `edge` (from 0) to the next. Infinite, without names: none below the preferred clearance
+  /// was found. If all pairs keep their targets, only start and goal are searched; otherwise
+  /// samples of the whole path.
+  double smallest = 0;
+  std::string a, b;
+  std::size_t edge = 0;
+  double t = 0;
+  /// The smallest distance at the start and at the goal, metres; infinite if no pair is closer than
+  /// the preferred clearance there.
+  double ofEnds = 0;
+  /// A lower bound of the share of the path's length, in the space's distance, on which every pair
+  /// is proved to keep its target (`ClearanceTargets`). 1: on all of it.
+  double shareOnTarget = 0;
+};
+
+/// Proves how far a path stays away from contact.
+/// @param onTarget remembers which edges are proved to keep all targets.
+/// @pre the states of the path are in bounds, and its edges are free.
+PathClearance proveClearance(const Checker& checker, const ClearanceTargets& targets,
+                             const Path& path, EdgeMemory& onTarget);
+
+}  // namespace corridor

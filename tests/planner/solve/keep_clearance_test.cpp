@@ -1,0 +1,210 @@
+// A disc-like body in the plane moves past posts. Its distance from each post has a closed form.
+#include "planner/solve/keep_clearance.h"
+
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "planner/solve/prove_clearance.h"
+#include "tests/planner/checker/hall.h"
+#include "tests/support/support.h"
+
+namespace corridor {
+namespace {
+
+using test::partShape;
+using test::poseOf;
+using test::Rigid;
+
+constexpr double kRadius = 0.5;      // of the moving ball
+constexpr double kPostRadius = 0.3;  // of each post
+bool never() {
+  return false;
+}
+
+/// A ball that moves in the plane z = 0, among balls at these places.
+Problem ballAmong(const std::vector<Vec3>& posts) {
+  Problem problem = test::rigidProblem(Rigid::SE2);
+  problem.source.name = "posts";
+  problem.model.bodies = {{"ball", 2, 0, {partShape("ball", Sphere{kRadius})}}};
+  for (std::size_t i = 0; i < posts.size(); ++i) {
+    const std::string name = "post" + std::to_string(i);
+    problem.model.bodies.push_back({name, 0, {}, {partShape(name, Sphere{kPostRadius}, posts[i])}});
+  }
+  return problem;
+}
+
+/// Returns the smallest distance of the ball from the posts along a path.
+double clearanceAlong(const Path& path, const std::vector<Vec3>& posts) {
+  double least = HUGE_VAL;
+  for (std::size_t i = 1; i < path.size(); ++i)
+    for (const Vec3& post : posts) {
+      const Eigen::Vector2d a = path[i - 1].head<2>(), d = path[i].head<2>() - a,
+                            c = post.head<2>();
+      const double t = d.norm() > 0 ? std::clamp(d.dot(c - a) / d.squaredNorm(), 0.0, 1.0) : 0;
+      least = std::min(least, (a + t * d - c).norm() - kRadius - kPostRadius);
+    }
+  return least;
+}
+
+/// A path that is moved, with what is needed for it.
+struct Mover {
+  Problem problem;
+  Checker checker;
+  ClearanceTargets targets;
+  EdgeMemory edges, onTarget;
+  Path path;
+
+  Mover(const std::vector<Vec3>& posts, const Path& from, double clearance)
+      : problem(ballAmong(posts)),
+        checker(problem),
+        targets(checker, clearance, from.front(), from.back()),
+        edges([this](const auto& a, const auto& b) { return checker.isProvedFree(a, b); }),
+        onTarget([this](const auto& a, const auto& b) { return targets.areKept(a, b); }),
+        path(from) {}
+  Path moved(double detour) {
+    return withClearance(targets, checker.space(), path,
+                         (1 + detour) * distanceAlong(checker.space(), path), edges, onTarget,
+                         never);
+  }
+};
+
+TEST(ClearanceTargets, AreLimitedByTheEndsOfThePath) {
+  // Post 0 is 0.02 m from the start, post 1 is 0.05 m from the goal, post 2 is far.
+  const std::vector<Vec3> posts{{-3, -0.82, 0}, {3, -0.85, 0}, {0, 4, 0}};
+  const Problem problem = ballAmong(posts);
+  const Checker checker(problem);
+  const ClearanceTargets targets(checker, 0.1, poseOf(Rigid::SE2, -3, 0), poseOf(Rigid::SE2, 3, 0));
+  ASSERT_EQ(targets.all().size(), 3u);
+  EXPECT_NEAR(targets.all()[0], 0.7 * 0.02, 1e-4);
+  EXPECT_NEAR(targets.all()[1], 0.7 * 0.05, 1e-4);
+  EXPECT_EQ(targets.all()[2], 0.1);
+  EXPECT_NEAR(targets.ofEnds(), 0.02, 1e-4);
+  EXPECT_EQ(targets.least(), targets.all()[0]);
+}
+
+TEST(ClearanceTargets, FindsTheWorstPlaceAndMovesAwayFromIt) {
+  const std::vector<Vec3> posts{{0.7, -0.81, 0}};  // 0.01 m from the way
+  const Problem problem = ballAmong(posts);
+  const Checker checker(problem);
+  const Configuration from = poseOf(Rigid::SE2, -3, 0), to = poseOf(Rigid::SE2, 3, 0);
+  const ClearanceTargets targets(checker, 0.1, from, to);
+  const auto worst = targets.missedOn(from, to);
+  ASSERT_TRUE(worst);
+  EXPECT_NEAR(worst->t, 3.7 / 6, 0.01);
+  EXPECT_NEAR(worst->distance, 0.01, 1e-3);
+  EXPECT_NEAR(worst->share, 0.1, 1e-2);
+  const auto apart = targets.movedApart(poseOf(Rigid::SE2, 0.7, 0));
+  ASSERT_TRUE(apart);
+  EXPECT_NEAR((*apart)[0], 0.7, 1e-3);   // the shortest step goes straight away
+  EXPECT_NEAR((*apart)[1], 0.14, 1e-3);  // to 1.5 times the target
+  EXPECT_FALSE(targets.missedOn(from, poseOf(Rigid::SE2, -1, 0)));
+  // Where nothing is near, there is no step.
+  EXPECT_FALSE(targets.movedApart(from));
+}
+
+TEST(KeepClearance, RoundsAPostAtADistance) {
+  const std::vector<Vec3> posts{{0, -0.8001, 0}};
+  Mover mover(posts, {poseOf(Rigid::SE2, -3, 0), poseOf(Rigid::SE2, 3, 0)}, 0.1);
+  ASSERT_NEAR(clearanceAlong(mover.path, posts), 0.0001, 1e-12);
+  const Path moved = mover.moved(0.1);
+  EXPECT_EQ(moved.front(), mover.path.front());
+  EXPECT_EQ(moved.back(), mover.path.back());
+  EXPECT_GT(clearanceAlong(moved, posts), 0.1);
+  EXPECT_LT(distanceAlong(mover.checker.space(), moved), 6.1);
+  const PathClearance proof = proveClearance(mover.checker, mover.targets, moved, mover.onTarget);
+  EXPECT_EQ(proof.shareOnTarget, 1);
+  EXPECT_EQ(proof.proved, 0.1);
+  EXPECT_EQ(proof.a, "");  // nothing is closer than 0.1 m
+  // No detour is allowed, so the path stays.
+  EXPECT_EQ(mover.moved(1e-6), mover.path);
+  // If time is out, the path stays.
+  EXPECT_EQ(withClearance(mover.targets, mover.checker.space(), mover.path, 7, mover.edges,
+                          mover.onTarget, [] { return true; }),
+            mover.path);
+}
+
+TEST(KeepClearance, StaysInTheMiddleOfANarrowPassage) {
+  // Between the posts there is 0.03 m on both sides: less than the targets.
+  const std::vector<Vec3> posts{{0, -0.85, 0}, {0, 0.81, 0}};
+  Mover mover(posts, {poseOf(Rigid::SE2, -3, 0), poseOf(Rigid::SE2, 3, 0)}, 0.1);
+  const double before = clearanceAlong(mover.path, posts);
+  ASSERT_NEAR(before, 0.01, 1e-12);
+  const Path moved = mover.moved(0.1);
+  const double after = clearanceAlong(moved, posts);
+  EXPECT_GT(after, 0.02);
+  const PathClearance proof = proveClearance(mover.checker, mover.targets, moved, mover.onTarget);
+  EXPECT_LE(proof.proved, after);
+  EXPECT_GE(proof.proved, 0.85 * after);
+  EXPECT_NEAR(proof.smallest, after, 0.05 * after);
+  EXPECT_EQ(proof.a == "ball" ? proof.b.substr(0, 4) : proof.a.substr(0, 4), "post");
+  EXPECT_LT(proof.shareOnTarget, 1);
+  EXPECT_GT(proof.shareOnTarget, 0.8);
+}
+
+/// Random posts and paths: what is promised holds for each.
+TEST(KeepClearance, HoldsWhatItPromises) {
+  std::mt19937_64 random(test::testSeed(2511));
+  std::uniform_real_distribution<double> place(-3, 3);
+  int tried = 0, better = 0, onTarget = 0;
+  for (int n = 0; n < 200 && tried < 40; ++n) {
+    std::vector<Vec3> posts;
+    for (int i = 0; i < 6; ++i) posts.emplace_back(place(random), place(random), 0);
+    Path path;
+    for (int i = 0; i < 3; ++i) path.push_back(poseOf(Rigid::SE2, place(random), place(random)));
+    if (!(clearanceAlong(path, posts) > 1e-4)) continue;
+    ++tried;
+    Mover mover(posts, path, 0.2);
+    const ConfigurationSpace& space = mover.checker.space();
+    const Path moved = mover.moved(0.1);
+    ASSERT_EQ(moved.front(), path.front());
+    ASSERT_EQ(moved.back(), path.back());
+    EXPECT_LE(distanceAlong(space, moved), 1.1 * distanceAlong(space, path) * (1 + 1e-12));
+    EXPECT_TRUE(certifiedPath(mover.checker, moved));
+    const PathClearance proof = proveClearance(mover.checker, mover.targets, moved, mover.onTarget);
+    const double after = clearanceAlong(moved, posts), before = clearanceAlong(path, posts);
+    EXPECT_LT(proof.proved, after) << n;
+    EXPECT_GE(after, std::min(before, mover.targets.least()) * (1 - 1e-9)) << n;
+    better += after > before;
+    onTarget += proof.shareOnTarget == 1;
+    EXPECT_EQ(moved, Mover(posts, path, 0.2).moved(0.1));  // it repeats
+  }
+  EXPECT_GE(tried, 20);
+  EXPECT_GE(onTarget, tried / 2);
+  EXPECT_GE(better, 5);
+}
+
+TEST(ProveClearance, OfAPathOfOneState) {
+  const std::vector<Vec3> posts{{0, -0.83, 0}};
+  Mover mover(posts, {poseOf(Rigid::SE2, 0, 0)}, 0.1);
+  const PathClearance proof =
+      proveClearance(mover.checker, mover.targets, mover.path, mover.onTarget);
+  EXPECT_NEAR(proof.smallest, 0.03, 1e-4);
+  EXPECT_LT(proof.proved, 0.03);
+  EXPECT_GE(proof.proved, 0.02);
+}
+
+TEST(PreferredClearance, ItsDefaultIsForRobotsWithJoints) {
+  Problem ball = ballAmong({{0, -0.8, 0}});
+  EXPECT_EQ(preferredClearance(ball), 0);
+  ball.settings.prefer.clearance = 0.02;
+  EXPECT_EQ(preferredClearance(ball), 0.02);
+  Problem arm = test::armProblem();
+  EXPECT_EQ(preferredClearance(arm), 0.005);
+  arm.settings.prefer.clearance = 0;
+  EXPECT_EQ(preferredClearance(arm), 0);
+  arm.settings.prefer.clearance.reset();
+  for (const auto& change : std::initializer_list<void (*)(Problem&)>{
+           [](Problem& p) { p.task.margin = 1e-3; },
+           [](Problem& p) { p.settings.simplify = Simplifier::ompl; },
+           [](Problem& p) { p.settings.checker.edges = EdgeCheck::discrete; },
+           [](Problem& p) { p.settings.objective = Objective::maxMinClearance; }}) {
+    Problem other = arm;
+    change(other);
+    EXPECT_EQ(preferredClearance(other), 0);
+  }
+}
+
+}  // namespace
+}  // namespace corridor
