@@ -283,6 +283,7 @@ std::vector<FoundState> rigidStates(const Alone& alone, const Checker& checker) 
 constexpr const char* kMore = R"(
 # Common keys, with their defaults:
 # margin: 0                # m, kept between all bodies; 0: touching is contact
+# prefer: {clearance: 0.005}   # m, kept where the path can, instead of margin; 0: shortest path
 # tube: {joints: 0.001}    # the tracking error that the proof covers, too; default: rounding only
 # allow: [[hand, table]]   # pairs of bodies that may touch; default: none
 # planner: {name: RRTConnect, time: 20}   # s; if no path is found, try params: {range: 0.5}

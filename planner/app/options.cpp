@@ -25,6 +25,10 @@ CLI::Validator isSeconds() {
                   "a number of seconds above 0");
 }
 
+CLI::Validator isMetres() {
+  return isWithin(0.0, std::numeric_limits<double>::max(), "a number of metres, 0 or more,");
+}
+
 CLI::Validator isSeed() {
   return isWithin<std::uint64_t>(0, std::numeric_limits<std::uint64_t>::max(),
                                  "a whole number from 0 to 2^64 - 1");

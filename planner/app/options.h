@@ -33,6 +33,7 @@ CLI::Validator isWithin(Number low, Number high, const std::string& needed) {
 /// Accepts these words; the error suggests the one that may be meant.
 CLI::Validator isOneOf(std::vector<std::string> words);
 CLI::Validator isSeconds();  ///< a number above 0
+CLI::Validator isMetres();   ///< a number of 0 or more
 CLI::Validator isSeed();     ///< a whole number of 64 bits
 /// The range of `checker: {resolution: …}` in problem files, with the same message.
 CLI::Validator isResolution();

@@ -151,6 +151,10 @@ Verified verifyWithWarning(const Problem& problem, const Solution& solution,
   if (solution.margin > problem.task.margin)
     warn(solutionFile + ": it claims a margin of " + shortest(solution.margin) +
          " m; it is verified with the problem's, " + shortest(problem.task.margin) + " m");
+  if (report.pathReport.verdict == PathVerdict::proved &&
+      solution.clearance > report.pathReport.provenClearance)
+    warn(solutionFile + ": it claims a clearance of " + shortest(solution.clearance) + " m; only " +
+         rounded(report.pathReport.provenClearance) + " m is proved");
   if (solution.tube.size() == problem.task.tube.size() &&
       (solution.tube.array() > problem.task.tube.array()).any())
     warn(solutionFile +

@@ -1,5 +1,6 @@
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <nlohmann/json.hpp>
@@ -17,6 +18,7 @@ namespace {
 
 struct VerifyArguments {
   std::string problem, solution;
+  std::optional<double> margin;
   bool ignoreDigest = false;  ///< verify the solution even if its digest is not the problem's
   bool json = false, quiet = false;
 };
@@ -111,6 +113,7 @@ void print(const VerifyReport& r, const Problem& problem, const VerifyArguments&
 
 int verifyCommand(const VerifyArguments& a) {
   Problem problem = readProblemOf(a.problem);
+  if (a.margin) setMargin(problem, *a.margin);
   const Solution solution = readSolution(a.solution, problem.model.space);
   const Verified verified =
       verifyWithWarning(problem, solution, a.problem, a.solution, a.ignoreDigest);
@@ -138,6 +141,10 @@ void addVerify(CLI::App& program, int& status) {
           "a solution file (-: standard input), or an OMPL.app .path file with one state per "
           "line")
       ->required();
+  command
+      ->add_option("--margin", a.margin,
+                   "metres that all tested pairs must keep apart, in place of the problem's margin")
+      ->check(isMetres());
   addIgnoreDigest(*command, a.ignoreDigest);
   addJson(*command, a.json);
   addQuiet(*command, a.quiet);

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planner/problem/problem.h"
+
+namespace corridor::app {
+
+/// The arguments of `corridor solve`.
+struct SolveArguments {
+  std::vector<std::string> problems;
+  std::optional<std::string> planner, sampler, stop, edges, simplify;
+  std::optional<double> time, resolution, margin, clearance;
+  std::optional<std::uint64_t> seed;
+  std::vector<std::string> set;  ///< key=value
+  std::optional<std::string> output, picture, from;
+  std::uint64_t jobs = 1, tries = 1;
+  std::string keep = "shortest";  ///< which try is kept: shortest or clearest
+  bool json = false, jsonLines = false, quiet = false, noSimplify = false;
+};
+
+/// Replaces settings of the problem by those of the command line.
+/// @returns the keys that were set, each with its option. @throws InputError
+std::map<std::string, std::string> applyArguments(const SolveArguments& a, Problem& problem);
+
+}  // namespace corridor::app

@@ -1,0 +1,241 @@
+#include "planner/app/solve_many.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+
+#include "collision/core/error.h"
+#include "collision/core/quantiles.h"
+#include "collision/core/spelling.h"
+#include "planner/app/commands.h"
+#include "planner/app/interrupt.h"
+#include "planner/app/output.h"
+#include "planner/app/solve_one.h"
+#include "planner/benchmark/child_process.h"
+
+namespace corridor::app {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+/// Seconds that the parent waits for a child: children end by the time limits of their problems.
+constexpr double kPatience = 1e9;
+constexpr int kPollMs = 200;
+
+constexpr const char* kBadInputResult = "bad input";
+constexpr const char* kFailedResult = "failed";
+
+/// Makes a folder for files. @throws InputError
+void requireFolder(const std::optional<std::string>& folder, const char* option,
+                   std::size_t problems) {
+  if (!folder) return;
+  const auto refuse = [&](const std::string& why) { throw InputError(Fault{option, 0, why}); };
+  const std::string extension = lowered(fs::path(*folder).extension().string());
+  std::error_code error;
+  const bool isFolder = fs::is_directory(*folder, error);
+  if (*folder == "-" || (fs::exists(*folder, error) && !isFolder) ||
+      (!isFolder && (extension == ".yaml" || extension == ".yml" || extension == ".svg")))
+    refuse("names one file, but there are " + counted(problems, "problem") + "; name a folder");
+  fs::create_directories(*folder, error);
+  if (error) refuse("the folder " + *folder + " can't be made: " + error.message());
+  if (::access(folder->c_str(), W_OK | X_OK) != 0)
+    refuse("the folder " + *folder + " is not writable");
+}
+
+/// Returns the arguments with the names of one problem's files.
+SolveArguments argumentsFor(const ListedProblem& problem, const SolveArguments& a) {
+  SolveArguments own = a;
+  if (a.output) own.output = (fs::path(*a.output) / (problem.name + ".yaml")).string();
+  if (a.picture) own.picture = (fs::path(*a.picture) / (problem.name + ".svg")).string();
+  return own;
+}
+
+/// Solves one problem in a child process, and sends the report to the parent.
+ChildProcess::Work workFor(const ListedProblem& problem, const SolveArguments& a) {
+  return [&problem, &a](const std::function<void(const std::string&)>& send) {
+    static const std::atomic<bool> never = false;  // the parent kills an interrupted child
+    ordered_json report;
+    try {
+      SolveArguments own = argumentsFor(problem, a);
+      own.quiet = true;  // no progress
+      report = jsonOf(solveOne(problem.file, own, never), problem.file);
+    } catch (const InputError& error) {
+      printFaults(error);
+      report = {{"problem", problem.file}, {"result", kBadInputResult}, {"why", error.what()}};
+    }
+    send(report.dump(-1, ' ', false, ordered_json::error_handler_t::replace));
+  };
+}
+
+/// The problems that are being solved, and the reports so far.
+class Jobs {
+ public:
+  Jobs(const std::vector<ListedProblem>& problems, const SolveArguments& a)
+      : problems_(problems), arguments_(a), reports_(problems.size()) {}
+
+  /// @param done is called with each report and the number of its problem.
+  template <class Done>
+  void run(const std::atomic<bool>& interrupted, const Done& done) {
+    std::size_t next = 0;
+    while (next < problems_.size() || !running_.empty()) {
+      while (!interrupted && next < problems_.size() && running_.size() < arguments_.jobs) {
+        running_.push_back(
+            {next, std::make_unique<ChildProcess>(workFor(problems_[next], arguments_),
+                                                  ChildLimits{{kPatience}, 0})});
+        ++next;
+      }
+      std::vector<ChildProcess*> children;
+      for (const Running& job : running_) children.push_back(job.child.get());
+      ChildProcess::waitForAny(children, kPollMs);
+      for (Running& job : running_) {
+        if (interrupted) job.child->stop("interrupted");
+        if (!job.child->advance()) continue;
+        if (interrupted && job.child->end().messages.empty()) continue;
+        reports_[job.problem] = reportOf(job);
+        done(job.problem, reports_[job.problem]);
+      }
+      std::erase_if(running_, [](const Running& job) { return job.child->over(); });
+      if (interrupted) return;
+    }
+  }
+
+  /// The reports in the order of the problems; null for problems that were not finished.
+  const std::vector<ordered_json>& reports() const { return reports_; }
+
+ private:
+  struct Running {
+    std::size_t problem;
+    std::unique_ptr<ChildProcess> child;
+  };
+
+  ordered_json reportOf(const Running& job) const {
+    const ChildEnd& end = job.child->end();
+    if (!end.messages.empty()) return ordered_json::parse(end.messages.front());
+    return {
+        {"problem", problems_[job.problem].file}, {"result", kFailedResult}, {"why", end.failure}};
+  }
+
+  const std::vector<ListedProblem>& problems_;
+  const SolveArguments& arguments_;
+  std::vector<Running> running_;
+  std::vector<ordered_json> reports_;
+};
+
+int statusOf(const ordered_json& report) {
+  const std::string result = report["result"];
+  return result == nameOf(SolveOutcome::solved) ? kDone
+         : result == kBadInputResult            ? kBadInput
+         : result == kFailedResult              ? kInternal
+                                                : kNegativeResult;
+}
+
+/// Returns the line about one problem.
+std::string lineOf(const ordered_json& report) {
+  std::string line = report["result"];
+  if (statusOf(report) != kDone) return line + ": " + std::string(report["why"]);
+  const auto& path = report["path"];
+  const double metres = path["length_m"], radians = path["rotation_rad"];
+  line += ", " + (metres > 0 ? rounded(metres) + " m" : "") +
+          (metres > 0 && radians > 0 ? " and " : "") +
+          (radians > 0 ? rounded(radians) + " rad" : "");
+  if (metres == 0 && radians == 0) line += "0 m";
+  line += ", " + counted(path["states"].get<std::uint64_t>(), "state");
+  if (report.contains("clearance"))
+    line += ", clearance " + rounded(1e3 * report["clearance"]["proved_m"].get<double>()) + " mm";
+  line += report["certified"].get<bool>() ? ", certified" : ", not certified";
+  return line + ", " + durationText(report["time_s"]);
+}
+
+/// Prints medians over the solved problems, one row for each set or folder.
+void printTable(const std::vector<ordered_json>& reports, const ResultPrinter& out) {
+  std::vector<std::pair<std::string, std::vector<const ordered_json*>>> groups;
+  for (const ordered_json& report : reports) {
+    if (report.is_null()) continue;
+    const std::string file = report["problem"];
+    const auto hash = file.rfind(".json#");
+    const std::string set = hash == std::string::npos ? "other problems" : file.substr(0, hash + 5);
+    const auto known = std::find_if(groups.begin(), groups.end(),
+                                    [&](const auto& group) { return group.first == set; });
+    auto& group = known == groups.end()
+                      ? groups.emplace_back(set, std::vector<const ordered_json*>())
+                      : *known;
+    group.second.push_back(&report);
+  }
+  for (const auto& [set, all] : groups) {
+    std::vector<const ordered_json*> solved;
+    std::size_t certified = 0;
+    for (const ordered_json* report : all)
+      if (statusOf(*report) == kDone) {
+        solved.push_back(report);
+        certified += (*report)["certified"].get<bool>();
+      }
+    out.line(groups.size() == 1 && set == "other problems" ? "problems" : set,
+             std::to_string(solved.size()) + " of " + std::to_string(all.size()) + " solved, " +
+                 std::to_string(certified) + " certified");
+    if (solved.empty()) continue;
+    std::string times;
+    for (const auto& [key, name] : std::initializer_list<std::pair<const char*, const char*>>{
+             {"read_s", "reading"},
+             {"set_up_s", "set-up"},
+             {"search_s", "search"},
+             {"simplify_s", "simplification"},
+             {"certify_s", "certification"}}) {
+      std::vector<double> seconds;
+      for (const ordered_json* report : solved) seconds.push_back((*report)["phases"][key]);
+      times +=
+          (times.empty() ? "" : ", ") + std::string(name) + " " + durationText(medianOf(seconds));
+    }
+    out.line("  medians", times);
+    std::vector<double> proved;
+    for (const ordered_json* report : solved)
+      if (report->contains("clearance")) proved.push_back((*report)["clearance"]["proved_m"]);
+    if (!proved.empty())
+      out.line("  median clearance", rounded(1e3 * medianOf(proved)) + " mm proved");
+  }
+}
+
+}  // namespace
+
+int solveMany(const std::vector<ListedProblem>& problems, const SolveArguments& a,
+              const std::atomic<bool>& interrupted) {
+  requireFolder(a.output, "--output", problems.size());
+  requireFolder(a.picture, "--picture", problems.size());
+  const ResultPrinter out(a.quiet || a.json || a.jsonLines);
+  const bool show = !a.quiet && ::isatty(STDERR_FILENO) != 0;
+  int status = kDone;
+  std::size_t done = 0;
+  Jobs jobs(problems, a);
+  jobs.run(interrupted, [&](std::size_t i, const ordered_json& report) {
+    ++done;
+    status = std::max(status, statusOf(report));
+    if (show) std::fputs("\r\033[K", stderr);
+    if (a.jsonLines && !a.quiet) std::cout << report.dump() << std::endl;
+    out.line(problems[i].name, lineOf(report));
+    std::cout.flush();
+    if (show) std::fprintf(stderr, "\r%zu of %zu problems done\033[K", done, problems.size());
+  });
+  if (show) std::fputs("\r\033[K", stderr);
+  if (a.json && !a.quiet) {
+    ordered_json list = ordered_json::array();
+    for (const ordered_json& report : jobs.reports())
+      if (!report.is_null()) list.push_back(report);
+    std::cout << ordered_json{{"format", "corridor-solve-report-1"}, {"problems", list}}.dump(2)
+              << '\n';
+  }
+  if (!a.quiet && !a.json && !a.jsonLines) {
+    out.blank();
+    printTable(jobs.reports(), out);
+  }
+  return interrupted ? interruptedStatus() : status;
+}
+
+}  // namespace corridor::app

@@ -1,0 +1,96 @@
+#include "planner/app/solve_one.h"
+
+#include <chrono>
+#include <cstdio>
+#include <iostream>
+#include <unistd.h>
+
+#include "planner/app/options.h"
+#include "planner/app/output.h"
+#include "planner/problem/digest.h"
+#include "planner/solve/solution.h"
+#include "planner/solve/whole_file.h"
+#include "planner/view/svg_picture.h"
+
+namespace corridor::app {
+namespace {
+
+/// Returns whether a solution is better than another one.
+bool isBetter(const ConfigurationSpace& space, const SolveReport& a, const SolveReport& b,
+              bool clearest) {
+  if (clearest && a.clearance && b.clearance) {
+    if (a.clearance->proved != b.clearance->proved)
+      return a.clearance->proved > b.clearance->proved;
+    if (a.clearance->shareOnTarget != b.clearance->shareOnTarget)
+      return a.clearance->shareOnTarget > b.clearance->shareOnTarget;
+  }
+  return distanceAlong(space, a.path) < distanceAlong(space, b.path);
+}
+
+/// Solves the problem as often as the arguments say, each time with another seed. Returns the best
+/// solution, or the report on the first try if there is none. The seed of `problem` is then that of
+/// the report.
+SolveReport bestOf(const SolveArguments& a, Problem& problem, const SolveOptions& options) {
+  SolveReport best = solveProblem(problem, options);
+  const std::uint64_t first = problem.settings.seed;
+  for (std::uint64_t n = 1; n < a.tries && best.outcome != SolveOutcome::interrupted; ++n) {
+    problem.settings.seed = first + n;  // wraps around beyond 2^64 - 1
+    SolveReport report = solveProblem(problem, options);
+    const bool isSolved = report.outcome == SolveOutcome::solved;
+    if (report.outcome == SolveOutcome::interrupted ||
+        (isSolved && (best.outcome != SolveOutcome::solved ||
+                      isBetter(problem.model.space, report, best, a.keep == "clearest"))))
+      best = std::move(report);
+  }
+  problem.settings.seed = best.seed;
+  if (a.tries > 1 && best.outcome == SolveOutcome::solved && !best.repeats)
+    best.notes.push_back(
+        {"the planner does not repeat, or its time ran out: the seed of the path "
+         "that is kept may give another path",
+         NoteWeight::motion});
+  return best;
+}
+
+}  // namespace
+
+Solved solveOne(const std::string& file, const SolveArguments& a,
+                const std::atomic<bool>& interrupted) {
+  const auto before = std::chrono::steady_clock::now();
+  Problem problem = readProblemOf(file);
+  const std::chrono::duration<double> reading = std::chrono::steady_clock::now() - before;
+  // Computed before planning, because the files may change while the planner runs.
+  const std::string digest = a.output ? digestOf(problem) : "";
+  requireNotAnInput(a.output, "--output", problem.source.files, "the problem");
+  requireNotAnInput(a.picture, "--picture", problem.source.files, "the problem");
+  SolveOptions options;
+  options.valueOrigins = applyArguments(a, problem);
+  options.interrupted = &interrupted;
+  options.noteStillPairs = true;
+  const bool show = !a.quiet && ::isatty(STDERR_FILENO) != 0;
+  if (show) {
+    options.progress = [&](const SolveProgress& p) {
+      std::fprintf(stderr, "\r%s: %s, %.1f of %g s, %s\033[K", problem.source.name.c_str(),
+                   problem.settings.planner.name.c_str(), p.seconds, problem.settings.planner.time,
+                   counted(p.edges, "edge").c_str());
+    };
+  }
+  std::optional<ViewDirection> from;
+  if (a.from) from = viewDirection(*a.from, "--from");
+  SolveReport report = bestOf(a, problem, options);
+  if (show) std::fputs("\r\033[K", stderr);
+  for (const Fault& fault : report.warnings) warn(fault.str());
+  addFirst(report.notes, problem.source.notes);
+  if (report.outcome == SolveOutcome::solved) {
+    if (a.output == "-")
+      std::cout << solutionText(makeSolution(problem, report, digest));
+    else if (a.output)
+      writeSolution(makeSolution(problem, report, digest), *a.output);
+    if (a.picture == "-")
+      std::cout << svgPicture(problem, report.path, from);
+    else if (a.picture)
+      writeWhole(*a.picture, svgPicture(problem, report.path, from));
+  }
+  return {std::move(problem), std::move(report), reading.count(), a.tries};
+}
+
+}  // namespace corridor::app

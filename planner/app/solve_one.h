@@ -1,0 +1,17 @@
+#pragma once
+
+#include <atomic>
+#include <string>
+
+#include "planner/app/solve_output.h"
+
+namespace corridor::app {
+
+/// Solves one problem, and writes the solution and the picture that the arguments name. With
+/// several tries, each has a seed of its own, from the problem's seed upwards; the best path is
+/// kept.
+/// @throws InputError.
+Solved solveOne(const std::string& file, const SolveArguments& a,
+                const std::atomic<bool>& interrupted);
+
+}  // namespace corridor::app

@@ -1,0 +1,167 @@
+#include "planner/app/solve_output.h"
+
+#include <cmath>
+#include <iostream>
+
+#include <nlohmann/json.hpp>
+
+#include "planner/app/output.h"
+
+namespace corridor::app {
+
+using nlohmann::ordered_json;
+
+const char* nameOf(SolveOutcome outcome) {
+  switch (outcome) {
+    case SolveOutcome::solved:
+      return "solved";
+    case SolveOutcome::notFound:
+      return "not found";
+    case SolveOutcome::approximate:
+      return "approximate only";
+    case SolveOutcome::interrupted:
+      return "interrupted";
+  }
+  return "";
+}
+
+bool printsFile(const SolveArguments& a) {
+  return a.output == "-" || a.picture == "-";
+}
+
+std::string durationText(double seconds) {
+  return seconds < 1 ? rounded(1e3 * seconds) + " ms" : rounded(seconds) + " s";
+}
+
+namespace {
+
+/// A phase of `solve`: its key in JSON, its name, and its seconds.
+struct Phase {
+  const char* key;
+  const char* name;
+  double seconds;
+};
+
+/// Returns the phases in their order. The first one is not part of `SolveReport::time`.
+std::vector<Phase> phasesOf(const Solved& solved) {
+  const SolveReport& r = solved.report;
+  const bool finished = r.outcome == SolveOutcome::solved;
+  return {{"read_s", "reading", solved.readingTime},
+          {"set_up_s", "set-up", r.setUpTime},
+          {"search_s", "search", r.planningTime - r.setUpTime},
+          {"simplify_s", "simplification",
+           finished ? r.time - r.planningTime - r.certificationTime : 0},
+          {"certify_s", "certification", r.certificationTime}};
+}
+
+/// Returns the lines of the report about the clearance of the path.
+std::vector<std::string> clearanceLines(const PathClearance& c) {
+  std::vector<std::string> lines;
+  lines.push_back(c.proved > 0 ? "proved: " + rounded(1e3 * c.proved) + " mm"
+                               : "none proved beyond being free");
+  if (!c.a.empty())
+    lines.back() += "; closest: " + c.a + " and " + c.b + ", " + rounded(1e3 * c.smallest) +
+                    " mm, edge " + std::to_string(c.edge) + " at " + rounded(c.t);
+  lines.push_back("on target for " + rounded(std::floor(1e3 * c.shareOnTarget) / 10) +
+                  " % of the length");
+  return lines;
+}
+
+ordered_json clearanceJson(const PathClearance& c) {
+  ordered_json j = {{"proved_m", c.proved}, {"share_on_target", c.shareOnTarget}};
+  if (std::isfinite(c.ofEnds)) j["ends_m"] = c.ofEnds;
+  if (c.a.empty()) return j;
+  j["closest"] = {{"bodies", {c.a, c.b}}, {"distance_m", c.smallest}, {"edge", c.edge}, {"t", c.t}};
+  return j;
+}
+
+}  // namespace
+
+void print(const Solved& result, const std::string& problem, const SolveArguments& a) {
+  const Problem& p = result.problem;
+  const SolveReport& r = result.report;
+  const bool solved = r.outcome == SolveOutcome::solved;
+  if (printsFile(a)) {
+    if (!solved) warn(std::string(nameOf(r.outcome)) + ": " + r.why);
+    for (const std::string& note : condensed(textsOf(p.source.notes)))
+      std::cerr << "note: " << note << '\n';
+  }
+  const ResultPrinter out(a.quiet || printsFile(a));
+  out.line("problem", problem);
+  out.line("result", nameOf(r.outcome), solved ? Tone::good : Tone::bad);
+  if (!solved) out.line("why", r.why);
+  for (const std::string& note : condensed(textsOf(p.source.notes))) out.line("note", note);
+  out.line("planner", r.planner);
+  out.line("seed", std::to_string(r.seed) +
+                       (result.tries > 1 ? ", the best of " + std::to_string(result.tries) : ""));
+  std::string phases;
+  for (const Phase& phase : phasesOf(result))
+    phases +=
+        (phases.empty() ? "" : ", ") + std::string(phase.name) + " " + durationText(phase.seconds);
+  out.line("time", phases);
+  if (r.restarts > 0) out.line("restarts of the search", grouped(r.restarts));
+  out.line("states checked", grouped(r.counters.states));
+  out.line("edges checked", grouped(r.counters.edges));
+  out.line("undecided", grouped(r.counters.undecided));
+  out.line("box tests N_v", grouped(r.counters.boxTests));
+  out.line("triangle tests N_p", grouped(r.counters.triangleTests));
+  if (!solved) return;
+  out.line("path length", lengthText(p.model.space, r.length.metres, r.length.radians));
+  out.line("path states", grouped(r.path.size()));
+  if (r.clearance) {
+    for (const std::string& line : clearanceLines(*r.clearance)) out.line("clearance", line);
+  }
+  out.line("certified", r.certified ? "yes" : "no (" + r.checker + ")",
+           r.certified ? Tone::good : Tone::bad);
+  if (a.output) out.line("solution", *a.output);
+  if (a.picture) out.line("picture", *a.picture);
+}
+
+ordered_json jsonOf(const Solved& result, const std::string& problem) {
+  const Problem& p = result.problem;
+  const SolveReport& r = result.report;
+  ordered_json phases;
+  for (const Phase& phase : phasesOf(result)) phases[phase.key] = phase.seconds;
+  ordered_json j = {{"problem", problem},
+                    {"result", nameOf(r.outcome)},
+                    {"planner", r.planner},
+                    {"seed", r.seed},
+                    {"tries", result.tries},
+                    {"restarts", r.restarts},
+                    {"repeats", r.repeats},
+                    {"time_s", r.time},
+                    {"planning_time_s", r.planningTime},
+                    {"phases", phases},
+                    {"states_checked", r.counters.states},
+                    {"edges_checked", r.counters.edges},
+                    {"undecided", r.counters.undecided},
+                    {"box_tests", r.counters.boxTests},
+                    {"triangle_tests", r.counters.triangleTests},
+                    {"checker", r.checker},
+                    {"certified", r.certified},
+                    {"tolerance_m", r.proofOptions.tolerance},
+                    {"margin_m", r.proofOptions.margin},
+                    {"tube", tubeJson(p.model.space, p.task.tube)}};
+  if (!p.source.notes.empty()) j["notes"] = textsOf(p.source.notes);
+  if (!r.warnings.empty()) {
+    j["warnings"] = ordered_json::array();
+    for (const Fault& fault : r.warnings) j["warnings"].push_back(fault.text);
+  }
+  if (r.outcome == SolveOutcome::solved) {
+    ordered_json rows = ordered_json::array();
+    for (const Configuration& q : r.path) rows.push_back(numbersJson(q));
+    if (r.clearance) j["clearance"] = clearanceJson(*r.clearance);
+    j["numbers"] = p.model.space.numberNames();
+    j["path"] = {{"states", r.path.size()},
+                 {"length_m", r.length.metres},
+                 {"rotation_rad", r.length.radians},
+                 {"raw_states", r.rawStates},
+                 {"version", r.version},
+                 {"rows", rows}};
+  } else {
+    j["why"] = r.why;
+  }
+  return j;
+}
+
+}  // namespace corridor::app
