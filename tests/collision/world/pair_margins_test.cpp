@@ -23,9 +23,7 @@ class Row {
   const Scene& scene() const { return scene_.scene(); }
   std::size_t size() const { return gaps_.size(); }
   /// Returns the distance that the cube keeps from the box of a pair of `motionPairs()`.
-  double gapOf(std::size_t pair) const {
-    return gaps_[scene().motionPairs()[pair].bodyA];
-  }
+  double gapOf(std::size_t pair) const { return gaps_[scene().motionPairs()[pair].bodyA]; }
   RigidMotion motion() const {
     const double end = 0.5 * static_cast<double>(size());
     return RigidMotion::spatial(at(Vec3(-0.5, 0, 0)), at(Vec3(end, 0, 0)), {});

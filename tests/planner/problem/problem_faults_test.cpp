@@ -320,7 +320,8 @@ TEST_F(ProblemFaults, Prefer) {
             "problem.yaml:8: prefer.detour: must be 0 or more, not -0.1");
   EXPECT_EQ(with("prefer: {detour: .nan}\n"),
             "problem.yaml:8: prefer.detour: a finite number is needed, not \".nan\"");
-  EXPECT_EQ(with("prefer: 0.1\n"), "problem.yaml:8: prefer: a map (key: value) is needed, not \"0.1\"");
+  EXPECT_EQ(with("prefer: 0.1\n"),
+            "problem.yaml:8: prefer: a map (key: value) is needed, not \"0.1\"");
   EXPECT_EQ(with("prefer: {margin: 1}\n"),
             "problem.yaml:8: unknown key \"margin\" in prefer (known: clearance, detour)");
   EXPECT_EQ(with("margin: 0.01\nprefer: {clearance: 0.1}\n"),
