@@ -6,6 +6,8 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "collision/convex/convex_distance.h"
@@ -271,6 +273,14 @@ Vec3 contactPoint(MotionSource& motion, std::span<const MotionPair> pairs,
 }
 
 }  // namespace
+
+PairMargins::PairMargins(std::vector<double> metres) : metres_(std::move(metres)) {
+  for (const double margin : metres_) {
+    if (!(margin >= 0 && std::isfinite(margin)))
+      throw std::invalid_argument("the margins of pairs must be finite and not negative");
+    largest_ = std::max(largest_, margin);
+  }
+}
 
 MotionResult certifyMotion(MotionSource& motion, std::span<const MotionPair> pairs,
                            const MotionOptions& options, QueryContext& context,

@@ -1,10 +1,8 @@
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "collision/core/query_context.h"
@@ -59,13 +57,15 @@ struct MotionResult {
 
 class BroadPhase;
 
-/// Margins of single pairs: of links with padding, or to prove how far each pair stays apart.
+/// One margin for each pair of a query, in addition to `MotionOptions::margin`. It is used for
+/// padding, and to prove the distance of each pair.
 class PairMargins {
  public:
-  /// @param metres one margin for each pair of the query, in its order; finite, 0 or more.
-  explicit PairMargins(std::vector<double> metres) : metres_(std::move(metres)) {
-    for (const double margin : metres_) largest_ = std::max(largest_, margin);
-  }
+  /// @param metres one margin for each pair of the query, in its order. Queries of a `Scene` take
+  /// the order of `Scene::motionPairs()`, which is not that of `Scene::pairs()`.
+  /// @throws std::invalid_argument if a margin is negative or not finite. (It is tested here, and
+  /// not by each query, because scenes may have millions of pairs.)
+  explicit PairMargins(std::vector<double> metres);
 
   std::size_t size() const { return metres_.size(); }
   double operator[](std::size_t pair) const { return metres_[pair]; }
@@ -107,7 +107,7 @@ struct MotionOptions {
     const double more = pairMargins ? (*pairMargins)[pair] : 0;
     return more > 0 ? roundedUp(margin + more) : margin;
   }
-  /// Returns a distance that no pair must exceed by its margin, metres.
+  /// Returns an upper bound of `marginOf` for all pairs, metres.
   double largestMargin() const {
     const double more = pairMargins ? pairMargins->largest() : 0;
     return more > 0 ? roundedUp(margin + more) : margin;

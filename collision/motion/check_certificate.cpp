@@ -85,9 +85,7 @@ bool isOnGrid(const FreeInterval& i) {
 
 bool areOptions(const MotionOptions& options, std::size_t pairs) {
   const auto finite = [](double x) { return x >= 0 && x < HUGE_VAL; };
-  if (const PairMargins* own = options.pairMargins;
-      own && !(own->size() == pairs && std::all_of(own->all().begin(), own->all().end(), finite)))
-    return false;
+  if (options.pairMargins && options.pairMargins->size() != pairs) return false;
   return finite(options.margin) && finite(options.clearanceSlack) && finite(options.tolerance) &&
          options.tolerance > 0;
 }

@@ -27,8 +27,9 @@ class NearestPairs {
       : options_(options),
         relative_(options.relative + kTieShare),
         candidates_(context.scratch.of<Candidates>().pairs),
-        // A pair that is `upTo` apart must still improve the result; see `canImprove`.
-        upper_((options.upTo * (1 + relative_) + options.absolute) * (1 + 0x1p-48)) {
+        // A pair that the options allow as the answer for a distance of `upTo` must still improve
+        // the result; see `canImprove`.
+        upper_((allowedFor(allowedFor(options.upTo))) * (1 + 0x1p-48)) {
     candidates_.clear();
   }
 
@@ -40,6 +41,11 @@ class NearestPairs {
   /// and for a NaN.
   bool canImprove(double bound) const {
     return bound == 0 || !(bound * (1 + relative_) + options_.absolute >= upper_);
+  }
+
+ private:
+  double allowedFor(double distance) const {
+    return distance * (1 + relative_) + options_.absolute;
   }
 
  protected:

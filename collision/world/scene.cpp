@@ -79,9 +79,6 @@ BoundingBox boxUnder(const Body& body, const Transform& X) {
 void require(const PairMargins& margins, std::size_t pairs) {
   if (margins.size() != pairs)
     throw std::invalid_argument("a query with margins of pairs needs one for each pair");
-  if (!std::all_of(margins.all().begin(), margins.all().end(),
-                   [](double x) { return x >= 0 && std::isfinite(x); }))
-    throw std::invalid_argument("the margins of pairs must be finite and not negative");
 }
 
 /// Checks the numbers of every motion query. With a negative margin, for example, `free` would be

@@ -89,9 +89,9 @@ class Scene {
     std::size_t pair = 0;  ///< its index in `motionPairs()`
     Distance distance;     ///< with witness points in the world
   };
-  /// Returns the pairs whose distance is at most a length of their own, with their distances, in
-  /// the order of `motionPairs()`. The errors of the distances are those of queries/distance.h; the
-  /// option `upTo` is not used.
+  /// Returns the pairs whose measured distance is at most a length of their own, with their
+  /// distances, in the order of `motionPairs()`. The errors of the distances are those of
+  /// queries/distance.h; the option `upTo` is not used.
   /// @param within metres, one length for each pair.
   std::vector<NearPair> pairsWithin(std::span<const Transform> X_WF, const PairMargins& within,
                                     const DistanceOptions& options, QueryContext& context,

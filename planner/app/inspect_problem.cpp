@@ -108,7 +108,22 @@ class ProblemReport {
     json_["tube"] = tubeJson(problem_.model.space, problem_.task.tube);
     out_.line("tolerance", rounded(checker_.options().tolerance) + " m");
     out_.line("margin", rounded(problem_.task.margin) + " m");
+    reportPadding();
     out_.line("tube", tubeText(problem_.model.space, problem_.task.tube));
+  }
+
+  void reportPadding() {
+    const Padding& padding = problem_.task.padding;
+    const auto nameOf = [&](std::size_t body) { return problem_.model.bodies[body].name; };
+    for (const auto& [body, metres] : padding.bodies) {
+      json_["padding"]["bodies"][nameOf(body)] = metres;
+      out_.line("padding", nameOf(body) + " " + rounded(metres) + " m");
+    }
+    for (const auto& [pair, metres] : padding.pairs) {
+      const std::string a = nameOf(pair.first), b = nameOf(pair.second);
+      json_["padding"]["pairs"].push_back({a, b, metres});
+      out_.line("padding", a + " ~ " + b + " " + rounded(metres) + " m");
+    }
   }
 
   void reportBodies() {

@@ -1,15 +1,14 @@
 #include "planner/app/problem_list.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cstdint>
 #include <filesystem>
+#include <iterator>
 #include <map>
-#include <optional>
 #include <set>
 #include <system_error>
 
 #include "collision/core/error.h"
+#include "planner/benchmark/campaign_yaml.h"
 #include "planner/problem/mbm_json.h"
 
 namespace corridor::app {
@@ -17,43 +16,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Range {
-  std::string file;
-  std::uint64_t first = 0, last = 0;
-};
-
-/// Returns the range of `SET.json#A-B`, or nullopt for another argument.
-std::optional<Range> rangeIn(const std::string& argument) {
-  const auto hash = argument.rfind(".json#");
-  if (hash == std::string::npos) return std::nullopt;
-  Range range{argument.substr(0, hash + 5)};
-  const char* const end = argument.data() + argument.size();
-  const auto [dash, error] = std::from_chars(argument.data() + hash + 6, end, range.first);
-  if (error != std::errc{} || dash == end || *dash != '-') return std::nullopt;
-  const auto [stop, wrong] = std::from_chars(dash + 1, end, range.last);
-  if (wrong != std::errc{} || stop != end) return std::nullopt;
-  return range;
-}
-
-void addRange(const Range& range, const std::string& argument, std::vector<std::string>& files) {
-  if (range.last < range.first)
-    throw InputError(Fault{argument, 0, "the range is empty: its end is below its beginning"});
-  std::set<std::uint64_t> indices;
-  for (const std::string& text : mbmIndices(range.file)) {
-    std::uint64_t index = 0;
-    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), index);
-    if (error == std::errc{} && stop == text.data() + text.size()) indices.insert(index);
-  }
-  for (const std::uint64_t end : {range.first, range.last})
-    if (!indices.contains(end))
-      throw InputError(Fault{
-          argument, 0,
-          "the set has no problem #" + std::to_string(end) +
-              (indices.empty() ? ""
-                               : "; its indices are from " + std::to_string(*indices.begin()) +
-                                     " to " + std::to_string(*indices.rbegin()))});
-  for (auto i = indices.find(range.first); i != indices.end() && *i <= range.last; ++i)
-    files.push_back(range.file + "#" + std::to_string(*i));
+/// Adds the problems of a range of a set, `SET.json#A-B`. @param range as `problemsOf` returns it.
+void addRange(const std::string& argument, const std::vector<std::string>& range,
+              std::vector<std::string>& files) {
+  const std::string set = range.front().substr(0, range.front().rfind('#') + 1);
+  const std::vector<std::string> indices = mbmIndices(set.substr(0, set.size() - 1));
+  const auto isIn = [&](const std::string& problem) {
+    return std::find(indices.begin(), indices.end(), problem.substr(set.size())) != indices.end();
+  };
+  for (const std::string& end : {range.front(), range.back()})
+    if (!isIn(end))
+      throw InputError(Fault{argument, 0,
+                             "the set has no problem #" + end.substr(set.size()) +
+                                 (indices.empty() ? ""
+                                                  : "; its indices are from " + indices.front() +
+                                                        " to " + indices.back())});
+  std::copy_if(range.begin(), range.end(), std::back_inserter(files), isIn);
 }
 
 /// Returns the folders in a folder that have a problem.yaml, sorted.
@@ -88,12 +66,13 @@ std::string nameOf(const std::string& file, bool parent) {
 /// Returns the files with names that differ: where two are alike, the name of the folder is added,
 /// and then a number.
 std::vector<ListedProblem> named(const std::vector<std::string>& files) {
-  std::map<std::string, int> uses;
-  for (const std::string& file : files) ++uses[nameOf(file, false)];
+  std::map<std::string, std::set<std::string>> uses;  // the files of each name
+  for (const std::string& file : files) uses[nameOf(file, false)].insert(file);
   std::vector<ListedProblem> problems;
   std::set<std::string> taken;
   for (const std::string& file : files) {
-    const std::string own = nameOf(file, false), name = uses[own] > 1 ? nameOf(file, true) : own;
+    const std::string own = nameOf(file, false),
+                      name = uses[own].size() > 1 ? nameOf(file, true) : own;
     std::string unique = name;
     for (int n = 2; !taken.insert(unique).second; ++n) unique = name + "-" + std::to_string(n);
     problems.push_back({file, unique});
@@ -103,21 +82,24 @@ std::vector<ListedProblem> named(const std::vector<std::string>& files) {
 
 }  // namespace
 
-std::vector<ListedProblem> listProblems(const std::vector<std::string>& arguments) {
+ProblemList listProblems(const std::vector<std::string>& arguments) {
   std::vector<std::string> files;
+  bool several = arguments.size() > 1;
   std::error_code none;
   for (const std::string& argument : arguments) {
-    if (const auto range = rangeIn(argument)) {
-      addRange(*range, argument, files);
+    if (const auto range = problemsOf(argument); range.front() != argument) {
+      several = true;
+      addRange(argument, range, files);
       continue;
     }
     std::vector<std::string> inside;
     if (fs::is_directory(argument, none) && !fs::exists(fs::path(argument) / "problem.yaml", none))
       inside = problemsIn(argument);
+    several = several || !inside.empty();
     if (inside.empty()) inside.push_back(argument);
     files.insert(files.end(), inside.begin(), inside.end());
   }
-  return named(files);
+  return {named(files), several};
 }
 
 }  // namespace corridor::app

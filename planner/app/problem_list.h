@@ -11,6 +11,14 @@ struct ListedProblem {
   std::string name;  ///< different for each problem of the list; for names of files
 };
 
+/// The problems that a command is given.
+struct ProblemList {
+  std::vector<ListedProblem> problems;
+  /// There is more than one argument, or an argument may stand for several problems. The form of
+  /// the results depends on this, not on how many problems an argument happens to have.
+  bool several = false;
+};
+
 /// Returns the problems that the arguments name:
 /// * `SET.json#A-B`: the problems A to B of a set of MotionBenchMaker;
 /// * a folder without a problem.yaml: every problem.yaml in the folders directly in it, in the
@@ -18,6 +26,6 @@ struct ListedProblem {
 ///   of their names;
 /// * anything else: one problem.
 /// @throws InputError for a range that is empty or goes beyond the set.
-std::vector<ListedProblem> listProblems(const std::vector<std::string>& arguments);
+ProblemList listProblems(const std::vector<std::string>& arguments);
 
 }  // namespace corridor::app

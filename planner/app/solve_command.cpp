@@ -70,10 +70,12 @@ int solveCommand(const SolveArguments& a) {
   if (a.from && !a.picture)
     throw InputError(Fault{"--from", 0, "needs --picture, which is not given"});
   if (a.from) viewDirection(*a.from, "--from");
-  const std::vector<ListedProblem> problems = listProblems(a.problems);
-  if (problems.size() > 1) return solveMany(problems, a, listenForInterrupts());
+  if (a.keep == "clearest" && a.tries == 1)
+    throw InputError(Fault{"--keep", 0, "needs --tries, which is not given"});
+  const ProblemList list = listProblems(a.problems);
+  if (list.several) return solveMany(list.problems, a, listenForInterrupts());
   requireFiles(a);
-  return solveSingle(problems.front().file, a, listenForInterrupts());
+  return solveSingle(list.problems.front().file, a, listenForInterrupts());
 }
 
 }  // namespace
@@ -132,9 +134,10 @@ void addSolve(CLI::App& program, int& status) {
       ->check(isWithin<std::uint64_t>(1, 1024, "a whole number from 1 to 1024"))
       ->group(many);
   command
-      ->add_option("--tries", a.tries,
-                   "solve each problem this many times, with the seeds S, S + 1, …, and keep the "
-                   "best path; S is the problem's seed, or that of --seed (default 1)")
+      ->add_option(
+          "--tries", a.tries,
+          "solve each problem this many times and keep the best path (default 1); the seeds "
+          "are S, S + 1, …, where S is --seed or the problem's seed")
       ->check(isWithin<std::uint64_t>(1, 1'000'000, "a whole number from 1 to 1000000"))
       ->group(many);
   command
@@ -150,9 +153,11 @@ void addSolve(CLI::App& program, int& status) {
       ->check(isMetres())
       ->group(checking);
   command
-      ->add_option("--clearance", a.clearance,
-                   "metres that the pairs should keep apart where the path can (default: 0.005 for "
-                   "robots with joints)")
+      ->add_option(
+          "--clearance", a.clearance,
+          "metres that the pairs should keep apart where the path can, in place of the "
+          "problem's prefer.clearance (default: 0.005 for robots with joints and no margin, "
+          "otherwise 0)")
       ->check(isMetres())
       ->group(checking);
   command

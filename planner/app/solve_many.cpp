@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -34,6 +35,14 @@ constexpr int kPollMs = 200;
 constexpr const char* kBadInputResult = "bad input";
 constexpr const char* kFailedResult = "failed";
 
+/// Returns the name of a problem's solution in a folder. No input file is likely to have it.
+fs::path solutionIn(const std::string& folder, const ListedProblem& problem) {
+  return fs::path(folder) / (problem.name + ".solution.yaml");
+}
+fs::path pictureIn(const std::string& folder, const ListedProblem& problem) {
+  return fs::path(folder) / (problem.name + ".svg");
+}
+
 /// Makes a folder for files. @throws InputError
 void requireFolder(const std::optional<std::string>& folder, const char* option,
                    std::size_t problems) {
@@ -42,36 +51,65 @@ void requireFolder(const std::optional<std::string>& folder, const char* option,
   const std::string extension = lowered(fs::path(*folder).extension().string());
   std::error_code error;
   const bool isFolder = fs::is_directory(*folder, error);
-  if (*folder == "-" || (fs::exists(*folder, error) && !isFolder) ||
-      (!isFolder && (extension == ".yaml" || extension == ".yml" || extension == ".svg")))
-    refuse("names one file, but there are " + counted(problems, "problem") + "; name a folder");
+  const bool isFileName = extension == ".yaml" || extension == ".yml" || extension == ".svg" ||
+                          extension == ".png" || extension == ".path";
+  if (*folder == "-" || (fs::exists(*folder, error) && !isFolder) || (!isFolder && isFileName))
+    refuse("names one file, but there " +
+           std::string(problems == 1 ? "may be several problems"
+                                     : "are " + counted(problems, "problem")) +
+           "; name a folder");
   fs::create_directories(*folder, error);
   if (error) refuse("the folder " + *folder + " can't be made: " + error.message());
   if (::access(folder->c_str(), W_OK | X_OK) != 0)
     refuse("the folder " + *folder + " is not writable");
 }
 
+/// Tests that no file other than a solution would be overwritten. @throws InputError
+void requireNoOtherFile(const std::vector<ListedProblem>& problems, const SolveArguments& a) {
+  if (!a.output) return;
+  for (const ListedProblem& problem : problems) {
+    const fs::path file = solutionIn(*a.output, problem);
+    std::ifstream stream(file);
+    std::string text(4096, '\0');
+    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+    text.resize(static_cast<std::size_t>(stream.gcount()));
+    if (!text.empty() && text.find("format: corridor-solution-1") == std::string::npos)
+      throw InputError(
+          Fault{"--output", 0, file.string() + " exists, and is no solution; name another folder"});
+  }
+}
+
 /// Returns the arguments with the names of one problem's files.
 SolveArguments argumentsFor(const ListedProblem& problem, const SolveArguments& a) {
   SolveArguments own = a;
-  if (a.output) own.output = (fs::path(*a.output) / (problem.name + ".yaml")).string();
-  if (a.picture) own.picture = (fs::path(*a.picture) / (problem.name + ".svg")).string();
+  if (a.output) own.output = solutionIn(*a.output, problem).string();
+  if (a.picture) own.picture = pictureIn(*a.picture, problem).string();
   return own;
 }
 
-/// Solves one problem in a child process, and sends the report to the parent.
+/// Solves one problem in a child process. Sends a first message before it writes a file, and then
+/// the report.
 ChildProcess::Work workFor(const ListedProblem& problem, const SolveArguments& a) {
   return [&problem, &a](const std::function<void(const std::string&)>& send) {
     static const std::atomic<bool> never = false;  // the parent kills an interrupted child
     ordered_json report;
+    bool isWriting = false;
     try {
       SolveArguments own = argumentsFor(problem, a);
       own.quiet = true;  // no progress
-      report = jsonOf(solveOne(problem.file, own, never), problem.file);
+      const Solved solved = solveOne(problem.file, own, never, [&] {
+        isWriting = true;
+        send("writes");
+      });
+      report = jsonOf(solved, problem.file);
+      for (const Note& note : solved.problem.source.notes)
+        if (note.weight == NoteWeight::coverage && !a.quiet)
+          std::cerr << problem.name << ": note: " << note.text << '\n';
     } catch (const InputError& error) {
       printFaults(error);
       report = {{"problem", problem.file}, {"result", kBadInputResult}, {"why", error.what()}};
     }
+    if (!isWriting) send("writes");
     send(report.dump(-1, ' ', false, ordered_json::error_handler_t::replace));
   };
 }
@@ -87,24 +125,22 @@ class Jobs {
   void run(const std::atomic<bool>& interrupted, const Done& done) {
     std::size_t next = 0;
     while (next < problems_.size() || !running_.empty()) {
-      while (!interrupted && next < problems_.size() && running_.size() < arguments_.jobs) {
-        running_.push_back(
-            {next, std::make_unique<ChildProcess>(workFor(problems_[next], arguments_),
-                                                  ChildLimits{{kPatience}, 0})});
+      while (!interrupted && next < problems_.size() && running_.size() < arguments_.jobs &&
+             start(next))
         ++next;
-      }
       std::vector<ChildProcess*> children;
       for (const Running& job : running_) children.push_back(job.child.get());
       ChildProcess::waitForAny(children, kPollMs);
       for (Running& job : running_) {
-        if (interrupted) job.child->stop("interrupted");
-        if (!job.child->advance()) continue;
-        if (interrupted && job.child->end().messages.empty()) continue;
+        const bool isOver = job.child->advance();
+        // A child that writes its files is not stopped in the middle.
+        if (interrupted && job.child->end().messages.empty()) job.child->stop("interrupted");
+        if (!isOver) continue;
         reports_[job.problem] = reportOf(job);
         done(job.problem, reports_[job.problem]);
       }
       std::erase_if(running_, [](const Running& job) { return job.child->over(); });
-      if (interrupted) return;
+      if (interrupted && running_.empty()) return;
     }
   }
 
@@ -117,9 +153,23 @@ class Jobs {
     std::unique_ptr<ChildProcess> child;
   };
 
+  /// Starts to solve a problem. Returns false if the system has no room for another process, but
+  /// others are running: then one of them has to end first.
+  bool start(std::size_t problem) {
+    try {
+      running_.push_back(
+          {problem, std::make_unique<ChildProcess>(workFor(problems_[problem], arguments_),
+                                                   ChildLimits{{kPatience, kPatience}, 0})});
+    } catch (const std::system_error&) {
+      if (running_.empty()) throw;
+      return false;
+    }
+    return true;
+  }
+
   ordered_json reportOf(const Running& job) const {
     const ChildEnd& end = job.child->end();
-    if (!end.messages.empty()) return ordered_json::parse(end.messages.front());
+    if (end.messages.size() == 2) return ordered_json::parse(end.messages.back());
     return {
         {"problem", problems_[job.problem].file}, {"result", kFailedResult}, {"why", end.failure}};
   }
@@ -141,7 +191,10 @@ int statusOf(const ordered_json& report) {
 /// Returns the line about one problem.
 std::string lineOf(const ordered_json& report) {
   std::string line = report["result"];
-  if (statusOf(report) != kDone) return line + ": " + std::string(report["why"]);
+  if (statusOf(report) != kDone) {
+    const std::string why = report["why"];
+    return line + ": " + why.substr(0, why.find('\n'));
+  }
   const auto& path = report["path"];
   const double metres = path["length_m"], radians = path["rotation_rad"];
   line += ", " + (metres > 0 ? rounded(metres) + " m" : "") +
@@ -209,6 +262,7 @@ int solveMany(const std::vector<ListedProblem>& problems, const SolveArguments& 
               const std::atomic<bool>& interrupted) {
   requireFolder(a.output, "--output", problems.size());
   requireFolder(a.picture, "--picture", problems.size());
+  requireNoOtherFile(problems, a);
   const ResultPrinter out(a.quiet || a.json || a.jsonLines);
   const bool show = !a.quiet && ::isatty(STDERR_FILENO) != 0;
   int status = kDone;

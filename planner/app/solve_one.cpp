@@ -1,5 +1,6 @@
 #include "planner/app/solve_one.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <iostream>
@@ -8,6 +9,7 @@
 #include "planner/app/options.h"
 #include "planner/app/output.h"
 #include "planner/problem/digest.h"
+#include "planner/solve/keep_clearance.h"
 #include "planner/solve/solution.h"
 #include "planner/solve/whole_file.h"
 #include "planner/view/svg_picture.h"
@@ -28,18 +30,27 @@ bool isBetter(const ConfigurationSpace& space, const SolveReport& a, const Solve
 }
 
 /// Solves the problem as often as the arguments say, each time with another seed. Returns the best
-/// solution, or the report on the first try if there is none. The seed of `problem` is then that of
-/// the report.
-SolveReport bestOf(const SolveArguments& a, Problem& problem, const SolveOptions& options) {
+/// solution, or the report on the first try if there is none. An interrupt ends the tries.
+/// @param tries gets the number of tries that ended.
+SolveReport bestOf(const SolveArguments& a, Problem& problem, const SolveOptions& options,
+                   std::uint64_t& tries) {
+  if (a.keep == "clearest" && preferredClearance(problem) == 0)
+    throw InputError(Fault{"--keep", 0,
+                           "the clearest path needs a preferred clearance, such as --clearance "
+                           "0.005"});
   SolveReport best = solveProblem(problem, options);
-  const std::uint64_t first = problem.settings.seed;
-  for (std::uint64_t n = 1; n < a.tries && best.outcome != SolveOutcome::interrupted; ++n) {
-    problem.settings.seed = first + n;  // wraps around beyond 2^64 - 1
+  // OMPL takes a seed of 0 as 1.
+  const std::uint64_t first = std::max<std::uint64_t>(problem.settings.seed, 1);
+  for (tries = 1; tries < a.tries && best.outcome != SolveOutcome::interrupted; ++tries) {
+    problem.settings.seed = first + tries;  // wraps around beyond 2^64 - 1
     SolveReport report = solveProblem(problem, options);
-    const bool isSolved = report.outcome == SolveOutcome::solved;
-    if (report.outcome == SolveOutcome::interrupted ||
-        (isSolved && (best.outcome != SolveOutcome::solved ||
-                      isBetter(problem.model.space, report, best, a.keep == "clearest"))))
+    if (report.outcome == SolveOutcome::interrupted) {
+      if (best.outcome != SolveOutcome::solved) best = std::move(report);
+      break;
+    }
+    if (report.outcome == SolveOutcome::solved &&
+        (best.outcome != SolveOutcome::solved ||
+         isBetter(problem.model.space, report, best, a.keep == "clearest")))
       best = std::move(report);
   }
   problem.settings.seed = best.seed;
@@ -54,7 +65,7 @@ SolveReport bestOf(const SolveArguments& a, Problem& problem, const SolveOptions
 }  // namespace
 
 Solved solveOne(const std::string& file, const SolveArguments& a,
-                const std::atomic<bool>& interrupted) {
+                const std::atomic<bool>& interrupted, const std::function<void()>& beforeWriting) {
   const auto before = std::chrono::steady_clock::now();
   Problem problem = readProblemOf(file);
   const std::chrono::duration<double> reading = std::chrono::steady_clock::now() - before;
@@ -76,10 +87,12 @@ Solved solveOne(const std::string& file, const SolveArguments& a,
   }
   std::optional<ViewDirection> from;
   if (a.from) from = viewDirection(*a.from, "--from");
-  SolveReport report = bestOf(a, problem, options);
+  std::uint64_t tries = 1;
+  SolveReport report = bestOf(a, problem, options, tries);
   if (show) std::fputs("\r\033[K", stderr);
   for (const Fault& fault : report.warnings) warn(fault.str());
   addFirst(report.notes, problem.source.notes);
+  if (beforeWriting) beforeWriting();
   if (report.outcome == SolveOutcome::solved) {
     if (a.output == "-")
       std::cout << solutionText(makeSolution(problem, report, digest));
@@ -90,7 +103,7 @@ Solved solveOne(const std::string& file, const SolveArguments& a,
     else if (a.picture)
       writeWhole(*a.picture, svgPicture(problem, report.path, from));
   }
-  return {std::move(problem), std::move(report), reading.count(), a.tries};
+  return {std::move(problem), std::move(report), reading.count(), tries};
 }
 
 }  // namespace corridor::app

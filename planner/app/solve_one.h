@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <string>
 
 #include "planner/app/solve_output.h"
@@ -10,8 +11,10 @@ namespace corridor::app {
 /// Solves one problem, and writes the solution and the picture that the arguments name. With
 /// several tries, each has a seed of its own, from the problem's seed upwards; the best path is
 /// kept.
+/// @param beforeWriting called after solving, before a file is written.
 /// @throws InputError.
 Solved solveOne(const std::string& file, const SolveArguments& a,
-                const std::atomic<bool>& interrupted);
+                const std::atomic<bool>& interrupted,
+                const std::function<void()>& beforeWriting = {});
 
 }  // namespace corridor::app

@@ -58,12 +58,12 @@ std::vector<Phase> phasesOf(const Solved& solved) {
 std::vector<std::string> clearanceLines(const PathClearance& c) {
   std::vector<std::string> lines;
   lines.push_back(c.proved > 0 ? "proved: " + rounded(1e3 * c.proved) + " mm"
-                               : "none proved beyond being free");
+                               : "free, but no distance is proved");
   if (!c.a.empty())
     lines.back() += "; closest: " + c.a + " and " + c.b + ", " + rounded(1e3 * c.smallest) +
                     " mm, edge " + std::to_string(c.edge) + " at " + rounded(c.t);
-  lines.push_back("on target for " + rounded(std::floor(1e3 * c.shareOnTarget) / 10) +
-                  " % of the length");
+  lines.push_back("every pair keeps its target on " +
+                  rounded(std::floor(1e3 * c.shareOnTarget) / 10) + " % of the length");
   return lines;
 }
 

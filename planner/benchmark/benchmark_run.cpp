@@ -185,6 +185,7 @@ BenchmarkRun runUnderOmpl(const Problem& planned, const std::string& digest,
     if (competitor && competitor->motions) si->setMotionValidator(competitor->motions(si, checker));
     tallyChecks(si, checking);
   };
+  options.adaptedTestsAreProofs = !competitor;
   Solve solve(planned, options);
   solve.setUp();
   solve.setUpEnds();

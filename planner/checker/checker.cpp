@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "collision/core/rounding.h"
 #include "planner/checker/default_tolerance.h"
 #include "planner/problem/problem.h"
 #include "planner/robot/edge_motion.h"
@@ -84,7 +85,11 @@ Scene makeScene(const Model& model, ObbFit fit) {
 CheckerOptions checkerOptions(const Task& task, const CheckerSettings& settings) {
   if (const auto wrong = invalidNameIn(settings))
     throw std::invalid_argument("checker." + wrong->key + ": " + wrong->text);
-  return {task.margin, task.tube, settings.tolerance, methodOf(settings.edges),
+  return {task.margin,
+          task.padding,
+          task.tube,
+          settings.tolerance,
+          methodOf(settings.edges),
           treesNamed(settings.trees)};
 }
 
@@ -136,6 +141,7 @@ Checker::Checker(const Model& model, const CheckerOptions& options)
       scene_(makeScene(model, options.trees.fit)),
       bodyOf_(bodiesOfShapes(model)),
       tube_(options.tube.size() == 0 ? tubeOf(model.space) : options.tube),
+      padding_(options.padding),
       method_(options.method),
       pool_(std::make_unique<Pool>()) {
   requireValid(options, model.space);
@@ -143,6 +149,13 @@ Checker::Checker(const Model& model, const CheckerOptions& options)
       options.tolerance.value_or(defaultTolerance(model, scene_.defaultTolerance()));
   options_.clearanceSlack = options_.tolerance;
   options_.margin = options.margin;
+  if (!padding_.empty()) {
+    std::vector<double> metres;
+    for (const MotionPair& pair : scene_.motionPairs())
+      metres.push_back(paddingOf(model, padding_, bodyOf_[pair.bodyA], bodyOf_[pair.bodyB]));
+    paddings_.emplace(std::move(metres));
+    options_.pairMargins = &*paddings_;
+  }
   options_.trees = options.trees.trees;
 }
 
@@ -150,6 +163,11 @@ Checker::Checker(const Problem& problem)
     : Checker(problem.model, checkerOptions(problem.task, problem.settings.checker)) {}
 
 Checker::~Checker() = default;
+
+double Checker::marginOf(std::size_t a, std::size_t b) const {
+  const double padding = paddingOf(model_, padding_, a, b);
+  return padding > 0 ? roundedUp(options_.margin + padding) : options_.margin;
+}
 
 Checker::Workspace& Checker::workspaceOfThread() const {
   return pool_->workspaceOfThread(*this);

@@ -19,7 +19,8 @@ Scene makeScene(const Model& model, ObbFit fit = {});
 
 /// The options of a checker: the margin, tube and tolerance of its proofs, the method, the trees.
 struct CheckerOptions {
-  double margin = 0;  ///< metres that all tested pairs must keep apart; 0: touching is contact
+  double margin = 0;     ///< metres that all tested pairs must keep apart; 0: touching is contact
+  Padding padding = {};  ///< what single bodies and pairs keep in addition
   /// The tube that the proofs cover, as `tubeOf` returns it; empty: rounding only.
   Configuration tube = {};
   std::optional<double> tolerance = {};  ///< metres; unset: default_tolerance.h
@@ -40,8 +41,9 @@ class Checker {
  public:
   /// The model must outlive the checker; its bodies are copied.
   /// @throws std::invalid_argument in these cases:
-  /// - The margin or the tolerance is not finite, the margin is negative, or the tolerance is not
-  ///   above 0.
+  /// - The margin, a padding or the tolerance is not finite, the margin or a padding is negative,
+  /// or
+  ///   the tolerance is not above 0.
   /// - The tube has another length than a configuration, or contains a number that is not 0 or
   ///   more.
   /// - The method measures distances (`adaptive`, `advancement`), and the trees have another
@@ -63,6 +65,8 @@ class Checker {
   /// advantages: no returned path depends on the last digits of a clearance, and the work to prove
   /// a path again is at most proportional to the path's length divided by the tolerance.
   const MotionOptions& options() const { return options_; }
+  /// Returns the distance that two bodies of the model must keep, metres: margin and padding.
+  double marginOf(std::size_t a, std::size_t b) const;
   /// Returns the index of the model's body to which a body of the scene (one shape) belongs.
   std::size_t bodyOf(std::size_t shape) const { return bodyOf_[shape]; }
 
@@ -75,22 +79,23 @@ class Checker {
   /// Decides whether an edge is free, by the method of the options. Doesn't test the bounds. @pre
   /// finite.
   MotionResult certifyEdge(const Configuration& from, const Configuration& to, bool earliest) const;
-  /// Decides whether an edge keeps, for each pair, the margin of the options plus a margin of its
-  /// own, always by `EdgeMethod::directional`. Doesn't test the bounds. @pre finite.
+  /// Decides whether every pair keeps its margin on an edge: that of the options plus its own,
+  /// which is in place of its padding. The method is always `EdgeMethod::directional`. Doesn't test
+  /// the bounds. @pre finite.
   /// @param more one margin for each pair of `Scene::motionPairs()`, metres.
   /// @throws std::invalid_argument for numbers that are not finite or are negative.
   MotionResult certifyEdge(const Configuration& from, const Configuration& to,
                            const PairMargins& more, bool earliest = false) const;
   /// Tests exactly whether a tested pair is in contact at the rounded poses of the frames. Margin,
-  /// tolerance and tube are ignored. @pre finite.
+  /// padding, tolerance and tube are ignored. @pre finite.
   /// @throws std::runtime_error if the processor's floating-point mode makes the bounds invalid
   /// (collision/core/floating_point.h). `clearance` and `pairsNotFree` throw it, too.
   std::optional<Contact> interference(const Configuration& q) const;
-  /// Returns the smallest distance of the tested pairs minus the margin, metres. If the result is 0
-  /// or less, `certifyState` is not `free`. If it is below twice the tolerance plus the
-  /// displacement that the tube allows, `certifyState` may be `undecided`. If a pair touches, the
-  /// result is 0 − margin, since no penetration depth is computed. If no pair is tested, the result
-  /// is infinite. @pre finite.
+  /// Returns the smallest distance of the tested pairs minus the margin, metres. Padding is
+  /// ignored. If the result is 0 or less, `certifyState` is not `free`. If it is below twice the
+  /// tolerance plus the displacement that the tube allows, `certifyState` may be `undecided`. If a
+  /// pair touches, the result is 0 − margin, since no penetration depth is computed. If no pair is
+  /// tested, the result is infinite. @pre finite.
   double clearance(const Configuration& q) const;
   /// Returns the pairs of shapes whose distance is at most a length of their own
   /// (`Scene::pairsWithin`). The distances may exceed the true ones by a thousandth. @pre finite.
@@ -123,7 +128,9 @@ class Checker {
   Scene scene_;
   std::vector<std::size_t> bodyOf_;
   Configuration tube_;
-  MotionOptions options_;
+  Padding padding_;
+  std::optional<PairMargins> paddings_;  // of the pairs of the scene, if there is any
+  MotionOptions options_;                // refers to `paddings_`
   EdgeMethod method_;
   std::unique_ptr<Pool> pool_;
 };

@@ -24,7 +24,7 @@ bool CertifiedStateValidityChecker::isValid(const ompl::base::State* state) cons
 
 bool ExactStateValidityChecker::isValid(const ompl::base::State* state) const {
   const Configuration q = configurationOf(*si_, state);
-  if (checker_.options().margin > 0) return checker_.isProvedFree(q);
+  if (checker_.options().largestMargin() > 0) return checker_.isProvedFree(q);
   return checker_.inBounds(q) && !checker_.interference(q);
 }
 

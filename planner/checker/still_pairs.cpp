@@ -44,7 +44,7 @@ class StillTest {
   }
 
   std::optional<StillPair> operator()(std::size_t a, std::size_t b) {
-    const double margin = checker_.options().margin;
+    const double margin = checker_.marginOf(a, b);
     const BoundingBox &boxA = boxAround(a), &boxB = boxAround(b);
     // 2^-40 of the sizes covers the rounding of the boxes.
     const double size =

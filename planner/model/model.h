@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "planner/model/task.h"
 #include "planner/robot/kinematic_tree.h"
 #include "planner/robot/robot_model.h"
 
@@ -97,6 +98,12 @@ struct Model {
   std::vector<ModelBody> bodies;  ///< the robots' links that have shapes, then the obstacles
   PairFilter filter;              ///< decides which pairs of `bodies` are tested
 };
+
+/// Returns the padding of two bodies of a model, metres.
+inline double paddingOf(const Model& model, const Padding& padding, std::size_t a, std::size_t b) {
+  const auto &robotA = model.bodies[a].robot, &robotB = model.bodies[b].robot;
+  return padding.of(a, b, robotA && robotA == robotB);
+}
 
 /// Calls visit(a, b, why) for every pair of two bodies, a < b, of which at least one belongs to a
 /// robot, in ascending order. `why` is empty if the pair is tested, or else the reason why not.

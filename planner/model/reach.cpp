@@ -122,7 +122,8 @@ bool outOfReach(const Task& task, const ReachBox& a, const ReachBox& b) {
   const double size = (a.upper - a.lower).norm() + (b.upper - b.lower).norm();
   // The tube displaces a point by at most the sum of the tube's lengths, plus the sum of the tube's
   // angles times `size`.
-  const double pad = task.margin + task.tube.sum() * (1 + size) + 1e-9 * size;
+  const double pad =
+      task.margin + task.padding.largest() + task.tube.sum() * (1 + size) + 1e-9 * size;
   return gap.norm() > pad;
 }
 

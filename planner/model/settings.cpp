@@ -50,13 +50,14 @@ std::optional<InvalidName> invalidNameIn(const CheckerSettings& checker) {
 }
 
 std::optional<std::string> whyNoClearance(double margin, const Settings& settings) {
-  if (margin > 0) return "the path keeps a margin or prefers a clearance, not both; leave one out";
+  if (margin > 0) return "can't be used with a margin; leave one of the two out";
   if (settings.simplify != Simplifier::corridor)
-    return "is kept by Corridor's simplifier; it needs simplify: true";
+    return "needs Corridor's simplifier; leave out simplify: false or ompl (--no-simplify, "
+           "--simplify)";
   if (settings.checker.edges == EdgeCheck::discrete)
-    return "is proved along edges, and checker.edges: discrete proves none";
+    return "needs edges that are proved; discrete edges are only sampled";
   if (settings.objective == Objective::maxMinClearance)
-    return "is not for planners that maximise the clearance themselves";
+    return "can't be used with the objective max_min_clearance";
   return std::nullopt;
 }
 

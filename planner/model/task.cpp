@@ -3,7 +3,30 @@
 #include <algorithm>
 #include <numbers>
 
+#include "collision/core/rounding.h"
+
 namespace corridor {
+
+double Padding::of(std::size_t a, std::size_t b, bool sameRobot) const {
+  if (const auto pair = pairs.find(std::minmax(a, b)); pair != pairs.end()) return pair->second;
+  if (sameRobot) return 0;
+  const auto own = [&](std::size_t body) {
+    const auto found = bodies.find(body);
+    return found == bodies.end() ? 0 : found->second;
+  };
+  const double sum = own(a) + own(b);
+  return sum > 0 ? roundedUp(sum) : 0;
+}
+
+double Padding::largest() const {
+  double first = 0, second = 0, pair = 0;
+  for (const auto& [body, metres] : bodies) {
+    second = std::max(second, std::min(first, metres));
+    first = std::max(first, metres);
+  }
+  for (const auto& [both, metres] : pairs) pair = std::max(pair, metres);
+  return std::max(roundedUp(first + second), pair);
+}
 
 Configuration tubeOf(const ConfigurationSpace& space, const TubeSpec& asked) {
   using Kind = Coordinate::Kind;

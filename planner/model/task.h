@@ -3,6 +3,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "planner/robot/configuration_space.h"
@@ -17,6 +18,22 @@ struct GoalRegion {
   double joint = 0;     ///< each single joint, rad or m
 };
 
+/// Distances that bodies keep in addition to the margin of a task. Bodies are given by their
+/// indices in the model. Metres, 0 or more.
+struct Padding {
+  /// Of bodies: from all bodies, except those of the same robot.
+  std::map<std::size_t, double> bodies;
+  /// Of pairs, the lower index first: in place of the paddings of both bodies.
+  std::map<std::pair<std::size_t, std::size_t>, double> pairs;
+
+  bool empty() const { return bodies.empty() && pairs.empty(); }
+  /// Returns the padding of two bodies, rounded up.
+  /// @param sameRobot whether both belong to one robot.
+  double of(std::size_t a, std::size_t b, bool sameRobot) const;
+  /// Returns a padding that no pair exceeds.
+  double largest() const;
+};
+
 /// The requirements of a path: its start, its goals, and the distance that it keeps from contact.
 struct Task {
   Configuration start;
@@ -26,6 +43,7 @@ struct Task {
                                         ///< metric
   /// Metres that the two bodies of every tested pair must keep apart; 0: touching is contact.
   double margin = 0;
+  Padding padding;
   /// The half widths of the tube that the proof covers, as `tubeOf` returns them.
   Configuration tube;
 };

@@ -50,13 +50,13 @@ void testBeyondProofs(Problem& problem) {
           [&](const ModelBody& body) { return body.robot == r && body.name == name; });
     };
     for (const AllowedPair& pair : robot.description.allowed) {
-      if (!pair.proof ||
-          (problem.task.margin <= pair.proof->margin && tube <= pair.proof->beyondLimits))
-        continue;
+      if (!pair.proof) continue;
       const auto a = bodyOf(pair.a), b = bodyOf(pair.b), end = problem.model.bodies.end();
       if (a == end || b == end) continue;
       const auto i = static_cast<std::size_t>(a - problem.model.bodies.begin()),
                  k = static_cast<std::size_t>(b - problem.model.bodies.begin());
+      const double margin = problem.task.margin + problem.task.padding.of(i, k, true);
+      if (margin <= pair.proof->margin && tube <= pair.proof->beyondLimits) continue;
       if (problem.model.filter.whyNotTested(i, k) != kNeverInContact) continue;
       problem.model.filter.include(i, k);
       covered = *pair.proof;

@@ -37,7 +37,8 @@ Keys makeProblemKeys() {
   Keys keys{
       {"",
        {{"format", "robot", "robots", "base", "world", "allow", "start", "goal", "moveit", "bounds",
-         "margin", "prefer", "tube", "planner", "sampler", "simplify", "checker", "seed"},
+         "margin", "padding", "prefer", "tube", "planner", "sampler", "simplify", "checker",
+         "seed"},
         {}}},
       {"moveit", {{"scene", "request"}, {}}},
       {"robots.*", {{"file", "base"}, {}}},
@@ -48,6 +49,7 @@ Keys makeProblemKeys() {
       {"goal.within", {{"at", "angle_deg", "angle", "joints_deg", "joints"}, {}}},
       {"bounds", {{"at"}, {}}},
       {"tube", {{"joints_deg", "joints", "slides", "position", "rotation_deg", "rotation"}, {}}},
+      {"padding", {{"bodies", "pairs"}, {}}},
       {"prefer", {{"clearance", "detour"}, {}}},
       {"planner", {{"name", "time", "stop", "restart", "params"}, {}}},
       {"checker",

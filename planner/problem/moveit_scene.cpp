@@ -5,7 +5,6 @@
 #include <cmath>
 #include <map>
 #include <set>
-#include <tuple>
 
 #include "collision/core/read_file.h"
 #include "collision/core/shortest.h"
@@ -45,15 +44,26 @@ Placement readFrame(const YamlMap& object, const std::string& root, const RigidP
   return {};
 }
 
-/// Adds a fault for each link that the scene pads or scales.
-void requirePlainLinks(const YamlMap& scene) {
-  for (const auto& [key, number, plain] :
-       {std::tuple{"link_padding", "padding", 0.0}, std::tuple{"link_scale", "scale", 1.0}})
-    for (const YamlValue* const item : itemsOf(scene, key)) {
-      const YamlMap map(*item, key, nullptr, scene.source());
-      if (map.number(number).value_or(plain) != plain)
-        map.fault(number, "links are tested as they are; use margin for a distance to keep");
-    }
+/// Adds a fault for each link that the scene scales. Reads the paddings of links.
+std::map<std::string, double> readLinks(const YamlMap& scene) {
+  for (const YamlValue* const item : itemsOf(scene, "link_scale")) {
+    const YamlMap map(*item, "link_scale", nullptr, scene.source());
+    if (map.number("scale").value_or(1) != 1)
+      map.fault("scale",
+                "links are tested in their own size; use link_padding, or padding in the "
+                "problem, for a distance to keep");
+  }
+  std::map<std::string, double> padding;
+  for (const YamlValue* const item : itemsOf(scene, "link_padding")) {
+    const YamlMap map(*item, "link_padding", nullptr, scene.source());
+    const auto link = map.text("link_name");
+    const auto metres = map.number("padding", Range::NotNegative);
+    if (!link)
+      map.require("link_name", "the link that is padded");
+    else if (metres && *metres > 0)
+      padding[*link] = *metres;
+  }
+  return padding;
 }
 
 }  // namespace
@@ -71,7 +81,7 @@ MoveitScene::MoveitScene(const std::filesystem::path& file, FaultList& faults)
 void MoveitScene::addWorld(const std::string& root, const RigidPose& base, ModelBuilder& builder) {
   const YamlMap scene(document_, "", &kScene, source_);
   scene.require("world", "the collision objects of a planning scene of MoveIt");
-  requirePlainLinks(scene);
+  padding_ = readLinks(scene);
   const YamlValue* const value = scene.find("world");
   if (const YamlValue* const state = scene.find("robot_state")) {
     const YamlMap map(*state, "robot_state", nullptr, source_);
@@ -166,6 +176,15 @@ std::vector<Note> MoveitScene::notesOn(const Model& model) {
                      ": its allowed_collision_matrix has names of neither links nor obstacles (" +
                      std::to_string(unknown.size()) + "): " + joinedFirst(unknown, 3)});
   return notes;
+}
+
+Padding MoveitScene::paddingOf(const Model& model) const {
+  Padding padding;
+  for (std::size_t i = 0; i < model.bodies.size(); ++i)
+    if (const auto found = padding_.find(model.bodies[i].name);
+        model.bodies[i].robot && found != padding_.end())
+      padding.bodies[i] = found->second;
+  return padding;
 }
 
 void MoveitScene::applyAllowed(Model& model) {

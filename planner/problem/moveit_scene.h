@@ -1,8 +1,11 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <string>
 
 #include "planner/model/model_builder.h"
+#include "planner/model/task.h"
 #include "planner/problem/yaml_reader.h"
 
 namespace corridor {
@@ -10,10 +13,11 @@ namespace corridor {
 /// A message moveit_msgs/PlanningScene, written as YAML. The members read its parts, and add faults
 /// to the problem's list.
 ///
-/// The members read the collision objects (primitives and meshes), the octomap and the allowed
-/// collision matrix. Some content is a fault, because the plan would be wrong if this content were
-/// ignored: attached objects, planes, padded or scaled links, objects in a frame other than the
-/// world's or that of the robot's root link, and unknown keys. All other fields are ignored.
+/// The members read the collision objects (primitives and meshes), the octomap, the allowed
+/// collision matrix and the paddings of links. Some content is a fault, because the plan would be
+/// wrong if this content were ignored: attached objects, planes, scaled links, objects in a frame
+/// other than the world's or that of the robot's root link, and unknown keys. All other fields are
+/// ignored.
 class MoveitScene {
  public:
   /// @throws InputError if the file is not YAML.
@@ -27,6 +31,9 @@ class MoveitScene {
   /// the matrix replaces the SRDF's pairs. The default entries of the matrix are not read, so pairs
   /// that only a default entry allows are tested.
   void applyAllowed(Model& model);
+  /// Returns the paddings of links. As in MoveIt, they are for pairs of a link and an obstacle.
+  /// @pre `addWorld` was called.
+  Padding paddingOf(const Model& model) const;
   /// Returns notes if the scene seems to be made for another robot.
   std::vector<Note> notesOn(const Model& model);
 
@@ -35,6 +42,7 @@ class MoveitScene {
 
   YamlValue document_;
   YamlSource source_;
+  std::map<std::string, double> padding_;  // of links, by name; metres
 };
 
 }  // namespace corridor

@@ -206,7 +206,13 @@ void readYaml(const std::filesystem::path& file, Problem& problem) {
     addAll(scene->notesOn(problem.model), problem.source.notes);
   }
   AllowedBodies allowed;
-  if (known && faults.size() == 0) allowed = readAllow(map, problem.model);
+  if (known && faults.size() == 0) {
+    if (scene) problem.task.padding = scene->paddingOf(problem.model);
+    allowed = readAllow(map, problem.model);
+    Padding padding = readPadding(map, problem.model);
+    for (const auto& [body, metres] : padding.bodies) problem.task.padding.bodies[body] = metres;
+    problem.task.padding.pairs = std::move(padding.pairs);
+  }
   problem.task.margin = map.number("margin", Range::NotNegative).value_or(problem.task.margin);
   const TubeSpec tube = readTube(map, problem.model.space, known);
   readPlanner(map, problem.settings.planner);

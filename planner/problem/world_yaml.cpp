@@ -117,6 +117,38 @@ void readWorld(const YamlMap& file, bool needed, ModelBuilder& builder, Source& 
   }
 }
 
+/// Finds bodies by the names that users write.
+class BodyNames {
+ public:
+  explicit BodyNames(const Model& model) : model_(model) {
+    for (const ModelBody& body : model.bodies) {
+      byName_[body.name].push_back(names_.size());
+      names_.push_back(body.name);
+    }
+  }
+
+  /// Returns the body of a name. Returns nullopt for a link without shapes, which is no body. Calls
+  /// fault(text) for a name that is unknown, or that two bodies have.
+  template <class Report>
+  std::optional<std::size_t> find(const std::string& name, const Report& fault) const {
+    const auto found = bodiesCalled(name, model_, byName_);
+    if (found.size() == 1) return found.front();
+    const ModelRobot& robot = model_.robots.front();
+    if (found.size() > 1)
+      fault(quotedWord(name) + " names a link and an obstacle; write " +
+            (robot.name.empty() ? quotedWord(robot.description.name + "/" + name) + " or " : "") +
+            quotedWord("world/" + name));
+    else if (!isBareLink(name, model_))
+      fault("there is no body " + quotedWord(name) + didYouMean(name, names_) + knownWords(names_));
+    return std::nullopt;
+  }
+
+ private:
+  const Model& model_;
+  std::vector<std::string> names_;
+  BodiesByName byName_;
+};
+
 AllowedBodies readAllow(const YamlMap& file, const Model& model) {
   AllowedBodies allowed;
   const YamlValue* value = file.find("allow");
@@ -126,12 +158,7 @@ AllowedBodies readAllow(const YamlMap& file, const Model& model) {
                             described(*value));
     return allowed;
   }
-  std::vector<std::string> names;
-  BodiesByName byName;
-  for (const ModelBody& body : model.bodies) {
-    byName[body.name].push_back(names.size());
-    names.push_back(body.name);
-  }
+  const BodyNames names(model);
   for (const YamlValue& item : value->items) {
     const auto pair = readWords(item, "such as [hand, table]", "allow", file.source());
     if (!pair) continue;
@@ -142,23 +169,51 @@ AllowedBodies readAllow(const YamlMap& file, const Model& model) {
       fault("two bodies are needed, such as [hand, table], not " + std::to_string(pair->size()));
       continue;
     }
-    std::vector<std::size_t> bodies;
-    for (const std::string& name : *pair) {
-      const auto found = bodiesCalled(name, model, byName);
-      if (found.size() == 1)
-        bodies.push_back(found.front());
-      else if (found.size() > 1)
-        fault(quotedWord(name) + " names a link and an obstacle; write " +
-              (model.robots.front().name.empty()
-                   ? quotedWord(model.robots.front().description.name + "/" + name) + " or "
-                   : "") +
-              quotedWord("world/" + name));
-      else if (!isBareLink(name, model))
-        fault("there is no body " + quotedWord(name) + didYouMean(name, names) + knownWords(names));
-    }
-    if (bodies.size() == 2) allowed.push_back({bodies[0], bodies[1]});
+    const auto a = names.find((*pair)[0], fault), b = names.find((*pair)[1], fault);
+    if (a && b) allowed.push_back({*a, *b});
   }
   return allowed;
+}
+
+Padding readPadding(const YamlMap& file, const Model& model) {
+  Padding padding;
+  const YamlValue* value = file.find("padding");
+  if (!value) return padding;
+  const YamlMap map(*value, "padding", &problemKeys().at("padding"), file.source());
+  const BodyNames names(model);
+  if (const YamlValue* bodies = map.find("bodies")) {
+    const YamlMap own(*bodies, "padding.bodies", nullptr, file.source());
+    for (const YamlValue::Entry* entry : own.entries()) {
+      const auto body =
+          names.find(entry->key, [&](const std::string& text) { own.fault(entry->key, text); });
+      if (const auto metres = own.number(entry->key, Range::NotNegative); metres && body)
+        padding.bodies[*body] = *metres;
+    }
+  }
+  const YamlValue* pairs = map.find("pairs");
+  if (!pairs) return padding;
+  const std::string example = "such as [hand, shelf, 0.02]";
+  if (pairs->kind != YamlValue::Kind::List)
+    map.fault("pairs", "a list of pairs is needed, each with its padding in metres, " + example);
+  for (const YamlValue& item : pairs->items) {
+    const auto fault = [&](const std::string& text) {
+      file.source().fault(item.line, "padding.pairs: " + text);
+    };
+    if (item.kind != YamlValue::Kind::List || item.items.size() != 3) {
+      fault("two bodies and a padding in metres are needed, " + example);
+      continue;
+    }
+    const auto a = names.find(item.items[0].text, fault), b = names.find(item.items[1].text, fault);
+    double metres = 0;
+    const std::string wrong = parseNumber(item.items[2].text, Range::NotNegative, metres);
+    if (!wrong.empty())
+      fault(wrong);
+    else if (a && b && *a == *b)
+      fault("two different bodies are needed, " + example);
+    else if (a && b)
+      padding.pairs[std::minmax(*a, *b)] = metres;
+  }
+  return padding;
 }
 
 }  // namespace corridor

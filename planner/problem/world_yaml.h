@@ -13,4 +13,7 @@ void readWorld(const YamlMap& file, bool needed, ModelBuilder& builder, Source& 
 /// out. @pre the model has all its bodies.
 AllowedBodies readAllow(const YamlMap& file, const Model& model);
 
+/// Reads `padding`. Links without shapes are left out. @pre the model has all its bodies.
+Padding readPadding(const YamlMap& file, const Model& model);
+
 }  // namespace corridor

@@ -33,6 +33,8 @@ constexpr double kLongestStep = 0.5;
 /// Samples of an edge: one for each 0.05 of its length, but at least and at most:
 constexpr double kSampleLength = 0.05;
 constexpr int kLeastSamples = 4, kMostSamples = 32;
+/// The share of a target that is missed by so little that no sample shows it.
+constexpr double kJustMissed = 0.99;
 /// Halvings of the step between samples, in the search for the worst place.
 constexpr int kRefinements = 4;
 
@@ -47,6 +49,10 @@ PairMargins targetsOf(const Checker& checker, double clearance, const Configurat
       targets[near.pair] = std::min(targets[near.pair], kShareOfEnds * distance);
       if (distance < clearance) ofEnds = std::min(ofEnds, distance);
     }
+  // What a pair must keep anyway is not given up.
+  if (const PairMargins* padding = checker.options().pairMargins)
+    for (std::size_t k = 0; k < targets.size(); ++k)
+      targets[k] = std::max(targets[k], (*padding)[k]);
   return PairMargins(std::move(targets));
 }
 
@@ -126,11 +132,13 @@ ClearanceTargets::Worst ClearanceTargets::worstIn(const Configuration& q,
 
 /// Searches an edge at samples, and then around the worst of them, for the pair with the smallest
 /// share of its length.
+/// @param first a time to sample first.
 ClearanceTargets::Worst ClearanceTargets::worstOn(const Configuration& from,
                                                   const Configuration& to,
-                                                  const PairMargins& lengths) const {
+                                                  const PairMargins& lengths,
+                                                  std::optional<double> first) const {
   const ConfigurationSpace& space = checker_.space();
-  const double samples = std::ceil(space.distance(from, to) / kSampleLength);
+  const double length = space.distance(from, to), samples = std::ceil(length / kSampleLength);
   const int count = static_cast<int>(std::clamp<double>(samples, kLeastSamples, kMostSamples));
   Worst worst;
   const auto sample = [&](double t) {
@@ -139,9 +147,10 @@ ClearanceTargets::Worst ClearanceTargets::worstOn(const Configuration& from,
     here.t = t;
     if (here.share < worst.share) worst = here;
   };
-  for (int i = 0; i <= count; ++i) sample(double(i) / count);
+  if (first) sample(*first);
+  for (int i = 0; i <= (length > 0 ? count : 0); ++i) sample(double(i) / count);
   double step = 0.5 / count;
-  for (int k = 0; k < kRefinements && worst.share < 1; ++k, step /= 2) {
+  for (int k = 0; k < kRefinements && worst.share < 1 && length > 0; ++k, step /= 2) {
     const double t = worst.t;
     sample(t - step);
     sample(t + step);
@@ -151,8 +160,15 @@ ClearanceTargets::Worst ClearanceTargets::worstOn(const Configuration& from,
 
 std::optional<ClearanceTargets::Worst> ClearanceTargets::missedOn(const Configuration& from,
                                                                   const Configuration& to) const {
-  if (areKept(from, to)) return std::nullopt;
-  return worstOn(from, to, targets_);
+  const MotionResult result = checker_.certifyEdge(from, to, targets_);
+  if (result.verdict == MotionVerdict::free) return std::nullopt;
+  if (result.contactTime < 0) return worstOn(from, to, targets_);
+  Worst worst = worstOn(from, to, targets_, result.contactTime);
+  if (worst.share >= 1) {
+    worst.t = result.contactTime;
+    worst.share = kJustMissed;
+  }
+  return worst;
 }
 
 std::optional<ClearanceTargets::Worst> ClearanceTargets::closestOn(const Configuration& from,
@@ -200,11 +216,11 @@ std::vector<TangentStep> ClearanceTargets::gradientsOf(const std::vector<Scene::
   const Eigen::Index size = weights_.size();
   std::vector<TangentStep> gradients(near.size(), TangentStep::Zero(size));
   for (Eigen::Index i = 0; i < size; ++i)
-    // The difference is one-sided. At an upper bound the step ends at once, so it goes down.
+    // The difference is one-sided. Near an upper bound the step would end early, so it goes down.
     for (const double difference : {kDifference, -kDifference}) {
       const Configuration moved =
           displaced(checker_.space(), q, difference * TangentStep::Unit(size, i));
-      if (moved == q) continue;
+      if (checker_.space().distance(q, moved) < 0.9 * kDifference * weights_[i]) continue;
       setFramePoses(tree, moved, frames, X_WF);
       for (std::size_t k = 0; k < ends.size(); ++k) {
         const Ends& e = ends[k];

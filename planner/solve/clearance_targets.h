@@ -11,8 +11,8 @@ namespace corridor {
 
 /// The distances that the pairs of a scene should keep along a path from a start to a goal. The
 /// target of a pair is `clearance`, or 70 % of its distance at the start or at the goal if that is
-/// less: a path can't keep more than its ends. (With 70 %, it takes little work to prove that the
-/// edges at the ends keep the targets.)
+/// less, but at least its padding: a path can't keep more than its ends. (With 70 %, it takes
+/// little work to prove that the edges at the ends keep the targets.)
 ///
 /// The share of a pair in a state is its distance over its target, at most 1.
 class ClearanceTargets {
@@ -43,10 +43,12 @@ class ClearanceTargets {
     std::size_t pair = 0;
   };
   /// Returns nullopt if every pair is proved to keep its target on the whole edge. Otherwise
-  /// returns the pair with the smallest share at samples of the edge; its share may be 1.
+  /// returns the pair with the smallest share at samples of the edge. If no sample is below its
+  /// target, returns the place where the proof failed, with a share just below 1: the target is
+  /// missed by little, or by the tube only.
   std::optional<Worst> missedOn(const Configuration& from, const Configuration& to) const;
   /// Returns the closest pair at samples of an edge, whatever its target, or nullopt if no pair is
-  /// closer than `clearance()`.
+  /// closer than `clearance()` there.
   std::optional<Worst> closestOn(const Configuration& from, const Configuration& to) const;
 
   /// Returns a configuration near q at which the pairs that miss their targets are farther apart:
@@ -56,8 +58,8 @@ class ClearanceTargets {
   std::optional<Configuration> movedApart(const Configuration& q) const;
 
  private:
-  Worst worstOn(const Configuration& from, const Configuration& to,
-                const PairMargins& lengths) const;
+  Worst worstOn(const Configuration& from, const Configuration& to, const PairMargins& lengths,
+                std::optional<double> first = {}) const;
   Worst worstIn(const Configuration& q, const PairMargins& lengths) const;
   std::vector<TangentStep> gradientsOf(const std::vector<Scene::NearPair>& near,
                                        const Configuration& q) const;

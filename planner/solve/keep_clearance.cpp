@@ -9,8 +9,8 @@ namespace corridor {
 
 namespace {
 
-/// A change must enlarge the share of an edge by this much.
-constexpr double kLeastGain = 0.05;
+/// A change must enlarge the share of an edge by this much, or to this share.
+constexpr double kLeastGain = 0.05, kAlmost = 0.98;
 /// The maximum number of times that a step away from obstacles is halved.
 constexpr int kHalvings = 2;
 /// A place within this share of an edge from its end counts as near this end: the end is moved.
@@ -103,7 +103,7 @@ bool PathMover::replace(std::size_t first, std::size_t last, const Configuration
     Edge& edge = edges.back();
     edge.changed = true;
     if (edge.kept) continue;
-    if (edge.worst.share < enough) return false;
+    if (edge.worst.share < std::min(enough, kAlmost)) return false;
     if (!free_.isFree(a, b)) return false;
   }
   const auto begin = edges_.begin() + static_cast<std::ptrdiff_t>(first);
@@ -166,10 +166,11 @@ Path PathMover::run(const Path& path) {
 }  // namespace
 
 double preferredClearance(const Problem& problem) {
-  constexpr double kForArms = 0.005;
+  constexpr double kForArms = 0.005, kMost = 1e6;  // m
   const Settings& settings = problem.settings;
   if (whyNoClearance(problem.task.margin, settings)) return 0;
-  return settings.prefer.clearance.value_or(hasSingleJoints(problem.model.space) ? kForArms : 0);
+  const double byDefault = hasSingleJoints(problem.model.space) ? kForArms : 0;
+  return std::min(settings.prefer.clearance.value_or(byDefault), kMost);
 }
 
 Path withClearance(const ClearanceTargets& targets, const ConfigurationSpace& space,

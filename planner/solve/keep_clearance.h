@@ -9,21 +9,22 @@
 namespace corridor {
 
 /// Returns the clearance that the path of a problem should keep, metres: `prefer.clearance`, or
-/// else 5 mm for robots with joints, and 0 for rigid bodies. Always 0 if the problem has a margin,
-/// if its path is not simplified by Corridor, if edges are sampled, or if the planner itself
-/// maximises the clearance.
+/// else 5 mm for robots with joints, and 0 for rigid bodies; at most 1e6. Always 0 if the problem
+/// has a margin, if its path is not simplified by Corridor, if edges are sampled, or if the planner
+/// itself maximises the clearance.
 double preferredClearance(const Problem& problem);
 
 /// Moves a path away from obstacles, so that the pairs of bodies keep their targets where this is
-/// possible within a length.
+/// possible without making the path longer than `longest`, in the space's distance.
 ///
 /// The share of an edge is the smallest share of a pair on it: 1 if every pair is proved to keep
-/// its target, else the smallest found at samples. The edge of the smallest share is next. A state
-/// is inserted at its worst place, or its nearer end is moved, so that the pairs are farther apart
-/// there (`ClearanceTargets::movedApart`). The change is taken if all of these hold:
+/// its target, else the smallest found at samples. Edges are changed in the order of their shares,
+/// the smallest first. A state is inserted at the worst place of the edge, or its nearer end is
+/// moved, so that the pairs are farther apart there (`ClearanceTargets::movedApart`). The change is
+/// taken if all of these hold:
 /// * The new edges are free.
 /// * Each of them has a larger share than the smallest of the edges that they replace.
-/// * The path is not longer than `longest`, in the space's distance.
+/// * The path is not longer than `longest`.
 /// Otherwise the state is moved half as far, and so on. Then states are removed where the edge
 /// between their neighbours keeps all targets.
 ///

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <limits>
 #include <vector>
 
@@ -10,26 +12,20 @@ namespace corridor {
 namespace {
 
 /// The share of the smallest distance found that is tried first. The true smallest distance is a
-/// little less than that at samples; and a proof of nearly all of it would take long.
+/// little less than that at samples. A proof of nearly the whole distance takes many short
+/// intervals.
 constexpr double kFirstTry = 0.9;
 /// Each further try is for this share of the one before.
-constexpr double kNextTry = 0.7;
-constexpr int kTries = 8;
+constexpr double kNextTry = 0.8;
+constexpr int kTries = 10;
 
-/// Returns x, rounded down to two significant digits.
-double roundedDownTo2Digits(double x) {
-  if (!(x > 0) || !std::isfinite(x)) return 0;
-  const double unit = std::pow(10, std::floor(std::log10(x)) - 1);
-  const double rounded = std::floor(x / unit) * unit;
-  return rounded <= x ? rounded : std::floor(x / unit - 1) * unit;
-}
-
-/// Returns the clearance proved for a whole path: the largest of a few that every edge keeps.
-double provedClearance(const Checker& checker, const Path& path, double most) {
+/// Returns the clearance proved for a whole path: the largest of a few that every edge keeps, or 0
+/// if that is not more than `least`.
+double provedClearance(const Checker& checker, const Path& path, double most, double least) {
   double tried = roundedDownTo2Digits(most);
   // The edges before this one keep what is tried. A path of one state has one edge, of no length.
   std::size_t edge = path.size() > 1 ? 1 : 0;
-  for (int n = 0; n < kTries && tried > 0; ++n) {
+  for (int n = 0; n < kTries && tried > least; ++n) {
     const PairMargins margins(std::vector(checker.scene().motionPairs().size(), tried));
     while (edge < path.size() &&
            checker.certifyEdge(path[edge > 0 ? edge - 1 : 0], path[edge], margins).verdict ==
@@ -53,45 +49,60 @@ double keptShare(const Checker& checker, const ClearanceTargets& targets, const 
 
 }  // namespace
 
+double roundedDownTo2Digits(double x) {
+  if (!(x > 0) || !std::isfinite(x)) return 0;
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1e", x);  // "1.2e-03"
+  if (const double nearest = std::strtod(text, nullptr); nearest <= x) return nearest;
+  int digits = 10 * (text[0] - '0') + (text[2] - '0') - 1, exponent = std::atoi(text + 4) - 1;
+  if (digits == 9) {  // below 10, two digits are 99 of the next smaller unit
+    digits = 99;
+    --exponent;
+  }
+  std::snprintf(text, sizeof text, "%de%d", digits, exponent);
+  return std::strtod(text, nullptr);
+}
+
 PathClearance proveClearance(const Checker& checker, const ClearanceTargets& targets,
                              const Path& path, EdgeMemory& onTarget) {
   const ConfigurationSpace& space = checker.space();
   PathClearance result;
   result.smallest = std::numeric_limits<double>::infinity();
   result.ofEnds = targets.ofEnds();
-  double length = 0, kept = 0;
-  bool all = true;
-  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
-    const double part = space.distance(path[i], path[i + 1]),
-                 share = keptShare(checker, targets, path[i], path[i + 1], onTarget);
-    all = all && share == 1;
-    length += part;
-    kept += part * share;
-  }
-  result.shareOnTarget = all ? 1 : kept / length;
-  const auto search = [&](std::size_t i, std::size_t k) {
-    const auto closest = targets.closestOn(path[i], path[k]);
-    if (!closest || !(closest->distance < result.smallest)) return;
-    const MotionPair& pair = checker.scene().motionPairs()[closest->pair];
-    result.smallest = closest->distance;
-    // The last state is the end of the last edge.
-    const bool last = i > 0 && i + 1 == path.size();
-    result.edge = last ? i - 1 : i;
-    result.t = last ? 1 : closest->t;
+  const auto note = [&](std::size_t edge, const std::optional<ClearanceTargets::Worst>& place) {
+    if (!place || !(place->distance > 0) || !(place->distance < result.smallest)) return;
+    const MotionPair& pair = checker.scene().motionPairs()[place->pair];
+    result.smallest = place->distance;
+    result.edge = edge;
+    result.t = place->t;
     result.a = checker.model().bodies[checker.bodyOf(pair.bodyA)].name;
     result.b = checker.model().bodies[checker.bodyOf(pair.bodyB)].name;
   };
-  if (all) {
-    search(0, 0);
-    search(path.size() - 1, path.size() - 1);
-    result.proved = roundedDownTo2Digits(targets.least());
-    if (path.size() > 1) return result;
-  } else {
-    for (std::size_t i = 0; i + 1 < path.size(); ++i) search(i, i + 1);
+  double length = 0, kept = 0;
+  bool all = path.size() > 1;
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    const double part = space.distance(path[i], path[i + 1]),
+                 share = keptShare(checker, targets, path[i], path[i + 1], onTarget);
+    if (share < 1) {
+      all = false;
+      note(i, targets.missedOn(path[i], path[i + 1]));
+    }
+    length += part;
+    kept += part * share;
   }
-  const double least = std::min(result.smallest, targets.clearance());
-  result.proved = provedClearance(
-      checker, path, least < targets.clearance() ? kFirstTry * least : targets.clearance());
+  result.shareOnTarget = all ? 1 : length > 0 ? kept / length : 0;
+  // If every pair keeps its target, and all targets are the clearance, nothing is closer.
+  if (!all || targets.least() < targets.clearance())
+    for (std::size_t i = 0; i + 1 < std::max<std::size_t>(path.size(), 2); ++i)
+      note(i, targets.closestOn(path[i], path[std::min(i + 1, path.size() - 1)]));
+  const double proved = all ? roundedDownTo2Digits(targets.least()) : 0,
+               tried = result.smallest < targets.clearance() ? kFirstTry * result.smallest
+                       : all                                 ? targets.clearance()
+                                                             : kFirstTry * targets.clearance();
+  result.proved = proved;
+  if (roundedDownTo2Digits(tried) > proved)
+    result.proved = std::max(proved, provedClearance(checker, path, tried, proved));
+  if (path.size() == 1) result.shareOnTarget = result.proved >= targets.least() ? 1 : 0;
   return result;
 }
 

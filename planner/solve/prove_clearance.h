@@ -12,12 +12,12 @@ namespace corridor {
 /// How far a path stays away from contact.
 struct PathClearance {
   /// Metres: every tested pair is proved to keep more than this on the whole path, tube included.
-  /// Two significant digits; at most the preferred clearance. 0: nothing was proved.
+  /// Rounded down to two significant digits; at most the preferred clearance. 0: nothing was
+  /// proved.
   double proved = 0;
-  /// The smallest distance found, and where: the pair of bodies, and the time on the edge from
-  /// state `edge` (from 0) to the next. Infinite, without names: none below the preferred clearance
-  /// was found. If all pairs keep their targets, only start and goal are searched; otherwise
-  /// samples of the whole path.
+  /// The smallest distance found at samples of the path, and where: the pair of bodies, and the
+  /// time on the edge from state `edge` (from 0) to the next. Infinite, and `a` and `b` empty, if
+  /// no distance below the preferred clearance was found.
   double smallest = 0;
   std::string a, b;
   std::size_t edge = 0;
@@ -29,6 +29,10 @@ struct PathClearance {
   /// is proved to keep its target (`ClearanceTargets`). 1: on all of it.
   double shareOnTarget = 0;
 };
+
+/// Returns the largest number with two significant digits that is not above x; 0 if x is not above
+/// 0 or not finite.
+double roundedDownTo2Digits(double x);
 
 /// Proves how far a path stays away from contact.
 /// @param onTarget remembers which edges are proved to keep all targets.

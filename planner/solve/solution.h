@@ -24,7 +24,7 @@ struct Solution {
   std::string checker;  ///< SolveReport::checker; "unknown" for a `.path` file
   double tolerance = 0, margin = 0;
   double clearance = 0;  ///< proved for all tested pairs (`PathClearance::proved`); 0: not stated
-  Configuration tube;  ///< as Task::tube
+  Configuration tube;    ///< as Task::tube
   Path path;
 };
 

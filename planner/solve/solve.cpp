@@ -344,14 +344,19 @@ std::vector<Path> Solve::simplified(og::PathGeometric& path) {
     versions.push_back(readPath(path));
     return versions;
   }
-  ob::ScopedState<> from(si_), to(si_);
-  edges_.emplace([&](const Configuration& a, const Configuration& b) {
-    space_->write(a, from.get());
-    space_->write(b, to.get());
-    return si_->checkMotion(from.get(), to.get());
-  });
+  edges_.emplace(
+      [si = si_, space = space_, from = ob::ScopedState<>(si_), to = ob::ScopedState<>(si_)](
+          const Configuration& a, const Configuration& b) mutable {
+        space->write(a, from.get());
+        space->write(b, to.get());
+        return si->checkMotion(from.get(), to.get());
+      });
   versions = simplifiedVersions(problem_.model.space, versions.front(), *edges_, stop);
-  if (preferredClearance(problem_) > 0) versions.push_back(withClearance(versions.back(), stop));
+  // Without pairs, there is nothing to keep a distance from.
+  if (preferredClearance(problem_) > 0 && !checker_.scene().pairs().empty()) {
+    Path clear = withClearance(versions.back(), stop);
+    if (clear != versions.back()) versions.push_back(std::move(clear));
+  }
   return versions;
 }
 

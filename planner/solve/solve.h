@@ -38,6 +38,9 @@ struct SolveOptions {
   /// goals, and the final certification, always use the `Checker`.
   std::function<void(const std::shared_ptr<ompl::base::SpaceInformation>&, const Checker&)>
       adaptChecking;
+  /// Whether the tests of edges are still those of the `Checker` after `adaptChecking`. The final
+  /// certification then relies on what they proved.
+  bool adaptedTestsAreProofs = false;
 };
 
 enum class SolveOutcome {

@@ -80,7 +80,8 @@ class Solve {
   bool discrete() const { return problem_.settings.checker.edges == EdgeCheck::discrete; }
   /// Returns whether tests of edges for the planner prove as much as the final certification.
   bool testsAreProofs() const {
-    return problem_.settings.checker.edges == EdgeCheck::certified && !options_.adaptChecking;
+    return problem_.settings.checker.edges == EdgeCheck::certified &&
+           (!options_.adaptChecking || options_.adaptedTestsAreProofs);
   }
   bool maximisesClearance() const {
     return problem_.settings.objective == Objective::maxMinClearance;

@@ -205,7 +205,8 @@ PathProblem plainProblem(const Model& model, const Task& task,
   }
   forEachTestedPair(model, [&](std::size_t i, std::size_t j) {
     for (const std::size_t a : parts[i])
-      for (const std::size_t b : parts[j]) plain.pairs.push_back({a, b});
+      for (const std::size_t b : parts[j])
+        plain.pairs.push_back({a, b, paddingOf(model, task.padding, i, j)});
   });
   plain.tolerance = toleranceOf(model, plain, tolerance);
   return plain;

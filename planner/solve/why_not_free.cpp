@@ -239,6 +239,10 @@ std::optional<std::string> whyNotFree(const Configuration& q, const Checker& che
 
   const std::string pair = result.pair ? described(checker, *result.pair) : "two bodies";
   const MotionOptions& options = checker.options();
+  const double margin = result.pair ? checker.marginOf(checker.bodyOf(result.pair->bodyA),
+                                                       checker.bodyOf(result.pair->bodyB))
+                                    : options.margin;
+  const std::string kept = margin > options.margin ? "margin and padding" : "margin";
   if (result.verdict == MotionVerdict::undecided && result.reason == UndecidedReason::clearance) {
     // `needed` does not contain the clearance slack: the message on the tolerance covers that.
     const double needed = result.pair ? tubeOf(checker, q, *result.pair) : 0;
@@ -247,8 +251,8 @@ std::optional<std::string> whyNotFree(const Configuration& q, const Checker& che
              number(needed) + " m; move the two bodies apart, or set a smaller tube";
     }
     return "the gap between " + pair + " is " + number(result.gap) + " m" +
-           (options.margin > 0 ? " beyond the margin" : "") +
-           ", too small to prove at a tolerance of " + number(options.tolerance) +
+           (margin > 0 ? " beyond the " + kept : "") + ", too small to prove at a tolerance of " +
+           number(options.tolerance) +
            " m; move the two bodies apart, or set checker: {tolerance: " + number(result.gap / 4) +
            "}";
   }
@@ -261,7 +265,7 @@ std::optional<std::string> whyNotFree(const Configuration& q, const Checker& che
   return "in contact: " + pair +
          (checker.interference(q)
               ? " touch"
-              : " are closer than the margin of " + number(options.margin) + " m") +
+              : " are closer than the " + kept + " of " + number(margin) + " m") +
          "; " + describedFree(nearestFree(q, checker), q, checker.space());
 }
 

@@ -36,6 +36,9 @@ void require(const PathProblem& problem, const std::vector<Configuration>& state
   for (const VerifyPair& pair : problem.pairs)
     if (pair.a >= problem.bodies.size() || pair.b >= problem.bodies.size())
       refuse("a pair names a body that does not exist");
+  for (const VerifyPair& pair : problem.pairs)
+    if (!(pair.padding >= 0 && std::isfinite(pair.padding)))
+      refuse("padding must be finite and not negative");
 }
 
 }  // namespace
@@ -56,7 +59,11 @@ PairProver::PairProver(const PathProblem& problem, const std::vector<Configurati
   for (const VerifyPair& pair : problem.pairs) {
     const std::size_t fa = problem.bodies[pair.a].frame, fb = problem.bodies[pair.b].frame;
     const std::size_t base = commonAncestor(*problem.tree, fa, fb);
-    pairs_.push_back({pair.a, pair.b, addChain(base, fa), addChain(base, fb)});
+    // The factor covers the rounding of the sum.
+    const Real margin = pair.padding > 0
+                            ? (Real(problem.margin) + Real(pair.padding)) * (1 + 0x1p-62L)
+                            : Real(problem.margin);
+    pairs_.push_back({pair.a, pair.b, addChain(base, fa), addChain(base, fb), margin});
   }
   frameStates_.resize(chains_.size());
   const std::size_t edges = std::max<std::size_t>(states.size() - 1, 1);
@@ -171,18 +178,21 @@ Real PairProver::leastInTube(std::size_t pair, const Measured& m) const {
 /// undecided, or null.
 const char* PairProver::whyRefuted(const PairReach& reach, std::size_t pair,
                                    const Measured& m) const {
-  if (!reach.sharp) return m.gap.upper <= problem_.margin + reach.rounding ? kTooLarge : nullptr;
+  const Real margin = pairs_[pair].margin;
+  if (!reach.sharp) return m.gap.upper <= margin + reach.rounding ? kTooLarge : nullptr;
   if (m.gap.touching) return "contact";
-  if (problem_.margin > 0 && m.gap.upper <= problem_.margin) return "closer than the margin";
+  if (margin > 0 && m.gap.upper <= margin)
+    return margin > problem_.margin ? "closer than margin and padding" : "closer than the margin";
   // Some curve in the tube comes this close, so it touches, or violates the margin.
-  if (std::isfinite(m.gap.upper) && leastInTube(pair, m) <= problem_.margin)
+  if (std::isfinite(m.gap.upper) && leastInTube(pair, m) <= margin)
     return "closer than the tube allows";
   return nullptr;
 }
 
 /// Returns why no shorter interval about this middle can be proved.
-const char* PairProver::whyStuck(const PairReach& reach, const Measured& m) const {
-  const Real clear = m.gap.lower - problem_.margin;
+const char* PairProver::whyStuck(const PairReach& reach, std::size_t pair,
+                                 const Measured& m) const {
+  const Real clear = m.gap.lower - pairs_[pair].margin;
   if (clear - reach.rounding > problem_.tolerance) return "the tube may take all of the clearance";
   return clear > problem_.tolerance ? kTooLarge : "clearance below the tolerance";
 }
@@ -225,7 +235,7 @@ PairAnswer PairProver::decide(const TimeInterval& interval, const OpenPair& open
                               Real usefulBound) {
   const PairReach& reach = reaches_[interval.edge][open.pair];
   const Real motionBound = reach.sum.speed * interval.half, pad = reach.sum.tube + reach.rounding;
-  const Real margin = problem_.margin;
+  const Real margin = pairs_[open.pair].margin;
   Measured m = place(interval, open.pair);
   PairAnswer answer;
   if (open.bound <= margin && motionBound > problem_.tolerance) {
@@ -265,7 +275,7 @@ PairAnswer PairProver::decide(const TimeInterval& interval, const OpenPair& open
   if (answer.bound > margin) {
     answer.verdict = PathVerdict::proved;
   } else {
-    answer.reason = whyStuck(reach, m);
+    answer.reason = whyStuck(reach, open.pair, m);
     if (motionBound <= problem_.tolerance) answer.verdict = PathVerdict::undecided;
   }
   return answer;
@@ -289,9 +299,9 @@ Real PairProver::boundPiecewise(const TimeInterval& interval, std::size_t pair, 
   }
   motion.a = motionSeenFrom(m.a.at, m.a, std::move(a));
   motion.b = motionSeenFrom(m.a.at, m.b, std::move(b));
-  const Real little = problem_.margin + problem_.tolerance;
-  return boundBySlabs(distance_, m.gap, motion,
-                      {problem_.margin, little, std::max(little, usefulBound)}, near_);
+  const Real margin = pairs_[pair].margin, little = margin + problem_.tolerance;
+  return boundBySlabs(distance_, m.gap, motion, {margin, little, std::max(little, usefulBound)},
+                      near_);
 }
 
 std::optional<Vec3> PairProver::pointInside(std::size_t solid, std::size_t other,

@@ -31,7 +31,7 @@ struct OpenPair {
 
 /// The answer about a pair of bodies in a time interval. Lengths in metres.
 struct PairAnswer {
-  /// - proved: `bound` exceeds the margin.
+  /// - proved: `bound` exceeds the margin and padding.
   /// - refuted: `reason` says why.
   /// - undecided: no shorter interval about the same middle can be proved; `reason` says why.
   /// - empty: halve the interval.
@@ -80,6 +80,7 @@ class PairProver {
  private:
   struct Pair {
     std::size_t a, b, chainA, chainB;
+    Real margin;  ///< metres that the pair must keep: margin and padding
   };
   /// Motion bounds of both bodies along an edge, by their reach weights.
   struct PairReach {
@@ -112,7 +113,7 @@ class PairProver {
                       Real usefulBound);
   Real leastInTube(std::size_t pair, const Measured& m) const;
   const char* whyRefuted(const PairReach& reach, std::size_t pair, const Measured& m) const;
-  const char* whyStuck(const PairReach& reach, const Measured& m) const;
+  const char* whyStuck(const PairReach& reach, std::size_t pair, const Measured& m) const;
   std::optional<Vec3> pointInside(std::size_t solid, std::size_t other,
                                   const Placement& X_SolidOther) const;
   /// Returns whether the tube displaces points by more than the tolerance. Only then can a bound of

@@ -53,6 +53,7 @@ struct VerifyBody {
 
 struct VerifyPair {
   std::size_t a = 0, b = 0;  ///< indices of bodies
+  double padding = 0;        ///< metres that the pair keeps in addition to the margin
 };
 
 struct PathProblem {
@@ -60,7 +61,7 @@ struct PathProblem {
   const ConfigurationSpace* space = nullptr;  ///< not owned; only its `coordinates()` are read
   std::vector<VerifyBody> bodies;
   std::vector<VerifyPair> pairs;
-  double margin = 0;  ///< metres; a clearance of at most `margin` is a violation
+  double margin = 0;  ///< metres; a clearance of at most margin + padding is a violation
   /// Metres. `PathReport::provenClearance` is refined until it reaches this value, if the path may
   /// have such a clearance. It does not change the verdict.
   double wantedClearance = 0;
@@ -70,7 +71,8 @@ struct PathProblem {
 };
 
 enum class PathVerdict {
-  /// Every curve in the tube keeps more than the margin everywhere. This verdict is never wrong.
+  /// Every curve in the tube keeps more than margin and padding everywhere. This verdict is never
+  /// wrong.
   proved,
   /// At least one finding is a refutation: a contact; a distance that margin or tube do not allow;
   /// an ambiguous half turn; a joint that would jump; or a state that is not valid data. A contact
@@ -129,7 +131,8 @@ struct PathReport {
 /// every edge is undecided.
 /// @throws std::invalid_argument in these cases:
 /// - `states` is empty, or a pointer is null.
-/// - Margin, wanted clearance, tube or tolerance is negative or not finite, or the tolerance is 0.
+/// - Margin, padding, wanted clearance, tube or tolerance is negative or not finite, or the
+/// tolerance is 0.
 /// - The tube has another length than a configuration.
 /// - A body has neither a mesh nor parts, or both, or an empty mesh or part.
 /// - A pair names a body that does not exist.

@@ -131,18 +131,50 @@ TEST(PairMargins, RefusesWrongNumbers) {
   const Row row({0.05, 0.3});
   RigidEdge edge(row.motion());
   QueryContext context;
-  for (const std::vector<double>& metres : {std::vector<double>{0.01},
-                                            {0.01, 0.01, 0.01},
-                                            {0.01, -1e-9},
-                                            {0.01, HUGE_VAL},
-                                            {std::nan(""), 0}}) {
+  for (const std::vector<double>& metres :
+       {std::vector<double>{0.01, -1e-9}, {0.01, HUGE_VAL}, {std::nan(""), 0}})
+    EXPECT_THROW(PairMargins{metres}, std::invalid_argument);
+  for (const std::vector<double>& metres : {std::vector<double>{0.01}, {0.01, 0.01, 0.01}}) {
     const PairMargins margins(metres);
     EXPECT_THROW(row.scene().certify(edge, optionsWith(margins, 0), context),
+                 std::invalid_argument);
+    EXPECT_THROW(row.scene().pairsWithin(std::vector<Transform>(2), margins, {}, context),
                  std::invalid_argument);
     const auto fault =
         checkCertificate(edge, row.scene().motionPairs(), optionsWith(margins, 0), 0, {}, context);
     ASSERT_TRUE(fault);
     EXPECT_EQ(fault->kind, CertificateFault::Kind::malformed);
+  }
+}
+
+/// The pairs near the cube, and their distances, have closed forms.
+TEST(PairMargins, FindsThePairsWithinThem) {
+  const std::vector<double> gaps{0.05, 0.3, 0.1, 0.02};
+  const Row row(gaps);
+  QueryContext context;
+  for (const double x : {0.05, 1.05, 7.0}) {
+    std::vector<Transform> X_WF(2);
+    X_WF[1].t = Vec3(x, 0, 0);
+    for (const double share : {0.99, 1.01}) {
+      // The distance of each box from the cube at x; the cube reaches from x − 0.1 to x + 0.1.
+      std::vector<double> distances, metres;
+      for (std::size_t k = 0; k < row.size(); ++k) {
+        const double left = 0.5 * static_cast<double>(row.scene().motionPairs()[k].bodyA);
+        const double aside = std::max({0.0, left - (x + 0.1), x - 0.1 - (left + 0.1)});
+        distances.push_back(std::hypot(aside, row.gapOf(k)));
+        metres.push_back(k == 1 ? 0 : share * distances.back());
+      }
+      const auto near = row.scene().pairsWithin(X_WF, PairMargins(metres), {}, context);
+      ASSERT_EQ(near.size(), share > 1 ? 3u : 0u);
+      std::size_t before = 0;
+      for (const Scene::NearPair& pair : near) {
+        EXPECT_NE(pair.pair, 1u);
+        EXPECT_TRUE(&pair == near.data() || pair.pair > before);
+        before = pair.pair;
+        EXPECT_NEAR(pair.distance.distance, distances[pair.pair], 1e-14);
+        EXPECT_NEAR((pair.distance.p_WA - pair.distance.p_WB).norm(), distances[pair.pair], 1e-14);
+      }
+    }
   }
 }
 

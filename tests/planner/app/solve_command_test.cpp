@@ -124,7 +124,8 @@ TEST_F(SolveArm, KeepsItsDistance) {
 
   EXPECT_THAT(run("solve arm.yaml").out,
               testing::ContainsRegex("clearance: proved: [0-9.]+ mm.*\n"
-                                     "clearance: on target for [0-9.]+ % of the length\n"));
+                                     "clearance: every pair keeps its target on [0-9.]+ % of the "
+                                     "length\n"));
   const Result shortest = run("solve arm.yaml --clearance 0 -o s.yaml");
   EXPECT_THAT(shortest.out, testing::Not(HasSubstr("clearance")));
   EXPECT_THAT(read("s.yaml"), testing::Not(HasSubstr("clearance")));
@@ -153,12 +154,16 @@ TEST_F(SolveArm, MarginAndClearanceOfTheCommandLine) {
             "--margin: a number of metres, 0 or more, is needed, not \"inf\"; see corridor solve "
             "--help\n"},
            {"--margin 0.01 --clearance 0.01",
-            "--clearance: the path keeps a margin or prefers a clearance, not both; leave one "
-            "out\n"},
+            "--clearance: can't be used with a margin; leave one of the two out\n"},
            {"--clearance 0.01 --no-simplify",
-            "--clearance: is kept by Corridor's simplifier; it needs simplify: true\n"},
+            "--clearance: needs Corridor's simplifier; leave out simplify: false or ompl "
+            "(--no-simplify, --simplify)\n"},
            {"--clearance 0.01 --edges discrete",
-            "--clearance: is proved along edges, and checker.edges: discrete proves none\n"}}) {
+            "--clearance: needs edges that are proved; discrete edges are only sampled\n"},
+           {"--keep clearest", "--keep: needs --tries, which is not given\n"},
+           {"--keep clearest --tries 2 --clearance 0",
+            "--keep: the clearest path needs a preferred clearance, such as --clearance "
+            "0.005\n"}}) {
     const Result refused = run(std::string("solve arm.yaml -o none.yaml ") + options);
     EXPECT_EQ(refused.status, 2) << options;
     EXPECT_EQ(refused.err, complaint);

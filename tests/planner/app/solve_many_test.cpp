@@ -78,16 +78,19 @@ TEST_F(SolveMany, ARangeOfASet) {
     EXPECT_EQ(report["problems"][i]["problem"], "set.json#" + std::to_string(i + 1));
     EXPECT_EQ(report["problems"][i]["result"], "solved");
   }
-  EXPECT_THAT(filesIn("out"), ElementsAre("set-1.yaml", "set-2.yaml", "set-3.yaml"));
+  EXPECT_THAT(filesIn("out"),
+              ElementsAre("set-1.solution.yaml", "set-2.solution.yaml", "set-3.solution.yaml"));
   EXPECT_THAT(filesIn("pictures"), ElementsAre("set-1.svg", "set-2.svg", "set-3.svg"));
-  EXPECT_EQ(run("verify 'set.json#2' out/set-2.yaml").status, 0);
+  EXPECT_EQ(run("verify 'set.json#2' out/set-2.solution.yaml").status, 0);
   // The same paths as one by one.
   EXPECT_EQ(run("solve 'set.json#3' -o alone.yaml --quiet").status, 0);
   EXPECT_EQ(read("alone.yaml").substr(read("alone.yaml").find("path:")),
-            read("out/set-3.yaml").substr(read("out/set-3.yaml").find("path:")));
+            read("out/set-3.solution.yaml").substr(read("out/set-3.solution.yaml").find("path:")));
   // A gap in the indices is no fault.
   EXPECT_EQ(json::parse(run("solve set.json#2-5 --json").out)["problems"].size(), 3u);
-  EXPECT_EQ(json::parse(run("solve set.json#5-5 --json").out)["problems"].size(), 1u);
+  // A range of one problem is a range: its results have the same form.
+  EXPECT_EQ(run("solve set.json#5-5 -o one --quiet").status, 0);
+  EXPECT_THAT(filesIn("one"), ElementsAre("set-5.solution.yaml"));
 }
 
 TEST_F(SolveMany, AFolderOfFolders) {
@@ -107,7 +110,8 @@ TEST_F(SolveMany, AFolderOfFolders) {
   for (const json& line : lines) EXPECT_EQ(line["result"], "solved");
   EXPECT_EQ(lines[0]["problem"], "all/a");
   // Two problems are called a: their folders' folders tell them apart.
-  EXPECT_THAT(filesIn("out/solutions"), ElementsAre("all-a.yaml", "b.yaml", "more-a.yaml"));
+  EXPECT_THAT(filesIn("out/solutions"),
+              ElementsAre("all-a.solution.yaml", "b.solution.yaml", "more-a.solution.yaml"));
   EXPECT_THAT(run("solve sub").err, HasSubstr("sub: "));
 }
 
@@ -121,7 +125,8 @@ TEST_F(SolveMany, RefusesWhatCantBe) {
   writeSet("set.json", {1, 2, 3});
   for (const auto& [arguments, complaint] :
        std::initializer_list<std::pair<const char*, const char*>>{
-           {"set.json#3-1", "set.json#3-1: the range is empty: its end is below its beginning\n"},
+           {"set.json#3-1",
+            "set.json: \"#3-1\" is not a range of 1 to 1000 problems, such as #1-10\n"},
            {"set.json#2-9",
             "set.json#2-9: the set has no problem #9; its indices are from 1 to 3\n"},
            {"set.json#0-2",
@@ -161,7 +166,42 @@ TEST_F(SolveMany, AnInterruptEndsAllOfThem) {
   EXPECT_EQ(result.status, 130);
   EXPECT_THAT(read("lines.txt"), HasSubstr("arm: solved, "));
   EXPECT_THAT(read("lines.txt"), HasSubstr("problems: 1 of 1 solved, 1 certified\n"));
-  EXPECT_THAT(filesIn("out"), ElementsAre("arm.yaml"));
+  EXPECT_THAT(filesIn("out"), ElementsAre("arm.solution.yaml"));
+}
+
+TEST_F(SolveMany, ACrashCostsItsProblemOnly) {
+  write("wall.obj", "v 0 -5 -5\nv 0 5 -5\nv 0 5 5\nv 0 -5 5\nf 1 2 3\nf 1 3 4\n");
+  const Result result =
+      run("solve arm.yaml problem.yaml arm.yaml --time 60 -o out > lines.txt & pid=$!; sleep 1.5; "
+          "kill -SEGV $(cut -d' ' -f1 /proc/$pid/task/$pid/children); wait $pid; exit $?;");
+  EXPECT_EQ(result.status, 3);
+  EXPECT_THAT(read("lines.txt"), HasSubstr(": failed: killed by signal 11"));
+  EXPECT_THAT(read("lines.txt"), HasSubstr("problems: 2 of 3 solved, 2 certified\n"));
+  EXPECT_THAT(filesIn("out"), ElementsAre("arm-2.solution.yaml", "arm.solution.yaml"));
+}
+
+TEST_F(SolveMany, ReplacesSolutionsOnly) {
+  std::filesystem::create_directories(folder_ / "out");
+  EXPECT_EQ(run("solve arm.yaml problem.yaml -o out --quiet").status, 0);
+  EXPECT_EQ(run("solve arm.yaml problem.yaml -o out --quiet").status, 0);
+  write("out/arm.solution.yaml", "my notes\n");
+  const Result refused = run("solve arm.yaml problem.yaml -o out");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_EQ(refused.err,
+            "--output: out/arm.solution.yaml exists, and is no solution; name another folder\n");
+  EXPECT_EQ(read("out/arm.solution.yaml"), "my notes\n");
+}
+
+TEST_F(SolveMany, AnInterruptOfTriesKeepsTheBestPath) {
+  const Result result = run(
+      "solve arm.yaml --tries 1000000 -o best.yaml --json > report.json & pid=$!; sleep 1; kill "
+      "-INT $pid; wait $pid; exit $?;");
+  EXPECT_EQ(result.status, 130);
+  const json report = json::parse(read("report.json"))["problems"][0];
+  EXPECT_EQ(report["result"], "solved");
+  EXPECT_GT(report["tries"], 1);
+  EXPECT_LT(report["tries"], 1000000);
+  EXPECT_EQ(run("verify arm.yaml best.yaml").status, 0);
 }
 
 TEST_F(SolveMany, TriesKeepTheShortestOrTheClearest) {

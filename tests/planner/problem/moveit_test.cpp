@@ -237,10 +237,12 @@ TEST_F(Moveit, FaultsOfTheScene) {
   EXPECT_EQ(complaint("link_padding: [{link_name: hand, padding: 0}, {link_name: arm, padding: "
                       "0.1}]\nlink_scale: [{link_name: hand, scale: 1}, {link_name: arm, scale: "
                       "2}]\nworld: {}\n"),
-            "scene.yaml:1: link_padding.padding: links are tested as they are; use margin for a "
-            "distance to keep\n"
-            "scene.yaml:2: link_scale.scale: links are tested as they are; use margin for a "
-            "distance to keep");
+            "scene.yaml:2: link_scale.scale: links are tested in their own size; use link_padding, "
+            "or padding in the problem, for a distance to keep");
+  EXPECT_EQ(complaint("link_padding: [{padding: 0.1}, {link_name: hand, padding: -1}]\nworld: "
+                      "{}\n"),
+            "scene.yaml:1: missing key \"link_name\" in link_padding: the link that is padded\n"
+            "scene.yaml:1: link_padding.padding: must be 0 or more, not -1");
   EXPECT_THAT(complaint("wrld: {}\n"),
               HasSubstr("scene.yaml:1: unknown key \"wrld\" (did you mean \"world\"?)"));
   EXPECT_EQ(complaint("name: empty\n"),

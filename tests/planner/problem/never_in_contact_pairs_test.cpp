@@ -24,13 +24,16 @@ constexpr const char* kReason = "robot.yaml: never_in_contact";
 
 TEST_F(NeverInContactPairs, AreTestedBeyondTheProof) {
   const std::string pairs = "[[base, finger]]";
-  for (const char* within : {"", "margin: 0.01\n", "tube: {joints: 0.002}\n"}) {
+  for (const char* within : {"", "margin: 0.01\n", "tube: {joints: 0.002}\n",
+                             "margin: 0.005\npadding: {bodies: {finger: 9}, pairs: [[finger, base, "
+                             "0.004]]}\n"}) {
     const Problem p = readWith(pairs, within);
     EXPECT_EQ(skipped(p, "base", "finger"), kReason) << within;
     EXPECT_THAT(textsOf(p.source.notes), Not(Contains(HasSubstr("never_in_contact"))));
   }
   for (const char* beyond :
-       {"margin: 0.0100001\n", "tube: {joints: 0.0021}\n", "tube: {pan: 0.01}\n"}) {
+       {"margin: 0.0100001\n", "tube: {joints: 0.0021}\n", "tube: {pan: 0.01}\n",
+        "margin: 0.005\npadding: {pairs: [[finger, base, 0.006]]}\n"}) {
     const Problem p = readWith(pairs, beyond);
     EXPECT_EQ(skipped(p, "base", "finger"), "") << beyond;
     EXPECT_THAT(textsOf(p.source.notes),

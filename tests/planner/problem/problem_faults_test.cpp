@@ -15,7 +15,7 @@ class ProblemFaults : public ProblemTest {
 
 constexpr const char* topKeys =
     " (known: format, robot, robots, base, world, allow, start, goal, moveit, bounds, margin, "
-    "prefer, tube, "
+    "padding, prefer, tube, "
     "planner, sampler, simplify, checker, seed)";
 
 TEST_F(ProblemFaults, Files) {
@@ -311,6 +311,33 @@ TEST_F(ProblemFaults, KeysThatAreNotForRigidRobots) {
             "robot.yaml:6: weights.joints: this robot is rigid and has no joints");
 }
 
+TEST_F(ProblemFaults, Padding) {
+  const auto known = " (known: wedge, rock)";
+  EXPECT_EQ(with("padding: {bodies: {hand: 0.1}}\n"),
+            std::string("problem.yaml:8: padding.bodies.hand: there is no body \"hand\"") + known);
+  EXPECT_EQ(with("padding: {bodies: {rock: -0.1}}\n"),
+            "problem.yaml:8: padding.bodies.rock: must be 0 or more, not -0.1");
+  EXPECT_EQ(with("padding: {bodies: {rock: .nan}}\n"),
+            "problem.yaml:8: padding.bodies.rock: a finite number is needed, not \".nan\"");
+  EXPECT_EQ(with("padding: {links: {rock: 1}}\n"),
+            "problem.yaml:8: unknown key \"links\" in padding (known: bodies, pairs)");
+  EXPECT_EQ(with("padding: {pairs: rock}\n"),
+            "problem.yaml:8: padding.pairs: a list of pairs is needed, each with its padding in "
+            "metres, such as [hand, shelf, 0.02]");
+  EXPECT_EQ(with("padding: {pairs: [[rock, wedge]]}\n"),
+            "problem.yaml:8: padding.pairs: two bodies and a padding in metres are needed, such as "
+            "[hand, shelf, 0.02]");
+  EXPECT_EQ(with("padding: {pairs: [[rock, wedge, far]]}\n"),
+            "problem.yaml:8: padding.pairs: a number is needed, not \"far\"");
+  EXPECT_EQ(with("padding: {pairs: [[rock, rock, 1]]}\n"),
+            "problem.yaml:8: padding.pairs: two different bodies are needed, such as [hand, shelf, "
+            "0.02]");
+  EXPECT_EQ(with("padding: {pairs: [[rock, rook, 1]]}\n"),
+            std::string("problem.yaml:8: padding.pairs: there is no body \"rook\" (did you mean "
+                        "\"rock\"?)") +
+                known);
+}
+
 TEST_F(ProblemFaults, Prefer) {
   EXPECT_EQ(with("prefer: {clearance: -1}\n"),
             "problem.yaml:8: prefer.clearance: must be 0 or more, not -1");
@@ -324,16 +351,16 @@ TEST_F(ProblemFaults, Prefer) {
             "problem.yaml:8: prefer: a map (key: value) is needed, not \"0.1\"");
   EXPECT_EQ(with("prefer: {margin: 1}\n"),
             "problem.yaml:8: unknown key \"margin\" in prefer (known: clearance, detour)");
+  const std::string place = "problem.yaml:9: prefer.clearance: ";
   EXPECT_EQ(with("margin: 0.01\nprefer: {clearance: 0.1}\n"),
-            "problem.yaml:9: prefer.clearance: the path keeps a margin or prefers a clearance, not "
-            "both; leave one out");
+            place + "can't be used with a margin; leave one of the two out");
   for (const char* other : {"simplify: false\n", "simplify: ompl\n"})
     EXPECT_EQ(with(std::string(other) + "prefer: {clearance: 0.1}\n"),
-              "problem.yaml:9: prefer.clearance: is kept by Corridor's simplifier; it needs "
-              "simplify: true");
+              place +
+                  "needs Corridor's simplifier; leave out simplify: false or ompl "
+                  "(--no-simplify, --simplify)");
   EXPECT_EQ(with("checker: {edges: discrete}\nprefer: {clearance: 0.1}\n"),
-            "problem.yaml:9: prefer.clearance: is proved along edges, and checker.edges: discrete "
-            "proves none");
+            place + "needs edges that are proved; discrete edges are only sampled");
   EXPECT_EQ(with("margin: 0.01\nprefer: {clearance: 0, detour: 0}\n"), "no complaint");
 }
 

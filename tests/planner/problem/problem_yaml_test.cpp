@@ -41,6 +41,7 @@ simplify: false
 checker: {edges: discrete, resolution: 0.02, tolerance: 1e-5, volume: obb-binary, fit: hull, overlap: gjk}
 allow: [[wedge, stone]]
 prefer: {clearance: 0, detour: 0.25}
+padding: {bodies: {wedge: 0.01, stone: 0.002}, pairs: [[rock, wedge, 0.03]]}
 seed: 18446744073709551615
 )";
 
@@ -69,6 +70,9 @@ TEST_F(ProblemYaml, EveryKeyIsRead) {
   EXPECT_EQ(lowerOf(p), Vec3(-9, -9, -9));
   EXPECT_EQ(upperOf(p), Vec3(9, 8, 7));
   EXPECT_EQ(p.task.margin, 0.005);
+  EXPECT_EQ(p.task.padding.bodies, (std::map<std::size_t, double>{{0, 0.01}, {2, 0.002}}));
+  EXPECT_EQ(p.task.padding.pairs.size(), 1u);
+  EXPECT_EQ(p.task.padding.of(0, 1, false), 0.03);
   EXPECT_EQ(p.settings.prefer.clearance, 0);
   EXPECT_EQ(p.settings.prefer.detour, 0.25);
   EXPECT_EQ(pairCount(p.model), 2);

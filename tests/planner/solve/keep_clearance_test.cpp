@@ -165,6 +165,7 @@ TEST(KeepClearance, HoldsWhatItPromises) {
     const PathClearance proof = proveClearance(mover.checker, mover.targets, moved, mover.onTarget);
     const double after = clearanceAlong(moved, posts), before = clearanceAlong(path, posts);
     EXPECT_LT(proof.proved, after) << n;
+    EXPECT_GE(proof.proved, 0.6 * std::min(after, 0.2)) << n;
     EXPECT_GE(after, std::min(before, mover.targets.least()) * (1 - 1e-9)) << n;
     better += after > before;
     onTarget += proof.shareOnTarget == 1;
@@ -185,6 +186,106 @@ TEST(ProveClearance, OfAPathOfOneState) {
   EXPECT_GE(proof.proved, 0.02);
 }
 
+TEST(ProveClearance, OfAPathThatStands) {
+  const std::vector<Vec3> posts{{0, -0.83, 0}};
+  const Configuration q = poseOf(Rigid::SE2, 0, 0);
+  Mover mover(posts, {q, q}, 0.1);
+  const PathClearance proof =
+      proveClearance(mover.checker, mover.targets, mover.path, mover.onTarget);
+  EXPECT_EQ(proof.shareOnTarget, 1);
+  EXPECT_NEAR(proof.smallest, 0.03, 1e-4);
+  EXPECT_GE(proof.proved, 0.02);
+  // The targets are not kept: a proof needs twice the tolerance, 0.3 of this distance is left.
+  Problem coarse = ballAmong(posts);
+  coarse.settings.checker.tolerance = 0.014;
+  const Checker checker(coarse);
+  const ClearanceTargets targets(checker, 0.1, q, q);
+  EdgeMemory onTarget([&](const auto& a, const auto& b) { return targets.areKept(a, b); });
+  const PathClearance none = proveClearance(checker, targets, {q, q}, onTarget);
+  EXPECT_EQ(none.shareOnTarget, 0);
+  EXPECT_LT(none.proved, 0.03);
+}
+
+TEST(ProveClearance, RoundsDownToTwoDigits) {
+  for (int exponent = -9; exponent < 9; ++exponent)
+    for (int digits = 10; digits < 100; ++digits) {
+      const auto number = [&](int d) {
+        return std::stod(std::to_string(d) + "e" + std::to_string(exponent));
+      };
+      const double x = number(digits);
+      EXPECT_EQ(roundedDownTo2Digits(x), x);
+      EXPECT_EQ(roundedDownTo2Digits(1.004 * x), x);
+      EXPECT_EQ(roundedDownTo2Digits(std::nextafter(x, 1e300)), x);
+      const double below = digits > 10
+                               ? number(digits - 1)
+                               : std::stod("99e" + std::to_string(exponent - 1));  // 99 follows 10
+      EXPECT_EQ(roundedDownTo2Digits(std::nextafter(x, 0)), below);
+    }
+  for (const double x : {0.0, -1.0, std::nan(""), HUGE_VAL}) EXPECT_EQ(roundedDownTo2Digits(x), 0);
+}
+
+TEST(ClearanceTargets, MovesAnArmAway) {
+  const Problem problem = test::armProblem();
+  const Checker checker(problem);
+  const Configuration far = Configuration::Zero(3);
+  const ClearanceTargets targets(checker, 0.05, far, far);
+  std::mt19937_64 random(test::testSeed(2512));
+  std::uniform_real_distribution<double> angle(-2.5, 2.5);
+  int moved = 0;
+  for (int n = 0; n < 20'000 && moved < 20; ++n) {
+    const Configuration q = Vec3(angle(random), angle(random), angle(random));
+    const double before = checker.inBounds(q) ? checker.clearance(q) : 0;
+    if (!(before > 1e-3 && before < 0.04)) continue;
+    const auto apart = targets.movedApart(q);
+    ASSERT_TRUE(apart);
+    EXPECT_TRUE(checker.inBounds(*apart));
+    EXPECT_GT(checker.clearance(*apart), before + 0.2 * (0.075 - before)) << q.transpose();
+    EXPECT_LT(checker.space().distance(q, *apart), 0.5);
+    ++moved;
+  }
+  EXPECT_EQ(moved, 20);
+}
+
+TEST(EdgeMemory, TestsNoEdgeTwice) {
+  int tests = 0;
+  EdgeMemory edges([&](const Configuration& a, const Configuration& b) {
+    ++tests;
+    return a[0] < b[0];
+  });
+  const Configuration one = poseOf(Rigid::SE2, 1, 0), two = poseOf(Rigid::SE2, 2, 0);
+  EXPECT_FALSE(edges.knowsFree(one, two));
+  for (int n = 0; n < 3; ++n) {
+    EXPECT_TRUE(edges.isFree(one, two));
+    EXPECT_FALSE(edges.isFree(two, one));  // another edge
+  }
+  EXPECT_EQ(tests, 2);
+  EXPECT_TRUE(edges.knowsFree(one, two));
+  EXPECT_FALSE(edges.knowsFree(two, one));
+  edges.addFree(two, one);
+  EXPECT_TRUE(edges.knowsFree(two, one));
+  EXPECT_TRUE(edges.isFree(two, one));
+  EXPECT_EQ(tests, 2);
+}
+
+/// What was proved before is not proved again, but bounds are tested.
+TEST(CertifiedPath, TestsNoKnownEdge) {
+  const Problem problem = ballAmong({{0, -0.9, 0}});
+  const Checker checker(problem);
+  const auto at = [](double x, double y) { return poseOf(Rigid::SE2, x, y); };
+  EdgeMemory edges([&](const auto& a, const auto& b) { return checker.isProvedFree(a, b); });
+  const Path path{at(-3, 0), at(0, 0), at(3, 0)};
+  EXPECT_TRUE(edges.isFree(path[0], path[1]));
+  const std::uint64_t before = checker.counters().edges;
+  EXPECT_TRUE(certifiedPath(checker, path, &edges));
+  EXPECT_EQ(checker.counters().edges, before + 1);
+  EXPECT_TRUE(certifiedPath(checker, path));
+  EXPECT_EQ(checker.counters().edges, before + 3);
+  EdgeMemory bold([](const auto&, const auto&) { return true; });
+  const Path outside{at(-3, 0), at(-7, 0), at(-3, 1)};
+  EXPECT_TRUE(bold.isFree(outside[0], outside[1]) && bold.isFree(outside[1], outside[2]));
+  EXPECT_FALSE(certifiedPath(checker, outside, &bold));
+}
+
 TEST(PreferredClearance, ItsDefaultIsForRobotsWithJoints) {
   Problem ball = ballAmong({{0, -0.8, 0}});
   EXPECT_EQ(preferredClearance(ball), 0);
@@ -192,6 +293,8 @@ TEST(PreferredClearance, ItsDefaultIsForRobotsWithJoints) {
   EXPECT_EQ(preferredClearance(ball), 0.02);
   Problem arm = test::armProblem();
   EXPECT_EQ(preferredClearance(arm), 0.005);
+  arm.settings.prefer.clearance = 1e308;
+  EXPECT_EQ(preferredClearance(arm), 1e6);
   arm.settings.prefer.clearance = 0;
   EXPECT_EQ(preferredClearance(arm), 0);
   arm.settings.prefer.clearance.reset();

@@ -1,0 +1,166 @@
+// Padding: distances that single bodies and pairs keep. Two balls beside a way, at known distances.
+#include <random>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "planner/checker/checker.h"
+#include "planner/checker/state_validity_checkers.h"
+#include "planner/checker/still_pairs.h"
+#include "planner/solve/solve.h"
+#include "planner/solve/verify_solution.h"
+#include "planner/solve/why_not_free.h"
+#include "tests/planner/checker/hall.h"
+#include "tests/support/support.h"
+
+namespace corridor {
+namespace {
+
+using test::partShape;
+using test::poseOf;
+using test::Rigid;
+using testing::HasSubstr;
+
+/// A ball of radius 0.5 m moves along y = 0. "low" is 0.1 m from its way, "high" 0.2 m.
+Problem twoBalls() {
+  Problem problem = test::rigidProblem(Rigid::SE2);
+  problem.source.name = "balls";
+  problem.model.bodies = {{"ball", 2, 0, {partShape("ball", Sphere{0.5})}},
+                          {"low", 0, {}, {partShape("low", Sphere{0.3}, {0, -0.9, 0})}},
+                          {"high", 0, {}, {partShape("high", Sphere{0.3}, {0, 1, 0})}}};
+  problem.task.start = poseOf(Rigid::SE2, -3, 0);
+  problem.task.goals = {poseOf(Rigid::SE2, 3, 0)};
+  return problem;
+}
+
+bool isFree(const Problem& problem) {
+  return Checker(problem).isProvedFree(problem.task.start, problem.task.goals[0]);
+}
+PathVerdict verdictOf(const Problem& problem) {
+  return verifyPath(plainProblem(problem), {problem.task.start, problem.task.goals[0]}).verdict;
+}
+
+TEST(Padding, IsAddedForEachPair) {
+  const double little = 1e-5;
+  struct Case {
+    Padding padding;
+    double margin;
+    bool free;
+  };
+  for (const auto& [padding, margin, free] : std::vector<Case>{
+           {{}, 0.1 - little, true},
+           {{}, 0.1 + little, false},
+           {{{{0, 0.1 - little}}, {}}, 0, true},  // of the moving body
+           {{{{0, 0.1 + little}}, {}}, 0, false},
+           {{{{2, 0.2 - little}}, {}}, 0, true},  // of one obstacle
+           {{{{2, 0.2 + little}}, {}}, 0, false},
+           {{{{0, 0.05}, {1, 0.05 - little}}, {}}, 0, true},  // of both
+           {{{{0, 0.05}, {1, 0.05 + little}}, {}}, 0, false},
+           {{{{2, 0.15}}, {}}, 0.05 - little, true},  // and the margin
+           {{{{2, 0.15}}, {}}, 0.05 + little, false},
+           {{{}, {{{0, 2}, 0.2 - little}}}, 0, true},  // of a pair
+           {{{}, {{{0, 2}, 0.2 + little}}}, 0, false},
+           {{{{0, 0.15}}, {{{0, 1}, 0.01}}}, 0, true},  // of a pair, in place of the bodies'
+           {{{{0, 0.25}}, {{{0, 1}, 0.01}}}, 0, false}}) {
+    Problem problem = twoBalls();
+    problem.task.padding = padding;
+    problem.task.margin = margin;
+    EXPECT_EQ(isFree(problem), free);
+    EXPECT_EQ(verdictOf(problem), free ? PathVerdict::proved : PathVerdict::refuted);
+  }
+}
+
+TEST(Padding, IsNotForBodiesOfOneRobot) {
+  Padding padding;
+  padding.bodies = {{0, 0.1}, {3, 0.2}};
+  padding.pairs[{1, 3}] = 0.4;
+  EXPECT_EQ(padding.of(0, 3, true), 0);
+  EXPECT_NEAR(padding.of(3, 0, false), 0.3, 1e-14);
+  EXPECT_GE(padding.of(3, 0, false), 0.1 + 0.2);
+  EXPECT_NEAR(padding.of(0, 5, false), 0.1, 1e-14);
+  EXPECT_EQ(padding.of(3, 1, true), 0.4);
+  EXPECT_EQ(padding.of(5, 6, false), 0);
+  EXPECT_EQ(padding.largest(), 0.4);
+  padding.pairs.clear();
+  EXPECT_GE(padding.largest(), padding.of(0, 3, false));
+  // An arm's links are adjacent, or near each other: they may be padded.
+  Problem arm = test::armProblem();
+  for (std::size_t i = 0; i < arm.model.bodies.size(); ++i)
+    if (arm.model.bodies[i].robot) arm.task.padding.bodies[i] = 0.05;
+  EXPECT_TRUE(Checker(arm).isProvedFree(arm.task.start));
+}
+
+TEST(Padding, PathsKeepIt) {
+  Problem problem = twoBalls();
+  problem.task.padding.bodies[0] = 0.12;
+  problem.settings.seed = 3;
+  const SolveReport report = solveProblem(problem);
+  ASSERT_EQ(report.outcome, SolveOutcome::solved) << report.why;
+  EXPECT_EQ(verifySolution(problem, makeSolution(problem, report)).verdict, PathVerdict::proved);
+  problem.task.padding.bodies[0] = 0.4;
+  EXPECT_EQ(verifyPath(plainProblem(problem), report.path).verdict, PathVerdict::refuted);
+  // A clearance is preferred on top of what the padding requires.
+  problem.task.padding.bodies[0] = 0.12;
+  problem.settings.prefer.clearance = 0.14;
+  const SolveReport clear = solveProblem(problem);
+  ASSERT_TRUE(clear.clearance);
+  EXPECT_EQ(verifySolution(problem, makeSolution(problem, clear)).verdict, PathVerdict::proved);
+  EXPECT_GE(clear.clearance->proved, 0.1);  // two digits of 90 % of more than 0.12
+}
+
+TEST(Padding, MessagesNameIt) {
+  Problem problem = twoBalls();
+  problem.task.padding.bodies[1] = 0.3;
+  const Checker checker(problem);
+  const auto why = whyNotFree(poseOf(Rigid::SE2, 0, 0), checker);
+  ASSERT_TRUE(why);
+  EXPECT_THAT(*why, HasSubstr("are closer than the margin and padding of 0.3 m"));
+  const ExactStateValidityChecker exact(
+      std::make_shared<ompl::base::SpaceInformation>(
+          std::make_shared<ProblemStateSpace>(problem.model.space)),
+      checker);
+  EXPECT_NEAR(checker.marginOf(0, 1), 0.3, 1e-14);
+  EXPECT_EQ(checker.marginOf(2, 0), 0);
+  const PathReport refuted =
+      verifyPath(plainProblem(problem), {problem.task.start, problem.task.goals[0]});
+  ASSERT_FALSE(refuted.findings.empty());
+  EXPECT_EQ(refuted.findings[0].reason, "closer than margin and padding");
+}
+
+/// The verifier refines the clearance that it proves up to the one that is wanted.
+TEST(WantedClearance, IsProvedWhereThePathHasIt) {
+  const Problem problem = twoBalls();
+  PathProblem plain = plainProblem(problem);
+  const auto proven = [&](double wanted) {
+    plain.wantedClearance = wanted;
+    const PathReport report = verifyPath(plain, {problem.task.start, problem.task.goals[0]});
+    EXPECT_EQ(report.verdict, PathVerdict::proved);
+    EXPECT_LE(report.provenClearance, 0.1);
+    return report.provenClearance;
+  };
+  const double usual = proven(0);
+  EXPECT_GE(usual, 0.09);
+  ASSERT_LT(usual, 0.0995);
+  EXPECT_GE(proven(0.0995), 0.0995);
+  EXPECT_GE(proven(0.0999), 0.0999);
+  // What the path can't have changes nothing.
+  EXPECT_EQ(proven(0.101), usual);
+  EXPECT_EQ(proven(5), usual);
+}
+
+TEST(Padding, RefusesWrongNumbers) {
+  for (const double metres : {-0.1, std::nan(""), HUGE_VAL}) {
+    Problem problem = twoBalls();
+    problem.task.padding.pairs[{0, 1}] = metres;
+    EXPECT_THROW(Checker{problem}, std::invalid_argument);
+    PathProblem plain = plainProblem(twoBalls());
+    plain.pairs[0].padding = metres;
+    EXPECT_THROW(verifyPath(plain, {problem.task.start}), std::invalid_argument);
+    plain.pairs[0].padding = 0;
+    plain.wantedClearance = metres;
+    EXPECT_THROW(verifyPath(plain, {problem.task.start}), std::invalid_argument);
+  }
+}
+
+}  // namespace
+}  // namespace corridor
