@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "collision/core/error.h"
+#include "collision/core/fault_list.h"
 #include "planner/benchmark/campaign_yaml.h"
 #include "planner/problem/mbm_json.h"
 
@@ -86,10 +87,13 @@ ProblemList listProblems(const std::vector<std::string>& arguments) {
   std::vector<std::string> files;
   bool several = arguments.size() > 1;
   std::error_code none;
+  FaultList faults;
   for (const std::string& argument : arguments) {
-    if (const auto range = problemsOf(argument); range.front() != argument) {
+    std::vector<std::string> range{argument};
+    faults.collect([&] { range = problemsOf(argument); });
+    if (range.front() != argument) {
       several = true;
-      addRange(argument, range, files);
+      faults.collect([&] { addRange(argument, range, files); });
       continue;
     }
     std::vector<std::string> inside;
@@ -99,6 +103,7 @@ ProblemList listProblems(const std::vector<std::string>& arguments) {
     if (inside.empty()) inside.push_back(argument);
     files.insert(files.end(), inside.begin(), inside.end());
   }
+  faults.throwIfAny();
   return {named(files), several};
 }
 

@@ -142,7 +142,8 @@ void addSolve(CLI::App& program, int& status) {
       ->group(many);
   command
       ->add_option("--keep", a.keep,
-                   "with --tries: keep the shortest path (default), or the clearest: the one with "
+                   "with --tries: keep the shortest path in the planner's distance (default), or "
+                   "the clearest: the one with "
                    "the largest proved clearance")
       ->check(isOneOf({"shortest", "clearest"}))
       ->group(many);

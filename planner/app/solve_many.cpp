@@ -289,6 +289,9 @@ int solveMany(const std::vector<ListedProblem>& problems, const SolveArguments& 
     out.blank();
     printTable(jobs.reports(), out);
   }
+  if (interrupted && !a.quiet)
+    warn("interrupted: " + std::to_string(problems.size() - done) + " of " +
+         counted(problems.size(), "problem") + " were not solved");
   return interrupted ? interruptedStatus() : status;
 }
 

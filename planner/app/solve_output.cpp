@@ -59,8 +59,10 @@ std::vector<std::string> clearanceLines(const PathClearance& c) {
   std::vector<std::string> lines;
   lines.push_back(c.proved > 0 ? "proved: " + rounded(1e3 * c.proved) + " mm"
                                : "free, but no distance is proved");
+  if (std::isfinite(c.ofEnds))
+    lines.back() += " (start and goal themselves: " + rounded(1e3 * c.ofEnds) + " mm)";
   if (!c.a.empty())
-    lines.back() += "; closest: " + c.a + " and " + c.b + ", " + rounded(1e3 * c.smallest) +
+    lines.back() += "; closest found: " + c.a + " and " + c.b + ", " + rounded(1e3 * c.smallest) +
                     " mm, edge " + std::to_string(c.edge) + " at " + rounded(c.t);
   lines.push_back("every pair keeps its target on " +
                   rounded(std::floor(1e3 * c.shareOnTarget) / 10) + " % of the length");

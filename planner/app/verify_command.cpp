@@ -102,6 +102,9 @@ void print(const VerifyReport& r, const Problem& problem, const VerifyArguments&
                                     " m, at most " + rounded(r.pathReport.smallestDistanceMet) +
                                     " m");
   if (r.margin > 0) out.line("margin", rounded(r.margin) + " m");
+  if (!problem.task.padding.empty())
+    out.line("padding",
+             "up to " + rounded(problem.task.padding.largest()) + " m, as in the problem");
   out.line("tube", tubeText(problem.model.space, r.tube));
   out.line("start, goal, bounds", r.violations.empty() ? "hold" : "violated",
            r.violations.empty() ? Tone::plain : Tone::bad);

@@ -122,8 +122,10 @@ std::vector<Note> notesOnStillPairs(const Checker& checker, const Configuration&
     if (!first) continue;
     notes.push_back(
         {"in every state, these bodies " +
-             std::string(touches ? "touch" : "are closer than the margin") + ": " +
-             joinedFirst(names, kShown) +
+             std::string(touches                         ? "touch"
+                         : checker.options().pairMargins ? "are closer than margin and padding"
+                                                         : "are closer than the margin") +
+             ": " + joinedFirst(names, kShown) +
              "; no proof covers them, since they never move against each other (allow: [[" +
              model.bodies[first->a].name + ", " + model.bodies[first->b].name +
              "]] if this is intended)",

@@ -210,8 +210,8 @@ Padding readPadding(const YamlMap& file, const Model& model) {
       fault(wrong);
     else if (a && b && *a == *b)
       fault("two different bodies are needed, " + example);
-    else if (a && b)
-      padding.pairs[std::minmax(*a, *b)] = metres;
+    else if (a && b && !padding.pairs.try_emplace(std::minmax(*a, *b), metres).second)
+      fault("the pair has two paddings");
   }
   return padding;
 }

@@ -40,6 +40,9 @@ constexpr std::size_t kGoalSamples = 32;
 /// The least share of planner.time that simplifying gets, even if the planner used all of it.
 constexpr double kSimplifyShare = 0.05;
 constexpr double kProgressPeriod = 0.1;  // s
+/// A clearance up to this one is aimed at directly, metres. Measured on arms: it is reached nearly
+/// everywhere. A larger one is approached by doubling, from this share at least.
+constexpr double kSmallClearance = 0.005, kClearanceSteps = 8;
 /// Minimises the length of a path in the space's distance. OMPL's own class samples ellipses
 /// directly, and throws for spaces in which it can't. For such a space this class samples the whole
 /// space and rejects states that can't improve the path.
@@ -362,13 +365,19 @@ std::vector<Path> Solve::simplified(og::PathGeometric& path) {
 
 Path Solve::withClearance(const Path& path, const std::function<bool()>& stop) {
   const ConfigurationSpace& space = problem_.model.space;
-  targets_.emplace(checker_, preferredClearance(problem_), path.front(), path.back());
-  onTarget_.emplace(
-      [this](const Configuration& a, const Configuration& b) { return targets_->areKept(a, b); });
-  const double length = distanceAlong(space, path);
-  return corridor::withClearance(*targets_, space, path,
-                                 (1 + problem_.settings.prefer.detour) * length, *edges_,
-                                 *onTarget_, stop);
+  const double clearance = preferredClearance(problem_),
+               longest = (1 + problem_.settings.prefer.detour) * distanceAlong(space, path);
+  Path clear = path;
+  // A large clearance is approached in steps, since a large step away from one obstacle often hits
+  // another one.
+  for (double part = std::max(clearance / kClearanceSteps, std::min(clearance, kSmallClearance));;
+       part = std::min(2 * part, clearance)) {
+    targets_.emplace(checker_, part, path.front(), path.back());
+    onTarget_.emplace(
+        [this](const Configuration& a, const Configuration& b) { return targets_->areKept(a, b); });
+    clear = corridor::withClearance(*targets_, space, clear, longest, *edges_, *onTarget_, stop);
+    if (part >= clearance) return clear;
+  }
 }
 
 void Solve::finish() {

@@ -332,6 +332,8 @@ TEST_F(ProblemFaults, Padding) {
   EXPECT_EQ(with("padding: {pairs: [[rock, rock, 1]]}\n"),
             "problem.yaml:8: padding.pairs: two different bodies are needed, such as [hand, shelf, "
             "0.02]");
+  EXPECT_EQ(with("padding: {pairs: [[rock, wedge, 1], [wedge, rock, 2]]}\n"),
+            "problem.yaml:8: padding.pairs: the pair has two paddings");
   EXPECT_EQ(with("padding: {pairs: [[rock, rook, 1]]}\n"),
             std::string("problem.yaml:8: padding.pairs: there is no body \"rook\" (did you mean "
                         "\"rock\"?)") +
