@@ -162,6 +162,15 @@ std::vector<Note> MoveitScene::notesOn(const Model& model) {
     notes.push_back({source_.file + ": is for robot " + quotedWord(*name) + ", and is used for " +
                          quotedWord(robot.urdfName.empty() ? robot.name : robot.urdfName),
                      NoteWeight::coverage});
+  std::vector<std::string> noLinks;
+  for (const auto& [link, metres] : padding_)
+    if (std::none_of(robot.links.begin(), robot.links.end(),
+                     [&, &wanted = link](const LinkModel& l) { return l.name == wanted; }))
+      noLinks.push_back(link);
+  if (!noLinks.empty())
+    notes.push_back({source_.file + ": its link_padding has names of no links (" +
+                         std::to_string(noLinks.size()) + "): " + joinedFirst(noLinks, 3),
+                     NoteWeight::coverage});
   const YamlValue* const matrix = message().find("allowed_collision_matrix");
   if (!matrix || matrix->kind != YamlValue::Kind::Map) return notes;
   const YamlMap map(*matrix, "allowed_collision_matrix", nullptr, source_);

@@ -380,6 +380,30 @@ TEST_F(Moveit, HeldJointsFollowTheProblemsStart) {
   EXPECT_EQ(slide("start: {pan: 0, lift: 0}\n"), 0.04);
 }
 
+TEST_F(Moveit, LinkPadding) {
+  write("scene.yaml", scene +
+                          "link_padding: [{link_name: upper, padding: 0.02}, {link_name: lower, "
+                          "padding: 0}, {link_name: lower, padding: 0.03}, {link_name: uper, "
+                          "padding: 0.1}]\n");
+  const auto paddingOf = [](const Problem& p, const std::string& a, const std::string& b) {
+    const auto indexOf = [&](const std::string& name) {
+      return static_cast<std::size_t>(&bodyOf(p, name) - p.model.bodies.data());
+    };
+    return corridor::paddingOf(p.model, p.task.padding, indexOf(a), indexOf(b));
+  };
+  const Problem p = read(head);
+  EXPECT_NEAR(paddingOf(p, "upper", "crate"), 0.02, 1e-15);
+  EXPECT_NEAR(paddingOf(p, "crate", "lower"), 0.03, 1e-15);
+  EXPECT_EQ(paddingOf(p, "upper", "finger"), 0);  // two links of one robot
+  EXPECT_THAT(textsOf(p.source.notes),
+              testing::Contains(testing::EndsWith(
+                  "scene.yaml: its link_padding has names of no links (1): uper")));
+  // The problem's own padding replaces that of the same link.
+  EXPECT_NEAR(
+      paddingOf(read(std::string(head) + "padding: {bodies: {upper: 0.5}}\n"), "upper", "crate"),
+      0.5, 1e-14);
+}
+
 TEST_F(Moveit, ASceneOfAnotherRobotIsNoted) {
   std::string text = scene;
   text += "robot_model_name: fetch\n";
