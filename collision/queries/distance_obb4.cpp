@@ -20,9 +20,9 @@
 #include "hwy/highway.h"
 
 #include "collision/hierarchy/obb4_walk-inl.h"
+#include "collision/queries/boxes_within-inl.h"
 #include "collision/queries/obb4_leaves-inl.h"
 #include "collision/queries/triangle_distances-inl.h"
-#include "collision/volumes/overlap_obb4_obb4-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace corridor::HWY_NAMESPACE {
@@ -30,28 +30,16 @@ namespace corridor::HWY_NAMESPACE {
 /// The distance query on two 4-wide OBB trees of triangles. Bounds pairs of triangles in float,
 /// sixteen at a time. Pairs that may be the closest are bounded again in double. Those that may
 /// then still be the closest are measured in double-double.
-class Nearest {
+class Nearest : public BoxesWithin<true> {
  public:
   Nearest(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b, const Obb4TreePose& pose,
           const DistanceOptions& options, QueryContext& context)
-      : a_(a.shape),
-        b_(b.shape),
-        pose_(pose),
+      : BoxesWithin(a, b, pose, options.upTo, context.counters),
         options_(options),
-        counters_(context.counters),
         leaves_(a_, b_, pose, counters_),
         candidates_(context.scratch.of<Candidates>().pairs),
-        nearest_(a.X_W, a_.reach(), b.X_W, b_.reach(), options, context),
-        limit_(pose.inUnitsOfA(options.upTo)) {
+        nearest_(a.X_W, a_.reach(), b.X_W, b_.reach(), options, context) {
     candidates_.clear();
-  }
-
-  static constexpr bool kSorted = true;
-  bool skip(const NodePair4& item) const { return beyond(item.key); }
-
-  unsigned boxes(const NodePair4&, const Obb4Tree::Node& a, const Obb4Tree::Node& b,
-                 float* squares) const {
-    return nearBoxes<true>(a, b, pose_.floats, limit_, squares);
   }
 
   /// Measures leaf pairs in batches of at most sixteen pairs of triangles. The nearest leaf pairs
@@ -62,7 +50,7 @@ class Nearest {
       NodeLeafPairs some(na, nb);
       while (pairs) {
         const unsigned least = leastOf(pairs, keys);
-        if (beyond(keys[least])) pairs = 0;
+        if (isBeyond(keys[least])) pairs = 0;
         if (!pairs || (some.count() && some.count() + some.sizeOf(least) > 16)) break;
         some.add(least);
         pairs &= ~(1U << least);
@@ -101,8 +89,6 @@ class Nearest {
     std::vector<BoundedPair> pairs;
   };
 
-  bool beyond(float square) const { return isBeyond(square, limit_); }
-
   void measure(NodeLeafPairs& pairs) {
     leaves_.forEachNearSixteen(
         pairs, [&] { return limit_; },
@@ -133,24 +119,15 @@ class Nearest {
     nearest_.look(s, a_.triangle(s), t, b_.triangle(t), counters_);
     lowerLimit(nearest_.upper());
   }
-  /// Lowers the limit, given that the distance is at most `metres`: pairs that can't improve it by
-  /// more than the options allow are skipped.
-  void lowerLimit(double metres) {
-    const double most = (metres - options_.absolute) / (1 + options_.relative);
-    limit_ = std::min(limit_, pose_.inUnitsOfA(std::max(0.0, most)));
-  }
+  void lowerLimit(double metres) { BoxesWithin::lowerLimit(metres, options_); }
 
-  const Obb4Tree &a_, &b_;
-  const Obb4TreePose& pose_;
   const DistanceOptions& options_;
-  Counters& counters_;
   Obb4Leaves leaves_;
   /// Pairs of triangles, numbered in leaf order, with lower bounds of their distances in a's unit.
   std::vector<BoundedPair>& candidates_;
   NearestTriangles nearest_;
   float least_ = HUGE_VALF;  // least upper bound so far, in a's unit
   PrimitivePair closest_;    // the pair with that bound, in leaf order
-  float limit_;              // in a's unit: pairs that are farther apart are skipped
 };
 
 Distance obb4Distance(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b, const Obb4TreePose& pose,
@@ -170,25 +147,15 @@ Distance obb4Distance(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b, const 
 }
 
 /// The tolerance query on two 4-wide OBB trees of triangles.
-class Closer {
+class Closer : public BoxesWithin<false> {
  public:
   Closer(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b, const Obb4TreePose& pose, double d,
          Counters& counters)
-      : a_(a.shape),
-        b_(b.shape),
-        pose_(pose),
-        counters_(counters),
+      : BoxesWithin(a, b, pose, d, counters),
         leaves_(a_, b_, pose, counters),
-        closer_(a.X_W, a_.reach(), b.X_W, b_.reach(), d),
-        limit_(pose.inUnitsOfA(d)) {}
+        closer_(a.X_W, a_.reach(), b.X_W, b_.reach(), d) {}
 
-  static constexpr bool kSorted = true;
-  static bool skip(const NodePair4&) { return false; }
-
-  unsigned boxes(const NodePair4&, const Obb4Tree::Node& a, const Obb4Tree::Node& b,
-                 float* squares) const {
-    return nearBoxes<false>(a, b, pose_.floats, limit_, squares);
-  }
+  static bool skip(const NodePair4&) { return false; }  // the limit stays the same
 
   bool leaves(const NodePair4&, const Obb4Tree::Node& na, const Obb4Tree::Node& nb, unsigned pairs,
               const float*) {
@@ -207,12 +174,8 @@ class Closer {
   }
 
  private:
-  const Obb4Tree &a_, &b_;
-  const Obb4TreePose& pose_;
-  Counters& counters_;
   Obb4Leaves leaves_;
   CloserTriangles closer_;
-  float limit_;
   bool found_ = false;
   PrimitivePair pair_;
 };

@@ -68,11 +68,6 @@ inline unsigned leastOf(unsigned pairs, const float* keys) {
   return least;
 }
 
-/// Returns whether a squared distance exceeds the limit of a query.
-inline bool isBeyond(float square, float limit) {
-  return square > 0 && square > limit * limit * (1 + 0x1p-20F);
-}
-
 /// Pairs of triangles in leaves of two nodes. The i-th triangle of a lane's leaf has the number
 /// 4·lane + i.
 class NodeLeafPairs {

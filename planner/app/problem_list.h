@@ -21,9 +21,7 @@ struct ProblemList {
 
 /// Returns the problems that the arguments name:
 /// * `SET.json#A-B`: the problems A to B of a set of MotionBenchMaker;
-/// * a folder without a problem.yaml: every problem.yaml in the folders directly in it, in the
-/// order
-///   of their names;
+/// * a folder without a problem.yaml: every problem.yaml in the folders directly in it, sorted;
 /// * anything else: one problem.
 /// @throws InputError for a range that is empty or goes beyond the set.
 ProblemList listProblems(const std::vector<std::string>& arguments);

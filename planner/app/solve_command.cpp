@@ -32,10 +32,7 @@ int solveSingle(const std::string& file, const SolveArguments& a,
   if (a.jsonLines && !a.quiet)
     std::cout << jsonOf(solved, file).dump() << '\n';
   else if (a.json && !a.quiet)
-    std::cout << ordered_json{{"format", "corridor-solve-report-1"},
-                              {"problems", ordered_json::array({jsonOf(solved, file)})}}
-                     .dump(2)
-              << '\n';
+    std::cout << reportJson(ordered_json::array({jsonOf(solved, file)})).dump(2) << '\n';
   else if (!a.json && !a.jsonLines)
     print(solved, file, a);
   if (interrupted) return interruptedStatus();

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -21,6 +20,7 @@
 #include "planner/app/output.h"
 #include "planner/app/solve_one.h"
 #include "planner/benchmark/child_process.h"
+#include "planner/solve/solution.h"
 
 namespace corridor::app {
 namespace {
@@ -69,11 +69,8 @@ void requireNoOtherFile(const std::vector<ListedProblem>& problems, const SolveA
   if (!a.output) return;
   for (const ListedProblem& problem : problems) {
     const fs::path file = solutionIn(*a.output, problem);
-    std::ifstream stream(file);
-    std::string text(4096, '\0');
-    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-    text.resize(static_cast<std::size_t>(stream.gcount()));
-    if (!text.empty() && text.find("format: corridor-solution-1") == std::string::npos)
+    std::error_code none;
+    if (fs::exists(file, none) && !isSolutionFile(file))
       throw InputError(
           Fault{"--output", 0, file.string() + " exists, and is no solution; name another folder"});
   }
@@ -236,12 +233,7 @@ void printTable(const std::vector<ordered_json>& reports, const ResultPrinter& o
                  std::to_string(certified) + " certified");
     if (solved.empty()) continue;
     std::string times;
-    for (const auto& [key, name] : std::initializer_list<std::pair<const char*, const char*>>{
-             {"read_s", "reading"},
-             {"set_up_s", "set-up"},
-             {"search_s", "search"},
-             {"simplify_s", "simplification"},
-             {"certify_s", "certification"}}) {
+    for (const auto& [key, name] : kSolvePhases) {
       std::vector<double> seconds;
       for (const ordered_json* report : solved) seconds.push_back((*report)["phases"][key]);
       times +=
@@ -282,8 +274,7 @@ int solveMany(const std::vector<ListedProblem>& problems, const SolveArguments& 
     ordered_json list = ordered_json::array();
     for (const ordered_json& report : jobs.reports())
       if (!report.is_null()) list.push_back(report);
-    std::cout << ordered_json{{"format", "corridor-solve-report-1"}, {"problems", list}}.dump(2)
-              << '\n';
+    std::cout << reportJson(list).dump(2) << '\n';
   }
   if (!a.quiet && !a.json && !a.jsonLines) {
     out.blank();

@@ -35,23 +35,12 @@ std::string durationText(double seconds) {
 
 namespace {
 
-/// A phase of `solve`: its key in JSON, its name, and its seconds.
-struct Phase {
-  const char* key;
-  const char* name;
-  double seconds;
-};
-
-/// Returns the phases in their order. The first one is not part of `SolveReport::time`.
-std::vector<Phase> phasesOf(const Solved& solved) {
+/// Returns the seconds of each of `kSolvePhases`.
+std::array<double, kSolvePhases.size()> secondsOf(const Solved& solved) {
   const SolveReport& r = solved.report;
   const bool finished = r.outcome == SolveOutcome::solved;
-  return {{"read_s", "reading", solved.readingTime},
-          {"set_up_s", "set-up", r.setUpTime},
-          {"search_s", "search", r.planningTime - r.setUpTime},
-          {"simplify_s", "simplification",
-           finished ? r.time - r.planningTime - r.certificationTime : 0},
-          {"certify_s", "certification", r.certificationTime}};
+  return {solved.readingTime, r.setUpTime, r.planningTime - r.setUpTime,
+          finished ? r.time - r.planningTime - r.certificationTime : 0, r.certificationTime};
 }
 
 /// Returns the lines of the report about the clearance of the path.
@@ -97,9 +86,10 @@ void print(const Solved& result, const std::string& problem, const SolveArgument
   out.line("seed", std::to_string(r.seed) +
                        (result.tries > 1 ? ", the best of " + std::to_string(result.tries) : ""));
   std::string phases;
-  for (const Phase& phase : phasesOf(result))
+  const auto seconds = secondsOf(result);
+  for (std::size_t i = 0; i < seconds.size(); ++i)
     phases +=
-        (phases.empty() ? "" : ", ") + std::string(phase.name) + " " + durationText(phase.seconds);
+        (i == 0 ? "" : ", ") + std::string(kSolvePhases[i].name) + " " + durationText(seconds[i]);
   out.line("time", phases);
   if (r.restarts > 0) out.line("restarts of the search", grouped(r.restarts));
   out.line("states checked", grouped(r.counters.states));
@@ -123,7 +113,8 @@ ordered_json jsonOf(const Solved& result, const std::string& problem) {
   const Problem& p = result.problem;
   const SolveReport& r = result.report;
   ordered_json phases;
-  for (const Phase& phase : phasesOf(result)) phases[phase.key] = phase.seconds;
+  const auto seconds = secondsOf(result);
+  for (std::size_t i = 0; i < seconds.size(); ++i) phases[kSolvePhases[i].key] = seconds[i];
   ordered_json j = {{"problem", problem},
                     {"result", nameOf(r.outcome)},
                     {"planner", r.planner},
@@ -164,6 +155,10 @@ ordered_json jsonOf(const Solved& result, const std::string& problem) {
     j["why"] = r.why;
   }
   return j;
+}
+
+ordered_json reportJson(const ordered_json& problems) {
+  return {{"format", "corridor-solve-report-1"}, {"problems", problems}};
 }
 
 }  // namespace corridor::app

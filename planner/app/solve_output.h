@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -27,9 +28,23 @@ bool printsFile(const SolveArguments& a);
 /// Returns "12.34 ms" or "1.234 s".
 std::string durationText(double seconds);
 
+/// A phase of `solve`: its key in JSON, and its name.
+struct SolvePhase {
+  const char* key;
+  const char* name;
+};
+/// The phases in their order. The first one is not part of `SolveReport::time`.
+inline constexpr std::array<SolvePhase, 5> kSolvePhases{{{"read_s", "reading"},
+                                                         {"set_up_s", "set-up"},
+                                                         {"search_s", "search"},
+                                                         {"simplify_s", "simplification"},
+                                                         {"certify_s", "certification"}}};
+
 /// Prints the report on one problem.
 void print(const Solved& result, const std::string& problem, const SolveArguments& a);
 /// Returns the report on one problem: an entry of `problems` in `--json`.
 nlohmann::ordered_json jsonOf(const Solved& result, const std::string& problem);
+/// Returns the whole output of `--json`. @param problems a list of what `jsonOf` returns.
+nlohmann::ordered_json reportJson(const nlohmann::ordered_json& problems);
 
 }  // namespace corridor::app

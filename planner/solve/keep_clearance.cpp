@@ -98,12 +98,11 @@ bool PathMover::replace(std::size_t first, std::size_t last, const Configuration
   std::vector<Edge> edges;
   for (const auto& [a, b] : {std::pair(from, by), std::pair(by, to)}) {
     if (stop_()) return false;
-    const double enough = std::min(1.0, share + kLeastGain);
     edges.push_back(measured(a, b));
     Edge& edge = edges.back();
     edge.changed = true;
     if (edge.kept) continue;
-    if (edge.worst.share < std::min(enough, kAlmost)) return false;
+    if (edge.worst.share < std::min(share + kLeastGain, kAlmost)) return false;
     if (!free_.isFree(a, b)) return false;
   }
   const auto begin = edges_.begin() + static_cast<std::ptrdiff_t>(first);
@@ -130,11 +129,8 @@ bool PathMover::improve(std::size_t i) {
 void PathMover::removeStates() {
   for (std::size_t i = 1; i < edges_.size() && !stop_();) {
     const Configuration from = edges_[i - 1].from, to = endOf(i);
-    if (!edges_[i - 1].changed && !edges_[i].changed) {
-      ++i;
-      continue;
-    }
-    if (!onTarget_.isFree(from, to)) {
+    const bool isNew = edges_[i - 1].changed || edges_[i].changed;
+    if (!isNew || !onTarget_.isFree(from, to)) {
       ++i;
       continue;
     }

@@ -1,6 +1,7 @@
 #include "planner/solve/solution.h"
 
 #include <cstdio>
+#include <fstream>
 #include <sstream>
 #include <utility>
 
@@ -243,6 +244,14 @@ void writeSolution(const Solution& solution, const std::filesystem::path& file) 
 std::string solutionText(const Solution& solution) {
   std::error_code failure;
   return textIn(std::filesystem::current_path(failure), solution);
+}
+
+bool isSolutionFile(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string text(4096, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  return text.find(std::string("format: ") + kFormat) != std::string::npos;
 }
 
 Solution readSolution(const std::filesystem::path& file, const ConfigurationSpace& space) {

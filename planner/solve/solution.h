@@ -38,6 +38,10 @@ void writeSolution(const Solution& solution, const std::filesystem::path& file);
 /// Returns the text of a solution file in the current folder.
 std::string solutionText(const Solution& solution);
 
+/// Returns whether a file begins like a solution file: the format is in its first 4 kB. Returns
+/// false for a file that can't be read.
+bool isSolutionFile(const std::filesystem::path& file);
+
 /// Reads a solution file (-: the standard input) strictly, or an OMPL.app `.path` file, which has
 /// one state per line.
 /// @throws InputError with all faults: wrong format; unknown, missing or repeated keys; states of

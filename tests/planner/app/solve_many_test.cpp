@@ -40,6 +40,15 @@ class SolveMany : public corridor::test::ArmTest {
                                     {"radius", 0.1}}}}});
     write(name, set.dump());
   }
+  /// Closes the gap beside the wall, so that problem.yaml has no solution.
+  void closeWall() {
+    write("wall.obj", "v 0 -5 -5\nv 0 5 -5\nv 0 5 5\nv 0 -5 5\nf 1 2 3\nf 1 3 4\n");
+  }
+  /// Runs the program, and after some seconds a command of the shell; $pid is the program.
+  Result runAndSignal(const std::string& arguments, double seconds, const std::string& command) {
+    return run(arguments + " & pid=$!; sleep " + std::to_string(seconds) + "; " + command +
+               "; wait $pid; exit $?;");
+  }
   std::vector<std::string> filesIn(const std::string& folder) const {
     std::set<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(folder_ / folder))
@@ -159,10 +168,10 @@ TEST_F(SolveMany, RefusesWhatCantBe) {
 }
 
 TEST_F(SolveMany, AnInterruptEndsAllOfThem) {
-  write("wall.obj", "v 0 -5 -5\nv 0 5 -5\nv 0 5 5\nv 0 -5 5\nf 1 2 3\nf 1 3 4\n");
+  closeWall();
   const Result result =
-      run("solve arm.yaml problem.yaml problem.yaml --jobs 3 --time 60 -o out > lines.txt & "
-          "pid=$!; sleep 2.5; kill -INT $pid; wait $pid; exit $?;");
+      runAndSignal("solve arm.yaml problem.yaml problem.yaml --jobs 3 --time 60 -o out > lines.txt",
+                   2.5, "kill -INT $pid");
   EXPECT_EQ(result.status, 130);
   EXPECT_THAT(read("lines.txt"), HasSubstr("arm: solved, "));
   EXPECT_THAT(read("lines.txt"), HasSubstr("problems: 1 of 1 solved, 1 certified\n"));
@@ -172,10 +181,10 @@ TEST_F(SolveMany, AnInterruptEndsAllOfThem) {
 TEST_F(SolveMany, ACrashCostsItsProblemOnly) {
   if (!std::filesystem::exists("/proc/thread-self/children"))
     GTEST_SKIP() << "this kernel does not list the children of a process";
-  write("wall.obj", "v 0 -5 -5\nv 0 5 -5\nv 0 5 5\nv 0 -5 5\nf 1 2 3\nf 1 3 4\n");
+  closeWall();
   const Result result =
-      run("solve arm.yaml problem.yaml arm.yaml --time 60 -o out > lines.txt & pid=$!; sleep 2.5; "
-          "kill -SEGV $(cut -d' ' -f1 /proc/$pid/task/$pid/children); wait $pid; exit $?;");
+      runAndSignal("solve arm.yaml problem.yaml arm.yaml --time 60 -o out > lines.txt", 2.5,
+                   "kill -SEGV $(cut -d' ' -f1 /proc/$pid/task/$pid/children)");
   EXPECT_EQ(result.status, 3);
   EXPECT_THAT(read("lines.txt"), HasSubstr(": failed: killed by signal 11"));
   EXPECT_THAT(read("lines.txt"), HasSubstr("problems: 2 of 3 solved, 2 certified\n"));
@@ -195,9 +204,8 @@ TEST_F(SolveMany, ReplacesSolutionsOnly) {
 }
 
 TEST_F(SolveMany, AnInterruptOfTriesKeepsTheBestPath) {
-  const Result result = run(
-      "solve arm.yaml --tries 1000000 -o best.yaml --json > report.json & pid=$!; sleep 1; kill "
-      "-INT $pid; wait $pid; exit $?;");
+  const Result result = runAndSignal(
+      "solve arm.yaml --tries 1000000 -o best.yaml --json > report.json", 1, "kill -INT $pid");
   EXPECT_EQ(result.status, 130);
   const json report = json::parse(read("report.json"))["problems"][0];
   EXPECT_EQ(report["result"], "solved");
