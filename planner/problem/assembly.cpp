@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "collision/core/fault_list.h"
+#include "collision/core/rounding.h"
 #include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
 #include "planner/model/planned_joints.h"
@@ -55,7 +56,10 @@ void testBeyondProofs(Problem& problem) {
       if (a == end || b == end) continue;
       const auto i = static_cast<std::size_t>(a - problem.model.bodies.begin()),
                  k = static_cast<std::size_t>(b - problem.model.bodies.begin());
-      const double margin = problem.task.margin + problem.task.padding.of(i, k, true);
+      const double padding = problem.task.padding.of(i, k, true);
+      // Rounded up: the proof must cover the whole sum.
+      const double margin =
+          padding > 0 ? roundedUp(problem.task.margin + padding) : problem.task.margin;
       if (margin <= pair.proof->margin && tube <= pair.proof->beyondLimits) continue;
       if (problem.model.filter.whyNotTested(i, k) != kNeverInContact) continue;
       problem.model.filter.include(i, k);
