@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "collision/core/transform.h"
+
+namespace corridor {
+
+/// The half-space {x : normal·x ≤ offset} of the plane (D = 2) or of space (D = 3). The normal may
+/// have any length; a normal of 0 stands for all points or none.
+template <int D>
+struct HalfSpace {
+  Eigen::Matrix<double, D, 1> normal = Eigen::Matrix<double, D, 1>::Zero();
+  double offset = 0;
+};
+
+enum class LinearProgramStatus { optimal, unbounded, infeasible };
+
+/// A half-space, by its index in the linear program, with its weight in a proof.
+struct WeightedHalfSpace {
+  std::size_t index = 0;
+  double weight = 0;  ///< above 0
+};
+
+/// The answer of a linear program. The status is exact: it is that of real arithmetic on the given
+/// doubles. All other numbers are rounded.
+template <int D>
+struct LinearProgramAnswer {
+  LinearProgramStatus status = LinearProgramStatus::infeasible;
+  /// `optimal`: a point of all half-spaces that is farthest along the goal. `unbounded`: a point of
+  /// all half-spaces.
+  Eigen::Matrix<double, D, 1> x = Eigen::Matrix<double, D, 1>::Zero();
+  /// `unbounded`: a direction that leaves no half-space (normal·ray ≤ 0 for all), with goal·ray >
+  /// 0.
+  Eigen::Matrix<double, D, 1> ray = Eigen::Matrix<double, D, 1>::Zero();
+  /// The proof.
+  /// * `optimal`: at most D half-spaces. The weighted sum of their normals is the goal, and their
+  ///   planes contain an optimal point.
+  /// * `infeasible`: at most D + 1 half-spaces (Farkas' lemma). The weighted sum of their normals
+  ///   is 0, that of their offsets is below 0.
+  std::vector<WeightedHalfSpace> proof;
+  bool exact = false;  ///< the status was decided in rational arithmetic
+};
+
+/// Maximises goal·x over all points x of the half-spaces, in the plane or in space.
+///
+/// Method: Seidel's algorithm in double, in random order (seidel-inl.h), gives a candidate. The
+/// status is then proved by the candidate's own witness, with a bound of all rounding: a point that
+/// is inside all half-spaces, or weights whose signs are those of small determinants. What this
+/// does not decide is decided in rationals, on the few half-spaces that determine the answer; all
+/// others are tested against the result. Cost: O(n) in the mean for n half-spaces.
+/// @param goal  0: any point of all half-spaces is optimal.
+/// @param seed  of the random order. It changes neither the status nor the optimal value.
+/// @throws std::invalid_argument if a number is not finite.
+template <int D>
+LinearProgramAnswer<D> solveLinearProgram(std::span<const HalfSpace<D>> halfSpaces,
+                                          const Eigen::Matrix<double, D, 1>& goal,
+                                          std::uint64_t seed = 1);
+
+/// Finds a point of two polytopes (or unbounded polyhedra), each given by its half-spaces: the
+/// linear program of both together, without a goal. Touching counts. In the proof, indices of b's
+/// half-spaces begin at a.size().
+template <int D>
+LinearProgramAnswer<D> commonPoint(std::span<const HalfSpace<D>> a, std::span<const HalfSpace<D>> b,
+                                   std::uint64_t seed = 1);
+
+extern template LinearProgramAnswer<2> solveLinearProgram(std::span<const HalfSpace<2>>,
+                                                          const Eigen::Vector2d&, std::uint64_t);
+extern template LinearProgramAnswer<3> solveLinearProgram(std::span<const HalfSpace<3>>,
+                                                          const Vec3&, std::uint64_t);
+extern template LinearProgramAnswer<2> commonPoint(std::span<const HalfSpace<2>>,
+                                                   std::span<const HalfSpace<2>>, std::uint64_t);
+extern template LinearProgramAnswer<3> commonPoint(std::span<const HalfSpace<3>>,
+                                                   std::span<const HalfSpace<3>>, std::uint64_t);
+
+}  // namespace corridor

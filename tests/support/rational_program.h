@@ -1,0 +1,30 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <boost/multiprecision/cpp_int.hpp>
+
+namespace corridor::test {
+
+/// An integer of any length; up to 512 bits without allocation.
+using Integer = boost::multiprecision::number<
+    boost::multiprecision::cpp_int_backend<512, 0, boost::multiprecision::signed_magnitude,
+                                           boost::multiprecision::unchecked,
+                                           std::allocator<boost::multiprecision::limb_type>>,
+    boost::multiprecision::et_off>;
+
+/// Rows of a system of equations M x = r: the entries of a row of M, then that of r, which is ≥ 0.
+using IntegerSystem = std::vector<std::vector<Integer>>;
+
+/// The oracle for linear programs: returns whether there is an x ≥ 0 with M x = r. Phase one of the
+/// simplex method with Bland's rule, by integer pivoting (Edmonds): exact, and it always ends.
+bool hasSolution(IntegerSystem system);
+
+/// The same for doubles, in the order of `columns[j][i]`, exactly.
+bool hasSolution(const std::vector<std::vector<double>>& columns, const std::vector<double>& right);
+
+/// Returns the rank of the matrix with these rows, exactly.
+std::size_t rankOf(const std::vector<std::vector<double>>& rows);
+
+}  // namespace corridor::test
