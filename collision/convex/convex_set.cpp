@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "collision/convex/dobkin_kirkpatrick.h"
 #include "collision/core/rounding.h"
 
 namespace corridor {
@@ -22,9 +23,20 @@ ConvexSet::ConvexSet(const ConvexPart& part) : points(part.points), ball(part.ra
 
 ConvexSet::ConvexSet(const Triangle& triangle) : points(triangle) {}
 
+ConvexSet::ConvexSet(const Polytope& p) : points(p.vertices()), polytope(&p) {}
+
+ConvexSet::ConvexSet(const DobkinKirkpatrick& h)
+    : points(h.polytope().vertices()), polytope(&h.polytope()), hierarchy(&h) {}
+
+std::uint32_t ConvexSet::farthestVertex(const Vec3& m, std::uint32_t start) const {
+  if (!m.allFinite()) return start;  // after an overflow: no bound holds, and callers test for it
+  return hierarchy ? hierarchy->extreme(m) : polytope->climb(start, m);
+}
+
 PosedSet::PosedSet(const ConvexSet& set, const Transform& X) : set_(set), X_(X) {
-  double farthest = 0;
-  for (const Vec3& p : set_.points) farthest = std::max(farthest, p.squaredNorm());
+  double farthest = set_.polytope ? set_.polytope->reachSquared() : 0;
+  if (!set_.polytope)
+    for (const Vec3& p : set_.points) farthest = std::max(farthest, p.squaredNorm());
   // Squares below 2^-1022 vanish, and so do lengths below 2^-511. 2^-500 covers this for points,
   // and 2^-440 for ‖M‖ and for the length of Mᵀn: 20u·2^-440 > 2^-511.
   localReach_ = roundedUp(std::sqrt(farthest) + set.ball + set.disc + 0x1p-500);
@@ -38,6 +50,7 @@ bool PosedSet::keepsBall() const {
 }
 
 double PosedSet::coreHighest(const Vec3& m) const {
+  if (set_.polytope) return m.dot(set_.points[set_.farthest(m)]);
   double highest = -std::numeric_limits<double>::infinity();
   for (const Vec3& p : set_.points) {
     const double along = m.dot(p);

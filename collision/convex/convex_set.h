@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 
 #include "collision/core/transform.h"
@@ -8,17 +9,44 @@
 
 namespace corridor {
 
-/// A view of a convex part or of a triangle: a *core* swept by a sphere of radius `ball`. The core
-/// is the hull of `points`, or a cylinder: the segment between two points swept by a disc. The
-/// viewed object must outlive the view. Lengths in metres.
+class DobkinKirkpatrick;
+class Polytope;
+
+/// A view of a convex part, a triangle or a polytope: a *core* swept by a sphere of radius `ball`.
+/// The core is the hull of `points`, or a cylinder: the segment between two points swept by a disc.
+/// The viewed object must outlive the view. Lengths in metres.
+///
+/// Queries find the point that is farthest along a direction by testing all points of a part, by
+/// hill climbing on a `Polytope`, and by the hierarchy of a `DobkinKirkpatrick`, in O(n), some
+/// O(√n) and O(log n). The answers are the same up to the promised errors.
 struct ConvexSet {
-  ConvexSet(const ConvexPart& part);    // NOLINT: a part is a convex set
-  ConvexSet(const Triangle& triangle);  // NOLINT: a triangle is a convex set
+  ConvexSet(const ConvexPart& part);             // NOLINT: a part is a convex set
+  ConvexSet(const Triangle& triangle);           // NOLINT: a triangle is a convex set
+  ConvexSet(const Polytope& polytope);           // NOLINT: a polytope is a convex set
+  ConvexSet(const DobkinKirkpatrick& polytope);  // NOLINT: a polytope is a convex set
+
+  /// Returns the index of a point that is farthest along m. For polytopes the answer is exact; else
+  /// it is that of the largest rounded product. @param start  where hill climbing begins.
+  std::uint32_t farthest(const Vec3& m, std::uint32_t start = 0) const {
+    if (polytope) return farthestVertex(m, start);
+    std::uint32_t best = 0;
+    double highest = m.dot(points[0]);
+    for (std::uint32_t i = 1; i < points.size(); ++i) {
+      const double along = m.dot(points[i]);
+      if (along > highest) highest = along, best = i;
+    }
+    return best;
+  }
 
   std::span<const Vec3> points;
-  double ball = 0;           ///< radius of the sphere; 0: none
-  double disc = 0;           ///< radius of the disc; 0: none
-  Vec3 axis = Vec3::Zero();  ///< normal of the disc: unit, rounded
+  double ball = 0;                               ///< radius of the sphere; 0: none
+  double disc = 0;                               ///< radius of the disc; 0: none
+  Vec3 axis = Vec3::Zero();                      ///< normal of the disc: unit, rounded
+  const Polytope* polytope = nullptr;            ///< null, unless the view is of a polytope
+  const DobkinKirkpatrick* hierarchy = nullptr;  ///< null, unless the view is of a hierarchy
+
+ private:
+  std::uint32_t farthestVertex(const Vec3& m, std::uint32_t start) const;
 };
 
 /// A convex set under an affine map, with *certified* projections: a proof along any direction

@@ -8,6 +8,7 @@
 
 #include "collision/convex/convex_set.h"
 #include "collision/convex/double_double.h"
+#include "collision/convex/polytope.h"
 #include "collision/convex/simplex.h"
 #include "collision/core/rounding.h"
 
@@ -100,8 +101,12 @@ class Support {
   /// Returns some point of the core: the mean of the set's points.
   Vector<Real> somewhere() const {
     Vec3 mean = Vec3::Zero();
-    for (const Vec3& p : set_.set().points) mean += p;
-    mean *= scale_ / static_cast<double>(set_.set().points.size());
+    if (const Polytope* polytope = set_.set().polytope) {
+      mean = polytope->center() * scale_;
+    } else {
+      for (const Vec3& p : set_.set().points) mean += p;
+      mean *= scale_ / static_cast<double>(set_.set().points.size());
+    }
     return Vector<Real>(Vec3(set_.pose().m * mean)) + t_;
   }
 
@@ -112,19 +117,38 @@ class Support {
   std::uint32_t farthest(const Vector<Real>& m) const {
     const auto points = set_.set().points;
     const Vec3 rough(static_cast<double>(m.x), static_cast<double>(m.y), static_cast<double>(m.z));
-    std::uint32_t best = 0;
-    double highest = rough.dot(points[0]);
-    for (std::uint32_t i = 1; i < points.size(); ++i) {
-      const double along = rough.dot(points[i]);
-      if (along > highest) highest = along, best = i;
+    std::uint32_t best = set_.set().farthest(rough, last_);
+    last_ = best;
+    if (const Polytope* polytope = set_.set().polytope) {
+      if constexpr (!std::is_same_v<Real, double>) best = climb(*polytope, best, m);
+      return best;
     }
     if constexpr (!std::is_same_v<Real, double>) {
-      const double sure = highest - 16 * kUnit * rough.lpNorm<1>() * set_.localReach();
+      const double sure =
+          rough.dot(points[best]) - 16 * kUnit * rough.lpNorm<1>() * set_.localReach();
       Real most = dot(m, Vector<Real>(points[best]));
       for (std::uint32_t i = 0, first = best; i < points.size(); ++i) {
         if (i == first || rough.dot(points[i]) < sure) continue;
         const Real along = dot(m, Vector<Real>(points[i]));
         if (along > most) most = along, best = i;
+      }
+    }
+    return best;
+  }
+
+  /// Goes from a vertex to its neighbours as long as one is farther along m, in `Real`.
+  std::uint32_t climb(const Polytope& polytope, std::uint32_t from, const Vector<Real>& m) const {
+    std::uint32_t best = from;
+    Real most = dot(m, Vector<Real>(polytope.vertices()[best]));
+    for (bool higher = true; higher;) {
+      higher = false;
+      for (const std::uint32_t v : polytope.neighbours(best)) {
+        const Real along = dot(m, Vector<Real>(polytope.vertices()[v]));
+        if (!(along > most)) continue;
+        most = along;
+        best = v;
+        higher = true;
+        break;
       }
     }
     return best;
@@ -156,6 +180,7 @@ class Support {
   }
 
   const PosedSet& set_;
+  mutable std::uint32_t last_ = 0;  // the last vertex found: where the next hill climbing begins
   double scale_;
   Vector<Real> row_[3], t_, axis_;
   double disc_, ball_;

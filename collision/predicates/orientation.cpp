@@ -12,13 +12,19 @@
 namespace corridor {
 namespace {
 
-using Corners = std::array<exact::MappedPoints, 4>;
-
-template <class Int>
-int exactSign(const Corners& points, const exact::Grid& grid) {
-  const auto at = [&](int i) { return exact::mapped<Int>(points[i], 0, grid); };
-  const exact::Vector<Int> p = at(0);
-  return exact::sign(exact::dot(at(3) - p, exact::cross(at(1) - p, at(2) - p)));
+int exactSign(const MappedPoint& p, const MappedPoint& q, const MappedPoint& r,
+              const MappedPoint& s) {
+  const auto corner = [](const MappedPoint& point) {
+    return exact::MappedPoints(point.X, std::span(&point.p, 1));
+  };
+  const std::array<exact::MappedPoints, 4> points = {corner(p), corner(q), corner(r), corner(s)};
+  exact::Grid grid;
+  for (const exact::MappedPoints& each : points) grid.include(each);
+  return exact::withIntegersFor(grid, [&]<class Int>() {
+    const auto at = [&](int i) { return exact::mapped<Int>(points[i], 0, grid); };
+    const exact::Vector<Int> origin = at(0);
+    return exact::sign(exact::dot(at(3) - origin, exact::cross(at(1) - origin, at(2) - origin)));
+  });
 }
 
 }  // namespace
@@ -47,13 +53,27 @@ int orientationSign(const MappedPoint& p, const MappedPoint& q, const MappedPoin
     if (det > bound) return 1;
     if (det < -bound) return -1;
   }
-  const auto corner = [](const MappedPoint& point) {
-    return exact::MappedPoints(point.X, std::span(&point.p, 1));
-  };
-  const Corners corners = {corner(p), corner(q), corner(r), corner(s)};
-  exact::Grid grid;
-  for (const exact::MappedPoints& each : corners) grid.include(each);
-  return exact::withIntegersFor(grid, [&]<class Int>() { return exactSign<Int>(corners, grid); });
+  return exactSign(p, q, r, s);
+}
+
+int planeSide(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s) {
+  // J. R. Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric
+  // Predicates (1997): the rounded determinant is off by at most (7 + 56u)u of the sum of
+  // magnitudes, computed as here, if nothing underflows. Each underflow of a difference or a
+  // product adds at most 2^-1022 times two of the differences, which are below 2^120: together less
+  // than 2^-770.
+  const Vec3 a = q - p, b = r - p, c = s - p;
+  const double xy[] = {a[0] * b[1], a[1] * b[0]}, yz[] = {a[1] * b[2], a[2] * b[1]},
+               zx[] = {a[2] * b[0], a[0] * b[2]};
+  const double det = c[2] * (xy[0] - xy[1]) + c[0] * (yz[0] - yz[1]) + c[1] * (zx[0] - zx[1]);
+  const double size = std::abs(c[2]) * (std::abs(xy[0]) + std::abs(xy[1])) +
+                      std::abs(c[0]) * (std::abs(yz[0]) + std::abs(yz[1])) +
+                      std::abs(c[1]) * (std::abs(zx[0]) + std::abs(zx[1]));
+  const double error = 8 * kUnit * size + 0x1p-760;
+  const double largest = a.cwiseAbs().cwiseMax(b.cwiseAbs()).cwiseMax(c.cwiseAbs()).maxCoeff();
+  if (std::abs(det) > error && largest < 0x1p120) return det > 0 ? 1 : -1;
+  const Transform identity;
+  return exactSign({identity, p}, {identity, q}, {identity, r}, {identity, s});
 }
 
 }  // namespace corridor

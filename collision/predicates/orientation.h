@@ -17,4 +17,7 @@ struct MappedPoint {
 int orientationSign(const MappedPoint& p, const MappedPoint& q, const MappedPoint& r,
                     const MappedPoint& s);
 
+/// The same for points as they are; faster.
+int planeSide(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s);
+
 }  // namespace corridor

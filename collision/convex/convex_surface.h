@@ -1,0 +1,64 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "collision/core/transform.h"
+
+namespace corridor {
+
+/// The triangulated boundary of the convex hull of a growing set of points, with exact predicates:
+/// the part that quickhull (quickhull.h) and the expanding polytope algorithm (penetration.h)
+/// share. No point that was added is ever outside the plane of a face.
+class ConvexSurface {
+ public:
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+
+  struct Face {
+    std::array<std::uint32_t, 3> corner;  ///< counterclockwise as seen from outside
+    std::array<std::uint32_t, 3> across;  ///< the face beyond the edge from corner k to k + 1
+    bool alive = true;  ///< false: the face was removed, and its index may be used again
+  };
+
+  /// Begins with a tetrahedron of four of the points, in any order. The points are a view that may
+  /// grow.
+  /// @pre they are not on one plane.
+  void begin(std::span<const Vec3> points, std::array<std::uint32_t, 4> tetrahedron);
+
+  /// Adds a point that face f sees: replaces all faces that see it by a fan from the point to their
+  /// boundary, the horizon. The indices of removed faces are used again only by the next `add`.
+  void add(std::span<const Vec3> points, std::uint32_t f, std::uint32_t p);
+
+  /// Reports whether a face sees a point: the point is outside its plane. Exact.
+  static bool sees(std::span<const Vec3> points, const Face& face, const Vec3& p);
+
+  std::span<const Face> faces() const { return faces_; }
+  std::span<const std::uint32_t> added() const { return fan_; }     ///< faces of the last change
+  std::span<const std::uint32_t> removed() const { return seen_; }  ///< faces of the last change
+
+ private:
+  struct HorizonEdge {
+    std::uint32_t from, to, outer;
+  };
+  struct Step {
+    std::uint32_t face;
+    int edge, left;
+  };
+
+  std::uint32_t newFace(std::uint32_t a, std::uint32_t b, std::uint32_t c);
+  void findHorizon(std::span<const Vec3> points, std::uint32_t f, const Vec3& p);
+
+  std::vector<Face> faces_;
+  std::vector<std::uint32_t> free_, seen_, fan_;
+  std::vector<HorizonEdge> horizon_;
+  std::vector<Step> steps_;
+};
+
+/// Returns four points that are not on one plane: far apart, if doubles find such; else any.
+/// Returns nothing if all points are on one plane. Exact.
+std::optional<std::array<std::uint32_t, 4>> findTetrahedron(std::span<const Vec3> points);
+
+}  // namespace corridor

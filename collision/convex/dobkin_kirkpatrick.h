@@ -1,0 +1,94 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "collision/convex/polytope.h"
+
+namespace corridor {
+
+/// The hierarchy of Dobkin and Kirkpatrick of a convex polytope: P_0 is the polytope, and P_i is
+/// the hull of P_{i−1} without an independent set of vertices, each with at most 8 neighbours, down
+/// to a simplex. Each face of P_i that is not a face of P_{i−1} belongs to one removed vertex,
+/// which is *opposite* to it. Height O(log n); building time and memory O(n).
+///
+/// Source: D. P. Dobkin, D. G. Kirkpatrick, A linear algorithm for determining the separation of
+/// convex polyhedra, Journal of Algorithms 6 (1985), and Determining the separation of preprocessed
+/// polyhedra: a unified approach, ICALP 1990.
+class DobkinKirkpatrick {
+ public:
+  static constexpr int kMostNeighbours = 8;
+
+  explicit DobkinKirkpatrick(Polytope polytope);
+
+  const Polytope& polytope() const { return polytope_; }
+  /// The number of polytopes, P_0 and the simplex included.
+  std::size_t levels() const { return vertexCounts_.size(); }
+  /// The number of vertices of P_i.
+  std::size_t vertexCount(std::size_t level) const { return vertexCounts_[level]; }
+  std::size_t bytes() const;
+
+  /// What a query did.
+  struct Cost {
+    std::size_t products = 0;  ///< inner products of the direction with vertices
+    std::size_t climbs = 0;  ///< steps along edges of P_0 after the hierarchy, because of rounding
+  };
+  /// Returns a vertex that is farthest along a direction: exact, in real arithmetic on the given
+  /// doubles. O(log n).
+  ///
+  /// Method. The shadow of P_i on a plane that contains the direction is a polygon. The query keeps
+  /// its topmost vertex v and the two edges of the shadow at v. A vertex of P_{i−1} that is higher
+  /// than v, or beyond one of these edges, is opposite to one of the four faces at these edges, so
+  /// a level takes constant time (J. O'Rourke, Computational Geometry in C, section 7.10). This is
+  /// done in double. At the end, the two edges prove in exact arithmetic that v is topmost. If
+  /// rounding led astray, the query climbs from v along edges, with exact comparisons.
+  /// @pre the direction is finite. 0: any vertex.
+  std::uint32_t extreme(const Vec3& direction, Cost* cost = nullptr) const;
+
+  /// Reports what is wrong with the hierarchy, or nothing. Exact, for each level: P_i is convex,
+  /// the removed vertices are independent and have at most 8 neighbours, each new face has its
+  /// removed vertex on or above its plane, at least a twentieth of the vertices is removed (one at
+  /// least), and the last polytope is a simplex.
+  std::optional<std::string> check() const;
+
+ private:
+  friend class DobkinKirkpatrickBuilder;
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+
+  struct Face {
+    Polytope::Face corner;
+    std::uint32_t opposite = kNone;  ///< kNone: a face of P_0
+    std::uint16_t born = 0;          ///< the first level i of which it is a face
+  };
+  /// The neighbours of a vertex in the last polytope that has it, counterclockwise, and for each
+  /// the face from it to the next.
+  struct Ring {
+    std::uint32_t start = 0;
+    std::uint16_t size = 0;
+    std::uint16_t removed = 0;  ///< the first level without the vertex; 0: a vertex of the simplex
+  };
+  struct Edge;
+  struct Shadow;
+
+  std::span<const std::uint32_t> ringOf(std::uint32_t v) const {
+    return std::span(ringVertex_).subspan(rings_[v].start, rings_[v].size);
+  }
+  std::span<const std::uint32_t> starOf(std::uint32_t v) const {
+    return std::span(ringFace_).subspan(rings_[v].start, rings_[v].size);
+  }
+
+  Polytope polytope_;
+  std::vector<Face> faces_;
+  std::vector<Ring> rings_;  ///< of each vertex
+  std::vector<std::uint32_t> ringVertex_, ringFace_;
+  std::array<std::uint32_t, 4> simplex_{};       ///< the vertices of the last polytope
+  std::array<std::uint32_t, 4> simplexFaces_{};  ///< face k is opposite to vertex k of these
+  std::vector<std::size_t> vertexCounts_;
+};
+
+}  // namespace corridor

@@ -1,0 +1,157 @@
+#include "collision/convex/polytope.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "collision/convex/quickhull.h"
+#include "collision/predicates/along.h"
+#include "collision/predicates/orientation.h"
+
+namespace corridor {
+namespace {
+
+using Face = Polytope::Face;
+
+/// The neighbours of each vertex, in the order of its faces; empty if they don't form one cycle.
+struct Rings {
+  std::vector<std::uint32_t> start, vertex;
+
+  Rings(std::size_t vertices, std::span<const Face> faces) : start(vertices + 1, 0) {
+    for (const Face& face : faces)
+      for (const std::uint32_t v : face) ++start[v + 1];
+    for (std::size_t v = 0; v < vertices; ++v) start[v + 1] += start[v];
+    // For each face (v, a, b) of v: the pair a, b.
+    std::vector<std::array<std::uint32_t, 2>> pairs(start.back());
+    std::vector<std::uint32_t> fill(start.begin(), start.end() - 1);
+    for (const Face& face : faces)
+      for (int k = 0; k < 3; ++k) pairs[fill[face[k]]++] = {face[(k + 1) % 3], face[(k + 2) % 3]};
+    vertex.resize(pairs.size());
+    for (std::size_t v = 0; v < vertices; ++v) {
+      const std::span around = std::span(pairs).subspan(start[v], start[v + 1] - start[v]);
+      if (around.empty()) continue;
+      std::sort(around.begin(), around.end());
+      std::uint32_t next = around[0][0];
+      for (std::size_t i = 0; i < around.size(); ++i) {
+        vertex[start[v] + i] = next;
+        const auto found = std::lower_bound(around.begin(), around.end(), std::array{next, 0U});
+        closed = closed && found != around.end() && (*found)[0] == next;
+        if (!closed) return;
+        next = (*found)[1];
+        closed = closed && (next == around[0][0]) == (i + 1 == around.size());
+      }
+    }
+  }
+
+  std::span<const std::uint32_t> of(std::size_t v) const {
+    return std::span(vertex).subspan(start[v], start[v + 1] - start[v]);
+  }
+
+  bool closed = true;  ///< the faces of each vertex form one cycle
+};
+
+/// Reports whether vertex v is extreme: its faces are in at least three planes.
+bool isExtreme(std::span<const Vec3> points, const Rings& rings, std::size_t v) {
+  const auto ring = rings.of(v);
+  int breaks = 0;
+  for (std::size_t i = 0, n = ring.size(); i < n && breaks < 3; ++i)
+    breaks += planeSide(points[v], points[ring[i]], points[ring[(i + 1) % n]],
+                        points[ring[(i + 2) % n]]) != 0;
+  return breaks >= 3;
+}
+
+}  // namespace
+
+Polytope::Polytope(std::span<const Vec3> points) {
+  if (points.size() > (std::size_t{1} << 28))
+    throw std::invalid_argument("a polytope can have at most 2^28 points");
+  if (!std::all_of(points.begin(), points.end(), [](const Vec3& p) { return p.allFinite(); }))
+    throw std::invalid_argument("the points of a polytope must be finite");
+  std::vector<Face> faces = quickhull(points);
+  if (faces.empty())
+    throw std::invalid_argument("the points of a polytope must not all be on one plane");
+  const auto takeVertices = [&] {
+    // Keeps the vertices of the faces that are extreme; returns how many are not.
+    const Rings rings(points.size(), faces);
+    std::size_t dropped = 0;
+    source_.clear();
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (rings.of(i).empty()) continue;
+      if (isExtreme(points, rings, i))
+        source_.push_back(i);
+      else
+        ++dropped;
+    }
+    return dropped;
+  };
+  const bool again = takeVertices() > 0;
+  std::vector<std::uint32_t> number(points.size(), 0);
+  for (std::uint32_t i = 0; i < source_.size(); ++i) {
+    vertices_.push_back(points[source_[i]]);
+    number[source_[i]] = i;
+  }
+  if (again) {
+    faces_ = quickhull(vertices_);
+  } else {
+    faces_ = std::move(faces);
+    for (Face& face : faces_)
+      for (std::uint32_t& v : face) v = number[v];
+  }
+  Rings rings(vertices_.size(), faces_);
+  start_ = std::move(rings.start);
+  neighbours_ = std::move(rings.vertex);
+  // Divided first, so that the sum does not overflow.
+  for (const Vec3& v : vertices_) {
+    center_ += v / static_cast<double>(vertices_.size());
+    reachSquared_ = std::max(reachSquared_, v.squaredNorm());
+  }
+}
+
+std::uint32_t Polytope::climb(std::uint32_t start, const Vec3& direction,
+                              std::size_t* steps) const {
+  std::uint32_t top = start;
+  for (bool higher = true; higher;) {
+    higher = false;
+    for (const std::uint32_t v : neighbours(top)) {
+      if (alongSign(direction, vertices_[top], vertices_[v]) <= 0) continue;
+      top = v;
+      higher = true;
+      if (steps) ++*steps;
+      break;
+    }
+  }
+  return top;
+}
+
+std::optional<std::string> Polytope::check() const {
+  if (2 * vertices_.size() != faces_.size() + 4) return "a vertex has no face";
+  return checkConvexBoundary(vertices_, faces_);
+}
+
+std::optional<std::string> checkConvexBoundary(std::span<const Vec3> points,
+                                               std::span<const Face> faces) {
+  const Rings rings(points.size(), faces);
+  if (!rings.closed) return "the faces of a vertex do not form one cycle";
+  std::size_t used = 0;
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    const auto ring = rings.of(v);
+    if (ring.empty()) continue;
+    ++used;
+    if (!isExtreme(points, rings, v)) return "vertex " + std::to_string(v) + " is not extreme";
+    for (std::size_t i = 0, n = ring.size(); i < n; ++i) {
+      // The edge from v to the middle one of three, which follow each other counterclockwise.
+      if (planeSide(points[v], points[ring[i]], points[ring[(i + 1) % n]],
+                    points[ring[(i + 2) % n]]) > 0)
+        return "an edge at vertex " + std::to_string(v) + " is not convex";
+    }
+  }
+  if (2 * used != faces.size() + 4) return "the boundary is not a sphere";
+  for (const Face& face : faces) {
+    const auto isOff = [&](const Vec3& p) {
+      return planeSide(points[face[0]], points[face[1]], points[face[2]], p) != 0;
+    };
+    if (!std::any_of(points.begin(), points.end(), isOff)) return "a face is degenerate";
+  }
+  return std::nullopt;
+}
+
+}  // namespace corridor

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "collision/core/transform.h"
+
+namespace corridor {
+
+/// A convex polytope: the hull of its vertices, with a triangulated boundary. Every vertex is an
+/// extreme point of the hull, and no face is degenerate, in real arithmetic on the stored doubles.
+/// Faces that are coplanar together form a larger face.
+class Polytope {
+ public:
+  using Face = std::array<std::uint32_t, 3>;  ///< vertices, counterclockwise as seen from outside
+
+  /// Builds the hull of the points: `vertices()` are those of them that are extreme, in their
+  /// order.
+  ///
+  /// Method: quickhull (C. B. Barber, D. P. Dobkin, H. Huhdanpaa, 1996) with exact predicates, so
+  /// nothing is merged or joggled. If some vertex of the result is not extreme, which coplanar
+  /// points may cause, the hull of the extreme ones is computed once more. O(n log n) in the mean.
+  /// @throws std::invalid_argument if all points are on one plane, or a coordinate is not finite,
+  /// or there are more than 2^28 points.
+  explicit Polytope(std::span<const Vec3> points);
+
+  std::span<const Vec3> vertices() const { return vertices_; }
+  std::span<const Face> faces() const { return faces_; }
+  /// The vertices that share an edge with vertex i.
+  std::span<const std::uint32_t> neighbours(std::size_t i) const {
+    return std::span(neighbours_).subspan(start_[i], start_[i + 1] - start_[i]);
+  }
+  /// The index of vertex i among the points of the constructor.
+  std::size_t source(std::size_t i) const { return source_[i]; }
+
+  /// The mean of the vertices, rounded: a point inside.
+  const Vec3& center() const { return center_; }
+  /// The largest squared distance of a vertex from the origin, rounded.
+  double reachSquared() const { return reachSquared_; }
+
+  /// Returns a vertex that is farthest along a direction, by hill climbing: goes from vertex to
+  /// neighbour as long as one is farther (S. Cameron, Enhancing GJK, 1997). Exact, in real
+  /// arithmetic on the given doubles, from any start, because a local maximum is the global one. A
+  /// start that is close saves most of the time. O(√n) steps on usual polytopes, O(n) at worst.
+  /// @param steps  if not null, is increased by the number of steps.
+  /// @pre the direction is finite.
+  std::uint32_t climb(std::uint32_t start, const Vec3& direction,
+                      std::size_t* steps = nullptr) const;
+
+  /// Reports what is wrong with the polytope, or nothing: that its boundary is closed and a sphere,
+  /// that it is locally convex at each edge (and therefore convex), and that each vertex is
+  /// extreme. Exact.
+  std::optional<std::string> check() const;
+
+ private:
+  std::vector<Vec3> vertices_;
+  std::vector<Face> faces_;
+  std::vector<std::uint32_t> start_, neighbours_;
+  std::vector<std::size_t> source_;
+  Vec3 center_ = Vec3::Zero();
+  double reachSquared_ = 0;
+};
+
+/// Reports what is wrong with the boundary of a convex polytope, or nothing: that it is closed and
+/// a sphere, locally convex at each edge (and therefore convex), and that each vertex of a face is
+/// an extreme point. Points that no face uses are ignored. Exact.
+std::optional<std::string> checkConvexBoundary(std::span<const Vec3> points,
+                                               std::span<const Polytope::Face> faces);
+
+}  // namespace corridor

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "collision/core/transform.h"
+
+namespace corridor {
+
+/// Returns the sign of n·(q − p): whether q is farther along n than p. Exact, in real arithmetic on
+/// the given doubles: a filter in double decides most cases, integers the rest.
+/// @pre all numbers are finite.
+int alongSign(const Vec3& n, const Vec3& p, const Vec3& q);
+
+}  // namespace corridor

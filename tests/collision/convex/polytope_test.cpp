@@ -1,0 +1,142 @@
+#include "collision/convex/polytope.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <limits>
+#include <random>
+#include <set>
+#include <stdexcept>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/collision/convex/hull_pairs.h"
+#include "tests/support/support.h"
+
+namespace corridor {
+namespace {
+
+/// Point sets of many kinds: on a sphere, in a box, on a small grid (coplanar and equal points), on
+/// a cylinder, nearly flat, far away.
+std::vector<Vec3> points(std::mt19937_64& random, int kind, std::size_t count) {
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> real(-1, 1);
+  std::vector<Vec3> result;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec3 direction = Vec3(normal(random), normal(random), normal(random)).normalized();
+    switch (kind % 6) {
+      case 0:
+        result.push_back(direction);
+        break;
+      case 1:
+        result.emplace_back(real(random), real(random), real(random));
+        break;
+      case 2:
+        result.emplace_back(random() % 4, random() % 4, random() % 4);
+        break;
+      case 3: {
+        const double angle = 2 * M_PI * static_cast<double>(random() % 12) / 12;
+        result.emplace_back(std::cos(angle), std::sin(angle), static_cast<double>(random() % 3));
+        break;
+      }
+      case 4:
+        result.emplace_back(direction.x(), direction.y(), 1e-15 * direction.z());
+        break;
+      default:
+        result.push_back(direction + Vec3(1e6, -2e6, 3e6));
+    }
+  }
+  return result;
+}
+
+/// Compares with the rational simplex method: a point is extreme if it is not in the hull of the
+/// points that differ from it.
+TEST(Polytope, VerticesAreTheExtremePoints) {
+  std::mt19937_64 random(test::testSeed(11));
+  const int sets = test::isStressRun() ? 3000 : 120 / test::kSlowdown + 6;
+  int built = 0, vertices = 0;
+  for (int n = 0; n < sets; ++n) {
+    const std::vector<Vec3> all = points(random, n, 4 + random() % 20);
+    std::optional<Polytope> hull;
+    try {
+      hull.emplace(all);
+    } catch (const std::invalid_argument&) {
+      // All on one plane.
+      std::vector<std::vector<double>> rows;
+      for (const Vec3& p : all) rows.push_back({p[0], p[1], p[2], 1});
+      EXPECT_LT(test::rankOf(rows), 4u) << "set " << n;
+      continue;
+    }
+    ++built;
+    ASSERT_EQ(hull->check(), std::nullopt) << "set " << n;
+    std::vector<bool> isVertex(all.size(), false);
+    for (std::size_t i = 0; i < hull->vertices().size(); ++i) {
+      EXPECT_EQ(hull->vertices()[i], all[hull->source(i)]);
+      isVertex[hull->source(i)] = true;
+    }
+    vertices += static_cast<int>(hull->vertices().size());
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      std::vector<Vec3> others;
+      bool earlier = false;
+      for (std::size_t k = 0; k < all.size(); ++k) {
+        if (all[k] != all[i]) others.push_back(all[k]);
+        earlier = earlier || (all[k] == all[i] && isVertex[k]);
+      }
+      const bool extreme = test::hullRelation<3>({all[i]}, others) == HullRelation::disjoint;
+      EXPECT_EQ(earlier, extreme) << "set " << n << " point " << i;
+    }
+  }
+  std::cout << built << " polytopes, " << vertices << " vertices\n";
+  EXPECT_GT(built, sets / 2);
+}
+
+TEST(Polytope, LargeSetsPassTheCheck) {
+  std::mt19937_64 random(test::testSeed(12));
+  for (int kind = 0; kind < 6; ++kind) {
+    const Polytope hull(points(random, kind, 20'000 / test::kSlowdown));
+    EXPECT_EQ(hull.check(), std::nullopt) << "kind " << kind;
+    if (kind == 0) {
+      EXPECT_EQ(hull.vertices().size(), 20'000u / test::kSlowdown);
+    }
+    if (kind == 2) {
+      EXPECT_EQ(hull.vertices().size(), 8u);
+    }
+    if (kind == 3) {
+      EXPECT_EQ(hull.vertices().size(), 24u);
+    }
+  }
+}
+
+TEST(Polytope, NeighboursShareEdges) {
+  const Polytope cube(std::vector<Vec3>{
+      {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}});
+  EXPECT_EQ(cube.faces().size(), 12u);
+  std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
+  for (const Polytope::Face& face : cube.faces())
+    for (int k = 0; k < 3; ++k) edges.insert({face[k], face[(k + 1) % 3]});
+  EXPECT_EQ(edges.size(), 36u);
+  std::size_t pairs = 0;
+  for (std::uint32_t v = 0; v < 8; ++v)
+    for (const std::uint32_t w : cube.neighbours(v)) {
+      EXPECT_TRUE(edges.contains({v, w}));
+      ++pairs;
+    }
+  EXPECT_EQ(pairs, 36u);
+}
+
+TEST(Polytope, FlatAndInvalidSetsAreRefused) {
+  const auto build = [](const std::vector<Vec3>& p) { return Polytope(p).vertices().size(); };
+  EXPECT_THROW(build({}), std::invalid_argument);
+  EXPECT_THROW(build({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}), std::invalid_argument);
+  EXPECT_THROW(build({{0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {3, 4, 1}, {2, 2, 1}}),
+               std::invalid_argument);
+  EXPECT_THROW(build({{1, 1, 1}, {1, 1, 1}, {1, 1, 1}, {1, 1, 1}}), std::invalid_argument);
+  EXPECT_THROW(build({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, std::nan("")}}),
+               std::invalid_argument);
+  // One ulp is enough.
+  EXPECT_EQ(build({{0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, std::nextafter(1.0, 2.0)}}), 4u);
+}
+
+}  // namespace
+}  // namespace corridor
