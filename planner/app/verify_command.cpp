@@ -39,7 +39,9 @@ std::string sideText(const std::string& name, std::uint32_t triangle, const Prob
 
 std::string text(const PathFinding& f, const Problem& problem) {
   std::string line = std::string(nameOf(f.verdict)) + ": edge " + std::to_string(f.edge) +
-                     " at t = " + rounded(f.t) + ": " + f.reason;
+                     " at t = " + rounded(f.t) +
+                     (f.freeUntil > 0 ? ", free until " + rounded(f.freeUntil) : "") + ": " +
+                     f.reason;
   if (!f.a.empty()) {
     line +=
         ": " + sideText(f.a, f.triangleA, problem) + " and " + sideText(f.b, f.triangleB, problem);
@@ -54,6 +56,7 @@ ordered_json jsonOf(const PathFinding& f) {
           {"reason", f.reason},
           {"edge", f.edge},
           {"t", f.t},
+          {"free_until", f.freeUntil},
           {"state", numbersJson(f.configuration)},
           {"a", f.a},
           {"triangle_a", f.triangleA},

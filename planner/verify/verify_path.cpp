@@ -29,6 +29,9 @@ constexpr int kCoarse = 5;
 /// share kRefined of the largest possible bound.
 constexpr std::uint64_t kRefinement = 4000;
 constexpr Real kRefined = 0.9L;
+/// The search for the first contact may take as many queries as the refinement. It ends at
+/// intervals of this half width, in t, if not before.
+constexpr Real kShortest = 0x1p-31L;
 
 /// A time interval of an edge, and the pairs that are not proved yet in this interval.
 struct Interval {
@@ -79,6 +82,7 @@ class Verifier {
   void proveEdge(std::size_t edge);
   void proveOutside();
   void refine();
+  void findFirst(PathFinding& finding);
   void add(const PathFinding& finding);
   PathReport report() const;
   bool outOfWork() const { return queries_ >= problem_.workLimit; }
@@ -223,6 +227,46 @@ void Verifier::refine() {
   }
 }
 
+/// Looks for the first refutation on the edge of a finding: walks the intervals before the contact
+/// that is known, earliest first, and halves those that it cannot prove. Everything before the
+/// interval on top of the stack is proved.
+void Verifier::findFirst(PathFinding& finding) {
+  const std::uint64_t limit = 5 * queries_ + kRefinement;
+  Real contact = finding.t;
+  std::vector<Interval> open;
+  if (contact > 0) open.push_back(intervalOf({static_cast<std::size_t>(finding.edge), 0.5L, 0.5L}));
+  while (!open.empty()) {
+    Interval next = std::move(open.back());
+    open.pop_back();
+    const TimeInterval& time = next.time;
+    if (time.middle - time.half >= contact) continue;
+    finding.freeUntil = static_cast<double>(time.middle - time.half);  // exact: at most 33 bits
+    if (queries_ >= limit || time.half < kShortest) return;
+    std::vector<OpenPair> left;
+    for (OpenPair& pair : next.pairs) {
+      const PairAnswer answer = prover_.decide(time, pair, 0);
+      ++queries_;
+      if (answer.verdict == PathVerdict::proved) continue;
+      if (answer.verdict == PathVerdict::undecided && time.middle < contact) return;
+      if (answer.verdict == PathVerdict::refuted && time.middle < contact) {
+        contact = time.middle;
+        const double freeUntil = finding.freeUntil;
+        finding = prover_.finding(time, pair.pair, answer);
+        finding.freeUntil = freeUntil;
+      }
+      pair.guess = answer.closest;
+      pair.bound = answer.bound;
+      pair.estimate = answer.estimate;
+      left.push_back(pair);
+    }
+    if (left.empty()) continue;
+    next.pairs = std::move(left);
+    std::array<Interval, 2> halves = halvesOf(next);
+    open.push_back(std::move(halves[1]));
+    open.push_back(std::move(halves[0]));
+  }
+}
+
 PathReport Verifier::run() {
   for (std::size_t edge = 0; edge < prover_.edges(); ++edge)
     if (prover_.noCurve(edge)) add(*prover_.noCurve(edge));
@@ -230,6 +274,12 @@ PathReport Verifier::run() {
   for (std::size_t edge = 0; edge < prover_.edges(); ++edge)
     if (!closed(edge) && !single_) proveEdge(edge);
   if (findings_.empty()) refine();
+  const auto refuted = std::find_if(findings_.begin(), findings_.end(), [](const auto& each) {
+    return each.second.verdict == PathVerdict::refuted;
+  });
+  // Only two bodies have a first contact. An edge that is no curve has none.
+  if (refuted != findings_.end() && !refuted->second.a.empty() && !single_)
+    findFirst(refuted->second);
   return report();
 }
 

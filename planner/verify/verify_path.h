@@ -88,11 +88,17 @@ enum class PathVerdict {
   undecided
 };
 
-/// A fault of an edge: its first refutation, or else its first undecided place.
+/// A fault of an edge: a refutation, or else an undecided place. On the first refuted edge of a
+/// path, it is the first refutation along the edge (`freeUntil`); on other edges, it is the first
+/// one met.
 struct PathFinding {
   PathVerdict verdict = PathVerdict::undecided;
   int edge = 0;  ///< the edge from state `edge` to state `edge` + 1, from 0
   double t = 0;  ///< time on the edge, in [0, 1]
+  /// On the first refuted edge, the edge is proved on [0, freeUntil], and its first refutation is
+  /// in (freeUntil, t]. This bracket is narrowed until the motion bound in it is below the
+  /// tolerance, or a limit of queries is reached. On other edges: 0.
+  double freeUntil = 0;
   /// The state at t. A contact is exact at a pose that differs from this state's by rounding only.
   Configuration configuration;
   /// The two bodies that touch, or that could not be decided, at t. Empty: the fault is not one of
@@ -106,7 +112,8 @@ struct PathFinding {
 
 struct PathReport {
   PathVerdict verdict = PathVerdict::proved;
-  /// One finding for each edge that is not proved, in the order of the edges; at most 100.
+  /// One finding for each edge that is not proved, in the order of the edges; at most 100. If the
+  /// first finding is a refutation, it is the first contact of the path.
   std::vector<PathFinding> findings;
   int edges = 0;
   int edgesProved = 0;

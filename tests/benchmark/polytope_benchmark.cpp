@@ -14,6 +14,8 @@
 ///   others overlapping by as much; along random directions.
 /// * `touching`: the same with a gap or depth of 1e-12 of the size.
 /// * `distance`, `depth`, `depth along`: of the disjoint, or the overlapping pairs.
+/// * `polygon interference`: of two convex polygons of n vertices, in the same way.
+#include <cmath>
 #include <iomanip>
 #include <iostream>
 #include <random>
@@ -26,6 +28,7 @@
 #include "collision/convex/convex_distance.h"
 #include "collision/convex/dobkin_kirkpatrick.h"
 #include "collision/convex/penetration.h"
+#include "collision/convex/polygon_intersection.h"
 #include "tests/benchmark/arguments.h"
 #include "tests/benchmark/median_time.h"
 
@@ -104,8 +107,8 @@ void measure(std::size_t n, std::size_t queries) {
   const auto row = [&](const std::string& query, const std::string& by, double value) {
     std::cout << n << ',' << query << ',' << by << ',' << value << std::endl;
   };
-  row("build hull, ms", "quickhull", hullMs);
-  row("build hierarchy, ms", "Dobkin-Kirkpatrick", hierarchyMs);
+  row("build hull (ms)", "quickhull", hullMs);
+  row("build hierarchy (ms)", "Dobkin-Kirkpatrick", hierarchyMs);
   row("levels", "Dobkin-Kirkpatrick", static_cast<double>(fastA->levels()));
   row("bytes per vertex", "Dobkin-Kirkpatrick",
       static_cast<double>(fastA->bytes()) / static_cast<double>(n));
@@ -157,6 +160,23 @@ void measure(std::size_t n, std::size_t queries) {
       sink += penetrationAlong(x, y, {1, 2, 3}).upper > 1;
     });
   }
+  // Convex polygons of n vertices, disjoint or overlapping by 5 % of the size.
+  std::vector<Vec2> circle(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double angle = 2 * M_PI * static_cast<double>(i) / static_cast<double>(n);
+    circle[i] = {std::cos(angle), std::sin(angle)};
+  }
+  const ConvexPolygon p(circle);
+  std::vector<ConvexPolygon> others;
+  for (std::size_t k = 0; k < few; ++k) {
+    const double angle = M_PI * random.real();
+    std::vector<Vec2> moved = circle;
+    for (Vec2& x : moved) x += (k % 2 ? 2.05 : 1.95) * Vec2(std::cos(angle), std::sin(angle));
+    others.emplace_back(moved);
+  }
+  row("polygon interference", "Barba-Langerman", medianMicroseconds(few, [&](std::size_t i) {
+        sink += intersection(p, others[i]).intersects;
+      }));
   if (sink == 1) std::cerr << ' ';  // keeps the results
 }
 

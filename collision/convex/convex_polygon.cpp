@@ -1,0 +1,97 @@
+#include "collision/convex/convex_polygon.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "collision/predicates/along.h"
+#include "collision/predicates/orientation.h"
+
+namespace corridor {
+namespace {
+
+Vec3 lifted(const Vec2& p, double z = 0) {
+  return {p.x(), p.y(), z};
+}
+
+bool isBefore(const Vec2& p, const Vec2& q) {
+  return p.x() < q.x() || (p.x() == q.x() && p.y() < q.y());
+}
+
+/// Whether edge i, from vertex i to vertex i + 1, goes up along a direction: its sign.
+int rise(const ConvexPolygon& polygon, std::size_t i, const Vec3& direction) {
+  return alongSign(direction, lifted(polygon[i]), lifted(polygon[i + 1]));
+}
+
+}  // namespace
+
+int lineSide(const Vec2& p, const Vec2& q, const Vec2& r) {
+  return planeSide(lifted(p), lifted(q), lifted(r), lifted(p, 1));
+}
+
+ConvexPolygon::ConvexPolygon(std::span<const Vec2> points) {
+  if (!std::all_of(points.begin(), points.end(), [](const Vec2& p) { return p.allFinite(); }))
+    throw std::invalid_argument("the points of a polygon must be finite");
+  std::vector<Vec2> sorted(points.begin(), points.end());
+  std::sort(sorted.begin(), sorted.end(), isBefore);
+  sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
+  // The lower chain from left to right, then the upper one back.
+  for (const bool lower : {true, false}) {
+    const std::size_t begin = vertices_.size();
+    for (std::size_t i = 0; i < sorted.size(); ++i) {
+      const Vec2& p = lower ? sorted[i] : sorted[sorted.size() - 1 - i];
+      while (vertices_.size() >= begin + 2 &&
+             lineSide(vertices_[vertices_.size() - 2], vertices_.back(), p) <= 0)
+        vertices_.pop_back();
+      vertices_.push_back(p);
+    }
+    if (!vertices_.empty()) vertices_.pop_back();  // the first of the other chain
+  }
+  if (vertices_.size() < 3)
+    throw std::invalid_argument("the points of a polygon must not all be on one line");
+}
+
+std::size_t ConvexPolygon::extreme(const Vec2& direction) const {
+  // The edges that go up follow each other, and so do those that go down. The search keeps an edge
+  // `low` that goes up, or is level, or from whose start all up to the top goes up, and looks for
+  // the first edge after it that goes down.
+  const Vec3 d = lifted(direction);
+  const std::size_t n = size();
+  if (direction.isZero(0)) return 0;
+  if (rise(*this, 0, d) <= 0 && rise(*this, n - 1, d) >= 0) return 0;  // 0 is a top
+  // Vertices 0 … n of the unrolled boundary. `up(i)`: edge i goes up and is before the top.
+  const bool firstUp = rise(*this, 0, d) > 0;
+  std::size_t low = 0, high = n;
+  while (high - low > 1) {
+    const std::size_t middle = (low + high) / 2;
+    const int up = rise(*this, middle, d);
+    const int height = alongSign(d, lifted((*this)[0]), lifted((*this)[middle]));
+    if (firstUp) {
+      // From vertex 0 the boundary goes up to the top, down below vertex 0, and up again.
+      if (up > 0 && height >= 0)
+        low = middle;
+      else
+        high = middle;
+    } else {
+      // From vertex 0 the boundary goes down, and up beyond vertex 0 to the top, and down again.
+      if (up > 0 || height < 0)
+        low = middle;
+      else
+        high = middle;
+    }
+  }
+  // Edge `low` is the last one below the top.
+  return high % n;
+}
+
+std::optional<std::string> ConvexPolygon::check() const {
+  std::size_t turns = 0;  // changes from leftwards to rightwards, of which a convex polygon has one
+  for (std::size_t i = 0; i < size(); ++i) {
+    if (lineSide((*this)[i], (*this)[i + 1], (*this)[i + 2]) <= 0)
+      return "the corner at vertex " + std::to_string((i + 1) % size()) + " is not convex";
+    turns += !isBefore((*this)[i], (*this)[i + 1]) && isBefore((*this)[i + 1], (*this)[i + 2]);
+  }
+  return turns == 1 ? std::nullopt
+                    : std::optional<std::string>("the boundary goes around more than once");
+}
+
+}  // namespace corridor

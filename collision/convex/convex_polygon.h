@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace corridor {
+
+using Vec2 = Eigen::Vector2d;
+
+/// Returns the side of the line from p to q that r is on: 1 left, −1 right, 0 on it. Exact.
+/// @pre all numbers are finite.
+int lineSide(const Vec2& p, const Vec2& q, const Vec2& r);
+
+/// A convex polygon: the hull of its vertices, counterclockwise. Every vertex is an extreme point,
+/// in real arithmetic on the stored doubles.
+class ConvexPolygon {
+ public:
+  /// Builds the hull of the points, exactly (A. M. Andrew's monotone chain, 1979). O(n log n).
+  /// @throws std::invalid_argument if all points are on one line, or a coordinate is not finite.
+  explicit ConvexPolygon(std::span<const Vec2> points);
+
+  std::span<const Vec2> vertices() const { return vertices_; }
+  std::size_t size() const { return vertices_.size(); }
+  /// Vertex i, counted around the polygon any number of times.
+  const Vec2& operator[](std::size_t i) const { return vertices_[i % vertices_.size()]; }
+
+  /// Returns the index of a vertex that is farthest along a direction. Exact; O(log n), by a binary
+  /// search over the directions of the edges.
+  std::size_t extreme(const Vec2& direction) const;
+
+  /// Reports what is wrong with the polygon, or nothing: that each corner turns left, and that the
+  /// boundary goes around once. Exact.
+  std::optional<std::string> check() const;
+
+ private:
+  std::vector<Vec2> vertices_;
+};
+
+}  // namespace corridor

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "collision/convex/convex_polygon.h"
+
+namespace corridor {
+
+/// Whether two convex polygons share a point, with a witness.
+struct PolygonIntersection {
+  bool intersects = false;
+  /// Not `intersects`: a direction along which p's vertex `p` is farthest, and q begins after it
+  /// with its vertex `q`. Unless `exact` is set, the two projections are apart in real arithmetic.
+  Vec2 direction = Vec2::Zero();
+  std::size_t p = 0, q = 0;
+  /// `intersects`: vertices of p and of q whose hulls share a point already: O(log n) each.
+  std::vector<std::size_t> verticesP, verticesQ;
+  int steps = 0;
+  bool exact = false;  ///< the answer needed all vertices, in rational arithmetic
+};
+
+/// What is left of both polygons after a step of the algorithm. `p` is the chain of vertices from
+/// p[0] to p[1], `q` the chain of edges from q[0] to q[1], counterclockwise (an edge has the number
+/// of its first vertex). All of a polygon: the last number is the first plus the size.
+struct PolygonPruning {
+  std::array<std::size_t, 2> p, q;
+};
+
+/// Tests two convex polygons for a common point in O(log |P| + log |Q|); touching counts. Exact, in
+/// real arithmetic on the given doubles.
+///
+/// Method: L. Barba, S. Langerman, Optimal detection of intersections between convex polyhedra
+/// (SODA 2015), section 3. P is represented by a triangle of its vertices, T_P, which is inside P.
+/// Q is represented by its *edge hull* T_Q: the half-planes of some of its edges, which contain Q.
+/// * If T_P and T_Q are apart, a line separates them that touches T_P at a vertex. Only one chain
+/// of P,
+///   next to this vertex, reaches beyond the line, and the rest is pruned.
+/// * If T_P and T_Q share points, these are in Q, or all beyond one chain of Q, between two edges
+/// of
+///   T_Q. In this case a point of P is there, and P meets Q if and only if it meets the half-planes
+///   of this chain: the other edges are pruned.
+/// Each step prunes half of a chain, so P or Q loses half of what is left. The steps are done in
+/// double. The answer is then proved exactly, by its witness: by the extreme vertices along the
+/// separating direction, or by linear programming with the vertices that the algorithm has used. If
+/// it is not proved, separatingPlane (separating_plane.h) decides, in O(n).
+/// @param trace  if not null, receives what is left after each step.
+PolygonIntersection intersection(const ConvexPolygon& p, const ConvexPolygon& q,
+                                 std::vector<PolygonPruning>* trace = nullptr);
+
+}  // namespace corridor
