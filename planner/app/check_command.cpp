@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <memory>
@@ -8,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "collision/core/shortest.h"
 #include "planner/app/commands.h"
 #include "planner/app/options.h"
 #include "planner/app/output.h"
@@ -27,6 +29,7 @@ namespace {
 struct CheckArguments {
   std::string problem;
   std::optional<std::string> states;  ///< a file of states, one per line
+  std::optional<std::string> edges;   ///< a file of edges, one per line
   bool json = false;
 };
 
@@ -125,6 +128,57 @@ int checkStates(Problem problem, const CheckArguments& a) {
   return all ? kDone : kNegativeResult;
 }
 
+const char* nameOf(MotionVerdict verdict) {
+  return verdict == MotionVerdict::free      ? "free"
+         : verdict == MotionVerdict::contact ? "contact"
+                                             : "undecided";
+}
+
+/// Decides each edge of a file: the first contact, and how far the edge is proved free.
+int checkEdges(Problem problem, const CheckArguments& a) {
+  const std::vector<EdgeRow> rows = readEdgeRows(*a.edges, problem.model.space);
+  const Checker checker(problem);
+  addFirst(notesOnStillPairs(checker, startOf(problem)), problem.source.notes);
+  bool all = true;
+  ordered_json edges = ordered_json::array();
+  if (!a.json) std::cout << "edge,verdict,t0,t1,pair\n";
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto& [line, from, to] = rows[i];
+    const MotionResult result = checker.certifyEdge(from, to, true);
+    const bool inBounds = checker.inBounds(from) && checker.inBounds(to);
+    const std::string verdict = inBounds ? nameOf(result.verdict) : "out_of_bounds";
+    all &= inBounds && result.verdict == MotionVerdict::free;
+    std::string pair;
+    if (result.pair) {
+      // In the order of the bodies, as for states.
+      const auto [a0, b0] =
+          std::minmax({checker.bodyOf(result.pair->bodyA), checker.bodyOf(result.pair->bodyB)});
+      pair = checker.model().bodies[a0].name + "~" + checker.model().bodies[b0].name;
+    }
+    const bool hasTime = result.contactTime >= 0;
+    if (a.json) {
+      edges.push_back({{"edge", i}, {"line", line}, {"verdict", verdict}});
+      edges.back()["t0"] = result.certifiedUntil;
+      edges.back()["t1"] = hasTime ? ordered_json(result.contactTime) : ordered_json();
+      edges.back()["pair"] = pair;
+      continue;
+    }
+    std::cout << i << ',' << verdict << ',' << shortest(result.certifiedUntil) << ','
+              << (hasTime ? shortest(result.contactTime) : "") << ',' << csvField(pair) << '\n';
+    if (!std::cout) requireResultsWritten();  // throws: nothing can be written any more
+  }
+  if (a.json)
+    std::cout << ordered_json{{"format", "corridor-check-report-2"},
+                              {"problem", a.problem},
+                              {"numbers", problem.model.space.numberNames()},
+                              {"valid", all},
+                              {"notes", textsOf(problem.source.notes)},
+                              {"edges", edges}}
+                     .dump(2)
+              << '\n';
+  return all ? kDone : kNegativeResult;
+}
+
 int checkEnds(Problem problem, const CheckArguments& a) {
   checkSettings(problem);
   const Checker checker(problem);
@@ -156,7 +210,8 @@ int checkEnds(Problem problem, const CheckArguments& a) {
 
 int checkCommand(const CheckArguments& a) {
   Problem problem = readProblemOf(a.problem);
-  return a.states ? checkStates(std::move(problem), a) : checkEnds(std::move(problem), a);
+  if (a.states) return checkStates(std::move(problem), a);
+  return a.edges ? checkEdges(std::move(problem), a) : checkEnds(std::move(problem), a);
 }
 
 }  // namespace
@@ -167,10 +222,18 @@ void addCheck(CLI::App& program, int& status) {
   CLI::App* command =
       program.add_subcommand("check", "Check a problem, or many states, without planning");
   command->add_option("PROBLEM", a.problem, "the problem, as for solve")->required();
-  command->add_option("--states", a.states,
-                      "check the states in this file (-: standard input): one per line, numbers "
-                      "separated by blanks or commas, # starts a comment. Prints a line "
-                      "state,valid,pairs for each state");
+  CLI::Option* states = command->add_option(
+      "--states", a.states,
+      "check the states in this file (-: standard input): one per line, numbers "
+      "separated by blanks or commas, # starts a comment. Prints a line "
+      "state,valid,pairs for each state");
+  command
+      ->add_option(
+          "--edges", a.edges,
+          "decide the edges in this file (-: standard input): one per line, the numbers of "
+          "its two states. Prints a line edge,verdict,t0,t1,pair for each edge: it is "
+          "proved free until t0, and the pair touches at t1")
+      ->excludes(states);
   addJson(*command, a.json);
   command->footer(
       std::string(

@@ -107,29 +107,32 @@ void printTable(const std::vector<CostRow>& rows) {
   };
   line("volume", {"N_v", "N_p", "call ns", "C_v ns", "C_p ns", "predicted ns", "measured ns",
                   "ratio", "5 .. 95 %", "bytes", "build ms"});
+  const auto cost = [](double ns, bool known) { return known ? rounded(ns) : std::string("-"); };
   for (const CostRow& r : rows)
     line(r.volume,
-         {rounded(r.boxTests), rounded(r.triangleTests), rounded(r.callNs), rounded(r.cost.box),
-          rounded(r.cost.triangle), grouped(std::llround(r.predictedNs)),
-          grouped(std::llround(r.measuredNs)), twoDecimals(r.predictedNs / r.measuredNs),
+         {rounded(r.boxTests), rounded(r.triangleTests), rounded(r.callNs),
+          cost(r.cost.box, r.cost.boxKnown), cost(r.cost.triangle, r.cost.triangleKnown),
+          grouped(std::llround(r.predictedNs)), grouped(std::llround(r.measuredNs)),
+          twoDecimals(r.predictedNs / r.measuredNs),
           twoDecimals(r.low) + " .. " + twoDecimals(r.high), grouped(r.bytes), rounded(r.buildMs)});
 }
 
 ordered_json rowJson(const CostRow& r) {
-  return {{"volume", r.volume},
-          {"bv_tests", r.boxTests},
-          {"triangle_tests", r.triangleTests},
-          {"call_ns", r.callNs},
-          {"bv_test_ns", r.cost.box},
-          {"triangle_test_ns", r.cost.triangle},
-          {"predicted_ns", r.predictedNs},
-          {"measured_ns", r.measuredNs},
-          {"ratio", r.predictedNs / r.measuredNs},
-          {"ratio_p5", r.low},
-          {"ratio_median", r.middle},
-          {"ratio_p95", r.high},
-          {"bytes", r.bytes},
-          {"build_ms", r.buildMs}};
+  return {
+      {"volume", r.volume},
+      {"bv_tests", r.boxTests},
+      {"triangle_tests", r.triangleTests},
+      {"call_ns", r.callNs},
+      {"bv_test_ns", r.cost.boxKnown ? ordered_json(r.cost.box) : ordered_json()},
+      {"triangle_test_ns", r.cost.triangleKnown ? ordered_json(r.cost.triangle) : ordered_json()},
+      {"predicted_ns", r.predictedNs},
+      {"measured_ns", r.measuredNs},
+      {"ratio", r.predictedNs / r.measuredNs},
+      {"ratio_p5", r.low},
+      {"ratio_median", r.middle},
+      {"ratio_p95", r.high},
+      {"bytes", r.bytes},
+      {"build_ms", r.buildMs}};
 }
 
 }  // namespace
@@ -186,7 +189,9 @@ int inspectCost(const InspectArguments& a) {
                         grouped(poses.size() - kept.size()) +
                         " separated by the root boxes (these don't count below)");
   out.line("simd", std::string(simdTarget()) + ", used by obb");
-  out.line("costs", "fitted to one half of the poses; the other half is predicted");
+  out.line("costs",
+           "fitted to one half of the poses; the other half is predicted; -: the numbers of tests "
+           "go together, and do not determine this cost");
   out.blank();
   printTable(rows);
   return kDone;

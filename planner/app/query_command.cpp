@@ -15,6 +15,7 @@
 #include "planner/app/options.h"
 #include "planner/app/output.h"
 #include "planner/app/query_batch.h"
+#include "planner/app/query_hulls.h"
 #include "planner/app/query_output.h"
 #include "planner/app/query_poses.h"
 
@@ -31,6 +32,7 @@ struct QueryArguments {
   std::optional<std::string> edges;          ///< with `motions` only: the method; unset: the first
   std::optional<std::string> query, volume;  ///< `query`: with poses only; unset: the first
   std::optional<std::string> fit, overlap;   ///< unset: the first that the volume has
+  std::optional<std::string> hulls;          ///< query the convex hulls, by this method
   std::optional<double> tolerance;           ///< metres; for the tolerance query and for motions
   std::uint64_t repeat = 1;
 };
@@ -155,9 +157,45 @@ int queryMotions(const QueryArguments& a) {
   return kDone;
 }
 
+/// The meshes and the poses of a query. The constructor reads them, and writes the poses of a grid.
+struct PoseInput {
+  MeshFile meshA, meshB;
+  std::vector<Transform> poses;
+
+  explicit PoseInput(const QueryArguments& a)
+      : meshA(readMeshFile(a.meshA)),
+        meshB(readMeshFile(a.meshB)),
+        poses(posesOf(a, meshA.mesh, meshB.mesh)) {
+    checkRepeats(a, poses.size(), "pose");
+    requireNotAnInput(a.savePoses, "--save-poses", {a.meshA, a.meshB}, "the query");
+    if (a.savePoses) writePoses(*a.savePoses, poses);
+  }
+};
+
+/// Refuses the options that apply to trees, not to hulls, and unknown names. @throws InputError
+void checkHullOptions(const QueryArguments& a) {
+  requireHullQuery(*a.hulls, a.query);
+  const auto ofTrees = [](const char* option, bool given) {
+    if (given)
+      throw InputError(Fault{option, 0, "can't be used with --hulls, which needs no trees"});
+  };
+  ofTrees("--motions", a.motions.has_value());
+  ofTrees("--volume", a.volume.has_value());
+  ofTrees("--fit", a.fit.has_value());
+  ofTrees("--overlap", a.overlap.has_value());
+  ofTrees("--tolerance", a.tolerance.has_value());
+}
+
 int queryCommand(const QueryArguments& a) {
   checkOptions(a);
+  if (a.hulls) checkHullOptions(a);
   requireWritable(a.savePoses, "--save-poses");
+  if (a.hulls) {
+    const PoseInput input(a);
+    queryHulls({input.meshA.mesh, a.meshA}, {input.meshB.mesh, a.meshB}, input.poses, *a.hulls,
+               a.query, static_cast<int>(a.repeat));
+    return kDone;
+  }
   if (a.motions) return queryMotions(a);
   const NamedQuery& query = queryNamed(a.query);
   const TreeNames trees = chosenTrees(a);
@@ -168,18 +206,15 @@ int queryCommand(const QueryArguments& a) {
     throw InputError(Fault{"--tolerance", 0, "needs --query tolerance or --motions"});
   if (!testsOverlap(query.kind))
     requireDefaultOverlap(trees, "--query interference or contacts", query.name);
-  const MeshFile meshA = readMeshFile(a.meshA), meshB = readMeshFile(a.meshB);
-  const std::vector<Transform> poses = posesOf(a, meshA.mesh, meshB.mesh);
-  checkRepeats(a, poses.size(), "pose");
-  requireNotAnInput(a.savePoses, "--save-poses", {a.meshA, a.meshB}, "the query");
-  if (a.savePoses) writePoses(*a.savePoses, poses);
-  const BatchResult result = runPoses({meshA.mesh, meshB.mesh, poses, query.kind, treesNamed(trees),
-                                       a.tolerance.value_or(0), static_cast<int>(a.repeat)});
+  const PoseInput input(a);
+  const BatchResult result =
+      runPoses({input.meshA.mesh, input.meshB.mesh, input.poses, query.kind, treesNamed(trees),
+                a.tolerance.value_or(0), static_cast<int>(a.repeat)});
   printCsv(query, result);
   const auto hits = std::count_if(result.answers.begin(), result.answers.end(),
                                   [](const Answer& answer) { return answer.hit; });
   printSummary(result, {"query=" + query.name, "volume=" + trees.volume, "fit=" + trees.fit,
-                        "overlap=" + trees.overlap, "poses=" + std::to_string(poses.size()),
+                        "overlap=" + trees.overlap, "poses=" + std::to_string(input.poses.size()),
                         "hits=" + std::to_string(hits)});
   return kDone;
 }
@@ -284,6 +319,15 @@ void addQuery(CLI::App& program, int& status) {
       ->check(isWithin(0.0, std::numeric_limits<double>::max(), "a number of metres, 0 or more,"))
       ->group(asked);
   command
+      ->add_option("--hulls", a.hulls,
+                   "take A and B as the convex hulls of their vertices, with --query interference, "
+                   "distance or depth. The method finds the vertex that is farthest along a "
+                   "direction: " +
+                       joined(hullMethods()) +
+                       ". lp tests for a separating plane by linear programming instead; it takes "
+                       "the rounded vertices of B at each pose as they are")
+      ->group(asked);
+  command
       ->add_option("--repeat", a.repeat,
                    "number of passes over all poses or motions; the time of each is the median of "
                    "its passes (default 1)")
@@ -299,6 +343,11 @@ void addQuery(CLI::App& program, int& status) {
           "  contacts: pose,a,b,px,py,pz,qx,qy,qz, one line per pair of triangles that touch, with "
           "the ends p and q of the segment that they share\n"
           "  distance: pose,distance,ax,ay,az,bx,by,bz, with a closest point of each mesh\n"
+          "  with --hulls: interference: pose,hit; distance: pose,distance,lower,nx,ny,nz,ax,ay,az,"
+          "bx,by,bz, with a proved lower bound, the direction that proves it, and a closest point "
+          "of "
+          "each hull; depth: pose,lower,upper,nx,ny,nz,ax,ay,az,bx,by,bz, with bounds of the least "
+          "length by which B must move to leave A, and the direction\n"
           "  tolerance: pose,closer, which is 1 if A and B are at most the tolerance apart\n"
           "  motions: motion,verdict,t0,t1,gap,triangle_a,triangle_b,bv_tests,triangle_tests,"
           "splits\n"

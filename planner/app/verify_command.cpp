@@ -37,11 +37,16 @@ std::string sideText(const std::string& name, std::uint32_t triangle, const Prob
          (kind.empty() ? "" : " (" + kind + " " + std::to_string(triangle) + ")");
 }
 
+/// Returns ", free until then", ", free until 0.25", or "" if nothing is proved before the finding.
+std::string freeUntilText(const PathFinding& f) {
+  if (!(f.freeUntil > 0)) return "";
+  const std::string until = rounded(f.freeUntil);
+  return ", free until " + (until == rounded(f.t) ? "then" : until);
+}
+
 std::string text(const PathFinding& f, const Problem& problem) {
   std::string line = std::string(nameOf(f.verdict)) + ": edge " + std::to_string(f.edge) +
-                     " at t = " + rounded(f.t) +
-                     (f.freeUntil > 0 ? ", free until " + rounded(f.freeUntil) : "") + ": " +
-                     f.reason;
+                     " at t = " + rounded(f.t) + freeUntilText(f) + ": " + f.reason;
   if (!f.a.empty()) {
     line +=
         ": " + sideText(f.a, f.triangleA, problem) + " and " + sideText(f.b, f.triangleB, problem);

@@ -16,6 +16,10 @@ struct QueryCost {
 /// Nanoseconds of one test within a query, including its share of the tree traversal.
 struct CostModel {
   double box = 0, triangle = 0;  ///< C_v, C_p
+  /// Whether the queries determine each cost: its standard error is at most half of it. If the
+  /// counts are nearly proportional, they do not, although the sum may predict well: a report shows
+  /// a dash.
+  bool boxKnown = false, triangleKnown = false;
   double predicted(const QueryCost& c) const {
     return c.boxTests * box + c.triangleTests * triangle;
   }
@@ -24,7 +28,8 @@ struct CostModel {
 /// Returns the costs ≥ 0 that fit the queries best: by least squares of the errors, each divided by
 /// √T, because the error of a sum of many tests grows like √T. (Without weights, the few longest
 /// queries would decide the fit; with errors divided by T, the shortest queries.) If N_v and N_p
-/// are proportional, box tests get the whole cost.
+/// are proportional, box tests get the whole cost, and neither cost is known. If one of the counts
+/// is 0 in all queries, the cost of the other is known.
 /// @param call  nanoseconds that each query takes besides its tests. @pre queries not empty.
 inline CostModel fittedCosts(const std::vector<QueryCost>& queries, double call = 0) {
   // Normal equations of Σ (N_v·C_v + N_p·C_p + call − T)²/T.
@@ -38,13 +43,27 @@ inline CostModel fittedCosts(const std::vector<QueryCost>& queries, double call 
   }
   const double det = vv * pp - vp * vp;
   if (det > 1e-12 * vv * pp) {  // well above the rounding of the sums
-    const CostModel both{(v * pp - p * vp) / det, (p * vv - v * vp) / det};
-    if (both.box >= 0 && both.triangle >= 0) return both;
+    CostModel both{(v * pp - p * vp) / det, (p * vv - v * vp) / det};
+    if (both.box >= 0 && both.triangle >= 0) {
+      // The variance of the weighted errors, and the covariance matrix of the two costs.
+      double errors = 0;
+      for (const QueryCost& c : queries) {
+        const double error = both.predicted(c) + call - c.ns;
+        errors += error * error / c.ns;
+      }
+      if (queries.size() > 2) {
+        const double variance = errors / static_cast<double>(queries.size() - 2);
+        both.boxKnown = 4 * variance * pp / det <= both.box * both.box && both.box > 0;
+        both.triangleKnown =
+            4 * variance * vv / det <= both.triangle * both.triangle && both.triangle > 0;
+      }
+      return both;
+    }
   }
   // One of the two costs would be negative, or the two can't be separated: use the single cost that
   // fits better. A single cost lowers the sum of squares by v²/vv (C_v) or p²/pp (C_p).
-  const CostModel boxes{vv > 0 ? std::max(v / vv, 0.0) : 0, 0};
-  const CostModel triangles{0, pp > 0 ? std::max(p / pp, 0.0) : 0};
+  const CostModel boxes{vv > 0 ? std::max(v / vv, 0.0) : 0, 0, vv > 0 && pp == 0, false};
+  const CostModel triangles{0, pp > 0 ? std::max(p / pp, 0.0) : 0, false, pp > 0 && vv == 0};
   // If the counts are proportional, both fit equally well up to the rounding of the sums; prefer
   // box tests.
   return boxes.box * v >= (1 - 1e-12) * triangles.triangle * p ? boxes : triangles;

@@ -178,9 +178,10 @@ std::string costTable(const Campaign& campaign, const std::vector<VariantScore>&
   Table table({"variant", "C<sub>v</sub>, ns", "C<sub>p</sub>, ns", "5 %", "median", "95 %"});
   for (const VariantScore& s : scores)
     if (s.cost)
-      table.row({variantHtml(campaign, s.variant), digits(s.cost->model.box),
-                 digits(s.cost->model.triangle), digits(s.cost->ratioP5),
-                 digits(s.cost->ratioMedian), digits(s.cost->ratioP95)});
+      table.row({variantHtml(campaign, s.variant),
+                 s.cost->model.boxKnown ? digits(s.cost->model.box) : "–",
+                 s.cost->model.triangleKnown ? digits(s.cost->model.triangle) : "–",
+                 digits(s.cost->ratioP5), digits(s.cost->ratioMedian), digits(s.cost->ratioP95)});
   return table.html();
 }
 

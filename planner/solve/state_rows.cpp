@@ -80,16 +80,24 @@ std::vector<std::size_t> readHeader(const std::vector<std::string>& header,
   return columns;
 }
 
-}  // namespace
+/// A line of numbers, and its number in the file.
+struct Row {
+  int line = 0;
+  std::vector<double> values;
+};
 
-std::vector<StateRow> readStateRows(const std::filesystem::path& file,
-                                    const ConfigurationSpace& space) {
-  std::vector<StateRow> rows;
+/// Reads all lines of numbers. Only `wrongWith` decides whether their count is right.
+/// @param what  the content of a line: "state" or "edge".
+/// @param allowHeader  the first line may be a header.
+template <class WrongWith>
+std::vector<Row> readRows(const std::filesystem::path& file, const ConfigurationSpace& space,
+                          const std::string& what, bool allowHeader, const WrongWith& wrongWith) {
+  std::vector<Row> rows;
   FaultList faults(file.string());
   const std::vector<std::string> names = space.numberNames();
   std::vector<std::size_t> columns;  // the number that each column holds; empty: no header
   bool isFirst = true;
-  std::istringstream lines(readTextStream(file, "a file of states, one per line,"));
+  std::istringstream lines(readTextStream(file, "a file of " + what + "s, one per line,"));
   std::string line;
   for (int number = 1; std::getline(lines, line); ++number) {
     if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // byte-order mark
@@ -105,6 +113,7 @@ std::vector<StateRow> readStateRows(const std::filesystem::path& file,
     // Names may look like numbers (a joint "1"). A line that consists of numbers only is a state.
     double number0 = 0;
     const bool isHeader =
+        allowHeader &&
         std::any_of(words.begin(), words.end(),
                     [&](const std::string& word) {
                       return !parseNumber(word, Range::Any, number0).empty();
@@ -127,16 +136,47 @@ std::vector<StateRow> readStateRows(const std::filesystem::path& file,
       const std::vector<double> given = values;
       for (std::size_t i = 0; i < columns.size(); ++i) values[columns[i]] = given[i];
     }
-    if (complaint.empty()) complaint = rowFault(values, space).value_or("");
+    if (complaint.empty()) complaint = wrongWith(values).value_or("");
     if (complaint.empty())
-      rows.push_back(
-          {number, Eigen::Map<const Configuration>(values.data(), Eigen::Index(values.size()))});
+      rows.push_back({number, values});
     else
       faults.add(file.string(), number, complaint);
   }
-  if (rows.empty() && faults.size() == 0) faults.add(file.string(), 0, "no states");
+  if (rows.empty() && faults.size() == 0) faults.add(file.string(), 0, "no " + what + "s");
   faults.throwIfAny();
   return rows;
+}
+
+Configuration stateOf(const std::vector<double>& values, std::size_t first, std::size_t size) {
+  return Eigen::Map<const Configuration>(values.data() + first, static_cast<Eigen::Index>(size));
+}
+
+}  // namespace
+
+std::vector<StateRow> readStateRows(const std::filesystem::path& file,
+                                    const ConfigurationSpace& space) {
+  std::vector<StateRow> states;
+  const auto wrongWith = [&](const std::vector<double>& row) { return rowFault(row, space); };
+  for (const Row& row : readRows(file, space, "state", true, wrongWith))
+    states.push_back({row.line, stateOf(row.values, 0, space.size())});
+  return states;
+}
+
+std::vector<EdgeRow> readEdgeRows(const std::filesystem::path& file,
+                                  const ConfigurationSpace& space) {
+  const std::size_t size = space.size();
+  const auto wrongWith = [&](const std::vector<double>& row) -> std::optional<std::string> {
+    if (row.size() != 2 * size)
+      return "an edge has " + std::to_string(2 * size) + " numbers, those of its two states, not " +
+             std::to_string(row.size());
+    const auto middle = row.begin() + static_cast<std::ptrdiff_t>(size);
+    if (const auto wrong = rowFault({row.begin(), middle}, space)) return wrong;
+    return rowFault({middle, row.end()}, space);
+  };
+  std::vector<EdgeRow> edges;
+  for (const Row& row : readRows(file, space, "edge", false, wrongWith))
+    edges.push_back({row.line, stateOf(row.values, 0, size), stateOf(row.values, size, size)});
+  return edges;
 }
 
 }  // namespace corridor

@@ -34,4 +34,16 @@ struct StateRow {
 std::vector<StateRow> readStateRows(const std::filesystem::path& file,
                                     const ConfigurationSpace& space);
 
+/// An edge and its line in the file.
+struct EdgeRow {
+  int line = 0;  ///< counted from 1
+  Configuration from, to;
+};
+
+/// Reads a text file with one edge per line: the numbers of its first state, then those of its
+/// last. The format is that of `readStateRows`, without a header. @throws InputError with all
+/// faults. A file without edges is a fault.
+std::vector<EdgeRow> readEdgeRows(const std::filesystem::path& file,
+                                  const ConfigurationSpace& space);
+
 }  // namespace corridor

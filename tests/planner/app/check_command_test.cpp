@@ -65,6 +65,45 @@ TEST_F(CheckCommand, CheckOfStatesTakesAnglesAsTheyAre) {
               testing::HasSubstr(";too_large:shoulder\n"));
 }
 
+/// The post of radius 0.1 m is at 1.5 m on the y axis; the arm is thin, so along an edge from 0 to
+/// 3 rad it touches the post at about (π/2 − asin(0.1/1.5)) / 3, for a thin arm.
+TEST_F(CheckCommand, CheckOfManyEdges) {
+  write("edges.txt", "# from, to\n0 0  1 0\n0,0,3,0\n0 0 0 2.9\n");
+  const Result checked = run("check arm.yaml --edges edges.txt");
+  EXPECT_EQ(checked.status, 1);
+  EXPECT_EQ(checked.err, "");
+  EXPECT_THAT(checked.out, testing::MatchesRegex("edge,verdict,t0,t1,pair\n"
+                                                 "0,free,1,,\n"
+                                                 "1,contact,0\\.[0-9]*,0\\.[0-9]*,lower~post\n"
+                                                 "2,out_of_bounds,1,,\n"));
+  const auto json = nlohmann::json::parse(run("check arm.yaml --edges edges.txt --json").out);
+  const auto& edges = json["edges"];
+  EXPECT_EQ(edges[1]["line"], 3);
+  const double t0 = edges[1]["t0"], t1 = edges[1]["t1"];
+  EXPECT_LT(t0, t1);
+  EXPECT_LT(t1 - t0, 1.0 / 512);
+  EXPECT_NEAR(t1, (std::acos(-1.0) / 2 - std::asin(0.1 / 1.5)) / 3, 0.02);
+  EXPECT_TRUE(edges[0]["t1"].is_null());
+  write("free.txt", "0 0 1 0\n");
+  EXPECT_EQ(run("check arm.yaml --edges free.txt").status, 0);
+
+  const auto fault = [&](const std::string& text) {
+    write("wrong.txt", text);
+    const Result result = run("check arm.yaml --edges wrong.txt");
+    EXPECT_EQ(result.status, 2);
+    EXPECT_EQ(result.out, "");
+    return result.err;
+  };
+  EXPECT_EQ(fault("0 0 1\n"),
+            "wrong.txt:1: an edge has 4 numbers, those of its two states, not 3\n");
+  EXPECT_EQ(fault("0 0 1 x\n"), "wrong.txt:1: a number is needed, not \"x\"\n");
+  EXPECT_EQ(fault("# nothing\n"), "wrong.txt: no edges\n");
+  EXPECT_EQ(fault(""), "wrong.txt: is empty; a file of edges, one per line, is needed\n");
+  const Result both = run("check arm.yaml --edges free.txt --states free.txt");
+  EXPECT_EQ(both.status, 2);
+  EXPECT_THAT(both.err, HasSubstr("--edges"));
+}
+
 TEST_F(CheckCommand, CheckOfStatesFromAPipe) {
   const std::string states = "printf '0 0\\n1.5708 0\\n' | ";
   for (const char* input : {"-", "/dev/stdin", "/proc/self/fd/0"}) {

@@ -99,8 +99,10 @@ TEST_F(InspectCost, JsonHasTheCountsOfQueries) {
     EXPECT_NEAR(row["triangle_tests"].get<double>(), triangles / kept, 1e-9 * (triangles + 1));
     for (const char* key : {"predicted_ns", "measured_ns", "ratio", "bytes", "build_ms"})
       EXPECT_GT(row[key].get<double>(), 0) << key << ", " << kVolumes[i];
-    EXPECT_GT(row["bv_test_ns"].get<double>() + row["triangle_test_ns"].get<double>(), 0);
-    for (const char* key : {"bv_test_ns", "triangle_test_ns", "call_ns"}) EXPECT_GE(row[key], 0);
+    EXPECT_GE(row["call_ns"], 0);
+    for (const char* key : {"bv_test_ns", "triangle_test_ns"}) {
+      EXPECT_TRUE(row[key].is_null() || row[key].get<double>() > 0) << key;
+    }
     EXPECT_LE(row["ratio_p5"], row["ratio_median"]);
     EXPECT_LE(row["ratio_median"], row["ratio_p95"]);
   }

@@ -1,8 +1,10 @@
 // Tests of `corridor query`: CSV on stdout, key=value on stderr, one line per fault.
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -42,6 +44,73 @@ class QueryCommand : public ProgramTest {
     return values;
   }
 };
+
+/// Two unit cubes, and every method.
+TEST_F(QueryCommand, Hulls) {
+  std::string cube;
+  for (int i = 0; i < 8; ++i)
+    cube += "v " + std::to_string(i & 1) + " " + std::to_string(i >> 1 & 1) + " " +
+            std::to_string(i >> 2) + "\n";
+  write("a.obj", cube + "v 0.5 0.5 0.5\nf 1 2 3\nf 6 7 8\nf 4 5 9\n");  // one vertex is inside
+  write("b.obj", cube + "f 1 2 3\nf 6 7 8\nf 4 5 6\n");
+  write("poses.txt", kStill + "1.5 0 0\n" + kStill + "1 1 1\n" + kStill + "0.75 0 0.5\n");
+  for (const char* method : {"hierarchy", "climbing", "every-vertex", "lp"}) {
+    const Result result = query(std::string("--poses poses.txt --hulls ") + method);
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(result.out, "pose,hit\n0,0\n1,1\n2,1\n") << method;
+    const auto figures = summary(result);
+    EXPECT_EQ(figures.at("hulls"), method);
+    EXPECT_EQ(figures.at("vertices_a"), "8");
+    EXPECT_EQ(figures.at("hits"), "2");
+  }
+  const auto rows = [&](const std::string& options) {
+    const Result result = query(options);
+    EXPECT_EQ(result.status, 0) << result.err;
+    std::vector<std::vector<double>> all;
+    std::istringstream lines(result.out);
+    std::string line;
+    std::getline(lines, line);
+    while (std::getline(lines, line)) {
+      std::replace(line.begin(), line.end(), ',', ' ');
+      std::istringstream words(line);
+      all.emplace_back(std::istream_iterator<double>(words), std::istream_iterator<double>());
+    }
+    return all;
+  };
+  for (const char* method : {"hierarchy", "climbing", "every-vertex"}) {
+    const auto d = rows(std::string("--poses poses.txt --query distance --hulls ") + method);
+    ASSERT_EQ(d.size(), 3u);
+    ASSERT_EQ(d[0].size(), 12u);
+    EXPECT_NEAR(d[0][1], 0.5, 1e-15);
+    EXPECT_NEAR(d[0][3], 1, 1e-15);  // the normal
+    EXPECT_EQ(d[1][1], 0);
+    const auto p = rows(std::string("--poses poses.txt --query depth --hulls ") + method);
+    EXPECT_EQ(p[0][2], 0);
+    EXPECT_LE(p[1][1], 1e-13);
+    EXPECT_LE(p[2][1], 0.25);
+    EXPECT_GE(p[2][2], 0.25);
+    EXPECT_NEAR(p[2][1], p[2][2], 1e-12);
+    EXPECT_NEAR(p[2][3], 1, 1e-15);
+  }
+}
+
+TEST_F(QueryCommand, HullsOnBadInput) {
+  const auto fault = [&](const std::string& options) {
+    const Result result = query("--poses poses.txt " + options);
+    EXPECT_EQ(result.status, 2) << options;
+    EXPECT_EQ(result.out, "") << options;
+    return result.err;
+  };
+  EXPECT_EQ(fault("--hulls hierarchy"),
+            "a.obj: the points of a polytope must not all be on one plane\n");
+  EXPECT_THAT(fault("--hulls hirarchy"),
+              HasSubstr("--hulls: unknown method \"hirarchy\" (did you mean \"hierarchy\"?)"));
+  EXPECT_THAT(fault("--hulls lp --query depth"), HasSubstr("lp needs --query interference"));
+  EXPECT_THAT(fault("--hulls climbing --query contacts"), HasSubstr("unknown query of hulls"));
+  EXPECT_EQ(fault("--hulls climbing --volume aabb"),
+            "--volume: can't be used with --hulls, which needs no trees\n");
+  EXPECT_THAT(fault("--query depth"), HasSubstr("unknown query \"depth\""));
+}
 
 TEST_F(QueryCommand, InterferenceIsOneLineAPose) {
   const Result result = query("--poses poses.txt");

@@ -37,6 +37,26 @@ TEST(CostModel, CostsAreNeverNegative) {
   EXPECT_EQ(none.box, 0);
 }
 
+/// A cost is known if the queries determine it. Here the times have an error of 5 %.
+TEST(CostModel, CostsThatQueriesDoNotDetermineAreUnknown) {
+  const auto fitted = [](double spread) {
+    std::vector<QueryCost> queries;
+    for (int i = 1; i < 40; ++i) {
+      const double v = 100.0 * i, p = 50.0 * i * (1 + spread * (i % 3 - 1));
+      queries.push_back({v, p, (12 * v + 90 * p) * (i % 2 ? 1.05 : 0.95)});
+    }
+    return fittedCosts(queries);
+  };
+  EXPECT_TRUE(fitted(0.5).boxKnown);
+  EXPECT_TRUE(fitted(0.5).triangleKnown);
+  EXPECT_FALSE(fitted(0.001).boxKnown);
+  EXPECT_FALSE(fitted(0.001).triangleKnown);
+  EXPECT_FALSE(fitted(0).boxKnown);
+  // Only one of the costs occurs.
+  EXPECT_TRUE(fittedCosts({{5, 0, 100}, {7, 0, 130}, {9, 0, 190}}).boxKnown);
+  EXPECT_TRUE(fittedCosts({{0, 5, 100}, {0, 7, 130}}).triangleKnown);
+}
+
 /// If both counts are proportional, only one cost can be determined; it is attributed to box tests.
 TEST(CostModel, ProportionalCountsGiveOneCost) {
   const CostModel model = fittedCosts({{10, 5, 100}, {20, 10, 200}, {40, 20, 400}});

@@ -1,0 +1,147 @@
+#include "planner/app/query_hulls.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <span>
+#include <stdexcept>
+
+#include "collision/convex/convex_contact.h"
+#include "collision/convex/convex_distance.h"
+#include "collision/convex/dobkin_kirkpatrick.h"
+#include "collision/convex/penetration.h"
+#include "collision/convex/separating_plane.h"
+#include "collision/core/error.h"
+#include "collision/core/quantiles.h"
+#include "collision/core/spelling.h"
+#include "planner/app/query_batch.h"
+#include "planner/app/query_output.h"
+#include "planner/app/query_timing.h"
+#include "planner/app/standard_streams.h"
+
+namespace corridor::app {
+namespace {
+
+/// The hull of a mesh's vertices, with the structures that the methods need.
+struct Hull {
+  std::optional<DobkinKirkpatrick> hierarchy;
+  ConvexPart part;  ///< the vertices of the hull
+  double buildMs = 0;
+
+  explicit Hull(const HullInput& input) {
+    const auto start = std::chrono::steady_clock::now();
+    try {
+      hierarchy.emplace(Polytope(input.mesh.vertices));
+    } catch (const std::invalid_argument& error) {
+      throw InputError(Fault{input.file, 0, error.what()});
+    }
+    buildMs =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    const auto vertices = hierarchy->polytope().vertices();
+    part.points.assign(vertices.begin(), vertices.end());
+  }
+
+  ConvexSet by(const std::string& method) const {
+    if (method == "hierarchy") return *hierarchy;
+    if (method == "climbing") return hierarchy->polytope();
+    return part;
+  }
+};
+
+std::string numbers(std::initializer_list<double> values) {
+  std::string text;
+  char number[32];
+  for (const double value : values) {
+    std::snprintf(number, sizeof number, ",%.17g", value);
+    text += number;
+  }
+  return text;
+}
+std::string numbers(const Vec3& v) {
+  return numbers({v.x(), v.y(), v.z()});
+}
+
+/// @throws InputError, which lists the names.
+void requireNameAmong(const std::vector<std::string>& names, const std::string& name,
+                      const char* option, const char* what) {
+  if (std::find(names.begin(), names.end(), name) != names.end()) return;
+  throw InputError(Fault{option, 0,
+                         std::string("unknown ") + what + " " + quotedWord(name) +
+                             didYouMean(name, names) + "; there are: " + joined(names)});
+}
+
+}  // namespace
+
+const std::vector<std::string>& hullMethods() {
+  static const std::vector<std::string> names = {"hierarchy", "climbing", "every-vertex", "lp"};
+  return names;
+}
+
+void requireHullQuery(const std::string& method, const std::optional<std::string>& query) {
+  requireNameAmong(hullMethods(), method, "--hulls", "method");
+  requireNameAmong({"interference", "distance", "depth"}, query.value_or("interference"), "--query",
+                   "query of hulls");
+  if (method == "lp" && query.value_or("interference") != "interference")
+    throw InputError(Fault{"--hulls", 0, "lp needs --query interference"});
+}
+
+void queryHulls(const HullInput& inputA, const HullInput& inputB,
+                const std::vector<Transform>& poses, const std::string& method,
+                const std::optional<std::string>& asked, int repeat) {
+  const std::string query = asked.value_or("interference");
+  const Hull a(inputA), b(inputB);
+  const ConvexSet setA = a.by(method), setB = b.by(method);
+  std::string text = query == "interference" ? "pose,hit\n"
+                     : query == "distance"   ? "pose,distance,lower,nx,ny,nz,ax,ay,az,bx,by,bz\n"
+                                             : "pose,lower,upper,nx,ny,nz,ax,ay,az,bx,by,bz\n";
+  BatchResult result;
+  result.buildMsA = a.buildMs;
+  result.buildMsB = b.buildMs;
+  result.bytesA = a.hierarchy->bytes();
+  result.bytesB = b.hierarchy->bytes();
+  std::size_t hits = 0;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    bool hit = false;
+    std::string answer;
+    const auto ask = [&] {
+      if (method == "lp") {
+        std::vector<Vec3> moved;
+        for (const Vec3& p : b.part.points) moved.push_back(poses[i] * p);
+        hit = separatingPlane<3>(std::span<const Vec3>(a.part.points), std::span<const Vec3>(moved))
+                  .relation != HullRelation::disjoint;
+        return;
+      }
+      const PosedSet placedA(setA, {}), placedB(setB, poses[i]);
+      if (query == "interference") {
+        hit = convexSetsTouch(placedA, placedB);
+      } else if (query == "distance") {
+        const ConvexDistance d = convexDistance(placedA, placedB);
+        hit = d.distance == 0;
+        answer = numbers({d.distance, d.lower}) + numbers(d.normal_W) + numbers(d.p_WA) +
+                 numbers(d.p_WB);
+      } else {
+        const Penetration d = penetration(placedA, placedB);
+        hit = d.upper > 0;
+        answer = numbers({d.lower, d.upper}) + numbers(d.direction_W) + numbers(d.p_WA) +
+                 numbers(d.p_WB);
+      }
+    };
+    std::vector<double> ns;
+    for (int pass = 0; pass < repeat; ++pass) ns.push_back(nanosecondsOf(ask, ask));
+    result.answers.push_back({hit, 0, 0, medianOf(ns)});
+    hits += hit;
+    text += std::to_string(i) + (query == "interference" ? (hit ? ",1" : ",0") : answer) + '\n';
+  }
+  std::cout << text;
+  requireResultsWritten();
+  printSummary(result, {"query=" + query, "hulls=" + method,
+                        "vertices_a=" + std::to_string(a.part.points.size()),
+                        "vertices_b=" + std::to_string(b.part.points.size()),
+                        "levels_a=" + std::to_string(a.hierarchy->levels()),
+                        "levels_b=" + std::to_string(b.hierarchy->levels()),
+                        "poses=" + std::to_string(poses.size()), "hits=" + std::to_string(hits)});
+}
+
+}  // namespace corridor::app
