@@ -4,19 +4,19 @@
 
 namespace corridor {
 
-PredicateResult convexSetsTouch(const PosedSet& a, const PosedSet& b) {
+PredicateResult convexSetsTouch(const PosedSet& a, const PosedSet& b, ConvexCache* cache) {
   const double size = a.reach() + a.pose().t.norm() + b.reach() + b.pose().t.norm();
   double radii = a.set().ball + b.set().ball;
   // `slack` bounds the errors of both projections and of their sum; each projection is below
   // `size`.
   const double slack = roundedUp(a.error() + b.error() + 2 * kUnit * size);
-  const auto apart = [&](const Vec3& n, double gap) {
-    return gap > radii && -b.highest(-n) - a.highest(n) > slack;
+  const auto apart = [&](const Vec3& n, double gap, std::uint32_t pointA, std::uint32_t pointB) {
+    return gap > radii && -b.highest(-n, pointB) - a.highest(n, pointA) > slack;
   };
   // `near` is well within the band, because `size` is below (1 + √3)·2√3 < 9.5 times the largest
   // coordinate.
   double near = radii + 0x1p-49 * size;
-  gjk::Answer quick = gjk::search<double>(a, b, size, near, apart);
+  gjk::Answer quick = gjk::search<double>(a, b, size, near, apart, false, cache);
   if (quick.accepted) return {false, false};
   const bool ballsInCores = !(a.keepsBall() && b.keepsBall());
   // The search above measures the distance of the cores, and assumes that the maps keep the radii

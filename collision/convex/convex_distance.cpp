@@ -124,7 +124,17 @@ class Pair {
   double band() const { return 0x1p-44 * size_; }
 
   /// Returns the gap along n, proved, with all rounding covered; metres.
-  double gap(const Vec3& n) const { return -b_.highest(-n) - a_.highest(n) - error_; }
+  /// @param pointA, pointB  points of the sets that are likely extreme along n.
+  double gap(const Vec3& n, std::uint32_t pointA, std::uint32_t pointB) const {
+    return -b_.highest(-n, pointB) - a_.highest(n, pointA) - error_;
+  }
+  /// The same, after a search: its last points are likely extreme.
+  double gap(const gjk::Answer& found, const gjk::Search<double>& search) const {
+    const bool none = search.simplex.count == 0;
+    const gjk::Corner<double>& corner = search.simplex.corner[0];
+    return gap(found.direction, none ? ConvexSet::kCold : corner.pointA,
+               none ? ConvexSet::kCold : corner.pointB);
+  }
   /// Returns the error bound of a distance computed in double.
   double error() const { return 2 * error_; }
 
@@ -192,14 +202,14 @@ class Pair {
 }  // namespace
 
 ConvexDistance convexDistance(const PosedSet& a, const PosedSet& b, double relative,
-                              double absolute) {
+                              double absolute, ConvexCache* cache) {
   const Pair pair(a, b);
   // Searches end when half of the allowed error is reached; rounding may take the other half. 1e-12
   // > 2^-40, so the relative half is 2^-41. The promised absolute error is 4·2^-53·S = 2^-51·S.
   // Half of it is above 2^-55·`size`, because ‖M‖|p| + |t| is below 3 S, and `size`, the sum over
   // both sets, below 6 S.
   const double share = relative / 2 + 0x1p-41, least = absolute / 2 + 0x1p-55 * pair.size();
-  const auto never = [](const Vec3&, double) { return false; };
+  const auto never = [](const Vec3&, double, std::uint32_t, std::uint32_t) { return false; };
   const auto agreed = [&](double radii, double near, double finest) {
     return [=](const auto& upper, const auto& lower) {  // of the search's scalar type
       return static_cast<double>(upper) <= near ||
@@ -215,10 +225,11 @@ ConvexDistance convexDistance(const PosedSet& a, const PosedSet& b, double relat
   // No difference below 2^-50·size is required: in double the two bounds cannot come closer to each
   // other.
   const gjk::Answer found =
-      quick.run(gjk::Simplex<double>(),
+      quick.run(gjk::startOf<double>(cache),
                 agreed(pair.radii(), pair.touchDistance(), 0x1p-50 * pair.size()), never);
+  gjk::keep(quick.simplex, cache);
   const bool met = found.overlap || found.upper <= pair.touchDistance();
-  const double gap = pair.gap(found.direction);
+  const double gap = pair.gap(found, quick);
   bool exact = false;
   if (!(gap > pair.band())) {
     const bool balls = a.keepsBall() && b.keepsBall();
@@ -269,13 +280,13 @@ ConvexRange convexDistanceRange(const PosedSet& a, const PosedSet& b, double bey
         return upper <= pair.touchDistance() || upper - pair.radii() + pair.error() <= near ||
                upper - gap <= std::max(0x1p-50 * pair.size(), 0x1p-20 * (gap - pair.radii()));
       },
-      [&](const Vec3& n, double gap) {
+      [&](const Vec3& n, double gap, std::uint32_t pointA, std::uint32_t pointB) {
         if (!(gap - pair.radii() > beyond)) return false;
-        lower = pair.gap(n);
+        lower = pair.gap(n, pointA, pointB);
         return lower > beyond;
       });
   if (found.overlap) return {0, 0};
-  if (!found.accepted) lower = pair.gap(found.direction);
+  if (!found.accepted) lower = pair.gap(found, search);
   // Points of the cores are points of the sets, so their distance is an upper bound.
   ConvexRange range{0, found.upper + pair.error()};
   if (lower > pair.band()) range.lower = lower;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "collision/convex/convex_cache.h"
 #include "collision/convex/convex_set.h"
 
 namespace corridor {
@@ -36,8 +37,9 @@ struct ConvexDistance {
 /// 20 with a cylinder), and less than 2 in double-double. No test needed more than 100 rounds, at
 /// gaps down to 10^-13; `tests/collision/convex/gjk_test.cpp` prints the numbers.
 /// @param relative, absolute  allowed error, ≥ 0; `absolute` in metres. 0, 0: full accuracy.
+/// @param cache  if not null, of the same two sets (convex_cache.h).
 ConvexDistance convexDistance(const PosedSet& a, const PosedSet& b, double relative = 0,
-                              double absolute = 0);
+                              double absolute = 0, ConvexCache* cache = nullptr);
 
 /// A proved range of a distance, metres. If lower > 0, the sets do not touch.
 struct ConvexRange {

@@ -29,8 +29,15 @@ ConvexSet::ConvexSet(const DobkinKirkpatrick& h)
     : points(h.polytope().vertices()), polytope(&h.polytope()), hierarchy(&h) {}
 
 std::uint32_t ConvexSet::farthestVertex(const Vec3& m, std::uint32_t start) const {
-  if (!m.allFinite()) return start;  // after an overflow: no bound holds, and callers test for it
-  return hierarchy ? hierarchy->extreme(m) : polytope->climb(start, m);
+  const bool cold = start == kCold;
+  // After an overflow no bound holds, and callers test for it.
+  if (!m.allFinite()) return cold ? 0 : start;
+  if (!hierarchy) return polytope->climb(cold ? 0 : start, m);
+  // From a vertex nearby, a few steps along edges are cheaper than the levels of the hierarchy.
+  constexpr int kFewSteps = 4;
+  if (!cold)
+    if (const auto top = polytope->climb(start, m, kFewSteps)) return *top;
+  return hierarchy->extreme(m);
 }
 
 PosedSet::PosedSet(const ConvexSet& set, const Transform& X) : set_(set), X_(X) {
@@ -49,8 +56,8 @@ bool PosedSet::keepsBall() const {
          (X_.m.transpose() * X_.m - Mat3::Identity()).cwiseAbs().maxCoeff() <= 0x1p-48;
 }
 
-double PosedSet::coreHighest(const Vec3& m) const {
-  if (set_.polytope) return m.dot(set_.points[set_.farthest(m)]);
+double PosedSet::coreHighest(const Vec3& m, std::uint32_t start) const {
+  if (set_.polytope) return m.dot(set_.points[set_.farthest(m, start)]);
   double highest = -std::numeric_limits<double>::infinity();
   for (const Vec3& p : set_.points) {
     const double along = m.dot(p);
@@ -59,9 +66,9 @@ double PosedSet::coreHighest(const Vec3& m) const {
   return set_.disc > 0 ? highest + set_.disc * m.cross(set_.axis).norm() : highest;
 }
 
-double PosedSet::highest(const Vec3& n) const {
+double PosedSet::highest(const Vec3& n, std::uint32_t start) const {
   const Vec3 m = X_.m.transpose() * n;
-  return n.dot(X_.t) + (coreHighest(m) + set_.ball * m.norm());
+  return n.dot(X_.t) + (coreHighest(m, start) + set_.ball * m.norm());
 }
 
 }  // namespace corridor

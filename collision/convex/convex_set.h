@@ -25,9 +25,13 @@ struct ConvexSet {
   ConvexSet(const Polytope& polytope);           // NOLINT: a polytope is a convex set
   ConvexSet(const DobkinKirkpatrick& polytope);  // NOLINT: a polytope is a convex set
 
+  static constexpr std::uint32_t kCold = ~std::uint32_t{0};
+
   /// Returns the index of a point that is farthest along m. For polytopes the answer is exact; else
-  /// it is that of the largest rounded product. @param start  where hill climbing begins.
-  std::uint32_t farthest(const Vec3& m, std::uint32_t start = 0) const {
+  /// it is that of the largest rounded product.
+  /// @param start  a vertex that is likely near the answer, which saves time; `kCold`: none is
+  /// known.
+  std::uint32_t farthest(const Vec3& m, std::uint32_t start = kCold) const {
     if (polytope) return farthestVertex(m, start);
     std::uint32_t best = 0;
     double highest = m.dot(points[0]);
@@ -74,11 +78,12 @@ class PosedSet {
   PosedSet(const ConvexSet& set, const Transform& X);
 
   /// Returns max n·x over all points x of the image, off by at most `error()`. @pre |n| ≤ 1 + 5u.
-  double highest(const Vec3& n) const;
+  /// @param start  as for `ConvexSet::farthest`.
+  double highest(const Vec3& n, std::uint32_t start = ConvexSet::kCold) const;
   double error() const { return error_; }
 
   /// Returns max m·p over the points p of the core, in the set's own frame; rounded.
-  double coreHighest(const Vec3& m) const;
+  double coreHighest(const Vec3& m, std::uint32_t start = ConvexSet::kCold) const;
 
   /// True if the map takes the sphere to a sphere, up to 3·2^-48 of its radius.
   bool keepsBall() const;

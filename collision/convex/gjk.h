@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include "collision/convex/convex_cache.h"
 #include "collision/convex/simplex.h"
 #include "collision/convex/support.h"
 #include "collision/core/rounding.h"
@@ -64,15 +65,20 @@ class Search {
   /// @param from  the simplex that another search ended with, to start from; may be empty.
   /// @param enough  called in every round as enough(upper, lower), in `Real` and metres; true ends
   /// the search.
-  /// @param accept called as accept(direction, gap) whenever the gap, in metres, is wider than all
-  /// earlier ones; true ends the search.
+  /// @param accept called as accept(direction, gap, pointA, pointB) whenever the gap, in metres, is
+  /// wider than all earlier ones; the points are those of the sets that are extreme along the
+  /// direction. True ends the search.
   template <class Other, class Enough, class Accept>
   Answer run(const Simplex<Other>& from, Enough enough, Accept accept) {
     Answer answer;
     answer.upper = HUGE_VAL;
     for (int i = 0; i < from.count && i < 3; ++i) {
       const Corner<Other>& c = from.corner[i];
-      known_.corner[known_.count++] = cornerOf(c.pointA, c.pointB, Vector<Real>(c.n));
+      if (c.pointA >= a_.points() || c.pointB >= b_.points()) continue;  // a cache of other sets
+      const Corner<Real> corner = cornerOf(c.pointA, c.pointB, Vector<Real>(c.n));
+      bool known = false;  // at another pose, two corners may be the same
+      for (int k = 0; k < known_.count; ++k) known = known || known_.corner[k].w == corner.w;
+      if (!known) known_.corner[known_.count++] = corner;
     }
     Nearest<Real> face;
     if (known_.count > 0) {
@@ -97,7 +103,7 @@ class Search {
         answer.direction = corner.n;
         normal = n;
         gap = along * Real(unit);
-        if ((answer.accepted = accept(answer.direction, lower))) return answer;
+        if ((answer.accepted = accept(answer.direction, lower, numberA, numberB))) return answer;
       }
       if (enough(upper_, gap)) return answer;
       bool known = answer.rounds > 0 && corner.w == last;  // the last round found the same corner
@@ -245,19 +251,44 @@ class Search {
   Real upper_{HUGE_VAL};
 };
 
+/// Returns the simplex of a cache, of which only the points and directions are set.
+template <class Real>
+Simplex<Real> startOf(const ConvexCache* cache) {
+  Simplex<Real> from;
+  for (int i = 0; cache && i < cache->count; ++i) {
+    const ConvexCache::Corner& c = cache->corner[static_cast<std::size_t>(i)];
+    from.corner[from.count++] = {{}, {}, c.pointA, c.pointB, c.n};
+  }
+  return from;
+}
+/// Keeps at most three corners of a simplex in the cache.
+template <class Real>
+void keep(const Simplex<Real>& simplex, ConvexCache* cache) {
+  if (!cache) return;
+  cache->count = std::min(simplex.count, 3);
+  for (int i = 0; i < cache->count; ++i) {
+    const Corner<Real>& c = simplex.corner[i];
+    cache->corner[static_cast<std::size_t>(i)] = {c.pointA, c.pointB, c.n};
+  }
+}
+
 /// Runs a search for a verdict. The search ends when `accept` returns true, when the upper bound is
 /// at most `near`, or when upper and lower bound differ by at most 2^-50·size or by the share
 /// `Effort::agreed` of the distance.
 /// @param size, near  metres.
+/// @param cache  if not null, gives the simplex to start from, and receives the last one.
 template <class Real, class Accept>
 Answer search(const PosedSet& a, const PosedSet& b, double size, double near, Accept accept,
-              bool ballsInCores = false) {
+              bool ballsInCores = false, ConvexCache* cache = nullptr) {
   const auto enough = [&](const Real& upper, const Real& lower) {
     return static_cast<double>(upper) <= near ||
            static_cast<double>(upper - lower) <=
                std::max(0x1p-50 * size, Effort<Real>::agreed * static_cast<double>(lower));
   };
-  return Search<Real>(a, b, size, ballsInCores).run(Simplex<Real>(), enough, accept);
+  Search<Real> search(a, b, size, ballsInCores);
+  const Answer answer = search.run(startOf<Real>(cache), enough, accept);
+  keep(search.simplex, cache);
+  return answer;
 }
 
 }  // namespace corridor::gjk

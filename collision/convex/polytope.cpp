@@ -106,20 +106,30 @@ Polytope::Polytope(std::span<const Vec3> points) {
   }
 }
 
+std::uint32_t Polytope::higher(std::uint32_t v, const Vec3& direction) const {
+  for (const std::uint32_t w : neighbours(v))
+    if (alongSign(direction, vertices_[v], vertices_[w]) > 0) return w;
+  return v;
+}
+
 std::uint32_t Polytope::climb(std::uint32_t start, const Vec3& direction,
                               std::size_t* steps) const {
-  std::uint32_t top = start;
-  for (bool higher = true; higher;) {
-    higher = false;
-    for (const std::uint32_t v : neighbours(top)) {
-      if (alongSign(direction, vertices_[top], vertices_[v]) <= 0) continue;
-      top = v;
-      higher = true;
-      if (steps) ++*steps;
-      break;
-    }
+  for (std::uint32_t top = start;;) {
+    const std::uint32_t next = higher(top, direction);
+    if (next == top) return top;
+    if (steps) ++*steps;
+    top = next;
   }
-  return top;
+}
+
+std::optional<std::uint32_t> Polytope::climb(std::uint32_t start, const Vec3& direction,
+                                             int most) const {
+  for (std::uint32_t top = start;; --most) {
+    const std::uint32_t next = higher(top, direction);
+    if (next == top) return top;
+    if (most == 0) return std::nullopt;
+    top = next;
+  }
 }
 
 std::optional<std::string> Polytope::check() const {

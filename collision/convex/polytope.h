@@ -51,6 +51,8 @@ class Polytope {
   /// @pre the direction is finite.
   std::uint32_t climb(std::uint32_t start, const Vec3& direction,
                       std::size_t* steps = nullptr) const;
+  /// The same with a limit of steps. Returns nothing if more are needed.
+  std::optional<std::uint32_t> climb(std::uint32_t start, const Vec3& direction, int most) const;
 
   /// Reports what is wrong with the polytope, or nothing: that its boundary is closed and a sphere,
   /// that it is locally convex at each edge (and therefore convex), and that each vertex is
@@ -58,6 +60,9 @@ class Polytope {
   std::optional<std::string> check() const;
 
  private:
+  /// Returns a neighbour that is farther along the direction, or v.
+  std::uint32_t higher(std::uint32_t v, const Vec3& direction) const;
+
   std::vector<Vec3> vertices_;
   std::vector<Face> faces_;
   std::vector<std::uint32_t> start_, neighbours_;

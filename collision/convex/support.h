@@ -71,10 +71,13 @@ class Support {
   }
   /// Returns the point farthest along n on the disc or the sphere about the given point.
   Vector<Real> at(std::uint32_t number, const Vector<Real>& n) const {
+    last_ = number;
     if (!(disc_ > 0 || ball_ > 0)) return image(number, n);
     return image(number, row_[0] * n.x + row_[1] * n.y + row_[2] * n.z);
   }
 
+  /// Returns the number of the set's points.
+  std::size_t points() const { return set_.set().points.size(); }
   /// True if the core has a curved surface, on which the point farthest along n moves with n.
   bool curved() const { return disc_ > 0 || ball_ > 0; }
   /// Adds TᵀHT to `sum`, with T the tangents at n and H the Hessian of max n·x over the core.
@@ -180,7 +183,8 @@ class Support {
   }
 
   const PosedSet& set_;
-  mutable std::uint32_t last_ = 0;  // the last vertex found: where the next hill climbing begins
+  mutable std::uint32_t last_ =
+      ConvexSet::kCold;  // the last vertex found: where the next hill climbing begins
   double scale_;
   Vector<Real> row_[3], t_, axis_;
   double disc_, ball_;

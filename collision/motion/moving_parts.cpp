@@ -111,7 +111,7 @@ MovingPairAnswer decide(const ConvexSet& a, const ConvexSet& b, const RelativeMo
   MovingPairAnswer answer;
   const double none = -std::numeric_limits<double>::infinity();
   Gaps best{none, none, none};
-  const auto attempt = [&](const Vec3& n, double coreGap) {
+  const auto attempt = [&](const Vec3& n, double coreGap, std::uint32_t, std::uint32_t) {
     if (!(coreGap > near)) return false;
     const Gaps gaps = pair.along(n);
     best = {std::max(best.moving, gaps.moving), std::max(best.middle, gaps.middle),

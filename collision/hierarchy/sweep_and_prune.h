@@ -1,0 +1,75 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <unordered_set>
+#include <utility>
+#include <vector>
+
+#include "collision/hierarchy/box_tree.h"
+
+namespace corridor {
+
+/// All pairs of boxes that overlap, kept up to date while boxes move: sweep and prune. Touching
+/// boxes overlap. Exact, on the stored bounds.
+///
+/// The ends of all boxes are sorted along each axis. If a box moves, its ends are moved to their
+/// new places, and only the boxes whose ends it passes are tested. So the cost of a step is that of
+/// the boxes that move and of the ends that they pass, which is small if bodies move little (D.
+/// Baraff, Dynamic simulation of non-penetrating rigid bodies, 1992; J. D. Cohen, M. C. Lin, D.
+/// Manocha, M. K. Ponamgi, I-COLLIDE, 1995). A box that jumps passes up to all other ends.
+class SweepAndPrune {
+ public:
+  using Pair = std::pair<std::uint32_t, std::uint32_t>;  ///< the smaller number first
+
+  /// Box number k is item k. O(n log n), plus the pairs that overlap along the first axis.
+  /// @throws std::invalid_argument if a bound is not a number, an upper bound is below a lower one,
+  /// or there are 2^31 boxes or more.
+  explicit SweepAndPrune(std::span<const BoundingBox> boxes);
+
+  std::size_t size() const { return boxes_.size(); }
+  /// Moves an item to another box. @throws std::invalid_argument for a box as above, or an item
+  /// that does not exist.
+  void move(std::size_t item, const BoundingBox& box);
+
+  std::size_t pairCount() const { return pairs_.size(); }
+  bool overlaps(std::size_t a, std::size_t b) const;
+  /// Calls visit(a, b) for each pair, in no particular order; a < b.
+  template <class Visit>
+  void forEachPair(const Visit& visit) const {
+    for (const std::uint64_t key : pairs_)
+      visit(static_cast<std::uint32_t>(key >> 32), static_cast<std::uint32_t>(key));
+  }
+  /// The number of times that an end has passed another one since the beginning.
+  std::uint64_t swaps() const { return swaps_; }
+
+ private:
+  /// One end of a box along an axis. Ends are sorted by value; at the same value lower ends come
+  /// first, so that touching boxes overlap.
+  struct End {
+    double value;
+    std::uint32_t id;  ///< twice the item, plus one for the upper end
+    bool isUpper() const { return id & 1; }
+    std::uint32_t item() const { return id >> 1; }
+    bool operator<(const End& other) const {
+      return value < other.value || (value == other.value && !isUpper() && other.isUpper());
+    }
+  };
+  struct Box {
+    Vec3 lower, upper;
+  };
+
+  bool boxesOverlap(std::uint32_t a, std::uint32_t b) const;
+  static std::uint64_t keyOf(std::uint32_t a, std::uint32_t b);
+  void moveEnd(std::size_t axis, std::uint32_t id, double value);
+
+  std::vector<Box> boxes_;
+  std::array<std::vector<End>, 3> ends_;
+  std::array<std::vector<std::uint32_t>, 3> places_;  ///< of each end, by its id
+  std::unordered_set<std::uint64_t> pairs_;
+  std::uint64_t swaps_ = 0;
+};
+
+}  // namespace corridor
