@@ -17,7 +17,8 @@ using Vec2 = Eigen::Vector2d;
 int lineSide(const Vec2& p, const Vec2& q, const Vec2& r);
 
 /// A convex polygon: the hull of its vertices, counterclockwise. Every vertex is an extreme point,
-/// in real arithmetic on the stored doubles.
+/// in real arithmetic on the stored doubles. (Under denormals-are-zero, subnormal coordinates count
+/// as 0.)
 class ConvexPolygon {
  public:
   /// Builds the hull of the points, exactly (A. M. Andrew's monotone chain, 1979). O(n log n).
@@ -29,8 +30,8 @@ class ConvexPolygon {
   /// Vertex i, counted around the polygon any number of times.
   const Vec2& operator[](std::size_t i) const { return vertices_[i % vertices_.size()]; }
 
-  /// Returns the index of a vertex that is farthest along a direction. Exact; O(log n), by a binary
-  /// search over the directions of the edges.
+  /// Returns the index of a vertex that is farthest along a direction; vertex 0 for a direction of
+  /// 0. Exact; O(log n), by a binary search over the directions of the edges. @pre finite.
   std::size_t extreme(const Vec2& direction) const;
 
   /// Reports what is wrong with the polygon, or nothing: that each corner turns left, and that the

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include <Eigen/Geometry>
 
@@ -40,7 +41,7 @@ struct DobkinKirkpatrick::Shadow {
   };
 
   const Vec3& at(std::uint32_t v) const { return of.polytope_.vertices()[v]; }
-  Point seen(std::uint32_t v) {
+  Point projected(std::uint32_t v) {
     cost.products += 2;
     const Vec3 x = at(v) - at(top);
     return {e.dot(x), d.dot(x)};
@@ -73,9 +74,9 @@ struct DobkinKirkpatrick::Shadow {
   template <class FacesOf>
   void chooseEdges(std::span<const std::uint32_t> neighbours, const FacesOf& facesOf) {
     std::size_t leftmost = 0, rightmost = 0;
-    Point l = seen(neighbours[0]), r = l;
+    Point l = projected(neighbours[0]), r = l;
     for (std::size_t i = 1; i < neighbours.size(); ++i) {
-      const Point p = seen(neighbours[i]);
+      const Point p = projected(neighbours[i]);
       // All neighbours are below the topmost vertex, so the angles span at most a half turn. The
       // one on the left has the least angle.
       if (turn(p, l) > 0) l = p, leftmost = i;
@@ -138,11 +139,11 @@ struct DobkinKirkpatrick::Shadow {
     if (!changed) return;
     Point best{};
     bool found = kept;
-    if (kept) edge.faces = faces, best = seen(old.to);
+    if (kept) edge.faces = faces, best = projected(old.to);
     for (const std::uint32_t f : old.faces) {
       if (of.faces_[f].born != level) continue;
       const std::uint32_t u = of.faces_[f].opposite;
-      const Point p = seen(u);
+      const Point p = projected(u);
       if (found && !((isLeft ? turn(p, best) : turn(best, p)) > 0)) continue;
       const auto ring = of.ringOf(u), star = of.starOf(u);
       const std::size_t j = std::find(ring.begin(), ring.end(), top) - ring.begin();
@@ -210,8 +211,11 @@ std::uint32_t DobkinKirkpatrick::extreme(const Vec3& direction, Cost* cost) cons
   shadow.begin();
   for (std::size_t level = levels() - 1; level > 0; --level) shadow.refine(level);
   std::uint32_t v = shadow.top;
-  if (d * unit != direction || !shadow.proved())
-    v = polytope_.climb(v, direction, &shadow.cost.climbs);
+  // Compared by their bits: under denormals-are-zero, a subnormal component would count as 0.
+  const Vec3 scaledBack = d * unit;
+  const bool sameDirection =
+      std::memcmp(scaledBack.data(), direction.data(), 3 * sizeof(double)) == 0;
+  if (!sameDirection || !shadow.proved()) v = polytope_.climb(v, direction, &shadow.cost.climbs);
   if (cost) *cost = shadow.cost;
   return v;
 }

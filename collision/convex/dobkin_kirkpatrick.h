@@ -24,6 +24,7 @@ class DobkinKirkpatrick {
  public:
   static constexpr int kMostNeighbours = 8;
 
+  /// Builds the hierarchy.
   explicit DobkinKirkpatrick(Polytope polytope);
 
   const Polytope& polytope() const { return polytope_; }

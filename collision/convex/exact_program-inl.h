@@ -9,6 +9,7 @@
 #include <optional>
 #include <random>
 #include <span>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -87,8 +88,7 @@ class Side {
     const double error = (M + 8) * kUnit * size + static_cast<double>(M + 1) * 0x1p-1020 * largest;
     if (std::abs(sum) > error) return sum;
     Rational value = -rational(row.offset);
-    for (std::size_t i = 0; i < M; ++i)
-      if (row.normal[i] != 0) value += rational(row.normal[i]) * x_[i];
+    for (std::size_t i = 0; i < M; ++i) value += rational(row.normal[i]) * x_[i];
     if (value == 0) return 0;
     const double rough = std::abs(sum), least = std::numeric_limits<double>::min();
     return (value > 0 ? 1 : -1) * (rough > least ? rough : least);  // `rough` may be NaN
@@ -216,6 +216,9 @@ Optimum<M> exactOptimum(std::size_t count, const Rows& row, const Point<Rational
       if (outside > most) most = outside, worst = i;
     }
     if (!(most > 0)) break;
+    for (const HalfSpace<Rational, M>& each : rows)
+      if (each.name == worst)
+        throw std::logic_error("an exact linear program violates its own row");
     rows.push_back(exactRow(worst));
   }
   best.value = dot(goal, best.x);

@@ -17,9 +17,8 @@
 ///   (0, …, 0, 1), which is Farkas' lemma.
 /// * Unbounded: maximise goal·y subject to normal·y ≤ 0. If it is above 0, y is a ray. If it is 0,
 ///   duality gives weights of normals that sum up to the goal.
-/// * Otherwise there is an optimum. It is found within bounds that are enlarged until no bound has
-/// a
-///   weight in the proof: then the weights prove that it is optimal without bounds.
+/// * Otherwise there is an optimum. It is found within bounds, which are enlarged until none has a
+///   weight in the proof. The weights then prove that it is optimal without bounds.
 namespace corridor {
 namespace {
 
@@ -44,7 +43,10 @@ class Program {
   }
 
   LinearProgramAnswer<D> solve() {
-    if (!findPoint() || goal_.isZero(0)) return std::move(answer_);
+    // By its bits: under denormals-are-zero a comparison takes a subnormal goal for 0.
+    const bool hasGoal = std::any_of(goal_.data(), goal_.data() + D,
+                                     [](double x) { return exact::dyadic(x).mantissa != 0; });
+    if (!findPoint() || !hasGoal) return std::move(answer_);
     answer_.exact = true;
     if (!findRay()) findOptimum();
     return std::move(answer_);
@@ -167,7 +169,8 @@ class Program {
     const auto rows = [this](std::uint32_t i) { return plain(i, true); };
     // The point known may be outside by its rounding, so twice its size is inside the bounds. Each
     // round squares the bounds: the optimum has rational coordinates of some length.
-    // A point that overflows in double has rational coordinates below 2^(53·1200).
+    // The coordinates of a point that overflows in double are quotients of determinants of at most
+    // four rows (Cramer's rule), so they are below 2^65536 by far.
     const double size = answer_.x.cwiseAbs().maxCoeff();
     Rational reach = std::isfinite(size) ? 2 * seidel::rational(size) + 1
                                          : Rational(boost::multiprecision::cpp_int(1) << 65536);

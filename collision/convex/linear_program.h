@@ -24,7 +24,7 @@ enum class LinearProgramStatus { optimal, unbounded, infeasible };
 /// A half-space, by its index in the linear program, with its weight in a proof.
 struct WeightedHalfSpace {
   std::size_t index = 0;
-  double weight = 0;  ///< above 0
+  double weight = 0;  ///< above 0; rounded, so that tiny and huge weights may be 0 or infinite
 };
 
 /// The answer of a linear program. The status is exact: it is that of real arithmetic on the given
@@ -35,8 +35,8 @@ struct LinearProgramAnswer {
   /// `optimal`: a point of all half-spaces that is farthest along the goal. `unbounded`: a point of
   /// all half-spaces.
   Eigen::Matrix<double, D, 1> x = Eigen::Matrix<double, D, 1>::Zero();
-  /// `unbounded`: a direction that leaves no half-space (normal·ray ≤ 0 for all), with goal·ray >
-  /// 0.
+  /// `unbounded`: a direction that leaves no half-space (normal·ray ≤ 0 for all), and along which
+  /// the goal grows.
   Eigen::Matrix<double, D, 1> ray = Eigen::Matrix<double, D, 1>::Zero();
   /// The proof.
   /// * `optimal`: at most D half-spaces. The weighted sum of their normals is the goal, and their
@@ -49,11 +49,12 @@ struct LinearProgramAnswer {
 
 /// Maximises goal·x over all points x of the half-spaces, in the plane or in space.
 ///
-/// Method: Seidel's algorithm in double, in random order (seidel-inl.h), gives a candidate. The
-/// status is then proved by the candidate's own witness, with a bound of all rounding: a point that
-/// is inside all half-spaces, or weights whose signs are those of small determinants. What this
-/// does not decide is decided in rationals, on the few half-spaces that determine the answer; all
-/// others are tested against the result. Cost: O(n) in the mean for n half-spaces.
+/// Method: Seidel's algorithm in double, in random order (seidel-inl.h), gives a candidate. Whether
+/// there is a point is proved by the candidate's own witness, with a bound of all rounding: a point
+/// that is inside all half-spaces, or weights whose signs are those of small determinants. What
+/// this does not decide, and everything about a goal, is decided in rationals, on the few
+/// half-spaces that determine the answer; all others are tested against the result. Cost: O(n) in
+/// the mean for n half-spaces.
 /// @param goal  0: any point of all half-spaces is optimal.
 /// @param seed  of the random order. It changes neither the status nor the optimal value.
 /// @throws std::invalid_argument if a number is not finite.

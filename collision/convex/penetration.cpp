@@ -44,16 +44,23 @@ class Expansion {
         supportB_(b, 1 / unit_, ballsInCores),
         along_(along),
         radii_(ballsInCores ? 0 : a.set().ball + b.set().ball),
-        error_(roundedUp(a.error() + b.error() + 7 * kUnit * size_)) {}
+        error_(roundedUp(a.error() + b.error() + 7 * kUnit * size_)),
+        // The cores touch, up to the band of `convexSetsTouch`, so the spheres alone reach this
+        // deep. `keepsBall` allows 3·2^-48 of the radii.
+        least_(along || ballsInCores
+                   ? 0
+                   : std::max(0.0, radii_ * (1 - 0x1p-46) - 2 * error_ - 0x1p-44 * size_)) {}
 
   Penetration run(double accuracy) {
     Penetration result;
-    // Some directions of all kinds; the ray's first.
-    if (along_) addPoint(*along_);
+    // The ray's direction, and those to the faces, edges and corners of a cube.
+    std::vector<Vec3> directions;
+    if (along_) directions.push_back(*along_);
     for (int x = -1; x <= 1; ++x)
       for (int y = -1; y <= 1; ++y)
         for (int z = -1; z <= 1; ++z)
-          if (x || y || z) addPoint(Vec3(x, y, z).normalized());
+          if (x || y || z) directions.push_back(Vec3(x, y, z).normalized());
+    for (const Vec3& n : directions) addPoint(n);
     const auto tetrahedron = findTetrahedron(points_);
     if (!tetrahedron) return flat();
     surface_.begin(points_, *tetrahedron);
@@ -69,6 +76,8 @@ class Expansion {
     }
     const Entry last = expand(result, accuracy, false);
     if (!inside) result.lower = 0;
+    if (best_ == HUGE_VAL)  // the planes of tiny cores are not known
+      for (const Vec3& n : directions) tryNormal(n);
     finish(last.face, result);
     return result;
   }
@@ -95,11 +104,10 @@ class Expansion {
         queue_.pop();
         continue;
       }
-      const double upper = upperAlong(plane.normal);
-      if (upper < best_) best_ = upper, bestNormal_ = plane.normal;
+      tryNormal(plane.normal);
       // `keepsBall` allows 3·2^-48 of the radii.
       const double lower = unit_ * next.distance + radii_ * (1 - 0x1p-46) - 2 * error_;
-      result.lower = std::max(0.0, lower);
+      result.lower = std::max(least_, lower);
       const double open = std::max(accuracy * result.lower, 0x1p-46 * size_);
       if ((untilInside && next.distance > 0) || !(best_ - result.lower > open) ||
           result.rounds == kMostRounds)
@@ -122,12 +130,20 @@ class Expansion {
     return static_cast<std::uint32_t>(points_.size() - 1);
   }
 
+  /// Takes the upper bound of the depth that this normal gives, if it is the least.
+  void tryNormal(const Vec3& n) {
+    const double upper = upperAlong(n);
+    if (upper < best_) best_ = upper, bestNormal_ = n;
+  }
+
   /// Returns an upper bound of the depth from the supporting planes with this normal; metres.
   double upperAlong(const Vec3& n) const {
-    const double width = a_.highest(n) + b_.highest(-n) + error_;
-    if (!along_) return roundedUp(std::max(0.0, width) * (1 + 8 * kUnit));  // |n| ≥ 1 − 3u
+    const double sum = a_.highest(n) + b_.highest(-n) + error_;
+    if (std::isnan(sum)) return HUGE_VAL;  // no direction, or an overflow
+    const double width = std::max(0.0, sum);
+    if (!along_) return roundedUp(width * (1 + 8 * kUnit));  // |n| ≥ 1 − 3u
     const double rate = n.dot(*along_) - 8 * kUnit;
-    return rate > 0 ? roundedUp(std::max(0.0, width) / rate) : HUGE_VAL;
+    return rate > 0 ? roundedUp(width / rate) : HUGE_VAL;
   }
 
   /// Computes the planes of the new faces, and queues those that the ray may leave through.
@@ -204,16 +220,23 @@ class Expansion {
     result.p_WB = unit_ * p_B - b * bestNormal_;
   }
 
-  /// The result if all points are on one plane: the sets are flat and on the same plane, so that
-  /// their depth is that of the spheres.
-  Penetration flat() const {
+  /// The result if all points are on one plane: the sets are flat, so that their depth is that of
+  /// the spheres.
+  Penetration flat() {
     Penetration result;
-    result.normal_W = flatNormal();
-    result.direction_W = along_ ? *along_ : result.normal_W;
-    result.upper = upperAlong(result.normal_W);
-    result.lower = along_ ? 0 : std::max(0.0, std::min(radii_ - 2 * error_, result.upper));
-    result.p_WA = unit_ * pointsA_[0];
-    result.p_WB = unit_ * (pointsA_[0] - points_[0]);
+    Vec3 n = flatNormal();
+    if (along_ && n.dot(*along_) < 0) n = -n;
+    result.normal_W = n;
+    result.direction_W = along_ ? *along_ : n;
+    result.upper = upperAlong(n);
+    result.lower = std::min(least_, result.upper);
+    // A common point of the sets without the spheres, which then reach along the normal.
+    ConvexSet coreA = a_.set(), coreB = b_.set();
+    if (radii_ > 0) coreA.ball = coreB.ball = 0;
+    const ConvexDistance common = convexDistance({coreA, a_.pose()}, {coreB, b_.pose()});
+    const double a = radii_ > 0 ? a_.set().ball : 0, b = radii_ > 0 ? b_.set().ball : 0;
+    result.p_WA = common.p_WA + a * n;
+    result.p_WB = common.p_WA - b * n;
     return result;
   }
 
@@ -238,6 +261,7 @@ class Expansion {
   ConvexSurface surface_;
   std::vector<Plane> planes_;
   std::priority_queue<Entry> queue_;
+  double least_;            ///< a lower bound that is known from the beginning, metres
   double best_ = HUGE_VAL;  ///< the least upper bound
   Vec3 bestNormal_ = Vec3::Zero();
 };

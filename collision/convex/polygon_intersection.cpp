@@ -17,10 +17,11 @@ double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// Points left of the line from a to b, or on it: cross(b − a, x − a) ≥ 0.
+/// The points left of the line from a to b, or on it.
 struct HalfPlane {
   Vec2 a, b;
-  double inside(const Vec2& x) const { return cross(b - a, x - a); }
+  /// Returns twice the signed area of the triangle a, b, x: above 0 inside.
+  double signedArea(const Vec2& x) const { return cross(b - a, x - a); }
 };
 
 /// Returns the part of a convex polygon (or segment, or point) in a half-plane.
@@ -28,7 +29,7 @@ std::vector<Vec2> clipped(const std::vector<Vec2>& polygon, const HalfPlane& hal
   std::vector<Vec2> result;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Vec2 &x = polygon[i], &y = polygon[(i + 1) % polygon.size()];
-    const double dx = half.inside(x), dy = half.inside(y);
+    const double dx = half.signedArea(x), dy = half.signedArea(y);
     if (dx >= 0) result.push_back(x);
     if ((dx > 0 && dy < 0) || (dx < 0 && dy > 0)) result.push_back(x + dx / (dx - dy) * (y - x));
   }
@@ -91,7 +92,7 @@ class Search {
       if (to == from + 1) continue;
       const HalfPlane chord{q_[from + 1], q_[to]};
       if (!std::all_of(common.begin(), common.end(),
-                       [&](const Vec2& x) { return chord.inside(x) < 0; }))
+                       [&](const Vec2& x) { return chord.signedArea(x) < 0; }))
         continue;
       chainQ_ = {from, to};
       wholeQ_ = false;
@@ -109,7 +110,7 @@ class Search {
       std::size_t closest = 0;
       double most = -HUGE_VAL;
       for (std::size_t k = 0; k < triangle_.size(); ++k) {
-        const double inside = half.inside(p_[triangle_[k]]);
+        const double inside = half.signedArea(p_[triangle_[k]]);
         if (inside > most) most = inside, closest = k;
       }
       if (most >= 0) continue;

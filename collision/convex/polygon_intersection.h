@@ -8,7 +8,7 @@
 
 namespace corridor {
 
-/// Whether two convex polygons share a point, with a witness.
+/// The answer whether two convex polygons share a point, with its witness.
 struct PolygonIntersection {
   bool intersects = false;
   /// Not `intersects`: a direction along which p's vertex `p` is farthest, and q begins after it
@@ -18,7 +18,7 @@ struct PolygonIntersection {
   /// `intersects`: vertices of p and of q whose hulls share a point already: O(log n) each.
   std::vector<std::size_t> verticesP, verticesQ;
   int steps = 0;
-  bool exact = false;  ///< the answer needed all vertices, in rational arithmetic
+  bool exact = false;  ///< the answer needed all vertices (separating_plane.h)
 };
 
 /// What is left of both polygons after a step of the algorithm. `p` is the chain of vertices from
@@ -29,18 +29,17 @@ struct PolygonPruning {
 };
 
 /// Tests two convex polygons for a common point in O(log |P| + log |Q|); touching counts. Exact, in
-/// real arithmetic on the given doubles.
+/// real arithmetic on the given doubles. Coordinates beyond some 2^±480 m take O(|P| + |Q|).
 ///
 /// Method: L. Barba, S. Langerman, Optimal detection of intersections between convex polyhedra
 /// (SODA 2015), section 3. P is represented by a triangle of its vertices, T_P, which is inside P.
 /// Q is represented by its *edge hull* T_Q: the half-planes of some of its edges, which contain Q.
-/// * If T_P and T_Q are apart, a line separates them that touches T_P at a vertex. Only one chain
-/// of P,
-///   next to this vertex, reaches beyond the line, and the rest is pruned.
-/// * If T_P and T_Q share points, these are in Q, or all beyond one chain of Q, between two edges
+/// * If T_P and T_Q are apart, a line separates them, and touches T_P at a vertex. Only one chain
 /// of
-///   T_Q. In this case a point of P is there, and P meets Q if and only if it meets the half-planes
-///   of this chain: the other edges are pruned.
+///   P, next to this vertex, reaches beyond the line. The rest is pruned.
+/// * If T_P and T_Q share points, these are in Q, or all are beyond one chain of Q, between two
+///   edges of T_Q. In the second case P meets Q if and only if it meets the half-planes of this
+///   chain. The other edges are pruned.
 /// Each step prunes half of a chain, so P or Q loses half of what is left. The steps are done in
 /// double. The answer is then proved exactly, by its witness: by the extreme vertices along the
 /// separating direction, or by linear programming with the vertices that the algorithm has used. If

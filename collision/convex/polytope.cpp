@@ -153,6 +153,13 @@ std::optional<std::string> checkConvexBoundary(std::span<const Vec3> points,
                     points[ring[(i + 2) % n]]) > 0)
         return "an edge at vertex " + std::to_string(v) + " is not convex";
     }
+    // The faces of a vertex could go around it twice. Then some have neighbours of it above them;
+    // with many neighbours, 32 of them, evenly spaced, show that.
+    const std::size_t stride = std::max<std::size_t>(1, ring.size() / 32);
+    for (std::size_t i = 0, n = ring.size(); i < n; i += stride)
+      for (std::size_t k = 0; k < n; k += stride)
+        if (planeSide(points[v], points[ring[i]], points[ring[(i + 1) % n]], points[ring[k]]) > 0)
+          return "the faces of vertex " + std::to_string(v) + " are not convex";
   }
   if (2 * used != faces.size() + 4) return "the boundary is not a sphere";
   for (const Face& face : faces) {

@@ -24,7 +24,8 @@ class Polytope {
   ///
   /// Method: quickhull (C. B. Barber, D. P. Dobkin, H. Huhdanpaa, 1996) with exact predicates, so
   /// nothing is merged or joggled. If some vertex of the result is not extreme, which coplanar
-  /// points may cause, the hull of the extreme ones is computed once more. O(n log n) in the mean.
+  /// points may cause, the hull of the extreme ones is computed once more. O(n log n) on usual
+  /// points, O(n²) at worst.
   /// @throws std::invalid_argument if all points are on one plane, or a coordinate is not finite,
   /// or there are more than 2^28 points.
   explicit Polytope(std::span<const Vec3> points);
@@ -38,7 +39,7 @@ class Polytope {
   /// The index of vertex i among the points of the constructor.
   std::size_t source(std::size_t i) const { return source_[i]; }
 
-  /// The mean of the vertices, rounded: a point inside.
+  /// The mean of the vertices: a point inside, up to rounding.
   const Vec3& center() const { return center_; }
   /// The largest squared distance of a vertex from the origin, rounded.
   double reachSquared() const { return reachSquared_; }
@@ -72,8 +73,9 @@ class Polytope {
 };
 
 /// Reports what is wrong with the boundary of a convex polytope, or nothing: that it is closed and
-/// a sphere, locally convex at each edge (and therefore convex), and that each vertex of a face is
-/// an extreme point. Points that no face uses are ignored. Exact.
+/// has the Euler characteristic of a sphere, that it is convex at each edge and at each vertex (and
+/// therefore as a whole), and that each vertex of a face is an extreme point. Points that no face
+/// uses are ignored. Exact.
 std::optional<std::string> checkConvexBoundary(std::span<const Vec3> points,
                                                std::span<const Polytope::Face> faces);
 

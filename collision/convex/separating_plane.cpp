@@ -76,9 +76,9 @@ class Hulls {
 
   Row<kPlane> planeRow(std::uint32_t i) const {
     Row<kPlane> row{{}, 0, i};
-    const double s = isFirst(i) ? 1 : -1;
-    for (std::size_t k = 0; k < kD; ++k) row.normal[k] = s * at(i)[k];
-    row.normal[kD] = -s;
+    // Negated, not multiplied: a product would flush subnormal numbers.
+    for (std::size_t k = 0; k < kD; ++k) row.normal[k] = isFirst(i) ? at(i)[k] : -at(i)[k];
+    row.normal[kD] = isFirst(i) ? -1 : 1;
     return row;
   }
   Row<kGap> gapRow(std::uint32_t i) const {
@@ -103,8 +103,9 @@ class Hulls {
       if (!isFirst(i) && along < above) above = along, q = i;
     }
     // Each projection has D roundings of products and D − 1 of sums, together at most D·u of the
-    // sum of magnitudes. `size` has as many. 2^-1060 covers underflow.
-    const double error = 2 * 4 * kUnit * size + 0x1p-1060;
+    // sum of magnitudes. `size` has as many. Underflow adds at most 2^-1022 times the largest
+    // factor, or 1, for each; |n_i| ≤ 1.
+    const double error = 2 * 4 * kUnit * size + 0x1p-1016 * std::max(1.0, largest);
     if (!(above - below > 2 * error)) return false;  // also if a number is not finite
     answer_.relation = HullRelation::disjoint;
     answer_.normal = n;
@@ -141,11 +142,14 @@ class Hulls {
     return true;
   }
 
-  /// Takes the plane (n, c) of a rational solution.
+  /// Takes the plane (n, c) of a rational solution, scaled to a largest entry of n of 1.
   template <std::size_t M>
   void takePlane(const Point<Rational, M>& x) {
-    for (std::size_t k = 0; k < kD; ++k) answer_.normal[k] = static_cast<double>(x[k]);
-    answer_.offset = static_cast<double>(x[kD]);
+    Rational largest = 0;
+    for (std::size_t k = 0; k < kD; ++k) largest = std::max<Rational>(largest, abs(x[k]));
+    for (std::size_t k = 0; k < kD; ++k)
+      answer_.normal[k] = static_cast<double>(Rational(x[k] / largest));
+    answer_.offset = static_cast<double>(Rational(x[kD] / largest));
   }
 
   /// Takes the common point that these weights prove.

@@ -11,7 +11,8 @@
 
 namespace corridor {
 
-/// How the convex hulls of two sets of points lie.
+/// The relation of the convex hulls of two sets of points. Hulls in one plane (in the plane: on one
+/// line) never overlap: that plane has both on its two sides.
 enum class HullRelation {
   disjoint,     ///< they share no point
   touching,     ///< they share points, and a plane (in the plane: a line) has them on its two sides

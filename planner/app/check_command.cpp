@@ -134,6 +134,59 @@ const char* nameOf(MotionVerdict verdict) {
                                              : "undecided";
 }
 
+const char* nameOf(UndecidedReason reason) {
+  switch (reason) {
+    case UndecidedReason::none:
+      break;
+    case UndecidedReason::clearance:
+      return "clearance";
+    case UndecidedReason::workLimit:
+      return "work_limit";
+    case UndecidedReason::ambiguous:
+      return "ambiguous";
+    case UndecidedReason::rounding:
+      return "rounding";
+    case UndecidedReason::floatingPoint:
+      return "floating_point";
+  }
+  return "";
+}
+
+/// The answer about an edge of a file, as it is printed.
+struct CheckedEdge {
+  std::string verdict, pair, reason;
+  std::optional<double> t0, t1;
+};
+
+CheckedEdge checkEdge(const Checker& checker, const EdgeRow& row) {
+  CheckedEdge edge;
+  for (const Configuration* q : {&row.from, &row.to})
+    if (!checker.inBounds(*q)) {
+      std::vector<Note> notes;
+      edge.verdict = "out_of_bounds";
+      for (const std::string& name : checkState(checker, *q, notes).outOfBounds)
+        edge.reason += (edge.reason.empty() ? "bounds:" : ";bounds:") + name;
+      return edge;
+    }
+  // A contact at the beginning is found as one of the first state.
+  MotionResult result = checker.certifyState(row.from);
+  if (result.verdict == MotionVerdict::contact)
+    result.contactTime = result.certifiedUntil = 0;
+  else
+    result = checker.certifyEdge(row.from, row.to, true);
+  edge.verdict = nameOf(result.verdict);
+  edge.reason = nameOf(result.reason);
+  edge.t0 = result.certifiedUntil;
+  if (result.contactTime >= 0) edge.t1 = result.contactTime;
+  if (result.pair) {
+    // In the order of the bodies, as for states.
+    const auto [a, b] =
+        std::minmax({checker.bodyOf(result.pair->bodyA), checker.bodyOf(result.pair->bodyB)});
+    edge.pair = checker.model().bodies[a].name + "~" + checker.model().bodies[b].name;
+  }
+  return edge;
+}
+
 /// Decides each edge of a file: the first contact, and how far the edge is proved free.
 int checkEdges(Problem problem, const CheckArguments& a) {
   const std::vector<EdgeRow> rows = readEdgeRows(*a.edges, problem.model.space);
@@ -141,30 +194,26 @@ int checkEdges(Problem problem, const CheckArguments& a) {
   addFirst(notesOnStillPairs(checker, startOf(problem)), problem.source.notes);
   bool all = true;
   ordered_json edges = ordered_json::array();
-  if (!a.json) std::cout << "edge,verdict,t0,t1,pair\n";
+  if (!a.json) std::cout << "edge,verdict,t0,t1,pair,reason\n";
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const auto& [line, from, to] = rows[i];
-    const MotionResult result = checker.certifyEdge(from, to, true);
-    const bool inBounds = checker.inBounds(from) && checker.inBounds(to);
-    const std::string verdict = inBounds ? nameOf(result.verdict) : "out_of_bounds";
-    all &= inBounds && result.verdict == MotionVerdict::free;
-    std::string pair;
-    if (result.pair) {
-      // In the order of the bodies, as for states.
-      const auto [a0, b0] =
-          std::minmax({checker.bodyOf(result.pair->bodyA), checker.bodyOf(result.pair->bodyB)});
-      pair = checker.model().bodies[a0].name + "~" + checker.model().bodies[b0].name;
-    }
-    const bool hasTime = result.contactTime >= 0;
+    const CheckedEdge edge = checkEdge(checker, rows[i]);
+    all &= edge.verdict == "free";
     if (a.json) {
-      edges.push_back({{"edge", i}, {"line", line}, {"verdict", verdict}});
-      edges.back()["t0"] = result.certifiedUntil;
-      edges.back()["t1"] = hasTime ? ordered_json(result.contactTime) : ordered_json();
-      edges.back()["pair"] = pair;
+      const auto number = [](const std::optional<double>& t) {
+        return t ? ordered_json(*t) : ordered_json();
+      };
+      edges.push_back({{"edge", i},
+                       {"line", rows[i].line},
+                       {"verdict", edge.verdict},
+                       {"t0", number(edge.t0)},
+                       {"t1", number(edge.t1)},
+                       {"pair", edge.pair},
+                       {"reason", edge.reason}});
       continue;
     }
-    std::cout << i << ',' << verdict << ',' << shortest(result.certifiedUntil) << ','
-              << (hasTime ? shortest(result.contactTime) : "") << ',' << csvField(pair) << '\n';
+    const auto number = [](const std::optional<double>& t) { return t ? shortest(*t) : ""; };
+    std::cout << i << ',' << edge.verdict << ',' << number(edge.t0) << ',' << number(edge.t1) << ','
+              << csvField(edge.pair) << ',' << edge.reason << '\n';
     if (!std::cout) requireResultsWritten();  // throws: nothing can be written any more
   }
   if (a.json)
@@ -220,7 +269,7 @@ void addCheck(CLI::App& program, int& status) {
   const auto arguments = std::make_shared<CheckArguments>();  // the callback keeps it
   CheckArguments& a = *arguments;
   CLI::App* command =
-      program.add_subcommand("check", "Check a problem, or many states, without planning");
+      program.add_subcommand("check", "Check a problem, or many states or edges, without planning");
   command->add_option("PROBLEM", a.problem, "the problem, as for solve")->required();
   CLI::Option* states = command->add_option(
       "--states", a.states,
@@ -231,7 +280,7 @@ void addCheck(CLI::App& program, int& status) {
       ->add_option(
           "--edges", a.edges,
           "decide the edges in this file (-: standard input): one per line, the numbers of "
-          "its two states. Prints a line edge,verdict,t0,t1,pair for each edge: it is "
+          "its two states. Prints a line edge,verdict,t0,t1,pair,reason for each edge: it is "
           "proved free until t0, and the pair touches at t1")
       ->excludes(states);
   addJson(*command, a.json);

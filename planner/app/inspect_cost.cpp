@@ -191,7 +191,7 @@ int inspectCost(const InspectArguments& a) {
   out.line("simd", std::string(simdTarget()) + ", used by obb");
   out.line("costs",
            "fitted to one half of the poses; the other half is predicted; -: the numbers of tests "
-           "go together, and do not determine this cost");
+           "go together, and do not determine this cost, or there are too few poses");
   out.blank();
   printTable(rows);
   return kDone;

@@ -44,6 +44,7 @@ constexpr std::uint64_t kMostQueries = 1'000'000'000;
 /// @throws InputError for an unknown name; it lists the names.
 const NamedQuery& queryNamed(const std::optional<std::string>& name) {
   if (!name) return namedQueries().front();
+  if (name == "depth") throw InputError(Fault{"--query", 0, "depth needs --hulls"});
   std::vector<std::string> names;
   for (const NamedQuery& query : namedQueries()) {
     if (query.name == *name) return query;
@@ -179,7 +180,7 @@ void checkHullOptions(const QueryArguments& a) {
     if (given)
       throw InputError(Fault{option, 0, "can't be used with --hulls, which needs no trees"});
   };
-  ofTrees("--motions", a.motions.has_value());
+  if (a.motions) throw InputError(Fault{"--hulls", 0, "takes poses, not --motions"});
   ofTrees("--volume", a.volume.has_value());
   ofTrees("--fit", a.fit.has_value());
   ofTrees("--overlap", a.overlap.has_value());
@@ -295,7 +296,8 @@ void addQuery(CLI::App& program, int& status) {
   };
   command
       ->add_option("--query", a.query,
-                   "the query; the first is the default: " + named(namedQueries()))
+                   "the query; the first is the default: " + named(namedQueries()) +
+                       "; with --hulls also depth")
       ->group(asked);
   command
       ->add_option("--volume", a.volume,
@@ -319,13 +321,15 @@ void addQuery(CLI::App& program, int& status) {
       ->check(isWithin(0.0, std::numeric_limits<double>::max(), "a number of metres, 0 or more,"))
       ->group(asked);
   command
-      ->add_option("--hulls", a.hulls,
-                   "take A and B as the convex hulls of their vertices, with --query interference, "
-                   "distance or depth. The method finds the vertex that is farthest along a "
-                   "direction: " +
-                       joined(hullMethods()) +
-                       ". lp tests for a separating plane by linear programming instead; it takes "
-                       "the rounded vertices of B at each pose as they are")
+      ->add_option(
+          "--hulls", a.hulls,
+          "take A and B as the convex hulls of their vertices, which must not all be on one "
+          "plane, with --query interference, distance or depth. The method finds the vertex that "
+          "is farthest along a "
+          "direction: " +
+              joined(hullMethods()) +
+              ". lp tests for a separating plane by linear programming instead; it takes "
+              "the rounded vertices of B at each pose as they are")
       ->group(asked);
   command
       ->add_option("--repeat", a.repeat,

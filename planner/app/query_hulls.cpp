@@ -33,9 +33,15 @@ struct Hull {
   explicit Hull(const HullInput& input) {
     const auto start = std::chrono::steady_clock::now();
     try {
-      hierarchy.emplace(Polytope(input.mesh.vertices));
+      std::vector<Vec3> used;  // the vertices of triangles: others are no part of the mesh
+      std::vector<bool> taken(input.mesh.vertices.size(), false);
+      for (const auto& triangle : input.mesh.triangles)
+        for (const auto v : triangle)
+          if (!taken[v]) taken[v] = true, used.push_back(input.mesh.vertices[v]);
+      hierarchy.emplace(Polytope(used));
     } catch (const std::invalid_argument& error) {
-      throw InputError(Fault{input.file, 0, error.what()});
+      throw InputError(
+          Fault{input.file, 0, std::string("--hulls needs a solid hull: ") + error.what()});
     }
     buildMs =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
@@ -82,7 +88,7 @@ const std::vector<std::string>& hullMethods() {
 void requireHullQuery(const std::string& method, const std::optional<std::string>& query) {
   requireNameAmong(hullMethods(), method, "--hulls", "method");
   requireNameAmong({"interference", "distance", "depth"}, query.value_or("interference"), "--query",
-                   "query of hulls");
+                   "query with --hulls:");
   if (method == "lp" && query.value_or("interference") != "interference")
     throw InputError(Fault{"--hulls", 0, "lp needs --query interference"});
 }

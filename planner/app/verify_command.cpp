@@ -39,8 +39,8 @@ std::string sideText(const std::string& name, std::uint32_t triangle, const Prob
 
 /// Returns ", free until then", ", free until 0.25", or "" if nothing is proved before the finding.
 std::string freeUntilText(const PathFinding& f) {
-  if (!(f.freeUntil > 0)) return "";
-  const std::string until = rounded(f.freeUntil);
+  if (!f.freeUntil || *f.freeUntil == 0) return "";
+  const std::string until = rounded(*f.freeUntil);
   return ", free until " + (until == rounded(f.t) ? "then" : until);
 }
 
@@ -61,7 +61,7 @@ ordered_json jsonOf(const PathFinding& f) {
           {"reason", f.reason},
           {"edge", f.edge},
           {"t", f.t},
-          {"free_until", f.freeUntil},
+          {"free_until", f.freeUntil ? ordered_json(*f.freeUntil) : ordered_json()},
           {"state", numbersJson(f.configuration)},
           {"a", f.a},
           {"triangle_a", f.triangleA},

@@ -102,7 +102,7 @@ std::vector<Row> readRows(const std::filesystem::path& file, const Configuration
   for (int number = 1; std::getline(lines, line); ++number) {
     if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // byte-order mark
     // numpy.savetxt writes its header as a comment.
-    if (isFirst && line.starts_with('#')) {
+    if (allowHeader && isFirst && line.starts_with('#')) {
       std::vector<std::string> words = wordsOf(line.substr(1)), sorted = names;
       std::sort(words.begin(), words.end());
       std::sort(sorted.begin(), sorted.end());

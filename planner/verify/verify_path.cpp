@@ -233,6 +233,7 @@ void Verifier::refine() {
 void Verifier::findFirst(PathFinding& finding) {
   const std::uint64_t limit = 5 * queries_ + kRefinement;
   Real contact = finding.t;
+  finding.freeUntil = 0;
   std::vector<Interval> open;
   if (contact > 0) open.push_back(intervalOf({static_cast<std::size_t>(finding.edge), 0.5L, 0.5L}));
   while (!open.empty()) {
@@ -250,7 +251,7 @@ void Verifier::findFirst(PathFinding& finding) {
       if (answer.verdict == PathVerdict::undecided && time.middle < contact) return;
       if (answer.verdict == PathVerdict::refuted && time.middle < contact) {
         contact = time.middle;
-        const double freeUntil = finding.freeUntil;
+        const std::optional<double> freeUntil = finding.freeUntil;
         finding = prover_.finding(time, pair.pair, answer);
         finding.freeUntil = freeUntil;
       }

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -97,8 +98,9 @@ struct PathFinding {
   double t = 0;  ///< time on the edge, in [0, 1]
   /// On the first refuted edge, the edge is proved on [0, freeUntil], and its first refutation is
   /// in (freeUntil, t]. This bracket is narrowed until the motion bound in it is below the
-  /// tolerance, or a limit of queries is reached. On other edges: 0.
-  double freeUntil = 0;
+  /// tolerance, or a limit of queries is reached. Not set on other edges: there, `t` is not the
+  /// first refutation.
+  std::optional<double> freeUntil;
   /// The state at t. A contact is exact at a pose that differs from this state's by rounding only.
   Configuration configuration;
   /// The two bodies that touch, or that could not be decided, at t. Empty: the fault is not one of

@@ -34,7 +34,7 @@ TEST(Gjk, WorstErrors) {
         X_WB.t += normal * std::pow(10.0, -1 - n % 13);
         const PosedSet setA(a.set(), X_WA), setB(b.set(), X_WB);
         const double size = setA.reach() + setB.reach() + X_WA.t.norm() + X_WB.t.norm();
-        const auto never = [](const Vec3&, double) { return false; };
+        const auto never = [](const Vec3&, double, std::uint32_t, std::uint32_t) { return false; };
         const auto error = [&](const gjk::Answer& answer) {
           return (answer.upper - answer.lower) / size;
         };
@@ -72,7 +72,7 @@ TEST(Gjk, BarelyOverlappingSetsEnd) {
         X_WB.t -= normal * std::pow(10.0, -8 - n % 5);
         const PosedSet setA(a.set(), X_WA), setB(b.set(), X_WB);
         const double size = setA.reach() + setB.reach() + X_WA.t.norm() + X_WB.t.norm();
-        const auto never = [](const Vec3&, double) { return false; };
+        const auto never = [](const Vec3&, double, std::uint32_t, std::uint32_t) { return false; };
         most = std::max(most,
                         gjk::search<DoubleDouble>(setA, setB, size, 0x1p-49 * size, never).rounds);
       }

@@ -187,6 +187,50 @@ TEST(Penetration, ClosedForms) {
   EXPECT_NEAR(along.upper, 5, 1e-12);
 }
 
+/// Flat cores: the depth is that of the spheres, and the points are those that touch after the
+/// move.
+TEST(Penetration, WitnessesOfFlatCores) {
+  const ConvexPart ball = placed(Sphere{0.5}, {}), capsule = placed(Capsule{0.25, 2}, {});
+  const Transform across{Eigen::AngleAxisd(M_PI / 2, Vec3::UnitX()).toRotationMatrix(),
+                         {0, 0, 0.3}};
+  struct Case {
+    ConvexPart a, b;
+    Transform X_WB;
+    double depth;
+  };
+  for (const Case& c :
+       {Case{ball, ball, {}, 1}, Case{ball, capsule, {Mat3::Identity(), {0, 0, 0.4}}, 0.75},
+        Case{capsule, capsule, across, 0.5}}) {
+    const Penetration found = penetration({c.a, {}}, {c.b, c.X_WB});
+    EXPECT_NEAR(found.lower, c.depth, 1e-12);
+    EXPECT_NEAR(found.upper, c.depth, 1e-12);
+    EXPECT_LE((found.p_WA - found.p_WB - found.upper * found.direction_W).norm(), 1e-12);
+    EXPECT_LE(test::outside(c.a, {}, found.p_WA), 1e-12);
+    EXPECT_LE(test::outside(c.b, c.X_WB, found.p_WB), 1e-12);
+  }
+}
+
+/// Cores that are so small beside their spheres that no plane of theirs is known.
+TEST(Penetration, TinyCores) {
+  for (const double s : {1e-40, 1e-90, 1e-130}) {
+    const ConvexPart c{
+        {Vec3(s, s, s), Vec3(-s, -s, s), Vec3(s, -s, -s), Vec3(-s, s, -s)}, 0.5, false};
+    const Penetration found = penetration({c, {}}, {c, {}});
+    EXPECT_LE(found.lower, 1) << s;
+    EXPECT_GE(found.lower, 1 - 1e-12) << s;
+    EXPECT_GE(found.upper, 1) << s;
+    EXPECT_LE(found.upper, 1 + 1e-12) << s;
+    EXPECT_NEAR(found.direction_W.norm(), 1, 1e-15) << s;
+  }
+  for (const double s : {1e-130, 1e130}) {
+    const ConvexPart box = placed(Box{{2 * s, 4 * s, 6 * s}}, {});
+    const Penetration found = penetration({box, {}}, {box, {Mat3::Identity(), {1.5 * s, 0, 0}}});
+    EXPECT_LE(found.lower, 0.5 * s);
+    EXPECT_GE(found.upper, 0.5 * s);
+    EXPECT_LE(found.upper - found.lower, 1e-12 * s);
+  }
+}
+
 TEST(Penetration, DirectionsThatAreNoneAreRefused) {
   const ConvexPart ball = placed(Sphere{0.5}, {});
   const PosedSet set(ball, {});

@@ -108,6 +108,43 @@ TEST(Polytope, LargeSetsPassTheCheck) {
   }
 }
 
+TEST(Polytope, WrongBoundariesAreFound) {
+  using Faces = std::vector<Polytope::Face>;
+  const std::vector<Vec3> corners = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const Faces tetrahedron = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  EXPECT_EQ(checkConvexBoundary(corners, tetrahedron), std::nullopt);
+  Faces wrong = tetrahedron;
+  std::swap(wrong[0][0], wrong[0][1]);
+  EXPECT_NE(checkConvexBoundary(corners, wrong), std::nullopt) << "a flipped face";
+  wrong = tetrahedron;
+  wrong.pop_back();
+  EXPECT_NE(checkConvexBoundary(corners, wrong), std::nullopt) << "a missing face";
+  wrong = tetrahedron;
+  for (Polytope::Face& face : wrong) std::swap(face[0], face[1]);
+  EXPECT_NE(checkConvexBoundary(corners, wrong), std::nullopt) << "inside out";
+  std::vector<Vec3> dented = corners;
+  dented.push_back({0.2, 0.2, 0.2});
+  EXPECT_NE(checkConvexBoundary(
+                dented, Faces{{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 4}, {2, 3, 4}, {3, 1, 4}}),
+            std::nullopt)
+      << "a dent";
+  dented.back() = {0.25, 0.25, 0.5};  // on the face
+  EXPECT_NE(checkConvexBoundary(
+                dented, Faces{{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 4}, {2, 3, 4}, {3, 1, 4}}),
+            std::nullopt)
+      << "a vertex that is not extreme";
+  // The bipyramid over a pentagram: every edge is convex, but its apexes wind around twice.
+  std::vector<Vec3> star = {{0, 0, 1}, {0, 0, -1}};
+  Faces faces;
+  for (std::uint32_t i = 0; i < 5; ++i) {
+    const double angle = 4 * M_PI * i / 5;
+    star.emplace_back(std::cos(angle), std::sin(angle), 0);
+    faces.push_back({0, 2 + i, 2 + (i + 1) % 5});
+    faces.push_back({1, 2 + (i + 1) % 5, 2 + i});
+  }
+  EXPECT_NE(checkConvexBoundary(star, faces), std::nullopt) << "a pentagram";
+}
+
 TEST(Polytope, NeighboursShareEdges) {
   const Polytope cube(std::vector<Vec3>{
       {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}});

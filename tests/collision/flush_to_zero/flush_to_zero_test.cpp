@@ -1,9 +1,16 @@
 // Proofs must hold under flush-to-zero and denormals-are-zero. This program is linked with
 // -ffast-math, which sets both before `main`.
+#include <bit>
+#include <cmath>
+#include <cstdint>
 #include <random>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "collision/convex/dobkin_kirkpatrick.h"
+#include "collision/convex/linear_program.h"
+#include "collision/convex/separating_plane.h"
 #include "collision/core/floating_point.h"
 #include "collision/motion/check_certificate.h"
 #include "tests/collision/motion/bodies.h"
@@ -21,6 +28,73 @@ TEST(FlushToZero, IsSetFromTheStart) {
   EXPECT_EQ(least / 2, 0);
 #endif
   EXPECT_EQ(floatingPoint(), FloatingPoint::standard) << "it is allowed";
+}
+
+/// Returns k times the least subnormal number. (A product or a conversion would be flushed to
+/// zero.)
+double tiny(int k) {
+  const auto bits = static_cast<std::uint64_t>(std::abs(k));
+  return std::bit_cast<double>(k < 0 ? bits | std::uint64_t{1} << 63 : bits);
+}
+
+/// The relation of two hulls does not depend on the scale, down to subnormal coordinates.
+TEST(FlushToZero, RelationsOfTinyHullsAreExact) {
+  std::mt19937_64 random(test::testSeed(8));
+  int touching = 0;
+  for (int n = 0; n < 500; ++n) {
+    std::vector<Vec3> p, q, tinyP, tinyQ;
+    for (std::size_t i = 0, count = 2 + random() % 10; i < count; ++i) {
+      Vec3 x, small;
+      for (int k = 0; k < 3; ++k) {
+        const int value = static_cast<int>(random() % 7) - 3;
+        x[k] = value;
+        small[k] = tiny(value);
+      }
+      const bool first = i == 0 || (i > 1 && random() % 2);
+      (first ? p : q).push_back(x);
+      (first ? tinyP : tinyQ).push_back(small);
+    }
+    const auto relation = separatingPlane<3>(p, q).relation;
+    ASSERT_EQ(separatingPlane<3>(tinyP, tinyQ).relation, relation) << n;
+    touching += relation == HullRelation::touching;
+  }
+  EXPECT_GT(touching, 10);
+}
+
+TEST(FlushToZero, TinyLinearProgramsAreExact) {
+  std::mt19937_64 random(test::testSeed(9));
+  for (int n = 0; n < 500; ++n) {
+    std::vector<HalfSpace<2>> list, small;
+    for (std::size_t i = 0, count = random() % 6; i < count; ++i) {
+      const int x = static_cast<int>(random() % 5) - 2, y = static_cast<int>(random() % 5) - 2,
+                offset = static_cast<int>(random() % 5) - 1;
+      list.push_back({{x, y}, static_cast<double>(offset)});
+      small.push_back({{tiny(x), tiny(y)}, tiny(offset)});
+    }
+    const int x = static_cast<int>(random() % 3) - 1, y = static_cast<int>(random() % 3) - 1;
+    ASSERT_EQ(solveLinearProgram<2>(small, {tiny(x), tiny(y)}).status,
+              solveLinearProgram<2>(list, {x, y}).status)
+        << n;
+  }
+}
+
+TEST(FlushToZero, ExtremeVerticesAreExact) {
+  std::vector<Vec3> cube;
+  for (int i = 0; i < 8; ++i) cube.emplace_back(i & 1, i >> 1 & 1, i >> 2);
+  const DobkinKirkpatrick hierarchy{Polytope(cube)};
+  for (int n = 0; n < 27; ++n) {
+    const int sign[] = {n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1};
+    for (const int big : {-1, 0, 1, 2}) {  // which component is large; −1: none
+      Vec3 d;
+      for (int k = 0; k < 3; ++k) d[k] = k == big ? 400.0 * sign[k] : tiny(sign[k]);
+      const Vec3& found = hierarchy.polytope().vertices()[hierarchy.extreme(d)];
+      for (int k = 0; k < 3; ++k) {
+        if (sign[k] != 0) {
+          EXPECT_EQ(found[k], sign[k] > 0 ? 1 : 0) << n << " " << big;
+        }
+      }
+    }
+  }
 }
 
 TEST(FlushToZero, GrazingEdgesAreRight) {

@@ -68,14 +68,14 @@ TEST_F(CheckCommand, CheckOfStatesTakesAnglesAsTheyAre) {
 /// The post of radius 0.1 m is at 1.5 m on the y axis; the arm is thin, so along an edge from 0 to
 /// 3 rad it touches the post at about (π/2 − asin(0.1/1.5)) / 3, for a thin arm.
 TEST_F(CheckCommand, CheckOfManyEdges) {
-  write("edges.txt", "# from, to\n0 0  1 0\n0,0,3,0\n0 0 0 2.9\n");
+  write("edges.txt", "# shoulder elbow\n0 0  1 0\n0,0,3,0\n0 0 0 2.9\n");
   const Result checked = run("check arm.yaml --edges edges.txt");
   EXPECT_EQ(checked.status, 1);
   EXPECT_EQ(checked.err, "");
-  EXPECT_THAT(checked.out, testing::MatchesRegex("edge,verdict,t0,t1,pair\n"
-                                                 "0,free,1,,\n"
-                                                 "1,contact,0\\.[0-9]*,0\\.[0-9]*,lower~post\n"
-                                                 "2,out_of_bounds,1,,\n"));
+  EXPECT_THAT(checked.out, testing::MatchesRegex("edge,verdict,t0,t1,pair,reason\n"
+                                                 "0,free,1,,,\n"
+                                                 "1,contact,0\\.[0-9]*,0\\.[0-9]*,lower~post,\n"
+                                                 "2,out_of_bounds,,,,bounds:elbow\n"));
   const auto json = nlohmann::json::parse(run("check arm.yaml --edges edges.txt --json").out);
   const auto& edges = json["edges"];
   EXPECT_EQ(edges[1]["line"], 3);
@@ -86,6 +86,9 @@ TEST_F(CheckCommand, CheckOfManyEdges) {
   EXPECT_TRUE(edges[0]["t1"].is_null());
   write("free.txt", "0 0 1 0\n");
   EXPECT_EQ(run("check arm.yaml --edges free.txt").status, 0);
+  write("first.txt", "1.5708 0 0 0\n");  // begins in contact
+  EXPECT_EQ(run("check arm.yaml --edges first.txt").out,
+            "edge,verdict,t0,t1,pair,reason\n0,contact,0,0,lower~post,\n");
 
   const auto fault = [&](const std::string& text) {
     write("wrong.txt", text);

@@ -102,14 +102,16 @@ TEST_F(QueryCommand, HullsOnBadInput) {
     return result.err;
   };
   EXPECT_EQ(fault("--hulls hierarchy"),
-            "a.obj: the points of a polytope must not all be on one plane\n");
+            "a.obj: --hulls needs a solid hull: the points of a polytope must not all be on one "
+            "plane\n");
   EXPECT_THAT(fault("--hulls hirarchy"),
               HasSubstr("--hulls: unknown method \"hirarchy\" (did you mean \"hierarchy\"?)"));
   EXPECT_THAT(fault("--hulls lp --query depth"), HasSubstr("lp needs --query interference"));
-  EXPECT_THAT(fault("--hulls climbing --query contacts"), HasSubstr("unknown query of hulls"));
+  EXPECT_THAT(fault("--hulls climbing --query contacts"),
+              HasSubstr("unknown query with --hulls: \"contacts\""));
   EXPECT_EQ(fault("--hulls climbing --volume aabb"),
             "--volume: can't be used with --hulls, which needs no trees\n");
-  EXPECT_THAT(fault("--query depth"), HasSubstr("unknown query \"depth\""));
+  EXPECT_EQ(fault("--query depth"), "--query: depth needs --hulls\n");
 }
 
 TEST_F(QueryCommand, InterferenceIsOneLineAPose) {

@@ -142,9 +142,10 @@ TEST(VerifyPath, TheFirstContactIsFound) {
     const double truth = (wall - 0.5 + 5) / 10;
     EXPECT_EQ(finding.edge, 1);
     EXPECT_EQ(finding.reason, "contact");
-    EXPECT_LE(finding.freeUntil, truth);
+    ASSERT_TRUE(finding.freeUntil);
+    EXPECT_LE(*finding.freeUntil, truth);
     EXPECT_GE(finding.t, truth - 1e-15);
-    EXPECT_LE(finding.t - finding.freeUntil, 2e-8);
+    EXPECT_LE(finding.t - *finding.freeUntil, 2e-8);
     EXPECT_LE(finding.point.x(), wall + 1e-3);
   }
 }
@@ -156,9 +157,10 @@ TEST(VerifyPath, TheFirstContactOfARotation) {
   ASSERT_EQ(report.findings.size(), 1u);
   const PathFinding& finding = report.findings[0];
   const double truth = kPi / 2 / 3;  // the blade's edge is along x; the post begins at x = 0
-  EXPECT_LE(finding.freeUntil, truth);
+  ASSERT_TRUE(finding.freeUntil);
+  EXPECT_LE(*finding.freeUntil, truth);
   EXPECT_GE(finding.t, truth - 1e-15);
-  EXPECT_LE(finding.t - finding.freeUntil, 1e-6);
+  EXPECT_LE(finding.t - *finding.freeUntil, 1e-6);
 }
 
 TEST(VerifyPath, OneStateIsCheckedAsItIs) {
