@@ -200,7 +200,8 @@ struct DobkinKirkpatrick::Shadow {
 
 std::uint32_t DobkinKirkpatrick::extreme(const Vec3& direction, Cost* cost) const {
   const double largest = direction.cwiseAbs().maxCoeff();
-  if (!(largest > 0)) return simplex_[0];
+  // Tiny components may count as 0 in comparisons and products, but not in exact predicates.
+  if (!(largest > 0x1p-1000)) return polytope_.climb(simplex_[0], direction);
   // Scaling by a power of two is exact, unless a component vanishes beside the largest one.
   const double unit = powerOfTwo(largest);
   const Vec3 d = direction / unit;
