@@ -197,6 +197,25 @@ TEST(PolygonIntersection, TakesLogarithmicallyManySteps) {
   }
 }
 
+/// A vertex on a slanted edge, up to rounding: doubles cannot decide whether it is inside.
+TEST(PolygonIntersection, VerticesNearEdges) {
+  Random random(test::testSeed(46));
+  int meeting = 0;
+  const int pairs = 400 / test::kSlowdown + 10;
+  for (int n = 0; n < pairs; ++n) {
+    const Vec2 a(random.real(), random.real()), b(random.real(), random.real());
+    const double share = 0.5 + 0.4 * random.real();
+    const Vec2 tip = a + share * (b - a), out(b.y() - a.y(), a.x() - b.x());
+    const ConvexPolygon p(std::vector<Vec2>{a, b, a - out}),
+        q(std::vector<Vec2>{tip, tip + out, b + out});
+    const bool truth = test::hullRelation<2>(vertices(p), vertices(q)) != HullRelation::disjoint;
+    ASSERT_EQ(intersection(p, q).intersects, truth) << n;
+    meeting += truth;
+  }
+  EXPECT_GT(meeting, pairs / 10);
+  EXPECT_LT(meeting, pairs * 9 / 10);
+}
+
 TEST(PolygonIntersection, OneUlpDecides) {
   const std::vector<Vec2> square = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
   const auto spike = [](double x) { return std::vector<Vec2>{{x, 0.3}, {2, 0}, {2, 1}}; };
