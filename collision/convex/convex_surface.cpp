@@ -6,7 +6,7 @@
 
 #include <Eigen/Geometry>
 
-#include "collision/convex/exact_program-inl.h"
+#include "collision/convex/rational-inl.h"
 #include "collision/predicates/orientation.h"
 
 namespace corridor {
@@ -15,28 +15,15 @@ namespace {
 /// Returns the first four points of which none is on a plane with the others, by elimination in
 /// rationals.
 std::optional<std::array<std::uint32_t, 4>> independentPoints(std::span<const Vec3> points) {
-  using seidel::Rational;
-  using Row = std::array<Rational, 3>;
+  using seidel::rational;
   std::array<std::uint32_t, 4> found{};
-  std::array<Row, 3> reduced;
-  std::array<int, 3> pivots{};
-  int rank = 0;
-  const auto exact = [&](std::uint32_t i, int k) { return seidel::rational(points[i][k]); };
-  for (std::uint32_t i = 1; i < points.size() && rank < 3; ++i) {
-    Row row;
-    for (int k = 0; k < 3; ++k) row[k] = exact(i, k) - exact(0, k);
-    for (int r = 0; r < rank; ++r) {
-      const Rational factor = row[pivots[r]] / reduced[r][pivots[r]];
-      for (int k = 0; k < 3; ++k) row[k] -= factor * reduced[r][k];
-    }
-    const auto pivot =
-        std::find_if(row.begin(), row.end(), [](const Rational& x) { return x != 0; });
-    if (pivot == row.end()) continue;
-    pivots[rank] = static_cast<int>(pivot - row.begin());
-    reduced[rank] = row;
-    found[++rank] = i;
+  seidel::Echelon<3> differences;
+  for (std::uint32_t i = 1; i < points.size() && differences.rank() < 3; ++i) {
+    std::array<seidel::Rational, 3> row;
+    for (int k = 0; k < 3; ++k) row[k] = rational(points[i][k]) - rational(points[0][k]);
+    if (differences.add(row)) found[differences.rank()] = i;
   }
-  if (rank < 3) return std::nullopt;
+  if (differences.rank() < 3) return std::nullopt;
   return found;
 }
 

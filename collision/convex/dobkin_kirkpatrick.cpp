@@ -6,7 +6,7 @@
 
 #include <Eigen/Geometry>
 
-#include "collision/convex/exact_program-inl.h"
+#include "collision/convex/rational-inl.h"
 #include "collision/core/rounding.h"
 #include "collision/predicates/along.h"
 #include "collision/predicates/orientation.h"
@@ -201,7 +201,10 @@ struct DobkinKirkpatrick::Shadow {
 std::uint32_t DobkinKirkpatrick::extreme(const Vec3& direction, Cost* cost) const {
   const double largest = direction.cwiseAbs().maxCoeff();
   // Tiny components may count as 0 in comparisons and products, but not in exact predicates.
-  if (!(largest > 0x1p-1000)) return polytope_.climb(simplex_[0], direction);
+  if (!(largest > 0x1p-1000)) {
+    if (cost) *cost = {};
+    return polytope_.climb(simplex_[0], direction, cost ? &cost->climbs : nullptr);
+  }
   // Scaling by a power of two is exact, unless a component vanishes beside the largest one.
   const double unit = powerOfTwo(largest);
   const Vec3 d = direction / unit;

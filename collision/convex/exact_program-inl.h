@@ -13,29 +13,17 @@
 #include <utility>
 #include <vector>
 
-#include <boost/multiprecision/cpp_int.hpp>
-
+#include "collision/convex/rational-inl.h"
 #include "collision/convex/seidel-inl.h"
 #include "collision/core/rounding.h"
-#include "collision/predicates/exact_number.h"
 
 /// Linear programs in few variables, first in double, then in rationals: the engine of
 /// linear_program.h and separating_plane.h. `Rows` is a function that returns row i, which is the
 /// half-space with normal `normal` and offset `offset`, in doubles; its `name` must be i.
 namespace corridor::seidel {
 
-using Rational = boost::multiprecision::cpp_rational;
 template <std::size_t M>
 using Row = HalfSpace<double, M>;
-
-/// Returns a finite double as a rational, under any setting of flush-to-zero.
-inline Rational rational(double value) {
-  using boost::multiprecision::cpp_int;
-  const exact::Dyadic d = exact::dyadic(value);
-  const auto shift = static_cast<unsigned>(std::abs(d.exponent));
-  if (d.exponent >= 0) return Rational(cpp_int(d.mantissa) << shift);
-  return {cpp_int(d.mantissa), cpp_int(1) << shift};
-}
 
 /// A candidate: the best point in double, and the rows that are tight there. Bounds are not among
 /// them: their names are `count` and above.

@@ -169,29 +169,18 @@ class Hulls {
   /// Finds a plane with the first hull on one side and the second on the other. @pre they share a
   /// point.
   bool findTouchingPlane() {
-    // Eliminates row after row, until the rank is D + 1 or no row is left.
-    std::vector<Point<Rational, kPlane>> reduced;
-    std::vector<std::size_t> pivots;
+    // The first rows of full rank, and the goal: minus their sum.
+    seidel::Echelon<kPlane> independent;
     Point<Rational, kPlane> goal{};
-    for (std::uint32_t i = 0; i < count_ && reduced.size() < kPlane; ++i) {
-      Point<Rational, kPlane> exact, row;
+    for (std::uint32_t i = 0; i < count_ && independent.rank() < kPlane; ++i) {
+      Point<Rational, kPlane> row;
       const Row<kPlane> rounded = planeRow(i);
-      for (std::size_t k = 0; k < kPlane; ++k) exact[k] = seidel::rational(rounded.normal[k]);
-      row = exact;
-      for (std::size_t r = 0; r < reduced.size(); ++r) {
-        const Rational factor = row[pivots[r]] / reduced[r][pivots[r]];
-        if (factor == 0) continue;
-        for (std::size_t k = 0; k < kPlane; ++k) row[k] -= factor * reduced[r][k];
-      }
-      std::size_t pivot = 0;
-      while (pivot < kPlane && row[pivot] == 0) ++pivot;
-      if (pivot == kPlane) continue;
-      reduced.push_back(row);
-      pivots.push_back(pivot);
-      for (std::size_t k = 0; k < kPlane; ++k) goal[k] -= exact[k];
+      for (std::size_t k = 0; k < kPlane; ++k) row[k] = seidel::rational(rounded.normal[k]);
+      if (!independent.add(row)) continue;
+      for (std::size_t k = 0; k < kPlane; ++k) goal[k] -= row[k];
     }
-    if (reduced.size() < kPlane) {
-      takePlane(kernel(reduced, pivots));
+    if (independent.rank() < kPlane) {
+      takePlane(independent.kernel());
       return true;
     }
     const auto best = seidel::exactOptimum<kPlane>(
@@ -199,24 +188,6 @@ class Hulls {
     if (!(best.value > 0)) return false;
     takePlane(best.x);
     return true;
-  }
-
-  /// Returns a vector other than 0 that is orthogonal to all of these rows, fewer than D + 1.
-  static Point<Rational, kPlane> kernel(const std::vector<Point<Rational, kPlane>>& rows,
-                                        const std::vector<std::size_t>& pivots) {
-    Point<Rational, kPlane> x{};
-    for (std::size_t k = 0; k < kPlane; ++k)
-      if (std::find(pivots.begin(), pivots.end(), k) == pivots.end()) {
-        x[k] = 1;
-        break;
-      }
-    for (std::size_t r = rows.size(); r-- > 0;) {
-      Rational sum = 0;
-      for (std::size_t k = 0; k < kPlane; ++k)
-        if (k != pivots[r]) sum += rows[r][k] * x[k];
-      x[pivots[r]] = -sum / rows[r][pivots[r]];
-    }
-    return x;
   }
 
   std::span<const Vector<D>> first_, second_;

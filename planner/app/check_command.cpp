@@ -61,18 +61,27 @@ std::string largestAngle(const ConfigurationSpace& space, const Configuration& q
   return largest ? largest->name : "";
 }
 
-/// Checks a state as given: a continuous joint may have any angle, and no angle is wrapped.
-CheckedState checkState(const Checker& checker, Configuration q, std::vector<Note>& notes) {
-  CheckedState checked;
-  for (const Coordinate& c : checker.space().coordinates()) {
+/// Sets values that exceed a limit only by rounding to the limit, and notes it. Returns the names
+/// of the coordinates, and of joints that mimic, that are out of their limits.
+std::vector<std::string> limitValues(const ConfigurationSpace& space, Configuration& q,
+                                     std::vector<Note>& notes) {
+  std::vector<std::string> outOfBounds;
+  for (const Coordinate& c : space.coordinates()) {
     if (c.kind != Coordinate::Kind::line) continue;
     double& number = q[static_cast<Eigen::Index>(c.first)];
     std::string why;
     if (const auto value = coordinateValue(c, number, c.name, notes, why))
       number = *value;
     else
-      checked.outOfBounds.push_back(c.name);
+      outOfBounds.push_back(c.name);
   }
+  return outOfBounds;
+}
+
+/// Checks a state as given: a continuous joint may have any angle, and no angle is wrapped.
+CheckedState checkState(const Checker& checker, Configuration q, std::vector<Note>& notes) {
+  CheckedState checked;
+  checked.outOfBounds = limitValues(checker.space(), q, notes);
   const std::vector<ModelBody>& bodies = checker.model().bodies;
   for (const Checker::PairNotFree& pair : checker.pairsNotFree(q)) {
     checked.pairs.push_back(bodies[pair.a].name + "~" + bodies[pair.b].name);
@@ -80,6 +89,23 @@ CheckedState checkState(const Checker& checker, Configuration q, std::vector<Not
   }
   checked.valid = checked.pairs.empty() && checked.outOfBounds.empty();
   return checked;
+}
+
+/// Warns of values that `limitValues` has changed.
+void warnOfLimits(const std::string& file, std::size_t count, const char* what) {
+  if (count)
+    warn(file + ": in " + counted(count, what) +
+         ", values that exceeded a limit only by rounding were set to the limit");
+}
+
+/// Prints the JSON report on the states or edges of a file.
+void printReport(const CheckArguments& a, const Problem& problem, bool valid, const char* key,
+                 const ordered_json& rows) {
+  std::cout << ordered_json{{"format", "corridor-check-report-2"},          {"problem", a.problem},
+                            {"numbers", problem.model.space.numberNames()}, {"valid", valid},
+                            {"notes", textsOf(problem.source.notes)},       {key, rows}}
+                   .dump(2)
+            << '\n';
 }
 
 int checkStates(Problem problem, const CheckArguments& a) {
@@ -113,28 +139,12 @@ int checkStates(Problem problem, const CheckArguments& a) {
     std::cout << i << ',' << state.valid << ',' << csvField(why) << '\n';
     if (!std::cout) requireResultsWritten();  // throws: nothing can be written any more
   }
-  if (noted)
-    warn(*a.states + ": in " + counted(noted, "state") +
-         ", values that exceeded a limit only by rounding were set to the limit");
-  if (a.json)
-    std::cout << ordered_json{{"format", "corridor-check-report-2"},
-                              {"problem", a.problem},
-                              {"numbers", problem.model.space.numberNames()},
-                              {"valid", all},
-                              {"notes", textsOf(problem.source.notes)},
-                              {"states", states}}
-                     .dump(2)
-              << '\n';
+  warnOfLimits(*a.states, noted, "state");
+  if (a.json) printReport(a, problem, all, "states", states);
   return all ? kDone : kNegativeResult;
 }
 
-const char* nameOf(MotionVerdict verdict) {
-  return verdict == MotionVerdict::free      ? "free"
-         : verdict == MotionVerdict::contact ? "contact"
-                                             : "undecided";
-}
-
-const char* nameOf(UndecidedReason reason) {
+const char* reasonName(UndecidedReason reason) {
   switch (reason) {
     case UndecidedReason::none:
       break;
@@ -158,16 +168,15 @@ struct CheckedEdge {
   std::optional<double> t0, t1;
 };
 
-CheckedEdge checkEdge(const Checker& checker, const EdgeRow& row) {
+CheckedEdge checkEdge(const Checker& checker, EdgeRow row, std::vector<Note>& notes) {
   CheckedEdge edge;
-  for (const Configuration* q : {&row.from, &row.to})
-    if (!checker.inBounds(*q)) {
-      std::vector<Note> notes;
-      edge.verdict = "out_of_bounds";
-      for (const std::string& name : checkState(checker, *q, notes).outOfBounds)
-        edge.reason += (edge.reason.empty() ? "bounds:" : ";bounds:") + name;
-      return edge;
-    }
+  for (Configuration* q : {&row.from, &row.to})
+    for (const std::string& name : limitValues(checker.space(), *q, notes))
+      edge.reason += (edge.reason.empty() ? "bounds:" : ";bounds:") + name;
+  if (!edge.reason.empty()) {
+    edge.verdict = "out_of_bounds";
+    return edge;
+  }
   // A contact at the beginning is found as one of the first state.
   MotionResult result = checker.certifyState(row.from);
   if (result.verdict == MotionVerdict::contact)
@@ -175,7 +184,7 @@ CheckedEdge checkEdge(const Checker& checker, const EdgeRow& row) {
   else
     result = checker.certifyEdge(row.from, row.to, true);
   edge.verdict = nameOf(result.verdict);
-  edge.reason = nameOf(result.reason);
+  edge.reason = reasonName(result.reason);
   edge.t0 = result.certifiedUntil;
   if (result.contactTime >= 0) edge.t1 = result.contactTime;
   if (result.pair) {
@@ -193,10 +202,13 @@ int checkEdges(Problem problem, const CheckArguments& a) {
   const Checker checker(problem);
   addFirst(notesOnStillPairs(checker, startOf(problem)), problem.source.notes);
   bool all = true;
+  std::size_t noted = 0;
   ordered_json edges = ordered_json::array();
   if (!a.json) std::cout << "edge,verdict,t0,t1,pair,reason\n";
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const CheckedEdge edge = checkEdge(checker, rows[i]);
+    std::vector<Note> notes;
+    const CheckedEdge edge = checkEdge(checker, rows[i], notes);
+    noted += !notes.empty();
     all &= edge.verdict == "free";
     if (a.json) {
       const auto number = [](const std::optional<double>& t) {
@@ -216,15 +228,8 @@ int checkEdges(Problem problem, const CheckArguments& a) {
               << csvField(edge.pair) << ',' << edge.reason << '\n';
     if (!std::cout) requireResultsWritten();  // throws: nothing can be written any more
   }
-  if (a.json)
-    std::cout << ordered_json{{"format", "corridor-check-report-2"},
-                              {"problem", a.problem},
-                              {"numbers", problem.model.space.numberNames()},
-                              {"valid", all},
-                              {"notes", textsOf(problem.source.notes)},
-                              {"edges", edges}}
-                     .dump(2)
-              << '\n';
+  warnOfLimits(*a.edges, noted, "edge");
+  if (a.json) printReport(a, problem, all, "edges", edges);
   return all ? kDone : kNegativeResult;
 }
 

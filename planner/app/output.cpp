@@ -19,6 +19,18 @@
 
 namespace corridor::app {
 
+const char* nameOf(MotionVerdict verdict) {
+  switch (verdict) {
+    case MotionVerdict::free:
+      return "free";
+    case MotionVerdict::contact:
+      return "contact";
+    case MotionVerdict::undecided:
+      break;
+  }
+  return "undecided";
+}
+
 void ResultPrinter::line(std::string_view key, const std::string& value, Tone tone) const {
   if (quiet_) return;
   static const bool colour = ::isatty(STDOUT_FILENO) != 0;

@@ -10,6 +10,7 @@
 
 #include "collision/core/rigid_pose.h"
 #include "collision/core/transform.h"
+#include "collision/motion/certify_motion.h"
 #include "planner/problem/problem.h"
 #include "planner/robot/configuration_space.h"
 #include "planner/solve/verify_solution.h"
@@ -29,6 +30,9 @@ class ResultPrinter {
  private:
   bool quiet_;
 };
+
+/// Returns "free", "contact" or "undecided".
+const char* nameOf(MotionVerdict verdict);
 
 /// Inserts notes before all others.
 inline void addFirst(const std::vector<Note>& notes, std::vector<Note>& to) {

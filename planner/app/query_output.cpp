@@ -6,6 +6,7 @@
 #include "collision/core/error.h"
 #include "collision/core/quantiles.h"
 #include "collision/core/simd_target.h"
+#include "planner/app/output.h"
 #include "planner/app/standard_streams.h"
 
 namespace corridor::app {
@@ -77,11 +78,8 @@ void printMotions(const BatchResult& result) {
   for (std::size_t i = 0; i < result.motions.size(); ++i) {
     const MotionAnswer& motion = result.motions[i];
     const MotionResult& r = motion.result;
-    const char* verdict = r.verdict == MotionVerdict::free      ? "free"
-                          : r.verdict == MotionVerdict::contact ? "contact"
-                                                                : "undecided";
-    std::snprintf(line, sizeof line, "%zu,%s,%.17g,%.17g,%.17g,%d,%d,%llu,%llu,%llu\n", i, verdict,
-                  r.certifiedUntil, r.contactTime, r.gap,
+    std::snprintf(line, sizeof line, "%zu,%s,%.17g,%.17g,%.17g,%d,%d,%llu,%llu,%llu\n", i,
+                  nameOf(r.verdict), r.certifiedUntil, r.contactTime, r.gap,
                   r.pair ? static_cast<int>(r.pair->triangleA) : -1,
                   r.pair ? static_cast<int>(r.pair->triangleB) : -1,
                   static_cast<unsigned long long>(result.answers[i].boxTests),

@@ -1,20 +1,12 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <vector>
 
-#include <boost/multiprecision/cpp_int.hpp>
+#include "tests/support/integer.h"
 
 /// Exact real roots of polynomials, for oracles: Sturm sequences over the integers.
 namespace corridor::test {
-
-/// An integer of any length; up to 512 bits without allocation.
-using Integer = boost::multiprecision::number<
-    boost::multiprecision::cpp_int_backend<512, 0, boost::multiprecision::signed_magnitude,
-                                           boost::multiprecision::unchecked,
-                                           std::allocator<boost::multiprecision::limb_type>>,
-    boost::multiprecision::et_off>;
 
 /// A polynomial Σ c_i x^i with integer coefficients.
 class Polynomial {

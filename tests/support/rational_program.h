@@ -1,18 +1,10 @@
 #pragma once
 
-#include <memory>
 #include <vector>
 
-#include <boost/multiprecision/cpp_int.hpp>
+#include "tests/support/integer.h"
 
 namespace corridor::test {
-
-/// An integer of any length; up to 512 bits without allocation.
-using Integer = boost::multiprecision::number<
-    boost::multiprecision::cpp_int_backend<512, 0, boost::multiprecision::signed_magnitude,
-                                           boost::multiprecision::unchecked,
-                                           std::allocator<boost::multiprecision::limb_type>>,
-    boost::multiprecision::et_off>;
 
 /// Rows of a system of equations M x = r: the entries of a row of M, then that of r, which is ≥ 0.
 using IntegerSystem = std::vector<std::vector<Integer>>;

@@ -86,6 +86,10 @@ TEST_F(CheckCommand, CheckOfManyEdges) {
   EXPECT_TRUE(edges[0]["t1"].is_null());
   write("free.txt", "0 0 1 0\n");
   EXPECT_EQ(run("check arm.yaml --edges free.txt").status, 0);
+  write("limit.txt", "0 0  3.000001 0\n0.1 0 0.2 0\n");
+  const Result limit = run("check arm.yaml --edges limit.txt");
+  EXPECT_THAT(limit.err, HasSubstr("limit.txt: in 1 edge, values that exceeded a limit"));
+  EXPECT_THAT(limit.out, HasSubstr("0,contact,"));
   write("first.txt", "1.5708 0 0 0\n");  // begins in contact
   EXPECT_EQ(run("check arm.yaml --edges first.txt").out,
             "edge,verdict,t0,t1,pair,reason\n0,contact,0,0,lower~post,\n");

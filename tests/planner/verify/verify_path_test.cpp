@@ -124,45 +124,6 @@ TEST(VerifyPath, TouchingAtTheGoalIsRefuted) {
   EXPECT_EQ(report.findings[0].reason, "contact");
 }
 
-/// The first refuted edge is reported with its first contact, and is proved before it.
-TEST(VerifyPath, TheFirstContactIsFound) {
-  for (const double wall : {1.0, 1.0 + 1e-3, 2.2345678}) {
-    // The cube goes through a thin wall to a large box, which bisection meets first.
-    TriangleMesh obstacle = boxMesh(Vec3(wall, -1, -1), Vec3(wall + 1e-3, 1, 1));
-    const TriangleMesh box = boxMesh(Vec3(3.5, -1, -1), Vec3(9, 1, 1));
-    for (const auto& t : box.triangles)
-      obstacle.triangles.push_back({t[0] + 8, t[1] + 8, t[2] + 8});
-    obstacle.vertices.insert(obstacle.vertices.end(), box.vertices.begin(), box.vertices.end());
-    World world(kCube, obstacle);
-    const PathReport report =
-        world.verify(Poses{poseOf({-6, 0, 0}), poseOf({-5, 0, 0}), poseOf({5, 0, 0})});
-    EXPECT_EQ(report.verdict, PathVerdict::refuted);
-    ASSERT_EQ(report.findings.size(), 1u);
-    const PathFinding& finding = report.findings[0];
-    const double truth = (wall - 0.5 + 5) / 10;
-    EXPECT_EQ(finding.edge, 1);
-    EXPECT_EQ(finding.reason, "contact");
-    ASSERT_TRUE(finding.freeUntil);
-    EXPECT_LE(*finding.freeUntil, truth);
-    EXPECT_GE(finding.t, truth - 1e-15);
-    EXPECT_LE(finding.t - *finding.freeUntil, 2e-8);
-    EXPECT_LE(finding.point.x(), wall + 1e-3);
-  }
-}
-
-/// A blade that rotates into a post: the time is that of the closed form.
-TEST(VerifyPath, TheFirstContactOfARotation) {
-  World world(boxMesh({0, -0.01, -0.1}, {1, 0, 0.1}), boxMesh({-0.1, 0.5, -1}, {0, 0.6, 1}));
-  const PathReport report = world.verify(Poses{poseOf({0, 0, 0}, 0), poseOf({0, 0, 0}, 3)});
-  ASSERT_EQ(report.findings.size(), 1u);
-  const PathFinding& finding = report.findings[0];
-  const double truth = kPi / 2 / 3;  // the blade's edge is along x; the post begins at x = 0
-  ASSERT_TRUE(finding.freeUntil);
-  EXPECT_LE(*finding.freeUntil, truth);
-  EXPECT_GE(finding.t, truth - 1e-15);
-  EXPECT_LE(finding.t - *finding.freeUntil, 1e-6);
-}
-
 TEST(VerifyPath, OneStateIsCheckedAsItIs) {
   World world(kCube, boxMesh(Vec3(1, -1, -1), Vec3(2, 1, 1)));
   PathReport report = world.verify(Poses{poseOf({0, 0, 0})});
