@@ -43,6 +43,21 @@ class QueryCommand : public ProgramTest {
     }
     return values;
   }
+  /// Returns the numbers of each line of the CSV after the first.
+  std::vector<std::vector<double>> rows(const std::string& options) const {
+    const Result result = query(options);
+    EXPECT_EQ(result.status, 0) << result.err;
+    std::vector<std::vector<double>> all;
+    std::istringstream lines(result.out);
+    std::string line;
+    std::getline(lines, line);
+    while (std::getline(lines, line)) {
+      std::replace(line.begin(), line.end(), ',', ' ');
+      std::istringstream words(line);
+      all.emplace_back(std::istream_iterator<double>(words), std::istream_iterator<double>());
+    }
+    return all;
+  }
 };
 
 /// Two unit cubes, and every method.
@@ -63,20 +78,6 @@ TEST_F(QueryCommand, Hulls) {
     EXPECT_EQ(figures.at("vertices_a"), "8");
     EXPECT_EQ(figures.at("hits"), "2");
   }
-  const auto rows = [&](const std::string& options) {
-    const Result result = query(options);
-    EXPECT_EQ(result.status, 0) << result.err;
-    std::vector<std::vector<double>> all;
-    std::istringstream lines(result.out);
-    std::string line;
-    std::getline(lines, line);
-    while (std::getline(lines, line)) {
-      std::replace(line.begin(), line.end(), ',', ' ');
-      std::istringstream words(line);
-      all.emplace_back(std::istream_iterator<double>(words), std::istream_iterator<double>());
-    }
-    return all;
-  };
   for (const char* method : {"hierarchy", "climbing", "every-vertex"}) {
     const auto d = rows(std::string("--poses poses.txt --query distance --hulls ") + method);
     ASSERT_EQ(d.size(), 3u);
@@ -92,6 +93,39 @@ TEST_F(QueryCommand, Hulls) {
     EXPECT_NEAR(p[2][1], p[2][2], 1e-12);
     EXPECT_NEAR(p[2][3], 1, 1e-15);
   }
+}
+
+/// The depth of two unit cubes, which are meshes.
+TEST_F(QueryCommand, DepthOfMeshes) {
+  std::string cube;
+  for (int i = 0; i < 8; ++i)
+    cube += "v " + std::to_string(i & 1) + " " + std::to_string(i >> 1 & 1) + " " +
+            std::to_string(i >> 2) + "\n";
+  cube += "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+  write("a.obj", cube);
+  write("b.obj", cube);
+  write("poses.txt", kStill + "1.5 0 0\n" + kStill + "0.75 0.1 0.2\n");
+  const auto best = rows("--poses poses.txt --query depth");
+  ASSERT_EQ(best.size(), 2u);
+  EXPECT_EQ(best[0], (std::vector<double>{0, 0, 0, 0, 0, 0, -1, -1}));
+  EXPECT_LE(best[1][1], 0.25);
+  EXPECT_GE(best[1][2], 0.25);
+  EXPECT_NEAR(best[1][2], 0.25, 1e-4);
+  EXPECT_NEAR(best[1][3], 1, 1e-12);
+  EXPECT_GE(best[1][6], 0);
+  const auto up = rows("--poses poses.txt --query depth --direction 0,0,3");
+  EXPECT_NEAR(up[1][2], 0.8, 1e-4);
+  EXPECT_EQ(up[1][5], 1);
+  const auto fault = [&](const std::string& options) {
+    const Result result = query("--poses poses.txt " + options);
+    EXPECT_EQ(result.status, 2) << options;
+    return result.err;
+  };
+  EXPECT_EQ(fault("--query depth --direction 0,0,0"),
+            "--direction: 0,0,0 is no direction; give a vector x,y,z\n");
+  EXPECT_EQ(fault("--direction 0,0,1"), "--direction: needs --query depth\n");
+  EXPECT_EQ(fault("--query depth --volume aabb"),
+            "--volume: can't be used with --query depth, which chooses its trees\n");
 }
 
 TEST_F(QueryCommand, HullsOnBadInput) {
@@ -111,7 +145,8 @@ TEST_F(QueryCommand, HullsOnBadInput) {
               HasSubstr("unknown query with --hulls: \"contacts\""));
   EXPECT_EQ(fault("--hulls climbing --volume aabb"),
             "--volume: can't be used with --hulls, which needs no trees\n");
-  EXPECT_EQ(fault("--query depth"), "--query: depth needs --hulls\n");
+  EXPECT_EQ(fault("--hulls climbing --query depth --direction 1,0,0"),
+            "--direction: is for the depth of meshes, not with --hulls\n");
 }
 
 TEST_F(QueryCommand, InterferenceIsOneLineAPose) {
@@ -156,7 +191,7 @@ TEST_F(QueryCommand, ContactsListTrianglesAndSegments) {
 
 TEST_F(QueryCommand, DistanceAndTolerance) {
   write("poses.txt", "\xEF\xBB\xBF" + kStill + "0 0 0\n" + kStill + "0 0 2\n");
-  EXPECT_EQ(lines(query("--poses poses.txt --query distance").out).at(2), "1,1,1,1,0,1,1,1");
+  EXPECT_EQ(lines(query("--poses poses.txt --query distance").out).at(2), "1,1,1,1,0,1,1,1,0,0,1");
   EXPECT_THAT(lines(query("--poses poses.txt --query distance").out).at(1),
               testing::StartsWith("0,0,"));
   const std::string tolerance = "--poses poses.txt --query tolerance --tolerance ";
@@ -306,7 +341,7 @@ TEST_F(QueryCommand, BadInputIsOneLineAndExit2) {
         "not read");
   fault("a.obj b.obj --poses poses.txt --query intereference",
         "--query: unknown query \"intereference\" (did you mean \"interference\"?); there are: "
-        "interference, contacts, distance, tolerance");
+        "interference, contacts, distance, tolerance, depth");
   fault("a.obj b.obj --poses poses.txt --volume obbb",
         "--volume: unknown volume \"obbb\" (did you mean \"obb\"?); there are: obb, obb-binary, "
         "aabb, sphere, "
