@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <optional>
+#include <type_traits>
 #include <utility>
 
 #include "collision/core/quantiles.h"
@@ -72,6 +73,11 @@ BatchResult runOn(const Batch& batch, const Make& make) {
           timed(batch.poses.size(), batch.repeat, [&](std::size_t i, QueryContext& context) {
             return interference<Overlap>(Posed(a), Posed(b, batch.poses[i]), context).has_value();
           });
+      if constexpr (!std::is_same_v<decltype(a), const Obb4Tree>) {
+        std::vector<Transform> poses;
+        for (const std::size_t i : batch.measured) poses.push_back(batch.poses[i]);
+        result.tests = testCosts<Overlap>(a, b, poses);
+      }
       break;
     case QueryKind::distance:
       result.distances.resize(batch.poses.size());
@@ -99,6 +105,8 @@ BatchResult runOn(const Batch& batch, const Make& make) {
           result.contacts.push_back({i, c.a, c.b, c.p_W, c.q_W});
       break;
     }
+    case QueryKind::depth:  // `runDepths`
+      break;
   }
   return result;
 }
@@ -130,6 +138,27 @@ BatchResult runPoses(const Batch& batch) {
     return runOn<Overlap>(
         batch, [&](const TriangleMesh& mesh) { return VolumeTree<Volume>(mesh, params); });
   });
+}
+
+BatchResult runDepths(TriangleMesh meshA, TriangleMesh meshB, const std::vector<Transform>& poses,
+                      const std::optional<Vec3>& direction, int repeat) {
+  BatchResult result;
+  const Body a("A", std::move(meshA)), b("B", std::move(meshB));
+  for (const TreeKind trees : {TreeKind::obb4, TreeKind::obbBinary}) {
+    const BuiltTree treeA = builtTree(a, trees), treeB = builtTree(b, trees);
+    result.bytesA += treeA.bytes;
+    result.buildMsA += treeA.ms;
+    result.bytesB += treeB.bytes;
+    result.buildMsB += treeB.ms;
+  }
+  DepthOptions options;
+  if (direction) options.directions = {*direction};
+  result.depths.resize(poses.size());
+  result.answers = timed(poses.size(), repeat, [&](std::size_t i, QueryContext& context) {
+    result.depths[i] = depthBounds(a, b, poses[i], options, context);
+    return result.depths[i].upper > 0;
+  });
+  return result;
 }
 
 BatchResult runMotions(TriangleMesh meshA, TriangleMesh meshB,
@@ -180,8 +209,9 @@ const std::vector<NamedQuery>& namedQueries() {
   static const std::vector<NamedQuery> queries = {
       {"interference", QueryKind::interference, "pose,hit,bv_tests,triangle_tests"},
       {"contacts", QueryKind::contacts, "pose,a,b,px,py,pz,qx,qy,qz"},
-      {"distance", QueryKind::distance, "pose,distance,ax,ay,az,bx,by,bz"},
-      {"tolerance", QueryKind::tolerance, "pose,closer"}};
+      {"distance", QueryKind::distance, "pose,distance,ax,ay,az,bx,by,bz,nx,ny,nz"},
+      {"tolerance", QueryKind::tolerance, "pose,closer"},
+      {"depth", QueryKind::depth, "pose,lower,upper,dx,dy,dz,triangle_a,triangle_b"}};
   return queries;
 }
 

@@ -33,6 +33,7 @@ struct QueryArguments {
   std::optional<std::string> query, volume;  ///< `query`: with poses only; unset: the first
   std::optional<std::string> fit, overlap;   ///< unset: the first that the volume has
   std::optional<std::string> hulls;          ///< query the convex hulls, by this method
+  std::optional<std::string> direction;      ///< "x,y,z", for the depth of meshes
   std::optional<double> tolerance;           ///< metres; for the tolerance query and for motions
   std::uint64_t repeat = 1;
 };
@@ -44,7 +45,6 @@ constexpr std::uint64_t kMostQueries = 1'000'000'000;
 /// @throws InputError for an unknown name; it lists the names.
 const NamedQuery& queryNamed(const std::optional<std::string>& name) {
   if (!name) return namedQueries().front();
-  if (name == "depth") throw InputError(Fault{"--query", 0, "depth needs --hulls"});
   std::vector<std::string> names;
   for (const NamedQuery& query : namedQueries()) {
     if (query.name == *name) return query;
@@ -97,6 +97,7 @@ void checkOptions(const QueryArguments& a) {
     ofPoses("--poses", a.poses.has_value());
     ofPoses("--grid", a.grid.has_value());
     ofPoses("--query", a.query.has_value());
+    ofPoses("--direction", a.direction.has_value());
     if (a.tolerance && !(*a.tolerance > 0))
       throw InputError(Fault{"--tolerance", 0, "must be above 0 with --motions"});
   }
@@ -185,6 +186,30 @@ void checkHullOptions(const QueryArguments& a) {
   ofTrees("--fit", a.fit.has_value());
   ofTrees("--overlap", a.overlap.has_value());
   ofTrees("--tolerance", a.tolerance.has_value());
+  if (a.direction)
+    throw InputError(Fault{"--direction", 0, "is for the depth of meshes, not with --hulls"});
+}
+
+/// Bounds of the penetration depth at many poses.
+int queryDepth(const QueryArguments& a, const NamedQuery& query) {
+  for (const auto& [option, given] :
+       {std::pair("--volume", a.volume.has_value()), std::pair("--fit", a.fit.has_value()),
+        std::pair("--overlap", a.overlap.has_value())})
+    if (given)
+      throw InputError(
+          Fault{option, 0, "can't be used with --query depth, which chooses its trees"});
+  std::optional<Vec3> direction;
+  if (a.direction) direction = parsePoint("--direction", *a.direction);
+  if (direction && direction->isZero(0))
+    throw InputError(Fault{"--direction", 0, "0,0,0 is no direction; give a vector x,y,z"});
+  PoseInput input(a);
+  const BatchResult result = runDepths(std::move(input.meshA.mesh), std::move(input.meshB.mesh),
+                                       input.poses, direction, static_cast<int>(a.repeat));
+  printCsv(query, result);
+  const auto hits = std::ranges::count_if(result.answers, &Answer::hit);
+  printSummary(result, {"query=" + query.name, "poses=" + std::to_string(input.poses.size()),
+                        "hits=" + std::to_string(hits)});
+  return kDone;
 }
 
 int queryCommand(const QueryArguments& a) {
@@ -205,12 +230,19 @@ int queryCommand(const QueryArguments& a) {
         Fault{"--tolerance", 0, "is needed with --query tolerance: a distance in metres"});
   if (query.kind != QueryKind::tolerance && a.tolerance)
     throw InputError(Fault{"--tolerance", 0, "needs --query tolerance or --motions"});
+  if (query.kind == QueryKind::depth) return queryDepth(a, query);
+  if (a.direction) throw InputError(Fault{"--direction", 0, "needs --query depth"});
   if (!testsOverlap(query.kind))
     requireDefaultOverlap(trees, "--query interference or contacts", query.name);
   const PoseInput input(a);
-  const BatchResult result =
-      runPoses({input.meshA.mesh, input.meshB.mesh, input.poses, query.kind, treesNamed(trees),
-                a.tolerance.value_or(0), static_cast<int>(a.repeat)});
+  const BatchResult result = runPoses({input.meshA.mesh,
+                                       input.meshB.mesh,
+                                       input.poses,
+                                       query.kind,
+                                       treesNamed(trees),
+                                       a.tolerance.value_or(0),
+                                       static_cast<int>(a.repeat),
+                                       {}});
   printCsv(query, result);
   const auto hits = std::count_if(result.answers.begin(), result.answers.end(),
                                   [](const Answer& answer) { return answer.hit; });
@@ -296,8 +328,12 @@ void addQuery(CLI::App& program, int& status) {
   };
   command
       ->add_option("--query", a.query,
-                   "the query; the first is the default: " + named(namedQueries()) +
-                       "; with --hulls also depth")
+                   "the query; the first is the default: " + named(namedQueries()))
+      ->group(asked);
+  command
+      ->add_option("--direction", a.direction,
+                   "x,y,z: with --query depth, the direction along which B leaves A (default: the "
+                   "best of several)")
       ->group(asked);
   command
       ->add_option("--volume", a.volume,
@@ -346,7 +382,12 @@ void addQuery(CLI::App& program, int& status) {
           "  interference: pose,hit,bv_tests,triangle_tests\n"
           "  contacts: pose,a,b,px,py,pz,qx,qy,qz, one line per pair of triangles that touch, with "
           "the ends p and q of the segment that they share\n"
-          "  distance: pose,distance,ax,ay,az,bx,by,bz, with a closest point of each mesh\n"
+          "  distance: pose,distance,ax,ay,az,bx,by,bz,nx,ny,nz, with a closest point of each mesh "
+          "and "
+          "the direction from A to B (0 for contact)\n"
+          "  depth: pose,lower,upper,dx,dy,dz,triangle_a,triangle_b: B must move by at least "
+          "lower, "
+          "and leaves A by upper along the direction; the deepest pair of triangles\n"
           "  with --hulls: interference: pose,hit; distance: pose,distance,lower,nx,ny,nz,ax,ay,az,"
           "bx,by,bz, with a proved lower bound, the direction that proves it, and a closest point "
           "of "

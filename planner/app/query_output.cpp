@@ -23,9 +23,22 @@ void printCsv(const NamedQuery& query, const BatchResult& result) {
   } else if (query.kind == QueryKind::distance) {
     for (std::size_t i = 0; i < result.distances.size(); ++i) {
       const Distance& d = result.distances[i];
-      std::snprintf(line, sizeof line, "%zu,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n", i,
+      const Vec3 n = d.distance > 0 ? Vec3((d.p_WB - d.p_WA).stableNormalized()) : Vec3::Zero();
+      std::snprintf(line, sizeof line,
+                    "%zu,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n", i,
                     d.distance, d.p_WA.x(), d.p_WA.y(), d.p_WA.z(), d.p_WB.x(), d.p_WB.y(),
-                    d.p_WB.z());
+                    d.p_WB.z(), n.x(), n.y(), n.z());
+      text += line;
+    }
+  } else if (query.kind == QueryKind::depth) {
+    for (std::size_t i = 0; i < result.depths.size(); ++i) {
+      const DepthBounds& d = result.depths[i];
+      const auto number = [](const auto& pair, auto member) {
+        return pair ? static_cast<long long>((*pair).*member) : -1LL;
+      };
+      std::snprintf(line, sizeof line, "%zu,%.17g,%.17g,%.17g,%.17g,%.17g,%lld,%lld\n", i, d.lower,
+                    d.upper, d.direction_A.x(), d.direction_A.y(), d.direction_A.z(),
+                    number(d.deepest, &PrimitivePair::a), number(d.deepest, &PrimitivePair::b));
       text += line;
     }
   } else if (query.kind == QueryKind::tolerance) {
