@@ -121,14 +121,14 @@ BuiltTree builtTree(const Body& body, TreeKind trees) {
 }  // namespace
 
 BatchResult runPoses(const Batch& batch) {
-  const auto [trees, fit] = batch.trees;
-  const TreeParams params{fit};
+  const auto [trees, params] = batch.trees;
   if (trees == TreeKind::obb4)
     return runOn<StandardOverlap>(
-        batch, [&](const TriangleMesh& mesh) { return Obb4Tree(mesh, params.fit); });
+        batch, [&, fit = params.fit](const TriangleMesh& mesh) { return Obb4Tree(mesh, fit); });
   return withVolume(trees, [&]<class Volume, class Overlap>() {
-    return runOn<Overlap>(
-        batch, [&](const TriangleMesh& mesh) { return VolumeTree<Volume>(mesh, params); });
+    return runOn<Overlap>(batch, [&](const TriangleMesh& mesh) {
+      return VolumeTree<Volume>(mesh, batch.trees.params);
+    });
   });
 }
 
@@ -136,8 +136,8 @@ BatchResult runMotions(TriangleMesh meshA, TriangleMesh meshB,
                        const std::vector<PoseMotion>& motions, const TreeChoice& trees,
                        std::optional<double> tolerance, int repeat, EdgeMethod method) {
   BatchResult result;
-  const TreeParams params{trees.fit};
-  const Body a("A", std::move(meshA), false, params), b("B", std::move(meshB), false, params);
+  const Body a("A", std::move(meshA), false, trees.params),
+      b("B", std::move(meshB), false, trees.params);
   const BuiltTree treeA = builtTree(a, trees.trees), treeB = builtTree(b, trees.trees);
   result.bytesA = treeA.bytes;
   result.buildMsA = treeA.ms;

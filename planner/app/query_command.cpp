@@ -31,9 +31,9 @@ struct QueryArguments {
   std::optional<std::string> motions;        ///< instead of poses: a file of motions, one per line
   std::optional<std::string> edges;          ///< with `motions` only: the method; unset: the first
   std::optional<std::string> query, volume;  ///< `query`: with poses only; unset: the first
-  std::optional<std::string> fit, overlap;   ///< unset: the first that the volume has
-  std::optional<std::string> hulls;          ///< query the convex hulls, by this method
-  std::optional<double> tolerance;           ///< metres; for the tolerance query and for motions
+  std::optional<std::string> fit, overlap, build;  ///< unset: the first that the volume has
+  std::optional<std::string> hulls;                ///< query the convex hulls, by this method
+  std::optional<double> tolerance;  ///< metres; for the tolerance query and for motions
   std::uint64_t repeat = 1;
 };
 
@@ -55,10 +55,12 @@ const NamedQuery& queryNamed(const std::optional<std::string>& name) {
                              "; there are: " + joined(names)});
 }
 
-/// Returns the volume, fit and overlap test that the arguments name, defaults filled in.
+/// Returns the volume, fit, overlap test and way of building that the arguments name, defaults
+/// filled in.
 /// @throws InputError for an unknown name; it lists the names.
 TreeNames chosenTrees(const QueryArguments& a) {
-  const TreeNames words{a.volume.value_or(""), a.fit.value_or(""), a.overlap.value_or("")};
+  const TreeNames words{a.volume.value_or(""), a.fit.value_or(""), a.overlap.value_or(""),
+                        a.build.value_or("")};
   if (const auto wrong = invalidNameIn(words))
     throw InputError(Fault{"--" + wrong->key, 0, wrong->text});
   return withDefaults(words);
@@ -152,9 +154,9 @@ int queryMotions(const QueryArguments& a) {
   printSummary(
       result,
       {"edges=" + edges, "volume=" + trees.volume, "fit=" + trees.fit, "overlap=" + trees.overlap,
-       "tolerance=" + rounded(result.tolerance), "motions=" + std::to_string(motions.size()),
-       "free=" + number(MotionVerdict::free), "hits=" + number(MotionVerdict::contact),
-       "undecided=" + number(MotionVerdict::undecided)});
+       "build=" + trees.build, "tolerance=" + rounded(result.tolerance),
+       "motions=" + std::to_string(motions.size()), "free=" + number(MotionVerdict::free),
+       "hits=" + number(MotionVerdict::contact), "undecided=" + number(MotionVerdict::undecided)});
   return kDone;
 }
 
@@ -184,6 +186,7 @@ void checkHullOptions(const QueryArguments& a) {
   ofTrees("--volume", a.volume.has_value());
   ofTrees("--fit", a.fit.has_value());
   ofTrees("--overlap", a.overlap.has_value());
+  ofTrees("--build", a.build.has_value());
   ofTrees("--tolerance", a.tolerance.has_value());
 }
 
@@ -214,9 +217,10 @@ int queryCommand(const QueryArguments& a) {
   printCsv(query, result);
   const auto hits = std::count_if(result.answers.begin(), result.answers.end(),
                                   [](const Answer& answer) { return answer.hit; });
-  printSummary(result, {"query=" + query.name, "volume=" + trees.volume, "fit=" + trees.fit,
-                        "overlap=" + trees.overlap, "poses=" + std::to_string(input.poses.size()),
-                        "hits=" + std::to_string(hits)});
+  printSummary(result,
+               {"query=" + query.name, "volume=" + trees.volume, "fit=" + trees.fit,
+                "overlap=" + trees.overlap, "build=" + trees.build,
+                "poses=" + std::to_string(input.poses.size()), "hits=" + std::to_string(hits)});
   return kDone;
 }
 
@@ -310,6 +314,12 @@ void addQuery(CLI::App& program, int& status) {
       ->add_option("--overlap", a.overlap,
                    "the overlap test of two volumes, for queries that use one; " +
                        variants(&VolumeKind::overlaps))
+      ->group(asked);
+  command
+      ->add_option("--build", a.build,
+                   "how trees are built; top-down splits at the mean, median at the median, "
+                   "bottom-up merges neighbours; " +
+                       variants(&VolumeKind::builds))
       ->group(asked);
   command
       ->add_option(

@@ -16,6 +16,7 @@ void readCheckerKeys(const YamlMap& map, CheckerSettings& checker) {
   trees.volume = map.choice("volume", words.at("checker.volume")).value_or(trees.volume);
   trees.fit = map.choice("fit", words.at("checker.fit")).value_or(trees.fit);
   trees.overlap = map.choice("overlap", words.at("checker.overlap")).value_or(trees.overlap);
+  trees.build = map.choice("build", words.at("checker.build")).value_or(trees.build);
   if (map.source().faults.size() > faults) return;
   if (const auto wrong = invalidNameIn(checker)) map.fault(wrong->key, wrong->text);
 }

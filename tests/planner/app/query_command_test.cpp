@@ -111,6 +111,8 @@ TEST_F(QueryCommand, HullsOnBadInput) {
               HasSubstr("unknown query with --hulls: \"contacts\""));
   EXPECT_EQ(fault("--hulls climbing --volume aabb"),
             "--volume: can't be used with --hulls, which needs no trees\n");
+  EXPECT_EQ(fault("--hulls climbing --build median"),
+            "--build: can't be used with --hulls, which needs no trees\n");
   EXPECT_EQ(fault("--query depth"), "--query: depth needs --hulls\n");
 }
 
@@ -130,6 +132,7 @@ TEST_F(QueryCommand, InterferenceIsOneLineAPose) {
   EXPECT_EQ(figures.at("volume"), "obb");
   EXPECT_EQ(figures.at("fit"), "triangles");
   EXPECT_EQ(figures.at("overlap"), "sat");
+  EXPECT_EQ(figures.at("build"), "top-down");
   EXPECT_FALSE(figures.at("simd").empty());
 }
 
@@ -189,6 +192,20 @@ TEST_F(QueryCommand, AllOverlapTestsGiveTheSameAnswers) {
       EXPECT_EQ(summary(result).at("overlap"), overlap);
     }
   }
+}
+
+TEST_F(QueryCommand, AllWaysOfBuildingGiveTheSameAnswers) {
+  for (const char* asked : {"", " --query contacts", " --query distance"})
+    for (const char* volume : {"obb-binary", "aabb", "sphere", "kdop14"}) {
+      const std::string options = std::string("--poses poses.txt --volume ") + volume + asked;
+      const auto hits = summary(query(options)).at("hits");
+      for (const std::string build : {"top-down", "median", "bottom-up"}) {
+        const Result result = query(options + " --build " + build);
+        EXPECT_EQ(result.status, 0) << result.err;
+        EXPECT_EQ(summary(result).at("hits"), hits) << options << build;
+        EXPECT_EQ(summary(result).at("build"), build);
+      }
+    }
 }
 
 TEST_F(QueryCommand, GridsAreLatticesAndRepeat) {
@@ -324,6 +341,11 @@ TEST_F(QueryCommand, BadInputIsOneLineAndExit2) {
         "--overlap: \"gjk\" is for volume obb-binary; volume obb has: sat");
   fault("a.obj b.obj --poses poses.txt --volume aabb --fit hull",
         "--fit: \"hull\" is for volumes obb, obb-binary, rss; volume aabb has: plain");
+  fault("a.obj b.obj --poses poses.txt --volume aabb --build bottum-up",
+        "--build: unknown build \"bottum-up\" (did you mean \"bottom-up\"?); volume aabb has: "
+        "top-down, median, bottom-up");
+  expectFaultThatBegins("query a.obj b.obj --poses poses.txt --build bottom-up",
+                        "--build: \"bottom-up\" is for volumes obb-binary, aabb, ");
   fault("a.obj b.obj --poses poses.txt --volume obb-binary --overlap gkj",
         "--overlap: unknown overlap \"gkj\" (did you mean \"gjk\"?); volume obb-binary has: sat, "
         "gjk, lp, edge-face");
