@@ -54,18 +54,34 @@ std::vector<Answer> timed(std::size_t count, int passes, const Ask& ask) {
   return answers;
 }
 
+/// Builds a tree by `make()`. Measures the time and the tree's size.
+template <class Make>
+auto measured(const Make& make, double& ms, std::size_t& bytes) {
+  const auto start = std::chrono::steady_clock::now();
+  auto tree = make();
+  ms = millisecondsSince(start);
+  bytes = tree.bytes();
+  return tree;
+}
+
+/// Runs interference queries on octrees.
+BatchResult runOnOctrees(const Batch& batch) {
+  BatchResult result;
+  const Octree a = measured([&] { return Octree(batch.a); }, result.buildMsA, result.bytesA);
+  const Octree b = measured([&] { return Octree(batch.b); }, result.buildMsB, result.bytesB);
+  result.answers =
+      timed(batch.poses.size(), batch.repeat, [&](std::size_t i, QueryContext& context) {
+        return interference(Posed(a), Posed(b, batch.poses[i]), context).has_value();
+      });
+  return result;
+}
+
 /// Builds both trees by `make(mesh)` and runs the batch on them.
 template <class Overlap, class Make>
 BatchResult runOn(const Batch& batch, const Make& make) {
   BatchResult result;
-  auto start = std::chrono::steady_clock::now();
-  const auto a = make(batch.a);
-  result.buildMsA = millisecondsSince(start);
-  start = std::chrono::steady_clock::now();
-  const auto b = make(batch.b);
-  result.buildMsB = millisecondsSince(start);
-  result.bytesA = a.bytes();
-  result.bytesB = b.bytes();
+  const auto a = measured([&] { return make(batch.a); }, result.buildMsA, result.bytesA);
+  const auto b = measured([&] { return make(batch.b); }, result.buildMsB, result.bytesB);
   switch (batch.kind) {
     case QueryKind::interference:
       result.answers =
@@ -121,13 +137,14 @@ BuiltTree builtTree(const Body& body, TreeKind trees) {
 }  // namespace
 
 BatchResult runPoses(const Batch& batch) {
-  const auto [trees, params] = batch.trees;
+  if (!batch.trees) return runOnOctrees(batch);
+  const auto& [trees, params] = *batch.trees;
   if (trees == TreeKind::obb4)
     return runOn<StandardOverlap>(
         batch, [&, fit = params.fit](const TriangleMesh& mesh) { return Obb4Tree(mesh, fit); });
   return withVolume(trees, [&]<class Volume, class Overlap>() {
     return runOn<Overlap>(batch, [&](const TriangleMesh& mesh) {
-      return VolumeTree<Volume>(mesh, batch.trees.params);
+      return VolumeTree<Volume>(mesh, batch.trees->params);
     });
   });
 }

@@ -34,9 +34,9 @@ struct Batch {
   const TriangleMesh &a, &b;
   const std::vector<Transform>& poses;
   QueryKind kind = QueryKind::interference;
-  TreeChoice trees;
-  double tolerance = 0;  ///< metres, for `QueryKind::tolerance` only
-  int repeat = 1;        ///< passes over all poses
+  std::optional<TreeChoice> trees = TreeChoice{};  ///< unset: octrees, for interference only
+  double tolerance = 0;                            ///< metres, for `QueryKind::tolerance` only
+  int repeat = 1;                                  ///< passes over all poses
 };
 
 /// The answer and the cost of one pose or motion.

@@ -18,6 +18,7 @@
 #include "planner/app/query_hulls.h"
 #include "planner/app/query_output.h"
 #include "planner/app/query_poses.h"
+#include "planner/app/query_trees.h"
 
 namespace corridor::app {
 namespace {
@@ -55,26 +56,9 @@ const NamedQuery& queryNamed(const std::optional<std::string>& name) {
                              "; there are: " + joined(names)});
 }
 
-/// Returns the volume, fit, overlap test and way of building that the arguments name, defaults
-/// filled in.
-/// @throws InputError for an unknown name; it lists the names.
-TreeNames chosenTrees(const QueryArguments& a) {
-  const TreeNames words{a.volume.value_or(""), a.fit.value_or(""), a.overlap.value_or(""),
-                        a.build.value_or("")};
-  if (const auto wrong = invalidNameIn(words))
-    throw InputError(Fault{"--" + wrong->key, 0, wrong->text});
-  return withDefaults(words);
-}
-
-/// Refuses an --overlap other than the volume's default, for a query that computes distances
-/// between volumes and so runs no overlap test. @throws InputError
-/// @param of the options with which overlap tests are run. @param asked the name of the query.
-void requireDefaultOverlap(const TreeNames& trees, const std::string& of,
-                           const std::string& asked) {
-  if (trees.overlap == withDefaults({trees.volume, "", ""}).overlap) return;
-  throw InputError(Fault{"--overlap", 0,
-                         quotedWord(trees.overlap) + " needs " + of + "; " + asked +
-                             " computes distances between volumes"});
+/// Returns the words of the options for trees, as they were given.
+TreeNames treeWords(const QueryArguments& a) {
+  return {a.volume.value_or(""), a.fit.value_or(""), a.overlap.value_or(""), a.build.value_or("")};
 }
 
 std::vector<Transform> posesOf(const QueryArguments& a, const TriangleMesh& meshA,
@@ -137,7 +121,8 @@ EdgeMethod methodNamed(const std::string& name) {
 int queryMotions(const QueryArguments& a) {
   const std::string edges = a.edges.value_or(edgeMethodNames().front());
   const EdgeMethod method = methodNamed(edges);
-  const TreeNames trees = chosenTrees(a);
+  const TreeNames trees = chosenTrees(treeWords(a));
+  requireNoOctree(trees, "--motions");
   if (method != EdgeMethod::directional) requireDefaultOverlap(trees, "--edges certified", edges);
   MeshFile meshA = readMeshFile(a.meshA), meshB = readMeshFile(a.meshB);
   const std::vector<PoseMotion> motions = readMotions(*a.motions);
@@ -202,7 +187,8 @@ int queryCommand(const QueryArguments& a) {
   }
   if (a.motions) return queryMotions(a);
   const NamedQuery& query = queryNamed(a.query);
-  const TreeNames trees = chosenTrees(a);
+  const TreeNames trees = chosenTrees(treeWords(a));
+  if (query.kind != QueryKind::interference) requireNoOctree(trees, query.name);
   if (query.kind == QueryKind::tolerance && !a.tolerance)
     throw InputError(
         Fault{"--tolerance", 0, "is needed with --query tolerance: a distance in metres"});
@@ -212,7 +198,8 @@ int queryCommand(const QueryArguments& a) {
     requireDefaultOverlap(trees, "--query interference or contacts", query.name);
   const PoseInput input(a);
   const BatchResult result =
-      runPoses({input.meshA.mesh, input.meshB.mesh, input.poses, query.kind, treesNamed(trees),
+      runPoses({input.meshA.mesh, input.meshB.mesh, input.poses, query.kind,
+                trees.volume == kOctree ? std::nullopt : std::optional(treesNamed(trees)),
                 a.tolerance.value_or(0), static_cast<int>(a.repeat)});
   printCsv(query, result);
   const auto hits = std::count_if(result.answers.begin(), result.answers.end(),
@@ -305,7 +292,8 @@ void addQuery(CLI::App& program, int& status) {
       ->group(asked);
   command
       ->add_option("--volume", a.volume,
-                   "the bounding volume; the first is the default: " + named(volumeKinds()))
+                   "the bounding volume; the first is the default: " + named(volumeKinds()) + ", " +
+                       kOctree + " (a tree over space, for --query interference only)")
       ->group(asked);
   command
       ->add_option("--fit", a.fit, "what the volumes are fitted to; " + variants(&VolumeKind::fits))

@@ -194,6 +194,65 @@ TEST_F(QueryCommand, AllOverlapTestsGiveTheSameAnswers) {
   }
 }
 
+TEST_F(QueryCommand, OctreesHaveInterferenceOnly) {
+  const Result result = query("--poses poses.txt --volume octree --repeat 2");
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.out, query("--poses poses.txt --volume aabb").out);
+  auto figures = summary(result);
+  EXPECT_EQ(figures["volume"] + " " + figures["fit"] + " " + figures["overlap"] + " " +
+                figures["build"] + " " + figures["hits"],
+            "octree plain sat top-down 3");
+  // Meshes of many triangles, at poses with and without contact.
+  std::string ribbon[2];  // one below the other, crossing at right angles
+  for (int k = 0; k < 2; ++k) {
+    for (int i = 0; i <= 60; ++i) {
+      const std::string along = std::to_string(i * 0.05 - 1.5);
+      for (const std::string across : {"-0.2", "0.2"})
+        ribbon[k] += "v " + (k ? across + " " + along : along + " " + across) + " " +
+                     std::to_string((i % 3) * 0.01) + "\n";
+    }
+    for (int i = 1; i <= 120; ++i)
+      ribbon[k] += "f " + std::to_string(i) + " " + std::to_string(i + 1) + " " +
+                   std::to_string(i + 2) + "\n";
+  }
+  write("a.obj", ribbon[0]);
+  write("b.obj", ribbon[1]);
+  const std::string grid = "--grid 4x4x7 --rotations 2 --volume ";
+  const Result cells = query(grid + "octree"), boxes = query(grid + "aabb");
+  EXPECT_EQ(cells.status, 0) << cells.err;
+  const auto a = lines(cells.out), b = lines(boxes.out);
+  ASSERT_EQ(a.size(), 225u);
+  ASSERT_EQ(b.size(), 225u);
+  const auto verdict = [](const std::string& line) {
+    return line.substr(0, line.find(',', line.find(',') + 1));
+  };
+  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_EQ(verdict(a[i]), verdict(b[i]));
+  EXPECT_NE(cells.out, boxes.out) << "the trees must differ in their tests";
+  EXPECT_GT(std::stoi(summary(cells).at("hits")), 20);
+  EXPECT_LT(std::stoi(summary(cells).at("hits")), 200);
+}
+
+TEST_F(QueryCommand, OctreesRefuseOtherQueries) {
+  write("motions.txt", kStill + "0 0 1 " + kStill + "0 0 2\n");
+  const auto refused = [&](const std::string& more, const std::string& asked) {
+    expectFault("query a.obj b.obj --volume octree " + more,
+                "--volume: octree has only --query interference, at poses, not " + asked +
+                    "; choose another volume, such as aabb");
+  };
+  for (const std::string asked : {"distance", "contacts", "tolerance"})
+    refused("--poses poses.txt --query " + asked, asked);
+  refused("--motions motions.txt", "--motions");
+  const auto fault = [&](const std::string& option, const std::string& only) {
+    const auto at = option.find(' ');
+    expectFault("query a.obj b.obj --poses poses.txt --volume octree " + option,
+                option.substr(0, at) + ": \"" + option.substr(at + 1) +
+                    "\" is not for octrees; volume octree has: " + only);
+  };
+  fault("--fit hull", "plain");
+  fault("--overlap gjk", "sat");
+  fault("--build bottom-up", "top-down");
+}
+
 TEST_F(QueryCommand, AllWaysOfBuildingGiveTheSameAnswers) {
   for (const char* asked : {"", " --query contacts", " --query distance"})
     for (const char* volume : {"obb-binary", "aabb", "sphere", "kdop14"}) {
@@ -328,7 +387,7 @@ TEST_F(QueryCommand, BadInputIsOneLineAndExit2) {
         "--volume: unknown volume \"obbb\" (did you mean \"obb\"?); there are: obb, obb-binary, "
         "aabb, sphere, "
         "rss, kdop14, kdop18, "
-        "kdop26");
+        "kdop26, octree");
   fault("a.obj b.obj --poses poses.txt --query tolerance",
         "--tolerance: is needed with --query tolerance: a distance in metres");
   fault("a.obj b.obj --poses poses.txt --tolerance 1",

@@ -158,6 +158,10 @@ TEST_F(ProblemFaults, WrongTypes) {
   EXPECT_EQ(with("checker: {volume: spheres}\n"),
             "problem.yaml:8: checker.volume: one of obb, obb-binary, aabb, sphere, rss, kdop14, "
             "kdop18, kdop26 is needed, not \"spheres\" (did you mean \"sphere\"?)");
+  EXPECT_EQ(with("checker: {volume: octree}\n"),
+            "problem.yaml:8: checker.volume: octree can't prove motions: it has only `corridor "
+            "query --volume octree`, for interference of two meshes; choose another volume, such "
+            "as aabb");
   EXPECT_EQ(with("checker: {overlap: gkj}\n"),
             "problem.yaml:8: checker.overlap: one of sat, gjk, lp, edge-face, centers, rectangles, "
             "intervals is needed, not \"gkj\" (did you mean \"gjk\"?)");
