@@ -76,12 +76,9 @@ BatchResult runOnOctrees(const Batch& batch) {
   return result;
 }
 
-/// Builds both trees by `make(mesh)` and runs the batch on them.
-template <class Overlap, class Make>
-BatchResult runOn(const Batch& batch, const Make& make) {
-  BatchResult result;
-  const auto a = measured([&] { return make(batch.a); }, result.buildMsA, result.bytesA);
-  const auto b = measured([&] { return make(batch.b); }, result.buildMsB, result.bytesB);
+/// Runs the batch on the trees of its meshes.
+template <class Overlap, class Tree>
+void runOn(const Batch& batch, const Tree& a, const Tree& b, BatchResult& result) {
   switch (batch.kind) {
     case QueryKind::interference:
       result.answers =
@@ -116,7 +113,20 @@ BatchResult runOn(const Batch& batch, const Make& make) {
       break;
     }
   }
-  return result;
+}
+
+/// Calls `run.operator()<Overlap>(make)`, where `make(mesh)` builds a tree of the batch's kind.
+/// @pre not octrees.
+template <class Run>
+auto withTreesOf(const Batch& batch, const Run& run) {
+  const auto& [trees, params] = *batch.trees;
+  if (trees == TreeKind::obb4)
+    return run.template operator()<StandardOverlap>(
+        [fit = params.fit](const TriangleMesh& mesh) { return Obb4Tree(mesh, fit); });
+  return withVolume(trees, [&, how = params]<class Volume, class Overlap>() {
+    return run.template operator()<Overlap>(
+        [&](const TriangleMesh& mesh) { return VolumeTree<Volume>(mesh, how); });
+  });
 }
 
 /// The size of a body's tree, and the time to build it.
@@ -138,14 +148,29 @@ BuiltTree builtTree(const Body& body, TreeKind trees) {
 
 BatchResult runPoses(const Batch& batch) {
   if (!batch.trees) return runOnOctrees(batch);
-  const auto& [trees, params] = *batch.trees;
-  if (trees == TreeKind::obb4)
-    return runOn<StandardOverlap>(
-        batch, [&, fit = params.fit](const TriangleMesh& mesh) { return Obb4Tree(mesh, fit); });
-  return withVolume(trees, [&]<class Volume, class Overlap>() {
-    return runOn<Overlap>(batch, [&](const TriangleMesh& mesh) {
-      return VolumeTree<Volume>(mesh, batch.trees->params);
-    });
+  return withTreesOf(batch, [&]<class Overlap>(const auto& make) {
+    BatchResult result;
+    const auto a = measured([&] { return make(batch.a); }, result.buildMsA, result.bytesA);
+    const auto b = measured([&] { return make(batch.b); }, result.buildMsB, result.bytesB);
+    runOn<Overlap>(batch, a, b, result);
+    return result;
+  });
+}
+
+std::vector<FrameResult> runFrames(const Batch& batch, const NextShape& next) {
+  return withTreesOf(batch, [&]<class Overlap>(const auto& make) {
+    std::vector<FrameResult> frames(1);
+    BatchResult& first = frames.front().result;
+    auto a = measured([&] { return make(batch.a); }, first.buildMsA, first.bytesA);
+    const auto b = measured([&] { return make(batch.b); }, first.buildMsB, first.bytesB);
+    runOn<Overlap>(batch, a, b, first);
+    while (const std::optional<TriangleMesh> shape = next()) {
+      FrameResult& frame = frames.emplace_back();
+      const auto refit = [&] { a.refit(*shape); };
+      frame.refitMs = nanosecondsOf(refit, refit) / 1e6;
+      runOn<Overlap>(batch, a, b, frame.result);
+    }
+    return frames;
   });
 }
 

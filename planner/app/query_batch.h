@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -68,6 +69,19 @@ struct BatchResult {
 
 /// Builds both trees and runs the query at all poses, measuring each.
 BatchResult runPoses(const Batch& batch);
+
+/// The answers for one shape of a mesh that deforms.
+struct FrameResult {
+  BatchResult result;  ///< the first frame's also has the trees' build times and sizes
+  double refitMs = 0;  ///< 0 for the first frame, whose tree is built
+};
+/// Returns the next shape of a, or nullopt if there is none.
+using NextShape = std::function<std::optional<TriangleMesh>()>;
+/// Runs the query at all poses for each shape of a: first `batch.a`, for which the tree is built,
+/// then the shapes that `next` returns, to which the same tree is refitted.
+/// @pre Every shape has as many triangles as `batch.a`, and no fault (`checkMesh`). The trees are
+/// not octrees, which can't be refitted.
+std::vector<FrameResult> runFrames(const Batch& batch, const NextShape& next);
 
 /// Computes the first contact along each motion of b, with a at rest, and measures it.
 /// @param tolerance metres; unset: the larger of 1e-7 of the smaller bounding sphere's radius and

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstdint>
+#include <filesystem>
 #include <iostream>
 #include <limits>
 #include <memory>
@@ -15,6 +16,7 @@
 #include "planner/app/options.h"
 #include "planner/app/output.h"
 #include "planner/app/query_batch.h"
+#include "planner/app/query_deform.h"
 #include "planner/app/query_hulls.h"
 #include "planner/app/query_output.h"
 #include "planner/app/query_poses.h"
@@ -34,6 +36,7 @@ struct QueryArguments {
   std::optional<std::string> query, volume;  ///< `query`: with poses only; unset: the first
   std::optional<std::string> fit, overlap, build;  ///< unset: the first that the volume has
   std::optional<std::string> hulls;                ///< query the convex hulls, by this method
+  std::vector<std::string> deform;                 ///< further shapes of A, one file per frame
   std::optional<double> tolerance;  ///< metres; for the tolerance query and for motions
   std::uint64_t repeat = 1;
 };
@@ -83,6 +86,7 @@ void checkOptions(const QueryArguments& a) {
     ofPoses("--poses", a.poses.has_value());
     ofPoses("--grid", a.grid.has_value());
     ofPoses("--query", a.query.has_value());
+    ofPoses("--deform", !a.deform.empty());
     if (a.tolerance && !(*a.tolerance > 0))
       throw InputError(Fault{"--tolerance", 0, "must be above 0 with --motions"});
   }
@@ -154,8 +158,10 @@ struct PoseInput {
       : meshA(readMeshFile(a.meshA)),
         meshB(readMeshFile(a.meshB)),
         poses(posesOf(a, meshA.mesh, meshB.mesh)) {
-    checkRepeats(a, poses.size(), "pose");
-    requireNotAnInput(a.savePoses, "--save-poses", {a.meshA, a.meshB}, "the query");
+    checkRepeats(a, poses.size() * (a.deform.size() + 1), "pose");
+    std::vector<std::filesystem::path> inputs = {a.meshA, a.meshB};
+    inputs.insert(inputs.end(), a.deform.begin(), a.deform.end());
+    requireNotAnInput(a.savePoses, "--save-poses", inputs, "the query");
     if (a.savePoses) writePoses(*a.savePoses, poses);
   }
 };
@@ -168,6 +174,7 @@ void checkHullOptions(const QueryArguments& a) {
       throw InputError(Fault{option, 0, "can't be used with --hulls, which needs no trees"});
   };
   if (a.motions) throw InputError(Fault{"--hulls", 0, "takes poses, not --motions"});
+  ofTrees("--deform", !a.deform.empty());
   ofTrees("--volume", a.volume.has_value());
   ofTrees("--fit", a.fit.has_value());
   ofTrees("--overlap", a.overlap.has_value());
@@ -196,18 +203,33 @@ int queryCommand(const QueryArguments& a) {
     throw InputError(Fault{"--tolerance", 0, "needs --query tolerance or --motions"});
   if (!testsOverlap(query.kind))
     requireDefaultOverlap(trees, "--query interference or contacts", query.name);
+  if (!a.deform.empty()) requireFrames(query, trees);
   const PoseInput input(a);
-  const BatchResult result =
-      runPoses({input.meshA.mesh, input.meshB.mesh, input.poses, query.kind,
-                trees.volume == kOctree ? std::nullopt : std::optional(treesNamed(trees)),
-                a.tolerance.value_or(0), static_cast<int>(a.repeat)});
-  printCsv(query, result);
-  const auto hits = std::count_if(result.answers.begin(), result.answers.end(),
-                                  [](const Answer& answer) { return answer.hit; });
-  printSummary(result,
-               {"query=" + query.name, "volume=" + trees.volume, "fit=" + trees.fit,
-                "overlap=" + trees.overlap, "build=" + trees.build,
-                "poses=" + std::to_string(input.poses.size()), "hits=" + std::to_string(hits)});
+  const Batch batch{input.meshA.mesh,
+                    input.meshB.mesh,
+                    input.poses,
+                    query.kind,
+                    trees.volume == kOctree ? std::nullopt : std::optional(treesNamed(trees)),
+                    a.tolerance.value_or(0),
+                    static_cast<int>(a.repeat)};
+  std::vector<std::string> words = {
+      "query=" + query.name,  "volume=" + trees.volume,
+      "fit=" + trees.fit,     "overlap=" + trees.overlap,
+      "build=" + trees.build, "poses=" + std::to_string(input.poses.size())};
+  BatchResult result;
+  if (a.deform.empty()) {
+    result = runPoses(batch);
+    printCsv(query, result);
+  } else {
+    AllFrames all = queryFrames(query, batch, a.meshA, a.deform);
+    words.push_back("frames=" + std::to_string(a.deform.size() + 1));
+    words.push_back("refit_ms=" + rounded(all.refitMs));
+    result = std::move(all.result);
+  }
+  words.push_back("hits=" +
+                  std::to_string(std::count_if(result.answers.begin(), result.answers.end(),
+                                               [](const Answer& answer) { return answer.hit; })));
+  printSummary(result, words);
   return kDone;
 }
 
@@ -273,6 +295,12 @@ void addQuery(CLI::App& program, int& status) {
           "--edges", a.edges,
           "the method that proves motions; the first is the default: " + joined(edgeMethodNames()))
       ->group("Motions of B");
+  command
+      ->add_option("--deform", a.deform,
+                   "with poses: mesh files with further shapes of A, in order. Each has the same "
+                   "triangles as A, with moved vertices. The query is run for A and for each "
+                   "shape; the tree of A is refitted, not built anew")
+      ->group("Shapes of A");
   const char* asked = "Query (motions take all of these except --query)";
   const auto named = [](const auto& kinds) {
     std::vector<std::string> names;
@@ -340,6 +368,7 @@ void addQuery(CLI::App& program, int& status) {
           "Example: corridor query a.obj b.obj --poses poses.txt --repeat 5 > hits.csv\n"
           "         corridor query a.obj b.obj --grid 20x20x20 --rotations 10 --query contacts\n"
           "         corridor query a.obj b.obj --motions motions.txt > first_contacts.csv\n"
+          "         corridor query a.obj b.obj --poses poses.txt --deform a1.obj a2.obj a3.obj\n"
           "CSV on stdout; poses, motions and triangles count from 0:\n"
           "  interference: pose,hit,bv_tests,triangle_tests\n"
           "  contacts: pose,a,b,px,py,pz,qx,qy,qz, one line per pair of triangles that touch, with "
@@ -351,6 +380,8 @@ void addQuery(CLI::App& program, int& status) {
           "each hull; depth: pose,lower,upper,nx,ny,nz,ax,ay,az,bx,by,bz, with bounds of the least "
           "length by which B must move to leave A, and the direction\n"
           "  tolerance: pose,closer, which is 1 if A and B are at most the tolerance apart\n"
+          "  with --deform: frame before these columns, 0 for A itself; after them refit_ms, the "
+          "time to refit the tree of A to the frame, and query_ns\n"
           "  motions: motion,verdict,t0,t1,gap,triangle_a,triangle_b,bv_tests,triangle_tests,"
           "splits\n"
           "Verdicts of motions: free; contact: no contact before t0, and one at t1, where t1 - t0 "

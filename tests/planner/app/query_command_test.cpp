@@ -9,41 +9,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/planner/app/program_test.h"
+#include "tests/planner/app/query_fixture.h"
 #include "tests/support/workload.h"
 
 namespace {
 
-using corridor::test::ProgramTest;
+using corridor::test::kStill;
+using corridor::test::QueryCommand;
 using testing::Eq;
 using testing::HasSubstr;
-
-const std::string kStill = "1 0 0 0 1 0 0 0 1 ";  // the identity
-
-class QueryCommand : public ProgramTest {
- protected:
-  QueryCommand() {
-    write("a.obj", "v 0 0 0\nv 4 0 0\nv 0 4 0\nf 1 2 3\n");
-    write("b.obj", "v 1 1 -1\nv 1 1 1\nv 3 1 1\nf 1 2 3\n");
-    // In this order: b crosses a's face; a corner of b is on the face; b is just above the face; b
-    // crosses a's edge.
-    write("poses.txt", "# R t\n" + kStill +
-                           "0 0 0\n1,0,0,0,1,0,0,0,1,0,0,1  # comma separated\n\n" + kStill +
-                           "0 0 1.0000001\n" + kStill + "-1.5 0 0\n");
-  }
-  Result query(const std::string& more) const { return run("query a.obj b.obj " + more); }
-
-  static std::map<std::string, std::string> summary(const Result& result) {
-    std::map<std::string, std::string> values;
-    std::istringstream lines(result.err);
-    for (std::string line; std::getline(lines, line);) {
-      const auto at = line.find('=');
-      EXPECT_NE(at, line.npos) << line;
-      values[line.substr(0, at)] = line.substr(at + 1);
-    }
-    return values;
-  }
-};
 
 /// Two unit cubes, and every method.
 TEST_F(QueryCommand, Hulls) {
@@ -192,79 +166,6 @@ TEST_F(QueryCommand, AllOverlapTestsGiveTheSameAnswers) {
       EXPECT_EQ(summary(result).at("overlap"), overlap);
     }
   }
-}
-
-TEST_F(QueryCommand, OctreesHaveInterferenceOnly) {
-  const Result result = query("--poses poses.txt --volume octree --repeat 2");
-  EXPECT_EQ(result.status, 0) << result.err;
-  EXPECT_EQ(result.out, query("--poses poses.txt --volume aabb").out);
-  auto figures = summary(result);
-  EXPECT_EQ(figures["volume"] + " " + figures["fit"] + " " + figures["overlap"] + " " +
-                figures["build"] + " " + figures["hits"],
-            "octree plain sat top-down 3");
-  // Meshes of many triangles, at poses with and without contact.
-  std::string ribbon[2];  // one below the other, crossing at right angles
-  for (int k = 0; k < 2; ++k) {
-    for (int i = 0; i <= 60; ++i) {
-      const std::string along = std::to_string(i * 0.05 - 1.5);
-      for (const std::string across : {"-0.2", "0.2"})
-        ribbon[k] += "v " + (k ? across + " " + along : along + " " + across) + " " +
-                     std::to_string((i % 3) * 0.01) + "\n";
-    }
-    for (int i = 1; i <= 120; ++i)
-      ribbon[k] += "f " + std::to_string(i) + " " + std::to_string(i + 1) + " " +
-                   std::to_string(i + 2) + "\n";
-  }
-  write("a.obj", ribbon[0]);
-  write("b.obj", ribbon[1]);
-  const std::string grid = "--grid 4x4x7 --rotations 2 --volume ";
-  const Result cells = query(grid + "octree"), boxes = query(grid + "aabb");
-  EXPECT_EQ(cells.status, 0) << cells.err;
-  const auto a = lines(cells.out), b = lines(boxes.out);
-  ASSERT_EQ(a.size(), 225u);
-  ASSERT_EQ(b.size(), 225u);
-  const auto verdict = [](const std::string& line) {
-    return line.substr(0, line.find(',', line.find(',') + 1));
-  };
-  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_EQ(verdict(a[i]), verdict(b[i]));
-  EXPECT_NE(cells.out, boxes.out) << "the trees must differ in their tests";
-  EXPECT_GT(std::stoi(summary(cells).at("hits")), 20);
-  EXPECT_LT(std::stoi(summary(cells).at("hits")), 200);
-}
-
-TEST_F(QueryCommand, OctreesRefuseOtherQueries) {
-  write("motions.txt", kStill + "0 0 1 " + kStill + "0 0 2\n");
-  const auto refused = [&](const std::string& more, const std::string& asked) {
-    expectFault("query a.obj b.obj --volume octree " + more,
-                "--volume: octree has only --query interference, at poses, not " + asked +
-                    "; choose another volume, such as aabb");
-  };
-  for (const std::string asked : {"distance", "contacts", "tolerance"})
-    refused("--poses poses.txt --query " + asked, asked);
-  refused("--motions motions.txt", "--motions");
-  const auto fault = [&](const std::string& option, const std::string& only) {
-    const auto at = option.find(' ');
-    expectFault("query a.obj b.obj --poses poses.txt --volume octree " + option,
-                option.substr(0, at) + ": \"" + option.substr(at + 1) +
-                    "\" is not for octrees; volume octree has: " + only);
-  };
-  fault("--fit hull", "plain");
-  fault("--overlap gjk", "sat");
-  fault("--build bottom-up", "top-down");
-}
-
-TEST_F(QueryCommand, AllWaysOfBuildingGiveTheSameAnswers) {
-  for (const char* asked : {"", " --query contacts", " --query distance"})
-    for (const char* volume : {"obb-binary", "aabb", "sphere", "kdop14"}) {
-      const std::string options = std::string("--poses poses.txt --volume ") + volume + asked;
-      const auto hits = summary(query(options)).at("hits");
-      for (const std::string build : {"top-down", "median", "bottom-up"}) {
-        const Result result = query(options + " --build " + build);
-        EXPECT_EQ(result.status, 0) << result.err;
-        EXPECT_EQ(summary(result).at("hits"), hits) << options << build;
-        EXPECT_EQ(summary(result).at("build"), build);
-      }
-    }
 }
 
 TEST_F(QueryCommand, GridsAreLatticesAndRepeat) {
