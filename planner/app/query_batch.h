@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,12 +37,12 @@ struct Batch {
   const TriangleMesh &a, &b;
   const std::vector<Transform>& poses;
   QueryKind kind = QueryKind::interference;
-  TreeChoice trees;
-  double tolerance = 0;  ///< metres, for `QueryKind::tolerance` only
-  int repeat = 1;        ///< passes over all poses
+  std::optional<TreeChoice> trees = TreeChoice{};  ///< unset: octrees, for interference only
+  double tolerance = 0;                            ///< metres, for `QueryKind::tolerance` only
+  int repeat = 1;                                  ///< passes over all poses
   /// The poses whose tests are also measured one by one. For interference only; not for obb, whose
-  /// kernel tests many pairs at once.
-  std::vector<std::size_t> measured;
+  /// kernel tests many pairs at once, and not for octrees.
+  std::vector<std::size_t> measured = {};
 };
 
 /// The answer and the cost of one pose or motion.
@@ -75,6 +76,19 @@ struct BatchResult {
 
 /// Builds both trees and runs the query at all poses, measuring each.
 BatchResult runPoses(const Batch& batch);
+
+/// The answers for one shape of a mesh that deforms.
+struct FrameResult {
+  BatchResult result;  ///< the first frame's also has the trees' build times and sizes
+  double refitMs = 0;  ///< 0 for the first frame, whose tree is built
+};
+/// Returns the next shape of a, or nullopt if there is none.
+using NextShape = std::function<std::optional<TriangleMesh>()>;
+/// Runs the query at all poses for each shape of a: first `batch.a`, for which the tree is built,
+/// then the shapes that `next` returns, to which the same tree is refitted.
+/// @pre Every shape has as many triangles as `batch.a`, and no fault (`checkMesh`). The trees are
+/// not octrees, which can't be refitted.
+std::vector<FrameResult> runFrames(const Batch& batch, const NextShape& next);
 
 /// Computes bounds of the penetration depth at all poses. It takes the trees that it needs.
 /// @param direction  along which b leaves a; unset: the default of `DepthOptions`.

@@ -9,56 +9,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/planner/app/program_test.h"
+#include "tests/planner/app/query_fixture.h"
 #include "tests/support/workload.h"
 
 namespace {
 
-using corridor::test::ProgramTest;
+using corridor::test::kStill;
+using corridor::test::QueryCommand;
 using testing::Eq;
 using testing::HasSubstr;
-
-const std::string kStill = "1 0 0 0 1 0 0 0 1 ";  // the identity
-
-class QueryCommand : public ProgramTest {
- protected:
-  QueryCommand() {
-    write("a.obj", "v 0 0 0\nv 4 0 0\nv 0 4 0\nf 1 2 3\n");
-    write("b.obj", "v 1 1 -1\nv 1 1 1\nv 3 1 1\nf 1 2 3\n");
-    // In this order: b crosses a's face; a corner of b is on the face; b is just above the face; b
-    // crosses a's edge.
-    write("poses.txt", "# R t\n" + kStill +
-                           "0 0 0\n1,0,0,0,1,0,0,0,1,0,0,1  # comma separated\n\n" + kStill +
-                           "0 0 1.0000001\n" + kStill + "-1.5 0 0\n");
-  }
-  Result query(const std::string& more) const { return run("query a.obj b.obj " + more); }
-
-  static std::map<std::string, std::string> summary(const Result& result) {
-    std::map<std::string, std::string> values;
-    std::istringstream lines(result.err);
-    for (std::string line; std::getline(lines, line);) {
-      const auto at = line.find('=');
-      EXPECT_NE(at, line.npos) << line;
-      values[line.substr(0, at)] = line.substr(at + 1);
-    }
-    return values;
-  }
-  /// Returns the numbers of each line of the CSV after the first.
-  std::vector<std::vector<double>> rows(const std::string& options) const {
-    const Result result = query(options);
-    EXPECT_EQ(result.status, 0) << result.err;
-    std::vector<std::vector<double>> all;
-    std::istringstream lines(result.out);
-    std::string line;
-    std::getline(lines, line);
-    while (std::getline(lines, line)) {
-      std::replace(line.begin(), line.end(), ',', ' ');
-      std::istringstream words(line);
-      all.emplace_back(std::istream_iterator<double>(words), std::istream_iterator<double>());
-    }
-    return all;
-  }
-};
 
 /// Two unit cubes, and every method.
 TEST_F(QueryCommand, Hulls) {
@@ -147,6 +106,8 @@ TEST_F(QueryCommand, HullsOnBadInput) {
             "--volume: can't be used with --hulls, which needs no trees\n");
   EXPECT_EQ(fault("--hulls climbing --query depth --direction 1,0,0"),
             "--direction: is for the depth of meshes, not with --hulls\n");
+  EXPECT_EQ(fault("--hulls climbing --build median"),
+            "--build: can't be used with --hulls, which needs no trees\n");
 }
 
 TEST_F(QueryCommand, InterferenceIsOneLineAPose) {
@@ -165,6 +126,7 @@ TEST_F(QueryCommand, InterferenceIsOneLineAPose) {
   EXPECT_EQ(figures.at("volume"), "obb");
   EXPECT_EQ(figures.at("fit"), "triangles");
   EXPECT_EQ(figures.at("overlap"), "sat");
+  EXPECT_EQ(figures.at("build"), "top-down");
   EXPECT_FALSE(figures.at("simd").empty());
 }
 
@@ -346,7 +308,7 @@ TEST_F(QueryCommand, BadInputIsOneLineAndExit2) {
         "--volume: unknown volume \"obbb\" (did you mean \"obb\"?); there are: obb, obb-binary, "
         "aabb, sphere, "
         "rss, kdop14, kdop18, "
-        "kdop26");
+        "kdop26, octree");
   fault("a.obj b.obj --poses poses.txt --query tolerance",
         "--tolerance: is needed with --query tolerance: a distance in metres");
   fault("a.obj b.obj --poses poses.txt --tolerance 1",
@@ -359,6 +321,11 @@ TEST_F(QueryCommand, BadInputIsOneLineAndExit2) {
         "--overlap: \"gjk\" is for volume obb-binary; volume obb has: sat");
   fault("a.obj b.obj --poses poses.txt --volume aabb --fit hull",
         "--fit: \"hull\" is for volumes obb, obb-binary, rss; volume aabb has: plain");
+  fault("a.obj b.obj --poses poses.txt --volume aabb --build bottum-up",
+        "--build: unknown build \"bottum-up\" (did you mean \"bottom-up\"?); volume aabb has: "
+        "top-down, median, bottom-up");
+  expectFaultThatBegins("query a.obj b.obj --poses poses.txt --build bottom-up",
+                        "--build: \"bottom-up\" is for volumes obb-binary, aabb, ");
   fault("a.obj b.obj --poses poses.txt --volume obb-binary --overlap gkj",
         "--overlap: unknown overlap \"gkj\" (did you mean \"gjk\"?); volume obb-binary has: sat, "
         "gjk, lp, edge-face");

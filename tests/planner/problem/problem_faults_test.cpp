@@ -66,7 +66,7 @@ TEST_F(ProblemFaults, UnknownAndDuplicateKeys) {
   EXPECT_EQ(with("colour: red\n"), std::string("problem.yaml:8: unknown key \"colour\"") + topKeys);
   EXPECT_EQ(with("checker: {edges: discrete, rezolution: 0.1}\n"),
             "problem.yaml:8: unknown key \"rezolution\" in checker (did you mean \"resolution\"?) "
-            "(known: edges, resolution, tolerance, volume, fit, overlap)");
+            "(known: edges, resolution, tolerance, volume, fit, overlap, build)");
   EXPECT_EQ(with("clearance: 0.1\n"),
             std::string("problem.yaml:8: unknown key \"clearance\" (did you mean \"margin\"?)") +
                 topKeys);
@@ -158,9 +158,16 @@ TEST_F(ProblemFaults, WrongTypes) {
   EXPECT_EQ(with("checker: {volume: spheres}\n"),
             "problem.yaml:8: checker.volume: one of obb, obb-binary, aabb, sphere, rss, kdop14, "
             "kdop18, kdop26 is needed, not \"spheres\" (did you mean \"sphere\"?)");
+  EXPECT_EQ(with("checker: {volume: octree}\n"),
+            "problem.yaml:8: checker.volume: octree can't prove motions: it has only `corridor "
+            "query --volume octree`, for interference of two meshes; choose another volume, such "
+            "as aabb");
   EXPECT_EQ(with("checker: {overlap: gkj}\n"),
             "problem.yaml:8: checker.overlap: one of sat, gjk, lp, edge-face, centers, rectangles, "
             "intervals is needed, not \"gkj\" (did you mean \"gjk\"?)");
+  EXPECT_EQ(with("checker: {volume: aabb, build: bottomup}\n"),
+            "problem.yaml:8: checker.build: one of top-down, median, bottom-up is needed, not "
+            "\"bottomup\" (did you mean \"bottom-up\"?)");
   EXPECT_EQ(with("planner: {stop: never}\n"),
             "problem.yaml:8: planner.stop: one of first, time is needed, not \"never\"");
   EXPECT_EQ(complaintOf(head + "start: {at: [1, 2, 3, 4]}\ngoal: {at: [1, x, 3]}\n"),
@@ -181,6 +188,10 @@ TEST_F(ProblemFaults, VolumesThatCannotBeCombined) {
       with("checker: {volume: aabb, fit: hull}\n"),
       "problem.yaml:8: checker.fit: \"hull\" is for volumes obb, obb-binary, rss; volume aabb "
       "has: plain");
+  EXPECT_THAT(with("checker: {build: bottom-up}\n"),
+              testing::AllOf(testing::StartsWith("problem.yaml:8: checker.build: \"bottom-up\" is "
+                                                 "for volumes obb-binary, aabb, "),
+                             testing::EndsWith("; volume obb has: top-down")));
   EXPECT_EQ(with("checker: {edges: adaptive, volume: obb-binary, overlap: gjk}\n"),
             "problem.yaml:8: checker.overlap: \"gjk\" can't be used with edges: adaptive, which "
             "measures distances between volumes; leave overlap out, or use edges: certified");
