@@ -157,10 +157,11 @@ TEST_F(ProblemFaults, WrongTypes) {
             "\"triangle\" (did you mean \"triangles\"?)");
   EXPECT_EQ(with("checker: {volume: spheres}\n"),
             "problem.yaml:8: checker.volume: one of obb, obb-binary, aabb, sphere, rss, kdop14, "
-            "kdop18, kdop26 is needed, not \"spheres\" (did you mean \"sphere\"?)");
+            "kdop18, kdop26, shell, ellipsoid, hull is needed, not \"spheres\" (did you mean "
+            "\"sphere\"?)");
   EXPECT_EQ(with("checker: {overlap: gkj}\n"),
             "problem.yaml:8: checker.overlap: one of sat, gjk, lp, edge-face, centers, rectangles, "
-            "intervals is needed, not \"gkj\" (did you mean \"gjk\"?)");
+            "intervals, distances, contact is needed, not \"gkj\" (did you mean \"gjk\"?)");
   EXPECT_EQ(with("planner: {stop: never}\n"),
             "problem.yaml:8: planner.stop: one of first, time is needed, not \"never\"");
   EXPECT_EQ(complaintOf(head + "start: {at: [1, 2, 3, 4]}\ngoal: {at: [1, x, 3]}\n"),
@@ -170,17 +171,17 @@ TEST_F(ProblemFaults, WrongTypes) {
 
 /// Each name is known, but the names can't be combined.
 TEST_F(ProblemFaults, VolumesThatCannotBeCombined) {
-  EXPECT_EQ(
-      with("checker:\n  volume: sphere\n  overlap: gjk\n"),
-      "problem.yaml:10: checker.overlap: \"gjk\" is for volume obb-binary; volume sphere has: "
-      "centers");
+  EXPECT_EQ(with("checker:\n  volume: sphere\n  overlap: gjk\n"),
+            "problem.yaml:10: checker.overlap: \"gjk\" is for volumes obb-binary, hull; volume "
+            "sphere has: "
+            "centers");
   EXPECT_EQ(
       with("checker: {overlap: lp}\n"),
       "problem.yaml:8: checker.overlap: \"lp\" is for volume obb-binary; volume obb has: sat");
-  EXPECT_EQ(
-      with("checker: {volume: aabb, fit: hull}\n"),
-      "problem.yaml:8: checker.fit: \"hull\" is for volumes obb, obb-binary, rss; volume aabb "
-      "has: plain");
+  EXPECT_EQ(with("checker: {volume: aabb, fit: hull}\n"),
+            "problem.yaml:8: checker.fit: \"hull\" is for volumes obb, obb-binary, rss, ellipsoid; "
+            "volume aabb "
+            "has: plain");
   EXPECT_EQ(with("checker: {edges: adaptive, volume: obb-binary, overlap: gjk}\n"),
             "problem.yaml:8: checker.overlap: \"gjk\" can't be used with edges: adaptive, which "
             "measures distances between volumes; leave overlap out, or use edges: certified");
