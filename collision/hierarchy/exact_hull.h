@@ -31,7 +31,7 @@ inline bool inTriangle(const Row& a, const Row& b, const Row& c, const Row& p) {
            dot(cross(minus(c, b), minus(p, b)), n) >= 0 && dot(cross(d, minus(c, a)), n) >= 0;
   const auto inSegment = [&](const Row& from, const Row& to) {
     const Row edge = minus(to, from), along = minus(p, from), off = cross(edge, along);
-    return dot(off, off) == 0 && dot(along, edge) >= 0 && dot(along, edge) <= dot(edge, edge);
+    return dot(off, off) == 0 && dot(along, edge) >= 0 && dot(along, along) <= dot(edge, edge);
   };
   return inSegment(a, b) || inSegment(b, c) || inSegment(c, a);
 }

@@ -6,12 +6,17 @@
 #include <Eigen/Geometry>
 
 #include "collision/core/rounding.h"
+#include "collision/volumes/direction_search.h"
 
 namespace corridor {
 namespace {
 
-/// The maximum number of steps of one search. Most need two or three.
-constexpr int kSteps = 8;
+/// The maximum number of steps of one search. Most need two or three, gaps of 1e-9 of the size up
+/// to eight.
+constexpr int kSteps = 12;
+/// If the swept spheres and the distance to be proved exceed this share of the semi-axes, inflated
+/// ellipsoids are a bad approximation, and a second search by simplices follows.
+constexpr double kRound = 0x1p-6;
 
 /// A pair of ellipsoids in the coordinates of ellipsoid a, with a test along a given direction that
 /// does not depend on how the direction was found.
@@ -51,7 +56,7 @@ class EllipsoidPair {
             R_(i, 0) * B[0] * R_(k, 0) + R_(i, 1) * B[1] * R_(k, 1) + R_(i, 2) * B[2] * R_(k, 2);
         matrixB(k, i) = matrixB(i, k);
       }
-    double low = 0, high = 1;
+    double low = 0, high = 1, lastShare = 0, lastRest = 0;
     for (int step = 0; step < kSteps; ++step) {
       const double s = share_;
       if (!(s > low && s < high)) return;
@@ -70,20 +75,41 @@ class EllipsoidPair {
       // S is concave: it stays below its tangent.
       if (!(value + slope * ((slope > 0 ? high : low) - s) > 1)) return;
       const double rootA = std::sqrt(ofA), rootB = std::sqrt(ofB);
-      double next = rootA / (rootA + rootB);
+      // The share at the maximum is a fixed point: first a plain step, then secant steps.
+      const double rest = rootA / (rootA + rootB) - s;
+      if (std::abs(rest) < 0x1p-26 * std::min(s, 1 - s)) return;
+      double next = step == 0 ? s + rest : s - rest * (s - lastShare) / (rest - lastRest);
       if (!(next > low && next < high)) next = 0.5 * (low + high);
-      if (std::abs(next - s) < 0x1p-12 * std::min(s, 1 - s)) return;
+      lastShare = s, lastRest = rest;
       share_ = next;
     }
   }
 
+  /// Searches by simplices, for sets that are rounder than ellipsoids. @param pad as for
+  /// `separated`
+  void searchBySimplices(double pad, double enough) {
+    if (!(radii_ + pad > kRound * (a_.sum() + b_.sum()))) return;
+    const double found = internal::widestGap(T_, size_, radii_ + pad, enough, [&](const Vec3& n) {
+      const Vec3 m = R_.transpose() * n, alongA = a_.cwiseProduct(n), alongB = b_.cwiseProduct(m);
+      const double reachA = alongA.norm(), reachB = alongB.norm();
+      return internal::AlongDirection{
+          gapOf(n, reachA, reachB),
+          T_ - R_ * (b_.cwiseProduct(alongB) / reachB) - a_.cwiseProduct(alongA) / reachA};
+    });
+    best_ = std::max(best_, found);
+  }
+
  private:
+  double gapOf(const Vec3& n, double reachA, double reachB) const {
+    const double gap = (n.dot(T_) - reachA - reachB - kTiny) / n.norm() - slack_;
+    return roundedDown(gap * (1 - relative_));
+  }
   void along(const Vec3& direction) {
     const Vec3 n = direction / direction.cwiseAbs().maxCoeff();  // so that kTiny covers underflow
     const double reachA = a_.cwiseProduct(n).norm(),
                  reachB = b_.cwiseProduct(R_.transpose() * n).norm();
-    const double gap = (n.dot(T_) - reachA - reachB - kTiny) / n.norm() - slack_;
-    if (gap < HUGE_VAL) best_ = std::max(best_, roundedDown(gap * (1 - relative_)));
+    const double gap = gapOf(n, reachA, reachB);
+    if (gap < HUGE_VAL) best_ = std::max(best_, gap);
     const double share = reachA / (reachA + reachB);
     if (share > 0 && share < 1) share_ = share;
   }
@@ -102,6 +128,7 @@ bool PairTest<Ellipsoid>::separated(const Ellipsoid& a, const Ellipsoid& b, doub
   if (!pair.usable()) return false;
   pair.alongCenters();
   if (!(pair.best() > pad)) pair.search(0.5 * (pair.radii() + pad), pad);
+  if (!(pair.best() > pad)) pair.searchBySimplices(pad, pad);
   return pair.best() > pad;
 }
 
@@ -117,6 +144,7 @@ double PairTest<Ellipsoid>::distanceBound(const Ellipsoid& a, const Ellipsoid& b
     pair.search(0.5 * (pair.radii() + before), HUGE_VAL);
     if (!(pair.best() > before * (1 + 0x1p-7))) break;
   }
+  pair.searchBySimplices(pair.best(), HUGE_VAL);
   return pair.best();
 }
 
