@@ -31,7 +31,8 @@ inline Row minus(const Row& a, const Row& b) {
 }
 
 /// Each specialisation has `contains(p, r)`. It returns true if the solid sphere of radius r about
-/// p is proved to be inside the volume.
+/// p is proved to be in a convex subset of the volume, the same for all spheres: then their hull is
+/// inside, too. Where the volume itself isn't convex, there is also `containsTriangle`.
 template <class Volume>
 class ExactVolume;
 

@@ -94,7 +94,10 @@ template <BoundingVolume Volume>
 std::size_t VolumeTree<Volume>::bytes() const {
   std::size_t points = 0;
   for (const ConvexPart& part : items_.parts) points += part.points.capacity();
-  return sizeof(*this) + nodes_.capacity() * sizeof(Node) +
+  std::size_t extra = 0;
+  if constexpr (requires(const Volume& v) { v.extraBytes(); })
+    for (const Node& node : nodes_) extra += node.box.extraBytes();
+  return sizeof(*this) + nodes_.capacity() * sizeof(Node) + extra +
          items_.triangles.capacity() * sizeof(Triangle) +
          items_.parts.capacity() * sizeof(ConvexPart) + points * sizeof(Vec3) +
          items_.numbers.capacity() * sizeof(std::uint32_t);

@@ -1,5 +1,8 @@
+#include <algorithm>
 #include <vector>
 
+#include "collision/hierarchy/exact_hull.h"
+#include "collision/hierarchy/exact_round_volumes.h"
 #include "collision/hierarchy/exact_volume.h"
 #include "collision/hierarchy/volume_tree.h"
 #include "collision/volumes/pair_tests.h"
@@ -22,8 +25,9 @@ bool containsPart(const ExactVolume<Volume>& volume, const ConvexPart& part) {
       if (!volume.contains(row(p), part.radius)) return false;
     return true;
   }
-  // A part with discs is inside if its own box contains the discs, and the volume contains that
-  // box. For an Obb, the discs may also be inside directly.
+  // A part with discs is inside if its own box contains the discs, the part's spheres (`ballsOf`)
+  // contain the corners of that box, and the volume contains these spheres. For an Obb, the discs
+  // may also be inside directly.
   const auto holdsDiscs = [&](const ExactVolume<Obb>& box) {
     const exact::Row axis = exact::minus(row(part.points[1]), row(part.points[0]));
     return box.contains(row(part.points[0]), part.radius, axis) &&
@@ -33,9 +37,24 @@ bool containsPart(const ExactVolume<Volume>& volume, const ConvexPart& part) {
     if (holdsDiscs(volume)) return true;
   const ExactVolume<Obb> own(enclosingObb(part));
   if (!holdsDiscs(own)) return false;
+  const std::vector<Ball> balls = ballsOf(part);
   for (const exact::Row& corner : own.corners())
-    if (!volume.contains(corner, 0)) return false;
-  return true;
+    if (!std::any_of(balls.begin(), balls.end(), [&](const Ball& ball) {
+          return ExactVolume<BoundingSphere>({ball.center, ball.radius}).contains(corner, 0);
+        }))
+      return false;
+  return std::all_of(balls.begin(), balls.end(), [&](const Ball& ball) {
+    return volume.contains(row(ball.center), ball.radius);
+  });
+}
+
+template <class Volume>
+bool containsTriangle(const ExactVolume<Volume>& volume, const Triangle& triangle) {
+  if constexpr (requires { volume.containsTriangle(triangle); })
+    return volume.containsTriangle(triangle);
+  else  // the volume is convex
+    return std::all_of(triangle.begin(), triangle.end(),
+                       [&](const Vec3& p) { return volume.contains(row(p), 0); });
 }
 
 }  // namespace
@@ -54,7 +73,7 @@ std::optional<std::string> VolumeTree<Volume>::check() const {
       if (hasParts()) {
         inside = containsPart(volume, part(t));
       } else {
-        for (const Vec3& p : items_.triangles[t]) inside = inside && volume.contains(row(p), 0);
+        inside = containsTriangle(volume, items_.triangles[t]);
       }
       if (!inside)
         return named("the volume of node", i) + " does not contain " + named(item, meshTriangle(t));

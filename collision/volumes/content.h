@@ -15,8 +15,8 @@ struct Ball {
   double radius = 0;
 };
 
-/// The set that a volume must contain: the convex hull of triangles, or of solid spheres (`Ball`).
-/// Never empty. A non-owning view: the triangles or spheres must outlive it.
+/// The set that a volume must contain: each of some triangles, or the convex hull of solid spheres
+/// (`Ball`). Never empty. A non-owning view: the triangles or spheres must outlive it.
 struct Content {
   std::span<const Triangle> triangles;
   std::span<const Ball> balls;

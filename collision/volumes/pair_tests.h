@@ -3,10 +3,13 @@
 /// Includes the `PairTest` of every volume. A new volume needs an #include here, and an entry in
 /// each of the two lists below (planner/ARCHITECTURE.md, "A new bounding volume").
 #include "collision/volumes/overlap_aabb_aabb.h"
+#include "collision/volumes/overlap_ellipsoid_ellipsoid.h"
+#include "collision/volumes/overlap_hull_hull.h"
 #include "collision/volumes/overlap_kdop_kdop.h"
 #include "collision/volumes/overlap_obb_obb.h"
 #include "collision/volumes/overlap_obb_obb_variants.h"
 #include "collision/volumes/overlap_rss_rss.h"
+#include "collision/volumes/overlap_shell_shell.h"
 #include "collision/volumes/overlap_sphere_sphere.h"
 
 // The list of all volumes, and the list of all volumes with each of their overlap tests. They
@@ -18,7 +21,8 @@
 // default.
 // clang-format off
 #define CORRIDOR_EACH_VOLUME(F) \
-  F(Obb) F(Aabb) F(BoundingSphere) F(Rss) F(Kdop<14>) F(Kdop<18>) F(Kdop<26>)
+  F(Obb) F(Aabb) F(BoundingSphere) F(Rss) F(Kdop<14>) F(Kdop<18>) F(Kdop<26>) \
+  F(Shell) F(Ellipsoid) F(Hull)
 #define CORRIDOR_EACH_OVERLAP(F)                                        \
   F(obbBinary, Obb, StandardOverlap, "obb-binary", "sat")               \
   F(obbGjk, Obb, Gjk, "obb-binary", "gjk")                              \
@@ -29,5 +33,8 @@
   F(rss, Rss, StandardOverlap, "rss", "rectangles")                     \
   F(kdop14, Kdop<14>, StandardOverlap, "kdop14", "intervals")           \
   F(kdop18, Kdop<18>, StandardOverlap, "kdop18", "intervals")           \
-  F(kdop26, Kdop<26>, StandardOverlap, "kdop26", "intervals")
+  F(kdop26, Kdop<26>, StandardOverlap, "kdop26", "intervals")           \
+  F(shell, Shell, StandardOverlap, "shell", "distances")                \
+  F(ellipsoid, Ellipsoid, StandardOverlap, "ellipsoid", "contact")      \
+  F(hull, Hull, StandardOverlap, "hull", "gjk")
 // clang-format on

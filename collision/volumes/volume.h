@@ -6,8 +6,10 @@
 
 namespace corridor {
 
-/// The requirements of a `VolumeTree` on a volume. A volume is a convex set, which its doubles
-/// define in real arithmetic.
+/// The requirements of a `VolumeTree` on a volume. A volume is a closed set, which its doubles
+/// define in real arithmetic. It contains each triangle of its content, or the hull of the
+/// content's spheres. All volumes except `Shell` are convex, and so contain the hull of the
+/// triangles, too; nothing in trees and queries needs that.
 ///
 /// Every volume is fitted in the frame of a box around the same content. The frame's axes are those
 /// of the content's moments if `kOriented`, else those of the mesh. `PairTest<Volume>`, in the
@@ -17,7 +19,8 @@ namespace corridor {
 template <class V>
 concept BoundingVolume = requires(const V v, const Obb& box, const Content& content) {
   { V::kOriented } -> std::convertible_to<bool>;
-  /// Returns a volume that contains the content in real arithmetic. `box` is around the content.
+  /// Returns a volume that contains the content in real arithmetic: each triangle, or the hull of
+  /// the spheres. `box` is around the content.
   { V::around(box, content) } -> std::same_as<V>;
   /// The axes of the frame in which the volume is fitted again.
   { v.frameAxes() } -> std::convertible_to<Mat3>;

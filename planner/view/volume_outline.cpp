@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 
 namespace corridor::view {
@@ -17,6 +19,18 @@ std::vector<Vec3> corners(const Vec3& center, const Mat3& axes, const Vec3& half
     points.emplace_back(center + axes * sign.cwiseProduct(half));
   }
   return points;
+}
+
+/// Returns unit vectors within the angle from the z axis: rings of points, and the axis itself.
+std::vector<Vec3> directions(double angle) {
+  constexpr int kRings = 8, kAround = 16;
+  std::vector<Vec3> all = {Vec3::UnitZ()};
+  for (int ring = 1; ring <= kRings; ++ring)
+    for (int i = 0; i < kAround; ++i) {
+      const double u = angle * ring / kRings, v = 2 * std::numbers::pi * i / kAround;
+      all.emplace_back(std::sin(u) * std::cos(v), std::sin(u) * std::sin(v), std::cos(u));
+    }
+  return all;
 }
 
 }  // namespace
@@ -69,6 +83,27 @@ ConvexPart outline(const Kdop<K>& kdop) {
         for (int sides = 0; sides < 8; ++sides) addCorner({i, j, k}, sides);
   return {points};
 }
+ConvexPart outline(const Ellipsoid& ellipsoid) {
+  std::vector<Vec3> points;
+  for (const Vec3& n : directions(std::numbers::pi))
+    points.emplace_back(ellipsoid.core.center +
+                        ellipsoid.core.axes * ellipsoid.core.half.cwiseProduct(n));
+  return {points, ellipsoid.size};
+}
+
+ConvexPart outline(const Hull& hull) {
+  return {hull.vertices, hull.size};
+}
+
+ConvexPart outline(const Shell& shell) {
+  const Mat3 toAxis = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), shell.axis).matrix();
+  std::vector<Vec3> points;
+  for (const Vec3& n : directions(shell.hasCone() ? std::atan(shell.slope) : std::numbers::pi))
+    for (const double radius : {shell.inner, shell.outer})
+      points.emplace_back(shell.center + radius * (toAxis * n));
+  return {points, shell.size};
+}
+
 template ConvexPart outline(const Kdop<14>&);
 template ConvexPart outline(const Kdop<18>&);
 template ConvexPart outline(const Kdop<26>&);

@@ -14,5 +14,9 @@ ConvexPart outline(const BoundingSphere& sphere);
 ConvexPart outline(const Rss& rss);
 template <int K>
 ConvexPart outline(const Kdop<K>& kdop);
+ConvexPart outline(const Ellipsoid& ellipsoid);
+ConvexPart outline(const Hull& hull);
+/// Returns the hull of the shell: its concave side is drawn flat.
+ConvexPart outline(const Shell& shell);
 
 }  // namespace corridor::view

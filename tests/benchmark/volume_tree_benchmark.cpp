@@ -100,6 +100,9 @@ void run(const test::Workload& w) {
     measure<Kdop<14>>("kdop14", w, building);
     measure<Kdop<18>>("kdop18", w, building);
     measure<Kdop<26>>("kdop26", w, building);
+    measure<Shell>("shell", w, building);
+    measure<Ellipsoid>("ellipsoid", w, building);
+    measure<Hull>("hull", w, building);
   }
   measureOctree(w);
 }

@@ -49,6 +49,9 @@ TEST(TreeKinds, EveryNameHasItsOwnKind) {
   EXPECT_TRUE(is(TreeKind::kdop14, {"kdop14", "", ""}));
   EXPECT_TRUE(is(TreeKind::kdop18, {"kdop18", "", "intervals"}));
   EXPECT_TRUE(is(TreeKind::kdop26, {"kdop26", "", ""}));
+  EXPECT_TRUE(is(TreeKind::shell, {"shell", "plain", "distances"}));
+  EXPECT_TRUE(is(TreeKind::ellipsoid, {"ellipsoid", "hull", "contact"}));
+  EXPECT_TRUE(is(TreeKind::hull, {"hull", "", "gjk"}));
   EXPECT_EQ(treesNamed({"rss", "hull", ""}).params.fit, ObbFit::hull);
   EXPECT_EQ(treesNamed({"rss", "vertices", ""}).params.fit, ObbFit::vertices);
   EXPECT_EQ(treesNamed({"rss", "", ""}).params.fit, ObbFit::triangles);
@@ -100,13 +103,13 @@ TEST(TreeKinds, WithDefaults) {
 TEST(TreeKinds, WrongNamesAreReportedWithTheValidOnes) {
   EXPECT_EQ(complaint({"spheres", "", ""}),
             "volume: unknown volume \"spheres\" (did you mean \"sphere\"?); there are: obb, "
-            "obb-binary, aabb, sphere, rss, kdop14, kdop18, kdop26");
+            "obb-binary, aabb, sphere, rss, kdop14, kdop18, kdop26, shell, ellipsoid, hull");
   EXPECT_EQ(complaint({"sphere", "", "gjk"}),
-            "overlap: \"gjk\" is for volume obb-binary; volume sphere has: centers");
+            "overlap: \"gjk\" is for volumes obb-binary, hull; volume sphere has: centers");
   EXPECT_EQ(complaint({"", "", "gjk"}),
-            "overlap: \"gjk\" is for volume obb-binary; volume obb has: sat");
+            "overlap: \"gjk\" is for volumes obb-binary, hull; volume obb has: sat");
   EXPECT_EQ(complaint({"aabb", "hull", ""}),
-            "fit: \"hull\" is for volumes obb, obb-binary, rss; volume aabb has: plain");
+            "fit: \"hull\" is for volumes obb, obb-binary, rss, ellipsoid; volume aabb has: plain");
   EXPECT_EQ(complaint({"obb-binary", "", "gkj"}),
             "overlap: unknown overlap \"gkj\" (did you mean \"gjk\"?); volume obb-binary has: "
             "sat, gjk, lp, edge-face");
@@ -162,7 +165,8 @@ TEST(TreeKinds, BodiesBuildTheChosenTrees) {
   EXPECT_TRUE(mesh.treeBuilt());
   EXPECT_FALSE(part.treeBuilt());
   for (const TreeKind trees :
-       {TreeKind::obbBinary, TreeKind::aabb, TreeKind::kdop14, TreeKind::kdop26})
+       {TreeKind::obbBinary, TreeKind::aabb, TreeKind::kdop14, TreeKind::kdop26, TreeKind::shell,
+        TreeKind::ellipsoid, TreeKind::hull})
     withVolume(trees, [&]<class Volume, class Overlap>() {
       EXPECT_FALSE(mesh.volumeTree<Volume>().check());
       EXPECT_FALSE(part.volumeTree<Volume>().check());

@@ -9,15 +9,19 @@
 #include "collision/hierarchy/volume_tree.h"
 #include "collision/volumes/aabb.h"
 #include "collision/volumes/bounding_sphere.h"
+#include "collision/volumes/ellipsoid.h"
+#include "collision/volumes/hull.h"
 #include "collision/volumes/kdop.h"
 #include "collision/volumes/rss.h"
+#include "collision/volumes/shell.h"
 #include "tests/support/support.h"
 #include "tests/support/workload.h"
 
 namespace corridor::test {
 
 /// The volumes on which the suites for all volumes run.
-using Volumes = testing::Types<Obb, Aabb, BoundingSphere, Rss, Kdop<14>, Kdop<18>, Kdop<26>>;
+using Volumes = testing::Types<Obb, Aabb, BoundingSphere, Rss, Kdop<14>, Kdop<18>, Kdop<26>, Shell,
+                               Ellipsoid, Hull>;
 struct VolumeNames {
   template <class Volume>
   static std::string GetName(int) {
@@ -26,6 +30,9 @@ struct VolumeNames {
     if (std::is_same_v<Volume, BoundingSphere>) return "BoundingSphere";
     if (std::is_same_v<Volume, Rss>) return "Rss";
     if (std::is_same_v<Volume, Kdop<14>>) return "Kdop14";
+    if (std::is_same_v<Volume, Shell>) return "Shell";
+    if (std::is_same_v<Volume, Ellipsoid>) return "Ellipsoid";
+    if (std::is_same_v<Volume, Hull>) return "Hull";
     return std::is_same_v<Volume, Kdop<18>> ? "Kdop18" : "Kdop26";
   }
 };

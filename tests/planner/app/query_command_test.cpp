@@ -164,7 +164,8 @@ TEST_F(QueryCommand, DistanceAndTolerance) {
 TEST_F(QueryCommand, AllVolumesGiveTheSameAnswers) {
   for (const char* asked : {"", " --query distance", " --query tolerance --tolerance 0.1"}) {
     const auto hits = summary(query(std::string("--poses poses.txt") + asked)).at("hits");
-    for (const char* volume : {"aabb", "sphere", "rss", "kdop14", "kdop18", "kdop26"})
+    for (const char* volume :
+         {"aabb", "sphere", "rss", "kdop14", "kdop18", "kdop26", "shell", "ellipsoid", "hull"})
       EXPECT_EQ(
           summary(query(std::string("--poses poses.txt --volume ") + volume + asked)).at("hits"),
           hits)
@@ -308,7 +309,7 @@ TEST_F(QueryCommand, BadInputIsOneLineAndExit2) {
         "--volume: unknown volume \"obbb\" (did you mean \"obb\"?); there are: obb, obb-binary, "
         "aabb, sphere, "
         "rss, kdop14, kdop18, "
-        "kdop26, octree");
+        "kdop26, shell, ellipsoid, hull, octree");
   fault("a.obj b.obj --poses poses.txt --query tolerance",
         "--tolerance: is needed with --query tolerance: a distance in metres");
   fault("a.obj b.obj --poses poses.txt --tolerance 1",
@@ -318,9 +319,9 @@ TEST_F(QueryCommand, BadInputIsOneLineAndExit2) {
   fault("a.obj b.obj --poses poses.txt --fit moments",
         "--fit: unknown fit \"moments\"; volume obb has: triangles, vertices, hull");
   fault("a.obj b.obj --poses poses.txt --overlap gjk",
-        "--overlap: \"gjk\" is for volume obb-binary; volume obb has: sat");
+        "--overlap: \"gjk\" is for volumes obb-binary, hull; volume obb has: sat");
   fault("a.obj b.obj --poses poses.txt --volume aabb --fit hull",
-        "--fit: \"hull\" is for volumes obb, obb-binary, rss; volume aabb has: plain");
+        "--fit: \"hull\" is for volumes obb, obb-binary, rss, ellipsoid; volume aabb has: plain");
   fault("a.obj b.obj --poses poses.txt --volume aabb --build bottum-up",
         "--build: unknown build \"bottum-up\" (did you mean \"bottom-up\"?); volume aabb has: "
         "top-down, median, bottom-up");

@@ -124,11 +124,26 @@ TEST_F(QueryMotions, EveryVolumeFindsTheFirstContact) {
   const std::string motions =
       kStill + "0 0 1 " + kStill + "0 0 -2\n" + kStill + "-1 0 0.1 " + kStill + "1 0 0.1\n";
   std::set<std::string> tests;
-  for (const std::string trees :
-       {"obb", "obb-binary", "obb-binary --overlap gjk", "obb-binary --overlap lp --fit hull",
-        "obb-binary --overlap edge-face", "aabb", "sphere", "rss --fit vertices", "kdop14",
-        "kdop18", "kdop26", "sphere --edges adaptive", "kdop18 --edges advancement",
-        "rss --build bottom-up", "aabb --build median --edges adaptive"}) {
+  for (const std::string trees : {"obb",
+                                  "obb-binary",
+                                  "obb-binary --overlap gjk",
+                                  "obb-binary --overlap lp --fit hull",
+                                  "obb-binary --overlap edge-face",
+                                  "aabb",
+                                  "sphere",
+                                  "rss --fit vertices",
+                                  "kdop14",
+                                  "kdop18",
+                                  "kdop26",
+                                  "shell",
+                                  "ellipsoid --fit hull",
+                                  "hull",
+                                  "sphere --edges adaptive",
+                                  "kdop18 --edges advancement",
+                                  "shell --edges adaptive",
+                                  "ellipsoid --edges advancement",
+                                  "rss --build bottom-up",
+                                  "aabb --build median --edges adaptive"}) {
     SCOPED_TRACE(trees);
     const Result result = query(motions, "--volume " + trees);
     ASSERT_EQ(result.status, 0) << result.err;
@@ -251,9 +266,9 @@ TEST_F(QueryMotions, BadInputIsOneLineAndExit2) {
   // --motions also refuses the query that is the default for poses.
   option("--query interference", "--query: applies to poses, not to --motions; leave it out");
   option("--volume aabb --overlap gjk",
-         "--overlap: \"gjk\" is for volume obb-binary; volume aabb has: sat");
+         "--overlap: \"gjk\" is for volumes obb-binary, hull; volume aabb has: sat");
   option("--volume aabb --fit hull",
-         "--fit: \"hull\" is for volumes obb, obb-binary, rss; volume aabb has: plain");
+         "--fit: \"hull\" is for volumes obb, obb-binary, rss, ellipsoid; volume aabb has: plain");
   option("--volume obb-binary --overlap gjk --edges adaptive",
          "--overlap: \"gjk\" needs --edges certified; adaptive computes distances between volumes");
   for (const std::string given :
@@ -334,8 +349,8 @@ TEST_F(SharedMotions, FirstContactsAgreeWithTheTruth) {
 TEST_F(SharedMotions, FirstContactsWithOtherVolumes) {
   if (!corridor::test::dataFolder())
     GTEST_SKIP() << "set CORRIDOR_DATA to the folder of shared test data";
-  for (const std::string volume :
-       {"obb-binary", "obb-binary --overlap lp", "aabb", "sphere", "rss", "kdop14", "kdop26"})
+  for (const std::string volume : {"obb-binary", "obb-binary --overlap lp", "aabb", "sphere", "rss",
+                                   "kdop14", "kdop26", "shell", "ellipsoid", "hull"})
     EXPECT_EQ(expectTruth("certified --volume " + volume, 60), 0u);
 }
 

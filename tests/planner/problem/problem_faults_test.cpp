@@ -157,14 +157,15 @@ TEST_F(ProblemFaults, WrongTypes) {
             "\"triangle\" (did you mean \"triangles\"?)");
   EXPECT_EQ(with("checker: {volume: spheres}\n"),
             "problem.yaml:8: checker.volume: one of obb, obb-binary, aabb, sphere, rss, kdop14, "
-            "kdop18, kdop26 is needed, not \"spheres\" (did you mean \"sphere\"?)");
+            "kdop18, kdop26, shell, ellipsoid, hull is needed, not \"spheres\" (did you mean "
+            "\"sphere\"?)");
   EXPECT_EQ(with("checker: {volume: octree}\n"),
             "problem.yaml:8: checker.volume: octree can't prove motions: it has only `corridor "
             "query --volume octree`, for interference of two meshes; choose another volume, such "
             "as aabb");
   EXPECT_EQ(with("checker: {overlap: gkj}\n"),
             "problem.yaml:8: checker.overlap: one of sat, gjk, lp, edge-face, centers, rectangles, "
-            "intervals is needed, not \"gkj\" (did you mean \"gjk\"?)");
+            "intervals, distances, contact is needed, not \"gkj\" (did you mean \"gjk\"?)");
   EXPECT_EQ(with("checker: {volume: aabb, build: bottomup}\n"),
             "problem.yaml:8: checker.build: one of top-down, median, bottom-up is needed, not "
             "\"bottomup\" (did you mean \"bottom-up\"?)");
@@ -177,17 +178,17 @@ TEST_F(ProblemFaults, WrongTypes) {
 
 /// Each name is known, but the names can't be combined.
 TEST_F(ProblemFaults, VolumesThatCannotBeCombined) {
-  EXPECT_EQ(
-      with("checker:\n  volume: sphere\n  overlap: gjk\n"),
-      "problem.yaml:10: checker.overlap: \"gjk\" is for volume obb-binary; volume sphere has: "
-      "centers");
+  EXPECT_EQ(with("checker:\n  volume: sphere\n  overlap: gjk\n"),
+            "problem.yaml:10: checker.overlap: \"gjk\" is for volumes obb-binary, hull; volume "
+            "sphere has: "
+            "centers");
   EXPECT_EQ(
       with("checker: {overlap: lp}\n"),
       "problem.yaml:8: checker.overlap: \"lp\" is for volume obb-binary; volume obb has: sat");
-  EXPECT_EQ(
-      with("checker: {volume: aabb, fit: hull}\n"),
-      "problem.yaml:8: checker.fit: \"hull\" is for volumes obb, obb-binary, rss; volume aabb "
-      "has: plain");
+  EXPECT_EQ(with("checker: {volume: aabb, fit: hull}\n"),
+            "problem.yaml:8: checker.fit: \"hull\" is for volumes obb, obb-binary, rss, ellipsoid; "
+            "volume aabb "
+            "has: plain");
   EXPECT_THAT(with("checker: {build: bottom-up}\n"),
               testing::AllOf(testing::StartsWith("problem.yaml:8: checker.build: \"bottom-up\" is "
                                                  "for volumes obb-binary, aabb, "),

@@ -1,0 +1,106 @@
+#pragma once
+
+#include <array>
+
+#include "collision/hierarchy/exact_volume.h"
+#include "collision/volumes/ellipsoid.h"
+#include "collision/volumes/shell.h"
+
+namespace corridor::exact {
+
+/// Tests the swept sphere and the ellipsoid apart. A sphere is inside if its centre is in the
+/// ellipsoid, and its radius is at most `size`. By Cramer's rule the centre p is at
+/// x_i = (p − c)·crosses_i/det along the axes.
+template <>
+class ExactVolume<Ellipsoid> {
+ public:
+  explicit ExactVolume(const Ellipsoid& e) : center_(row(e.core.center)), size_(e.size) {
+    std::array<Row, 3> u;
+    for (int k = 0; k < 3; ++k) u[k] = row(e.core.axes.col(k));
+    const Rational det = dot(u[0], cross(u[1], u[2]));
+    for (int k = 0; k < 3; ++k) {
+      const Rational scale = det * Rational(e.core.half[k]);
+      solid_ = solid_ && scale != 0;
+      if (!solid_) return;
+      rows_[k] = cross(u[(k + 1) % 3], u[(k + 2) % 3]);
+      for (Rational& x : rows_[k]) x /= scale;
+    }
+  }
+  bool contains(const Row& p, const Rational& radius) const {
+    if (!solid_ || radius > size_) return false;
+    const Row d = minus(p, center_);
+    Rational square = 0;
+    for (const Row& r : rows_) {
+      const Rational x = dot(d, r);
+      square += x * x;
+    }
+    return square <= 1;
+  }
+
+ private:
+  Row center_;
+  Rational size_;
+  std::array<Row, 3> rows_;
+  bool solid_ = true;
+};
+
+/// Tests the swept sphere and the core apart, as for ellipsoids. A triangle is inside if its
+/// corners are in the outer sphere and the cone, which are convex, and if a direction n proves that
+/// it is outside of the inner sphere. The only candidate for n is that of the fit, so the proof may
+/// fail for a triangle that is inside.
+template <>
+class ExactVolume<Shell> {
+ public:
+  explicit ExactVolume(const Shell& s)
+      : shell_(s),
+        center_(row(s.center)),
+        axis_(row(s.axis)),
+        axisSquare_(dot(axis_, axis_)),
+        inner_(s.inner),
+        outer_(s.outer),
+        slope_(s.hasCone() ? s.slope : 0) {}
+
+  /// Returns whether the sphere is in the part of the shell beyond the plane that touches the inner
+  /// sphere on the axis.
+  bool contains(const Row& p, const Rational& radius) const {
+    const Row d = minus(p, center_);
+    if (radius > Rational(shell_.size) || !inConvexParts(d)) return false;
+    return inner_ == 0 || beyond(d, axis_, axisSquare_);
+  }
+  bool containsTriangle(const Triangle& triangle) const {
+    std::array<Row, 3> d;
+    for (std::size_t k = 0; k < 3; ++k) {
+      d[k] = minus(row(triangle[k]), center_);
+      if (!inConvexParts(d[k])) return false;
+    }
+    if (inner_ == 0) return true;
+    const double unit = powerOfTwo(shell_.outer);
+    const auto local = [&](const Vec3& p) -> Vec3 { return (p - shell_.center) / unit; };
+    const Vec3 n = towardsTriangle(local(triangle[0]), local(triangle[1]), local(triangle[2]));
+    if (!n.allFinite()) return false;
+    const Row direction = row(n);
+    const Rational square = dot(direction, direction);
+    return beyond(d[0], direction, square) && beyond(d[1], direction, square) &&
+           beyond(d[2], direction, square);
+  }
+
+ private:
+  bool inConvexParts(const Row& d) const {
+    if (dot(d, d) > outer_ * outer_) return false;
+    if (!shell_.hasCone()) return true;
+    const Rational along = dot(d, axis_);
+    const Row across = cross(d, axis_);
+    return along >= 0 && dot(across, across) <= slope_ * slope_ * along * along;
+  }
+  /// Returns whether d·n ≥ inner·|n|.
+  bool beyond(const Row& d, const Row& n, const Rational& square) const {
+    const Rational along = dot(d, n);
+    return along >= 0 && along * along >= inner_ * inner_ * square;
+  }
+
+  Shell shell_;
+  Row center_, axis_;
+  Rational axisSquare_, inner_, outer_, slope_;
+};
+
+}  // namespace corridor::exact

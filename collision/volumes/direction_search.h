@@ -1,0 +1,69 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "collision/convex/simplex.h"
+#include "collision/core/rounding.h"
+
+namespace corridor::internal {
+
+/// What a pair of sets returns for a direction n, from a to b.
+struct AlongDirection {
+  /// A proved lower bound of the distance of the sets, metres; negative if n does not separate them
+  double gap;
+  /// A point of the difference b − a that is extreme along −n, up to rounding; metres.
+  Vec3 corner;
+};
+
+/// Searches for a direction along which two sets are separated, by the simplices of Gilbert,
+/// Johnson, Keerthi (1988). `along(n)` returns an `AlongDirection` for a vector n of length 1, up
+/// to 4u. Each direction is proved by that call, so rounding in the search does no harm. Returns
+/// the widest gap that was proved, or 0. Ends at a gap above `enough`, or if two points of the
+/// hulls of the sets are found that are at most `near` apart.
+/// @param size  metres: about the largest coordinate of a corner.
+/// @param near, enough  metres.
+template <class Along>
+double widestGap(Vec3 direction, double size, double near, double enough, const Along& along) {
+  // Polyhedra need up to some ten rounds. Round surfaces would come closer in each round, at a cost
+  // that exceeds that of descending.
+  constexpr int kRounds = 24;
+  // The search multiplies up to five lengths. `scale` avoids underflow and overflow.
+  const double scale = size > 0x1p-60 && size < 0x1p60 ? 1 : 1 / powerOfTwo(size);
+  const double noise = 256 * kUnit * size * scale, close = near * scale;
+  gjk::Nearest<double> face;
+  double best = 0;
+  direction *= scale;
+  for (int round = 0; round < kRounds; ++round) {
+    const double length = direction.norm();
+    if (!(length > 0x1p-200 && length < 0x1p200)) break;
+    const Vec3 n = direction / length;
+    const AlongDirection found = along(n);
+    if (found.gap > best && found.gap < HUGE_VAL) best = found.gap;
+    if (best > enough) break;
+    const gjk::Vector<double> w(Vec3(found.corner * scale));
+    const gjk::Vector<double>* const c = face.corner;
+    bool known = false;
+    for (int i = 0; i < face.count; ++i) known = known || w == c[i];
+    // No corner is closer to the origin.
+    if (known || (face.count > 0 && n.dot(found.corner * scale) > (1 - 0x1p-20) * length)) break;
+    switch (face.count) {
+      case 0:
+        face = gjk::nearest(w);
+        break;
+      case 1:
+        face = gjk::nearest(c[0], w);
+        break;
+      case 2:
+        face = gjk::nearest(c[0], c[1], w);
+        break;
+      default:
+        face = gjk::nearest(c[0], c[1], c[2], w, noise);
+    }
+    if (face.count == 4 || !(face.squared > close * close)) break;
+    direction = {face.v.x, face.v.y, face.v.z};
+  }
+  return best;
+}
+
+}  // namespace corridor::internal

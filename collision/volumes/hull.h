@@ -1,0 +1,38 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "collision/volumes/obb.h"
+
+namespace corridor {
+
+/// A convex hull swept by a sphere: the points at most `size` from the hull of `vertices`. For
+/// triangles `size` is 0, and the set is their hull itself, without any rounding. Metres.
+struct Hull {
+  std::vector<Vec3> vertices;  ///< points of the content: the extreme ones, and maybe a few others
+  double size = 0;             ///< the largest radius of the content's spheres
+  Vec3 middle = Vec3::Zero();  ///< centre of a sphere that contains the volume
+  double ball = 0;             ///< its radius, rounded up
+
+  static constexpr bool kOriented = false;
+  static Hull around(const Obb& box, const Content& content);
+  /// Returns the hull of both, as tight as a new fit.
+  static Hull merged(const Hull& a, const Hull& b);
+  Mat3 frameAxes() const { return Mat3::Identity(); }
+  double axisDefect() const { return 0; }
+  /// The largest |x|₂ of the vertices and the middle, rounded up.
+  double centerReach() const;
+  double radius() const { return ball; }
+  const Vec3& ballCenter() const { return middle; }
+  /// Memory outside of the object itself.
+  std::size_t extraBytes() const { return vertices.capacity() * sizeof(Vec3); }
+};
+
+/// Returns a subset of the points that has the same convex hull, exactly; also for points on one
+/// plane, on one line or at one place. It contains all extreme points, and maybe a few others that
+/// are on the boundary. O(n log n) on usual points.
+/// @pre finite; not empty; at most 2^28 points.
+std::vector<Vec3> hullVertices(std::vector<Vec3> points);
+
+}  // namespace corridor
