@@ -1,0 +1,23 @@
+#pragma once
+
+#include "collision/convex/convex_cache.h"
+#include "collision/convex/convex_set.h"
+
+namespace corridor {
+
+/// Returns whether two convex sets without swept spheres or discs share a point, each under its own
+/// affine map: exactly, in real arithmetic on the given doubles. Touching is contact.
+///
+/// Method: GJK proves most pairs to be apart (`convexSetsTouch`). Its last four corners prove most
+/// pairs to overlap. A linear program in rationals decides the rest: the normal of a separating
+/// plane, on a few corners of the Minkowski difference. The corner that the plane violates most is
+/// added until there is none. Each takes milliseconds.
+/// @param cache  if not null, of the same two sets.
+/// @throws std::invalid_argument if a set has a sphere or a disc, or a number is not finite.
+bool convexHullsTouch(const PosedSet& a, const PosedSet& b, ConvexCache* cache = nullptr);
+
+/// The same, after GJK has found contact: decides whether the hulls do touch.
+/// @param found  the cache that this search kept.
+bool confirmContact(const PosedSet& a, const PosedSet& b, const ConvexCache& found);
+
+}  // namespace corridor
