@@ -98,40 +98,6 @@ class ExactPoints {
   Direction t_;
 };
 
-/// Proves in double that the origin is within the tetrahedron of four corners of the Minkowski
-/// difference. It is, if the weights λ_i of Σ λ_i w_i = 0 are above 0, and λ_i has the sign of
-/// (−1)^i times the determinant of the other three.
-///
-/// Rounding: a mapped point is a sum of three products and a translation, with four roundings on
-/// its longest path. With entries below D that are off by at most e, a determinant is off by at
-/// most (18e + 40uD)D², as in predicates/orientation.cpp.
-bool provedOverlap(const PosedSet& a, const PosedSet& b, const ConvexCache& found) {
-  if (found.count != 4) return false;
-  const auto error = [](const PosedSet& set, const Vec3& p) {
-    const auto& [m, t] = set.pose();
-    return 4.1 * kUnit *
-           (m.cwiseAbs().rowwise().sum().maxCoeff() * p.cwiseAbs().maxCoeff() +
-            t.cwiseAbs().maxCoeff());
-  };
-  std::array<Vec3, 4> w;
-  double e = 0, d = 0;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const ConvexCache::Corner& c = found.corner[i];
-    if (c.pointA >= a.set().points.size() || c.pointB >= b.set().points.size()) return false;
-    const Vec3 &p = a.set().points[c.pointA], &q = b.set().points[c.pointB];
-    w[i] = b.pose() * q - a.pose() * p;
-    d = std::max(d, w[i].cwiseAbs().maxCoeff());
-    e = std::max(e, error(a, p) + error(b, q));
-  }
-  e = roundedUp(e + kUnit * d);
-  const double D = d + e;
-  if (!(D > 0x1p-250 && D < 0x1p250)) return false;
-  const double bound = roundedUp((18 * e + 40 * kUnit * D) * D * D);
-  const double first = w[1].dot(w[2].cross(w[3])), sign = first > 0 ? 1 : -1;
-  return sign * first > bound && sign * w[0].dot(w[3].cross(w[2])) > bound &&
-         sign * w[0].dot(w[1].cross(w[3])) > bound && sign * w[0].dot(w[2].cross(w[1])) > bound;
-}
-
 bool touchInRationals(const PosedSet& a, const PosedSet& b, const ConvexCache& found) {
   const ExactPoints pointsA(a), pointsB(b);
   std::vector<Program> rows;
@@ -186,7 +152,56 @@ bool confirmContact(const PosedSet& a, const PosedSet& b, const ConvexCache& fou
     if (!each->pose().m.allFinite() || !each->pose().t.allFinite())
       throw std::invalid_argument("an exact contact query takes finite maps only");
   }
-  return provedOverlap(a, b, found) || touchInRationals(a, b, found);
+  return provedCommonPoint(a, b, found) || touchInRationals(a, b, found);
+}
+
+/// The origin is within the tetrahedron of four corners w_i of the Minkowski difference, if the
+/// weights λ_i of Σ λ_i w_i = 0 are above 0. λ_i has the sign of (−1)^i times the determinant of
+/// the other three.
+///
+/// Rounding: a mapped point is a sum of three products and a translation, with four roundings on
+/// its longest path. With entries below D that are off by at most e, a determinant is off by at
+/// most (18e + 40uD)D², as in predicates/orientation.cpp.
+std::optional<Vec3> provedCommonPoint(const PosedSet& a, const PosedSet& b,
+                                      const ConvexCache& corners) {
+  if (corners.count != 4) return std::nullopt;
+  const auto error = [](const PosedSet& set, const Vec3& p) {
+    const auto& [m, t] = set.pose();
+    return 4.1 * kUnit *
+           (m.cwiseAbs().rowwise().sum().maxCoeff() * p.cwiseAbs().maxCoeff() +
+            t.cwiseAbs().maxCoeff());
+  };
+  std::array<Vec3, 4> w, inA;
+  double e = 0, d = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const ConvexCache::Corner& c = corners.corner[i];
+    if (c.pointA >= a.set().points.size() || c.pointB >= b.set().points.size()) return std::nullopt;
+    const Vec3 &p = a.set().points[c.pointA], &q = b.set().points[c.pointB];
+    inA[i] = a.pose() * p;
+    w[i] = b.pose() * q - inA[i];
+    d = std::max(d, w[i].cwiseAbs().maxCoeff());
+    e = std::max(e, error(a, p) + error(b, q));
+  }
+  e = roundedUp(e + kUnit * d);
+  const double D = d + e;
+  if (!(D > 0x1p-250 && D < 0x1p250)) return std::nullopt;
+  const double bound = roundedUp((18 * e + 40 * kUnit * D) * D * D);
+  const std::array<double, 4> weight = {w[1].dot(w[2].cross(w[3])), w[0].dot(w[3].cross(w[2])),
+                                        w[0].dot(w[1].cross(w[3])), w[0].dot(w[2].cross(w[1]))};
+  const double sign = weight[0] > 0 ? 1 : -1;
+  Vec3 point = Vec3::Zero(), left = Vec3::Zero();
+  double sum = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (!(sign * weight[i] > bound)) return std::nullopt;
+    point += weight[i] * inA[i];
+    left += weight[i] * w[i];
+    sum += weight[i];
+  }
+  point /= sum;
+  left /= sum;
+  // The mean of the corners' points with these weights is in a; it plus `left` is in b.
+  if (!(left.cwiseAbs().maxCoeff() <= 0x1p-47 * D)) return std::nullopt;
+  return point + left / 2;
 }
 
 }  // namespace corridor

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "collision/convex/convex_cache.h"
 #include "collision/convex/convex_set.h"
 
@@ -19,5 +21,12 @@ bool convexHullsTouch(const PosedSet& a, const PosedSet& b, ConvexCache* cache =
 /// The same, after GJK has found contact: decides whether the hulls do touch.
 /// @param found  the cache that this search kept.
 bool confirmContact(const PosedSet& a, const PosedSet& b, const ConvexCache& found);
+
+/// Returns a common point of the two sets, if the four corners of a cache prove at these poses that
+/// the hulls of their points overlap; else nothing. The point is in both sets, up to 2^-46 of the
+/// largest coordinate. If two overlapping sets move in small steps, mostly the corners of the last
+/// query still prove it, for the price of four determinants.
+std::optional<Vec3> provedCommonPoint(const PosedSet& a, const PosedSet& b,
+                                      const ConvexCache& corners);
 
 }  // namespace corridor

@@ -94,8 +94,10 @@ class Posed {
 
 /// Returns the sign of det(u, v, w), with the plane of u and v.
 int side(const Plane& plane, const Edge& w) {
-  const double size = plane.size * w.size;
-  if (size > 0x1p-750 && size < 0x1p750) {
+  // Within this range no product overflows or vanishes.
+  const auto usual = [](const Edge& edge) { return edge.size > 0x1p-250 && edge.size < 0x1p250; };
+  if (usual(plane.u) && usual(plane.v) && usual(w)) {
+    const double size = plane.size * w.size;
     const double det = plane.n.dot(w.d);
     const double bound =
         1.01 * (6 * (plane.error * w.size + plane.size * w.error) + 40 * kUnit * size);

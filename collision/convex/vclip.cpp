@@ -361,6 +361,10 @@ ClosestFeatures closestFeatures(const PolytopeFeatures& a, const Transform& X_WA
                                 FeaturePair& pair) {
   ClosestFeatures result;
   const PosedSet setA(a.set(), X_WA), setB(b.set(), X_WB);
+  if (const auto common = provedCommonPoint(setA, setB, pair.overlap)) {
+    result.distance.p_WA = result.distance.p_WB = *common;
+    return result;
+  }
   const Mat3 m_AB = X_WA.m.transpose() * X_WB.m;
   const Vec3 t_AB = X_WA.m.transpose() * (X_WB.t - X_WA.t);
   Body bodyA{a, m_AB.transpose(), -(m_AB.transpose() * t_AB), pair.a}, bodyB{b, m_AB, t_AB, pair.b};
@@ -381,7 +385,8 @@ ClosestFeatures closestFeatures(const PolytopeFeatures& a, const Transform& X_WA
     goTo(cache, bodyA, bodyB);
     result.closest = walkFrom(bodyA, bodyB, result.steps) == Step::closest;
   }
-  pair = {false, bodyA.at, bodyB.at};
+  pair = {false, bodyA.at, bodyB.at, {}};
+  if (result.distance.distance == 0) pair.overlap = cache;
   return result;
 }
 

@@ -13,6 +13,7 @@ namespace corridor {
 struct FeaturePair {
   bool cold = true;  ///< true: start with the vertices that face each other; `a`, `b` are ignored
   Feature a, b;
+  ConvexCache overlap;  ///< four corners that proved that the polytopes overlap, if they did
 };
 
 /// The distance of two polytopes, and what it cost.
@@ -23,7 +24,7 @@ struct ClosestFeatures {
   /// is only a start for the next query.
   bool closest = false;
   int steps = 0;   ///< pairs of features that V-Clip visited
-  int rounds = 0;  ///< rounds of GJK, at least one: the proof
+  int rounds = 0;  ///< rounds of GJK: the proof; none if the last proof of an overlap still holds
 };
 
 /// Computes the distance of two convex polytopes from their closest features.
@@ -42,7 +43,8 @@ struct ClosestFeatures {
 /// started with the simplex of the last pair, proves the answer. That takes one round if the pair
 /// is right. GJK also decides when the walk meets an overlap or a local minimum that is no global
 /// one (a vertex below the plane of a face), and after the limit of steps. Mirtich's algorithm
-/// tests all faces there; GJK visits fewer.
+/// tests all faces there; GJK visits fewer. If the polytopes overlapped at the last query, the four
+/// corners that proved it are tested first.
 ///
 /// Maps that are not rotations (up to 2^-30) are legal, but their query is GJK only: the Voronoi
 /// regions are those of rigid bodies.

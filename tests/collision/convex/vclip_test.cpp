@@ -72,7 +72,7 @@ TEST(VClip, AgreesWithAllPairsOfFeatures) {
     for (Transform* X : {&X_WA, &X_WB})
       if (away) X->t += Vec3(1e6, -1e6, 5e5);
     const std::vector<Vec3> pointsA = test::mapped(a, X_WA), pointsB = test::mapped(b, X_WB);
-    FeaturePair pair{make.pick(4) == 0, randomFeature(make, fa), randomFeature(make, fb)};
+    FeaturePair pair{make.pick(4) == 0, randomFeature(make, fa), randomFeature(make, fb), {}};
     const ClosestFeatures found = closestFeatures(fa, X_WA, fb, X_WB, pair);
     // Far from the origin, the mapped points are not exact.
     const bool touch = away ? !separatingAxis(fa, X_WA, fb, X_WB).separated
@@ -127,7 +127,7 @@ TEST(VClip, EveryStartReachesTheClosestPair) {
     };
     for (const Feature& first : features(fa))
       for (const Feature& second : features(fb)) {
-        FeaturePair pair{false, first, second};
+        FeaturePair pair{false, first, second, {}};
         const ClosestFeatures found = closestFeatures(fa, X_WA, fb, X_WB, pair);
         ASSERT_LE(std::abs(found.distance.distance - distance), allowed(distance, 20));
         ASSERT_TRUE(found.closest);
@@ -149,7 +149,7 @@ TEST(VClip, EveryStartReachesTheClosestPair) {
 TEST(VClip, WarmIsColdOnMotions) {
   ExactPairs make(test::testSeed(63));
   const int motions = test::isStressRun() ? 400 : 20 / test::kSlowdown + 2;
-  int queries = 0, meeting = 0, warmSteps = 0, coldSteps = 0, warmRounds = 0;
+  int queries = 0, meeting = 0, atOnce = 0, warmSteps = 0, coldSteps = 0, warmRounds = 0;
   for (int n = 0; n < motions; ++n) {
     const Polytope a = make.polytope(make.pick(ExactPairs::kKinds)),
                    b = make.polytope(make.pick(ExactPairs::kKinds));
@@ -172,8 +172,22 @@ TEST(VClip, WarmIsColdOnMotions) {
                 2 * allowed(first.distance.distance, 20));
       ASSERT_EQ(convexHullsTouch({a, {}}, {b, X}), found.distance.distance == 0);
       ++queries;
-      meeting += found.distance.distance == 0;
-      if (found.distance.distance == 0) continue;
+      if (found.distance.distance == 0) {
+        ++meeting;
+        atOnce += found.rounds == 0;
+        ASSERT_EQ(found.distance.p_WA, found.distance.p_WB);
+        for (const auto& [polytope, p] :
+             {std::pair(&a, found.distance.p_WA),
+              std::pair(&b, Vec3(X.m.transpose() * (found.distance.p_WA - X.t)))})
+          for (const Polytope::Face& f : polytope->faces()) {
+            const Vec3L c = polytope->vertices()[f[0]].cast<long double>();
+            const Vec3L normal = (polytope->vertices()[f[1]].cast<long double>() - c)
+                                     .cross(polytope->vertices()[f[2]].cast<long double>() - c)
+                                     .normalized();
+            ASSERT_LT(normal.dot(p.cast<long double>() - c), 1e-8) << n << " " << step;
+          }
+        continue;
+      }
       warmSteps += found.steps;
       warmRounds += found.rounds;
       coldSteps += first.steps;
@@ -183,6 +197,8 @@ TEST(VClip, WarmIsColdOnMotions) {
   std::cout << meeting << " of " << queries << " touch; steps apart: warm " << warmSteps / apart
             << " (and " << warmRounds / apart << " rounds of GJK), cold " << coldSteps / apart
             << "\n";
+  std::cout << atOnce << " overlaps were proved by the last corners\n";
+  EXPECT_GT(atOnce, meeting * 3 / 4);
   EXPECT_GT(meeting, queries / 20);
   EXPECT_LT(meeting, queries * 3 / 4);
   EXPECT_LT(warmSteps, 2 * apart);
@@ -226,7 +242,7 @@ TEST(VClip, TakesAnyMapAndAnyPair) {
     Transform X;
     X.m = Mat3::NullaryExpr([&] { return std::round(8 * make.real()) / 4; });
     X.t = 2 * make.vector().unaryExpr([](double x) { return std::round(64 * x) / 64; });
-    FeaturePair pair{false, {Feature::Kind::edge, 1'000'000}, {Feature::Kind::face, 1'000'000}};
+    FeaturePair pair{false, {Feature::Kind::edge, 1'000'000}, {Feature::Kind::face, 1'000'000}, {}};
     const ClosestFeatures found = closestFeatures(fa, {}, fb, X, pair);
     const bool touch =
         test::hullRelation<3>(test::mapped(a, {}), test::mapped(b, X)) != HullRelation::disjoint;
