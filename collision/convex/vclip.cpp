@@ -9,6 +9,7 @@
 #include <Eigen/LU>
 
 #include "collision/convex/exact_contact.h"
+#include "collision/convex/simplex.h"
 
 /// Names are those of the paper, sections 3 and 4. A plane of a Voronoi region separates the
 /// regions of two neighbouring features: of a vertex and an edge, or of an edge and a face. Its two
@@ -315,6 +316,20 @@ ConvexCache simplexOf(const Body& a, const Body& b) {
   return cache;
 }
 
+/// Returns the distance of a pair's features, computed in double from their simplex: in the world,
+/// because the maps need not be rotations to the last digit.
+double distanceOf(const ConvexCache& simplex, const PosedSet& a, const PosedSet& b) {
+  std::array<gjk::Vector<double>, 3> w;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const ConvexCache::Corner& c = simplex.corner[i];
+    w[i] = gjk::Vector<double>(
+        Vec3(b.pose() * b.set().points[c.pointB] - a.pose() * a.set().points[c.pointA]));
+  }
+  return std::sqrt(simplex.count == 1   ? gjk::nearest(w[0]).squared
+                   : simplex.count == 2 ? gjk::nearest(w[0], w[1]).squared
+                                        : gjk::nearest(w[0], w[1], w[2]).squared);
+}
+
 /// Goes to the features that contain the closest points of a GJK simplex.
 void goTo(const ConvexCache& simplex, Body& a, Body& b) {
   const auto take = [&](Body& body, auto member) {
@@ -374,16 +389,26 @@ ClosestFeatures closestFeatures(const PolytopeFeatures& a, const Transform& X_WA
     bodyA.goToVertex(a.set().farthest(toB));
     bodyB.goToVertex(b.set().farthest(-(m_AB.transpose() * toB)));
   }
-  const Step end = rigid ? walkFrom(bodyA, bodyB, result.steps) : Step::moved;
+  const auto walk = [&] { return rigid && walkFrom(bodyA, bodyB, result.steps) == Step::closest; };
+  // A walk among degenerate features may end elsewhere, so its end is compared with the proof.
+  const auto isClosest = [&](const ConvexCache& simplex) {
+    const double size = setA.reach() + X_WA.t.norm() + setB.reach() + X_WB.t.norm();
+    return distanceOf(simplex, setA, setB) <=
+           result.distance.distance * (1 + 1e-10) + 0x1p-44 * size;
+  };
+  const bool ended = walk();
   ConvexCache cache = simplexOf(bodyA, bodyB);
+  const ConvexCache first = cache;
   result.distance = convexDistance(setA, setB, 0, 0, &cache);
   result.rounds = cache.rounds;
   if (result.distance.distance == 0 && !confirmContact(setA, setB, cache))
     result.distance = separatedDistance(setA, setB, cache);
-  result.closest = end == Step::closest && result.distance.distance > 0;
-  if (rigid && end != Step::closest && result.distance.distance > 0) {
-    goTo(cache, bodyA, bodyB);
-    result.closest = walkFrom(bodyA, bodyB, result.steps) == Step::closest;
+  if (rigid && result.distance.distance > 0) {
+    result.closest = ended && isClosest(first);
+    if (!result.closest) {
+      goTo(cache, bodyA, bodyB);
+      result.closest = walk() && isClosest(simplexOf(bodyA, bodyB));
+    }
   }
   pair = {false, bodyA.at, bodyB.at, {}};
   if (result.distance.distance == 0) pair.overlap = cache;

@@ -19,8 +19,8 @@ struct FeaturePair {
 /// The distance of two polytopes, and what it cost.
 struct ClosestFeatures {
   ConvexDistance distance;
-  /// The walk ended at a local minimum outside both polytopes: the pair's closest points are those
-  /// of the polytopes, up to rounding. False: for instance if the polytopes overlap. Then the pair
+  /// The distance of the pair's features is that of the polytopes, up to 1e-10 of it and 2^-42 of
+  /// the largest coordinate. False if the polytopes touch, or if the walk has failed. Then the pair
   /// is only a start for the next query.
   bool closest = false;
   int steps = 0;   ///< pairs of features that V-Clip visited
