@@ -38,6 +38,7 @@ struct QueryArguments {
   std::optional<std::string> hulls;                ///< query the convex hulls, by this method
   std::vector<std::string> deform;                 ///< further shapes of A, one file per frame
   std::optional<std::string> direction;            ///< "x,y,z", for the depth of meshes
+  bool coherent = false;  ///< with `hulls` only: begin with what the query before has kept
   std::optional<double> tolerance;  ///< metres; for the tolerance query and for motions
   std::uint64_t repeat = 1;
 };
@@ -169,7 +170,7 @@ struct PoseInput {
 
 /// Refuses the options that apply to trees, not to hulls, and unknown names. @throws InputError
 void checkHullOptions(const QueryArguments& a) {
-  requireHullQuery(*a.hulls, a.query);
+  requireHullQuery(*a.hulls, a.query, a.coherent);
   const auto ofTrees = [](const char* option, bool given) {
     if (given)
       throw InputError(Fault{option, 0, "can't be used with --hulls, which needs no trees"});
@@ -214,11 +215,13 @@ int queryDepth(const QueryArguments& a, const NamedQuery& query) {
 int queryCommand(const QueryArguments& a) {
   checkOptions(a);
   if (a.hulls) checkHullOptions(a);
+  if (a.coherent && !a.hulls)
+    throw InputError(Fault{"--coherent", 0, "needs --hulls, which is not given"});
   requireWritable(a.savePoses, "--save-poses");
   if (a.hulls) {
     const PoseInput input(a);
     queryHulls({input.meshA.mesh, a.meshA}, {input.meshB.mesh, a.meshB}, input.poses, *a.hulls,
-               a.query, static_cast<int>(a.repeat));
+               a.query, a.coherent, static_cast<int>(a.repeat));
     return kDone;
   }
   if (a.motions) return queryMotions(a);
@@ -389,8 +392,19 @@ void addQuery(CLI::App& program, int& status) {
           "is farthest along a "
           "direction: " +
               joined(hullMethods()) +
-              ". lp tests for a separating plane by linear programming instead; it takes "
-              "the rounded vertices of B at each pose as they are")
+              ". The last three do not use it. lp tests for a separating plane by linear "
+              "programming, on the rounded vertices of B at each pose. vclip finds the closest "
+              "vertices, edges or faces (no depth). axes tests the normals of faces and the "
+              "products "
+              "of edges; it is for small hulls (interference only)")
+      ->group(asked);
+  command
+      ->add_flag(
+          "--coherent", a.coherent,
+          "with --hulls, for poses that follow each other in small steps: begin each query "
+          "with what the query before has found (the last simplex; vclip: the last features; "
+          "axes: the last axis). Answers are the same, up to the error of distances; the "
+          "column steps shows the work saved")
       ->group(asked);
   command
       ->add_option("--repeat", a.repeat,
@@ -409,16 +423,15 @@ void addQuery(CLI::App& program, int& status) {
           "  contacts: pose,a,b,px,py,pz,qx,qy,qz, one line per pair of triangles that touch, with "
           "the ends p and q of the segment that they share\n"
           "  distance: pose,distance,ax,ay,az,bx,by,bz,nx,ny,nz, with a closest point of each mesh "
-          "and "
-          "the direction from A to B (0 for contact)\n"
+          "and the direction from A to B (0 for contact)\n"
           "  depth: pose,lower,upper,dx,dy,dz,triangle_a,triangle_b: B must move by at least "
-          "lower, "
-          "and leaves A by upper along the direction; the deepest pair of triangles\n"
-          "  with --hulls: interference: pose,hit; distance: pose,distance,lower,nx,ny,nz,ax,ay,az,"
-          "bx,by,bz, with a proved lower bound, the direction that proves it, and a closest point "
-          "of "
-          "each hull; depth: pose,lower,upper,nx,ny,nz,ax,ay,az,bx,by,bz, with bounds of the least "
-          "length by which B must move to leave A, and the direction\n"
+          "lower, and leaves A by upper along the direction; the deepest pair of triangles\n"
+          "  with --hulls: interference: pose,hit,steps; distance: pose,distance,lower,nx,ny,nz,ax,"
+          "ay,az,bx,by,bz,steps, with a proved lower bound, the direction that proves it, and a "
+          "closest point of each hull; depth: pose,lower,upper,nx,ny,nz,ax,ay,az,bx,by,bz,steps, "
+          "with bounds of the "
+          "least length by which B must move to leave A, and the direction; steps are rounds of "
+          "the search, with vclip also pairs of features, with axes the axes tested, with lp 0\n"
           "  tolerance: pose,closer, which is 1 if A and B are at most the tolerance apart\n"
           "  with --deform: frame before these columns, 0 for A itself; after them refit_ms, the "
           "time to refit the tree of A to the frame, and query_ns\n"

@@ -1,5 +1,7 @@
 // Tests of `corridor query`: CSV on stdout, key=value on stderr, one line per fault.
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <iterator>
 #include <map>
 #include <sstream>
@@ -28,22 +30,28 @@ TEST_F(QueryCommand, Hulls) {
   write("a.obj", cube + "v 0.5 0.5 0.5\nf 1 2 3\nf 6 7 8\nf 4 5 9\n");  // one vertex is inside
   write("b.obj", cube + "f 1 2 3\nf 6 7 8\nf 4 5 6\n");
   write("poses.txt", kStill + "1.5 0 0\n" + kStill + "1 1 1\n" + kStill + "0.75 0 0.5\n");
-  for (const char* method : {"hierarchy", "climbing", "every-vertex", "lp"}) {
+  for (const char* method : {"hierarchy", "climbing", "every-vertex", "lp", "vclip", "axes"}) {
     const Result result = query(std::string("--poses poses.txt --hulls ") + method);
     EXPECT_EQ(result.status, 0) << result.err;
-    EXPECT_EQ(result.out, "pose,hit\n0,0\n1,1\n2,1\n") << method;
+    const auto rows = lines(result.out);
+    ASSERT_EQ(rows.size(), 4u);
+    EXPECT_EQ(rows[0], "pose,hit,steps");
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_TRUE(rows[i + 1].starts_with(std::array{"0,0,", "1,1,", "2,1,"}[i])) << method;
     const auto figures = summary(result);
     EXPECT_EQ(figures.at("hulls"), method);
     EXPECT_EQ(figures.at("vertices_a"), "8");
     EXPECT_EQ(figures.at("hits"), "2");
   }
-  for (const char* method : {"hierarchy", "climbing", "every-vertex"}) {
+  for (const char* method : {"hierarchy", "climbing", "every-vertex", "vclip"}) {
     const auto d = rows(std::string("--poses poses.txt --query distance --hulls ") + method);
     ASSERT_EQ(d.size(), 3u);
-    ASSERT_EQ(d[0].size(), 12u);
+    ASSERT_EQ(d[0].size(), 13u);
     EXPECT_NEAR(d[0][1], 0.5, 1e-15);
     EXPECT_NEAR(d[0][3], 1, 1e-15);  // the normal
     EXPECT_EQ(d[1][1], 0);
+    EXPECT_GE(d[0][12], 1);  // steps
+    if (std::string(method) == "vclip") continue;
     const auto p = rows(std::string("--poses poses.txt --query depth --hulls ") + method);
     EXPECT_EQ(p[0][2], 0);
     EXPECT_LE(p[1][1], 1e-13);
@@ -87,6 +95,47 @@ TEST_F(QueryCommand, DepthOfMeshes) {
             "--volume: can't be used with --query depth, which chooses its trees\n");
 }
 
+/// A box of many faces that moves past another in small steps: with --coherent the answers are the
+/// same, and take fewer steps.
+TEST_F(QueryCommand, CoherentHulls) {
+  std::string rings, poses;
+  for (int i = 0; i < 200; ++i) {
+    const double angle = 0.1 * i, tilt = 0.37 * i;
+    rings += "v " + std::to_string(std::cos(angle) * std::sin(tilt)) + " " +
+             std::to_string(std::sin(angle) * std::sin(tilt)) + " " +
+             std::to_string(std::cos(tilt)) + "\n";
+  }
+  for (int i = 1; i <= 198; ++i)
+    rings +=
+        "f " + std::to_string(i) + " " + std::to_string(i + 1) + " " + std::to_string(i + 2) + "\n";
+  write("a.obj", rings);
+  write("b.obj", rings);
+  for (int i = 0; i < 100; ++i)
+    poses += kStill + std::to_string(2.2 - 0.01 * i) + " " + std::to_string(0.01 * i) + " 0.3\n";
+  write("poses.txt", poses);
+  for (const std::string method : {"climbing", "vclip", "axes"})
+    for (const std::string query : {"interference", "distance"}) {
+      if (method == "axes" && query == "distance") continue;
+      const std::string options = "--poses poses.txt --hulls " + method + " --query " + query;
+      const Result cold = this->query(options), warm = this->query(options + " --coherent");
+      ASSERT_EQ(warm.status, 0) << warm.err;
+      const auto coldRows = lines(cold.out), warmRows = lines(warm.out);
+      ASSERT_EQ(warmRows.size(), 101u);
+      for (std::size_t i = 1; i <= 100; ++i) {
+        const auto second = [](const std::string& row) {
+          return std::stod(row.substr(row.find(',') + 1));
+        };
+        EXPECT_NEAR(second(coldRows[i]), second(warmRows[i]), 1e-11) << method << query << i;
+      }
+      const auto coldFigures = summary(cold), warmFigures = summary(warm);
+      EXPECT_EQ(warmFigures.at("hits"), coldFigures.at("hits"));
+      EXPECT_EQ(warmFigures.at("coherent"), "1");
+      EXPECT_EQ(coldFigures.at("coherent"), "0");
+      if (method == "climbing" && query == "interference") continue;
+      EXPECT_LT(std::stod(warmFigures.at("steps")), std::stod(coldFigures.at("steps"))) << method;
+    }
+}
+
 TEST_F(QueryCommand, HullsOnBadInput) {
   const auto fault = [&](const std::string& options) {
     const Result result = query("--poses poses.txt " + options);
@@ -100,6 +149,15 @@ TEST_F(QueryCommand, HullsOnBadInput) {
   EXPECT_THAT(fault("--hulls hirarchy"),
               HasSubstr("--hulls: unknown method \"hirarchy\" (did you mean \"hierarchy\"?)"));
   EXPECT_THAT(fault("--hulls lp --query depth"), HasSubstr("lp needs --query interference"));
+  EXPECT_THAT(fault("--hulls axes --query distance"), HasSubstr("axes needs --query interference"));
+  EXPECT_THAT(fault("--hulls vclip --query depth"),
+              HasSubstr("vclip needs --query interference or distance"));
+  EXPECT_EQ(fault("--hulls lp --coherent"),
+            "--coherent: can't be used with --hulls lp, which keeps nothing from pose to pose\n");
+  EXPECT_EQ(
+      fault("--hulls climbing --query depth --coherent"),
+      "--coherent: can't be used with --query depth, which keeps nothing from pose to pose\n");
+  EXPECT_EQ(fault("--coherent"), "--coherent: needs --hulls, which is not given\n");
   EXPECT_THAT(fault("--hulls climbing --query contacts"),
               HasSubstr("unknown query with --hulls: \"contacts\""));
   EXPECT_EQ(fault("--hulls climbing --volume aabb"),
