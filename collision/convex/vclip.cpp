@@ -102,19 +102,20 @@ class Walk {
   }
 
   Step vertexVertex() {
-    for (auto [x, y] : {std::pair(&a_, &b_), std::pair(&b_, &a_)}) {
-      const Vec3 p = y->inOther(y->at.index);
+    for (const bool ofA : {true, false}) {
+      Body &x = ofA ? a_ : b_, &y = ofA ? b_ : a_;
+      const Vec3 p = y.inOther(y.at.index);
       // Of several edges that lead closer, takes the one along which the distance falls fastest.
       std::uint32_t best = Clip::kNone;
       double most = 0;
-      for (std::uint32_t h = first(*x); h < last(*x); ++h) {
-        const double along = x->alongEdge(h, p);
+      for (std::uint32_t h = first(x); h < last(x); ++h) {
+        const double along = x.alongEdge(h, p);
         if (!(along > 0)) continue;
-        const double rate = along * along / edge(*x, h).squaredNorm();
+        const double rate = along * along / edge(x, h).squaredNorm();
         if (rate > most || best == Clip::kNone) most = rate, best = h;
       }
       if (best == Clip::kNone) continue;
-      x->goToEdge(best);
+      x.goToEdge(best);
       return Step::moved;
     }
     return Step::closest;
@@ -151,34 +152,35 @@ class Walk {
   }
 
   Step edgeEdge() {
-    for (auto [x, y] : {std::pair(&a_, &b_), std::pair(&b_, &a_)}) {
-      const std::uint32_t h = x->at.index, back = x->shape.twin(h);
-      const Vec3 tail = y->inOther(y->shape.tail(y->at.index)),
-                 head = y->inOther(y->shape.head(y->at.index)), u = head - tail;
+    for (const bool ofA : {true, false}) {
+      Body &x = ofA ? a_ : b_, &y = ofA ? b_ : a_;
+      const std::uint32_t h = x.at.index, back = x.shape.twin(h);
+      const Vec3 tail = y.inOther(y.shape.tail(y.at.index)),
+                 head = y.inOther(y.shape.head(y.at.index)), u = head - tail;
       Clip clip;
       for (const std::uint32_t each : {h, back})
-        if (!clip.keep(x->alongEdge(each, tail), x->alongEdge(each, head), each)) break;
+        if (!clip.keep(x.alongEdge(each, tail), x.alongEdge(each, head), each)) break;
       const std::uint32_t end = beyond(clip, [&](double at, std::uint32_t each) {
-        return u.dot(tail + at * u - x->shape.vertex(x->shape.tail(each)));
+        return u.dot(tail + at * u - x.shape.vertex(x.shape.tail(each)));
       });
       if (end != Clip::kNone) {
-        x->goToVertex(x->shape.tail(end));
+        x.goToVertex(x.shape.tail(end));
         return Step::moved;
       }
       // The closest point of the other edge is between the planes of the ends.
       clip.beyondLow = clip.beyondHigh = Clip::kNone;
       for (const std::uint32_t each : {h, back})
-        if (!clip.keep(-x->ontoFace(each, tail), -x->ontoFace(each, head), each)) break;
+        if (!clip.keep(-x.ontoFace(each, tail), -x.ontoFace(each, head), each)) break;
       bool below = false;
       const std::uint32_t side = beyond(clip, [&](double at, std::uint32_t each) {
-        const std::uint32_t f = x->shape.leftFace(each);
-        const double slope = x->shape.normal(f).dot(u);
-        if (!(x->height(f, tail + at * u) < 0)) return slope;
+        const std::uint32_t f = x.shape.leftFace(each);
+        const double slope = x.shape.normal(f).dot(u);
+        if (!(x.height(f, tail + at * u) < 0)) return slope;
         below = true;
         return -slope;
       });
       if (side != Clip::kNone) {
-        x->goToFace(x->shape.leftFace(side));
+        x.goToFace(x.shape.leftFace(side));
         return Step::moved;
       }
       // Where a plane of the region crosses the other edge, the distance to the face is that to the
