@@ -7,6 +7,7 @@
 #include "collision/core/spelling.h"
 #include "collision/geometry/mesh_health.h"
 #include "planner/problem/cloud_yaml.h"
+#include "planner/problem/hull_yaml.h"
 #include "planner/problem/keys.h"
 #include "planner/problem/polygon_yaml.h"
 
@@ -194,11 +195,15 @@ const std::string& ShapeMeshes::whyNotWatertight(const std::shared_ptr<const Mes
 
 std::optional<PlacedShape> readShape(const YamlMap& map, const ShapePlace& place, ShapeFiles& files,
                                      Placement* notApplied) {
-  const auto kind = map.requireOne(kinds, "one shape",
-                                   "mesh: FILE, box: [x, y, z], sphere: radius, capsule or "
-                                   "cylinder: {radius: …, length: …}, convex: FILE, polygon: "
-                                   "[[x, y], …], points: {file: …, radius: …}, or octomap: "
-                                   "{file: …}");
+  const auto hullKey = readHullKey(map);
+  const bool hull = hullKey.value_or(false);
+  const auto kind = hullKey
+                        ? std::optional<std::string>("mesh")
+                        : map.requireOne(kinds, "one shape",
+                                         "mesh: FILE, box: [x, y, z], sphere: radius, capsule or "
+                                         "cylinder: {radius: …, length: …}, convex: FILE, polygon: "
+                                         "[[x, y], …], points: {file: …, radius: …}, or octomap: "
+                                         "{file: …}");
   const bool solid = map.boolean("solid").value_or(false);
   const auto own = readPlacement(map);
   if (!kind) return std::nullopt;
@@ -234,10 +239,11 @@ std::optional<PlacedShape> readShape(const YamlMap& map, const ShapePlace& place
         return std::nullopt;
       }
     }
-    if (notApplied)
+    if (notApplied && !hull)
       *notApplied = whole;
     else if (!applyPlacement(map, whole, shape))
       return std::nullopt;
+    if (hull && !replaceByHull(map, shape)) return std::nullopt;
   } else {
     shape.primitive = readPrimitive(map, *kind, place, shape.file, files);
     if (!shape.primitive) return std::nullopt;

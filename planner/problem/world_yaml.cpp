@@ -15,7 +15,7 @@ namespace {
 /// Reads an obstacle of several shapes: {shapes: […], at: …}.
 std::vector<PlacedShape> readGroup(const YamlMap& map, ShapePlace place, ShapeFiles& files) {
   for (const char* key : {"mesh", "box", "sphere", "capsule", "cylinder", "convex", "polygon",
-                          "points", "octomap", "unit", "up", "solid"})
+                          "points", "octomap", "unit", "up", "solid", "deviation"})
     if (map.find(key)) map.fault(key, "belongs to one shape; put it into the items of shapes");
   const auto outer = readPlacement(map);
   place.outer = outer.value_or(Placement{});

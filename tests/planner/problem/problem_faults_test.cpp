@@ -94,8 +94,8 @@ TEST_F(ProblemFaults, AMistypedKeyIsNotAlsoMissing) {
       std::string("problem.yaml:2: unknown key \"robto\" (did you mean \"robot\"?)") + topKeys +
           "\nproblem.yaml:3: unknown key \"mehs\" in world.a (did you mean \"mesh\"?) (known: "
           "mesh, "
-          "box, sphere, capsule, cylinder, convex, polygon, points, octomap, unit, up, solid, at, "
-          "rpy_deg, "
+          "box, sphere, capsule, cylinder, convex, polygon, points, octomap, unit, up, solid, "
+          "deviation, at, rpy_deg, "
           "rpy, quat_xyzw, "
           "shapes)");
 }
@@ -433,7 +433,7 @@ TEST_F(ProblemFaults, ReportsProblemAndRobotAtOnce) {
           "\nproblem.yaml:9: seed: a whole number from 0 to 2^64 - 1 is needed, not \"x\"\n"
           "robot.yaml:3: unknown key \"unti\" in shapes[0] (did you mean \"unit\"?) (known: "
           "mesh, box, sphere, capsule, cylinder, convex, polygon, points, octomap, unit, up, "
-          "solid, at, "
+          "solid, deviation, at, "
           "rpy_deg, rpy, "
           "quat_xyzw, name)\n"
           "robot.yaml:3: shapes[0].mesh: gone.stl: no such file");
