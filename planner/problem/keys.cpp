@@ -17,9 +17,10 @@ Words operator+(Words a, const Words& b) {
 
 const Words placementKeys{"at", "rpy_deg", "rpy", "quat_xyzw"};
 const Words poseKeys = placementKeys + Words{"yaw_deg", "yaw"};
-const Words shapeKeys = Words{"mesh",   "box",     "sphere", "capsule", "cylinder", "convex",
-                              "points", "octomap", "unit",   "up",      "solid"} +
-                        placementKeys;
+const Words shapeKeys =
+    Words{"mesh",   "box",     "sphere", "capsule", "cylinder", "convex",   "polygon",
+          "points", "octomap", "unit",   "up",      "solid",    "deviation"} +
+    placementKeys;
 
 using Keys = std::map<std::string, MapKeys>;
 

@@ -94,7 +94,8 @@ TEST_F(ProblemFaults, AMistypedKeyIsNotAlsoMissing) {
       std::string("problem.yaml:2: unknown key \"robto\" (did you mean \"robot\"?)") + topKeys +
           "\nproblem.yaml:3: unknown key \"mehs\" in world.a (did you mean \"mesh\"?) (known: "
           "mesh, "
-          "box, sphere, capsule, cylinder, convex, points, octomap, unit, up, solid, at, rpy_deg, "
+          "box, sphere, capsule, cylinder, convex, polygon, points, octomap, unit, up, solid, "
+          "deviation, at, rpy_deg, "
           "rpy, quat_xyzw, "
           "shapes)");
 }
@@ -119,8 +120,8 @@ TEST_F(ProblemFaults, MissingKeys) {
   EXPECT_EQ(
       complaintOf("format: corridor-problem-1\nrobot: robot.yaml\nworld: {a: {unit: m}}\n" + poses),
       "problem.yaml:3: missing one shape in world.a: mesh: FILE, box: [x, y, z], sphere: radius, "
-      "capsule or cylinder: {radius: …, length: …}, convex: FILE, points: {file: …, "
-      "radius: …}, or octomap: {file: …}");
+      "capsule or cylinder: {radius: …, length: …}, convex: FILE, polygon: [[x, y], …], points: "
+      "{file: …, radius: …}, or octomap: {file: …}");
 }
 
 TEST_F(ProblemFaults, WrongTypes) {
@@ -443,7 +444,8 @@ TEST_F(ProblemFaults, ReportsProblemAndRobotAtOnce) {
           topKeys +
           "\nproblem.yaml:9: seed: a whole number from 0 to 2^64 - 1 is needed, not \"x\"\n"
           "robot.yaml:3: unknown key \"unti\" in shapes[0] (did you mean \"unit\"?) (known: "
-          "mesh, box, sphere, capsule, cylinder, convex, points, octomap, unit, up, solid, at, "
+          "mesh, box, sphere, capsule, cylinder, convex, polygon, points, octomap, unit, up, "
+          "solid, deviation, at, "
           "rpy_deg, rpy, "
           "quat_xyzw, name)\n"
           "robot.yaml:3: shapes[0].mesh: gone.stl: no such file");
