@@ -169,6 +169,27 @@ TEST(SimplePolygon, Faults) {
   EXPECT_EQ(std::get<0>(fault({{0, 0}, {1, 0}, {0.5, 1}})), -1);
 }
 
+/// A corner on an edge, from each side, in each direction of the plane and of the boundary.
+TEST(SimplePolygon, CornersThatTouchEdges) {
+  const Points touching{{0, 0}, {4, 1}, {4, 3}, {2, 0.5}, {0, 2}};
+  for (int n = 0; n < 80; ++n) {
+    Points p = touching, apart = touching;
+    apart[3].y() += 0x1p-40;
+    for (Points* each : {&p, &apart}) {
+      for (Vec2& v : *each) {
+        if (n & 1) v.x() = -v.x();
+        if (n & 2) v.y() = -v.y();
+        if (n & 4) std::swap(v.x(), v.y());
+      }
+      if (n & 8) std::reverse(each->begin(), each->end());
+      std::rotate(each->begin(), each->begin() + n / 16, each->end());
+    }
+    ASSERT_TRUE(checkSimple(p)) << n;
+    EXPECT_EQ(checkSimple(p)->kind, Kind::edgesMeet) << n;
+    EXPECT_FALSE(checkSimple(apart)) << n;
+  }
+}
+
 /// 10^5 points: a comb whose teeth are long and slanted, so that the boxes of all edges overlap.
 TEST(SimplePolygon, LargePolygons) {
   Points comb{{-1e5, -1e5}};
