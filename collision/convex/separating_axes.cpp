@@ -44,7 +44,7 @@ struct Plane {
 
 class Posed {
  public:
-  Posed(const PolytopeFeatures& shape, const Transform& X) : shape(shape), X_(X) {
+  Posed(const PolytopeFeatures& polytope, const Transform& X) : shape(polytope), X_(X) {
     const double norm = X.m.norm();
     if (!X.t.allFinite() || !(X.m.determinant() > 0x1p-40 * norm * norm * norm))
       throw std::invalid_argument("separating axes need finite maps that do not mirror or flatten");

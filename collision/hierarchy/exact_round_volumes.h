@@ -10,38 +10,38 @@ namespace corridor::exact {
 
 /// Tests the swept sphere and the ellipsoid apart. A sphere is inside if its centre is in the
 /// ellipsoid, and its radius is at most `size`. By Cramer's rule the centre p is at
-/// x_i = (p − c)·crosses_i/det along the axes.
+/// x_i = (p − c)·crosses_i/det along the axes. The condition Σ (x_i/half_i)² ≤ 1 is multiplied by
+/// (half_0 half_1 half_2 det)², because divisions would make the numbers long.
 template <>
 class ExactVolume<Ellipsoid> {
  public:
   explicit ExactVolume(const Ellipsoid& e) : center_(row(e.core.center)), size_(e.size) {
     std::array<Row, 3> u;
     for (int k = 0; k < 3; ++k) u[k] = row(e.core.axes.col(k));
-    const Rational det = dot(u[0], cross(u[1], u[2]));
+    const Row half = row(e.core.half);
     for (int k = 0; k < 3; ++k) {
-      const Rational scale = det * Rational(e.core.half[k]);
-      solid_ = solid_ && scale != 0;
-      if (!solid_) return;
-      rows_[k] = cross(u[(k + 1) % 3], u[(k + 2) % 3]);
-      for (Rational& x : rows_[k]) x /= scale;
+      const int i = (k + 1) % 3, j = (k + 2) % 3;
+      rows_[k] = cross(u[i], u[j]);
+      for (Rational& x : rows_[k]) x *= half[i] * half[j];
     }
+    const Rational all = half[0] * half[1] * half[2] * dot(u[0], cross(u[1], u[2]));
+    limit_ = all * all;
   }
   bool contains(const Row& p, const Rational& radius) const {
-    if (!solid_ || radius > size_) return false;
+    if (limit_ == 0 || radius > size_) return false;
     const Row d = minus(p, center_);
     Rational square = 0;
     for (const Row& r : rows_) {
       const Rational x = dot(d, r);
       square += x * x;
     }
-    return square <= 1;
+    return square <= limit_;
   }
 
  private:
   Row center_;
-  Rational size_;
+  Rational size_, limit_;
   std::array<Row, 3> rows_;
-  bool solid_ = true;
 };
 
 /// Tests the swept sphere and the core apart, as for ellipsoids. A triangle is inside if its

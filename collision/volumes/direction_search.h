@@ -8,6 +8,10 @@
 
 namespace corridor::internal {
 
+/// Shares for `widestGap`: for verdicts, and for bounds of distances, of which a few digits
+/// suffice.
+inline constexpr double kVerdict = 0x1p-20, kBound = 0x1p-4;
+
 /// What a pair of sets returns for a direction n, from a to b.
 struct AlongDirection {
   /// A proved lower bound of the distance of the sets, metres; negative if n does not separate them
@@ -23,8 +27,10 @@ struct AlongDirection {
 /// hulls of the sets are found that are at most `near` apart.
 /// @param size  metres: about the largest coordinate of a corner.
 /// @param near, enough  metres.
+/// @param agreed  ends if the gap and the distance of two points differ by less than this share.
 template <class Along>
-double widestGap(Vec3 direction, double size, double near, double enough, const Along& along) {
+double widestGap(Vec3 direction, double size, double near, double enough, double agreed,
+                 const Along& along) {
   // Polyhedra need up to some ten rounds. Round surfaces would come closer in each round, at a cost
   // that exceeds that of descending.
   constexpr int kRounds = 24;
@@ -46,7 +52,7 @@ double widestGap(Vec3 direction, double size, double near, double enough, const 
     bool known = false;
     for (int i = 0; i < face.count; ++i) known = known || w == c[i];
     // No corner is closer to the origin.
-    if (known || (face.count > 0 && n.dot(found.corner * scale) > (1 - 0x1p-20) * length)) break;
+    if (known || (face.count > 0 && n.dot(found.corner * scale) > (1 - agreed) * length)) break;
     switch (face.count) {
       case 0:
         face = gjk::nearest(w);

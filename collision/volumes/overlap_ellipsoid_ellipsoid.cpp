@@ -85,17 +85,20 @@ class EllipsoidPair {
     }
   }
 
+  bool isRound(double pad) const { return radii_ + pad > kRound * (a_.sum() + b_.sum()); }
   /// Searches by simplices, for sets that are rounder than ellipsoids. @param pad as for
   /// `separated`
-  void searchBySimplices(double pad, double enough) {
-    if (!(radii_ + pad > kRound * (a_.sum() + b_.sum()))) return;
-    const double found = internal::widestGap(T_, size_, radii_ + pad, enough, [&](const Vec3& n) {
-      const Vec3 m = R_.transpose() * n, alongA = a_.cwiseProduct(n), alongB = b_.cwiseProduct(m);
-      const double reachA = alongA.norm(), reachB = alongB.norm();
-      return internal::AlongDirection{
-          gapOf(n, reachA, reachB),
-          T_ - R_ * (b_.cwiseProduct(alongB) / reachB) - a_.cwiseProduct(alongA) / reachA};
-    });
+  void searchBySimplices(double pad, double enough, double agreed) {
+    if (!isRound(pad)) return;
+    const double found =
+        internal::widestGap(T_, size_, radii_ + pad, enough, agreed, [&](const Vec3& n) {
+          const Vec3 m = R_.transpose() * n, alongA = a_.cwiseProduct(n),
+                     alongB = b_.cwiseProduct(m);
+          const double reachA = alongA.norm(), reachB = alongB.norm();
+          return internal::AlongDirection{
+              gapOf(n, reachA, reachB),
+              T_ - R_ * (b_.cwiseProduct(alongB) / reachB) - a_.cwiseProduct(alongA) / reachA};
+        });
     best_ = std::max(best_, found);
   }
 
@@ -128,7 +131,7 @@ bool PairTest<Ellipsoid>::separated(const Ellipsoid& a, const Ellipsoid& b, doub
   if (!pair.usable()) return false;
   pair.alongCenters();
   if (!(pair.best() > pad)) pair.search(0.5 * (pair.radii() + pad), pad);
-  if (!(pair.best() > pad)) pair.searchBySimplices(pad, pad);
+  if (!(pair.best() > pad)) pair.searchBySimplices(pad, pad, internal::kVerdict);
   return pair.best() > pad;
 }
 
@@ -136,15 +139,10 @@ double PairTest<Ellipsoid>::distanceBound(const Ellipsoid& a, const Ellipsoid& b
   EllipsoidPair pair(a, b, X_AB_, margins_);
   if (!pair.usable()) return 0;
   pair.alongCenters();
-  // Each round grows the ellipsoids by the distance proved so far, so that the next direction is
-  // nearer to that of the closest points.
-  constexpr int kRounds = 3;
-  for (int round = 0; round < kRounds; ++round) {
-    const double before = pair.best();
-    pair.search(0.5 * (pair.radii() + before), HUGE_VAL);
-    if (!(pair.best() > before * (1 + 0x1p-7))) break;
-  }
-  pair.searchBySimplices(pair.best(), HUGE_VAL);
+  // Close ellipsoids are separated best where they would touch if they grew; others along the line
+  // between their closest points.
+  if (!pair.isRound(pair.best())) pair.search(0.5 * (pair.radii() + pair.best()), HUGE_VAL);
+  pair.searchBySimplices(pair.best(), HUGE_VAL, internal::kBound);
   return pair.best();
 }
 

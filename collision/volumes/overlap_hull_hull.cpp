@@ -43,21 +43,22 @@ PairTest<Hull>::PairTest(const VolumeBounds& a, const VolumeBounds& b, const Tra
 }
 
 bool PairTest<Hull>::separated(const Hull& a, const Hull& b, double pad) const {
-  return spheres_.separated(sphereOf(a), sphereOf(b), pad) || alongDirections(a, b, pad, pad) > pad;
+  return spheres_.separated(sphereOf(a), sphereOf(b), pad) ||
+         alongDirections(a, b, pad, pad, internal::kVerdict) > pad;
 }
 
 double PairTest<Hull>::distanceBound(const Hull& a, const Hull& b) const {
   return std::max(spheres_.distanceBound(sphereOf(a), sphereOf(b)),
-                  alongDirections(a, b, 0, HUGE_VAL));
+                  alongDirections(a, b, 0, HUGE_VAL, internal::kBound));
 }
 
-double PairTest<Hull>::alongDirections(const Hull& a, const Hull& b, double pad,
-                                       double enough) const {
+double PairTest<Hull>::alongDirections(const Hull& a, const Hull& b, double pad, double enough,
+                                       double agreed) const {
   if (!(slack_ < HUGE_VAL)) return 0;
   const double radii = a.size + b.size, loss = slack_ + radii * (1 + relative_);
   const Vec3 between = X_AB_ * b.middle - a.middle;
   const double size = between.cwiseAbs().sum() + a.ball + b.ball;
-  return internal::widestGap(between, size, radii + pad, enough, [&](const Vec3& n) {
+  return internal::widestGap(between, size, radii + pad, enough, agreed, [&](const Vec3& n) {
     const Vec3 m = X_AB_.m.transpose() * n;
     const Extreme p = farthest(a.vertices, n), q = farthest(b.vertices, -m);
     const double gap = (n.dot(X_AB_.t) - q.along) - p.along - loss;

@@ -27,7 +27,8 @@ class PairTest<Hull> {
   double distanceBound(const Hull& a, const Hull& b) const;
 
  private:
-  double alongDirections(const Hull& a, const Hull& b, double pad, double enough) const;
+  double alongDirections(const Hull& a, const Hull& b, double pad, double enough,
+                         double agreed) const;
 
   Transform X_AB_;
   PairTest<BoundingSphere> spheres_;

@@ -105,14 +105,15 @@ double PairTest<Shell>::byDistances(const Placed& pair) const {
   return gap - slack > 0 && gap < HUGE_VAL ? roundedDown(gap - slack) : 0;
 }
 
-double PairTest<Shell>::byDirections(const Placed& pair, double pad, double enough) const {
+double PairTest<Shell>::byDirections(const Placed& pair, double pad, double enough,
+                                     double agreed) const {
   const Shell &a = pair.a, &b = pair.b;
   const Vec3 between = X_AB_ * b.middle - a.middle;
   const double size = between.cwiseAbs().sum() + a.ball + b.ball;
   const auto reach = [](const Shell& shell, double g) {
     return g * (g >= 0 ? shell.outer : shell.inner);
   };
-  return internal::widestGap(between, size, pair.radii + pad, enough, [&](const Vec3& n) {
+  return internal::widestGap(between, size, pair.radii + pad, enough, agreed, [&](const Vec3& n) {
     const Vec3 m = -(X_AB_.m.transpose() * n);
     const double highA = pair.coneA.highest(n), highB = pair.coneB.highest(m);
     const double gap = n.dot(pair.T) - reach(a, highA) - reach(b, highB) - pair.slack;
@@ -125,14 +126,15 @@ double PairTest<Shell>::byDirections(const Placed& pair, double pad, double enou
 bool PairTest<Shell>::separated(const Shell& a, const Shell& b, double pad) const {
   if (spheres_.separated(sphereOf(a), sphereOf(b), pad)) return true;
   const Placed pair(a, b, X_AB_, margins_);
-  return pair.usable() && (byDistances(pair) > pad || byDirections(pair, pad, pad) > pad);
+  return pair.usable() &&
+         (byDistances(pair) > pad || byDirections(pair, pad, pad, internal::kVerdict) > pad);
 }
 
 double PairTest<Shell>::distanceBound(const Shell& a, const Shell& b) const {
   const double spheres = spheres_.distanceBound(sphereOf(a), sphereOf(b));
   const Placed pair(a, b, X_AB_, margins_);
   if (!pair.usable()) return spheres;
-  return std::max({spheres, byDistances(pair), byDirections(pair, 0, HUGE_VAL)});
+  return std::max({spheres, byDistances(pair), byDirections(pair, 0, HUGE_VAL, internal::kBound)});
 }
 
 }  // namespace corridor

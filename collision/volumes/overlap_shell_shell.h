@@ -42,7 +42,7 @@ class PairTest<Shell> {
  private:
   struct Placed;  // a pair of shells
   double byDistances(const Placed& pair) const;
-  double byDirections(const Placed& pair, double pad, double enough) const;
+  double byDirections(const Placed& pair, double pad, double enough, double agreed) const;
 
   Transform X_AB_;
   PairTest<BoundingSphere> spheres_;
