@@ -44,7 +44,7 @@ Deepest deepestPair(const Posed<Body>& a, const Posed<Body>& b, QueryContext& co
 double depthAlong(const Body& a, const Body& b, const Transform& X_AB, const Vec3& direction,
                   double far, double accuracy, QueryContext& context) {
   const Vec3 start = far * direction;
-  RigidEdge approach(RigidMotion::translation({X_AB.m, X_AB.t + start}, -start, {}));
+  RigidEdge approach(RigidMotion::translation({X_AB.m, X_AB.t + start}, -start));
   const MotionPair pair{&a, &b, 0, 0, 1};
   MotionOptions options;
   options.earliest = true;
