@@ -21,7 +21,7 @@ class RigidMotion {
   /// Returns the translation by `delta` metres of a body that starts at the map `from`. It is
   /// linear in t, and the orientation does not change. @pre finite, `from` within 2^-20 of a
   /// rotation.
-  static RigidMotion translation(const Transform& from, const Vec3& delta, const Tube& tube);
+  static RigidMotion translation(const Transform& from, const Vec3& delta);
   /// Returns the motion in the plane z = 0, of (x, y, yaw) in metres and radians. @pre finite.
   static RigidMotion planar(const Vec3& from, const Vec3& to, const Tube& tube);
 
