@@ -113,11 +113,12 @@ TYPED_TEST(Fronts, TinyAndHugeBodies) {
 TYPED_TEST(Fronts, MapsThatScaleAndJump) {
   std::mt19937_64 random(test::testSeed(33));
   std::uniform_real_distribution<double> real(-1, 1);
-  const VolumeTree<TypeParam> a(bumpy(8, 0.1)), b(bumpy(8, 0.2));
+  // Under maps that are not rigid, boxes separate nothing, so the meshes are small.
+  const VolumeTree<TypeParam> a(bumpy(4, 0.1)), b(bumpy(3, 0.2));
   QueryContext context;
   Front front;
   int contacts = 0;
-  for (int i = 0; i < 200; ++i) {
+  for (int i = 0; i < 100; ++i) {
     Transform X;
     for (int k = 0; k < 9; ++k) X.m(k / 3, k % 3) += 0.05 * (i % 5) * real(random);
     X.t = Vec3(2.2 * real(random), 2.2 * real(random), 2.2 * real(random));
@@ -125,8 +126,8 @@ TYPED_TEST(Fronts, MapsThatScaleAndJump) {
     EXPECT_EQ(interference(a, Posed(b, X), front, context).has_value(), expected) << i;
     contacts += expected;
   }
-  EXPECT_GT(contacts, 20);
-  EXPECT_LT(contacts, 190);
+  EXPECT_GT(contacts, 10);
+  EXPECT_LT(contacts, 95);
 }
 
 TYPED_TEST(Fronts, ClearedFrontsServeOtherTrees) {
