@@ -94,7 +94,8 @@
 ///    may be far apart for bodies that are not convex. This question costs some 15 times as much as
 ///    the last one.
 ///
-///        const DepthBounds d = depthBounds(cup, table, X_TableCup, {}, context);  // d.lower, d.upper
+///        // X_CupTable maps the table into the frame of the cup.
+///        const DepthBounds d = depthBounds(cup, table, X_CupTable, {}, context);  // d.lower …
 ///
 /// # Many bodies
 ///
