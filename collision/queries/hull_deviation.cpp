@@ -16,7 +16,7 @@ namespace corridor {
 namespace {
 
 constexpr std::size_t kMostPieces = 1'000'000;
-constexpr int kMostDepth = 100;
+constexpr int kMostDepth = 1000;
 constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
 /// Returns the distance of p from a point of the segment that is closest to p, up to rounding.
@@ -48,7 +48,7 @@ double toBox(const Vec3& p, const BoundingBox& box) {
 struct Piece {
   Triangle corners;
   std::uint32_t guess = kNone;
-  int depth = 0;  ///< the number of halvings
+  int depth = 0;  ///< the number of cuts
 };
 
 class Search {
@@ -98,10 +98,12 @@ class Search {
 
   /// Upper bound of the rounding of a distance, metres. Each coordinate of a candidate point is a
   /// sum of at most three terms below 4·largest, with weights in [0, 1]: 8 roundings of at most
-  /// 4u·largest. Three coordinates, and the corner of a piece (up to `kMostDepth` rounded means of
-  /// two corners, each off by u·largest): less than 2^8·u·largest. The norm adds 3u of itself,
-  /// which is below 16·largest.
-  double rounding() const { return 0x1p9 * kUnit * largest_; }
+  /// 4u·largest. A corner of a piece comes from up to `kMostDepth` cuts, each with three roundings
+  /// of terms below 4·largest: 12u·largest for each. Three coordinates: less than 2^15·u·largest.
+  /// The norm adds 3u of itself, which is below 16·largest. Squares below 2^-1022 vanish, and so do
+  /// lengths below 2^-511.
+  double rounding() const { return 0x1p15 * kUnit * largest_ + 0x1p-500; }
+  const Triangle& triangle(std::uint32_t i) const { return triangles_[i]; }
 
  private:
   std::vector<Triangle> triangles_;
@@ -122,6 +124,39 @@ std::array<Piece, 2> halves(const Piece& piece) {
   const Vec3 middle = 0.5 * a + 0.5 * b;
   const int depth = piece.depth + 1;
   return {Piece{{a, middle, c}, piece.guess, depth}, Piece{{middle, b, c}, piece.guess, depth}};
+}
+
+/// Cuts a piece along the line of an edge of a triangle, in the plane of the piece. Chooses the
+/// edge that leaves most on both sides. Returns false if no edge leaves corners farther than
+/// `least` from its line on both sides. The parts cover the piece up to the rounding of their
+/// corners, wherever the line is.
+bool cutAlongEdge(const Piece& piece, const Triangle& t, double least, std::vector<Piece>& parts) {
+  const auto& c = piece.corners;
+  const Vec3 normal = (c[1] - c[0]).cross(c[2] - c[0]);
+  std::array<double, 3> side{};
+  double best = least;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3 across = normal.cross(t[(k + 1) % 3] - t[k]).stableNormalized();
+    std::array<double, 3> at{};
+    for (std::size_t i = 0; i < 3; ++i) at[i] = across.dot(c[i] - t[k]);
+    const double both = std::min(*std::ranges::max_element(at), -*std::ranges::min_element(at));
+    if (both > best) best = both, side = at;
+  }
+  if (!(best > least)) return false;
+  // The corner that is alone on its side of the line, and where its two sides meet the line.
+  std::size_t k = 0;
+  while ((side[k] > 0) == (side[(k + 1) % 3] > 0) || (side[k] > 0) == (side[(k + 2) % 3] > 0)) ++k;
+  const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
+  const auto meet = [&](std::size_t other) {
+    const double s = std::clamp(side[k] / (side[k] - side[other]), 0.0, 1.0);
+    return Vec3((1 - s) * c[k] + s * c[other]);
+  };
+  const Vec3 x = meet(i), y = meet(j);
+  const int depth = piece.depth + 1;
+  parts.push_back({{c[k], x, y}, piece.guess, depth});
+  parts.push_back({{x, c[i], c[j]}, piece.guess, depth});
+  parts.push_back({{x, c[j], y}, piece.guess, depth});
+  return true;
 }
 
 }  // namespace
@@ -151,6 +186,9 @@ HullDeviation hullDeviation(const Polytope& hull, const TriangleMesh& mesh, doub
       }
     }
     if (result.found > limit || piece.depth == kMostDepth || count == kMostPieces) return result;
+    // A cut that leaves less than half of the limit on one side makes no progress.
+    if (piece.guess != kNone && cutAlongEdge(piece, search.triangle(piece.guess), limit / 2, open))
+      continue;
     for (const Piece& half : halves(piece)) open.push_back(half);
   }
   result.within = true;

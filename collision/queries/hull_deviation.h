@@ -18,9 +18,10 @@ struct HullDeviation {
 ///
 /// Method: branch and bound. The distance from one triangle of the mesh is a convex function, so on
 /// a piece of the hull's surface it is largest at a corner of the piece. The triangle for which
-/// this is least bounds the deviation of the piece. A piece whose bound is above the limit is
-/// halved, unless a corner of it is farther than the limit from the mesh: this ends the search. So
-/// does the work limit of 10^6 pieces, with `within` false and `found` at most the limit.
+/// this is least bounds the deviation of the piece. A piece whose bound is above the limit is cut
+/// along an edge of that triangle, which leaves a part that lies over the triangle, or is halved.
+/// But if a corner of it is farther than the limit from the mesh, the search ends. So it does at
+/// the work limit of 10^6 pieces, with `within` false and `found` at most the limit.
 /// @pre all numbers are finite, the hull is that of the mesh's corners, and the limit is positive.
 HullDeviation hullDeviation(const Polytope& hull, const TriangleMesh& mesh, double limit);
 

@@ -50,11 +50,13 @@ double depthAlong(const Body& a, const Body& b, const Transform& X_AB, const Vec
   options.earliest = true;
   options.timeTolerance = accuracy;
   // During this share of the motion, b approaches by four tolerances.
-  const double size = a.radius() + b.radius() + X_AB.t.norm() + far;
+  const double size = a.radius() + b.radius() + X_AB.t.stableNorm() + far;
   options.tolerance = std::max(accuracy * far / 4, RigidMotion::roundingTolerance(size));
   const MotionResult result = certifyMotion(approach, {&pair, 1}, options, context);
-  // The start, t = 0, is free, and so is all of [0, certifiedUntil]. The last term covers the
-  // rounding of `start` and of its sum with X_AB.t.
+  // Nothing is proved, not even at the start: the bodies are too small or too large for the bounds.
+  if (!(result.certifiedUntil > 0)) return HUGE_VAL;
+  // All of [0, certifiedUntil] is free. The last term covers the rounding of `start` and of its sum
+  // with X_AB.t along the direction. Across it, `translation` covers the rounding.
   return roundedUp((1 - result.certifiedUntil) * far * (1 + 8 * kUnit) + 8 * kUnit * size);
 }
 
@@ -64,6 +66,8 @@ DepthBounds depthBounds(const Body& a, const Body& b, const Transform& X_AB,
                         const DepthOptions& options, QueryContext& context) {
   if (!(options.accuracy >= 0x1p-40 && options.accuracy <= 0.25))
     throw std::invalid_argument("the accuracy of a depth must be from 2^-40 to 1/4");
+  if (!(orthonormalityDefect(X_AB.m) <= 0x1p-20))
+    throw std::invalid_argument("a depth needs a map within 2^-20 of a rotation");
   for (const Vec3& d : options.directions)
     if (!d.allFinite() || d.isZero(0))
       throw std::invalid_argument("a direction must be finite, and not 0");
@@ -90,11 +94,12 @@ DepthBounds depthBounds(const Body& a, const Body& b, const Transform& X_AB,
         directions.push_back(sign * X_AB.m.col(i));
       }
   }
-  // At this distance the bounding spheres are apart: their sum is twice covered by rounding, and by
-  // the map's difference from a rotation.
+  // At this distance the bounding spheres are apart. The 1 % covers rounding, and the map's
+  // difference from a rotation.
   const double far =
-      1.01 * (a.sphereRadius() + b.sphereRadius() + (centerB - a.sphereCenter()).norm());
+      1.01 * (a.sphereRadius() + b.sphereRadius() + (centerB - a.sphereCenter()).stableNorm());
   bounds.upper = HUGE_VAL;
+  if (!(far < 0x1p1000)) return bounds;  // no start that doubles can hold
   for (const Vec3& d : directions) {
     const Vec3 direction = d.stableNormalized();
     if (!(direction.squaredNorm() > 0.5)) continue;  // a candidate of length 0

@@ -14,8 +14,8 @@ struct DepthOptions {
   /// direction of the deepest pair, the direction between the centres, and the six axes of either
   /// frame.
   std::vector<Vec3> directions;
-  /// The depth along a direction is found to within this share of the sum of the bodies' sizes; at
-  /// least 2^-40, at most 1/4.
+  /// The depth along a direction is usually found to within this share of the sum of the bodies'
+  /// sizes; at least 2^-40, at most 1/4.
   double accuracy = 0x1p-20;
 };
 
@@ -27,14 +27,14 @@ struct DepthBounds {
   /// body is inside a solid mesh, it is the distance of the surfaces.
   double lower = 0;
   /// A translation by `upper` along `direction_A` separates the bodies; so does any longer one.
-  /// This is the least depth along the directions that were tried.
+  /// This is the least depth along the directions that were tried. Infinite: nothing is proved.
   double upper = 0;
   Vec3 direction_A = Vec3::Zero();       ///< in a's frame; of unit length, rounded
   std::optional<PrimitivePair> deepest;  ///< the pair that gives `lower`, if primitives touch
 };
 
-/// Computes bounds of the penetration depth. Both hold in real arithmetic on the given doubles, for
-/// maps within 2^-20 of rotations.
+/// Computes bounds of the penetration depth. Both hold in real arithmetic on the given doubles.
+/// `lower` needs sizes and coordinates that are 0 or within 2^±440 m, as `penetration` does.
 ///
 /// The exact depth of bodies that are not convex is costly: it is a distance on the Minkowski sum,
 /// which may have n⁶ faces. The lower bound takes a pair of primitives at a time (`penetration` in
@@ -42,8 +42,8 @@ struct DepthBounds {
 /// along a direction (`certifyMotion`), so b may be deeper in a than `lower` says, and may leave it
 /// by a shorter way than `upper` says.
 /// @param X_AB  the map from b's frame to a's.
-/// @throws std::invalid_argument for a map or a direction that is not finite, for a direction 0,
-/// and for an accuracy outside its limits.
+/// @throws std::invalid_argument for a map that is not finite, or not within 2^-20 of a rotation;
+/// for a direction that is 0 or not finite; and for an accuracy outside its limits.
 DepthBounds depthBounds(const Body& a, const Body& b, const Transform& X_AB,
                         const DepthOptions& options, QueryContext& context);
 

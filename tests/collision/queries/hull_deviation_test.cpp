@@ -85,9 +85,66 @@ TEST(HullDeviation, OfConvexMeshesIsRounding) {
     test::add(ball, hull.vertices()[face[0]], hull.vertices()[face[1]], hull.vertices()[face[2]]);
   const HullDeviation same = hullDeviation(hull, ball, 1e-9);
   EXPECT_TRUE(same.within);
-  EXPECT_LE(same.upper, 1e-12);
+  EXPECT_LE(same.upper, 1e-11);
   const TriangleMesh cube = hollowCube(0.3, 0, anywhere(random));
   EXPECT_TRUE(hullDeviation(hullOf(cube), cube, 1e-4).within);
+}
+
+/// Meshes whose faces are cut into many triangles, as programs write them: boxes, and a cylinder.
+/// Their hulls have other triangles.
+TEST(HullDeviation, OfFinelyTessellatedConvexMeshesIsWithin) {
+  std::mt19937_64 random(test::testSeed(73));
+  for (const int n : {1, 10, 25}) {
+    const Transform X = anywhere(random);
+    TriangleMesh box;
+    for (int axis = 0; axis < 3; ++axis)
+      for (const double side : {0.0, 1.0})
+        for (int i = 0; i < n; ++i)
+          for (int k = 0; k < n; ++k) {
+            const auto at = [&](int u, int v) {
+              Vec3 p = Vec3::Constant(side);
+              p[(axis + 1) % 3] = static_cast<double>(i + u) / n;
+              p[(axis + 2) % 3] = static_cast<double>(k + v) / n;
+              return X * p;
+            };
+            test::add(box, at(0, 0), at(1, 0), at(1, 1));
+            test::add(box, at(0, 0), at(1, 1), at(0, 1));
+          }
+    const HullDeviation d = hullDeviation(hullOf(box), box, 1e-4);
+    EXPECT_TRUE(d.within) << n;
+    EXPECT_LE(d.upper, 1e-4) << n;
+  }
+  TriangleMesh can;
+  const Transform X = anywhere(random);
+  for (int i = 0; i < 64; ++i) {
+    const auto at = [&](int k, double r, double z) {
+      const double angle = M_PI * (i + k) / 32;
+      return X * Vec3(r * std::cos(angle), r * std::sin(angle), z);
+    };
+    for (int z = 0; z < 8; ++z) {
+      test::add(can, at(0, 1, z / 8.0), at(1, 1, z / 8.0), at(1, 1, (z + 1) / 8.0));
+      test::add(can, at(0, 1, z / 8.0), at(1, 1, (z + 1) / 8.0), at(0, 1, (z + 1) / 8.0));
+    }
+    for (const double z : {0.0, 1.0}) test::add(can, at(0, 0, z), at(0, 1, z), at(1, 1, z));
+  }
+  const HullDeviation d = hullDeviation(hullOf(can), can, 1e-4);
+  EXPECT_TRUE(d.within);
+  EXPECT_LE(d.upper, 1e-4);
+}
+
+/// A tetrahedron with one face pushed in, so small that squares of lengths vanish.
+TEST(HullDeviation, IsNotLostAtTinyScale) {
+  for (const double s : {0x1p-500, 0x1p-530, 0x1p-540, 0x1p-700, 0x1p-1000}) {
+    const Vec3 o = Vec3::Zero(), x(4 * s, 0, 0), y(0, 4 * s, 0), z(0, 0, 4 * s), in(s, s, s);
+    TriangleMesh mesh;
+    test::add(mesh, o, y, x);
+    test::add(mesh, o, x, z);
+    test::add(mesh, o, z, y);
+    test::add(mesh, x, y, in);
+    test::add(mesh, y, z, in);
+    test::add(mesh, z, x, in);
+    EXPECT_FALSE(hullDeviation(hullOf(mesh), mesh, 1e-4 * s).within) << s;
+  }
 }
 
 /// Parts that are apart: the hull bridges the gap between two cubes. The point in the middle has

@@ -50,6 +50,34 @@ TEST(BodyDepth, CubesAlongTheirAxes) {
   }
 }
 
+/// At any scale, the upper bound separates the cubes, or is infinite.
+TEST(BodyDepth, TinyAndHugeCubes) {
+  QueryContext context;
+  for (const double h : {0x1p-1000, 1e-290, 1e-170, 0x1p-500, 1e-100, 1e100, 1e200, 0x1p1000})
+    for (const Vec3& t : {Vec3(1.7, 0.2, 0.1), Vec3(-1.9, 0, 0)}) {
+      const Body a = cube(h), b = cube(h);
+      DepthOptions along;
+      along.directions = {Vec3(1, 0, 0)};
+      for (const DepthOptions& options : {DepthOptions{}, along}) {
+        const DepthBounds d = depthBounds(a, b, at(h * t), options, context);
+        ASSERT_GT(d.upper, 0) << h;
+        if (d.upper == HUGE_VAL) continue;
+        const Vec3 moved = h * t + (d.upper * (1 + 1e-12)) * d.direction_A;
+        EXPECT_FALSE(interference(Posed(a), Posed(b, at(moved)), context)) << h << ", " << t[0];
+      }
+    }
+}
+
+/// A map that is nearly a rotation counts as it is.
+TEST(BodyDepth, MapsThatAreNearlyRotations) {
+  QueryContext context;
+  Transform X_AB = at({1.7, 0.2, 0.1});
+  X_AB.m(0, 0) += 1e-7;  // the face at x = 0.7 moves by 1e-7
+  const DepthBounds d = depthBounds(cube(1), cube(1), X_AB, {}, context);
+  EXPECT_GE(d.upper, (0.3 + 1e-7) * (1 - 1e-12));
+  EXPECT_NEAR(d.upper, 0.3 + 1e-7, 1e-4);
+}
+
 /// For two convex parts the bounds are those of `penetration`, up to the directions tried.
 TEST(BodyDepth, ConvexParts) {
   QueryContext context;
@@ -131,6 +159,8 @@ TEST(BodyDepth, BadArguments) {
   for (const DepthOptions& options : {zero, infinite, coarse})
     EXPECT_THROW(depthBounds(a, a, {}, options, context), std::invalid_argument);
   EXPECT_THROW(depthBounds(a, a, at({NAN, 0, 0}), {}, context), std::invalid_argument);
+  const Transform scaled{4 * Mat3::Identity(), Vec3(-4.9, 0, 0)};
+  EXPECT_THROW(depthBounds(a, a, scaled, {}, context), std::invalid_argument);
 }
 
 }  // namespace
