@@ -228,6 +228,11 @@ ConvexDistance convexDistance(const PosedSet& a, const PosedSet& b, double relat
       quick.run(gjk::startOf<double>(cache),
                 agreed(pair.radii(), pair.touchDistance(), 0x1p-50 * pair.size()), never);
   gjk::keep(quick.simplex, cache);
+  const auto count = [cache](const gjk::Answer& search) {
+    if (cache) cache->rounds += search.rounds + 1;
+  };
+  if (cache) cache->rounds = 0;
+  count(found);
   const bool met = found.overlap || found.upper <= pair.touchDistance();
   const double gap = pair.gap(found, quick);
   bool exact = false;
@@ -244,7 +249,7 @@ ConvexDistance convexDistance(const PosedSet& a, const PosedSet& b, double relat
       }
       gjk::Search<DoubleDouble> finer(a, b, pair.size(), !balls);
       const double near = pair.touchDistance() - (balls ? 0 : pair.radii());
-      finer.run(quick.simplex, agreed(HUGE_VAL, near, 0x1p-50 * pair.size()), never);
+      count(finer.run(quick.simplex, agreed(HUGE_VAL, near, 0x1p-50 * pair.size()), never));
       ConvexDistance contact = pair.contact(finer, !balls);
       contact.exact = true;
       return contact;
@@ -259,15 +264,28 @@ ConvexDistance convexDistance(const PosedSet& a, const PosedSet& b, double relat
     if (accurateEnough(result, pair.error())) return result;
   }
   gjk::Search<DoubleDouble> finer(a, b, pair.size());
-  finer.run(quick.simplex, agreed(pair.radii(), -1, 0), never);
+  count(finer.run(quick.simplex, agreed(pair.radii(), -1, 0), never));
   result = pair.apart(finer, false);
   result.exact = true;
   if (accurateEnough(result, 0) || pair.radii() == 0) return result;
   gjk::Search<DoubleDouble> withBalls(a, b, pair.size(), true);
-  withBalls.run(finer.simplex, agreed(0, -1, 0), never);
+  count(withBalls.run(finer.simplex, agreed(0, -1, 0), never));
   ConvexDistance other = pair.apart(withBalls, true);
   other.exact = true;
   return other.distance - other.lower < result.distance - result.lower ? other : result;
+}
+
+ConvexDistance separatedDistance(const PosedSet& a, const PosedSet& b, const ConvexCache& from) {
+  const Pair pair(a, b);
+  gjk::Search<DoubleDouble> search(a, b, pair.size());
+  search.run(
+      gjk::startOf<DoubleDouble>(&from),
+      [](const auto& upper, const auto& lower) { return static_cast<double>(upper - lower) <= 0; },
+      [](const Vec3&, double, std::uint32_t, std::uint32_t) { return false; });
+  ConvexDistance result = pair.apart(search, false);
+  result.lower = std::max(0.0, result.lower);
+  result.exact = true;
+  return result;
 }
 
 ConvexRange convexDistanceRange(const PosedSet& a, const PosedSet& b, double beyond, double near) {

@@ -41,6 +41,12 @@ struct ConvexDistance {
 ConvexDistance convexDistance(const PosedSet& a, const PosedSet& b, double relative = 0,
                               double absolute = 0, ConvexCache* cache = nullptr);
 
+/// Computes the distance of two convex sets without swept spheres that are known to share no point,
+/// although they are so close that `convexSetsTouch` returns true. Guaranteed as for
+/// `convexDistance`; `distance` is above 0. Computed in double-double.
+/// @param from  what a search of the same two sets has kept.
+ConvexDistance separatedDistance(const PosedSet& a, const PosedSet& b, const ConvexCache& from);
+
 /// A proved range of a distance, metres. If lower > 0, the sets do not touch.
 struct ConvexRange {
   double lower = 0, upper = 0;

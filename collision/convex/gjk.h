@@ -261,11 +261,11 @@ Simplex<Real> startOf(const ConvexCache* cache) {
   }
   return from;
 }
-/// Keeps at most three corners of a simplex in the cache.
+/// Keeps the corners of a simplex in the cache.
 template <class Real>
 void keep(const Simplex<Real>& simplex, ConvexCache* cache) {
   if (!cache) return;
-  cache->count = std::min(simplex.count, 3);
+  cache->count = simplex.count;
   for (int i = 0; i < cache->count; ++i) {
     const Corner<Real>& c = simplex.corner[i];
     cache->corner[static_cast<std::size_t>(i)] = {c.pointA, c.pointB, c.n};
@@ -288,6 +288,7 @@ Answer search(const PosedSet& a, const PosedSet& b, double size, double near, Ac
   Search<Real> search(a, b, size, ballsInCores);
   const Answer answer = search.run(startOf<Real>(cache), enough, accept);
   keep(search.simplex, cache);
+  if (cache) cache->rounds = answer.rounds + 1;
   return answer;
 }
 

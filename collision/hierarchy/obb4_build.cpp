@@ -296,9 +296,7 @@ std::vector<Obb4Tree::Node> join(Piece& root) {
 
 Obb4Layout layOut(BuildItems& items, unsigned threads) {
   Obb4Layout tree;
-  tree.origin = items.origin;
-  tree.length = items.length;
-  tree.radius = items.radius;
+  tree.frame = {items.origin, items.length, items.radius};
   const std::size_t n = items.size();
   Piece root;
   {
@@ -327,6 +325,38 @@ Obb4Layout layOutParts(std::span<const ConvexPart> parts, unsigned threads) {
   return layOut(items, threads);
 }
 
+Obb4Frame refit(const TriangleMesh& moved, std::span<const std::uint32_t> order, Obb1& root,
+                std::span<Obb4Tree::Node> nodes) {
+  BuildItems items(moved, order);
+  const Worker worker(items);
+  // A node is numbered before all nodes below it, and its triangles are a range in leaf order.
+  std::vector<Cluster> ranges(nodes.size());
+  for (std::size_t i = nodes.size(); i-- > 0;) {
+    Obb4Tree::Node& node = nodes[i];
+    std::uint32_t first = std::numeric_limits<std::uint32_t>::max(), count = 0;
+    for (std::uint32_t lane = 0; lane < kWidth; ++lane) {
+      const std::uint32_t child = node.child[lane];
+      if (child == Obb4Tree::kNone) continue;
+      Cluster part = isNode(child)
+                         ? ranges[child]
+                         : Cluster{Obb4Tree::leafFirst(child), Obb4Tree::leafCount(child)};
+      for (int j = 0; j < 3; ++j)
+        for (int k = 0; k < 3; ++k) part.axes[j][k] = node.vectors[k][j][lane];
+      worker.setBox(node, lane, part);
+      first = std::min(first, part.first);
+      count += part.count;
+    }
+    ranges[i] = {first, count};
+  }
+  Cluster whole = {0, static_cast<std::uint32_t>(order.size())};
+  for (int j = 0; j < 3; ++j)
+    for (int k = 0; k < 3; ++k) whole.axes[j][k] = root.vectors[k][j];
+  Obb4Tree::Node box;
+  worker.setBox(box, 0, whole);
+  root = boxOf(box, 0);
+  return {items.origin, items.length, items.radius};
+}
+
 }  // namespace corridor::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -335,6 +365,7 @@ namespace corridor {
 
 HWY_EXPORT(layOutMesh);
 HWY_EXPORT(layOutParts);
+HWY_EXPORT(refit);
 
 Obb4Layout layOutObb4(const TriangleMesh& mesh, ObbFit fit, unsigned threads) {
   return HWY_DYNAMIC_DISPATCH(layOutMesh)(mesh, fit, threads);
@@ -342,6 +373,11 @@ Obb4Layout layOutObb4(const TriangleMesh& mesh, ObbFit fit, unsigned threads) {
 
 Obb4Layout layOutObb4(std::span<const ConvexPart> parts, unsigned threads) {
   return HWY_DYNAMIC_DISPATCH(layOutParts)(parts, threads);
+}
+
+Obb4Frame refitObb4(const TriangleMesh& moved, std::span<const std::uint32_t> order, Obb1& root,
+                    std::span<Obb4Tree::Node> nodes) {
+  return HWY_DYNAMIC_DISPATCH(refit)(moved, order, root, nodes);
 }
 
 }  // namespace corridor

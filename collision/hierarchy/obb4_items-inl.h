@@ -71,6 +71,26 @@ class BuildItems {
     record(threads, [&](std::size_t begin, std::size_t end) { return recordParts(begin, end); });
   }
 
+  /// The triangles of a tree that is refitted, in its leaf order. Of the records, only the numbers
+  /// of the triangles are set.
+  BuildItems(const TriangleMesh& mesh, std::span<const std::uint32_t> order)
+      : fit(ObbFit::triangles), records(order.size()), mesh_(&mesh) {
+    place(1, [&](std::size_t i, const auto& take) {
+      for (const std::uint32_t v : mesh.triangles[i]) take(mesh.vertices[v], 0.0);
+    });
+    own_.reserve(mesh.vertices.size());
+    for (const Vec3& v : mesh.vertices) own_.emplace_back((v - origin) * scale);
+    record(1, [&](std::size_t begin, std::size_t end) {
+      double largest = 0;
+      for (std::size_t i = begin; i < end; ++i) {
+        records.column(PrimitiveReferences::kTriangle)[i] = std::bit_cast<float>(order[i]);
+        for (const std::uint32_t v : mesh.triangles[i])
+          largest = std::max(largest, own_[v].squaredNorm());
+      }
+      return largest;
+    });
+  }
+
   std::size_t size() const { return mesh_ ? mesh_->triangles.size() : parts_.size(); }
   bool areParts() const { return mesh_ == nullptr; }
   /// The largest number of leaf primitives in a leaf. A test of two parts costs more than sixteen

@@ -16,12 +16,12 @@ Obb4Layout layOutObb4(const ConvexPart& part) {
   Obb4Layout tree;
   tree.order = {0};
   const Obb box = enclosingObb(part);
-  tree.origin = box.center;
+  tree.frame.origin = box.center;
   // |U x| ≤ (1 + 2^-38)|e|, since the axes are orthonormal to 2^-40.
   const double size = roundedUp(box.half.stableNorm() * (1 + 0x1p-30));
   const bool usable = size > 0 && std::isfinite(size);
-  if (usable) tree.length = std::ldexp(1.0, std::clamp(std::ilogb(size) + 1, -1000, 1000));
-  tree.radius = size;
+  if (usable) tree.frame.length = std::ldexp(1.0, std::clamp(std::ilogb(size) + 1, -1000, 1000));
+  tree.frame.radius = size;
 
   std::array<int, 3> order = {0, 1, 2};  // the longest side first
   for (const auto& [i, k] : {std::pair(0, 1), std::pair(1, 2), std::pair(0, 1)})
@@ -41,7 +41,7 @@ Obb4Layout layOutObb4(const ConvexPart& part) {
     for (int i = 0; i < 3; ++i)
       reach[j] +=
           std::abs(axis[0] * box.axes(0, i) + axis[1] * box.axes(1, i) + axis[2] * box.axes(2, i)) *
-          (box.half[i] / tree.length);
+          (box.half[i] / tree.frame.length);
     sum += reach[j];
   }
   // As in obb4_build.cpp, |Û⁻¹d − Ûᵀd| ≤ η·Σ|y|/(1 − 3η) per coordinate, η ≤ 2.1·2^-24. A sum of

@@ -42,10 +42,29 @@ void Obb4Tree::take(Obb4Layout layout) {
   root_ = layout.root;
   nodes_ = std::move(layout.nodes);
   meshTriangle_ = std::move(layout.order);
-  origin_ = layout.origin;
-  length_ = layout.length;
-  radius_ = layout.radius;
+  take(layout.frame);
+}
+
+void Obb4Tree::take(const Obb4Frame& frame) {
+  origin_ = frame.origin;
+  length_ = frame.length;
+  radius_ = frame.radius;
   reach_ = roundedUp(origin_.stableNorm() + radius_);
+}
+
+void Obb4Tree::refit(const TriangleMesh& moved) {
+  requireStandardFloatingPoint();
+  if (hasParts()) throw std::invalid_argument("a tree of convex parts can't be refitted");
+  if (moved.triangles.size() != triangleCount())
+    throw std::invalid_argument("a tree can only be refitted to a mesh of as many triangles: " +
+                                std::to_string(triangleCount()) + ", not " +
+                                std::to_string(moved.triangles.size()));
+  if (const auto complaint = checkMesh(moved)) throw std::invalid_argument(*complaint);
+  std::vector<Vec3> vertices = moved.vertices;
+  take(refitObb4(moved, meshTriangle_, root_, nodes_));
+  vertices_ = std::move(vertices);
+  for (std::size_t i = 0; i < triangles_.size(); ++i)
+    triangles_[i] = moved.triangles[meshTriangle_[i]];
 }
 
 std::size_t Obb4Tree::bytes() const {

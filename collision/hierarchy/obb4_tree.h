@@ -15,6 +15,7 @@
 
 namespace corridor {
 
+struct Obb4Frame;
 struct Obb4Layout;
 
 /// The 4-wide OBB tree: the OBBTree of Gottschalk, Lin, Manocha 1996, laid out for SIMD. A node has
@@ -29,7 +30,8 @@ struct Obb4Layout;
 /// coordinate by at most 2^-24 of the mesh's size. For meshes above 2^960 m no box is used: queries
 /// test all triangles.
 ///
-/// Immutable. The tree keeps a copy of the mesh's vertices, so the mesh need not outlive it.
+/// Immutable except for `refit`. The tree keeps a copy of the mesh's vertices, so the mesh need not
+/// outlive it.
 class Obb4Tree {
  public:
   static constexpr int kWidth = 4;                    ///< boxes per node
@@ -85,6 +87,14 @@ class Obb4Tree {
   double radius() const { return radius_; }
   double reach() const { return reach_; }
 
+  /// Fits the boxes to triangles that have moved. The tree keeps its structure, and each box keeps
+  /// its axes; frame and unit are those of the new coordinates. Refitting is cheaper than building,
+  /// but boxes get looser the more the mesh deforms. The result depends only on the axes, the
+  /// structure and `moved`, not on any position before. No query may run at the same time.
+  /// @throws std::invalid_argument if the leaves hold parts, if `moved` has another number of
+  /// triangles than the tree, or if `checkMesh` finds a fault. The tree is then unchanged.
+  void refit(const TriangleMesh& moved);
+
   std::size_t bytes() const;
 
   /// Proves these invariants in rational arithmetic. Every box contains every triangle or part
@@ -95,6 +105,7 @@ class Obb4Tree {
 
  private:
   void take(Obb4Layout layout);
+  void take(const Obb4Frame& frame);
 
   Obb1 root_ = {};
   std::vector<Node> nodes_;

@@ -43,12 +43,13 @@ std::optional<InvalidName> wrongOf(const VolumeKind& volume, const std::string& 
 }  // namespace
 
 const std::vector<VolumeKind>& volumeKinds() {
-  static const Words oriented = {"triangles", "vertices", "hull"}, plain = {"plain"};
+  static const Words oriented = {"triangles", "vertices", "hull"}, plain = {"plain"},
+                     builds = {"top-down", "median", "bottom-up"};
   static const std::vector<VolumeKind> kinds = [] {
-    std::vector<VolumeKind> all = {{"obb", oriented, {"sat"}, TreeKind::obb4}};
+    std::vector<VolumeKind> all = {{"obb", oriented, {"sat"}, TreeKind::obb4, {builds.front()}}};
     const auto add = [&](TreeKind kind, bool isOriented, const char* volume, const char* overlap) {
       if (all.back().name != volume)
-        all.push_back({volume, isOriented ? oriented : plain, {}, kind});
+        all.push_back({volume, isOriented ? oriented : plain, {}, kind, builds});
       all.back().overlaps.push_back(overlap);
     };
 #define CORRIDOR_ADD(kind, Volume, Overlap, volumeName, overlapName) \
@@ -76,7 +77,8 @@ std::optional<InvalidName> invalidNameIn(const TreeNames& words) {
                                      "; there are: " + joined(names)};
   }
   if (auto wrong = wrongOf(*volume, "fit", words.fit, &VolumeKind::fits)) return wrong;
-  return wrongOf(*volume, "overlap", words.overlap, &VolumeKind::overlaps);
+  if (auto wrong = wrongOf(*volume, "overlap", words.overlap, &VolumeKind::overlaps)) return wrong;
+  return wrongOf(*volume, "build", words.build, &VolumeKind::builds);
 }
 
 TreeNames withDefaults(const TreeNames& words) {
@@ -84,7 +86,8 @@ TreeNames withDefaults(const TreeNames& words) {
     throw std::invalid_argument(wrong->key + ": " + wrong->text);
   const VolumeKind& volume = *kindNamed(words.volume);
   return {volume.name, words.fit.empty() ? volume.fits.front() : words.fit,
-          words.overlap.empty() ? volume.overlaps.front() : words.overlap};
+          words.overlap.empty() ? volume.overlaps.front() : words.overlap,
+          words.build.empty() ? volume.builds.front() : words.build};
 }
 
 TreeChoice treesNamed(const TreeNames& words) {
@@ -95,7 +98,9 @@ TreeChoice treesNamed(const TreeNames& words) {
   // A volume without axes of its own has one fit, "plain". This is no `ObbFit`, so the fit below is
   // not used.
   return {static_cast<TreeKind>(static_cast<int>(volume.trees) + after),
-          obbFitNamed(all.fit).value_or(ObbFit::triangles)};
+          {obbFitNamed(all.fit).value_or(ObbFit::triangles),
+           all.build == "median" ? SplitRule::median : SplitRule::mean,
+           all.build == "bottom-up" ? TreeBuilding::bottomUp : TreeBuilding::topDown}};
 }
 
 }  // namespace corridor

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "collision/volumes/obb.h"
+#include "collision/hierarchy/tree_params.h"
 #include "collision/volumes/pair_tests.h"
 
 namespace corridor {
@@ -23,14 +23,15 @@ enum class TreeKind {
 #undef CORRIDOR_KIND
 };
 
-/// A kind of bounding volume under the name that users write, with the names of its fits and
-/// overlap tests. The first of each is the default.
+/// A kind of bounding volume under the name that users write, with the names of its fits, of its
+/// overlap tests, and of the ways to build its trees. The first of each is the default.
 struct VolumeKind {
   std::string name;
   std::vector<std::string> fits, overlaps;
   /// The kind of trees for the first overlap test. The kinds for the other tests follow in their
   /// order.
   TreeKind trees;
+  std::vector<std::string> builds = {};
 };
 /// Returns all kinds of bounding volume, the default first.
 const std::vector<VolumeKind>& volumeKinds();
@@ -42,16 +43,19 @@ bool hasDefaultOverlap(TreeKind trees);
 /// The words by which users choose trees. An empty word stands for the default.
 struct TreeNames {
   std::string volume, fit, overlap;
+  /// `top-down`: nodes are split at the mean. `median`: the same, at the median. `bottom-up`: nodes
+  /// are clustered.
+  std::string build = {};
 };
-/// The kind of trees and the fit that `TreeNames` stand for.
+/// The kind of trees that `TreeNames` stand for, and how they are built.
 struct TreeChoice {
   TreeKind trees = TreeKind::obb4;
-  ObbFit fit = ObbFit::triangles;
+  TreeParams params = {};
 };
 
 /// The complaint about a word that is unknown, or that the chosen volume doesn't have.
 struct InvalidName {
-  std::string key;   ///< "volume", "fit" or "overlap"
+  std::string key;   ///< "volume", "fit", "overlap" or "build"
   std::string text;  ///< what is wrong, and which words are possible
 };
 /// Returns the complaint about the first wrong word, or nothing.

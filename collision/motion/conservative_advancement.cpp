@@ -19,12 +19,12 @@ constexpr double kLongest = 0.5;
 constexpr double kShare = 1 - 0x1p-7;
 
 /// A pair of bodies that is proved free on all of [0, t].
-struct Front {
+struct Progress {
   double t;
   std::uint32_t pair;
 
-  // Makes the earliest front the top of a heap.
-  friend bool operator<(const Front& a, const Front& b) { return a.t > b.t; }
+  // Makes the pair that is proved for the shortest time the top of a heap.
+  friend bool operator<(const Progress& a, const Progress& b) { return a.t > b.t; }
 };
 
 class Advancement {
@@ -32,28 +32,28 @@ class Advancement {
   explicit Advancement(DistanceSteps& steps) : steps_(steps) {}
 
   MotionResult run(std::size_t pairs) {
-    std::vector<Front> fronts;
+    std::vector<Progress> open;
     for (std::uint32_t k = 0; k < pairs; ++k)
-      if (!steps_.staysAway(k, 0.5, 0.5)) fronts.push_back({0, k});
-    while (!fronts.empty()) {
-      std::pop_heap(fronts.begin(), fronts.end());
-      Front& front = fronts.back();
-      const auto [t, pair] = front;
+      if (!steps_.staysAway(k, 0.5, 0.5)) open.push_back({0, k});
+    while (!open.empty()) {
+      std::pop_heap(open.begin(), open.end());
+      Progress& first = open.back();
+      const auto [t, pair] = first;
       if (steps_.outOfWork()) return steps_.workLimit(t);
       const DistanceSteps::Measurement measured = steps_.measureAt(pair, t, 0, true);
       if (measured.contact) return steps_.contact(pair, t, t, measured);
-      const double step = longestStep(front, measured);
+      const double step = longestStep(first, measured);
       const bool done = t + step == 1;
       // If the clearance is twice the tolerance, `room` exceeds half of the tolerance, even if the
       // clearance slack takes one tolerance.
       const double room = measured.lower - measured.bound.needed;
       if (!done && (step == 0 || room <= steps_.options().tolerance / 2))
         return steps_.answerWhereStuck(pair, t, t, measured.gap);
-      front.t += step;
+      first.t += step;
       if (done)
-        fronts.pop_back();
+        open.pop_back();
       else
-        std::push_heap(fronts.begin(), fronts.end());
+        std::push_heap(open.begin(), open.end());
     }
     return {};
   }
@@ -61,11 +61,11 @@ class Advancement {
  private:
   /// Returns the longest step, or nearly the longest, for which the measured distance suffices.
   /// Returns 0 if there is none.
-  double longestStep(const Front& front, const DistanceSteps::Measurement& measured) {
+  double longestStep(const Progress& progress, const DistanceSteps::Measurement& measured) {
     if (!measured.apart()) return 0;
-    double h = std::min(kLongest, 1 - front.t);
+    double h = std::min(kLongest, 1 - progress.t);
     for (;;) {
-      const double needed = steps_.bound(front.pair, front.t, h).needed;
+      const double needed = steps_.bound(progress.pair, progress.t, h).needed;
       if (measured.lower > needed) return h;
       const double shorter =
           kShare * h *

@@ -6,6 +6,7 @@
 
 #include "collision/core/circle.h"
 #include "collision/core/rounding.h"
+#include "collision/volumes/obb.h"
 
 namespace corridor {
 namespace {
@@ -79,6 +80,21 @@ RigidMotion RigidMotion::spatial(const RigidPose& from, const RigidPose& to, con
   m.reachTube_ = tube.rotation;
   m.fixedError_ = roundedUp(16 * kUnit * P + m.fixedTube_ + kLeastError);
   m.reachError_ = roundedUp(kRotationError + m.reachTube_);
+  return m;
+}
+
+RigidMotion RigidMotion::translation(const Transform& from, const Vec3& delta) {
+  RigidMotion m;
+  m.setLine(from.t, from.t);
+  m.delta_ = delta;
+  m.direction_ = delta.stableNormalized();
+  m.unsound_ = m.unsound_ || !delta.allFinite() || !(from.t + delta).allFinite();
+  m.setRotation(from.m, Vec3::Zero(), 0, 0);
+  // As for `spatial`, without the rounding of δ: t·δ and the sum are at most P, where P is the sum
+  // of both. A matrix M with ‖MᵀM − I‖₂ ≤ 3·defect differs from a rotation by no more than that.
+  const double P = from.t.cwiseAbs().maxCoeff() + delta.cwiseAbs().maxCoeff();
+  m.fixedError_ = roundedUp(16 * kUnit * P + kLeastError);
+  m.reachError_ = roundedUp(3 * orthonormalityDefect(from.m));
   return m;
 }
 

@@ -18,6 +18,10 @@ class RigidMotion {
  public:
   /// Returns the motion in space. @pre finite poses, quaternions not zero.
   static RigidMotion spatial(const RigidPose& from, const RigidPose& to, const Tube& tube);
+  /// Returns the translation by `delta` metres of a body that starts at the map `from`. It is
+  /// linear in t, and the orientation does not change. @pre finite, `from` within 2^-20 of a
+  /// rotation.
+  static RigidMotion translation(const Transform& from, const Vec3& delta);
   /// Returns the motion in the plane z = 0, of (x, y, yaw) in metres and radians. @pre finite.
   static RigidMotion planar(const Vec3& from, const Vec3& to, const Tube& tube);
 

@@ -10,24 +10,22 @@
 #include "collision/predicates/exact_number.h"
 
 namespace corridor {
-namespace {
 
-int exactSign(const MappedPoint& p, const MappedPoint& q, const MappedPoint& r,
-              const MappedPoint& s) {
+int exactDeterminantSign(const MappedEdge& u, const MappedEdge& v, const MappedEdge& w) {
   const auto corner = [](const MappedPoint& point) {
     return exact::MappedPoints(point.X, std::span(&point.p, 1));
   };
-  const std::array<exact::MappedPoints, 4> points = {corner(p), corner(q), corner(r), corner(s)};
+  const std::array<exact::MappedPoints, 6> points = {corner(u.from), corner(u.to),   corner(v.from),
+                                                     corner(v.to),   corner(w.from), corner(w.to)};
   exact::Grid grid;
   for (const exact::MappedPoints& each : points) grid.include(each);
   return exact::withIntegersFor(grid, [&]<class Int>() {
-    const auto at = [&](int i) { return exact::mapped<Int>(points[i], 0, grid); };
-    const exact::Vector<Int> origin = at(0);
-    return exact::sign(exact::dot(at(3) - origin, exact::cross(at(1) - origin, at(2) - origin)));
+    const auto vector = [&](std::size_t i) {
+      return exact::mapped<Int>(points[i + 1], 0, grid) - exact::mapped<Int>(points[i], 0, grid);
+    };
+    return exact::sign(exact::dot(vector(4), exact::cross(vector(0), vector(2))));
   });
 }
-
-}  // namespace
 
 int orientationSign(const MappedPoint& p, const MappedPoint& q, const MappedPoint& r,
                     const MappedPoint& s) {
@@ -53,7 +51,7 @@ int orientationSign(const MappedPoint& p, const MappedPoint& q, const MappedPoin
     if (det > bound) return 1;
     if (det < -bound) return -1;
   }
-  return exactSign(p, q, r, s);
+  return exactDeterminantSign({p, q}, {p, r}, {p, s});
 }
 
 int planeSide(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s) {
@@ -73,7 +71,8 @@ int planeSide(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s) {
   const double largest = a.cwiseAbs().cwiseMax(b.cwiseAbs()).cwiseMax(c.cwiseAbs()).maxCoeff();
   if (std::abs(det) > error && largest < 0x1p120) return det > 0 ? 1 : -1;
   const Transform identity;
-  return exactSign({identity, p}, {identity, q}, {identity, r}, {identity, s});
+  const MappedPoint from{identity, p};
+  return exactDeterminantSign({from, {identity, q}}, {from, {identity, r}}, {from, {identity, s}});
 }
 
 }  // namespace corridor

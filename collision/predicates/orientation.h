@@ -17,7 +17,16 @@ struct MappedPoint {
 int orientationSign(const MappedPoint& p, const MappedPoint& q, const MappedPoint& r,
                     const MappedPoint& s);
 
-/// The same for points as they are; faster.
+/// A vector: the difference of two mapped points.
+struct MappedEdge {
+  MappedPoint from, to;
+};
+
+/// Returns the sign of det(u, v, w) for three vectors. Exact, as `orientationSign`, but always in
+/// integers: for callers that have a filter.
+int exactDeterminantSign(const MappedEdge& u, const MappedEdge& v, const MappedEdge& w);
+
+/// The same as `orientationSign` for points as they are; faster.
 int planeSide(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s);
 
 }  // namespace corridor

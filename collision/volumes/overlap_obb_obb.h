@@ -65,8 +65,10 @@ namespace internal {
 
 /// Returns √(x² + y²). `std::hypot` would guard against overflow, at ten times the cost. Here x and
 /// y are entries of rotations, so there is no overflow.
-inline double length(double x, double y) {
-  return std::sqrt(x * x + y * y);
+template <class Number>
+Number length(Number x, Number y) {
+  using std::sqrt;
+  return sqrt(x * x + y * y);
 }
 
 /// A pair of boxes in the coordinates of box a.
@@ -80,21 +82,23 @@ struct BoxPair {
 };
 
 /// Returns true if the boxes are proved to be more than `pad` apart. `Pair` has the members R, absR
-/// and T of `BoxPair`.
-template <class Pair>
-bool separated(const Pair& pair, const Vec3& a, const Vec3& b, const BoxPairMargins& margins,
+/// and T of `BoxPair`. Their numbers are doubles, or numbers that count operations (benchmarks).
+template <class Pair, class Vector>
+bool separated(const Pair& pair, const Vector& a, const Vector& b, const BoxPairMargins& margins,
                double pad) {
-  const Mat3 &R = pair.R, &Q = pair.absR;
-  const Vec3& T = pair.T;
-  const double slack = margins.relative * (T.cwiseAbs().sum() + a.sum() + b.sum() + pad) + kTiny;
+  using Number = typename Vector::Scalar;
+  using std::abs;
+  const auto &R = pair.R, &Q = pair.absR;
+  const auto& T = pair.T;
+  const Number slack = margins.relative * (T.cwiseAbs().sum() + a.sum() + b.sum() + pad) + kTiny;
   const double ball = margins.absolute + pad;
   for (int i = 0; i < 3; ++i) {
-    const double gap =
-        std::abs(T[i]) - (a[i] + Q(i, 0) * b[0] + Q(i, 1) * b[1] + Q(i, 2) * b[2]) - ball - slack;
+    const Number gap =
+        abs(T[i]) - (a[i] + Q(i, 0) * b[0] + Q(i, 1) * b[1] + Q(i, 2) * b[2]) - ball - slack;
     if (gap > 0) return true;
   }
   for (int j = 0; j < 3; ++j) {
-    const double gap = std::abs(T[0] * R(0, j) + T[1] * R(1, j) + T[2] * R(2, j)) -
+    const Number gap = abs(T[0] * R(0, j) + T[1] * R(1, j) + T[2] * R(2, j)) -
                        (b[j] + Q(0, j) * a[0] + Q(1, j) * a[1] + Q(2, j) * a[2]) - ball - slack;
     if (gap > 0) return true;
   }
@@ -102,8 +106,8 @@ bool separated(const Pair& pair, const Vec3& a, const Vec3& b, const BoxPairMarg
     const int i1 = (i + 1) % 3, i2 = (i + 2) % 3;
     for (int j = 0; j < 3; ++j) {
       const int j1 = (j + 1) % 3, j2 = (j + 2) % 3;
-      const double gap =
-          std::abs(T[i2] * R(i1, j) - T[i1] * R(i2, j)) -
+      const Number gap =
+          abs(T[i2] * R(i1, j) - T[i1] * R(i2, j)) -
           (a[i1] * Q(i2, j) + a[i2] * Q(i1, j) + b[j1] * Q(i, j2) + b[j2] * Q(i, j1)) - slack;
       if (gap > 0 && gap > ball * length(R(i1, j), R(i2, j))) return true;
     }

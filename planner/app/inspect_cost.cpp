@@ -3,6 +3,8 @@
 #include <cstdio>
 #include <iomanip>
 #include <iostream>
+#include <optional>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -32,7 +34,8 @@ struct CostRow {
   std::string volume;
   double boxTests = 0, triangleTests = 0;  ///< N_v, N_p
   double callNs = 0;                       ///< time of a query that is decided by its first test
-  CostModel cost;                          ///< C_v, C_p
+  TestCosts tests;                         ///< C_v, C_p, measured test by test
+  std::optional<double> traversalNs;       ///< for each volume test; empty: part of C_v
   double measuredNs = 0, predictedNs = 0;  ///< T
   double low = 0, middle = 0, high = 0;    ///< predicted/measured: quantiles 0.05, 0.5, 0.95
   double buildMs = 0;                      ///< both trees
@@ -41,10 +44,11 @@ struct CostRow {
 
 /// Computes the line of one volume.
 ///
-/// The costs C_v and C_p are fitted to whole queries. So they include a test's share of walking the
-/// tree, and trees that test sixteen node pairs at once are measured in the same way as other
-/// trees. A prediction must not be fitted to the times that it predicts: the costs are fitted to
-/// one half of the poses, and the other half is predicted.
+/// C_v and C_p are measured test by test (test_costs.h). Only a volume test's share of the
+/// traversal is fitted to whole queries. The 4-wide OBB tree tests up to sixteen node pairs at
+/// once, so its C_v and C_p are fitted, and its C_v includes the traversal. A prediction must not
+/// be fitted to the times that it predicts: costs are measured and fitted at one half of the poses,
+/// and the other half is predicted.
 ///
 /// A query also has a fixed cost, which the model does not contain. The fixed cost is measured with
 /// B far away, subtracted before the fit, and reported as `callNs`.
@@ -68,12 +72,23 @@ CostRow costRow(const VolumeKind& volume, const BatchResult& result, std::size_t
   std::vector<double> calls;
   for (std::size_t i = count; i < result.answers.size(); ++i) calls.push_back(result.answers[i].ns);
   row.callNs = medianOf(calls);
-  row.cost = fittedCosts(seen, row.callNs);
+  row.tests = result.tests;
+  CostModel model;
+  if (row.tests.box) {
+    model.box = *row.tests.box;
+    model.triangle = row.tests.triangle.value_or(0);
+    row.traversalNs = traversalShare(seen, model, row.callNs);
+    model.box += *row.traversalNs;
+  } else {
+    model = fittedCosts(seen, row.callNs);
+    if (model.boxKnown) row.tests.box = model.box;
+    if (model.triangleKnown) row.tests.triangle = model.triangle;
+  }
   std::vector<double> ratios;
   for (const QueryCost& c : unseen) {
     row.measuredNs += c.ns / static_cast<double>(unseen.size());
-    row.predictedNs += row.cost.predicted(c) / static_cast<double>(unseen.size());
-    ratios.push_back(row.cost.predicted(c) / c.ns);
+    row.predictedNs += model.predicted(c) / static_cast<double>(unseen.size());
+    ratios.push_back(model.predicted(c) / c.ns);
   }
   row.low = quantileOf(ratios, 0.05);
   row.middle = medianOf(ratios);
@@ -99,40 +114,50 @@ std::vector<Transform> withFarPoses(std::vector<Transform> poses, const Triangle
   return poses;
 }
 
+/// Returns the poses to which costs are fitted, in random order.
+std::vector<std::size_t> measuredPoses(const std::vector<std::size_t>& kept) {
+  std::vector<std::size_t> poses;
+  for (std::size_t i = 0; i < kept.size(); i += 2) poses.push_back(kept[i]);
+  std::shuffle(poses.begin(), poses.end(), std::mt19937_64(1));
+  return poses;
+}
+
 void printTable(const std::vector<CostRow>& rows) {
   const auto line = [](const std::string& first, const std::vector<std::string>& cells) {
     std::cout << std::left << std::setw(10) << first << std::right;
     for (const std::string& cell : cells) std::cout << std::setw(14) << cell;
     std::cout << '\n';
   };
-  line("volume", {"N_v", "N_p", "call ns", "C_v ns", "C_p ns", "predicted ns", "measured ns",
-                  "ratio", "5 .. 95 %", "bytes", "build ms"});
-  const auto cost = [](double ns, bool known) { return known ? rounded(ns) : std::string("-"); };
+  line("volume", {"N_v", "N_p", "call ns", "C_v ns", "C_p ns", "traversal ns", "predicted ns",
+                  "measured ns", "ratio", "5 .. 95 %", "bytes", "build ms"});
+  const auto cost = [](const std::optional<double>& ns) { return ns ? rounded(*ns) : "-"; };
   for (const CostRow& r : rows)
     line(r.volume,
-         {rounded(r.boxTests), rounded(r.triangleTests), rounded(r.callNs),
-          cost(r.cost.box, r.cost.boxKnown), cost(r.cost.triangle, r.cost.triangleKnown),
-          grouped(std::llround(r.predictedNs)), grouped(std::llround(r.measuredNs)),
-          twoDecimals(r.predictedNs / r.measuredNs),
+         {rounded(r.boxTests), rounded(r.triangleTests), rounded(r.callNs), cost(r.tests.box),
+          cost(r.tests.triangle), cost(r.traversalNs), grouped(std::llround(r.predictedNs)),
+          grouped(std::llround(r.measuredNs)), twoDecimals(r.predictedNs / r.measuredNs),
           twoDecimals(r.low) + " .. " + twoDecimals(r.high), grouped(r.bytes), rounded(r.buildMs)});
 }
 
 ordered_json rowJson(const CostRow& r) {
-  return {
-      {"volume", r.volume},
-      {"bv_tests", r.boxTests},
-      {"triangle_tests", r.triangleTests},
-      {"call_ns", r.callNs},
-      {"bv_test_ns", r.cost.boxKnown ? ordered_json(r.cost.box) : ordered_json()},
-      {"triangle_test_ns", r.cost.triangleKnown ? ordered_json(r.cost.triangle) : ordered_json()},
-      {"predicted_ns", r.predictedNs},
-      {"measured_ns", r.measuredNs},
-      {"ratio", r.predictedNs / r.measuredNs},
-      {"ratio_p5", r.low},
-      {"ratio_median", r.middle},
-      {"ratio_p95", r.high},
-      {"bytes", r.bytes},
-      {"build_ms", r.buildMs}};
+  const auto cost = [](const std::optional<double>& ns) {
+    return ns ? ordered_json(*ns) : ordered_json();
+  };
+  return {{"volume", r.volume},
+          {"bv_tests", r.boxTests},
+          {"triangle_tests", r.triangleTests},
+          {"call_ns", r.callNs},
+          {"bv_test_ns", cost(r.tests.box)},
+          {"triangle_test_ns", cost(r.tests.triangle)},
+          {"traversal_ns", cost(r.traversalNs)},
+          {"predicted_ns", r.predictedNs},
+          {"measured_ns", r.measuredNs},
+          {"ratio", r.predictedNs / r.measuredNs},
+          {"ratio_p5", r.low},
+          {"ratio_median", r.middle},
+          {"ratio_p95", r.high},
+          {"bytes", r.bytes},
+          {"build_ms", r.buildMs}};
 }
 
 }  // namespace
@@ -142,19 +167,20 @@ int inspectCost(const InspectArguments& a) {
   const std::vector<Transform> poses =
       a.poses ? readPoses(*a.poses) : gridPoses({{6, 6, 6}, 4, 1, {}, {}}, meshA.mesh, meshB.mesh);
   const std::vector<Transform> asked = withFarPoses(poses, meshA.mesh, meshB.mesh);
-  std::vector<BatchResult> results;
-  for (const VolumeKind& volume : volumeKinds())
-    results.push_back(runPoses({meshA.mesh, meshB.mesh, asked, QueryKind::interference,
-                                treesNamed({volume.name, "", ""}), 0, kPasses}));
+  const auto run = [&](const VolumeKind& volume, const std::vector<std::size_t>& measured) {
+    return runPoses({meshA.mesh, meshB.mesh, asked, QueryKind::interference,
+                     treesNamed({volume.name, "", ""}), 0, kPasses, measured});
+  };
   // If the first test decides a query, the query's time is the cost of a call, not of tests. So its
   // pose is left out. All volumes are compared at the same poses: those at which the root boxes of
   // the binary OBB trees overlap.
-  std::size_t reference = 0;
-  while (volumeKinds()[reference].name != "obb-binary") ++reference;
+  const auto& volumes = volumeKinds();
+  const auto reference = std::ranges::find(volumes, "obb-binary", &VolumeKind::name);
+  const std::vector<Answer> answers = run(*reference, {}).answers;
   std::vector<std::size_t> kept;
   std::size_t hits = 0;
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    const Answer& answer = results[reference].answers[i];
+    const Answer& answer = answers[i];
     hits += answer.hit;
     if (answer.boxTests > 1 || answer.triangleTests > 0) kept.push_back(i);
   }
@@ -165,8 +191,8 @@ int inspectCost(const InspectArguments& a) {
               "they overlap at " +
                   std::to_string(kept.size()) + " of " + counted(poses.size(), "pose")});
   std::vector<CostRow> rows;
-  for (std::size_t i = 0; i < results.size(); ++i)
-    rows.push_back(costRow(volumeKinds()[i], results[i], poses.size(), kept));
+  for (const VolumeKind& volume : volumes)
+    rows.push_back(costRow(volume, run(volume, measuredPoses(kept)), poses.size(), kept));
   if (a.json) {
     ordered_json j = {{"format", "corridor-inspect-cost-1"},
                       {"a", a.file},
@@ -190,8 +216,9 @@ int inspectCost(const InspectArguments& a) {
                         " separated by the root boxes (these don't count below)");
   out.line("simd", std::string(simdTarget()) + ", used by obb");
   out.line("costs",
-           "fitted to one half of the poses; the other half is predicted; -: the numbers of tests "
-           "go together, and do not determine this cost, or there are too few poses");
+           "measured at one half of the poses; the other half is predicted; traversal: for each "
+           "volume test, fitted; of obb: all fitted, C_v with traversal; -: no such test, or the "
+           "queries do not determine this cost");
   out.blank();
   printTable(rows);
   return kDone;

@@ -86,12 +86,13 @@ std::vector<double> reachOfLinks(const RobotModel& model) {
   return reach;
 }
 
-/// Describes a point cloud or an octree.
+/// Describes a polygon, a point cloud or an octree.
 ordered_json partsJson(const PlacedShape& shape) {
   const double radius = shape.parts.front().radius;
   const auto [lower, upper] = boundsOf(shape);
   ordered_json j;
-  j[radius > 0 ? "balls" : "cubes"] = shape.parts.size();
+  if (!shape.polygon.empty()) j["polygon_points"] = shape.polygon.size();
+  j[!shape.polygon.empty() ? "pieces" : radius > 0 ? "balls" : "cubes"] = shape.parts.size();
   if (radius > 0) j["radius_m"] = radius;
   j["lower_m"] = {lower.x(), lower.y(), lower.z()};
   j["upper_m"] = {upper.x(), upper.y(), upper.z()};
@@ -104,6 +105,9 @@ std::string shapeText(const PlacedShape& shape) {
   // The shapes of a MoveIt message have no file of their own.
   const std::string file = shape.file.empty() ? "" : ", " + shape.file.string();
   if (!shape.mesh && shape.primitive) return nameOf(*shape.primitive);
+  if (!shape.polygon.empty())
+    return "polygon of " + counted(shape.polygon.size(), "point") + ", in " +
+           counted(shape.parts.size(), "convex piece");
   if (!shape.mesh) {
     const bool balls = shape.parts.front().radius > 0;
     const auto [lower, upper] = boundsOf(shape);
@@ -122,7 +126,7 @@ ordered_json shapeJson(const PlacedShape& shape) {
   else if (!shape.mesh)
     j.update(partsJson(shape));
   j["name"] = shape.name;
-  if (!shape.primitive) j["file"] = shape.file.string();
+  if (!shape.primitive && shape.polygon.empty()) j["file"] = shape.file.string();
   j["solid"] = shape.solid || !shape.mesh;
   return j;
 }

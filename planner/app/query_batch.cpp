@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <optional>
+#include <type_traits>
 #include <utility>
 
 #include "collision/core/quantiles.h"
@@ -54,24 +55,43 @@ std::vector<Answer> timed(std::size_t count, int passes, const Ask& ask) {
   return answers;
 }
 
-/// Builds both trees by `make(mesh)` and runs the batch on them.
-template <class Overlap, class Make>
-BatchResult runOn(const Batch& batch, const Make& make) {
+/// Builds a tree by `make()`. Measures the time and the tree's size.
+template <class Make>
+auto measured(const Make& make, double& ms, std::size_t& bytes) {
+  const auto start = std::chrono::steady_clock::now();
+  auto tree = make();
+  ms = millisecondsSince(start);
+  bytes = tree.bytes();
+  return tree;
+}
+
+/// Runs interference queries on octrees.
+BatchResult runOnOctrees(const Batch& batch) {
   BatchResult result;
-  auto start = std::chrono::steady_clock::now();
-  const auto a = make(batch.a);
-  result.buildMsA = millisecondsSince(start);
-  start = std::chrono::steady_clock::now();
-  const auto b = make(batch.b);
-  result.buildMsB = millisecondsSince(start);
-  result.bytesA = a.bytes();
-  result.bytesB = b.bytes();
+  const Octree a = measured([&] { return Octree(batch.a); }, result.buildMsA, result.bytesA);
+  const Octree b = measured([&] { return Octree(batch.b); }, result.buildMsB, result.bytesB);
+  result.answers =
+      timed(batch.poses.size(), batch.repeat, [&](std::size_t i, QueryContext& context) {
+        return interference(Posed(a), Posed(b, batch.poses[i]), context).has_value();
+      });
+  return result;
+}
+
+/// Runs the batch on the trees of its meshes.
+template <class Overlap, class Tree>
+void runOn(const Batch& batch, const Tree& a, const Tree& b, BatchResult& result) {
   switch (batch.kind) {
     case QueryKind::interference:
       result.answers =
           timed(batch.poses.size(), batch.repeat, [&](std::size_t i, QueryContext& context) {
             return interference<Overlap>(Posed(a), Posed(b, batch.poses[i]), context).has_value();
           });
+      if constexpr (!std::is_same_v<Tree, Obb4Tree>)
+        if (!batch.measured.empty()) {
+          std::vector<Transform> poses;
+          for (const std::size_t i : batch.measured) poses.push_back(batch.poses[i]);
+          result.tests = testCosts<Overlap>(a, b, poses);
+        }
       break;
     case QueryKind::distance:
       result.distances.resize(batch.poses.size());
@@ -99,8 +119,23 @@ BatchResult runOn(const Batch& batch, const Make& make) {
           result.contacts.push_back({i, c.a, c.b, c.p_W, c.q_W});
       break;
     }
+    case QueryKind::depth:  // `runDepths`
+      break;
   }
-  return result;
+}
+
+/// Calls `run.operator()<Overlap>(make)`, where `make(mesh)` builds a tree of the batch's kind.
+/// @pre not octrees.
+template <class Run>
+auto withTreesOf(const Batch& batch, const Run& run) {
+  const auto& [trees, params] = *batch.trees;
+  if (trees == TreeKind::obb4)
+    return run.template operator()<StandardOverlap>(
+        [fit = params.fit](const TriangleMesh& mesh) { return Obb4Tree(mesh, fit); });
+  return withVolume(trees, [&, how = params]<class Volume, class Overlap>() {
+    return run.template operator()<Overlap>(
+        [&](const TriangleMesh& mesh) { return VolumeTree<Volume>(mesh, how); });
+  });
 }
 
 /// The size of a body's tree, and the time to build it.
@@ -121,23 +156,60 @@ BuiltTree builtTree(const Body& body, TreeKind trees) {
 }  // namespace
 
 BatchResult runPoses(const Batch& batch) {
-  const auto [trees, fit] = batch.trees;
-  const TreeParams params{fit};
-  if (trees == TreeKind::obb4)
-    return runOn<StandardOverlap>(
-        batch, [&](const TriangleMesh& mesh) { return Obb4Tree(mesh, params.fit); });
-  return withVolume(trees, [&]<class Volume, class Overlap>() {
-    return runOn<Overlap>(
-        batch, [&](const TriangleMesh& mesh) { return VolumeTree<Volume>(mesh, params); });
+  if (!batch.trees) return runOnOctrees(batch);
+  return withTreesOf(batch, [&]<class Overlap>(const auto& make) {
+    BatchResult result;
+    const auto a = measured([&] { return make(batch.a); }, result.buildMsA, result.bytesA);
+    const auto b = measured([&] { return make(batch.b); }, result.buildMsB, result.bytesB);
+    runOn<Overlap>(batch, a, b, result);
+    return result;
   });
+}
+
+std::vector<FrameResult> runFrames(const Batch& batch, const NextShape& next) {
+  return withTreesOf(batch, [&]<class Overlap>(const auto& make) {
+    std::vector<FrameResult> frames(1);
+    BatchResult& first = frames.front().result;
+    auto a = measured([&] { return make(batch.a); }, first.buildMsA, first.bytesA);
+    const auto b = measured([&] { return make(batch.b); }, first.buildMsB, first.bytesB);
+    runOn<Overlap>(batch, a, b, first);
+    while (const std::optional<TriangleMesh> shape = next()) {
+      FrameResult& frame = frames.emplace_back();
+      const auto refit = [&] { a.refit(*shape); };
+      frame.refitMs = nanosecondsOf(refit, refit) / 1e6;
+      runOn<Overlap>(batch, a, b, frame.result);
+    }
+    return frames;
+  });
+}
+
+BatchResult runDepths(TriangleMesh meshA, TriangleMesh meshB, const std::vector<Transform>& poses,
+                      const std::optional<Vec3>& direction, int repeat) {
+  BatchResult result;
+  const Body a("A", std::move(meshA)), b("B", std::move(meshB));
+  for (const TreeKind trees : {TreeKind::obb4, TreeKind::obbBinary}) {
+    const BuiltTree treeA = builtTree(a, trees), treeB = builtTree(b, trees);
+    result.bytesA += treeA.bytes;
+    result.buildMsA += treeA.ms;
+    result.bytesB += treeB.bytes;
+    result.buildMsB += treeB.ms;
+  }
+  DepthOptions options;
+  if (direction) options.directions = {*direction};
+  result.depths.resize(poses.size());
+  result.answers = timed(poses.size(), repeat, [&](std::size_t i, QueryContext& context) {
+    result.depths[i] = depthBounds(a, b, poses[i], options, context);
+    return result.depths[i].upper > 0;
+  });
+  return result;
 }
 
 BatchResult runMotions(TriangleMesh meshA, TriangleMesh meshB,
                        const std::vector<PoseMotion>& motions, const TreeChoice& trees,
                        std::optional<double> tolerance, int repeat, EdgeMethod method) {
   BatchResult result;
-  const TreeParams params{trees.fit};
-  const Body a("A", std::move(meshA), false, params), b("B", std::move(meshB), false, params);
+  const Body a("A", std::move(meshA), false, trees.params),
+      b("B", std::move(meshB), false, trees.params);
   const BuiltTree treeA = builtTree(a, trees.trees), treeB = builtTree(b, trees.trees);
   result.bytesA = treeA.bytes;
   result.buildMsA = treeA.ms;
@@ -180,8 +252,9 @@ const std::vector<NamedQuery>& namedQueries() {
   static const std::vector<NamedQuery> queries = {
       {"interference", QueryKind::interference, "pose,hit,bv_tests,triangle_tests"},
       {"contacts", QueryKind::contacts, "pose,a,b,px,py,pz,qx,qy,qz"},
-      {"distance", QueryKind::distance, "pose,distance,ax,ay,az,bx,by,bz"},
-      {"tolerance", QueryKind::tolerance, "pose,closer"}};
+      {"distance", QueryKind::distance, "pose,distance,ax,ay,az,bx,by,bz,nx,ny,nz"},
+      {"tolerance", QueryKind::tolerance, "pose,closer"},
+      {"depth", QueryKind::depth, "pose,lower,upper,dx,dy,dz,triangle_a,triangle_b"}};
   return queries;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,14 +11,16 @@
 #include "collision/hierarchy/tree_kinds.h"
 #include "collision/motion/edge_method.h"
 #include "collision/queries/distance.h"
+#include "collision/world/body_depth.h"
 #include "planner/app/query_poses.h"
+#include "planner/benchmark/test_costs.h"
 
 /// The queries of `corridor query`, and batches of queries that are timed. Volumes and overlap
 /// tests are those of hierarchy/tree_kinds.h.
 namespace corridor::app {
 
 /// The kind of query that is run at every pose.
-enum class QueryKind { interference, contacts, distance, tolerance };
+enum class QueryKind { interference, contacts, distance, tolerance, depth };
 /// Returns true if the query tests whether volumes overlap, so that the choice of an overlap test
 /// matters. The other queries compute how far volumes are apart.
 bool testsOverlap(QueryKind kind);
@@ -34,9 +37,12 @@ struct Batch {
   const TriangleMesh &a, &b;
   const std::vector<Transform>& poses;
   QueryKind kind = QueryKind::interference;
-  TreeChoice trees;
-  double tolerance = 0;  ///< metres, for `QueryKind::tolerance` only
-  int repeat = 1;        ///< passes over all poses
+  std::optional<TreeChoice> trees = TreeChoice{};  ///< unset: octrees, for interference only
+  double tolerance = 0;                            ///< metres, for `QueryKind::tolerance` only
+  int repeat = 1;                                  ///< passes over all poses
+  /// The poses whose tests are also measured one by one. For interference only; not for obb, whose
+  /// kernel tests many pairs at once, and not for octrees.
+  std::vector<std::size_t> measured = {};
 };
 
 /// The answer and the cost of one pose or motion.
@@ -59,15 +65,35 @@ struct MotionAnswer {
 struct BatchResult {
   std::vector<Answer> answers;  ///< per pose or motion; hit: contact, or closer than the tolerance
   std::vector<Distance> distances;    ///< per pose, only for `QueryKind::distance`
+  std::vector<DepthBounds> depths;    ///< per pose, only for `QueryKind::depth`
   std::vector<ContactRow> contacts;   ///< only for `QueryKind::contacts`
   std::vector<MotionAnswer> motions;  ///< per motion
   double tolerance = 0;               ///< metres, for motions: the tolerance used
+  TestCosts tests;                    ///< of the tests at `Batch::measured`
   double buildMsA = 0, buildMsB = 0;
   std::size_t bytesA = 0, bytesB = 0;
 };
 
 /// Builds both trees and runs the query at all poses, measuring each.
 BatchResult runPoses(const Batch& batch);
+
+/// The answers for one shape of a mesh that deforms.
+struct FrameResult {
+  BatchResult result;  ///< the first frame's also has the trees' build times and sizes
+  double refitMs = 0;  ///< 0 for the first frame, whose tree is built
+};
+/// Returns the next shape of a, or nullopt if there is none.
+using NextShape = std::function<std::optional<TriangleMesh>()>;
+/// Runs the query at all poses for each shape of a: first `batch.a`, for which the tree is built,
+/// then the shapes that `next` returns, to which the same tree is refitted.
+/// @pre Every shape has as many triangles as `batch.a`, and no fault (`checkMesh`). The trees are
+/// not octrees, which can't be refitted.
+std::vector<FrameResult> runFrames(const Batch& batch, const NextShape& next);
+
+/// Computes bounds of the penetration depth at all poses. It takes the trees that it needs.
+/// @param direction  along which b leaves a; unset: the default of `DepthOptions`.
+BatchResult runDepths(TriangleMesh a, TriangleMesh b, const std::vector<Transform>& poses,
+                      const std::optional<Vec3>& direction, int repeat);
 
 /// Computes the first contact along each motion of b, with a at rest, and measures it.
 /// @param tolerance metres; unset: the larger of 1e-7 of the smaller bounding sphere's radius and

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstdint>
+#include <filesystem>
 #include <iostream>
 #include <limits>
 #include <memory>
@@ -15,9 +16,11 @@
 #include "planner/app/options.h"
 #include "planner/app/output.h"
 #include "planner/app/query_batch.h"
+#include "planner/app/query_deform.h"
 #include "planner/app/query_hulls.h"
 #include "planner/app/query_output.h"
 #include "planner/app/query_poses.h"
+#include "planner/app/query_trees.h"
 
 namespace corridor::app {
 namespace {
@@ -31,9 +34,12 @@ struct QueryArguments {
   std::optional<std::string> motions;        ///< instead of poses: a file of motions, one per line
   std::optional<std::string> edges;          ///< with `motions` only: the method; unset: the first
   std::optional<std::string> query, volume;  ///< `query`: with poses only; unset: the first
-  std::optional<std::string> fit, overlap;   ///< unset: the first that the volume has
-  std::optional<std::string> hulls;          ///< query the convex hulls, by this method
-  std::optional<double> tolerance;           ///< metres; for the tolerance query and for motions
+  std::optional<std::string> fit, overlap, build;  ///< unset: the first that the volume has
+  std::optional<std::string> hulls;                ///< query the convex hulls, by this method
+  std::vector<std::string> deform;                 ///< further shapes of A, one file per frame
+  std::optional<std::string> direction;            ///< "x,y,z", for the depth of meshes
+  bool coherent = false;  ///< with `hulls` only: begin with what the query before has kept
+  std::optional<double> tolerance;  ///< metres; for the tolerance query and for motions
   std::uint64_t repeat = 1;
 };
 
@@ -44,7 +50,6 @@ constexpr std::uint64_t kMostQueries = 1'000'000'000;
 /// @throws InputError for an unknown name; it lists the names.
 const NamedQuery& queryNamed(const std::optional<std::string>& name) {
   if (!name) return namedQueries().front();
-  if (name == "depth") throw InputError(Fault{"--query", 0, "depth needs --hulls"});
   std::vector<std::string> names;
   for (const NamedQuery& query : namedQueries()) {
     if (query.name == *name) return query;
@@ -55,24 +60,9 @@ const NamedQuery& queryNamed(const std::optional<std::string>& name) {
                              "; there are: " + joined(names)});
 }
 
-/// Returns the volume, fit and overlap test that the arguments name, defaults filled in.
-/// @throws InputError for an unknown name; it lists the names.
-TreeNames chosenTrees(const QueryArguments& a) {
-  const TreeNames words{a.volume.value_or(""), a.fit.value_or(""), a.overlap.value_or("")};
-  if (const auto wrong = invalidNameIn(words))
-    throw InputError(Fault{"--" + wrong->key, 0, wrong->text});
-  return withDefaults(words);
-}
-
-/// Refuses an --overlap other than the volume's default, for a query that computes distances
-/// between volumes and so runs no overlap test. @throws InputError
-/// @param of the options with which overlap tests are run. @param asked the name of the query.
-void requireDefaultOverlap(const TreeNames& trees, const std::string& of,
-                           const std::string& asked) {
-  if (trees.overlap == withDefaults({trees.volume, "", ""}).overlap) return;
-  throw InputError(Fault{"--overlap", 0,
-                         quotedWord(trees.overlap) + " needs " + of + "; " + asked +
-                             " computes distances between volumes"});
+/// Returns the words of the options for trees, as they were given.
+TreeNames treeWords(const QueryArguments& a) {
+  return {a.volume.value_or(""), a.fit.value_or(""), a.overlap.value_or(""), a.build.value_or("")};
 }
 
 std::vector<Transform> posesOf(const QueryArguments& a, const TriangleMesh& meshA,
@@ -97,6 +87,8 @@ void checkOptions(const QueryArguments& a) {
     ofPoses("--poses", a.poses.has_value());
     ofPoses("--grid", a.grid.has_value());
     ofPoses("--query", a.query.has_value());
+    ofPoses("--direction", a.direction.has_value());
+    ofPoses("--deform", !a.deform.empty());
     if (a.tolerance && !(*a.tolerance > 0))
       throw InputError(Fault{"--tolerance", 0, "must be above 0 with --motions"});
   }
@@ -135,7 +127,8 @@ EdgeMethod methodNamed(const std::string& name) {
 int queryMotions(const QueryArguments& a) {
   const std::string edges = a.edges.value_or(edgeMethodNames().front());
   const EdgeMethod method = methodNamed(edges);
-  const TreeNames trees = chosenTrees(a);
+  const TreeNames trees = chosenTrees(treeWords(a));
+  requireNoOctree(trees, "--motions");
   if (method != EdgeMethod::directional) requireDefaultOverlap(trees, "--edges certified", edges);
   MeshFile meshA = readMeshFile(a.meshA), meshB = readMeshFile(a.meshB);
   const std::vector<PoseMotion> motions = readMotions(*a.motions);
@@ -152,9 +145,9 @@ int queryMotions(const QueryArguments& a) {
   printSummary(
       result,
       {"edges=" + edges, "volume=" + trees.volume, "fit=" + trees.fit, "overlap=" + trees.overlap,
-       "tolerance=" + rounded(result.tolerance), "motions=" + std::to_string(motions.size()),
-       "free=" + number(MotionVerdict::free), "hits=" + number(MotionVerdict::contact),
-       "undecided=" + number(MotionVerdict::undecided)});
+       "build=" + trees.build, "tolerance=" + rounded(result.tolerance),
+       "motions=" + std::to_string(motions.size()), "free=" + number(MotionVerdict::free),
+       "hits=" + number(MotionVerdict::contact), "undecided=" + number(MotionVerdict::undecided)});
   return kDone;
 }
 
@@ -167,56 +160,110 @@ struct PoseInput {
       : meshA(readMeshFile(a.meshA)),
         meshB(readMeshFile(a.meshB)),
         poses(posesOf(a, meshA.mesh, meshB.mesh)) {
-    checkRepeats(a, poses.size(), "pose");
-    requireNotAnInput(a.savePoses, "--save-poses", {a.meshA, a.meshB}, "the query");
+    checkRepeats(a, poses.size() * (a.deform.size() + 1), "pose");
+    std::vector<std::filesystem::path> inputs = {a.meshA, a.meshB};
+    inputs.insert(inputs.end(), a.deform.begin(), a.deform.end());
+    requireNotAnInput(a.savePoses, "--save-poses", inputs, "the query");
     if (a.savePoses) writePoses(*a.savePoses, poses);
   }
 };
 
 /// Refuses the options that apply to trees, not to hulls, and unknown names. @throws InputError
 void checkHullOptions(const QueryArguments& a) {
-  requireHullQuery(*a.hulls, a.query);
+  requireHullQuery(*a.hulls, a.query, a.coherent);
   const auto ofTrees = [](const char* option, bool given) {
     if (given)
       throw InputError(Fault{option, 0, "can't be used with --hulls, which needs no trees"});
   };
   if (a.motions) throw InputError(Fault{"--hulls", 0, "takes poses, not --motions"});
+  ofTrees("--deform", !a.deform.empty());
   ofTrees("--volume", a.volume.has_value());
   ofTrees("--fit", a.fit.has_value());
   ofTrees("--overlap", a.overlap.has_value());
+  ofTrees("--build", a.build.has_value());
   ofTrees("--tolerance", a.tolerance.has_value());
+  if (a.direction)
+    throw InputError(Fault{"--direction", 0, "is for the depth of meshes, not with --hulls"});
+}
+
+/// Bounds of the penetration depth at many poses.
+int queryDepth(const QueryArguments& a, const NamedQuery& query) {
+  for (const auto& [option, given] :
+       {std::pair("--volume", a.volume.has_value()), std::pair("--fit", a.fit.has_value()),
+        std::pair("--overlap", a.overlap.has_value()), std::pair("--build", a.build.has_value())})
+    if (given)
+      throw InputError(
+          Fault{option, 0, "can't be used with --query depth, which chooses its trees"});
+  if (!a.deform.empty())
+    throw InputError(Fault{"--deform", 0,
+                           "can't be used with --query depth; use interference, distance or "
+                           "tolerance"});
+  std::optional<Vec3> direction;
+  if (a.direction) direction = parsePoint("--direction", *a.direction);
+  if (direction && direction->isZero(0))
+    throw InputError(Fault{"--direction", 0, "0,0,0 is no direction; give a vector x,y,z"});
+  PoseInput input(a);
+  const BatchResult result = runDepths(std::move(input.meshA.mesh), std::move(input.meshB.mesh),
+                                       input.poses, direction, static_cast<int>(a.repeat));
+  printCsv(query, result);
+  const auto hits = std::ranges::count_if(result.answers, &Answer::hit);
+  printSummary(result, {"query=" + query.name, "poses=" + std::to_string(input.poses.size()),
+                        "hits=" + std::to_string(hits)});
+  return kDone;
 }
 
 int queryCommand(const QueryArguments& a) {
   checkOptions(a);
   if (a.hulls) checkHullOptions(a);
+  if (a.coherent && !a.hulls)
+    throw InputError(Fault{"--coherent", 0, "needs --hulls, which is not given"});
   requireWritable(a.savePoses, "--save-poses");
   if (a.hulls) {
     const PoseInput input(a);
     queryHulls({input.meshA.mesh, a.meshA}, {input.meshB.mesh, a.meshB}, input.poses, *a.hulls,
-               a.query, static_cast<int>(a.repeat));
+               a.query, a.coherent, static_cast<int>(a.repeat));
     return kDone;
   }
   if (a.motions) return queryMotions(a);
   const NamedQuery& query = queryNamed(a.query);
-  const TreeNames trees = chosenTrees(a);
+  const TreeNames trees = chosenTrees(treeWords(a));
+  if (query.kind != QueryKind::interference) requireNoOctree(trees, query.name);
   if (query.kind == QueryKind::tolerance && !a.tolerance)
     throw InputError(
         Fault{"--tolerance", 0, "is needed with --query tolerance: a distance in metres"});
   if (query.kind != QueryKind::tolerance && a.tolerance)
     throw InputError(Fault{"--tolerance", 0, "needs --query tolerance or --motions"});
+  if (query.kind == QueryKind::depth) return queryDepth(a, query);
+  if (a.direction) throw InputError(Fault{"--direction", 0, "needs --query depth"});
   if (!testsOverlap(query.kind))
     requireDefaultOverlap(trees, "--query interference or contacts", query.name);
+  if (!a.deform.empty()) requireFrames(query, trees);
   const PoseInput input(a);
-  const BatchResult result =
-      runPoses({input.meshA.mesh, input.meshB.mesh, input.poses, query.kind, treesNamed(trees),
-                a.tolerance.value_or(0), static_cast<int>(a.repeat)});
-  printCsv(query, result);
-  const auto hits = std::count_if(result.answers.begin(), result.answers.end(),
-                                  [](const Answer& answer) { return answer.hit; });
-  printSummary(result, {"query=" + query.name, "volume=" + trees.volume, "fit=" + trees.fit,
-                        "overlap=" + trees.overlap, "poses=" + std::to_string(input.poses.size()),
-                        "hits=" + std::to_string(hits)});
+  const Batch batch{input.meshA.mesh,
+                    input.meshB.mesh,
+                    input.poses,
+                    query.kind,
+                    trees.volume == kOctree ? std::nullopt : std::optional(treesNamed(trees)),
+                    a.tolerance.value_or(0),
+                    static_cast<int>(a.repeat)};
+  std::vector<std::string> words = {
+      "query=" + query.name,  "volume=" + trees.volume,
+      "fit=" + trees.fit,     "overlap=" + trees.overlap,
+      "build=" + trees.build, "poses=" + std::to_string(input.poses.size())};
+  BatchResult result;
+  if (a.deform.empty()) {
+    result = runPoses(batch);
+    printCsv(query, result);
+  } else {
+    AllFrames all = queryFrames(query, batch, a.meshA, a.deform);
+    words.push_back("frames=" + std::to_string(a.deform.size() + 1));
+    words.push_back("refit_ms=" + rounded(all.refitMs));
+    result = std::move(all.result);
+  }
+  words.push_back("hits=" +
+                  std::to_string(std::count_if(result.answers.begin(), result.answers.end(),
+                                               [](const Answer& answer) { return answer.hit; })));
+  printSummary(result, words);
   return kDone;
 }
 
@@ -282,6 +329,12 @@ void addQuery(CLI::App& program, int& status) {
           "--edges", a.edges,
           "the method that proves motions; the first is the default: " + joined(edgeMethodNames()))
       ->group("Motions of B");
+  command
+      ->add_option("--deform", a.deform,
+                   "with poses: mesh files with further shapes of A, in order. Each has the same "
+                   "triangles as A, with moved vertices. The query is run for A and for each "
+                   "shape; the tree of A is refitted, not built anew")
+      ->group("Shapes of A");
   const char* asked = "Query (motions take all of these except --query)";
   const auto named = [](const auto& kinds) {
     std::vector<std::string> names;
@@ -296,12 +349,17 @@ void addQuery(CLI::App& program, int& status) {
   };
   command
       ->add_option("--query", a.query,
-                   "the query; the first is the default: " + named(namedQueries()) +
-                       "; with --hulls also depth")
+                   "the query; the first is the default: " + named(namedQueries()))
+      ->group(asked);
+  command
+      ->add_option("--direction", a.direction,
+                   "x,y,z: with --query depth, the direction along which B leaves A (default: the "
+                   "best of several)")
       ->group(asked);
   command
       ->add_option("--volume", a.volume,
-                   "the bounding volume; the first is the default: " + named(volumeKinds()))
+                   "the bounding volume; the first is the default: " + named(volumeKinds()) + ", " +
+                       kOctree + " (a tree over space, for --query interference only)")
       ->group(asked);
   command
       ->add_option("--fit", a.fit, "what the volumes are fitted to; " + variants(&VolumeKind::fits))
@@ -310,6 +368,12 @@ void addQuery(CLI::App& program, int& status) {
       ->add_option("--overlap", a.overlap,
                    "the overlap test of two volumes, for queries that use one; " +
                        variants(&VolumeKind::overlaps))
+      ->group(asked);
+  command
+      ->add_option("--build", a.build,
+                   "how trees are built; top-down splits at the mean, median at the median, "
+                   "bottom-up merges neighbours; " +
+                       variants(&VolumeKind::builds))
       ->group(asked);
   command
       ->add_option(
@@ -328,8 +392,19 @@ void addQuery(CLI::App& program, int& status) {
           "is farthest along a "
           "direction: " +
               joined(hullMethods()) +
-              ". lp tests for a separating plane by linear programming instead; it takes "
-              "the rounded vertices of B at each pose as they are")
+              ". The last three do not use it. lp tests for a separating plane by linear "
+              "programming, on the rounded vertices of B at each pose. vclip finds the closest "
+              "vertices, edges or faces (no depth). axes tests the normals of faces and the "
+              "products "
+              "of edges; it is for small hulls (interference only)")
+      ->group(asked);
+  command
+      ->add_flag(
+          "--coherent", a.coherent,
+          "with --hulls, for poses that follow each other in small steps: begin each query "
+          "with what the query before has found (the last simplex; vclip: the last features; "
+          "axes: the last axis). Answers are the same, up to the error of distances; the "
+          "column steps shows the work saved")
       ->group(asked);
   command
       ->add_option("--repeat", a.repeat,
@@ -342,17 +417,24 @@ void addQuery(CLI::App& program, int& status) {
           "Example: corridor query a.obj b.obj --poses poses.txt --repeat 5 > hits.csv\n"
           "         corridor query a.obj b.obj --grid 20x20x20 --rotations 10 --query contacts\n"
           "         corridor query a.obj b.obj --motions motions.txt > first_contacts.csv\n"
+          "         corridor query a.obj b.obj --poses poses.txt --deform a1.obj a2.obj a3.obj\n"
           "CSV on stdout; poses, motions and triangles count from 0:\n"
           "  interference: pose,hit,bv_tests,triangle_tests\n"
           "  contacts: pose,a,b,px,py,pz,qx,qy,qz, one line per pair of triangles that touch, with "
           "the ends p and q of the segment that they share\n"
-          "  distance: pose,distance,ax,ay,az,bx,by,bz, with a closest point of each mesh\n"
-          "  with --hulls: interference: pose,hit; distance: pose,distance,lower,nx,ny,nz,ax,ay,az,"
-          "bx,by,bz, with a proved lower bound, the direction that proves it, and a closest point "
-          "of "
-          "each hull; depth: pose,lower,upper,nx,ny,nz,ax,ay,az,bx,by,bz, with bounds of the least "
-          "length by which B must move to leave A, and the direction\n"
+          "  distance: pose,distance,ax,ay,az,bx,by,bz,nx,ny,nz, with a closest point of each mesh "
+          "and the direction from A to B (0 for contact)\n"
+          "  depth: pose,lower,upper,dx,dy,dz,triangle_a,triangle_b: B must move by at least "
+          "lower, and leaves A by upper along the direction; the deepest pair of triangles\n"
+          "  with --hulls: interference: pose,hit,steps; distance: pose,distance,lower,nx,ny,nz,ax,"
+          "ay,az,bx,by,bz,steps, with a proved lower bound, the direction that proves it, and a "
+          "closest point of each hull; depth: pose,lower,upper,nx,ny,nz,ax,ay,az,bx,by,bz,steps, "
+          "with bounds of the "
+          "least length by which B must move to leave A, and the direction; steps are rounds of "
+          "the search, with vclip also pairs of features, with axes the axes tested, with lp 0\n"
           "  tolerance: pose,closer, which is 1 if A and B are at most the tolerance apart\n"
+          "  with --deform: frame before these columns, 0 for A itself; after them refit_ms, the "
+          "time to refit the tree of A to the frame, and query_ns\n"
           "  motions: motion,verdict,t0,t1,gap,triangle_a,triangle_b,bv_tests,triangle_tests,"
           "splits\n"
           "Verdicts of motions: free; contact: no contact before t0, and one at t1, where t1 - t0 "

@@ -9,15 +9,17 @@
 
 namespace corridor::app {
 
-/// The methods of `corridor query --hulls`; the first is the default: how the vertex of a hull is
-/// found that is farthest along a direction, or `lp`, linear programming.
+/// The methods of `corridor query --hulls`; the first is the default: how GJK finds the vertex of a
+/// hull that is farthest along a direction; or `lp`, linear programming; `vclip`, closest features;
+/// `axes`, separating axes.
 const std::vector<std::string>& hullMethods();
 
 /// Checks the names that `queryHulls` takes.
 /// @param query  interference, distance or depth; unset: interference.
-/// @throws InputError for an unknown query or method, and for `lp` with another query than
-/// interference.
-void requireHullQuery(const std::string& method, const std::optional<std::string>& query);
+/// @throws InputError for an unknown query or method, for a query that the method does not have,
+/// and for `coherent` if the method keeps nothing from pose to pose.
+void requireHullQuery(const std::string& method, const std::optional<std::string>& query,
+                      bool coherent);
 
 /// A mesh, and its file for messages.
 struct HullInput {
@@ -27,9 +29,12 @@ struct HullInput {
 
 /// Queries the convex hulls of the vertices of two meshes at many poses of b: CSV on stdout, a
 /// summary on stderr.
+/// @param coherent  each query begins with what the query at the pose before has kept.
 /// @param repeat  passes over all poses.
-/// @throws InputError for a mesh whose vertices are all on one plane. @pre `requireHullQuery`.
+/// @throws InputError for a mesh whose vertices are all on one plane, and for a pose that the
+/// method does not take. @pre `requireHullQuery`.
 void queryHulls(const HullInput& a, const HullInput& b, const std::vector<Transform>& poses,
-                const std::string& method, const std::optional<std::string>& query, int repeat);
+                const std::string& method, const std::optional<std::string>& query, bool coherent,
+                int repeat);
 
 }  // namespace corridor::app

@@ -11,6 +11,34 @@
 
 namespace corridor::app {
 
+namespace {
+
+/// Returns the columns after the pose's number. @pre The query is not `contacts`.
+std::string columnsOf(const NamedQuery& query, const BatchResult& result, std::size_t pose) {
+  char text[320];
+  if (query.kind == QueryKind::distance) {
+    const Distance& d = result.distances[pose];
+    const Vec3 n = d.distance > 0 ? Vec3((d.p_WB - d.p_WA).stableNormalized()) : Vec3::Zero();
+    std::snprintf(text, sizeof text, "%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g",
+                  d.distance, d.p_WA.x(), d.p_WA.y(), d.p_WA.z(), d.p_WB.x(), d.p_WB.y(),
+                  d.p_WB.z(), n.x(), n.y(), n.z());
+    return text;
+  }
+  if (query.kind == QueryKind::depth) {
+    const DepthBounds& d = result.depths[pose];
+    const long long a = d.deepest ? d.deepest->a : -1LL, b = d.deepest ? d.deepest->b : -1LL;
+    std::snprintf(text, sizeof text, "%.17g,%.17g,%.17g,%.17g,%.17g,%lld,%lld", d.lower, d.upper,
+                  d.direction_A.x(), d.direction_A.y(), d.direction_A.z(), a, b);
+    return text;
+  }
+  const Answer& answer = result.answers[pose];
+  const std::string hit = answer.hit ? "1" : "0";
+  if (query.kind == QueryKind::tolerance) return hit;
+  return hit + ',' + std::to_string(answer.boxTests) + ',' + std::to_string(answer.triangleTests);
+}
+
+}  // namespace
+
 void printCsv(const NamedQuery& query, const BatchResult& result) {
   std::string text = query.header + "\n";
   char line[256];
@@ -20,24 +48,24 @@ void printCsv(const NamedQuery& query, const BatchResult& result) {
                     c.a, c.b, c.p.x(), c.p.y(), c.p.z(), c.q.x(), c.q.y(), c.q.z());
       text += line;
     }
-  } else if (query.kind == QueryKind::distance) {
-    for (std::size_t i = 0; i < result.distances.size(); ++i) {
-      const Distance& d = result.distances[i];
-      std::snprintf(line, sizeof line, "%zu,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n", i,
-                    d.distance, d.p_WA.x(), d.p_WA.y(), d.p_WA.z(), d.p_WB.x(), d.p_WB.y(),
-                    d.p_WB.z());
-      text += line;
-    }
-  } else if (query.kind == QueryKind::tolerance) {
-    for (std::size_t i = 0; i < result.answers.size(); ++i)
-      text += std::to_string(i) + ',' + (result.answers[i].hit ? "1\n" : "0\n");
   } else {
-    for (std::size_t i = 0; i < result.answers.size(); ++i) {
-      const Answer& answer = result.answers[i];
-      text += std::to_string(i) + ',' + (answer.hit ? '1' : '0') + ',' +
-              std::to_string(answer.boxTests) + ',' + std::to_string(answer.triangleTests) + '\n';
-    }
+    for (std::size_t i = 0; i < result.answers.size(); ++i)
+      text += std::to_string(i) + ',' + columnsOf(query, result, i) + '\n';
   }
+  std::cout << text;
+  requireResultsWritten();
+}
+
+void printFrames(const NamedQuery& query, const std::vector<FrameResult>& frames) {
+  std::string text = "frame," + query.header + ",refit_ms,query_ns\n";
+  char times[64];
+  for (std::size_t f = 0; f < frames.size(); ++f)
+    for (std::size_t i = 0; i < frames[f].result.answers.size(); ++i) {
+      std::snprintf(times, sizeof times, ",%.6g,%.1f\n", frames[f].refitMs,
+                    frames[f].result.answers[i].ns);
+      text += std::to_string(f) + ',' + std::to_string(i) + ',' +
+              columnsOf(query, frames[f].result, i) + times;
+    }
   std::cout << text;
   requireResultsWritten();
 }

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cctype>
+#include <cstdint>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -10,6 +11,7 @@
 
 #include "collision/core/error.h"
 #include "collision/core/spelling.h"
+#include "collision/geometry/mesh_file.h"
 #include "planner/app/commands.h"
 #include "planner/app/interrupt.h"
 #include "planner/app/options.h"
@@ -18,6 +20,7 @@
 #include "planner/solve/whole_file.h"
 #include "planner/view/browser_picture.h"
 #include "planner/view/view_page.h"
+#include "planner/view/volume_picture.h"
 
 namespace corridor::app {
 namespace {
@@ -26,7 +29,9 @@ struct ViewArguments {
   std::string problem;
   std::optional<std::string> solution;
   std::optional<std::string> output, image, size, from;
-  bool ignoreDigest = false;  ///< as in `VerifyArguments`
+  std::optional<std::string> volume;   ///< of a mesh: the volumes to draw
+  std::optional<std::uint64_t> level;  ///< with `volume` only
+  bool ignoreDigest = false;           ///< as in `VerifyArguments`
   bool quiet = false;
 };
 
@@ -53,7 +58,52 @@ void requireExtension(const std::optional<std::string>& file, const char* option
                                " is needed, not " + quotedWord(*file)});
 }
 
+/// Draws the volumes of a level of a mesh's tree, as an SVG picture.
+int viewVolumes(const ViewArguments& a) {
+  const auto ofProblem = [](const char* option, bool given) {
+    if (given)
+      throw InputError(Fault{option, 0, "can't be used with --volume, which draws a mesh"});
+  };
+  ofProblem("SOLUTION", a.solution.has_value());
+  ofProblem("--ignore-digest", a.ignoreDigest);
+  ofProblem("--image", a.image.has_value());
+  ofProblem("--size", a.size.has_value());
+  requireExtension(a.output, "--output", "pictures of volumes are SVG", {".svg"});
+  const std::vector<std::string> names = drawnVolumes();
+  if (std::find(names.begin(), names.end(), *a.volume) == names.end())
+    throw InputError(Fault{"--volume", 0,
+                           "there is no picture of " + quotedWord(*a.volume) +
+                               didYouMean(*a.volume, names) + "; there are: " + joined(names)});
+  std::optional<ViewDirection> from;
+  if (a.from) from = viewDirection(*a.from, "--from");
+  const MeshFile mesh = readMeshFile(a.problem);
+  const std::uint64_t level = a.level.value_or(3);
+  const VolumePicture picture = volumePicture(mesh.mesh, {*a.volume, "", ""}, level, from);
+  if (a.level && level >= picture.levels)
+    throw InputError(Fault{"--level", 0,
+                           "the tree has the levels 0 to " + std::to_string(picture.levels - 1) +
+                               ", not " + std::to_string(level)});
+  const std::uint64_t shown = std::min<std::uint64_t>(level, picture.levels - 1);
+  const std::string file =
+      a.output.value_or(std::filesystem::path(a.problem).stem().string() + "_" + *a.volume + "_" +
+                        std::to_string(shown) + ".svg");
+  requireWritable(file, "--output");
+  requireNotAnInput(file, "--output", {a.problem}, "the mesh");
+  writeWhole(file, picture.svg);
+  const ResultPrinter out(a.quiet);
+  out.line("mesh", a.problem);
+  out.line("volumes",
+           (picture.drawn < picture.volumes ? "the nearest " + grouped(picture.drawn) + " of "
+                                            : std::string()) +
+               grouped(picture.volumes) + ", on level " + std::to_string(shown) + " of " +
+               std::to_string(picture.levels - 1));
+  out.line("picture", file);
+  return kDone;
+}
+
 int viewCommand(const ViewArguments& a) {
+  if (a.volume) return viewVolumes(a);
+  if (a.level) throw InputError(Fault{"--level", 0, "needs --volume, which is not given"});
   requireExtension(a.output, "--output", "pages are HTML", {".html", ".htm"});
   requireExtension(a.image, "--image", "pictures are PNG", {".png"});
   requireWritable(a.output, "--output");
@@ -129,11 +179,26 @@ void addView(CLI::App& program, int& status) {
       ->add_option("--size", a.size, "size of the image: WIDTHxHEIGHT, pixels (default 1366x768)")
       ->group(results);
   addFrom(*command, a.from, results);
+  const char* volumes = "Volumes of a mesh";
+  command
+      ->add_option("--volume", a.volume,
+                   "PROBLEM is a mesh file: draw it with the bounding volumes of its tree, as an "
+                   "SVG picture (-o, default: MESH_VOLUME_LEVEL.svg): " +
+                       joined(drawnVolumes()))
+      ->group(volumes);
+  command
+      ->add_option("--level", a.level,
+                   "the level of the tree to draw, with the leaves of the levels above; the root "
+                   "is level 0 (default 3)")
+      ->check(isWithin<std::uint64_t>(0, 1'000'000, "a whole number from 0 to 1000000"))
+      ->group(volumes);
   addQuiet(*command, a.quiet, results);
   command->footer(
       std::string(
           "Example: corridor solve problems/two_arms -o arms.yaml && corridor view "
           "problems/two_arms arms.yaml -o arms.html\n"
+          "         corridor view robots/piano/piano.obj --volume obb-binary --level 4 -o "
+          "boxes.svg\n"
           "The page plays the path. It can show the OBB trees, the closest pair of bodies with its "
           "distance along the path, the pairs that are never tested and why, and the contact where "
           "`corridor verify` refutes the path. The path is verified again for the page; the "

@@ -80,7 +80,7 @@ std::string effectOf(const YamlValue& checker) {
   if (const auto edges = keys.find("edges"); edges != keys.end())
     keys.erase(edges->second == "discrete" ? "tolerance" : "resolution");
   if (keys.count("peer"))
-    for (const char* key : {"volume", "overlap", "fit", "tolerance"}) keys.erase(key);
+    for (const char* key : {"volume", "overlap", "fit", "build", "tolerance"}) keys.erase(key);
   std::string text;
   for (const auto& [key, value] : keys) text += key + ": " + value + "\n";
   return text;

@@ -25,6 +25,21 @@ struct CostModel {
   }
 };
 
+/// Returns the nanoseconds that a query takes for each of its box tests besides the test itself:
+/// its share of the traversal. Fitted by least squares of the errors, each divided by √T, with the
+/// costs of single tests given. It is determined even if N_v and N_p are proportional. It may be
+/// negative, if tests take less time in a query than in the measurement of single tests.
+/// @param tests  the costs of single tests. @param call  nanoseconds that each query takes besides.
+inline double traversalShare(const std::vector<QueryCost>& queries, const CostModel& tests,
+                             double call) {
+  double vv = 0, v = 0;
+  for (const QueryCost& c : queries) {
+    vv += c.boxTests * c.boxTests / c.ns;
+    v += c.boxTests * (c.ns - call - tests.predicted(c)) / c.ns;
+  }
+  return vv > 0 ? v / vv : 0;
+}
+
 /// Returns the costs ≥ 0 that fit the queries best: by least squares of the errors, each divided by
 /// √T, because the error of a sum of many tests grows like √T. (Without weights, the few longest
 /// queries would decide the fit; with errors divided by T, the shortest queries.) If N_v and N_p

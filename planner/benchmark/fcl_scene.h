@@ -42,15 +42,16 @@ struct FclShape {
   fcl::Transform3d at = fcl::Transform3d::Identity();
 };
 
-/// @throws std::runtime_error for convex hulls, point clouds and octrees: no problem that is
-/// compared has one.
+/// @throws std::runtime_error for convex hulls, polygons, point clouds and octrees: no problem that
+/// is compared has one.
 inline FclShape fclShape(const PlacedShape& shape, std::size_t frame) {
   FclShape made{nullptr, frame};
   if (shape.mesh) {
     made.geometry = fclMesh(shape.mesh->mesh);
     return made;
   }
-  if (!shape.primitive) throw std::runtime_error("point clouds and octrees are not run with FCL");
+  if (!shape.primitive)
+    throw std::runtime_error("polygons, point clouds and octrees are not run with FCL");
   made.at.linear() = shape.at.q.normalized().toRotationMatrix();
   made.at.translation() = shape.at.p;
   if (const auto* box = std::get_if<Box>(&*shape.primitive))

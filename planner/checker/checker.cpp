@@ -53,9 +53,7 @@ void requireValid(const CheckerOptions& options, const ConfigurationSpace& space
 
 }  // namespace
 
-Scene makeScene(const Model& model, ObbFit fit) {
-  TreeParams params;
-  params.fit = fit;
+Scene makeScene(const Model& model, const TreeParams& params) {
   std::vector<Scene::Placed> placed;
   std::vector<std::size_t> firstShape;
   std::map<std::pair<const MeshFile*, bool>, std::size_t> known;  // by mesh and `solid`
@@ -138,7 +136,7 @@ class Checker::Pool {
 
 Checker::Checker(const Model& model, const CheckerOptions& options)
     : model_(model),
-      scene_(makeScene(model, options.trees.fit)),
+      scene_(makeScene(model, options.trees.params)),
       bodyOf_(bodiesOfShapes(model)),
       tube_(options.tube.size() == 0 ? tubeOf(model.space) : options.tube),
       padding_(options.padding),

@@ -15,7 +15,8 @@ struct Problem;
 
 /// Returns the scene of a model. It has one body for each shape of each model body, in the model's
 /// order, and all pairs that the model's filter does not exclude. Builds no tree.
-Scene makeScene(const Model& model, ObbFit fit = {});
+/// @param params how the trees of meshes are built, when queries need them.
+Scene makeScene(const Model& model, const TreeParams& params = {});
 
 /// The options of a checker: the margin, tube and tolerance of its proofs, the method, the trees.
 struct CheckerOptions {
@@ -29,8 +30,8 @@ struct CheckerOptions {
 };
 
 /// Returns the options that a task and settings describe.
-/// @throws std::invalid_argument if the name of a volume, fit or overlap test is unknown, or cannot
-/// be combined with the other names (`invalidNameIn`).
+/// @throws std::invalid_argument if the name of a volume, fit, overlap test or way of building is
+/// unknown, or cannot be combined with the other names (`invalidNameIn`).
 CheckerOptions checkerOptions(const Task& task, const CheckerSettings& settings);
 
 /// Checks states and edges of a model. The OMPL classes in this folder forward to it.

@@ -82,7 +82,7 @@ struct CheckerSettings {
   double resolution = 0.01;         ///< for `discrete`; see isResolution
   std::optional<double> tolerance;  ///< metres; unset: see checker/default_tolerance.h
   /// The trees that queries walk, by the words that users write.
-  TreeNames trees = {"obb", "", ""};
+  TreeNames trees = {"obb", "", "", ""};
 };
 
 /// What paths should keep where this is possible, besides what they must.

@@ -17,9 +17,10 @@ Words operator+(Words a, const Words& b) {
 
 const Words placementKeys{"at", "rpy_deg", "rpy", "quat_xyzw"};
 const Words poseKeys = placementKeys + Words{"yaw_deg", "yaw"};
-const Words shapeKeys = Words{"mesh",   "box",     "sphere", "capsule", "cylinder", "convex",
-                              "points", "octomap", "unit",   "up",      "solid"} +
-                        placementKeys;
+const Words shapeKeys =
+    Words{"mesh",   "box",     "sphere", "capsule", "cylinder", "convex",   "polygon",
+          "points", "octomap", "unit",   "up",      "solid",    "deviation"} +
+    placementKeys;
 
 using Keys = std::map<std::string, MapKeys>;
 
@@ -53,7 +54,7 @@ Keys makeProblemKeys() {
       {"prefer", {{"clearance", "detour"}, {}}},
       {"planner", {{"name", "time", "stop", "restart", "params"}, {}}},
       {"checker",
-       {{"edges", "resolution", "tolerance", "volume", "fit", "overlap"},
+       {{"edges", "resolution", "tolerance", "volume", "fit", "overlap", "build"},
         {{"peer", "Corridor's own checker is used; leave it out"}}}},
   };
   addShape(keys, "world.*", {"shapes"});
@@ -81,7 +82,8 @@ Words volumeNames() {
   return names;
 }
 
-/// Returns the names of the fits, or of the overlap tests, of all volumes, each once.
+/// Returns the names of the fits, of the overlap tests or of the ways of building, of all volumes,
+/// each once.
 Words ofAnyVolume(Words VolumeKind::*variants) {
   Words all;
   for (const VolumeKind& kind : volumeKinds())
@@ -113,6 +115,7 @@ const std::map<std::string, std::vector<std::string>>& problemChoices() {
       {"checker.volume", volumeNames()},
       {"checker.fit", ofAnyVolume(&VolumeKind::fits)},
       {"checker.overlap", ofAnyVolume(&VolumeKind::overlaps)},
+      {"checker.build", ofAnyVolume(&VolumeKind::builds)},
   };
   return choices;
 }

@@ -183,6 +183,10 @@ void readYaml(const std::filesystem::path& file, Problem& problem) {
   const bool known = !robots.empty();
   const bool worldNeeded = !scene && !map.find("robots") &&
                            (!map.find("robot") || (known && robots.front().robot.isRigid()));
+  const bool isPlanar =  // or unknown
+      std::all_of(robots.begin(), robots.end(), [](const RobotSetup& setup) {
+        return setup.robot.isRigid() && setup.robot.description.mount == JointType::planar;
+      });
   ModelBuilder builder;
   if (request && known && robots.front().robot.isRigid()) {
     map.fault("moveit", "a request is for a robot with joints; this one is rigid");
@@ -198,7 +202,7 @@ void readYaml(const std::filesystem::path& file, Problem& problem) {
     base = robot.base;
   }
   addRobots(std::move(robots), builder, problem.source);
-  readWorld(map, worldNeeded, builder, problem.source);
+  readWorld(map, worldNeeded, isPlanar, builder, problem.source);
   if (scene && known) scene->addWorld(root, base, builder);
   problem.model = builder.buildForReader();
   if (scene && known) {

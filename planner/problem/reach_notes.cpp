@@ -100,6 +100,23 @@ void addNotesOnSizes(const Problem& problem, const std::vector<ReachBox>& reach,
   }
 }
 
+/// Adds a note for each body that polygons never meet, because it does not reach their plane, z =
+/// 0.
+void addNotesOnPlane(const Problem& problem, const std::vector<ReachBox>& reach,
+                     std::vector<Note>& notes) {
+  const std::vector<ModelBody>& bodies = problem.model.bodies;
+  const auto hasPolygon = [](const ModelBody& body) {
+    return std::any_of(body.shapes.begin(), body.shapes.end(),
+                       [](const PlacedShape& shape) { return !shape.polygon.empty(); });
+  };
+  if (std::none_of(bodies.begin(), bodies.end(), hasPolygon)) return;
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    if (reach[b].lower.z() > 0 || reach[b].upper.z() < 0)
+      notes.push_back({quotedWord(bodies[b].name) +
+                           " does not reach the plane z = 0, so it never meets a polygon",
+                       NoteWeight::coverage});
+}
+
 }  // namespace
 
 std::vector<Note> notesOnReach(const Problem& problem) {
@@ -109,6 +126,7 @@ std::vector<Note> notesOnReach(const Problem& problem) {
     notes.push_back(
         {"no obstacle is within reach; are all lengths in metres?", NoteWeight::coverage});
   addNotesOnSizes(problem, reach, notes);
+  addNotesOnPlane(problem, reach, notes);
   return notes;
 }
 

@@ -21,7 +21,8 @@ Vec3 centroid(const std::vector<PlacedShape>& shapes) {
   std::vector<std::array<double, 3>> points;
   const auto add = [&](const Vec3& p) { points.push_back({p.x(), p.y(), p.z()}); };
   for (const PlacedShape& shape : shapes) {
-    for (const ConvexPart& part : shape.parts)
+    for (const Vec2& p : shape.polygon) add({p.x(), p.y(), 0});
+    for (const ConvexPart& part : shape.parts)  // those of a polygon have some of its corners
       std::for_each(part.points.begin(), part.points.end(), add);
     if (!shape.mesh) continue;
     for (const auto& triangle : shape.mesh->mesh.triangles)
@@ -61,8 +62,8 @@ void shiftToReference(const YamlMap& file, RobotModel& model, bool shapesAreSoun
     return;
   }
   for (PlacedShape& shape : shapes)
-    if (!shift(shape, -reference)) {
-      file.fault("reference", "moves the shape out of the range of doubles");
+    if (const std::string why = shift(shape, -reference); !why.empty()) {
+      file.fault("reference", why);
       return;
     }
 }
@@ -78,7 +79,7 @@ std::optional<RobotSetup> readRigid(const YamlMap& map, const std::string& name,
   std::vector<PlacedShape> shapes;
   ShapeFiles files{setup.files};
   if (map.require("shapes", "the robot's shapes, such as shapes: [{mesh: piano.obj, unit: m}]"))
-    shapes = readShapes(map, robotKeys().at("shapes[]"), {name, folder, {}}, files);
+    shapes = readShapes(map, robotKeys().at("shapes[]"), {name, folder, {}, rigid == "SE2"}, files);
   const bool sound = map.source().faults.size() == before && !shapes.empty();
   if (const YamlValue* weights = map.find("weights")) {
     const YamlMap inner(*weights, "weights", &robotKeys().at("weights"), map.source());

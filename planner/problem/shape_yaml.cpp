@@ -7,13 +7,15 @@
 #include "collision/core/spelling.h"
 #include "collision/geometry/mesh_health.h"
 #include "planner/problem/cloud_yaml.h"
+#include "planner/problem/hull_yaml.h"
 #include "planner/problem/keys.h"
+#include "planner/problem/polygon_yaml.h"
 
 namespace corridor {
 namespace {
 
-const std::vector<std::string> kinds{"mesh",     "box",    "sphere", "capsule",
-                                     "cylinder", "convex", "points", "octomap"};
+const std::vector<std::string> kinds{"mesh",   "box",     "sphere", "capsule", "cylinder",
+                                     "convex", "polygon", "points", "octomap"};
 
 const MapKeys* keysOf(const char* primitive) {
   return &problemKeys().at(std::string("world.*.") + primitive);
@@ -193,10 +195,15 @@ const std::string& ShapeMeshes::whyNotWatertight(const std::shared_ptr<const Mes
 
 std::optional<PlacedShape> readShape(const YamlMap& map, const ShapePlace& place, ShapeFiles& files,
                                      Placement* notApplied) {
-  const auto kind = map.requireOne(kinds, "one shape",
-                                   "mesh: FILE, box: [x, y, z], sphere: radius, capsule or "
-                                   "cylinder: {radius: …, length: …}, convex: FILE, points: "
-                                   "{file: …, radius: …}, or octomap: {file: …}");
+  const auto hullKey = readHullKey(map);
+  const bool hull = hullKey.value_or(false);
+  const auto kind = hullKey
+                        ? std::optional<std::string>("mesh")
+                        : map.requireOne(kinds, "one shape",
+                                         "mesh: FILE, box: [x, y, z], sphere: radius, capsule or "
+                                         "cylinder: {radius: …, length: …}, convex: FILE, polygon: "
+                                         "[[x, y], …], points: {file: …, radius: …}, or octomap: "
+                                         "{file: …}");
   const bool solid = map.boolean("solid").value_or(false);
   const auto own = readPlacement(map);
   if (!kind) return std::nullopt;
@@ -213,6 +220,14 @@ std::optional<PlacedShape> readShape(const YamlMap& map, const ShapePlace& place
         !own)
       return std::nullopt;
     inRange = std::all_of(shape.parts.begin(), shape.parts.end(), isFinite);
+  } else if (*kind == "polygon") {
+    if (!place.isPlanar) {
+      map.fault("polygon",
+                "is for robots in the plane (rigid: SE2) and their worlds; elsewhere, write box, "
+                "convex or mesh");
+      return std::nullopt;
+    }
+    if (!own || !readPolygon(map, whole.X, shape)) return std::nullopt;
   } else if (*kind == "mesh") {
     shape.mesh = readMesh(map, "mesh", place.folder, shape.file, files);
     shape.solid = solid;
@@ -224,10 +239,11 @@ std::optional<PlacedShape> readShape(const YamlMap& map, const ShapePlace& place
         return std::nullopt;
       }
     }
-    if (notApplied)
+    if (notApplied && !hull)
       *notApplied = whole;
     else if (!applyPlacement(map, whole, shape))
       return std::nullopt;
+    if (hull && !replaceByHull(map, shape)) return std::nullopt;
   } else {
     shape.primitive = readPrimitive(map, *kind, place, shape.file, files);
     if (!shape.primitive) return std::nullopt;
@@ -274,12 +290,16 @@ std::vector<PlacedShape> readShapes(const YamlMap& map, const MapKeys& keys,
   return shapes;
 }
 
-bool shift(PlacedShape& shape, const Vec3& by) {
+std::string shift(PlacedShape& shape, const Vec3& by) {
   shape.at.p += by;
-  if (shape.mesh) return moveMesh(shape, [&](const Vec3& vertex) { return Vec3(vertex + by); });
-  for (ConvexPart& part : shape.parts)
+  if (!shape.polygon.empty()) return shiftPolygon(shape, by);
+  bool finite = true;
+  if (shape.mesh) finite = moveMesh(shape, [&](const Vec3& v) { return Vec3(v + by); });
+  for (ConvexPart& part : shape.parts) {
     for (Vec3& point : part.points) point += by;
-  return std::all_of(shape.parts.begin(), shape.parts.end(), isFinite);
+    finite &= isFinite(part);
+  }
+  return finite ? "" : "moves the shape out of the range of doubles";
 }
 
 void addFile(std::vector<std::filesystem::path>& files, const std::filesystem::path& file) {

@@ -19,6 +19,7 @@ struct ShapePlace {
   std::string name;              ///< the shape's name
   std::filesystem::path folder;  ///< the folder that file names are relative to
   Placement outer = {};          ///< placement of the obstacle that lists the shape in `shapes`
+  bool isPlanar = false;         ///< of an SE2 robot, or in the world of such robots
 };
 
 /// Reads meshes for shapes, each file once.
@@ -61,8 +62,8 @@ bool applyPlacement(const YamlMap& map, const Placement& placement, PlacedShape&
 std::vector<PlacedShape> readShapes(const YamlMap& map, const MapKeys& keys,
                                     const ShapePlace& place, ShapeFiles& files);
 
-/// Translates a shape. @returns whether all its coordinates are still finite.
-bool shift(PlacedShape& shape, const Vec3& by);
+/// Translates a shape. Returns why this is not possible, or "".
+std::string shift(PlacedShape& shape, const Vec3& by);
 
 /// Adds a file to the list, unless the list already has it.
 void addFile(std::vector<std::filesystem::path>& files, const std::filesystem::path& file);

@@ -14,8 +14,8 @@ namespace {
 
 /// Reads an obstacle of several shapes: {shapes: […], at: …}.
 std::vector<PlacedShape> readGroup(const YamlMap& map, ShapePlace place, ShapeFiles& files) {
-  for (const char* key : {"mesh", "box", "sphere", "capsule", "cylinder", "convex", "points",
-                          "octomap", "unit", "up", "solid"})
+  for (const char* key : {"mesh", "box", "sphere", "capsule", "cylinder", "convex", "polygon",
+                          "points", "octomap", "unit", "up", "solid", "deviation"})
     if (map.find(key)) map.fault(key, "belongs to one shape; put it into the items of shapes");
   const auto outer = readPlacement(map);
   place.outer = outer.value_or(Placement{});
@@ -83,7 +83,8 @@ bool isBareLink(const std::string& name, const Model& model) {
 
 }  // namespace
 
-void readWorld(const YamlMap& file, bool needed, ModelBuilder& builder, Source& source) {
+void readWorld(const YamlMap& file, bool needed, bool isPlanar, ModelBuilder& builder,
+               Source& source) {
   const YamlValue* world =
       needed ? file.require("world",
                             "the obstacles, such as world: {table: {mesh: table.obj, unit: m}}")
@@ -98,7 +99,7 @@ void readWorld(const YamlMap& file, bool needed, ModelBuilder& builder, Source& 
   for (const YamlValue::Entry* entry : obstacles.entries()) {
     const YamlMap map(entry->value, "world." + entry->key, &problemKeys().at("world.*"),
                       file.source());
-    const ShapePlace place{entry->key, source.file.parent_path(), {}};
+    const ShapePlace place{entry->key, source.file.parent_path(), {}, isPlanar};
     if (map.find("shapes")) {
       builder.addObstacle(entry->key, readGroup(map, place, files));
       continue;

@@ -7,7 +7,8 @@ namespace corridor {
 
 /// Reads `world` and adds its obstacles to the model.
 /// @param needed whether a problem without obstacles is a fault.
-void readWorld(const YamlMap& file, bool needed, ModelBuilder& builder, Source& source);
+void readWorld(const YamlMap& file, bool needed, bool isPlanar, ModelBuilder& builder,
+               Source& source);
 
 /// Reads `allow`, a list of pairs of names of bodies. A pair with a link that has no shapes is left
 /// out. @pre the model has all its bodies.

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "collision/convex/convex_polygon.h"
 #include "collision/core/rigid_pose.h"
 #include "collision/geometry/convex_part.h"
 #include "collision/geometry/mesh_file.h"
@@ -21,12 +22,15 @@ struct PlacedShape {
   /// The mesh, with the facts about how its file was read; null for a shape of parts. Shapes may
   /// share a mesh: their bodies then share its trees.
   std::shared_ptr<const MeshFile> mesh;
-  std::vector<ConvexPart> parts;       ///< one for a primitive; many for a point cloud or an octree
-  std::filesystem::path file;          ///< the file that was read for this shape, if any
+  std::vector<ConvexPart> parts;  ///< one for a primitive; many for a cloud, an octree, a polygon
+  std::filesystem::path file;     ///< the file that was read for this shape, if any
   std::optional<Primitive> primitive;  ///< the primitive as the user wrote it, if it is one
   RigidPose at;                        ///< the pose that the user gave, for reports and FCL
   bool solid = false;                  ///< mesh only; a part is always solid
   std::vector<Note> notes = {};        ///< about how the file was read
+  /// The corners of a planar polygon, in the plane z = 0 of the frame; empty for other shapes. The
+  /// parts are its convex pieces.
+  std::vector<Vec2> polygon = {};
 };
 
 /// Calls visit(p, radius) for each vertex of the mesh, with radius 0, and for each point of the

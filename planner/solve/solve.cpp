@@ -76,13 +76,14 @@ std::optional<double> defaultRangeForArms(const ConfigurationSpace& space) {
   return range;
 }
 
-/// Returns the report's words for the trees: ", sphere", ", hull" or ", obb-binary, vertices, gjk".
-/// Leaves out defaults; returns "" for the default trees.
+/// Returns the report's words for the trees: ", sphere", ", hull" or ", obb-binary, vertices, gjk,
+/// median". Leaves out defaults; returns "" for the default trees.
 std::string treesText(const TreeNames& words) {
   const TreeNames trees = withDefaults(words), usual = withDefaults({trees.volume, "", ""});
   return (trees.volume == withDefaults({}).volume ? "" : ", " + trees.volume) +
          (trees.fit == usual.fit ? "" : ", " + trees.fit) +
-         (trees.overlap == usual.overlap ? "" : ", " + trees.overlap);
+         (trees.overlap == usual.overlap ? "" : ", " + trees.overlap) +
+         (trees.build == usual.build ? "" : ", " + trees.build);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 
 #include "planner/view/projection.h"
+#include "planner/view/svg_faces.h"
 #include "planner/view/tessellate.h"
 #include "planner/view/tip_frames.h"
 
@@ -18,33 +19,23 @@ namespace corridor {
 namespace {
 
 using view::Camera;
-using view::Corners;
 using view::DepthBuffer;
+using view::Face;
+using view::kShades;
+using view::palette;
+using view::Triangle3;
 
 constexpr double kWidth = 1000, kBorder = 20;  // sizes of the picture, pixels
-/// Triangles with edges longer than this, in pixels, are cut, so that they can be sorted by depth.
-constexpr double kPiece = 70;
 /// Limits on the number of copies of the robots drawn between start and goal. The more triangles a
 /// copy has, the fewer are drawn.
 constexpr int kMostGhosts = 14, kFewestGhosts = 4;
 /// Limits of the SVG text, bytes: obstacles, one copy of the robots, all copies between the ends.
 constexpr std::size_t kWorldLimit = 220'000, kRobotLimit = 60'000, kGhostsLimit = 180'000;
-constexpr int kShades = 8;
 /// A moving shape with more than `kFewTriangles` triangles is drawn coarser, on a grid of cells.
 /// The cells are enlarged, up to `kLargestCell`, until one copy of all moving bodies has at most
 /// `kMostTriangles` triangles. Cell sizes are shares of the scene's diagonal.
 constexpr std::size_t kFewTriangles = 500, kMostTriangles = 5000;
 constexpr double kCell = 1.0 / 250, kLargestCell = 1.0 / 60;
-
-/// A triangle of the picture, projected.
-struct Face {
-  Corners corners;
-  char palette = 'w';
-  int shade = 0;  ///< 0 dark … kShades − 1 light
-  double depth() const { return corners[0].z() + corners[1].z() + corners[2].z(); }
-};
-
-using Triangle3 = std::array<Vec3, 3>;
 
 /// Returns the distinct triangles of a body, in its frame's coordinates: many mesh files have both
 /// sides of every face.
@@ -53,7 +44,9 @@ std::vector<Triangle3> distinctTriangles(const ModelBody& body, double cell) {
   std::set<std::array<std::array<double, 3>, 3>> seen;
   std::vector<Triangle3> triangles;
   for (const PlacedShape& shape : body.shapes) {
-    TriangleMesh mesh = shape.mesh ? shape.mesh->mesh : view::tessellated(shape.parts);
+    TriangleMesh mesh = shape.mesh              ? shape.mesh->mesh
+                        : shape.polygon.empty() ? view::tessellated(shape.parts)
+                                                : view::flatSurface(shape.parts);
     if (cell > 0 && mesh.triangles.size() > kFewTriangles) mesh = view::coarsened(mesh, cell);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       std::array<std::array<double, 3>, 3> key;
@@ -152,85 +145,6 @@ PlaneKey planeOf(std::size_t body, const Triangle3& triangle, double pixel) {
           std::lround(normal.dot(triangle[0]) / (2 * pixel))};
 }
 
-Face makeFace(const Camera& camera, const Triangle3& triangle, char palette) {
-  Vec3 normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).stableNormalized();
-  if (normal.dot(camera.towardsViewer()) < 0) normal = -normal;
-  const double light = std::max(0.0, normal.dot(Vec3(0.35, -0.45, 0.82)));
-  Face face{{camera.project(triangle[0]), camera.project(triangle[1]), camera.project(triangle[2])},
-            palette,
-            0};
-  face.shade = std::clamp(static_cast<int>((0.15 + 0.85 * light) * kShades), 0, kShades - 1);
-  return face;
-}
-
-/// Cuts a face into pieces with edges of at most `kPiece` in the picture, by halving the longest
-/// edge.
-void cut(const Face& face, std::vector<Face>& pieces) {
-  int longest = 0;
-  double length = 0;
-  for (int i = 0; i < 3; ++i) {
-    const double l = (face.corners[(i + 1) % 3] - face.corners[i]).head<2>().norm();
-    if (l > length) length = l, longest = i;
-  }
-  if (!(length > kPiece)) {
-    pieces.push_back(face);
-    return;
-  }
-  const int next = (longest + 1) % 3;
-  const Vec3 middle = (face.corners[longest] + face.corners[next]) / 2;
-  Face first = face, second = face;
-  first.corners[next] = middle;
-  second.corners[longest] = middle;
-  cut(first, pieces);
-  cut(second, pieces);
-}
-
-/// Returns the faces with more than `least` visible pixels, farthest first.
-std::vector<Face> visible(const Camera& camera, const std::vector<Face>& faces, int least) {
-  DepthBuffer buffer(camera.width(), camera.height(), 1);
-  for (std::size_t i = 0; i < faces.size(); ++i) buffer.draw(faces[i].corners, static_cast<int>(i));
-  const std::vector<int> pixels = buffer.pixelsOf(static_cast<int>(faces.size()));
-  std::vector<Face> kept;
-  for (std::size_t i = 0; i < faces.size(); ++i)
-    if (pixels[i] > least) kept.push_back(faces[i]);
-  std::sort(kept.begin(), kept.end(),
-            [](const Face& a, const Face& b) { return a.depth() < b.depth(); });
-  return kept;
-}
-
-/// Returns SVG paths with coordinates in whole pixels. Consecutive faces of equal shade share a
-/// path.
-std::string draw(const std::vector<Face>& faces) {
-  std::string svg;
-  const Face* last = nullptr;
-  for (const Face& face : faces) {
-    if (!last || face.shade != last->shade || face.palette != last->palette) {
-      if (last) svg += "\"/>\n";
-      svg += std::string("<path class=\"") + face.palette + std::to_string(face.shade) + "\" d=\"";
-    }
-    last = &face;
-    long x[3], y[3];
-    for (int i = 0; i < 3; ++i) {
-      x[i] = std::lround(face.corners[i].x());
-      y[i] = std::lround(face.corners[i].y());
-    }
-    char text[96];
-    std::snprintf(text, sizeof text, "M%ld %ldl%ld %ld %ld %ldz", x[0], y[0], x[1] - x[0],
-                  y[1] - y[0], x[2] - x[1], y[2] - y[1]);
-    svg += text;
-  }
-  return last ? svg + "\"/>\n" : svg;
-}
-
-/// Like `draw`, but leaves out faces with few visible pixels, until the text has at most `limit`
-/// bytes or only large faces are left.
-std::string drawVisible(const Camera& camera, const std::vector<Face>& faces, std::size_t limit) {
-  for (int least = 0;; least = 2 * least + 1) {
-    std::string svg = draw(visible(camera, faces, least));
-    if (svg.size() <= limit || least > 2000) return svg;
-  }
-}
-
 /// Returns poses evenly spaced along the path, ends included. The length of an edge is the largest
 /// distance that a corner moves, among a sample of the triangles' corners.
 Path poses(const Problem& problem, const Moving& moving, const Path& path, int count) {
@@ -259,18 +173,6 @@ Path poses(const Problem& problem, const Moving& moving, const Path& path, int c
   }
   chosen.push_back(path.back());
   return chosen;
-}
-
-std::string palette(char name, const Vec3& dark, const Vec3& light) {
-  std::string css;
-  for (int i = 0; i < kShades; ++i) {
-    const Vec3 c = dark + (light - dark) * i / (kShades - 1);
-    char text[96];
-    std::snprintf(text, sizeof text, ".%c%d{fill:#%02x%02x%02x;stroke:#%02x%02x%02x}\n", name, i,
-                  int(c.x()), int(c.y()), int(c.z()), int(c.x()), int(c.y()), int(c.z()));
-    css += text;
-  }
-  return css;
 }
 
 /// Returns an SVG line along which the origin of a frame moves. It is a curve if joints rotate.

@@ -75,6 +75,19 @@ TriangleMesh tessellated(const std::vector<ConvexPart>& parts) {
   return whole;
 }
 
+TriangleMesh flatSurface(const std::vector<ConvexPart>& pieces) {
+  TriangleMesh mesh;
+  for (const ConvexPart& piece : pieces) {
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.insert(mesh.vertices.end(), piece.points.begin(), piece.points.end());
+    for (auto k = first + 2; k < mesh.vertices.size(); ++k) {
+      mesh.triangles.push_back({first, k - 1, k});
+      mesh.triangles.push_back({first, k, k - 1});
+    }
+  }
+  return mesh;
+}
+
 TriangleMesh coarsened(const TriangleMesh& mesh, double cell) {
   TriangleMesh coarse;
   std::map<std::tuple<double, double, double>, std::uint32_t> cells;

@@ -14,6 +14,9 @@ TriangleMesh tessellated(const ConvexPart& part);
 /// list.
 TriangleMesh tessellated(const std::vector<ConvexPart>& parts);
 constexpr std::size_t kMostParts = 20'000;
+/// Returns flat convex parts, each with its corners in order, as triangles that are seen from both
+/// sides: the pieces of a polygon, exactly.
+TriangleMesh flatSurface(const std::vector<ConvexPart>& pieces);
 
 /// Returns a coarser mesh, for pictures in which triangles would be smaller than a pixel: in each
 /// cell of a grid of size `cell`, the first vertex replaces all others.

@@ -3,9 +3,11 @@
 ///
 /// Two polytopes of n vertices, hulls of random points on a sphere, pass each other at a gap of 5 %
 /// of their size, or with an overlap of as much, and rotate. For each motion per step (as a share
-/// of the size), the program runs each query cold and with a cache
-/// (collision/convex/convex_cache.h). Prints CSV: mean times in microseconds, each the least of
-/// three runs, and their ratio.
+/// of the size), the program runs each query cold, and warm: begun with what the query before has
+/// kept (the simplex of GJK, collision/convex/convex_cache.h; the features of V-Clip; the last
+/// separating axis). Prints CSV: mean times in microseconds, each the least of three runs, their
+/// ratio, and mean numbers of steps (rounds of GJK; for V-Clip also pairs of features; for axes the
+/// axes tested).
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -20,6 +22,8 @@
 #include "collision/convex/convex_contact.h"
 #include "collision/convex/convex_distance.h"
 #include "collision/convex/dobkin_kirkpatrick.h"
+#include "collision/convex/separating_axes.h"
+#include "collision/convex/vclip.h"
 #include "tests/benchmark/arguments.h"
 
 namespace corridor {
@@ -41,19 +45,39 @@ Motion passing(double gap, double step, std::size_t steps) {
   return motion;
 }
 
+/// What a query leaves for the next one.
+struct Last {
+  ConvexCache simplex;
+  FeaturePair features;
+  SeparatingAxis axis;
+};
+
+struct Mean {
+  double microseconds = HUGE_VAL, steps = 0;
+};
+
+/// @param call  called as call(i, last); returns its number of steps.
 template <class Call>
-double meanMicroseconds(std::size_t count, const Call& call) {
-  double least = HUGE_VAL;
+Mean meanOf(std::size_t count, bool warm, const Call& call) {
+  Mean mean;
   for (int round = 0; round < 3; ++round) {
-    ConvexCache cache;
+    Last last;
+    std::size_t steps = 0;
     const auto before = std::chrono::steady_clock::now();
-    for (std::size_t i = 0; i < count; ++i) call(i, &cache);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!warm) last = {};
+      steps += call(i, last);
+    }
     const std::chrono::duration<double, std::micro> time =
         std::chrono::steady_clock::now() - before;
-    least = std::min(least, time.count() / static_cast<double>(count));
+    mean.microseconds = std::min(mean.microseconds, time.count() / static_cast<double>(count));
+    mean.steps = static_cast<double>(steps) / static_cast<double>(count);
   }
-  return least;
+  return mean;
 }
+
+/// Larger polytopes are not tested by separating axes: a query takes O(n²).
+constexpr std::size_t kMostForAxes = 100;
 
 void measure(std::size_t n, std::size_t steps) {
   std::mt19937_64 random(n);
@@ -63,33 +87,46 @@ void measure(std::size_t n, std::size_t steps) {
   const DobkinKirkpatrick hierarchy{Polytope(points)};
   const auto vertices = hierarchy.polytope().vertices();
   const ConvexPart part{{vertices.begin(), vertices.end()}, 0, false};
-  struct Way {
-    std::string name;
-    ConvexSet set;
-  };
+  const PolytopeFeatures features(hierarchy);
   std::size_t sink = 0;
-  for (const Way& way : {Way{"every vertex", part}, Way{"hill climbing", hierarchy.polytope()},
-                         Way{"hierarchy", hierarchy}})
-    for (const double step : {0.001, 0.01, 0.1}) {
-      const auto row = [&](const std::string& query, const auto& call) {
-        const double cold =
-            meanMicroseconds(steps, [&](std::size_t i, ConvexCache*) { call(i, nullptr); });
-        const double warm = meanMicroseconds(steps, call);
-        std::cout << n << ',' << query << ',' << way.name << ',' << step << ',' << cold << ','
-                  << warm << ',' << warm / cold << std::endl;
+  for (const double step : {0.0001, 0.001, 0.01, 0.1, 0.3})
+    for (const double gap : {0.1, -0.1}) {
+      const Motion motion = passing(gap, 2 * step, steps);
+      const auto row = [&](const std::string& query, const std::string& by, const auto& call) {
+        const Mean cold = meanOf(steps, false, call), warm = meanOf(steps, true, call);
+        std::cout << n << ',' << query << ',' << by << ',' << step << ',' << cold.microseconds
+                  << ',' << warm.microseconds << ',' << warm.microseconds / cold.microseconds << ','
+                  << cold.steps << ',' << warm.steps << std::endl;
       };
-      for (const double gap : {0.1, -0.1}) {
-        const Motion motion = passing(gap, 2 * step, steps);
-        row(gap > 0 ? "contact apart" : "contact overlapping",
-            [&](std::size_t i, ConvexCache* cache) {
-              sink += convexSetsTouch({way.set, {}}, {way.set, motion.poses[i]}, cache);
-            });
-        if (gap > 0)
-          row("distance", [&](std::size_t i, ConvexCache* cache) {
-            sink +=
-                convexDistance({way.set, {}}, {way.set, motion.poses[i]}, 0, 0, cache).distance > 1;
-          });
+      const std::string contact = gap > 0 ? "contact apart" : "contact overlapping";
+      struct Way {
+        std::string name;
+        ConvexSet set;
+      };
+      for (const Way& way : {Way{"every vertex", part}, Way{"hill climbing", hierarchy.polytope()},
+                             Way{"hierarchy", hierarchy}}) {
+        row(contact, way.name, [&](std::size_t i, Last& last) {
+          sink += convexSetsTouch({way.set, {}}, {way.set, motion.poses[i]}, &last.simplex);
+          return static_cast<std::size_t>(last.simplex.rounds);
+        });
+        if (gap < 0) continue;
+        row("distance", way.name, [&](std::size_t i, Last& last) {
+          sink += convexDistance({way.set, {}}, {way.set, motion.poses[i]}, 0, 0, &last.simplex)
+                      .distance > 1;
+          return static_cast<std::size_t>(last.simplex.rounds);
+        });
       }
+      row(gap > 0 ? "distance" : contact, "V-Clip", [&](std::size_t i, Last& last) {
+        const ClosestFeatures found =
+            closestFeatures(features, {}, features, motion.poses[i], last.features);
+        sink += found.distance.distance > 1;
+        return static_cast<std::size_t>(found.steps + found.rounds);
+      });
+      if (n <= kMostForAxes)
+        row(contact, "separating axes", [&](std::size_t i, Last& last) {
+          last.axis = separatingAxis(features, {}, features, motion.poses[i], &last.axis);
+          return last.axis.faces + last.axis.edgePairs;
+        });
     }
   if (sink == 1) std::cerr << ' ';  // keeps the results
 }
@@ -101,7 +138,8 @@ int main(int argc, char** argv) {
   using namespace corridor;
   return bench::runWith(argc, argv, {"--most", "--steps", "--cpu"}, [](const bench::Arguments& a) {
     std::cerr << "pinned to CPU " << bench::pin(a) << "\n";
-    std::cout << "vertices,query,by,step,cold,warm,ratio\n" << std::setprecision(4);
+    std::cout << "vertices,query,by,step,cold,warm,ratio,cold_steps,warm_steps\n"
+              << std::setprecision(4);
     const double most = a.number("--most", 1e5);
     for (std::size_t n = 10; static_cast<double>(n) <= most; n *= 10)
       measure(n, static_cast<std::size_t>(a.number("--steps", 300)));

@@ -18,6 +18,11 @@
 /// other. Competitors are FCL's overlap test of OBBs, which guarantees nothing about rounding, and
 /// the kernel of our 4-wide OBB tree. The kernel's C_v, a pair's share of the traversal included,
 /// is fitted by least squares over whole queries (planner/benchmark/cost_model.h).
+///
+/// CSV follows the table: each test's mixed cost (geometric mean over the workloads), and its ratio
+/// to that of separating axes. More CSV has the arithmetic operations of a test by separating axes:
+/// the least, mean and largest number, over all kept pairs. They include our margins for rounding,
+/// and posing, whose number is given, too.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -43,6 +48,7 @@
 #include "planner/app/query_timing.h"
 #include "planner/benchmark/cost_model.h"
 #include "tests/benchmark/arguments.h"
+#include "tests/benchmark/counted.h"
 #include "tests/support/support.h"
 #include "tests/support/workload.h"
 
@@ -275,12 +281,61 @@ constexpr std::size_t kTests = std::size(kNames);
 /// Sums over workloads.
 struct Means {
   double logs[kTests] = {};  ///< sums of logarithms of the mixed cost relative to SAT's
+  double satLogs = 0;        ///< sum of logarithms of SAT's mixed cost
   double wideLogs = 0;
   int count = 0, wideCount = 0;
 };
 
-void run(test::Workload workload, int rounds, Means& means) {
+/// The operations of tests by separating axes.
+struct Operations {
+  std::uint64_t least = UINT64_MAX, most = 0, tests = 0;
+  std::uint64_t posing = 0;  ///< of each test: the pose of one box relative to the other
+  bench::OperationCounts sum;
+
+  void add(const bench::OperationCounts& n) {
+    least = std::min(least, n.total());
+    most = std::max(most, n.total());
+    ++tests;
+    sum.sums += n.sums, sum.products += n.products;
+    sum.comparisons += n.comparisons, sum.absolutes += n.absolutes;
+  }
+};
+
+/// The pair of boxes as `internal::BoxPair`, in numbers that count.
+struct CountedPair {
+  Eigen::Matrix<bench::Counted, 3, 3> R, absR;
+  Eigen::Matrix<bench::Counted, 3, 1> T;
+  CountedPair(const Obb& a, const Obb& b, const Transform& X_AB) {
+    using bench::Counted;
+    const auto inverse = a.axes.transpose().cast<Counted>().eval();
+    const auto m = X_AB.m.cast<Counted>().eval();
+    R = inverse * (m * b.axes.cast<Counted>()).eval();
+    absR = R.cwiseAbs();
+    T = inverse *
+        ((m * b.center.cast<Counted>() + X_AB.t.cast<Counted>()) - a.center.cast<Counted>()).eval();
+  }
+};
+
+void countOperations(const Recorded& r, Operations& operations) {
+  for (const Sample* sample : {&r.apart, &r.meet})
+    for (const BoxPair& p : sample->kept) {
+      const Transform& X_AB = r.w.poses[p.pose];
+      const BoxPairMargins margins =
+          boxPairMargins(r.boundsA().axisDefect, r.boundsA().centerReach, r.boundsB().axisDefect,
+                         r.boundsB().centerReach, X_AB);
+      bench::Counted::counts() = {};
+      const CountedPair pair(p.a, p.b, X_AB);
+      operations.posing = bench::Counted::counts().total();
+      const bool apart = internal::separated(pair, p.a.half.cast<bench::Counted>().eval(),
+                                             p.b.half.cast<bench::Counted>().eval(), margins, 0);
+      operations.add(bench::Counted::counts());
+      if (apart != (sample == &r.apart)) throw std::logic_error("counting changed a verdict");
+    }
+}
+
+void run(test::Workload workload, int rounds, Means& means, Operations& operations) {
   const Recorded r(std::move(workload));
+  countOperations(r, operations);
   const Ours<StandardOverlap> sat(r);
   const Ours<Gjk> gjk(r);
   const Ours<LinearProgram> lp(r);
@@ -315,6 +370,7 @@ void run(test::Workload workload, int rounds, Means& means) {
       std::printf(" %.0f, %.0f: %.2g |", costs[i].apart, costs[i].meet, ratio);
     means.logs[i] += std::log(ratio);
   }
+  means.satLogs += std::log(first);
   ++means.count;
   if (wideNs > 0) {
     std::printf(" %.1f: %.2g |", wideNs, wideNs / first);
@@ -342,16 +398,30 @@ void report(const bench::Arguments& arguments) {
   for (std::size_t i = 0; i < kTests + 2; ++i) std::printf("--:|");
   std::printf("\n");
   Means means;
+  Operations operations;
   if (arguments.data().empty()) {
-    run(made(), rounds, means);
+    run(made(), rounds, means, operations);
   } else {
     for (const std::string& name : arguments.workloads())
-      run(test::loadWorkload(arguments.data() / "collision", name), rounds, means);
+      run(test::loadWorkload(arguments.data() / "collision", name), rounds, means, operations);
   }
-  std::printf("\ngeometric means of the mixed cost over SAT's:");
-  for (std::size_t i = 1; i < kTests; ++i)
-    std::printf(" %s %.2f;", kNames[i], std::exp(means.logs[i] / means.count));
-  std::printf(" wide %.2f\n", std::exp(means.wideLogs / std::max(means.wideCount, 1)));
+  const double sat = std::exp(means.satLogs / means.count);
+  std::printf("\ntest,ns,ratio\n");
+  const auto print = [&](const char* name, double logs, int count) {
+    const double ratio = std::exp(logs / count);
+    if (count > 0 && ratio < HUGE_VAL) std::printf("\"%s\",%.2f,%.2f\n", name, sat * ratio, ratio);
+  };
+  for (std::size_t i = 0; i < kTests; ++i) print(kNames[i], means.logs[i], means.count);
+  print("wide", means.wideLogs, means.wideCount);
+  const auto n = static_cast<double>(operations.tests);
+  const auto mean = [&](std::uint64_t sum) { return static_cast<double>(sum) / n; };
+  std::printf("\noperations_least,mean,most,posing,sums,products,comparisons,absolutes\n");
+  std::printf("%llu,%.1f,%llu,%llu,%.1f,%.1f,%.1f,%.1f\n",
+              static_cast<unsigned long long>(operations.least), mean(operations.sum.total()),
+              static_cast<unsigned long long>(operations.most),
+              static_cast<unsigned long long>(operations.posing), mean(operations.sum.sums),
+              mean(operations.sum.products), mean(operations.sum.comparisons),
+              mean(operations.sum.absolutes));
 }
 
 }  // namespace

@@ -14,6 +14,9 @@
 ///   others overlapping by as much; along random directions.
 /// * `touching`: the same with a gap or depth of 1e-12 of the size.
 /// * `distance`, `depth`, `depth along`: of the disjoint, or the overlapping pairs.
+/// * the contact queries also by V-Clip, separating axes (up to 1000 vertices) and linear
+/// programming
+///   (up to 10^4), the distance also by V-Clip.
 /// * `polygon interference`: of two convex polygons of n vertices, in the same way.
 #include <cmath>
 #include <iomanip>
@@ -29,6 +32,9 @@
 #include "collision/convex/dobkin_kirkpatrick.h"
 #include "collision/convex/penetration.h"
 #include "collision/convex/polygon_intersection.h"
+#include "collision/convex/separating_axes.h"
+#include "collision/convex/separating_plane.h"
+#include "collision/convex/vclip.h"
 #include "tests/benchmark/arguments.h"
 #include "tests/benchmark/median_time.h"
 
@@ -91,6 +97,10 @@ Pair pairWith(Random& random, const DobkinKirkpatrick& a, const DobkinKirkpatric
   pair.X_WB = X;
   return pair;
 }
+
+/// The axes of larger polytopes take seconds, since their number is O(n²); likewise, the linear
+/// program of larger ones takes long, though O(n).
+constexpr std::size_t kMostForAxes = 1000, kMostForPrograms = 10'000;
 
 void measure(std::size_t n, std::size_t queries) {
   Random random(n);
@@ -159,6 +169,32 @@ void measure(std::size_t n, std::size_t queries) {
     time("depth along", deep, [&](const PosedSet& x, const PosedSet& y) {
       sink += penetrationAlong(x, y, {1, 2, 3}).upper > 1;
     });
+  }
+  const PolytopeFeatures featuresA(*fastA), featuresB(fastB);
+  const auto other = [&](const std::string& query, const std::string& by,
+                         const std::vector<Pair>& pairs, const auto& call) {
+    row(query, by, medianMicroseconds(pairs.size(), [&](std::size_t i) { call(pairs[i]); }));
+  };
+  const auto closest = [&](const Pair& pair) {
+    FeaturePair cold;
+    sink += closestFeatures(featuresA, pair.X_WA, featuresB, pair.X_WB, cold).distance.distance > 1;
+  };
+  other("distance", "V-Clip", apart, closest);
+  for (const auto& [query, pairs] :
+       {std::pair("interference", &clear), std::pair("touching", &touching)}) {
+    other(query, "V-Clip", *pairs, closest);
+    if (n <= kMostForAxes)
+      other(query, "separating axes", *pairs, [&](const Pair& pair) {
+        sink += separatingAxis(featuresA, pair.X_WA, featuresB, pair.X_WB).separated;
+      });
+    if (n <= kMostForPrograms)
+      other(query, "linear programming", *pairs, [&](const Pair& pair) {
+        std::vector<Vec3> x, y;
+        for (const Vec3& p : a.vertices()) x.push_back(pair.X_WA * p);
+        for (const Vec3& p : b.vertices()) y.push_back(pair.X_WB * p);
+        sink += separatingPlane<3>(std::span<const Vec3>(x), std::span<const Vec3>(y)).relation ==
+                HullRelation::disjoint;
+      });
   }
   // Convex polygons of n vertices, disjoint or overlapping by 5 % of the size.
   std::vector<Vec2> circle(n);

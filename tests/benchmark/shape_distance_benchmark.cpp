@@ -1,9 +1,11 @@
-/// Compares our distances of convex shapes with those of FCL's two solvers:
+/// Compares our distances and contacts of convex shapes with those of FCL's two solvers:
 /// `shape_distance_benchmark [SEED]`.
 ///
 /// For each pair of kinds and each gap, known by construction, it prints the median nanoseconds of
 /// a query with witness points (batches of 100 pairs, interleaved) and the largest error in metres.
 /// Shapes are some 1 m in size. `-` means that FCL reported contact of shapes that are apart.
+/// A second table has the median nanoseconds of a contact query, and the number of wrong verdicts
+/// of 100. A negative gap is a depth.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -14,10 +16,13 @@
 #include <vector>
 
 #ifdef CORRIDOR_WITH_FCL
+#include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/distance.h>
 #endif
 
+#include "collision/convex/convex_contact.h"
 #include "collision/convex/convex_distance.h"
+#include "collision/core/quantiles.h"
 #include "tests/collision/convex/touching_pairs.h"
 
 namespace corridor {
@@ -95,17 +100,25 @@ struct FclCase {
     fcl::distance(a.get(), X_WA, b.get(), X_WB, request, result);
     return result.min_distance;
   }
+  bool touch(fcl::GJKSolverType solver) const {
+    fcl::CollisionRequestd request(1, false);
+    request.gjk_solver_type = solver;
+    fcl::CollisionResultd result;
+    return fcl::collide(a.get(), X_WA, b.get(), X_WB, request, result) > 0;
+  }
 };
 #endif
 
 struct Competitor {
   const char* name;
-  std::function<double(std::size_t)> distance;
+  std::function<double(std::size_t)> ask;
   std::vector<double> ns{};
   double worst = 0;
+  int wrong = 0;  ///< contact queries only
 };
 
-void measure(test::Touching& make, Shape sa, Shape sb, double gap) {
+/// Returns pairs whose features are `gap` apart.
+std::vector<Case> casesOf(test::Touching& make, Shape sa, Shape sb, double gap) {
   std::vector<Case> cases;
   for (int i = 0; i < kBatch; ++i) {
     Case c{featureOf(make, sa), featureOf(make, sb), {}, {}};
@@ -115,6 +128,50 @@ void measure(test::Touching& make, Shape sa, Shape sb, double gap) {
     c.X_WB.t = (c.X_WB.t.cast<long double>() + normal.cast<long double>() * gap).cast<double>();
     cases.push_back(std::move(c));
   }
+  return cases;
+}
+
+/// Runs all competitors on all cases, interleaved. `check(competitor, answer)` is called for each
+/// answer.
+template <class Check>
+void race(std::vector<Competitor>& all, const Check& check) {
+  for (int round = 0; round < kRounds; ++round)
+    for (Competitor& who : all) {
+      std::vector<double> found(kBatch);
+      const auto start = std::chrono::steady_clock::now();
+      for (std::size_t i = 0; i < found.size(); ++i) found[i] = who.ask(i);
+      const std::chrono::duration<double, std::nano> took =
+          std::chrono::steady_clock::now() - start;
+      who.ns.push_back(took.count() / kBatch);
+      if (round == 0)
+        for (const double d : found) check(who, d);
+    }
+}
+
+void measureContact(test::Touching& make, Shape sa, Shape sb, double gap) {
+  const auto cases = casesOf(make, sa, sb, gap);
+  std::vector<Competitor> all;
+  all.push_back({"ours", [&](std::size_t i) {
+                   const Case& c = cases[i];
+                   return convexSetsTouch({c.a.part, c.X_WA}, {c.b.part, c.X_WB}) ? 1.0 : 0.0;
+                 }});
+#ifdef CORRIDOR_WITH_FCL
+  std::vector<FclCase> theirs;
+  for (const Case& c : cases)
+    theirs.push_back(
+        {fclShape(sa, c.a.part), fclShape(sb, c.b.part), fclPose(c.X_WA), fclPose(c.X_WB)});
+  for (const auto solver : {fcl::GST_LIBCCD, fcl::GST_INDEP})
+    all.push_back({solver == fcl::GST_LIBCCD ? "FCL libccd" : "FCL indep",
+                   [&, solver](std::size_t i) { return theirs[i].touch(solver) ? 1.0 : 0.0; }});
+#endif
+  race(all, [&](Competitor& who, double touch) { who.wrong += (touch > 0) != (gap < 0); });
+  std::printf("| %s, %s | %.0e |", kNames[int(sa)], kNames[int(sb)], gap);
+  for (Competitor& who : all) std::printf(" %.0f, %d |", medianOf(who.ns), who.wrong);
+  std::printf("\n");
+}
+
+void measure(test::Touching& make, Shape sa, Shape sb, double gap) {
+  const auto cases = casesOf(make, sa, sb, gap);
   std::vector<Competitor> all;
   all.push_back({"ours", [&](std::size_t i) {
                    const Case& c = cases[i];
@@ -132,24 +189,15 @@ void measure(test::Touching& make, Shape sa, Shape sb, double gap) {
   all.push_back({"FCL libccd", [&](std::size_t i) { return theirs[i].distance(fcl::GST_LIBCCD); }});
   all.push_back({"FCL indep", [&](std::size_t i) { return theirs[i].distance(fcl::GST_INDEP); }});
 #endif
-  for (int round = 0; round < kRounds; ++round)
-    for (Competitor& who : all) {
-      std::vector<double> found(cases.size());
-      const auto start = std::chrono::steady_clock::now();
-      for (std::size_t i = 0; i < cases.size(); ++i) found[i] = who.distance(i);
-      const std::chrono::duration<double, std::nano> took =
-          std::chrono::steady_clock::now() - start;
-      who.ns.push_back(took.count() / kBatch);
-      for (const double d : found)
-        who.worst = d > 0 ? std::max(who.worst, std::abs(d - gap)) : HUGE_VAL;
-    }
+  race(all, [&](Competitor& who, double d) {
+    who.worst = d > 0 ? std::max(who.worst, std::abs(d - gap)) : HUGE_VAL;
+  });
   std::printf("| %s, %s | %.0e |", kNames[int(sa)], kNames[int(sb)], gap);
   for (Competitor& who : all) {
-    std::nth_element(who.ns.begin(), who.ns.begin() + kRounds / 2, who.ns.end());
     if (std::isinf(who.worst))
-      std::printf(" %.0f, - |", who.ns[kRounds / 2]);
+      std::printf(" %.0f, - |", medianOf(who.ns));
     else
-      std::printf(" %.0f, %.0e |", who.ns[kRounds / 2], who.worst);
+      std::printf(" %.0f, %.0e |", medianOf(who.ns), who.worst);
   }
   std::printf("\n");
 }
@@ -167,8 +215,18 @@ int main(int argc, char** argv) {
 #endif
   std::printf("\n");
   test::Touching make(seed);
-  for (const double gap : {1.0, 1e-3})
+  const auto eachPair = [](const auto& run) {
     for (const test::Shape sa : test::kShapes)
       for (const test::Shape sb : test::kShapes)
-        if (sa <= sb && sb != test::Shape::triangle) measure(make, sa, sb, gap);
+        if (sa <= sb && sb != test::Shape::triangle) run(sa, sb);
+  };
+  for (const double gap : {1.0, 1e-3})
+    eachPair([&](test::Shape sa, test::Shape sb) { measure(make, sa, sb, gap); });
+  std::printf("\nns, wrong verdicts\n\n| pair | gap | ours |");
+#ifdef CORRIDOR_WITH_FCL
+  std::printf(" FCL libccd | FCL indep |");
+#endif
+  std::printf("\n");
+  for (const double gap : {1.0, 1e-3, -1e-3, -0.02})
+    eachPair([&](test::Shape sa, test::Shape sb) { measureContact(make, sa, sb, gap); });
 }

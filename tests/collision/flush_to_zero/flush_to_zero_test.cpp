@@ -1,5 +1,6 @@
 // Proofs must hold under flush-to-zero and denormals-are-zero. This program is linked with
 // -ffast-math, which sets both before `main`.
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -9,8 +10,11 @@
 #include <gtest/gtest.h>
 
 #include "collision/convex/dobkin_kirkpatrick.h"
+#include "collision/convex/exact_contact.h"
 #include "collision/convex/linear_program.h"
+#include "collision/convex/separating_axes.h"
 #include "collision/convex/separating_plane.h"
+#include "collision/convex/vclip.h"
 #include "collision/core/floating_point.h"
 #include "collision/motion/check_certificate.h"
 #include "tests/collision/motion/bodies.h"
@@ -56,9 +60,27 @@ TEST(FlushToZero, RelationsOfTinyHullsAreExact) {
     }
     const auto relation = separatingPlane<3>(p, q).relation;
     ASSERT_EQ(separatingPlane<3>(tinyP, tinyQ).relation, relation) << n;
+    const ConvexPart a{tinyP, 0, false}, b{tinyQ, 0, false};
+    ASSERT_EQ(convexHullsTouch({a, {}}, {b, {}}), relation != HullRelation::disjoint) << n;
     touching += relation == HullRelation::touching;
   }
   EXPECT_GT(touching, 10);
+}
+
+/// Contact of tiny polytopes is exact, by closest features and by separating axes.
+TEST(FlushToZero, ContactOfTinyPolytopesIsExact) {
+  std::vector<Vec3> cube;
+  for (int i = 0; i < 8; ++i) cube.push_back({tiny(i & 1), tiny(i >> 1 & 1), tiny(i >> 2)});
+  const Polytope box(cube);
+  const PolytopeFeatures features(box);
+  FeaturePair pair;
+  for (int n = 0; n < 125; ++n) {
+    const int at[] = {n % 5 - 2, n / 5 % 5 - 2, n / 25 - 2};
+    const Transform X{Mat3::Identity(), {tiny(at[0]), tiny(at[1]), tiny(at[2])}};
+    const bool touch = std::max({std::abs(at[0]), std::abs(at[1]), std::abs(at[2])}) <= 1;
+    EXPECT_EQ(separatingAxis(features, {}, features, X).separated, !touch) << n;
+    EXPECT_EQ(closestFeatures(features, {}, features, X, pair).distance.distance == 0, touch) << n;
+  }
 }
 
 TEST(FlushToZero, TinyLinearProgramsAreExact) {

@@ -52,10 +52,33 @@ TEST(TreeKinds, EveryNameHasItsOwnKind) {
   EXPECT_TRUE(is(TreeKind::shell, {"shell", "plain", "distances"}));
   EXPECT_TRUE(is(TreeKind::ellipsoid, {"ellipsoid", "hull", "contact"}));
   EXPECT_TRUE(is(TreeKind::hull, {"hull", "", "gjk"}));
-  EXPECT_EQ(treesNamed({"rss", "hull", ""}).fit, ObbFit::hull);
-  EXPECT_EQ(treesNamed({"rss", "vertices", ""}).fit, ObbFit::vertices);
-  EXPECT_EQ(treesNamed({"rss", "", ""}).fit, ObbFit::triangles);
-  EXPECT_EQ(treesNamed({"aabb", "plain", ""}).fit, ObbFit::triangles);
+  EXPECT_EQ(treesNamed({"rss", "hull", ""}).params.fit, ObbFit::hull);
+  EXPECT_EQ(treesNamed({"rss", "vertices", ""}).params.fit, ObbFit::vertices);
+  EXPECT_EQ(treesNamed({"rss", "", ""}).params.fit, ObbFit::triangles);
+  EXPECT_EQ(treesNamed({"aabb", "plain", ""}).params.fit, ObbFit::triangles);
+}
+
+TEST(TreeKinds, BinaryTreesAreBuiltInThreeWays) {
+  const auto params = [](const std::string& build) {
+    return treesNamed({"sphere", "", "", build}).params;
+  };
+  for (const char* topDown : {"", "top-down", "median"})
+    EXPECT_EQ(params(topDown).building, TreeBuilding::topDown) << topDown;
+  EXPECT_EQ(params("bottom-up").building, TreeBuilding::bottomUp);
+  EXPECT_EQ(params("").split, SplitRule::mean);
+  EXPECT_EQ(params("top-down").split, SplitRule::mean);
+  EXPECT_EQ(params("median").split, SplitRule::median);
+  for (const VolumeKind& volume : volumeKinds())
+    for (const char* build : {"top-down", "median", "bottom-up"})
+      EXPECT_EQ(complaint({volume.name, "", "", build}).empty(),
+                volume.name != "obb" || std::string(build) == "top-down")
+          << volume.name << build;
+  EXPECT_TRUE(complaint({"", "", "", "bottom-up"})
+                  .starts_with("build: \"bottom-up\" is for volumes obb-binary, aabb, "));
+  EXPECT_TRUE(complaint({"obb", "", "", "median"}).ends_with("; volume obb has: top-down"));
+  EXPECT_EQ(complaint({"aabb", "", "", "bottomup"}),
+            "build: unknown build \"bottomup\" (did you mean \"bottom-up\"?); volume aabb has: "
+            "top-down, median, bottom-up");
 }
 
 TEST(TreeKinds, HasDefaultOverlap) {
@@ -70,6 +93,8 @@ TEST(TreeKinds, HasDefaultOverlap) {
 TEST(TreeKinds, WithDefaults) {
   const TreeNames usual = withDefaults({}), ball = withDefaults({"sphere", "", ""}),
                   said = withDefaults({"obb-binary", "hull", "lp"});
+  EXPECT_EQ(usual.build + said.build, "top-downtop-down");
+  EXPECT_EQ(withDefaults({"rss", "", "", "median"}).build, "median");
   EXPECT_EQ(usual.volume + " " + usual.fit + " " + usual.overlap, "obb triangles sat");
   EXPECT_EQ(ball.volume + " " + ball.fit + " " + ball.overlap, "sphere plain centers");
   EXPECT_EQ(said.volume + " " + said.fit + " " + said.overlap, "obb-binary hull lp");
@@ -93,6 +118,27 @@ TEST(TreeKinds, WrongNamesAreReportedWithTheValidOnes) {
             "vertices, hull");
   EXPECT_THROW(treesNamed({"aabb", "hull", ""}), std::invalid_argument);
   EXPECT_THROW(withDefaults({"cone", "", ""}), std::invalid_argument);
+}
+
+TEST(TreeKinds, BodiesBuildTreesInTheChosenWay) {
+  std::mt19937_64 random(test::testSeed(52));
+  const TriangleMesh soup = test::soup(random, 300, 0.2);
+  std::vector<std::size_t> depths;
+  for (const char* build : {"top-down", "median", "bottom-up"}) {
+    const TreeChoice choice = treesNamed({"aabb", "", "", build});
+    const Body body("soup", soup, false, choice.params);
+    const VolumeTree<Aabb> own(soup, choice.params);
+    const auto& tree = body.volumeTree<Aabb>();
+    ASSERT_EQ(tree.nodes().size(), own.nodes().size()) << build;
+    for (std::uint32_t i = 0; i < own.nodes().size(); ++i)
+      ASSERT_TRUE(tree.node(i).count == own.node(i).count &&
+                  tree.node(i).right == own.node(i).right)
+          << build << i;
+    depths.push_back(tree.depth());
+  }
+  EXPECT_LT(depths[1], depths[0]) << "trees split at the median are balanced";
+  EXPECT_NE(depths[2], depths[0]);
+  EXPECT_NE(depths[2], depths[1]);
 }
 
 /// Each of a body's trees is built when a query first needs it, and only once, even if several

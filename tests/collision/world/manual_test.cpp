@@ -52,6 +52,16 @@ TEST(Manual, HowFarApart) {
   }
 }
 
+TEST(Manual, HowDeep) {
+  Cubes c;
+  for (const Body* other : {&c.mesh, &c.part}) {
+    const DepthBounds d = depthBounds(c.mesh, *other, at(0.75), {}, c.context);
+    EXPECT_LE(d.lower, 0.25);
+    EXPECT_NEAR(d.upper, 0.25, 1e-4);
+    EXPECT_EQ(depthBounds(c.mesh, *other, at(1.25), {}, c.context).upper, 0);
+  }
+}
+
 TEST(Manual, AtMostThatFarApart) {
   Cubes c;
   for (const Body* other : {&c.mesh, &c.part}) {

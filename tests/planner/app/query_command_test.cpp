@@ -1,5 +1,7 @@
 // Tests of `corridor query`: CSV on stdout, key=value on stderr, one line per fault.
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <iterator>
 #include <map>
 #include <sstream>
@@ -9,41 +11,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/planner/app/program_test.h"
+#include "tests/planner/app/query_fixture.h"
 #include "tests/support/workload.h"
 
 namespace {
 
-using corridor::test::ProgramTest;
+using corridor::test::kStill;
+using corridor::test::QueryCommand;
 using testing::Eq;
 using testing::HasSubstr;
-
-const std::string kStill = "1 0 0 0 1 0 0 0 1 ";  // the identity
-
-class QueryCommand : public ProgramTest {
- protected:
-  QueryCommand() {
-    write("a.obj", "v 0 0 0\nv 4 0 0\nv 0 4 0\nf 1 2 3\n");
-    write("b.obj", "v 1 1 -1\nv 1 1 1\nv 3 1 1\nf 1 2 3\n");
-    // In this order: b crosses a's face; a corner of b is on the face; b is just above the face; b
-    // crosses a's edge.
-    write("poses.txt", "# R t\n" + kStill +
-                           "0 0 0\n1,0,0,0,1,0,0,0,1,0,0,1  # comma separated\n\n" + kStill +
-                           "0 0 1.0000001\n" + kStill + "-1.5 0 0\n");
-  }
-  Result query(const std::string& more) const { return run("query a.obj b.obj " + more); }
-
-  static std::map<std::string, std::string> summary(const Result& result) {
-    std::map<std::string, std::string> values;
-    std::istringstream lines(result.err);
-    for (std::string line; std::getline(lines, line);) {
-      const auto at = line.find('=');
-      EXPECT_NE(at, line.npos) << line;
-      values[line.substr(0, at)] = line.substr(at + 1);
-    }
-    return values;
-  }
-};
 
 /// Two unit cubes, and every method.
 TEST_F(QueryCommand, Hulls) {
@@ -54,36 +30,28 @@ TEST_F(QueryCommand, Hulls) {
   write("a.obj", cube + "v 0.5 0.5 0.5\nf 1 2 3\nf 6 7 8\nf 4 5 9\n");  // one vertex is inside
   write("b.obj", cube + "f 1 2 3\nf 6 7 8\nf 4 5 6\n");
   write("poses.txt", kStill + "1.5 0 0\n" + kStill + "1 1 1\n" + kStill + "0.75 0 0.5\n");
-  for (const char* method : {"hierarchy", "climbing", "every-vertex", "lp"}) {
+  for (const char* method : {"hierarchy", "climbing", "every-vertex", "lp", "vclip", "axes"}) {
     const Result result = query(std::string("--poses poses.txt --hulls ") + method);
     EXPECT_EQ(result.status, 0) << result.err;
-    EXPECT_EQ(result.out, "pose,hit\n0,0\n1,1\n2,1\n") << method;
+    const auto rows = lines(result.out);
+    ASSERT_EQ(rows.size(), 4u);
+    EXPECT_EQ(rows[0], "pose,hit,steps");
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_TRUE(rows[i + 1].starts_with(std::array{"0,0,", "1,1,", "2,1,"}[i])) << method;
     const auto figures = summary(result);
     EXPECT_EQ(figures.at("hulls"), method);
     EXPECT_EQ(figures.at("vertices_a"), "8");
     EXPECT_EQ(figures.at("hits"), "2");
   }
-  const auto rows = [&](const std::string& options) {
-    const Result result = query(options);
-    EXPECT_EQ(result.status, 0) << result.err;
-    std::vector<std::vector<double>> all;
-    std::istringstream lines(result.out);
-    std::string line;
-    std::getline(lines, line);
-    while (std::getline(lines, line)) {
-      std::replace(line.begin(), line.end(), ',', ' ');
-      std::istringstream words(line);
-      all.emplace_back(std::istream_iterator<double>(words), std::istream_iterator<double>());
-    }
-    return all;
-  };
-  for (const char* method : {"hierarchy", "climbing", "every-vertex"}) {
+  for (const char* method : {"hierarchy", "climbing", "every-vertex", "vclip"}) {
     const auto d = rows(std::string("--poses poses.txt --query distance --hulls ") + method);
     ASSERT_EQ(d.size(), 3u);
-    ASSERT_EQ(d[0].size(), 12u);
+    ASSERT_EQ(d[0].size(), 13u);
     EXPECT_NEAR(d[0][1], 0.5, 1e-15);
     EXPECT_NEAR(d[0][3], 1, 1e-15);  // the normal
     EXPECT_EQ(d[1][1], 0);
+    EXPECT_GE(d[0][12], 1);  // steps
+    if (std::string(method) == "vclip") continue;
     const auto p = rows(std::string("--poses poses.txt --query depth --hulls ") + method);
     EXPECT_EQ(p[0][2], 0);
     EXPECT_LE(p[1][1], 1e-13);
@@ -92,6 +60,80 @@ TEST_F(QueryCommand, Hulls) {
     EXPECT_NEAR(p[2][1], p[2][2], 1e-12);
     EXPECT_NEAR(p[2][3], 1, 1e-15);
   }
+}
+
+/// The depth of two unit cubes, which are meshes.
+TEST_F(QueryCommand, DepthOfMeshes) {
+  std::string cube;
+  for (int i = 0; i < 8; ++i)
+    cube += "v " + std::to_string(i & 1) + " " + std::to_string(i >> 1 & 1) + " " +
+            std::to_string(i >> 2) + "\n";
+  cube += "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+  write("a.obj", cube);
+  write("b.obj", cube);
+  write("poses.txt", kStill + "1.5 0 0\n" + kStill + "0.75 0.1 0.2\n");
+  const auto best = rows("--poses poses.txt --query depth");
+  ASSERT_EQ(best.size(), 2u);
+  EXPECT_EQ(best[0], (std::vector<double>{0, 0, 0, 0, 0, 0, -1, -1}));
+  EXPECT_LE(best[1][1], 0.25);
+  EXPECT_GE(best[1][2], 0.25);
+  EXPECT_NEAR(best[1][2], 0.25, 1e-4);
+  EXPECT_NEAR(best[1][3], 1, 1e-12);
+  EXPECT_GE(best[1][6], 0);
+  const auto up = rows("--poses poses.txt --query depth --direction 0,0,3");
+  EXPECT_NEAR(up[1][2], 0.8, 1e-4);
+  EXPECT_EQ(up[1][5], 1);
+  const auto fault = [&](const std::string& options) {
+    const Result result = query("--poses poses.txt " + options);
+    EXPECT_EQ(result.status, 2) << options;
+    return result.err;
+  };
+  EXPECT_EQ(fault("--query depth --direction 0,0,0"),
+            "--direction: 0,0,0 is no direction; give a vector x,y,z\n");
+  EXPECT_EQ(fault("--direction 0,0,1"), "--direction: needs --query depth\n");
+  EXPECT_EQ(fault("--query depth --volume aabb"),
+            "--volume: can't be used with --query depth, which chooses its trees\n");
+}
+
+/// A box of many faces that moves past another in small steps: with --coherent the answers are the
+/// same, and take fewer steps.
+TEST_F(QueryCommand, CoherentHulls) {
+  std::string rings, poses;
+  for (int i = 0; i < 200; ++i) {
+    const double angle = 0.1 * i, tilt = 0.37 * i;
+    rings += "v " + std::to_string(std::cos(angle) * std::sin(tilt)) + " " +
+             std::to_string(std::sin(angle) * std::sin(tilt)) + " " +
+             std::to_string(std::cos(tilt)) + "\n";
+  }
+  for (int i = 1; i <= 198; ++i)
+    rings +=
+        "f " + std::to_string(i) + " " + std::to_string(i + 1) + " " + std::to_string(i + 2) + "\n";
+  write("a.obj", rings);
+  write("b.obj", rings);
+  for (int i = 0; i < 100; ++i)
+    poses += kStill + std::to_string(2.2 - 0.01 * i) + " " + std::to_string(0.01 * i) + " 0.3\n";
+  write("poses.txt", poses);
+  for (const std::string method : {"climbing", "vclip", "axes"})
+    for (const std::string query : {"interference", "distance"}) {
+      if (method == "axes" && query == "distance") continue;
+      const std::string options = "--poses poses.txt --hulls " + method + " --query " + query;
+      const Result cold = this->query(options), warm = this->query(options + " --coherent");
+      ASSERT_EQ(warm.status, 0) << warm.err;
+      const auto coldRows = lines(cold.out), warmRows = lines(warm.out);
+      ASSERT_EQ(warmRows.size(), 101u);
+      for (std::size_t i = 1; i <= 100; ++i) {
+        const auto second = [](const std::string& row) {
+          return std::stod(row.substr(row.find(',') + 1));
+        };
+        EXPECT_NEAR(second(coldRows[i]), second(warmRows[i]), 1e-11) << method << query << i;
+      }
+      const auto coldFigures = summary(cold), warmFigures = summary(warm);
+      EXPECT_EQ(warmFigures.at("hits"), coldFigures.at("hits"));
+      EXPECT_EQ(warmFigures.at("coherent"), "1");
+      EXPECT_EQ(coldFigures.at("coherent"), "0");
+      if (method == "climbing" && query == "interference") continue;
+      EXPECT_LT(std::stod(warmFigures.at("steps")), std::stod(coldFigures.at("steps"))) << method;
+    }
 }
 
 TEST_F(QueryCommand, HullsOnBadInput) {
@@ -107,11 +149,23 @@ TEST_F(QueryCommand, HullsOnBadInput) {
   EXPECT_THAT(fault("--hulls hirarchy"),
               HasSubstr("--hulls: unknown method \"hirarchy\" (did you mean \"hierarchy\"?)"));
   EXPECT_THAT(fault("--hulls lp --query depth"), HasSubstr("lp needs --query interference"));
+  EXPECT_THAT(fault("--hulls axes --query distance"), HasSubstr("axes needs --query interference"));
+  EXPECT_THAT(fault("--hulls vclip --query depth"),
+              HasSubstr("vclip needs --query interference or distance"));
+  EXPECT_EQ(fault("--hulls lp --coherent"),
+            "--coherent: can't be used with --hulls lp, which keeps nothing from pose to pose\n");
+  EXPECT_EQ(
+      fault("--hulls climbing --query depth --coherent"),
+      "--coherent: can't be used with --query depth, which keeps nothing from pose to pose\n");
+  EXPECT_EQ(fault("--coherent"), "--coherent: needs --hulls, which is not given\n");
   EXPECT_THAT(fault("--hulls climbing --query contacts"),
               HasSubstr("unknown query with --hulls: \"contacts\""));
   EXPECT_EQ(fault("--hulls climbing --volume aabb"),
             "--volume: can't be used with --hulls, which needs no trees\n");
-  EXPECT_EQ(fault("--query depth"), "--query: depth needs --hulls\n");
+  EXPECT_EQ(fault("--hulls climbing --query depth --direction 1,0,0"),
+            "--direction: is for the depth of meshes, not with --hulls\n");
+  EXPECT_EQ(fault("--hulls climbing --build median"),
+            "--build: can't be used with --hulls, which needs no trees\n");
 }
 
 TEST_F(QueryCommand, InterferenceIsOneLineAPose) {
@@ -130,6 +184,7 @@ TEST_F(QueryCommand, InterferenceIsOneLineAPose) {
   EXPECT_EQ(figures.at("volume"), "obb");
   EXPECT_EQ(figures.at("fit"), "triangles");
   EXPECT_EQ(figures.at("overlap"), "sat");
+  EXPECT_EQ(figures.at("build"), "top-down");
   EXPECT_FALSE(figures.at("simd").empty());
 }
 
@@ -156,7 +211,7 @@ TEST_F(QueryCommand, ContactsListTrianglesAndSegments) {
 
 TEST_F(QueryCommand, DistanceAndTolerance) {
   write("poses.txt", "\xEF\xBB\xBF" + kStill + "0 0 0\n" + kStill + "0 0 2\n");
-  EXPECT_EQ(lines(query("--poses poses.txt --query distance").out).at(2), "1,1,1,1,0,1,1,1");
+  EXPECT_EQ(lines(query("--poses poses.txt --query distance").out).at(2), "1,1,1,1,0,1,1,1,0,0,1");
   EXPECT_THAT(lines(query("--poses poses.txt --query distance").out).at(1),
               testing::StartsWith("0,0,"));
   const std::string tolerance = "--poses poses.txt --query tolerance --tolerance ";
@@ -307,12 +362,12 @@ TEST_F(QueryCommand, BadInputIsOneLineAndExit2) {
         "not read");
   fault("a.obj b.obj --poses poses.txt --query intereference",
         "--query: unknown query \"intereference\" (did you mean \"interference\"?); there are: "
-        "interference, contacts, distance, tolerance");
+        "interference, contacts, distance, tolerance, depth");
   fault("a.obj b.obj --poses poses.txt --volume obbb",
         "--volume: unknown volume \"obbb\" (did you mean \"obb\"?); there are: obb, obb-binary, "
         "aabb, sphere, "
         "rss, kdop14, kdop18, "
-        "kdop26, shell, ellipsoid, hull");
+        "kdop26, shell, ellipsoid, hull, octree");
   fault("a.obj b.obj --poses poses.txt --query tolerance",
         "--tolerance: is needed with --query tolerance: a distance in metres");
   fault("a.obj b.obj --poses poses.txt --tolerance 1",
@@ -325,6 +380,11 @@ TEST_F(QueryCommand, BadInputIsOneLineAndExit2) {
         "--overlap: \"gjk\" is for volumes obb-binary, hull; volume obb has: sat");
   fault("a.obj b.obj --poses poses.txt --volume aabb --fit hull",
         "--fit: \"hull\" is for volumes obb, obb-binary, rss, ellipsoid; volume aabb has: plain");
+  fault("a.obj b.obj --poses poses.txt --volume aabb --build bottum-up",
+        "--build: unknown build \"bottum-up\" (did you mean \"bottom-up\"?); volume aabb has: "
+        "top-down, median, bottom-up");
+  expectFaultThatBegins("query a.obj b.obj --poses poses.txt --build bottom-up",
+                        "--build: \"bottom-up\" is for volumes obb-binary, aabb, ");
   fault("a.obj b.obj --poses poses.txt --volume obb-binary --overlap gkj",
         "--overlap: unknown overlap \"gkj\" (did you mean \"gjk\"?); volume obb-binary has: sat, "
         "gjk, lp, edge-face");

@@ -97,8 +97,8 @@ TEST_F(QueryMotions, ClosedForms) {
   EXPECT_GE(std::stod(rows[2].at("t1")), t);
   EXPECT_THAT(result.err, testing::HasSubstr("motions=3\nfree=1\nhits=2\nundecided=0\n"));
   for (const char* key : {"edges=certified", "volume=obb\n", "fit=triangles", "overlap=sat",
-                          "median_ns=", "mean_ns=", "p95_ns=", "bv_tests=", "triangle_tests=",
-                          "build_ms_a=", "bytes_b=", "simd=", "tolerance="})
+                          "build=top-down\n", "median_ns=", "mean_ns=", "p95_ns=", "bv_tests=",
+                          "triangle_tests=", "build_ms_a=", "bytes_b=", "simd=", "tolerance="})
     EXPECT_THAT(result.err, testing::HasSubstr(key));
 }
 
@@ -124,11 +124,26 @@ TEST_F(QueryMotions, EveryVolumeFindsTheFirstContact) {
   const std::string motions =
       kStill + "0 0 1 " + kStill + "0 0 -2\n" + kStill + "-1 0 0.1 " + kStill + "1 0 0.1\n";
   std::set<std::string> tests;
-  for (const std::string trees :
-       {"obb", "obb-binary", "obb-binary --overlap gjk", "obb-binary --overlap lp --fit hull",
-        "obb-binary --overlap edge-face", "aabb", "sphere", "rss --fit vertices", "kdop14",
-        "kdop18", "kdop26", "shell", "ellipsoid --fit hull", "hull", "sphere --edges adaptive",
-        "kdop18 --edges advancement", "shell --edges adaptive", "ellipsoid --edges advancement"}) {
+  for (const std::string trees : {"obb",
+                                  "obb-binary",
+                                  "obb-binary --overlap gjk",
+                                  "obb-binary --overlap lp --fit hull",
+                                  "obb-binary --overlap edge-face",
+                                  "aabb",
+                                  "sphere",
+                                  "rss --fit vertices",
+                                  "kdop14",
+                                  "kdop18",
+                                  "kdop26",
+                                  "shell",
+                                  "ellipsoid --fit hull",
+                                  "hull",
+                                  "sphere --edges adaptive",
+                                  "kdop18 --edges advancement",
+                                  "shell --edges adaptive",
+                                  "ellipsoid --edges advancement",
+                                  "rss --build bottom-up",
+                                  "aabb --build median --edges adaptive"}) {
     SCOPED_TRACE(trees);
     const Result result = query(motions, "--volume " + trees);
     ASSERT_EQ(result.status, 0) << result.err;

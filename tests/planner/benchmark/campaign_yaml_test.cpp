@@ -131,7 +131,7 @@ TEST_F(CampaignYaml, CombinationsHaveALimit) {
       EXPECT_EQ(error.faults().front().line, line);
     }
   std::string many = std::string(kStart) + "checkers: {mine: {";
-  for (const char* key : {"edges", "resolution", "tolerance", "volume", "fit", "overlap"})
+  for (const char* key : {"edges", "resolution", "tolerance", "volume", "fit", "overlap", "build"})
     many += std::string(key) + ": " + list(100) + ", ";
   EXPECT_THROW(read(many + "peer: fcl}}\n"), InputError);
 }

@@ -15,12 +15,12 @@ namespace {
 
 using test::Rigid;
 
-/// Every volume with every overlap test.
+/// Every volume with every overlap test, and with the last way of building.
 std::vector<TreeNames> everyVolume() {
   std::vector<TreeNames> all;
   for (const VolumeKind& kind : volumeKinds())
     for (const std::string& overlap : kind.overlaps)
-      all.push_back({kind.name, kind.fits.back(), overlap});
+      all.push_back({kind.name, kind.fits.back(), overlap, kind.builds.back()});
   return all;
 }
 
@@ -28,6 +28,7 @@ Problem with(Problem problem, const TreeNames& words) {
   problem.settings.checker.trees.volume = words.volume;
   problem.settings.checker.trees.fit = words.fit;
   problem.settings.checker.trees.overlap = words.overlap;
+  problem.settings.checker.trees.build = words.build;
   return problem;
 }
 
@@ -89,6 +90,8 @@ TEST(CheckerVolumes, WrongWordsThrow) {
   EXPECT_EQ(message({"rss", "hull", "rectangles"}, "certified"), "");
   EXPECT_NE(message({"cone", "", ""}, "certified"), "");
   EXPECT_NE(message({"rss", "", "gjk"}, "discrete"), "");
+  EXPECT_EQ(message({"rss", "", "", "bottom-up"}, "certified"), "");
+  EXPECT_NE(message({"obb", "", "", "bottom-up"}, "certified"), "");
   EXPECT_EQ(message({"obb-binary", "", "gjk"}, "discrete"), "");
   EXPECT_EQ(message({"obb-binary", "", "sat"}, "adaptive"), "");
   EXPECT_EQ(message({"obb-binary", "", "gjk"}, "advancement"),

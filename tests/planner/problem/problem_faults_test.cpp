@@ -66,7 +66,7 @@ TEST_F(ProblemFaults, UnknownAndDuplicateKeys) {
   EXPECT_EQ(with("colour: red\n"), std::string("problem.yaml:8: unknown key \"colour\"") + topKeys);
   EXPECT_EQ(with("checker: {edges: discrete, rezolution: 0.1}\n"),
             "problem.yaml:8: unknown key \"rezolution\" in checker (did you mean \"resolution\"?) "
-            "(known: edges, resolution, tolerance, volume, fit, overlap)");
+            "(known: edges, resolution, tolerance, volume, fit, overlap, build)");
   EXPECT_EQ(with("clearance: 0.1\n"),
             std::string("problem.yaml:8: unknown key \"clearance\" (did you mean \"margin\"?)") +
                 topKeys);
@@ -94,7 +94,8 @@ TEST_F(ProblemFaults, AMistypedKeyIsNotAlsoMissing) {
       std::string("problem.yaml:2: unknown key \"robto\" (did you mean \"robot\"?)") + topKeys +
           "\nproblem.yaml:3: unknown key \"mehs\" in world.a (did you mean \"mesh\"?) (known: "
           "mesh, "
-          "box, sphere, capsule, cylinder, convex, points, octomap, unit, up, solid, at, rpy_deg, "
+          "box, sphere, capsule, cylinder, convex, polygon, points, octomap, unit, up, solid, "
+          "deviation, at, rpy_deg, "
           "rpy, quat_xyzw, "
           "shapes)");
 }
@@ -119,8 +120,8 @@ TEST_F(ProblemFaults, MissingKeys) {
   EXPECT_EQ(
       complaintOf("format: corridor-problem-1\nrobot: robot.yaml\nworld: {a: {unit: m}}\n" + poses),
       "problem.yaml:3: missing one shape in world.a: mesh: FILE, box: [x, y, z], sphere: radius, "
-      "capsule or cylinder: {radius: …, length: …}, convex: FILE, points: {file: …, "
-      "radius: …}, or octomap: {file: …}");
+      "capsule or cylinder: {radius: …, length: …}, convex: FILE, polygon: [[x, y], …], points: "
+      "{file: …, radius: …}, or octomap: {file: …}");
 }
 
 TEST_F(ProblemFaults, WrongTypes) {
@@ -159,9 +160,16 @@ TEST_F(ProblemFaults, WrongTypes) {
             "problem.yaml:8: checker.volume: one of obb, obb-binary, aabb, sphere, rss, kdop14, "
             "kdop18, kdop26, shell, ellipsoid, hull is needed, not \"spheres\" (did you mean "
             "\"sphere\"?)");
+  EXPECT_EQ(with("checker: {volume: octree}\n"),
+            "problem.yaml:8: checker.volume: octree can't prove motions: it has only `corridor "
+            "query --volume octree`, for interference of two meshes; choose another volume, such "
+            "as aabb");
   EXPECT_EQ(with("checker: {overlap: gkj}\n"),
             "problem.yaml:8: checker.overlap: one of sat, gjk, lp, edge-face, centers, rectangles, "
             "intervals, distances, contact is needed, not \"gkj\" (did you mean \"gjk\"?)");
+  EXPECT_EQ(with("checker: {volume: aabb, build: bottomup}\n"),
+            "problem.yaml:8: checker.build: one of top-down, median, bottom-up is needed, not "
+            "\"bottomup\" (did you mean \"bottom-up\"?)");
   EXPECT_EQ(with("planner: {stop: never}\n"),
             "problem.yaml:8: planner.stop: one of first, time is needed, not \"never\"");
   EXPECT_EQ(complaintOf(head + "start: {at: [1, 2, 3, 4]}\ngoal: {at: [1, x, 3]}\n"),
@@ -182,6 +190,10 @@ TEST_F(ProblemFaults, VolumesThatCannotBeCombined) {
             "problem.yaml:8: checker.fit: \"hull\" is for volumes obb, obb-binary, rss, ellipsoid; "
             "volume aabb "
             "has: plain");
+  EXPECT_THAT(with("checker: {build: bottom-up}\n"),
+              testing::AllOf(testing::StartsWith("problem.yaml:8: checker.build: \"bottom-up\" is "
+                                                 "for volumes obb-binary, aabb, "),
+                             testing::EndsWith("; volume obb has: top-down")));
   EXPECT_EQ(with("checker: {edges: adaptive, volume: obb-binary, overlap: gjk}\n"),
             "problem.yaml:8: checker.overlap: \"gjk\" can't be used with edges: adaptive, which "
             "measures distances between volumes; leave overlap out, or use edges: certified");
@@ -432,7 +444,8 @@ TEST_F(ProblemFaults, ReportsProblemAndRobotAtOnce) {
           topKeys +
           "\nproblem.yaml:9: seed: a whole number from 0 to 2^64 - 1 is needed, not \"x\"\n"
           "robot.yaml:3: unknown key \"unti\" in shapes[0] (did you mean \"unit\"?) (known: "
-          "mesh, box, sphere, capsule, cylinder, convex, points, octomap, unit, up, solid, at, "
+          "mesh, box, sphere, capsule, cylinder, convex, polygon, points, octomap, unit, up, "
+          "solid, deviation, at, "
           "rpy_deg, rpy, "
           "quat_xyzw, name)\n"
           "robot.yaml:3: shapes[0].mesh: gone.stl: no such file");

@@ -38,7 +38,7 @@ planner:
     goal_bias: "0.1"
 sampler: gaussian
 simplify: false
-checker: {edges: discrete, resolution: 0.02, tolerance: 1e-5, volume: obb-binary, fit: hull, overlap: gjk}
+checker: {edges: discrete, resolution: 0.02, tolerance: 1e-5, volume: obb-binary, fit: hull, overlap: gjk, build: median}
 allow: [[wedge, stone]]
 prefer: {clearance: 0, detour: 0.25}
 padding: {bodies: {wedge: 0.01, stone: 0.002}, pairs: [[rock, wedge, 0.03]]}
@@ -94,6 +94,7 @@ TEST_F(ProblemYaml, EveryKeyIsRead) {
   EXPECT_EQ(p.settings.checker.trees.volume, "obb-binary");
   EXPECT_EQ(p.settings.checker.trees.fit, "hull");
   EXPECT_EQ(p.settings.checker.trees.overlap, "gjk");
+  EXPECT_EQ(p.settings.checker.trees.build, "median");
   EXPECT_EQ(p.settings.seed, 18446744073709551615u);
   for (const std::string& key : problemKeys().at("").legal)
     if (key != "robots" && key != "base" && key != "moveit") {

@@ -21,8 +21,9 @@ Problem ownProblem(const std::string& name) {
 class OwnProblems : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(All, OwnProblems,
                          testing::Values("arm_at_shelf", "bug_trap", "cubicles", "gantry_bins",
-                                         "hook_maze", "piano", "rod_hole", "rover_door",
-                                         "snake_posts", "thin_plate", "twisted_tubes", "two_arms"),
+                                         "hook_maze", "piano", "polygon_maze", "rod_hole",
+                                         "rover_door", "snake_posts", "thin_plate", "twisted_tubes",
+                                         "two_arms"),
                          [](const auto& parameter) { return std::string(parameter.param); });
 
 TEST_P(OwnProblems, SolvedByItsDefaultsCertifiedAndVerified) {
@@ -41,7 +42,7 @@ TEST(OwnProblems, AllAreListedHere) {
   for (const auto& entry :
        std::filesystem::directory_iterator(std::filesystem::path(CORRIDOR_SOURCE_DIR) / "problems"))
     folders += std::filesystem::exists(entry.path() / "problem.yaml");
-  EXPECT_EQ(folders, 12);
+  EXPECT_EQ(folders, 13);
 }
 
 /// Slides and a moving base don't change the default range of an arm. Other robots have OMPL's.

@@ -24,6 +24,7 @@ TEST_P(SolveOnVolumes, PathsAreFoundAndProved) {
     problem.settings.checker.trees.volume = words.volume;
     problem.settings.checker.trees.fit = words.fit;
     problem.settings.checker.trees.overlap = words.overlap;
+    problem.settings.checker.trees.build = words.build;
     const SolveReport report = solveProblem(problem);
     ASSERT_EQ(report.outcome, SolveOutcome::solved) << checkerText << ": " << report.why;
     EXPECT_EQ(report.checker, checkerText);
@@ -41,6 +42,7 @@ TEST_P(SolveOnVolumes, PathsAreFoundAndProved) {
   solved("certified", {"kdop26", "", ""}, "certified, kdop26");
   solved("certified", {"obb-binary", "", ""}, "certified, obb-binary");
   solved("certified", {"obb-binary", "hull", "gjk"}, "certified, obb-binary, hull, gjk");
+  solved("certified", {"aabb", "", "", "bottom-up"}, "certified, aabb, bottom-up");
   solved("adaptive", {"rss", "", ""}, "adaptive, rss");
   solved("discrete", {"aabb", "", ""}, "discrete, resolution 0.001, aabb");
 }

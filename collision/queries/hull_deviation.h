@@ -1,0 +1,27 @@
+#pragma once
+
+#include "collision/convex/polytope.h"
+#include "collision/geometry/triangle_mesh.h"
+
+namespace corridor {
+
+/// How far the convex hull of a mesh is from the mesh, metres: the largest distance of a point of
+/// the hull's surface from the nearest point of the mesh.
+struct HullDeviation {
+  bool within = false;  ///< proved: the deviation is at most the given limit
+  double upper = 0;     ///< `within`: an upper bound, rounding included
+  double found = 0;     ///< the largest distance that was found, at the point `at`, up to rounding
+  Vec3 at = Vec3::Zero();
+};
+
+/// Tests whether the deviation of a hull from its mesh is at most `limit`.
+///
+/// Method: branch and bound. The distance from one triangle of the mesh is a convex function, so on
+/// a piece of the hull's surface it is largest at a corner of the piece. The triangle for which
+/// this is least bounds the deviation of the piece. A piece whose bound is above the limit is
+/// halved, unless a corner of it is farther than the limit from the mesh: this ends the search. So
+/// does the work limit of 10^6 pieces, with `within` false and `found` at most the limit.
+/// @pre all numbers are finite, the hull is that of the mesh's corners, and the limit is positive.
+HullDeviation hullDeviation(const Polytope& hull, const TriangleMesh& mesh, double limit);
+
+}  // namespace corridor

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "collision/core/query_context.h"
+#include "collision/hierarchy/body.h"
+#include "collision/queries/triangle_pair.h"
+
+namespace corridor {
+
+struct DepthOptions {
+  /// Directions along which b may leave a, in a's frame: not 0, finite, of any length. Empty: the
+  /// direction of the deepest pair, the direction between the centres, and the six axes of either
+  /// frame.
+  std::vector<Vec3> directions;
+  /// The depth along a direction is found to within this share of the sum of the bodies' sizes; at
+  /// least 2^-40, at most 1/4.
+  double accuracy = 0x1p-20;
+};
+
+/// Bounds of the penetration depth of two bodies that touch: the length of the shortest translation
+/// of b that separates them. Metres. 0, 0: the bodies are apart.
+struct DepthBounds {
+  /// No translation by less than `lower` separates the bodies. This is the largest least depth of a
+  /// pair of primitives (triangles or convex parts) that touch. If no primitives touch, because one
+  /// body is inside a solid mesh, it is the distance of the surfaces.
+  double lower = 0;
+  /// A translation by `upper` along `direction_A` separates the bodies; so does any longer one.
+  /// This is the least depth along the directions that were tried.
+  double upper = 0;
+  Vec3 direction_A = Vec3::Zero();       ///< in a's frame; of unit length, rounded
+  std::optional<PrimitivePair> deepest;  ///< the pair that gives `lower`, if primitives touch
+};
+
+/// Computes bounds of the penetration depth. Both hold in real arithmetic on the given doubles, for
+/// maps within 2^-20 of rotations.
+///
+/// The exact depth of bodies that are not convex is costly: it is a distance on the Minkowski sum,
+/// which may have n⁶ faces. The lower bound takes a pair of primitives at a time (`penetration` in
+/// convex/penetration.h). The upper bound is the first contact of b as it approaches from far away
+/// along a direction (`certifyMotion`), so b may be deeper in a than `lower` says, and may leave it
+/// by a shorter way than `upper` says.
+/// @param X_AB  the map from b's frame to a's.
+/// @throws std::invalid_argument for a map or a direction that is not finite, for a direction 0,
+/// and for an accuracy outside its limits.
+DepthBounds depthBounds(const Body& a, const Body& b, const Transform& X_AB,
+                        const DepthOptions& options, QueryContext& context);
+
+}  // namespace corridor

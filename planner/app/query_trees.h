@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+
+#include "collision/hierarchy/tree_kinds.h"
+
+/// The trees that the options of `corridor query` choose: those of hierarchy/tree_kinds.h, and the
+/// octree, which has interference queries only.
+namespace corridor::app {
+
+/// The name of the octree (hierarchy/octree.h) as a volume. It is none of `volumeKinds()`.
+inline constexpr const char* kOctree = "octree";
+
+/// Returns the words of --volume, --fit, --overlap and --build, with defaults instead of empty
+/// words. @throws InputError for a word that is unknown, or that the volume does not have.
+TreeNames chosenTrees(const TreeNames& words);
+
+/// Refuses a query that octrees don't have. @throws InputError
+/// @param trees as `chosenTrees` returns them. @param asked the query, for the message.
+void requireNoOctree(const TreeNames& trees, const std::string& asked);
+
+/// Refuses an --overlap other than the volume's default, for a query that computes distances
+/// between volumes and so runs no overlap test. @throws InputError
+/// @param of the options with which overlap tests are run. @param asked the name of the query.
+void requireDefaultOverlap(const TreeNames& trees, const std::string& of, const std::string& asked);
+
+}  // namespace corridor::app

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+#include "planner/problem/yaml_reader.h"
+#include "planner/robot/placed_shape.h"
+
+namespace corridor {
+
+/// Reads `polygon: [[x, y], …]`, a simple polygon in the plane z = 0, and moves it by X. Sets the
+/// shape's `polygon`, and its parts. Returns false if a fault was added.
+bool readPolygon(const YamlMap& map, const Transform& X, PlacedShape& shape);
+
+/// Translates a polygon, and makes its convex parts anew: corners are rounded to doubles. Returns
+/// why this is not possible, or "".
+std::string shiftPolygon(PlacedShape& shape, const Vec3& by);
+
+}  // namespace corridor

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "collision/geometry/convex_part.h"
+#include "collision/volumes/pair_tests.h"
+
+/// The surfaces of bounding volumes, for pictures only: rounded, without any guarantee. A volume of
+/// which a picture can be drawn has a function `outline`. A new volume adds one here.
+namespace corridor::view {
+
+/// Returns a convex part with the shape of a volume: points whose hull is swept by a sphere.
+ConvexPart outline(const Obb& box);
+ConvexPart outline(const Aabb& box);
+ConvexPart outline(const BoundingSphere& sphere);
+ConvexPart outline(const Rss& rss);
+template <int K>
+ConvexPart outline(const Kdop<K>& kdop);
+ConvexPart outline(const Ellipsoid& ellipsoid);
+ConvexPart outline(const Hull& hull);
+/// Returns the hull of the shell: its concave side is drawn flat.
+ConvexPart outline(const Shell& shell);
+
+}  // namespace corridor::view

@@ -1,0 +1,258 @@
+#include "planner/view/volume_picture.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <map>
+#include <numbers>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include "collision/convex/quickhull.h"
+#include "collision/hierarchy/obb4_tree.h"
+#include "collision/hierarchy/with_trees.h"
+#include "planner/view/projection.h"
+#include "planner/view/svg_faces.h"
+#include "planner/view/tessellate.h"
+#include "planner/view/volume_outline.h"
+
+namespace corridor {
+namespace {
+
+using view::Camera;
+using view::Face;
+
+constexpr double kWidth = 640, kBorder = 12;  // sizes of the picture, pixels
+/// Limits of the SVG text, bytes: the mesh, and all volumes together.
+constexpr std::size_t kMeshLimit = 50'000, kVolumesLimit = 40'000;
+/// Two faces of a volume that enclose a larger angle are separated by a line.
+constexpr double kCrease = 12 * std::numbers::pi / 180;
+
+/// The volumes of a level, as convex parts.
+struct Level {
+  std::vector<ConvexPart> volumes;
+  std::size_t levels = 0;
+};
+
+/// Collects the volumes of a level, and the leaves above it.
+/// @param items the root. @param below returns the children of an item. @param part returns its
+/// volume.
+template <class Item, class Below, class Part>
+Level levelOf(std::vector<Item> items, std::size_t level, const Below& below, const Part& part) {
+  std::vector<std::vector<Item>> all;
+  std::vector<Item> leaves;
+  while (!items.empty()) {
+    std::vector<Item> next;
+    for (const Item& item : items) {
+      const std::vector<Item> children = below(item);
+      next.insert(next.end(), children.begin(), children.end());
+    }
+    all.push_back(std::exchange(items, std::move(next)));
+  }
+  Level found{{}, all.size()};
+  const std::size_t last = std::min(level, all.size() - 1);
+  for (std::size_t i = 0; i <= last; ++i)
+    for (const Item& item : all[i])
+      if (i == last || below(item).empty()) found.volumes.push_back(part(item));
+  return found;
+}
+
+template <class Volume>
+constexpr bool hasOutline() {
+  return requires(const Volume& volume) {
+    view::outline(volume);
+  };
+}
+
+template <class Volume>
+Level levelOf(const VolumeTree<Volume>& tree, std::size_t level) {
+  const auto below = [&](std::uint32_t i) {
+    std::vector<std::uint32_t> children;
+    if (!tree.node(i).isLeaf()) children = {i + 1, tree.node(i).right};
+    return children;
+  };
+  return levelOf(std::vector<std::uint32_t>{0}, level, below,
+                 [&](std::uint32_t i) { return view::outline(tree.node(i).box); });
+}
+
+Level levelOf(const Obb4Tree& tree, std::size_t level) {
+  struct Item {
+    Obb1 box;
+    std::uint32_t child;
+  };
+  const auto below = [&](const Item& item) {
+    std::vector<Item> children;
+    if (Obb4Tree::isLeaf(item.child)) return children;
+    const Obb4Tree::Node& node = tree.nodes()[item.child];
+    for (std::uint32_t lane = 0; lane < Obb4Tree::kWidth; ++lane)
+      if (node.child[lane] != Obb4Tree::kNone)
+        children.push_back({boxOf(node, lane), node.child[lane]});
+    return children;
+  };
+  const auto part = [&](const Item& item) {
+    Obb box;
+    for (int k = 0; k < 3; ++k) {
+      for (int j = 0; j < 3; ++j) box.axes(k, j) = item.box.vectors[k][j];
+      box.center[k] = item.box.vectors[k][Obb4::kCenter] * tree.length() + tree.origin()[k];
+      box.half[k] = item.box.half[k] * tree.length();
+    }
+    return view::outline(box);
+  };
+  return levelOf(std::vector<Item>{{tree.root(), 0}}, level, below, part);
+}
+
+Level levelOf(const TriangleMesh& mesh, const TreeNames& words, std::size_t level) {
+  const TreeChoice choice = treesNamed(words);
+  if (choice.trees == TreeKind::obb4) return levelOf(Obb4Tree(mesh, choice.params.fit), level);
+  return withVolume(choice.trees, [&]<class Volume, class Overlap>() {
+    if constexpr (hasOutline<Volume>())
+      return levelOf(VolumeTree<Volume>(mesh, choice.params), level);
+    else
+      return Level{};
+  });
+}
+
+using Point2 = std::array<long, 2>;
+
+/// Returns the corners of the hull of projected points, in whole pixels (Andrew's monotone chain).
+std::vector<Point2> silhouette(const Camera& camera, const std::vector<Vec3>& points) {
+  std::vector<Point2> p;
+  for (const Vec3& x : points) {
+    const Vec3 seen = camera.project(x);
+    p.push_back({std::lround(seen.x()), std::lround(seen.y())});
+  }
+  std::sort(p.begin(), p.end());
+  p.erase(std::unique(p.begin(), p.end()), p.end());
+  if (p.size() < 3) return p;
+  const auto turnsLeft = [](const Point2& a, const Point2& b, const Point2& c) {
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) > 0;
+  };
+  std::vector<Point2> hull;
+  for (int pass = 0; pass < 2; ++pass) {
+    const std::size_t start = hull.size();
+    for (const Point2& q : p) {
+      while (hull.size() >= start + 2 && !turnsLeft(hull[hull.size() - 2], hull.back(), q))
+        hull.pop_back();
+      hull.push_back(q);
+    }
+    hull.pop_back();
+    std::reverse(p.begin(), p.end());
+  }
+  return hull;
+}
+
+/// Returns the visible edges between faces that enclose an angle, as an SVG path.
+std::string creases(const Camera& camera, const std::vector<Vec3>& points) {
+  std::map<std::array<std::uint32_t, 2>, Vec3> normals;
+  std::string path;
+  for (const auto& face : quickhull(points)) {
+    const Vec3 n = (points[face[1]] - points[face[0]])
+                       .cross(points[face[2]] - points[face[0]])
+                       .stableNormalized();
+    for (int i = 0; i < 3; ++i) {
+      const std::uint32_t a = face[i], b = face[(i + 1) % 3];
+      const auto other = normals.find({b, a});
+      if (other == normals.end()) {
+        normals[{a, b}] = n;
+        continue;
+      }
+      const double front =
+          std::max(n.dot(camera.towardsViewer()), other->second.dot(camera.towardsViewer()));
+      if (front <= 0 || n.dot(other->second) > std::cos(kCrease)) continue;
+      const Vec3 from = camera.project(points[a]), to = camera.project(points[b]);
+      char text[96];
+      std::snprintf(text, sizeof text, "M%ld %ldL%ld %ld", std::lround(from.x()),
+                    std::lround(from.y()), std::lround(to.x()), std::lround(to.y()));
+      path += text;
+    }
+  }
+  return path;
+}
+
+/// Draws one volume: its silhouette filled like glass, and its edges.
+std::string draw(const Camera& camera, const ConvexPart& volume, std::size_t number) {
+  const bool round = volume.radius > 0;
+  const std::vector<Vec3> points = round ? view::tessellated(volume).vertices : volume.points;
+  static const std::array<const char*, 6> colours = {"#2f6fbf", "#c2552d", "#3d8f4e",
+                                                     "#8a4fae", "#b8860b", "#20868c"};
+  std::string path;
+  for (const Point2& p : silhouette(camera, points))
+    path += (path.empty() ? "M" : "L") + std::to_string(p[0]) + " " + std::to_string(p[1]);
+  const char* colour = colours[number % colours.size()];
+  std::string svg = std::string("<path fill=\"") + colour + "\" stroke=\"" + colour + "\" d=\"" +
+                    path + "z\"/>\n";
+  if (const std::string lines = round ? "" : creases(camera, points); !lines.empty())
+    svg += std::string("<path fill=\"none\" stroke=\"") + colour + "\" d=\"" + lines + "\"/>\n";
+  return svg;
+}
+
+}  // namespace
+
+std::vector<std::string> drawnVolumes() {
+  std::vector<std::string> names;
+  for (const VolumeKind& kind : volumeKinds())
+    if (kind.trees == TreeKind::obb4 ||
+        withVolume(kind.trees, []<class Volume, class Overlap>() { return hasOutline<Volume>(); }))
+      names.push_back(kind.name);
+  return names;
+}
+
+VolumePicture volumePicture(const TriangleMesh& mesh, const TreeNames& trees, std::size_t level,
+                            const std::optional<ViewDirection>& from) {
+  constexpr double degree = std::numbers::pi / 180;
+  const auto [azimuth, elevation] = from.value_or(ViewDirection{-60 * degree, 38 * degree});
+  Camera camera(azimuth, elevation);
+  const Level found = levelOf(mesh, trees, level);
+  std::vector<Vec3> points = mesh.vertices;
+  for (const ConvexPart& volume : found.volumes) {
+    const std::vector<Vec3> own =
+        volume.radius > 0 ? view::tessellated(volume).vertices : volume.points;
+    points.insert(points.end(), own.begin(), own.end());
+  }
+  // A point, or a segment along the view, would have no extent in the picture.
+  Vec3 low = points.front(), high = low;
+  for (const Vec3& p : points) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  const double size = (high - low).maxCoeff(), least = size > 0 ? 1e-3 * size : 1;
+  for (int k = 0; k < 3; ++k)
+    for (const double side : {-least, least})
+      points.emplace_back(0.5 * (low + high) + side * Vec3::Unit(k));
+  camera.fit(points, kWidth, kBorder);
+  std::vector<Face> faces;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    cut(makeFace(camera, {mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)}, 'w'), faces);
+
+  char head[256];
+  std::snprintf(head, sizeof head,
+                "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %.0f %.0f\" "
+                "stroke-width=\".8\" stroke-linejoin=\"round\">\n",
+                camera.width(), camera.height());
+  std::string svg = std::string(head) + "<style>\n" +
+                    view::palette('w', {112, 118, 130}, {233, 232, 226}) +
+                    "</style>\n<rect width=\"100%\" height=\"100%\" fill=\"#fbfaf7\"/>\n";
+  svg += drawVisible(camera, faces, kMeshLimit) + "<g fill-opacity=\".13\" stroke-width=\"1\">\n";
+  // The farthest are drawn first. Colours go by the place in the tree, so that neighbours differ.
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t i = 0; i < found.volumes.size(); ++i) {
+    Vec3 sum = Vec3::Zero();
+    for (const Vec3& p : found.volumes[i].points) sum += p;
+    sum /= static_cast<double>(found.volumes[i].points.size());
+    order.emplace_back(sum.dot(camera.towardsViewer()), i);
+  }
+  std::sort(order.begin(), order.end());
+  VolumePicture picture{"", 0, found.volumes.size(), found.levels};
+  std::string volumes;
+  for (auto at = order.rbegin(); at != order.rend() && volumes.size() < kVolumesLimit; ++at) {
+    volumes.insert(0, draw(camera, found.volumes[at->second], at->second));  // nearest last
+    ++picture.drawn;
+  }
+  picture.svg = svg + volumes + "</g>\n</svg>\n";
+  return picture;
+}
+
+}  // namespace corridor
