@@ -1,6 +1,7 @@
 #include "collision/hierarchy/volume_tree.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -9,6 +10,14 @@
 #include "collision/volumes/pair_tests.h"
 
 namespace corridor {
+namespace {
+
+/// Returns the length, or infinity for NaN, which `std::max` could drop. Then no test separates.
+double orInfinite(double length) {
+  return length < HUGE_VAL ? length : HUGE_VAL;
+}
+
+}  // namespace
 
 template <BoundingVolume Volume>
 VolumeTree<Volume>::VolumeTree(const TriangleMesh& mesh, const TreeParams& params) : items_(mesh) {
@@ -43,9 +52,9 @@ template <BoundingVolume Volume>
 void VolumeTree<Volume>::measure() {
   bounds_ = {};
   for (Node& node : nodes_) {
-    node.radius = node.box.radius();
-    bounds_.axisDefect = std::max(bounds_.axisDefect, node.box.axisDefect());
-    bounds_.centerReach = std::max(bounds_.centerReach, node.box.centerReach());
+    node.radius = orInfinite(node.box.radius());
+    bounds_.axisDefect = std::max(bounds_.axisDefect, orInfinite(node.box.axisDefect()));
+    bounds_.centerReach = std::max(bounds_.centerReach, orInfinite(node.box.centerReach()));
   }
   const auto reach = [&](const Vec3& p, double r) {
     bounds_.reach = std::max(bounds_.reach, roundedUp(p.stableNorm() + r));

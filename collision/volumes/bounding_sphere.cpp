@@ -29,6 +29,7 @@ BoundingSphere BoundingSphere::around(const Obb& box, const Content& content) {
       farthest = reach;
       towards = d;
     });
+    if (farthest < 0) break;  // the centre is NaN, after an overflow
     // Eight roundings: the difference, three squares, two sums, the root, and the sum with r.
     const double size = roundedUp(farthest * unit);
     if (size < best.size) best = {center, size};

@@ -17,6 +17,8 @@ constexpr int kSteps = 12;
 /// If the swept spheres and the distance to be proved exceed this share of the semi-axes, inflated
 /// ellipsoids are a bad approximation, and a second search by simplices follows.
 constexpr double kRound = 0x1p-6;
+/// An upper bound of what underflow takes from both norms of a gap. Gaps below it are not proved.
+constexpr double kNorms = 0x1p-500;
 
 /// A pair of ellipsoids in the coordinates of ellipsoid a, with a test along a given direction that
 /// does not depend on how the direction was found.
@@ -37,7 +39,7 @@ class EllipsoidPair {
   }
 
   /// False: nothing can be proved for such sizes, or for maps that are far from rigid.
-  bool usable() const { return size_ > kTiny && slack_ < HUGE_VAL && relative_ < 1; }
+  bool usable() const { return size_ > kNorms && slack_ < HUGE_VAL && relative_ < 1; }
   double radii() const { return radii_; }
   double best() const { return best_; }  ///< the widest gap proved so far, metres; or 0
 
@@ -104,11 +106,11 @@ class EllipsoidPair {
 
  private:
   double gapOf(const Vec3& n, double reachA, double reachB) const {
-    const double gap = (n.dot(T_) - reachA - reachB - kTiny) / n.norm() - slack_;
+    const double gap = (n.dot(T_) - reachA - reachB - kNorms) / n.norm() - slack_;
     return roundedDown(gap * (1 - relative_));
   }
   void along(const Vec3& direction) {
-    const Vec3 n = direction / direction.cwiseAbs().maxCoeff();  // so that kTiny covers underflow
+    const Vec3 n = direction / direction.cwiseAbs().maxCoeff();  // so that kNorms covers underflow
     const double reachA = a_.cwiseProduct(n).norm(),
                  reachB = b_.cwiseProduct(R_.transpose() * n).norm();
     const double gap = gapOf(n, reachA, reachB);

@@ -21,7 +21,9 @@ namespace corridor {
 /// the gap is n·T − |D_a n| − |D_b Rᵀn| minus the radii times |n|, with D the diagonal matrices of
 /// the semi-axes. This uses no orthogonality. It takes 14 roundings of terms whose sum is below
 /// |n|(|T|₁ + Σa + Σb), and `relative` includes 16u for them. The radii of the swept spheres grow
-/// by at most the factor 1 + `relative`, as for `Rss`.
+/// by at most the factor 1 + `relative`, as for `Rss`. Directions have a largest entry of at least
+/// 1/2. Underflow makes each of the two norms too small by less than 2^-510, as it takes less than
+/// 2^-1020 from the sum of squares; 2^-500 in the gap covers this and the underflow of products.
 template <>
 class PairTest<Ellipsoid> {
  public:

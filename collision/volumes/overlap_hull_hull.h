@@ -15,9 +15,10 @@ namespace corridor {
 /// * Mᵀn: 3.1uF, which is 3.1uFρ_B in its product with q. That product: 3.1uFρ_B. n·t: 3.1u|t|.
 ///   n·p: 3.1uρ_A.
 /// * three sums: 4u(ρ_A + Fρ_B + |t|).
-/// In total below 12u(ρ_A + Fρ_B + |t|). It is computed once per query, with 16u. The radii get the
-/// factor 1 + `relative` of `boxPairMargins`, as for `Rss`. `roundedDown` covers the division by
-/// |n|.
+/// In total below 12u(ρ_A + Fρ_B + |t|). It is computed once per query, with 16u. The rest covers
+/// two more terms: the roundings of the slack itself, and 5u·`error`, as |n| may exceed 1. A gap
+/// can only be proved if `error` < |t| + ρ_A + 1.001ρ_B, and F ≥ 1.7. The radii get the factor 1 +
+/// `relative` of `boxPairMargins`, as for `Rss`. `roundedDown` covers the division by |n|.
 template <>
 class PairTest<Hull> {
  public:

@@ -18,7 +18,9 @@ namespace corridor {
 ///
 /// The unit vectors v of a cone have a largest product g(m) = max m·v with any m: |m| if m is in
 /// the cone, else (m·axis + slope·|m × axis|)/√(1 + slope²). The least product is −g(−m). As
-/// computed, g is off by less than 24u|m|.
+/// computed, g is off by less than 24u|m|, and by less than 2^-508 more if squares underflow.
+/// Below, this adds less than 2^-507·outer to a square: less than 2u·outer² if outer > 2^-455, else
+/// less than the 2^-960 that the slack of a square includes.
 ///
 /// Distances: the squared distance from c_A of a point of b at s from its centre is
 /// |T|² + 2s(MᵀT)·v + s²|Mv|², where |Mv|² is within 3η of 1. The largest is at s = inner or outer,

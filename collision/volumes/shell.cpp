@@ -56,13 +56,15 @@ double volumeOf(const Shell& shell, double unit) {
 ///
 /// All lengths are computed in the unit, from d = p − center, which is off by u|d|. Dot and cross
 /// products with the axis, of length 1 up to 2u, are off by less than 8u|d|, and so are projections
-/// on another direction. 32u|d| covers them and the norms. kTiny covers underflow.
+/// on another direction. 32u|d| covers them and the norms. Underflow takes less than kTiny
+/// metres from a difference, and less than 2^-510 units from the squares of a norm; `tiny` covers
+/// both.
 Shell shellAbout(const Vec3& center, const Vec3& towards, const Content& content, double unit) {
   Shell shell;
   shell.center = center;
   const auto local = [&](const Vec3& p) -> Vec3 { return (p - center) / unit; };
-  const double tiny = kTiny / unit;
-  double outer = 0;
+  const double tiny = kTiny / unit + 0x1p-500;
+  double outer = center.allFinite() ? 0 : HUGE_VAL;  // a NaN distance would be dropped below
   content.forEach([&](const Vec3& p, double r) {
     outer = std::max(outer, local(p).norm());
     shell.size = std::max(shell.size, r);

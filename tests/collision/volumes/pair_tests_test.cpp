@@ -1,11 +1,14 @@
 #include "collision/volumes/pair_tests.h"
 
+#include <cmath>
 #include <random>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include "collision/predicates/triangle_contact.h"
 #include "tests/collision/hierarchy/volumes.h"
+#include "tests/support/floating_point.h"
 #include "tests/support/reference_distance.h"
 #include "tests/support/soups.h"
 #include "tests/support/support.h"
@@ -86,7 +89,7 @@ struct Fitted {
             content)),
         bounds{volume.axisDefect(), volume.centerReach(), 0} {
     for (const Triangle& t : content)
-      for (const Vec3& p : t) bounds.reach = std::max(bounds.reach, roundedUp(p.norm()));
+      for (const Vec3& p : t) bounds.reach = std::max(bounds.reach, roundedUp(p.stableNorm()));
   }
 };
 
@@ -158,6 +161,74 @@ TYPED_TEST(PairTests, ShearsAreNoRotations) {
     const PairTest<TypeParam> test(a.bounds, b.bounds, X_AB, 0);
     ASSERT_LE(test.distanceBound(a.volume, b.volume), distance) << n << ", shear " << shear;
     ASSERT_FALSE(test.separated(a.volume, b.volume, distance)) << n << ", shear " << shear;
+  }
+}
+
+/// Scales a pair by 2^exponent.
+Meeting scaled(Meeting m, int exponent) {
+  const auto scale = [&](double x) { return std::ldexp(x, exponent); };
+  for (std::vector<Triangle>* side : {&m.a, &m.b})
+    for (Triangle& t : *side)
+      for (Vec3& p : t) p = p.unaryExpr(scale);
+  m.X_AB.t = m.X_AB.t.unaryExpr(scale);
+  // Subnormal coordinates are rounded by 2^-1075 at most.
+  m.distance = scale(m.distance) + 0x1p-1070;
+  return m;
+}
+
+/// Squares of lengths underflow or overflow at these scales. No bound may exceed the distance of
+/// two points of the contents, also if the processor flushes subnormal numbers to zero.
+TYPED_TEST(PairTests, NoFalseSeparationAtExtremeScales) {
+  std::mt19937_64 random(test::testSeed(46));
+  for (int n = 0; n < 150; ++n) {
+    const double gap = n % 3 ? std::pow(10.0, -(n % 16)) : 0;
+    const Meeting unit = meeting(random, n, gap, 1);
+    for (const int exponent : {-990, -800, -520, 700}) {
+      const Meeting m = scaled(unit, exponent);
+      for (const bool flush : {false, true}) {
+        bool separated = false, tooFar = false;
+        {
+          const test::WithFloatingPoint mode({.name = "", .flushToZero = flush});
+          const Fitted<TypeParam> a(m.a), b(m.b);
+          const PairTest<TypeParam> test(a.bounds, b.bounds, m.X_AB, 0);
+          separated = test.separated(a.volume, b.volume, m.distance);
+          tooFar = test.distanceBound(a.volume, b.volume) > m.distance;
+        }
+        ASSERT_FALSE(separated) << n << ", 2^" << exponent << ", flush to zero: " << flush;
+        ASSERT_FALSE(tooFar) << n << ", 2^" << exponent << ", flush to zero: " << flush;
+      }
+    }
+  }
+}
+
+bool touch(const std::vector<Triangle>& a, const std::vector<Triangle>& b, const Transform& X_AB) {
+  for (const Triangle& s : a)
+    for (const Triangle& t : b)
+      if (trianglesTouch(s, {}, t, X_AB)) return true;
+  return false;
+}
+
+/// A mesh and a shifted copy that share points, from huge coordinates to subnormal ones.
+TYPED_TEST(PairTests, OverlappingCopiesAreNotSeparatedAtAnyScale) {
+  for (int exponent = -1070; exponent <= 1000; exponent += 10) {
+    const double s = std::ldexp(1.0, exponent);
+    const Vec3 p(-s, -s, -s), q(s, -s, s), r(-s, s, s), t(s, s, -s);
+    const std::vector<Triangle> mesh = {{p, q, r}, {t, q, r}, {t, p, r}};
+    const Transform X_AB{Mat3::Identity(), Vec3(0.5, 0.25, 0.125) * s};
+    ASSERT_TRUE(touch(mesh, mesh, X_AB)) << "2^" << exponent;
+    for (const bool flush : {false, true}) {
+      bool separated = false;
+      double bound = 0;
+      {
+        const test::WithFloatingPoint mode({.name = "", .flushToZero = flush});
+        const Fitted<TypeParam> fitted(mesh);
+        const PairTest<TypeParam> test(fitted.bounds, fitted.bounds, X_AB, 0);
+        separated = test.separated(fitted.volume, fitted.volume, 0);
+        bound = test.distanceBound(fitted.volume, fitted.volume);
+      }
+      ASSERT_FALSE(separated) << "2^" << exponent << ", flush to zero: " << flush;
+      ASSERT_EQ(bound, 0) << "2^" << exponent << ", flush to zero: " << flush;
+    }
   }
 }
 
