@@ -283,7 +283,7 @@ ConvexDistance separatedDistance(const PosedSet& a, const PosedSet& b, const Con
       [](const auto& upper, const auto& lower) { return static_cast<double>(upper - lower) <= 0; },
       [](const Vec3&, double, std::uint32_t, std::uint32_t) { return false; });
   ConvexDistance result = pair.apart(search, false);
-  result.lower = std::max(0.0, result.lower);
+  result.lower = result.lower > 0 ? result.lower : 0;  // NaN if no gap was found
   result.exact = true;
   return result;
 }

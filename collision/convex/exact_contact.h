@@ -13,13 +13,15 @@ namespace corridor {
 /// Method: GJK proves most pairs to be apart (`convexSetsTouch`). Its last four corners prove most
 /// pairs to overlap. A linear program in rationals decides the rest: the normal of a separating
 /// plane, on a few corners of the Minkowski difference. The corner that the plane violates most is
-/// added until there is none. Each takes milliseconds.
+/// added until there is none. A pair that needs rationals takes milliseconds.
 /// @param cache  if not null, of the same two sets.
-/// @throws std::invalid_argument if a set has a sphere or a disc, or a number is not finite.
+/// @throws std::invalid_argument if a set has a sphere or a disc, or a map is not finite, unless
+/// GJK proves the sets to be apart.
 bool convexHullsTouch(const PosedSet& a, const PosedSet& b, ConvexCache* cache = nullptr);
 
 /// The same, after GJK has found contact: decides whether the hulls do touch.
 /// @param found  the cache that this search kept.
+/// @throws std::invalid_argument if a set has a sphere or a disc, or a map is not finite.
 bool confirmContact(const PosedSet& a, const PosedSet& b, const ConvexCache& found);
 
 /// Returns a common point of the two sets, if the four corners of a cache prove at these poses that

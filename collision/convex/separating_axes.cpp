@@ -45,9 +45,11 @@ struct Plane {
 class Posed {
  public:
   Posed(const PolytopeFeatures& polytope, const Transform& X) : shape(polytope), X_(X) {
-    const double norm = X.m.norm();
-    if (!X.t.allFinite() || !(X.m.determinant() > 0x1p-40 * norm * norm * norm))
-      throw std::invalid_argument("separating axes need finite maps that do not mirror or flatten");
+    // The determinant is that of a matrix with norm 1, so no scale overflows or vanishes. A norm of
+    // 0 gives NaN, which is refused.
+    if (!X.t.allFinite() || !(Mat3(X.m / X.m.stableNorm()).determinant() > 0x1p-40))
+      throw std::invalid_argument(
+          "separating axes need finite maps that do not mirror, and do not flatten or nearly do");
     const auto vertices = shape.set().points;
     points_.reserve(vertices.size());
     double largest = 0;

@@ -12,7 +12,7 @@ struct SeparatingAxis {
   /// If separated, what proves it. A face of one and a vertex of the other: the vertex is beyond
   /// the plane of the face, and no point of its polytope is nearer to the plane. Or two edges: the
   /// two planes through them that are parallel to both have the polytopes on their outer sides.
-  /// (`Kind::face` of a, `Kind::face` of b, or two of `Kind::edge`.)
+  /// So `a` is a face and `b` a vertex, or the other way round, or both are edges.
   Feature a, b;
   Vec3 normal_W = Vec3::Zero();  ///< the axis, from a to b: unit, rounded; zero if not separated
   std::size_t faces = 0;         ///< number of axes tested that are normals of faces
@@ -35,7 +35,8 @@ struct SeparatingAxis {
 /// Cost: O(F V) for the faces, and O(F E + E²) for the edges. That pays for small polytopes only
 /// (README.md). Memory: O(V + F), allocated in each query.
 /// @param first  if not null, the features of an earlier answer, whose axis is tested first.
-/// @throws std::invalid_argument if a map mirrors or flattens, or is not finite.
+/// @throws std::invalid_argument if a map is not finite, mirrors, or flattens or nearly does: if
+/// its determinant is at most 2^-40·‖M‖_F³, computed in double.
 SeparatingAxis separatingAxis(const PolytopeFeatures& a, const Transform& X_WA,
                               const PolytopeFeatures& b, const Transform& X_WB,
                               const SeparatingAxis* first = nullptr);

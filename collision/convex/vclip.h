@@ -19,9 +19,9 @@ struct FeaturePair {
 /// The distance of two polytopes, and what it cost.
 struct ClosestFeatures {
   ConvexDistance distance;
-  /// The distance of the pair's features is that of the polytopes, up to 1e-10 of it and 2^-42 of
-  /// the largest coordinate. False if the polytopes touch, or if the walk has failed. Then the pair
-  /// is only a start for the next query.
+  /// The distance of the pair's features is that of the polytopes, up to 1e-10 of it and 2^-40 of
+  /// the largest coordinate. This holds for coordinates that are 0 or within 2^±440 m. False if the
+  /// polytopes touch, or if the walk has failed. Then the pair is only a start for the next query.
   bool closest = false;
   int steps = 0;   ///< pairs of features that V-Clip visited
   int rounds = 0;  ///< rounds of GJK: the proof; none if the last proof of an overlap still holds
@@ -33,7 +33,9 @@ struct ClosestFeatures {
 /// * `distance.distance` is 0 if and only if the polytopes touch, in real arithmetic on the given
 ///   doubles (exact_contact.h).
 /// * Otherwise the distance, its lower bound and the witness points are those that
-///   `convexDistance` promises, with the error 1e-12·d + 4·2^-53·S.
+///   `convexDistance` promises, with the error 1e-12·d + 4·2^-53·S. This holds for coordinates that
+///   are 0 or within 2^±440 m. If the gap is below the rounding of double-double, `lower` may be 0,
+///   and then `normal_W` may be zero.
 /// * It ends: the walk has a limit of steps, and notices when it repeats a pair.
 ///
 /// Method: B. Mirtich, V-Clip: fast and robust polyhedral collision detection, ACM TOG 17(3), 1998,

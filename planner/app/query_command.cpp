@@ -388,15 +388,14 @@ void addQuery(CLI::App& program, int& status) {
       ->add_option(
           "--hulls", a.hulls,
           "take A and B as the convex hulls of their vertices, which must not all be on one "
-          "plane, with --query interference, distance or depth. The method finds the vertex that "
-          "is farthest along a "
-          "direction: " +
+          "plane, with --query interference, distance or depth. The methods: " +
               joined(hullMethods()) +
-              ". The last three do not use it. lp tests for a separating plane by linear "
-              "programming, on the rounded vertices of B at each pose. vclip finds the closest "
-              "vertices, edges or faces (no depth). axes tests the normals of faces and the "
-              "products "
-              "of edges; it is for small hulls (interference only)")
+              ". hierarchy, climbing and every-vertex differ in how they find the vertex that is "
+              "farthest along a direction. The others are other algorithms. lp tests for a "
+              "separating plane by linear programming, on the rounded vertices of B at each pose "
+              "(interference only). vclip finds the closest vertices, edges or faces (no depth). "
+              "axes tests the normals of faces and the products of edges (interference only); its "
+              "time grows with the product of the numbers of edges, so it is for small hulls")
       ->group(asked);
   command
       ->add_flag(

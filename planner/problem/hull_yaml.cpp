@@ -1,10 +1,12 @@
 #include "planner/problem/hull_yaml.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <optional>
 #include <stdexcept>
 
+#include "collision/core/shortest.h"
 #include "collision/queries/hull_deviation.h"
 
 namespace corridor {
@@ -14,11 +16,18 @@ namespace {
 /// parts in float, and of rounded coordinates, are within it; no visible hollow is.
 constexpr double kDefaultDeviation = 1e-4;
 
-/// Returns the length in metres with three digits, rounded up or down.
+/// A `deviation` below this share of the largest coordinate may be impossible to prove.
+/// `hullDeviation` adds 2^-44 of this coordinate to each distance, for its rounding; 2^-40 leaves
+/// room for the distances.
+constexpr double kProvableShare = 0x1p-40;
+
+/// Returns the length in metres with three digits, rounded up or down. A length that is a decimal
+/// of three digits, up to 1e-12 of it, is not rounded down. Rounding up includes the rounding of
+/// this function.
 std::string metres(double length, bool up) {
-  if (!(length > 0)) return "0 m";
+  if (!(length >= 1e-300)) return up && length > 0 ? "1e-300 m" : "0 m";
   const double unit = std::pow(10.0, std::floor(std::log10(length)) - 2);
-  const double digits = length / unit;
+  const double digits = length / unit * (1 + 1e-12);
   char text[32];
   std::snprintf(text, sizeof text, "%.3g m", (up ? std::ceil(digits) : std::floor(digits)) * unit);
   return text;
@@ -26,16 +35,26 @@ std::string metres(double length, bool up) {
 
 }  // namespace
 
-std::optional<bool> readHullKey(const YamlMap& map) {
+bool isBoolean(const YamlValue& value) {
+  return value.kind == YamlValue::Kind::Scalar && value.isPlain &&
+         (value.text == "true" || value.text == "false");
+}
+
+HullKey readHullKey(const YamlMap& map) {
   const YamlValue* convex = map.find("convex");
-  const bool isKey =
-      map.find("mesh") && convex && (convex->text == "true" || convex->text == "false");
-  const bool hull = isKey && convex->text == "true";
-  if (hull && map.find("solid"))
+  HullKey key = HullKey::none;
+  if (map.find("mesh") && convex) {
+    if (!isBoolean(*convex)) {
+      map.fault("convex", "beside mesh, true or false is needed, not " + described(*convex));
+      return HullKey::faulty;
+    }
+    key = convex->text == "true" ? HullKey::hull : HullKey::mesh;
+  }
+  if (key == HullKey::hull && map.find("solid"))
     map.fault("solid", "is for meshes without convex: true; a convex hull is always solid");
-  if (!hull && map.find("deviation"))
+  if (key != HullKey::hull && map.find("deviation"))
     map.fault("deviation", "is for meshes with convex: true, whose convex hull is the model");
-  return isKey ? std::optional(hull) : std::nullopt;
+  return key;
 }
 
 bool replaceByHull(const YamlMap& map, PlacedShape& shape) {
@@ -53,10 +72,12 @@ bool replaceByHull(const YamlMap& map, PlacedShape& shape) {
     points.push_back(p);
   }
   double limit = kDefaultDeviation * (upper - lower).maxCoeff();
+  std::string allowed = metres(limit, false);
   if (map.find("deviation")) {
     const auto given = map.number("deviation", Range::Positive);
     if (!given) return false;
     limit = *given;
+    allowed = shortest(limit) + " m";
   }
   std::optional<Polytope> hull;
   try {
@@ -66,24 +87,37 @@ bool replaceByHull(const YamlMap& map, PlacedShape& shape) {
     return false;
   }
   const HullDeviation deviation = hullDeviation(*hull, mesh, limit);
+  if (!std::isfinite(limit) || !std::isfinite(deviation.found) ||
+      (deviation.within && !std::isfinite(deviation.upper))) {
+    map.fault("convex",
+              "the mesh is too large to measure how far its convex hull is from it; leave it out");
+    return false;
+  }
   if (!deviation.within) {
-    const std::string allowed = metres(limit, false);
+    const double least = kProvableShare * std::max(-lower.minCoeff(), upper.maxCoeff());
     if (deviation.found > limit)
       map.fault("convex", "the convex hull is " + metres(deviation.found, false) +
                               " or more away from the mesh, and " + allowed +
                               " is allowed; leave out convex, or set deviation (metres)");
+    else if (limit < least)
+      map.fault("convex", "it can't be proved that the convex hull is within " + allowed +
+                              " of the mesh, because of the rounding of the coordinates; set a "
+                              "deviation of at least " +
+                              metres(least, true));
     else
       map.fault("convex", "it takes too long to prove that the convex hull is within " + allowed +
                               " of the mesh; set a larger deviation (metres)");
     return false;
   }
-  shape.notes.push_back({shape.file.string() + ": the model is the convex hull of the mesh, with " +
-                             std::to_string(hull->vertices().size()) +
-                             " corners; its surface is at most " + metres(deviation.upper, true) +
-                             " away from the mesh",
-                         NoteWeight::coverage});
+  shape.notes.push_back(
+      {shape.file.string() + ": the model is the solid convex hull of the mesh, with " +
+           std::to_string(hull->vertices().size()) +
+           " corners; everything inside it counts as occupied; its surface is at most " +
+           metres(deviation.upper, true) + " away from the mesh",
+       NoteWeight::coverage});
   const std::vector<Vec3> corners(hull->vertices().begin(), hull->vertices().end());
   shape.primitive = Convex{corners};
+  shape.at = {};  // the corners are placed already
   shape.parts = {{corners, 0, false}};
   shape.mesh = nullptr;
   return true;

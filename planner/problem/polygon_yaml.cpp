@@ -1,6 +1,7 @@
 #include "planner/problem/polygon_yaml.h"
 
 #include <algorithm>
+#include <cstdio>
 
 #include "collision/convex/simple_polygon.h"
 
@@ -34,6 +35,30 @@ std::string textOf(const PolygonFault& fault, std::size_t count) {
          ", counted from 0; edges may share only the point where one follows the other";
 }
 
+/// Returns why a polygon that was simple is not simple after it was moved, in doubles.
+/// @param advice  what to do about rounding.
+std::string textOfMoved(const PolygonFault& fault, const std::vector<Vec2>& moved,
+                        const std::string& advice) {
+  using Kind = PolygonFault::Kind;
+  if (fault.kind == Kind::notFinite)
+    return "point " + std::to_string(fault.first) +
+           " (counted from 0) is moved out of the range of doubles";
+  double largest = 0;
+  for (const Vec2& p : moved) largest = std::max(largest, p.cwiseAbs().maxCoeff());
+  char metres[32];
+  std::snprintf(metres, sizeof metres, "%.3g m", largest);
+  const std::size_t count = moved.size();
+  const std::string cause =
+      fault.kind == Kind::repeatedPoint
+          ? "points " + std::to_string(fault.first) + " and " + std::to_string(fault.second) +
+                " (counted from 0) become equal"
+      : fault.kind == Kind::noArea ? std::string("all points come to be on one line")
+                                   : edgeText(fault.first, count) + " comes to meet " +
+                                         edgeText(fault.second, count) + ", counted from 0";
+  return "at coordinates of up to " + std::string(metres) +
+         ", doubles are too coarse for this polygon: " + cause + "; " + advice;
+}
+
 /// Makes the convex parts of the polygon (collision/convex/simple_polygon.h).
 void cut(PlacedShape& shape) {
   shape.parts.clear();
@@ -44,9 +69,9 @@ void cut(PlacedShape& shape) {
   }
 }
 
-/// Whether the map takes the plane z = 0 to itself.
+/// Whether the map takes the plane z = 0 to itself, and does not turn it over.
 bool keepsPlane(const Transform& X) {
-  return X.t.z() == 0 && X.m(2, 0) == 0 && X.m(2, 1) == 0;
+  return X.t.z() == 0 && X.m(2, 0) == 0 && X.m(2, 1) == 0 && X.m(2, 2) > 0;
 }
 
 }  // namespace
@@ -63,23 +88,23 @@ bool readPolygon(const YamlMap& map, const Transform& X, PlacedShape& shape) {
     if (!p) return false;
     points.emplace_back((*p)[0], (*p)[1]);
   }
-  const auto report = [&](const PolygonFault& fault, const std::string& when) {
+  const auto report = [&](const PolygonFault& fault, const std::string& text) {
     const std::size_t at = std::max(fault.first, fault.second);
     const int line = at < value.items.size() && at > 0 ? value.items[at].line : value.line;
-    map.source().fault(line, map.pathOf("polygon") + ": " + textOf(fault, points.size()) + when);
+    map.source().fault(line, map.pathOf("polygon") + ": " + text);
     return false;
   };
-  if (const auto fault = checkSimple(points)) return report(*fault, "");
+  if (const auto fault = checkSimple(points)) return report(*fault, textOf(*fault, points.size()));
   if (!keepsPlane(X)) {
     map.fault("polygon",
-              "lies in the plane z = 0, but at or the rotation moves it out of this plane; write "
-              "at: [x, y, 0], and rotate about z only, such as rpy_deg: [0, 0, 90]");
+              "lies in the plane z = 0, but at or the rotation moves it out of this plane or turns "
+              "it over; write at: [x, y, 0], and rotate about z only, such as rpy_deg: [0, 0, 90]");
     return false;
   }
   for (const Vec2& p : points) shape.polygon.emplace_back((X * Vec3(p.x(), p.y(), 0)).head<2>());
   if (shape.polygon != points)
     if (const auto fault = checkSimple(shape.polygon))
-      return report(*fault, ", after at and the rotation were applied, in doubles");
+      return report(*fault, textOfMoved(*fault, shape.polygon, "move it nearer to the origin"));
   cut(shape);
   return true;
 }
@@ -88,7 +113,7 @@ std::string shiftPolygon(PlacedShape& shape, const Vec3& by) {
   if (by.z() != 0) return "moves a polygon out of the plane z = 0; write [x, y]";
   for (Vec2& p : shape.polygon) p += by.head<2>();
   if (const auto fault = checkSimple(shape.polygon))
-    return "after rounding to doubles, " + textOf(*fault, shape.polygon.size());
+    return textOfMoved(*fault, shape.polygon, "choose a point nearer to the polygon");
   cut(shape);
   return "";
 }

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "collision/core/read_file.h"
+#include "collision/core/spelling.h"
 #include "planner/problem/assembly.h"
 #include "planner/problem/bounds_yaml.h"
 #include "planner/problem/checker_yaml.h"
@@ -109,6 +110,17 @@ std::vector<RobotSetup> readRobots(const YamlMap& file, const std::filesystem::p
   return {};
 }
 
+/// Adds a fault if a robot has polygons, although another robot moves in space.
+void faultSheets(const YamlMap& file, const std::vector<RobotSetup>& robots) {
+  for (const RobotSetup& setup : robots)
+    for (const LinkModel& link : setup.robot.description.links)
+      for (const PlacedShape& shape : link.shapes)
+        if (!shape.polygon.empty())
+          return file.fault("robots", quotedWord(setup.robot.name) +
+                                          " has a polygon, which is for the plane, so all robots "
+                                          "must be rigid: SE2; write box, convex or mesh");
+}
+
 void readPlanner(const YamlMap& file, PlannerSettings& planner) {
   const YamlValue* value = file.find("planner");
   if (!value) return;
@@ -187,6 +199,7 @@ void readYaml(const std::filesystem::path& file, Problem& problem) {
       std::all_of(robots.begin(), robots.end(), [](const RobotSetup& setup) {
         return setup.robot.isRigid() && setup.robot.description.mount == JointType::planar;
       });
+  if (!isPlanar) faultSheets(map, robots);
   ModelBuilder builder;
   if (request && known && robots.front().robot.isRigid()) {
     map.fault("moveit", "a request is for a robot with joints; this one is rigid");

@@ -76,10 +76,11 @@ std::optional<RobotSetup> readRigid(const YamlMap& map, const std::string& name,
     if (map.find(key)) map.fault(key, "is for robots with joints (urdf: FILE); this one is rigid");
   const auto rigid = map.choice("rigid", robotChoices().at("rigid"));
   const std::size_t before = map.source().faults.size();
+  const bool isPlanar = !rigid || *rigid == "SE2";  // or unknown
   std::vector<PlacedShape> shapes;
   ShapeFiles files{setup.files};
   if (map.require("shapes", "the robot's shapes, such as shapes: [{mesh: piano.obj, unit: m}]"))
-    shapes = readShapes(map, robotKeys().at("shapes[]"), {name, folder, {}, rigid == "SE2"}, files);
+    shapes = readShapes(map, robotKeys().at("shapes[]"), {name, folder, {}, isPlanar}, files);
   const bool sound = map.source().faults.size() == before && !shapes.empty();
   if (const YamlValue* weights = map.find("weights")) {
     const YamlMap inner(*weights, "weights", &robotKeys().at("weights"), map.source());

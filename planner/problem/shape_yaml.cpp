@@ -102,6 +102,12 @@ std::optional<Primitive> readConvex(const YamlMap& map, const ShapePlace& place,
     }
     return convex;
   }
+  if (isBoolean(value)) {
+    map.fault("convex", value.text +
+                            " is for a mesh, mesh: FILE beside it; without one, a mesh "
+                            "file or points [[x, y, z], …] are needed");
+    return std::nullopt;
+  }
   if (value.kind != YamlValue::Kind::Scalar) {
     map.fault("convex", "a mesh file or points [[x, y, z], …] are needed, not " + described(value));
     return std::nullopt;
@@ -195,18 +201,18 @@ const std::string& ShapeMeshes::whyNotWatertight(const std::shared_ptr<const Mes
 
 std::optional<PlacedShape> readShape(const YamlMap& map, const ShapePlace& place, ShapeFiles& files,
                                      Placement* notApplied) {
-  const auto hullKey = readHullKey(map);
-  const bool hull = hullKey.value_or(false);
-  const auto kind = hullKey
-                        ? std::optional<std::string>("mesh")
-                        : map.requireOne(kinds, "one shape",
-                                         "mesh: FILE, box: [x, y, z], sphere: radius, capsule or "
-                                         "cylinder: {radius: …, length: …}, convex: FILE, polygon: "
-                                         "[[x, y], …], points: {file: …, radius: …}, or octomap: "
-                                         "{file: …}");
+  const HullKey hullKey = readHullKey(map);
+  const bool hull = hullKey == HullKey::hull;
+  std::vector<std::string> counted = kinds;
+  if (hullKey != HullKey::none) std::erase(counted, "convex");
+  const auto kind = map.requireOne(counted, "one shape",
+                                   "mesh: FILE, box: [x, y, z], sphere: radius, capsule or "
+                                   "cylinder: {radius: …, length: …}, convex: FILE, polygon: "
+                                   "[[x, y], …], points: {file: …, radius: …}, or octomap: "
+                                   "{file: …}");
   const bool solid = map.boolean("solid").value_or(false);
   const auto own = readPlacement(map);
-  if (!kind) return std::nullopt;
+  if (!kind || hullKey == HullKey::faulty) return std::nullopt;
   faultMisplacedKeys(map, *kind);
 
   PlacedShape shape;

@@ -1,13 +1,14 @@
 // Exact contact of convex hulls against the rational simplex method.
 #include "collision/convex/exact_contact.h"
 
-#include <cmath>
 #include <iostream>
+#include <stdexcept>
 
 #include <gtest/gtest.h>
 
 #include "collision/convex/convex_contact.h"
 #include "tests/collision/convex/hull_pairs.h"
+#include "tests/collision/convex/posed_polytopes.h"
 #include "tests/support/support.h"
 
 namespace corridor {
@@ -36,6 +37,35 @@ TEST(ExactContact, AgreesWithTheRationalSimplexMethod) {
             << " more for touching\n";
   EXPECT_GT(touching, pairs / 10);
   EXPECT_GT(tooClose, 0);
+}
+
+/// Rationals decide every pair here, because the cache proves nothing.
+TEST(ExactContact, AgreesUnderMaps) {
+  test::ExactPairs make(test::testSeed(82));
+  int touching = 0;
+  const int pairs = 200 / test::kSlowdown;
+  for (int n = 0; n < pairs; ++n) {
+    const Polytope first = make.polytope(make.pick(test::ExactPairs::kKinds)),
+                   second = make.polytope(make.pick(test::ExactPairs::kKinds));
+    const Transform X_WA = make.pose(1), X_WB = make.pose(1.5);
+    const ConvexPart a{{first.vertices().begin(), first.vertices().end()}, 0, false},
+        b{{second.vertices().begin(), second.vertices().end()}, 0, false};
+    const bool expected =
+        test::hullRelation<3>(test::mapped(first, X_WA), test::mapped(second, X_WB)) !=
+        HullRelation::disjoint;
+    ASSERT_EQ(confirmContact({a, X_WA}, {b, X_WB}, ConvexCache{}), expected) << n;
+    ASSERT_EQ(convexHullsTouch({a, X_WA}, {b, X_WB}), expected) << n;
+    touching += expected;
+  }
+  EXPECT_TRUE(touching > 0 && touching < pairs) << touching;
+}
+
+TEST(ExactContact, RefusesSpheresThatMayTouch) {
+  const ConvexPart ball{{Vec3::Zero()}, 1, false};
+  const Transform far{Mat3::Identity(), {10, 0, 0}}, near{Mat3::Identity(), {1, 0, 0}};
+  EXPECT_THROW(convexHullsTouch({ball, {}}, {ball, near}), std::invalid_argument);
+  EXPECT_THROW(confirmContact({ball, {}}, {ball, far}, ConvexCache{}), std::invalid_argument);
+  EXPECT_FALSE(convexHullsTouch({ball, {}}, {ball, far})) << "GJK proves them to be apart";
 }
 
 }  // namespace

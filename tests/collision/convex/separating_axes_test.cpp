@@ -107,6 +107,26 @@ TEST(SeparatingAxes, TwoCrossedEdgesNeedTheirProduct) {
   }
 }
 
+/// Powers of 2 scale without rounding, so the verdicts are those without a scale.
+TEST(SeparatingAxes, TakesMapsOfAnyScale) {
+  ExactPairs make(test::testSeed(72));
+  int touching = 0;
+  const int pairs = 60;
+  for (int n = 0; n < pairs; ++n) {
+    const Polytope a = make.polytope(make.pick(ExactPairs::kKinds)),
+                   b = make.polytope(make.pick(ExactPairs::kKinds));
+    const PolytopeFeatures fa(a), fb(b);
+    const Transform X_WA = make.pose(1), X_WB = make.pose(1.5);
+    const bool separated = separatingAxis(fa, X_WA, fb, X_WB).separated;
+    touching += !separated;
+    for (const double scale : {0x1p400, 0x1p-400}) {
+      const Transform Y_WA{scale * X_WA.m, scale * X_WA.t}, Y_WB{scale * X_WB.m, scale * X_WB.t};
+      ASSERT_EQ(separatingAxis(fa, Y_WA, fb, Y_WB).separated, separated) << n << ", " << scale;
+    }
+  }
+  EXPECT_TRUE(touching > 0 && touching < pairs) << touching;
+}
+
 TEST(SeparatingAxes, RefusesMapsThatMirrorOrFlatten) {
   const std::vector<Vec3> corners = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const Polytope t(corners);
@@ -117,6 +137,10 @@ TEST(SeparatingAxes, RefusesMapsThatMirrorOrFlatten) {
   EXPECT_THROW(separatingAxis(f, {}, f, infinite), std::invalid_argument);
   const Transform flat{Vec3(1, 1, 0).asDiagonal().toDenseMatrix(), Vec3::Zero()};
   EXPECT_THROW(separatingAxis(f, flat, f, {}), std::invalid_argument);
+  const Transform zero{Mat3::Zero(), Vec3::Zero()};
+  EXPECT_THROW(separatingAxis(f, zero, f, {}), std::invalid_argument);
+  const Transform thin{Vec3(1, 1, 1e-13).asDiagonal().toDenseMatrix(), Vec3::Zero()};
+  EXPECT_THROW(separatingAxis(f, thin, f, {}), std::invalid_argument);
 }
 
 }  // namespace

@@ -96,13 +96,31 @@ TEST_F(PolygonsInFiles, Faults) {
       "problem.yaml:4: world.rock.unit: is for mesh files; lengths of a polygon are in metres");
   const std::string leaves =
       at +
-      "lies in the plane z = 0, but at or the rotation moves it out of this plane; write at: "
-      "[x, y, 0], and rotate about z only, such as rpy_deg: [0, 0, 90]";
+      "lies in the plane z = 0, but at or the rotation moves it out of this plane or turns it "
+      "over; "
+      "write at: [x, y, 0], and rotate about z only, such as rpy_deg: [0, 0, 90]";
   EXPECT_EQ(rock("{polygon: [[0, 0], [1, 0], [1, 1]], at: [0, 0, 0.1]}"), leaves);
   EXPECT_EQ(rock("{polygon: [[0, 0], [1, 0], [1, 1]], rpy_deg: [90, 0, 0]}"), leaves);
+  EXPECT_EQ(rock("{polygon: [[0, 0], [1, 0], [1, 1]], rpy_deg: [180, 0, 0]}"), leaves);
+  EXPECT_EQ(rock("{polygon: [[0, 0], [1, 0], [1, 1]], quat_xyzw: [1, 0, 0, 0]}"), leaves);
+}
+
+TEST_F(PolygonsInFiles, FaultsOfRoundingNameTheCause) {
+  const std::string at = "problem.yaml:4: world.rock.polygon: ",
+                    coarse = at +
+                             "at coordinates of up to 1e+08 m, doubles are too coarse for "
+                             "this polygon: ",
+                    advice = "; move it nearer to the origin";
   EXPECT_EQ(rock("{polygon: [[0, 0], [1e-9, 1e-9], [0, 2e-9]], at: [1e8, 0, 0]}"),
-            at + "all points are on one line; the polygon needs an area, after at and the rotation "
-                 "were applied, in doubles");
+            coarse + "all points come to be on one line" + advice);
+  EXPECT_EQ(rock("{polygon: [[0, 0], [1, 0], [1, 1], [0, 1e-9]], at: [1e8, 1e8, 0]}"),
+            coarse + "points 0 and 3 (counted from 0) become equal" + advice);
+  EXPECT_THAT(rock("{polygon: [[0, 0], [2, 0], [2, 2], [1, 1e-9], [0, 2]], at: [0, 1e8, 0]}"),
+              testing::AllOf(testing::StartsWith(
+                                 coarse + "edge 0 (from point 0 to point 1) comes to meet edge "),
+                             testing::EndsWith(", counted from 0" + advice)));
+  EXPECT_EQ(rock("{polygon: [[0, 0], [1.7e308, 0], [0, 1]], at: [1.7e308, 0, 0]}"),
+            at + "point 1 (counted from 0) is moved out of the range of doubles");
 }
 
 TEST_F(PolygonsInFiles, ForThePlaneOnly) {
@@ -116,6 +134,21 @@ TEST_F(PolygonsInFiles, ForThePlaneOnly) {
   EXPECT_EQ(complaintOfRobot("format: corridor-robot-1\nrigid: SE3\nshapes: [{polygon: [[0, 0], "
                              "[1, 0], [1, 1]]}]\n"),
             "robot.yaml:3: shapes[0]." + why);
+  EXPECT_THAT(complaintOfRobot("format: corridor-robot-1\nrigid: SE4\nshapes: [{polygon: [[0, 0], "
+                               "[1, 0], [1, 1]]}]\n"),
+              testing::AllOf(testing::StartsWith("robot.yaml:2: rigid: "),
+                             testing::Not(testing::HasSubstr("polygon"))));
+  // Beside a robot in space, a robot with a polygon would be a sheet.
+  const std::string sheet =
+      "problem.yaml:2: robots: \"t\" has a polygon, which is for the plane, so all robots must be "
+      "rigid: SE2; write box, convex or mesh";
+  const auto robots = [&](const std::string& other) {
+    return complaintOf(
+        "format: corridor-problem-1\nrobots: {t: {file: t.yaml}, other: {file: " + other + "}}\n");
+  };
+  write("robot.yaml", robot3);
+  EXPECT_THAT(robots("robot.yaml"), testing::HasSubstr(sheet));
+  EXPECT_THAT(robots("flat.yaml"), testing::Not(testing::HasSubstr("polygon")));
 }
 
 TEST_F(PolygonsInFiles, BodiesBesideThePlaneAreNoted) {
@@ -136,6 +169,11 @@ TEST_F(PolygonsInFiles, Reference) {
   write("t.yaml", robot(square, "reference: [0, 0, 1]\n"));
   EXPECT_EQ(complaintOf(problem("{box: [1, 1, 1]}")),
             "t.yaml:4: reference: moves a polygon out of the plane z = 0; write [x, y]");
+  write("t.yaml", robot("{polygon: [[0, 0], [1e-9, 0], [0, 1e-9]]}", "reference: [1e9, 0]\n"));
+  EXPECT_EQ(complaintOf(problem("{box: [1, 1, 1]}")),
+            "t.yaml:4: reference: at coordinates of up to 1e+09 m, doubles are too coarse for this "
+            "polygon: points 0 and 1 (counted from 0) become equal; choose a point nearer to the "
+            "polygon");
 }
 
 }  // namespace
