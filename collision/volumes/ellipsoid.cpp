@@ -120,9 +120,14 @@ Ellipsoid Ellipsoid::around(const Obb& box, const Content& content) {
   content.forEach([&](const Vec3& p, double) {
     const Vec3 y = local(p, e.core.center).cwiseAbs();
     const double pad = roundedUp(2 * (defect + 6 * kUnit) * y.sum() + kTiny / unit);
-    square = std::max(square, (y.array() + pad).matrix().cwiseQuotient(semiAxes).squaredNorm());
+    const double out = (y.array() + pad).matrix().cwiseQuotient(semiAxes).squaredNorm();
+    square = out < HUGE_VAL ? std::max(square, out) : HUGE_VAL;  // NaN: infinity
   });
   const double factor = roundedUp(std::sqrt(square));
+  if (!(factor < HUGE_VAL)) {  // an overflow
+    e.core.half.fill(HUGE_VAL);
+    return e;
+  }
   for (int i = 0; i < 3; ++i) e.core.half[i] = roundedUp(unit * (semiAxes[i] * factor));
   return e;
 }

@@ -88,9 +88,11 @@ Obb enclosingObb(const Content& content, const Mat3& axes) {
   });
   box.center = origin + axes * (low + 0.5 * (high - low));
   Vec3 reach = Vec3::Zero();
+  double total = 0;  // not finite after an overflow, also if `cwiseMax` drops a NaN
   content.forEach([&](const Vec3& p, double r) {
     const Vec3 y = (axes.transpose() * (p - box.center)).cwiseAbs();
     reach = reach.cwiseMax((y.array() + r).matrix());
+    total += y.sum();
   });
   // The box must contain x = U⁻¹d with d = p − center, in real arithmetic. The code computes y ≈
   // Uᵀd.
@@ -103,6 +105,7 @@ Obb enclosingObb(const Content& content, const Mat3& axes) {
   //   The pad covers this, too, since every |y_k| includes r.
   const double pad = 2 * (orthonormalityDefect(axes) + 6 * kUnit) * reach.sum();
   for (int i = 0; i < 3; ++i) box.half[i] = roundedUp(reach[i] + pad);
+  if (!(total < HUGE_VAL)) box.half.fill(HUGE_VAL);
   return box;
 }
 

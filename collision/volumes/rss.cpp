@@ -31,6 +31,11 @@ Rss Rss::around(const Obb& box, const Content& content) {
   int normal = 0;
   box.half.minCoeff(&normal);
   for (int i = 0; i < 3; ++i) rss.core.axes.col(i) = box.axes.col((normal + 1 + i) % 3);
+  if (!(box.half.maxCoeff() < HUGE_VAL)) {  // an overflow
+    rss.core.center = box.center;
+    rss.core.half.fill(HUGE_VAL);
+    return rss;
+  }
   // Coordinates are relative to the box's centre, in a unit that is a power of two near its size.
   // Scaling by this unit is exact, and no square overflows.
   const double unit = powerOfTwo(box.half.maxCoeff());

@@ -250,6 +250,21 @@ TYPED_TEST(PairTests, SeparateVolumesThatAreClearlyApart) {
   }
 }
 
+/// Sums and differences of such coordinates overflow, and centres may be NaN.
+TYPED_TEST(PairTests, OverflowDoesNotShrinkATree) {
+  const double h = 1e308;
+  TriangleMesh mesh;
+  mesh.vertices = {{-h, -h, -h}, {h, -h, h}, {-h, h, h}, {h, h, -h}};
+  mesh.triangles = {{0, 1, 2}, {3, 1, 2}};
+  const VolumeTree<TypeParam> tree(mesh);
+  // No sphere of a smaller radius contains two points that are 2h apart in each of two coordinates.
+  EXPECT_GE(tree.node(0).radius, h);
+  EXPECT_GE(tree.reach(), h);
+  const PairTest<TypeParam> test(tree.bounds(), tree.bounds(), {}, 0);
+  EXPECT_FALSE(test.separated(tree.node(0).box, tree.node(0).box, 0));
+  EXPECT_EQ(test.distanceBound(tree.node(0).box, tree.node(0).box), 0);
+}
+
 TYPED_TEST(PairTests, NonFiniteVolumesAreNotSeparated) {
   std::mt19937_64 random(test::testSeed(43));
   const Meeting m = meeting(random, 1, 10, 1);
