@@ -17,9 +17,9 @@ namespace {
 constexpr double kDefaultDeviation = 1e-4;
 
 /// A `deviation` below this share of the largest coordinate may be impossible to prove.
-/// `hullDeviation` adds 2^-44 of this coordinate to each distance, for its rounding; 2^-40 leaves
+/// `hullDeviation` adds 2^-38 of this coordinate to each distance, for its rounding; 2^-35 leaves
 /// room for the distances.
-constexpr double kProvableShare = 0x1p-40;
+constexpr double kProvableShare = 0x1p-35;
 
 /// Returns the length in metres with three digits, rounded up or down. A length that is a decimal
 /// of three digits, up to 1e-12 of it, is not rounded down. Rounding up includes the rounding of

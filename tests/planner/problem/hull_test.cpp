@@ -87,7 +87,7 @@ TEST_F(Hulls, ThatRoundingHides) {
   EXPECT_EQ(complaintOf(problem("{mesh: shallow.obj, convex: true, deviation: 1e-17}")),
             "problem.yaml:4: world.rock.convex: it can't be proved that the convex hull is within "
             "1e-17 m of the mesh, because of the rounding of the coordinates; set a deviation of "
-            "at least 3.64e-12 m");  // 4·2^-40
+            "at least 1.17e-10 m");  // 4·2^-35
   write("huge.obj",
         "v 0 0 0\nv 4e200 0 0\nv 0 4e200 0\nv 0 0 4e200\nv 1e200 1e200 1e200\n"
         "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 5\nf 3 4 5\nf 4 2 5\n");
