@@ -89,8 +89,9 @@ class Obb4Tree {
 
   /// Fits the boxes to triangles that have moved. The tree keeps its structure, and each box keeps
   /// its axes; frame and unit are those of the new coordinates. Refitting is cheaper than building,
-  /// but boxes get looser the more the mesh deforms. The result depends only on the axes, the
-  /// structure and `moved`, not on any position before. No query may run at the same time.
+  /// but boxes get looser the more the mesh deforms. The result depends on the axes, the
+  /// structure and `moved`. Positions before change only roundings and the order of a box's sides.
+  /// No query may run at the same time.
   /// @throws std::invalid_argument if the leaves hold parts, if `moved` has another number of
   /// triangles than the tree, or if `checkMesh` finds a fault. The tree is then unchanged.
   void refit(const TriangleMesh& moved);
