@@ -112,7 +112,7 @@ TEST_F(QueryTrees, DeformRunsTheQueryForEachShape) {
   }
   const auto near = lines(query(deform + "--query distance").out);
   ASSERT_EQ(near.size(), 7u);
-  EXPECT_EQ(near[0], "frame,pose,distance,ax,ay,az,bx,by,bz,refit_ms,query_ns");
+  EXPECT_EQ(near[0], "frame,pose,distance,ax,ay,az,bx,by,bz,nx,ny,nz,refit_ms,query_ns");
   EXPECT_THAT(near[3], testing::StartsWith("1,0,0,"));
   EXPECT_THAT(near[5], testing::StartsWith("2,0,0.5,"));
   EXPECT_THAT(near[6], testing::StartsWith("2,1,0.25,"));
