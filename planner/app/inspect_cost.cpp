@@ -217,7 +217,8 @@ int inspectCost(const InspectArguments& a) {
   out.line("simd", std::string(simdTarget()) + ", used by obb");
   out.line("costs",
            "measured at one half of the poses; the other half is predicted; traversal: for each "
-           "volume test, fitted; of obb: all fitted, C_v with traversal; -: no such test, or the "
+           "volume test, fitted; call is not part of predicted; of obb: all fitted, C_v with "
+           "traversal; -: no such test, or the "
            "queries do not determine this cost");
   out.blank();
   printTable(rows);

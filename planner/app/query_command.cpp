@@ -194,6 +194,8 @@ int queryDepth(const QueryArguments& a, const NamedQuery& query) {
     if (given)
       throw InputError(
           Fault{option, 0, "can't be used with --query depth, which chooses its trees"});
+  if (a.tolerance)
+    throw InputError(Fault{"--tolerance", 0, "needs --query tolerance or --motions"});
   if (!a.deform.empty())
     throw InputError(Fault{"--deform", 0,
                            "can't be used with --query depth; use interference, distance or "
@@ -226,6 +228,7 @@ int queryCommand(const QueryArguments& a) {
   }
   if (a.motions) return queryMotions(a);
   const NamedQuery& query = queryNamed(a.query);
+  if (query.kind == QueryKind::depth) return queryDepth(a, query);
   const TreeNames trees = chosenTrees(treeWords(a));
   if (query.kind != QueryKind::interference) requireNoOctree(trees, query.name);
   if (query.kind == QueryKind::tolerance && !a.tolerance)
@@ -233,7 +236,6 @@ int queryCommand(const QueryArguments& a) {
         Fault{"--tolerance", 0, "is needed with --query tolerance: a distance in metres"});
   if (query.kind != QueryKind::tolerance && a.tolerance)
     throw InputError(Fault{"--tolerance", 0, "needs --query tolerance or --motions"});
-  if (query.kind == QueryKind::depth) return queryDepth(a, query);
   if (a.direction) throw InputError(Fault{"--direction", 0, "needs --query depth"});
   if (!testsOverlap(query.kind))
     requireDefaultOverlap(trees, "--query interference or contacts", query.name);
@@ -335,7 +337,7 @@ void addQuery(CLI::App& program, int& status) {
                    "triangles as A, with moved vertices. The query is run for A and for each "
                    "shape; the tree of A is refitted, not built anew")
       ->group("Shapes of A");
-  const char* asked = "Query (motions take all of these except --query)";
+  const char* asked = "Query";
   const auto named = [](const auto& kinds) {
     std::vector<std::string> names;
     for (const auto& kind : kinds) names.push_back(kind.name);
@@ -352,9 +354,10 @@ void addQuery(CLI::App& program, int& status) {
                    "the query; the first is the default: " + named(namedQueries()))
       ->group(asked);
   command
-      ->add_option("--direction", a.direction,
-                   "x,y,z: with --query depth, the direction along which B leaves A (default: the "
-                   "best of several)")
+      ->add_option(
+          "--direction", a.direction,
+          "x,y,z, of any length: with --query depth of meshes, the direction along which B "
+          "leaves A (default: the best of several); depth chooses its trees")
       ->group(asked);
   command
       ->add_option("--volume", a.volume,

@@ -26,9 +26,10 @@ std::string columnsOf(const NamedQuery& query, const BatchResult& result, std::s
   }
   if (query.kind == QueryKind::depth) {
     const DepthBounds& d = result.depths[pose];
+    const Vec3 along = d.direction_A + Vec3::Zero();  // 0 instead of −0
     const long long a = d.deepest ? d.deepest->a : -1LL, b = d.deepest ? d.deepest->b : -1LL;
     std::snprintf(text, sizeof text, "%.17g,%.17g,%.17g,%.17g,%.17g,%lld,%lld", d.lower, d.upper,
-                  d.direction_A.x(), d.direction_A.y(), d.direction_A.z(), a, b);
+                  along.x(), along.y(), along.z(), a, b);
     return text;
   }
   const Answer& answer = result.answers[pose];

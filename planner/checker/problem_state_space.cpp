@@ -186,7 +186,8 @@ void ProblemStateSpace::write(const Configuration& q, ob::State* state) const {
     if (part.kind == Kind::line) {
       std::copy(numbers, numbers + part.count, compound->as<Lines>(i)->values);
     } else if (part.kind == Kind::circle) {
-      compound->as<Circle>(i)->value = *numbers;
+      // OMPL's angles are in [−π, π). It refuses a start or goal at π, which is the angle −π.
+      compound->as<Circle>(i)->value = *numbers == std::numbers::pi ? -std::numbers::pi : *numbers;
     } else {
       auto& r = *compound->as<Rotation>(i);
       r.x = numbers[0];

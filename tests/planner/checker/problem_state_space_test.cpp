@@ -52,6 +52,25 @@ TEST_P(StateSpaces, PassOmplsSanityChecks) {
   EXPECT_NO_THROW(space.sanityChecks());
 }
 
+/// A half turn is an angle like any other, also for OMPL, whose angles end below π.
+TEST_P(StateSpaces, HalfTurnsAreInBounds) {
+  const ConfigurationSpace configurations = spaceOf(GetParam());
+  ProblemStateSpace space(configurations);
+  space.setup();
+  Configuration q = Configuration::Zero(static_cast<Eigen::Index>(configurations.size()));
+  for (const Coordinate& c : configurations.coordinates()) {
+    const auto i = static_cast<Eigen::Index>(c.first);
+    if (c.kind == Coordinate::Kind::circle) q[i] = pi;
+    if (c.kind == Coordinate::Kind::line) q[i] = 0.5 * (c.lower + c.upper);
+    if (c.kind == Coordinate::Kind::rotation) q[i + 3] = 1;
+  }
+  ob::State* state = space.allocState();
+  space.write(q, state);
+  EXPECT_TRUE(space.satisfiesBounds(state));
+  EXPECT_TRUE(configurations.equal(space.read(state), q));
+  space.freeState(state);
+}
+
 TEST_P(StateSpaces, SamplesAreInBoundsAndNoFartherApartThanTheExtent) {
   ompl::RNG::setSeed(test::testSeed(3) + 1);
   const ConfigurationSpace configurations = spaceOf(GetParam());
