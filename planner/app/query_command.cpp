@@ -332,10 +332,12 @@ void addQuery(CLI::App& program, int& status) {
           "the method that proves motions; the first is the default: " + joined(edgeMethodNames()))
       ->group("Motions of B");
   command
-      ->add_option("--deform", a.deform,
-                   "with poses: mesh files with further shapes of A, in order. Each has the same "
-                   "triangles as A, with moved vertices. The query is run for A and for each "
-                   "shape; the tree of A is refitted, not built anew")
+      ->add_option(
+          "--deform", a.deform,
+          "with poses: mesh files with further shapes of A, in order; write A and B before "
+          "this option. Each has the same triangles as A, with moved vertices. The query "
+          "(not contacts or depth) is run for A and for each shape; the tree of A is "
+          "refitted, not built anew")
       ->group("Shapes of A");
   const char* asked = "Query";
   const auto named = [](const auto& kinds) {
