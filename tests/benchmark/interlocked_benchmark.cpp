@@ -5,7 +5,7 @@
 /// bumps (N triangles, 100,000 by default) moves through eight pipes that are bent to rings (N/5
 /// triangles in all). Each ring is a link of a chain with the torus. The bumps come as close to the
 /// rings as 0.02 of the torus' radius. The torus makes one turn about its axis in the steps (1,000
-/// by default), and sways by 0.03, so it touches the rings at some steps. The query is
+/// by default), and sways by up to 0.02, so it touches the rings at some steps. The query is
 /// interference, without what is known from the step before.
 ///
 /// Prints CSV on stdout, one row for each volume:
@@ -78,7 +78,7 @@ std::vector<Transform> path(int steps) {
     const double t = kTurn * i / steps;
     Transform X;
     X.m << std::cos(t), -std::sin(t), 0, std::sin(t), std::cos(t), 0, 0, 0, 1;
-    X.t = 0.03 * Vec3(std::sin(3 * t), std::sin(5 * t), std::sin(7 * t));
+    X.t = 0.012 * Vec3(std::sin(3 * t), std::sin(5 * t), std::sin(7 * t));
     poses.push_back(X);
   }
   return poses;
