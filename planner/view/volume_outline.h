@@ -8,6 +8,8 @@
 namespace corridor::view {
 
 /// Returns a convex part with the shape of a volume: points whose hull is swept by a sphere.
+/// Ellipsoids and shells are drawn as polyhedra with their corners on the surface, so their faces
+/// are inside by up to 4 % of the radius.
 ConvexPart outline(const Obb& box);
 ConvexPart outline(const Aabb& box);
 ConvexPart outline(const BoundingSphere& sphere);
