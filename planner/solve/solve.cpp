@@ -188,6 +188,7 @@ void Solve::setUpEnds() {
   checkEnds();
   ob::ScopedState<> start(si_);
   space_->write(start_, start.get());
+  start_ = space_->read(start.get());  // as the path will have it: a half turn is −π
   definition_->addStartState(start);
   definition_->setGoal(std::make_shared<OmplGoal>(si_, problem_, goalSamples_));
   if (options_.noteStillPairs) report_.notes = notesOnStillPairs(checker_, start_);

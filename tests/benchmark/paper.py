@@ -120,7 +120,7 @@ def fits_section():
     text = "## The three fits\n\n    fit_benchmark --most 1000000 --out plots\n\n"
     text += ("Models: a tessellated sphere; an ellipsoid with one finely tessellated end (*uneven*); an ellipsoid with "
              "small spheres\nburied in one part of it (*buried*). Queries against a torus of 5,000 triangles at 500 random "
-             "poses. Each cell: N_v, N_p, µs a\nquery, ms to build.\n\n")
+             "poses.\nEach cell: N_v, N_p, µs a query, ms to build.\n\n")
     fits = ["vertices", "triangles", "hull"]
     rows = []
     for model in dict.fromkeys(row["model"] for row in queries):

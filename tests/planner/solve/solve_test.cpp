@@ -122,6 +122,21 @@ TEST_P(Spaces, AGoalThresholdOfZeroCanBeReached) {
   EXPECT_EQ(report.path.back().head(2), problem.task.goals[0].head(2));
 }
 
+/// OMPL's angles end below π, so it holds a half turn as −π.
+TEST(Solve, HalfTurnsAtStartAndGoal) {
+  for (const char* planner : {"RRTConnect", "RRT", "PRM"})
+    for (const double yaw : {std::numbers::pi, -std::numbers::pi}) {
+      Problem problem = hallProblem(Rigid::SE2);
+      problem.settings.planner.name = planner;
+      problem.task.start[2] = problem.task.goals[0][2] = yaw;
+      const SolveReport report = solveProblem(problem);
+      ASSERT_EQ(report.outcome, SolveOutcome::solved) << planner << ": " << report.why;
+      EXPECT_TRUE(report.certified);
+      EXPECT_EQ(verifySolution(problem, makeSolution(problem, report)).verdict,
+                PathVerdict::proved);
+    }
+}
+
 TEST_P(Spaces, MutatedPathsAreRefuted) {
   const Problem problem = hallProblem(GetParam());
   const SolveReport report = solveProblem(problem);
