@@ -1,0 +1,9 @@
+#!/usr/bin/env python3
+"""Tests that tests/benchmark/PAPER.md is what paper.py makes of its CSV."""
+
+import pathlib
+import subprocess
+import sys
+
+PAPER = pathlib.Path(__file__).resolve().parents[1] / "benchmark" / "paper.py"
+sys.exit(subprocess.call([sys.executable, "-B", PAPER, "--check"]))
