@@ -105,7 +105,7 @@ class Walk {
     for (const bool ofA : {true, false}) {
       Body &x = ofA ? a_ : b_, &y = ofA ? b_ : a_;
       const Vec3 p = y.inOther(y.at.index);
-      // Of several edges that lead closer, takes the one along which the distance falls fastest.
+      // If several edges lead closer, takes the one along which the distance falls fastest.
       std::uint32_t best = Clip::kNone;
       double most = 0;
       for (std::uint32_t h = first(x); h < last(x); ++h) {

@@ -71,8 +71,8 @@ class BuildItems {
     record(threads, [&](std::size_t begin, std::size_t end) { return recordParts(begin, end); });
   }
 
-  /// The triangles of a tree that is refitted, in its leaf order. Of the records, only the numbers
-  /// of the triangles are set.
+  /// The triangles of a tree that is refitted, in its leaf order. The records have the numbers of
+  /// the triangles and nothing else.
   BuildItems(const TriangleMesh& mesh, std::span<const std::uint32_t> order)
       : fit(ObbFit::triangles), records(order.size()), mesh_(&mesh) {
     place(1, [&](std::size_t i, const auto& take) {

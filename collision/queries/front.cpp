@@ -16,7 +16,7 @@ namespace {
 /// Returns an upper bound of how far a point within `reach` of the origin moves from one map to
 /// another: |(M' − M)x + t' − t|. Differences, products, sums and roots are off by less than 16u,
 /// relatively. Squares below 2^-1022 vanish, and so do lengths below 2^-511.
-double motionBound(const Transform& from, const Transform& to, double reach) {
+double displacementBound(const Transform& from, const Transform& to, double reach) {
   const double turn = (to.m - from.m).norm() + 0x1p-500, shift = (to.t - from.t).norm() + 0x1p-500;
   return roundedUp((1 + 32 * kUnit) * (turn * reach + shift));
 }
@@ -41,7 +41,8 @@ class FrontQuery {
 
   std::optional<PrimitivePair> run() {
     if (front_.X_AB_)
-      front_.moved_ = roundedUp(front_.moved_ + motionBound(*front_.X_AB_, X_AB_, b_.reach()));
+      front_.moved_ =
+          roundedUp(front_.moved_ + displacementBound(*front_.X_AB_, X_AB_, b_.reach()));
     // After a long path the sum's rounding would use up small gaps. A front that has grown much has
     // pairs deep in the trees whose volumes are far apart. In both cases it starts from the roots.
     const double size = a_.reach() + b_.reach();

@@ -16,8 +16,8 @@
 #include "planner/app/output.h"
 #include "planner/app/query_batch.h"
 #include "planner/app/query_poses.h"
-#include "planner/app/query_timing.h"
 #include "planner/benchmark/cost_model.h"
+#include "planner/benchmark/query_timing.h"
 
 namespace corridor::app {
 namespace {
@@ -167,16 +167,17 @@ int inspectCost(const InspectArguments& a) {
   const std::vector<Transform> poses =
       a.poses ? readPoses(*a.poses) : gridPoses({{6, 6, 6}, 4, 1, {}, {}}, meshA.mesh, meshB.mesh);
   const std::vector<Transform> asked = withFarPoses(poses, meshA.mesh, meshB.mesh);
-  const auto run = [&](const VolumeKind& volume, const std::vector<std::size_t>& measured) {
+  const auto run = [&](const VolumeKind& volume, int passes,
+                       const std::vector<std::size_t>& measured) {
     return runPoses({meshA.mesh, meshB.mesh, asked, QueryKind::interference,
-                     treesNamed({volume.name, "", ""}), 0, kPasses, measured});
+                     treesNamed({volume.name, "", ""}), 0, passes, measured});
   };
   // If the first test decides a query, the query's time is the cost of a call, not of tests. So its
   // pose is left out. All volumes are compared at the same poses: those at which the root boxes of
   // the binary OBB trees overlap.
   const auto& volumes = volumeKinds();
   const auto reference = std::ranges::find(volumes, "obb-binary", &VolumeKind::name);
-  const std::vector<Answer> answers = run(*reference, {}).answers;
+  const std::vector<Answer> answers = run(*reference, 1, {}).answers;
   std::vector<std::size_t> kept;
   std::size_t hits = 0;
   for (std::size_t i = 0; i < poses.size(); ++i) {
@@ -192,7 +193,7 @@ int inspectCost(const InspectArguments& a) {
                   std::to_string(kept.size()) + " of " + counted(poses.size(), "pose")});
   std::vector<CostRow> rows;
   for (const VolumeKind& volume : volumes)
-    rows.push_back(costRow(volume, run(volume, measuredPoses(kept)), poses.size(), kept));
+    rows.push_back(costRow(volume, run(volume, kPasses, measuredPoses(kept)), poses.size(), kept));
   if (a.json) {
     ordered_json j = {{"format", "corridor-inspect-cost-1"},
                       {"a", a.file},

@@ -13,7 +13,7 @@
 #include "collision/queries/distance_obb4.h"
 #include "collision/queries/interference.h"
 #include "collision/queries/interference_obb4.h"
-#include "planner/app/query_timing.h"
+#include "planner/benchmark/query_timing.h"
 
 namespace corridor::app {
 namespace {

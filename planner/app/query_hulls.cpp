@@ -20,8 +20,8 @@
 #include "collision/core/spelling.h"
 #include "planner/app/query_batch.h"
 #include "planner/app/query_output.h"
-#include "planner/app/query_timing.h"
 #include "planner/app/standard_streams.h"
+#include "planner/benchmark/query_timing.h"
 
 namespace corridor::app {
 namespace {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <ctime>
 #include <optional>
 #include <span>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "collision/core/query_context.h"
 #include "collision/hierarchy/volume_tree.h"
 #include "collision/queries/touching_pairs.h"
+#include "planner/benchmark/query_timing.h"
 
 /// The costs of single tests: C_v and C_p of T = N_v·C_v + N_p·C_p (Gottschalk, Lin, Manocha 1996,
 /// eq. 1), without the traversal. The tests of whole queries are recorded. They are then run again
@@ -35,14 +35,6 @@ struct RecordedTests {
 };
 
 namespace internal {
-
-/// Returns the processor time of this thread. On a busy machine other programs run in between,
-/// which the clock of the day would count.
-inline double threadNanoseconds() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return 1e9 * static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_nsec);
-}
 
 /// Runs a `TouchingPairs` query, and records its tests until there are `most` of them.
 template <class Query>
@@ -101,7 +93,7 @@ RecordedTests recordedTests(const VolumeTree<Volume>& a, const VolumeTree<Volume
 /// Measures the tests of interference queries, all at once, without their traversal.
 /// @param poses  of b; a is at the identity. They should be in random order, because only about the
 /// first `most` tests are run.
-/// @return the medians of the thread's processor time over `rounds` rounds.
+/// @return the medians over `rounds` rounds.
 template <class Overlap, BoundingVolume Volume>
 TestCosts testCosts(const VolumeTree<Volume>& a, const VolumeTree<Volume>& b,
                     std::span<const Transform> poses, std::size_t most = 1 << 18, int rounds = 5) {
@@ -116,9 +108,10 @@ TestCosts testCosts(const VolumeTree<Volume>& a, const VolumeTree<Volume>& b,
   const auto nanoseconds = [&](const std::vector<RecordedTest>& all, const auto& run) {
     std::vector<double> ns;
     for (int i = 0; i < rounds && !all.empty(); ++i) {
-      const double start = internal::threadNanoseconds();
-      for (const RecordedTest& test : all) run(test);
-      ns.push_back((internal::threadNanoseconds() - start) / static_cast<double>(all.size()));
+      const auto runAll = [&] {
+        for (const RecordedTest& test : all) run(test);
+      };
+      ns.push_back(nanosecondsOf(runAll, runAll) / static_cast<double>(all.size()));
     }
     return ns.empty() ? std::optional<double>() : medianOf(ns);
   };

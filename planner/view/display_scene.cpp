@@ -29,10 +29,7 @@ DisplayMesh displayMesh(const ModelBody& body) {
   std::vector<const TriangleMesh*> all;
   parts.reserve(body.shapes.size());
   for (const PlacedShape& shape : body.shapes)
-    all.push_back(shape.mesh
-                      ? &shape.mesh->mesh
-                      : &parts.emplace_back(shape.polygon.empty() ? tessellated(shape.parts)
-                                                                  : flatSurface(shape.parts)));
+    all.push_back(shape.mesh ? &shape.mesh->mesh : &parts.emplace_back(partsSurface(shape)));
   Bounds bounds;
   for (const TriangleMesh* mesh : all)
     for (const Vec3& p : mesh->vertices) bounds.include(p);

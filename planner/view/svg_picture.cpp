@@ -44,9 +44,7 @@ std::vector<Triangle3> distinctTriangles(const ModelBody& body, double cell) {
   std::set<std::array<std::array<double, 3>, 3>> seen;
   std::vector<Triangle3> triangles;
   for (const PlacedShape& shape : body.shapes) {
-    TriangleMesh mesh = shape.mesh              ? shape.mesh->mesh
-                        : shape.polygon.empty() ? view::tessellated(shape.parts)
-                                                : view::flatSurface(shape.parts);
+    TriangleMesh mesh = shape.mesh ? shape.mesh->mesh : view::partsSurface(shape);
     if (cell > 0 && mesh.triangles.size() > kFewTriangles) mesh = view::coarsened(mesh, cell);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       std::array<std::array<double, 3>, 3> key;

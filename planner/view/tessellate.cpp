@@ -88,6 +88,10 @@ TriangleMesh flatSurface(const std::vector<ConvexPart>& pieces) {
   return mesh;
 }
 
+TriangleMesh partsSurface(const PlacedShape& shape) {
+  return shape.polygon.empty() ? tessellated(shape.parts) : flatSurface(shape.parts);
+}
+
 TriangleMesh coarsened(const TriangleMesh& mesh, double cell) {
   TriangleMesh coarse;
   std::map<std::tuple<double, double, double>, std::uint32_t> cells;

@@ -2,6 +2,7 @@
 
 #include "collision/geometry/convex_part.h"
 #include "collision/geometry/triangle_mesh.h"
+#include "planner/robot/placed_shape.h"
 
 namespace corridor::view {
 
@@ -17,6 +18,10 @@ constexpr std::size_t kMostParts = 20'000;
 /// Returns flat convex parts, each with its corners in order, as triangles that are seen from both
 /// sides: the pieces of a polygon, exactly.
 TriangleMesh flatSurface(const std::vector<ConvexPart>& pieces);
+
+/// Returns the surface of a shape that has no mesh: of a polygon's pieces exactly, of other parts
+/// as above.
+TriangleMesh partsSurface(const PlacedShape& shape);
 
 /// Returns a coarser mesh, for pictures in which triangles would be smaller than a pixel: in each
 /// cell of a grid of size `cell`, the first vertex replaces all others.

@@ -20,7 +20,7 @@
 
 #include "collision/queries/distance_obb4.h"
 #include "collision/queries/interference_obb4.h"
-#include "planner/app/query_timing.h"
+#include "planner/benchmark/query_timing.h"
 #include "tests/support/workload.h"
 
 /// The competitors in query_benchmark. FCL is called in its fastest way: BVHModels are built once,
@@ -81,11 +81,11 @@ class Timed : public Competitor {
   void pass() override {
     for (std::size_t i = 0; i < poses_; ++i) {
       Answer answer;
-      const double ns = app::nanosecondsOf([&] { answer = library_->answer(i); },
-                                           [&] {
-                                             library_->forget();
-                                             library_->answer(i);
-                                           });
+      const double ns = nanosecondsOf([&] { answer = library_->answer(i); },
+                                      [&] {
+                                        library_->forget();
+                                        library_->answer(i);
+                                      });
       record.ns[i] = std::min(record.ns[i], ns);
       record.answers[i] = answer;
     }

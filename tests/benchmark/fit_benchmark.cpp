@@ -31,7 +31,7 @@
 #include "collision/queries/interference.h"
 #include "collision/queries/interference_obb4.h"
 #include "collision/volumes/pair_tests.h"
-#include "planner/app/query_timing.h"
+#include "planner/benchmark/query_timing.h"
 #include "tests/benchmark/arguments.h"
 #include "tests/benchmark/plot.h"
 #include "tests/benchmark/shapes.h"
@@ -108,8 +108,8 @@ void measure(const std::string& label, const TriangleMesh& model, const Triangle
       context.counters = {};
       interference(Posed(a), Posed(b, X), context);
     };
-    double least = app::nanosecondsOf(query, query);
-    for (int i = 0; i < 2; ++i) least = std::min(least, app::nanosecondsOf(query, query));
+    double least = nanosecondsOf(query, query);
+    for (int i = 0; i < 2; ++i) least = std::min(least, nanosecondsOf(query, query));
     ns += least;
     boxes += static_cast<double>(context.counters.boxTests);
     triangles += static_cast<double>(context.counters.triangleTests);

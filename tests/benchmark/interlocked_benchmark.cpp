@@ -30,8 +30,8 @@
 #include "collision/hierarchy/with_trees.h"
 #include "collision/queries/interference.h"
 #include "collision/queries/interference_obb4.h"
-#include "planner/app/query_timing.h"
 #include "planner/benchmark/cost_model.h"
+#include "planner/benchmark/query_timing.h"
 #include "planner/benchmark/test_costs.h"
 #include "tests/benchmark/arguments.h"
 #include "tests/benchmark/shapes.h"
@@ -101,8 +101,8 @@ void measure(const char* name, const TriangleMesh& meshA, const TriangleMesh& me
       context.counters = {};
       hit = interference(Posed(a), Posed(b, X), context).has_value();
     };
-    double ns = app::nanosecondsOf(query, query);
-    for (int i = 0; i < 2; ++i) ns = std::min(ns, app::nanosecondsOf(query, query));
+    double ns = nanosecondsOf(query, query);
+    for (int i = 0; i < 2; ++i) ns = std::min(ns, nanosecondsOf(query, query));
     contacts += hit;
     costs.push_back({static_cast<double>(context.counters.boxTests),
                      static_cast<double>(context.counters.triangleTests), ns});

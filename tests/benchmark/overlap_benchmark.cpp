@@ -45,8 +45,8 @@
 #include "collision/queries/interference_obb4.h"
 #include "collision/queries/touching_pairs.h"
 #include "collision/volumes/overlap_obb_obb_variants.h"
-#include "planner/app/query_timing.h"
 #include "planner/benchmark/cost_model.h"
+#include "planner/benchmark/query_timing.h"
 #include "tests/benchmark/arguments.h"
 #include "tests/benchmark/counted.h"
 #include "tests/support/support.h"
@@ -208,7 +208,7 @@ class Wide {
       ask();
       costs_[i].boxTests = static_cast<double>(context_.counters.boxTests);
       costs_[i].triangleTests = static_cast<double>(context_.counters.triangleTests);
-      costs_[i].ns = std::min(costs_[i].ns, app::nanosecondsOf(ask, ask));
+      costs_[i].ns = std::min(costs_[i].ns, nanosecondsOf(ask, ask));
     }
   }
   double boxTestNs() const {

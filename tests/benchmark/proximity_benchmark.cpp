@@ -22,7 +22,7 @@
 #include "collision/queries/interference.h"
 #include "collision/queries/interference_obb4.h"
 #include "collision/volumes/pair_tests.h"
-#include "planner/app/query_timing.h"
+#include "planner/benchmark/query_timing.h"
 #include "tests/benchmark/arguments.h"
 #include "tests/benchmark/plot.h"
 #include "tests/benchmark/shapes.h"
@@ -62,11 +62,11 @@ std::vector<Cost> ask(const TriangleMesh& sphere, const std::vector<double>& sca
         context.counters = {};
         query();
       };
-      double least = app::nanosecondsOf(counted, counted);
+      double least = nanosecondsOf(counted, counted);
       cost.boxTests += static_cast<double>(context.counters.boxTests);
       cost.triangleTests += static_cast<double>(context.counters.triangleTests);
       for (int i = 0; i < 2 && least < 1e8; ++i)  // long queries vary little
-        least = std::min(least, app::nanosecondsOf(query, query));
+        least = std::min(least, nanosecondsOf(query, query));
       ns.push_back(least);
     }
     cost.boxTests /= static_cast<double>(poses.size());

@@ -5,7 +5,7 @@
 /// Runs every workload of DIR/collision whose name contains a TEXT (DIR defaults to
 /// $CORRIDOR_DATA). All competitors build their trees once. Then there are N rounds. In each round
 /// every competitor in turn answers all poses in one pass. So no pose is repeated immediately,
-/// except by queries that are too short for the clock (planner/app/query_timing.h), and other
+/// except by queries that are too short for the clock (planner/benchmark/query_timing.h), and other
 /// programs on the machine disturb all competitors alike. A pose's time is the least of its rounds,
 /// because other programs only ever add time. A workload's time is the median of its poses'.
 /// competitors.h describes how each competitor is called.
@@ -30,7 +30,7 @@
 #include "collision/core/quantiles.h"
 #include "collision/core/simd_target.h"
 #include "collision/queries/interference.h"
-#include "planner/app/query_timing.h"
+#include "planner/benchmark/query_timing.h"
 #include "tests/benchmark/arguments.h"
 #include "tests/benchmark/competitors.h"
 #include "tests/benchmark/shapes.h"

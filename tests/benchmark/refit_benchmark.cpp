@@ -18,7 +18,7 @@
 #include "collision/queries/interference.h"
 #include "collision/queries/interference_obb4.h"
 #include "collision/volumes/pair_tests.h"
-#include "planner/app/query_timing.h"
+#include "planner/benchmark/query_timing.h"
 #include "tests/benchmark/arguments.h"
 #include "tests/benchmark/placement.h"
 #include "tests/benchmark/plot.h"
@@ -56,7 +56,7 @@ Vec3 waving(const Vec3& p, double s) {  // two periods, and at full height after
 
 double milliseconds(const std::function<void()>& work) {
   double least = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < 3; ++i) least = std::min(least, app::nanosecondsOf(work, work) / 1e6);
+  for (int i = 0; i < 3; ++i) least = std::min(least, nanosecondsOf(work, work) / 1e6);
   return least;
 }
 
@@ -76,7 +76,7 @@ Cost ask(const Tree& a, const Tree& b, const std::vector<Transform>& poses) {
     cost.triangleTests += static_cast<double>(context.counters.triangleTests) / count;
     const auto query = [&] { interference(Posed(a), Posed(b, X), context); };
     double least = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < 3; ++i) least = std::min(least, app::nanosecondsOf(query, query));
+    for (int i = 0; i < 3; ++i) least = std::min(least, nanosecondsOf(query, query));
     ns.push_back(least);
   }
   cost.us = medianOf(ns) / 1e3;

@@ -20,7 +20,7 @@
 #include "collision/core/simd_target.h"
 #include "collision/queries/distance_obb4.h"
 #include "collision/queries/interference_obb4.h"
-#include "planner/app/query_timing.h"
+#include "planner/benchmark/query_timing.h"
 #include "tests/benchmark/arguments.h"
 #include "tests/benchmark/plot.h"
 #include "tests/benchmark/shapes.h"
@@ -95,8 +95,8 @@ Row measure(const test::Workload& w, double relative, const Options& o) {
     const auto close = [&] { closerThan(Posed(*other), Posed(b, *wide), tolerance, context); };
     double touchNs = std::numeric_limits<double>::infinity(), closeNs = touchNs;
     for (int i = 0; i < o.rounds; ++i) {
-      touchNs = std::min(touchNs, app::nanosecondsOf(touch, touch));
-      closeNs = std::min(closeNs, app::nanosecondsOf(close, close));
+      touchNs = std::min(touchNs, nanosecondsOf(touch, touch));
+      closeNs = std::min(closeNs, nanosecondsOf(close, close));
     }
     context.counters = {};
     touch();

@@ -25,6 +25,40 @@ inline void add(TriangleMesh& mesh, const Triangle& t) {
   add(mesh, t[0], t[1], t[2]);
 }
 
+/// Returns a sheet of 2n² triangles that share vertices; `point(i, k)` is a vertex, 0 ≤ i, k ≤ n.
+template <class Point>
+TriangleMesh sheet(std::uint32_t n, const Point& point) {
+  TriangleMesh mesh;
+  for (std::uint32_t i = 0; i <= n; ++i)
+    for (std::uint32_t k = 0; k <= n; ++k) mesh.vertices.push_back(point(i, k));
+  for (std::uint32_t i = 0; i < n; ++i)
+    for (std::uint32_t k = 0; k < n; ++k) {
+      const std::uint32_t v = i * (n + 1) + k;
+      mesh.triangles.push_back({v, v + 1, v + n + 1});
+      mesh.triangles.push_back({v + 1, v + n + 2, v + n + 1});
+    }
+  return mesh;
+}
+
+/// Returns the surface of the cube [−1, 1]³ as 12n² triangles, each with corners of its own.
+inline TriangleMesh tessellatedCube(int n) {
+  TriangleMesh mesh;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double side : {-1.0, 1.0})
+      for (int i = 0; i < n; ++i)
+        for (int k = 0; k < n; ++k) {
+          const auto at = [&](int u, int v) {
+            Vec3 p = Vec3::Constant(side);
+            p[(axis + 1) % 3] = -1 + 2.0 * (i + u) / n;
+            p[(axis + 2) % 3] = -1 + 2.0 * (k + v) / n;
+            return p;
+          };
+          add(mesh, at(0, 0), at(1, 0), at(1, 1));
+          add(mesh, at(0, 0), at(1, 1), at(0, 1));
+        }
+  return mesh;
+}
+
 /// Adds a box under x ↦ Mx, facing outward, with corners of its own.
 inline void addBox(TriangleMesh& mesh, const Vec3& low, const Vec3& high,
                    const Mat3& M = Mat3::Identity()) {

@@ -16,6 +16,7 @@
 #include "collision/queries/interference_obb4.h"
 #include "tests/collision/queries/every_target.h"
 #include "tests/support/brute_force.h"
+#include "tests/support/meshes.h"
 #include "tests/support/soups.h"
 #include "tests/support/support.h"
 
@@ -71,17 +72,9 @@ TriangleMesh moved(TriangleMesh mesh, const Deformation& by) {
 
 /// Returns a wavy sheet of 2n² triangles that share vertices.
 TriangleMesh sheet(std::uint32_t n) {
-  TriangleMesh mesh;
-  for (std::uint32_t i = 0; i <= n; ++i)
-    for (std::uint32_t k = 0; k <= n; ++k)
-      mesh.vertices.emplace_back(2.0 * i / n - 1, 2.0 * k / n - 1, 0.3 * std::sin(7.0 * i / n));
-  for (std::uint32_t i = 0; i < n; ++i)
-    for (std::uint32_t k = 0; k < n; ++k) {
-      const std::uint32_t v = i * (n + 1) + k;
-      mesh.triangles.push_back({v, v + 1, v + n + 1});
-      mesh.triangles.push_back({v + 1, v + n + 2, v + n + 1});
-    }
-  return mesh;
+  return test::sheet(n, [n](std::uint32_t i, std::uint32_t k) {
+    return Vec3(2.0 * i / n - 1, 2.0 * k / n - 1, 0.3 * std::sin(7.0 * i / n));
+  });
 }
 
 void expectTreeOf(const TriangleMesh& mesh, const Obb4Tree& tree) {

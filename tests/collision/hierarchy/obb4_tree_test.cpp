@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/collision/queries/every_target.h"
+#include "tests/support/meshes.h"
 #include "tests/support/soups.h"
 #include "tests/support/support.h"
 #include "tests/support/workload.h"
@@ -126,17 +127,9 @@ TEST(Obb4Tree, DeepAndIndivisible) {
 
 /// Returns a wavy sheet of 2n² triangles.
 TriangleMesh sheet(std::uint32_t n) {
-  TriangleMesh mesh;
-  for (std::uint32_t i = 0; i <= n; ++i)
-    for (std::uint32_t k = 0; k <= n; ++k)
-      mesh.vertices.emplace_back(i, k, 5 * std::sin(0.1 * i) * std::cos(0.07 * k));
-  for (std::uint32_t i = 0; i < n; ++i)
-    for (std::uint32_t k = 0; k < n; ++k) {
-      const std::uint32_t v = i * (n + 1) + k;
-      mesh.triangles.push_back({v, v + 1, v + n + 1});
-      mesh.triangles.push_back({v + 1, v + n + 2, v + n + 1});
-    }
-  return mesh;
+  return test::sheet(n, [](std::uint32_t i, std::uint32_t k) {
+    return Vec3(i, k, 5 * std::sin(0.1 * i) * std::cos(0.07 * k));
+  });
 }
 
 /// Tests the bound of the memory that collision/hierarchy/MEASURED.md derives for meshes with

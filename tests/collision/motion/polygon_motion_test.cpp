@@ -77,14 +77,28 @@ TEST(PolygonBodies, ContactAgreesWithRationals) {
 /// An L whose inner corner is the origin: below y = 0 and to the left of x = 0.
 const Points corner{{-1, -1}, {3, -1}, {3, 0}, {0, 0}, {0, 3}, {-1, 3}};
 
-/// The other polygon slides along the L's inner edge, at the height `gap` above it.
-TEST(PolygonBodies, MotionsThatSlideAtAKnownHeight) {
-  test::Polygons random(test::testSeed(62));
-  QueryContext context;
+/// Runs motions of random polygons past others, at known gaps of 10^-2 to 10^-8 of the size, half
+/// of them negative. `verdictOf(polygon, gap)` returns the verdict of a motion; it must be contact
+/// if and only if the gap is negative.
+template <class VerdictOf>
+void expectVerdictsAtKnownGaps(test::Polygons& random, const VerdictOf& verdictOf) {
   int decided = 0;
   for (int n = 0; n < 2000 / test::kSlowdown; ++n) {
     const Points p = random.polygon(3 + random.below(8), n % test::Polygons::kinds);
     if (checkSimple(p)) continue;
+    const double gap = (n % 2 ? 1 : -1) * std::pow(10.0, -2 - n / 2 % 7);
+    ASSERT_EQ(verdictOf(p, gap), gap < 0 ? MotionVerdict::contact : MotionVerdict::free)
+        << "motion " << n << ", gap " << gap;
+    ++decided;
+  }
+  EXPECT_GT(decided, 500 / test::kSlowdown);
+}
+
+/// The other polygon slides along the L's inner edge, at the height `gap` above it.
+TEST(PolygonBodies, MotionsThatSlideAtAKnownHeight) {
+  test::Polygons random(test::testSeed(62));
+  QueryContext context;
+  expectVerdictsAtKnownGaps(random, [&](const Points& p, double gap) {
     double lowest = 1e300, left = 1e300, size = 0;
     for (const Vec2& v : p) {
       lowest = std::min(lowest, v.y());
@@ -92,21 +106,15 @@ TEST(PolygonBodies, MotionsThatSlideAtAKnownHeight) {
       size = std::max(size, v.norm());
     }
     // Pose: y = gap − lowest, which is exact up to one rounding of the size.
-    const double gap = (n % 2 ? 1 : -1) * std::pow(10.0, -2 - n / 2 % 7);
     Points fixed = corner;
     for (Vec2& v : fixed) v = (v.array() > 1).select(10 * size, v);  // longer than the motion
     const double y = gap * size - lowest, from = 0.1 * size - left, to = from + 2 * size;
     MotionOptions options;
     options.tolerance = 1e-10 * size;
-    const MotionResult r =
-        test::certify(bodyOf(p), bodyOf(fixed), RigidMotion::planar({to, y, 0}, {from, y, 0}, {}),
-                      options, context);
-    const bool overlaps = gap < 0;
-    ASSERT_EQ(r.verdict, overlaps ? MotionVerdict::contact : MotionVerdict::free)
-        << "motion " << n << ", gap " << gap;
-    ++decided;
-  }
-  EXPECT_GT(decided, 500 / test::kSlowdown);
+    return test::certify(bodyOf(p), bodyOf(fixed),
+                         RigidMotion::planar({to, y, 0}, {from, y, 0}, {}), options, context)
+        .verdict;
+  });
 }
 
 /// The polygon turns about its reference point, and its farthest corner passes a wall at a known
@@ -114,30 +122,22 @@ TEST(PolygonBodies, MotionsThatSlideAtAKnownHeight) {
 TEST(PolygonBodies, RotationsThatGraze) {
   test::Polygons random(test::testSeed(63));
   QueryContext context;
-  int decided = 0;
-  for (int n = 0; n < 2000 / test::kSlowdown; ++n) {
-    const Points p = random.polygon(3 + random.below(8), n % test::Polygons::kinds);
-    if (checkSimple(p)) continue;
+  expectVerdictsAtKnownGaps(random, [&](const Points& p, double gap) {
     Vec2 farthest = p[0];
     for (const Vec2& v : p)
       if (v.norm() > farthest.norm()) farthest = v;
     const double r = farthest.norm(), angle = std::atan2(farthest.y(), farthest.x());
-    const double gap = (n % 2 ? 1 : -1) * std::pow(10.0, -2 - n / 2 % 7) * r;
-    // A U around the wall's line x = r + gap, open to the right.
-    const double x = r + gap;
+    // A U around the wall's line, open to the right.
+    const double x = r + gap * r;
     const Points wall{{x, -3 * r},    {x + 2 * r, -3 * r}, {x + 2 * r, -2 * r}, {x + r, -2 * r},
                       {x + r, 2 * r}, {x + 2 * r, 2 * r},  {x + 2 * r, 3 * r},  {x, 3 * r}};
     const double start = -angle - random.real(0.2, 1.2), end = -angle + random.real(0.2, 1.2);
     MotionOptions options;
     options.tolerance = 1e-10 * r;
-    const MotionResult result =
-        test::certify(bodyOf(p), bodyOf(wall), RigidMotion::planar({0, 0, start}, {0, 0, end}, {}),
-                      options, context);
-    ASSERT_EQ(result.verdict, gap < 0 ? MotionVerdict::contact : MotionVerdict::free)
-        << "motion " << n << ", gap " << gap / r;
-    ++decided;
-  }
-  EXPECT_GT(decided, 500 / test::kSlowdown);
+    return test::certify(bodyOf(p), bodyOf(wall),
+                         RigidMotion::planar({0, 0, start}, {0, 0, end}, {}), options, context)
+        .verdict;
+  });
 }
 
 }  // namespace

@@ -96,20 +96,8 @@ TEST(HullDeviation, OfFinelyTessellatedConvexMeshesIsWithin) {
   std::mt19937_64 random(test::testSeed(73));
   for (const int n : {1, 10, 25}) {
     const Transform X = anywhere(random);
-    TriangleMesh box;
-    for (int axis = 0; axis < 3; ++axis)
-      for (const double side : {0.0, 1.0})
-        for (int i = 0; i < n; ++i)
-          for (int k = 0; k < n; ++k) {
-            const auto at = [&](int u, int v) {
-              Vec3 p = Vec3::Constant(side);
-              p[(axis + 1) % 3] = static_cast<double>(i + u) / n;
-              p[(axis + 2) % 3] = static_cast<double>(k + v) / n;
-              return X * p;
-            };
-            test::add(box, at(0, 0), at(1, 0), at(1, 1));
-            test::add(box, at(0, 0), at(1, 1), at(0, 1));
-          }
+    TriangleMesh box = test::tessellatedCube(n);
+    for (Vec3& v : box.vertices) v = X * v;
     const HullDeviation d = hullDeviation(hullOf(box), box, 1e-4);
     EXPECT_TRUE(d.within) << n;
     EXPECT_LE(d.upper, 1e-4) << n;

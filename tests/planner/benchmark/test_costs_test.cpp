@@ -12,22 +12,10 @@
 namespace corridor {
 namespace {
 
-/// Returns the surface of a cube of half edge 1 as 12·n² triangles, bent a little.
+/// Returns the surface of a cube as 12·n² triangles, bent a little.
 TriangleMesh bentCube(int n) {
-  TriangleMesh mesh;
-  for (int axis = 0; axis < 3; ++axis)
-    for (const double side : {-1.0, 1.0})
-      for (int i = 0; i < n; ++i)
-        for (int k = 0; k < n; ++k) {
-          const auto at = [&](int u, int v) {
-            Vec3 p = Vec3::Constant(side);
-            p[(axis + 1) % 3] = -1 + 2.0 * (i + u) / n;
-            p[(axis + 2) % 3] = -1 + 2.0 * (k + v) / n;
-            return Vec3(p + 0.1 * Vec3(std::sin(p[1]), std::sin(p[2]), std::sin(p[0])));
-          };
-          test::add(mesh, at(0, 0), at(1, 0), at(1, 1));
-          test::add(mesh, at(0, 0), at(1, 1), at(0, 1));
-        }
+  TriangleMesh mesh = test::tessellatedCube(n);
+  for (Vec3& p : mesh.vertices) p = p + 0.1 * Vec3(std::sin(p[1]), std::sin(p[2]), std::sin(p[0]));
   return mesh;
 }
 

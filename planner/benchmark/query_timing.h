@@ -4,7 +4,7 @@
 #include <chrono>
 #include <ctime>
 
-namespace corridor::app {
+namespace corridor {
 
 /// Returns the nanoseconds that one call takes.
 ///
@@ -42,4 +42,4 @@ double nanosecondsOf(Ask&& ask, Again&& again) {
   return since(batch) / times;
 }
 
-}  // namespace corridor::app
+}  // namespace corridor

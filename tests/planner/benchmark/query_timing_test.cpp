@@ -1,8 +1,8 @@
-#include "planner/app/query_timing.h"
+#include "planner/benchmark/query_timing.h"
 
 #include <gtest/gtest.h>
 
-namespace corridor::app {
+namespace corridor {
 namespace {
 
 /// Runs `count` additions, each of which needs the result of the one before.
@@ -26,4 +26,4 @@ TEST(QueryTiming, QuickCallsAreRepeatedAndSlowOnesAreNot) {
 }
 
 }  // namespace
-}  // namespace corridor::app
+}  // namespace corridor
