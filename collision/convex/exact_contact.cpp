@@ -34,10 +34,10 @@ using Program = seidel::HalfSpace<Rational, 4>;
 /// The points of a set under its map, in rationals.
 class ExactPoints {
  public:
-  explicit ExactPoints(const PosedSet& set) : set_(set.set()), X_(set.pose()) {
+  explicit ExactPoints(const PosedSet& set) : set_(set.set()) {
     for (int i = 0; i < 3; ++i) {
-      t_[i] = rational(X_.t[i]);
-      for (int k = 0; k < 3; ++k) m_[i][k] = rational(X_.m(i, k));
+      t_[i] = rational(set.pose().t[i]);
+      for (int k = 0; k < 3; ++k) m_[i][k] = rational(set.pose().m(i, k));
     }
   }
 
@@ -93,7 +93,6 @@ class ExactPoints {
   }
 
   const ConvexSet& set_;
-  const Transform& X_;
   std::array<Direction, 3> m_;
   Direction t_;
 };

@@ -42,9 +42,9 @@ struct Plane {
   double size, error;  ///< D_u D_v, and e_u D_v + D_u e_v
 };
 
-class Posed {
+class MappedPolytope {
  public:
-  Posed(const PolytopeFeatures& polytope, const Transform& X) : shape(polytope), X_(X) {
+  MappedPolytope(const PolytopeFeatures& polytope, const Transform& X) : shape(polytope), X_(X) {
     // The determinant is that of a matrix with norm 1, so no scale overflows or vanishes. A norm of
     // 0 gives NaN, which is refused.
     if (!X.t.allFinite() || !(Mat3(X.m / X.m.stableNorm()).determinant() > 0x1p-40))
@@ -73,7 +73,8 @@ class Posed {
   }
 
   /// The difference from a vertex of one polytope to one of another.
-  static Edge between(const Posed& a, std::uint32_t v, const Posed& b, std::uint32_t w) {
+  static Edge between(const MappedPolytope& a, std::uint32_t v, const MappedPolytope& b,
+                      std::uint32_t w) {
     const Vec3 d = b.points_[w] - a.points_[v];
     const double largest = d.cwiseAbs().maxCoeff();
     const double error = roundedUp(a.error_ + b.error_ + kUnit * largest);
@@ -134,7 +135,7 @@ class Axes {
                         sideA(a_.shape.leftFace(a_.shape.twin(first.a.index))));
   }
 
-  bool testFaces(const Posed& x, const Posed& y, bool ofA) {
+  bool testFaces(const MappedPolytope& x, const MappedPolytope& y, bool ofA) {
     guess_ = 0;
     for (std::uint32_t f = 0; f < x.faces(); ++f)
       if (testFace(x, y, f, ofA)) return true;
@@ -143,12 +144,12 @@ class Axes {
 
   /// Tests whether all of y is beyond the plane of a face of x, beginning with the vertex that was
   /// not beyond the last plane.
-  bool testFace(const Posed& x, const Posed& y, std::uint32_t f, bool ofA) {
+  bool testFace(const MappedPolytope& x, const MappedPolytope& y, std::uint32_t f, bool ofA) {
     ++answer_.faces;
     const Plane plane = x.plane(f);
     const std::uint32_t corner = x.shape.polytope().faces()[f][0];
     const auto isBeyond = [&](std::uint32_t v) {
-      return side(plane, Posed::between(x, corner, y, v)) > 0;
+      return side(plane, MappedPolytope::between(x, corner, y, v)) > 0;
     };
     if (!isBeyond(guess_)) return false;
     for (std::uint32_t v = 0; v < y.vertices(); ++v)
@@ -165,11 +166,12 @@ class Axes {
   }
 
   /// Returns the vertex of y that is lowest along n, up to rounding.
-  static std::uint32_t lowest(const Posed& x, const Posed& y, std::uint32_t corner, const Vec3& n) {
+  static std::uint32_t lowest(const MappedPolytope& x, const MappedPolytope& y,
+                              std::uint32_t corner, const Vec3& n) {
     std::uint32_t best = 0;
     double least = HUGE_VAL;
     for (std::uint32_t v = 0; v < y.vertices(); ++v) {
-      const double height = n.dot(Posed::between(x, corner, y, v).d);
+      const double height = n.dot(MappedPolytope::between(x, corner, y, v).d);
       if (height < least) least = height, best = v;
     }
     return best;
@@ -201,8 +203,8 @@ class Axes {
     if (side(b_.plane(b_.shape.leftFace(k)), u) != leftA) return false;
     if (side(b_.plane(b_.shape.leftFace(b_.shape.twin(k))), u) != -leftA) return false;
     ++answer_.edgePairs;
-    const Plane plane = Posed::planeOf(u, v);
-    const Edge w = Posed::between(a_, a_.shape.tail(h), b_, b_.shape.tail(k));
+    const Plane plane = MappedPolytope::planeOf(u, v);
+    const Edge w = MappedPolytope::between(a_, a_.shape.tail(h), b_, b_.shape.tail(k));
     if (side(plane, w) != leftA) return false;
     answer_.a = {Kind::edge, h};
     answer_.b = {Kind::edge, k};
@@ -210,7 +212,7 @@ class Axes {
     return true;
   }
 
-  Posed a_, b_;
+  MappedPolytope a_, b_;
   std::uint32_t guess_ = 0;
   SeparatingAxis answer_;
 };
