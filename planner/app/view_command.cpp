@@ -69,11 +69,8 @@ int viewVolumes(const ViewArguments& a) {
   ofProblem("--image", a.image.has_value());
   ofProblem("--size", a.size.has_value());
   requireExtension(a.output, "--output", "pictures of volumes are SVG", {".svg"});
-  const std::vector<std::string> names = drawnVolumes();
-  if (std::find(names.begin(), names.end(), *a.volume) == names.end())
-    throw InputError(Fault{"--volume", 0,
-                           "there is no picture of " + quotedWord(*a.volume) +
-                               didYouMean(*a.volume, names) + "; there are: " + joined(names)});
+  if (const auto wrong = invalidNameIn({*a.volume, "", ""}))
+    throw InputError(Fault{"--" + wrong->key, 0, wrong->text});
   std::optional<ViewDirection> from;
   if (a.from) from = viewDirection(*a.from, "--from");
   const MeshFile mesh = readMeshFile(a.problem);
@@ -180,11 +177,13 @@ void addView(CLI::App& program, int& status) {
       ->group(results);
   addFrom(*command, a.from, results);
   const char* volumes = "Volumes of a mesh";
+  std::vector<std::string> names;
+  for (const VolumeKind& kind : volumeKinds()) names.push_back(kind.name);
   command
       ->add_option("--volume", a.volume,
                    "PROBLEM is a mesh file: draw it with the bounding volumes of its tree, as an "
                    "SVG picture (-o, default: MESH_VOLUME_LEVEL.svg): " +
-                       joined(drawnVolumes()))
+                       joined(names))
       ->group(volumes);
   command
       ->add_option("--level", a.level,

@@ -3,8 +3,8 @@
 #include "collision/geometry/convex_part.h"
 #include "collision/volumes/pair_tests.h"
 
-/// The surfaces of bounding volumes, for pictures only: rounded, without any guarantee. A volume of
-/// which a picture can be drawn has a function `outline`. A new volume adds one here.
+/// The surfaces of bounding volumes, for pictures only: rounded, without any guarantee. A new
+/// volume adds its function `outline` here.
 namespace corridor::view {
 
 /// Returns a convex part with the shape of a volume: points whose hull is swept by a sphere.

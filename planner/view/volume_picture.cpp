@@ -11,6 +11,7 @@
 
 #include <Eigen/Geometry>
 
+#include "collision/convex/convex_polygon.h"
 #include "collision/convex/quickhull.h"
 #include "collision/hierarchy/obb4_tree.h"
 #include "collision/hierarchy/with_trees.h"
@@ -61,13 +62,6 @@ Level levelOf(std::vector<Item> items, std::size_t level, const Below& below, co
 }
 
 template <class Volume>
-constexpr bool hasOutline() {
-  return requires(const Volume& volume) {
-    view::outline(volume);
-  };
-}
-
-template <class Volume>
 Level levelOf(const VolumeTree<Volume>& tree, std::size_t level) {
   const auto below = [&](std::uint32_t i) {
     std::vector<std::uint32_t> children;
@@ -108,40 +102,24 @@ Level levelOf(const TriangleMesh& mesh, const TreeNames& words, std::size_t leve
   const TreeChoice choice = treesNamed(words);
   if (choice.trees == TreeKind::obb4) return levelOf(Obb4Tree(mesh, choice.params.fit), level);
   return withVolume(choice.trees, [&]<class Volume, class Overlap>() {
-    if constexpr (hasOutline<Volume>())
-      return levelOf(VolumeTree<Volume>(mesh, choice.params), level);
-    else
-      return Level{};
+    return levelOf(VolumeTree<Volume>(mesh, choice.params), level);
   });
 }
 
-using Point2 = std::array<long, 2>;
-
-/// Returns the corners of the hull of projected points, in whole pixels (Andrew's monotone chain).
-std::vector<Point2> silhouette(const Camera& camera, const std::vector<Vec3>& points) {
-  std::vector<Point2> p;
-  for (const Vec3& x : points) {
-    const Vec3 seen = camera.project(x);
-    p.push_back({std::lround(seen.x()), std::lround(seen.y())});
-  }
-  std::sort(p.begin(), p.end());
-  p.erase(std::unique(p.begin(), p.end()), p.end());
-  if (p.size() < 3) return p;
-  const auto turnsLeft = [](const Point2& a, const Point2& b, const Point2& c) {
-    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) > 0;
+/// Returns the corners of the hull of projected points, in whole pixels; its ends if it is a line.
+std::vector<Vec2> silhouette(const Camera& camera, const std::vector<Vec3>& points) {
+  std::vector<Vec2> seen;
+  for (const Vec3& x : points) seen.emplace_back(camera.project(x).head<2>().array().round());
+  const auto isBefore = [](const Vec2& p, const Vec2& q) {
+    return std::pair(p.x(), p.y()) < std::pair(q.x(), q.y());
   };
-  std::vector<Point2> hull;
-  for (int pass = 0; pass < 2; ++pass) {
-    const std::size_t start = hull.size();
-    for (const Point2& q : p) {
-      while (hull.size() >= start + 2 && !turnsLeft(hull[hull.size() - 2], hull.back(), q))
-        hull.pop_back();
-      hull.push_back(q);
-    }
-    hull.pop_back();
-    std::reverse(p.begin(), p.end());
-  }
-  return hull;
+  const auto [first, last] = std::minmax_element(seen.begin(), seen.end(), isBefore);
+  const bool isLine =
+      std::all_of(seen.begin(), seen.end(),
+                  [&, p = *first, q = *last](const Vec2& r) { return lineSide(p, q, r) == 0; });
+  if (isLine) return {*first, *last};
+  const ConvexPolygon hull(seen);
+  return {hull.vertices().begin(), hull.vertices().end()};
 }
 
 /// Returns the visible edges between faces that enclose an angle, as an SVG path.
@@ -179,8 +157,9 @@ std::string draw(const Camera& camera, const ConvexPart& volume, std::size_t num
   static const std::array<const char*, 6> colours = {"#2f6fbf", "#c2552d", "#3d8f4e",
                                                      "#8a4fae", "#b8860b", "#20868c"};
   std::string path;
-  for (const Point2& p : silhouette(camera, points))
-    path += (path.empty() ? "M" : "L") + std::to_string(p[0]) + " " + std::to_string(p[1]);
+  for (const Vec2& p : silhouette(camera, points))
+    path += (path.empty() ? "M" : "L") + std::to_string(std::lround(p.x())) + " " +
+            std::to_string(std::lround(p.y()));
   const char* colour = colours[number % colours.size()];
   std::string svg = std::string("<path fill=\"") + colour + "\" stroke=\"" + colour + "\" d=\"" +
                     path + "z\"/>\n";
@@ -190,15 +169,6 @@ std::string draw(const Camera& camera, const ConvexPart& volume, std::size_t num
 }
 
 }  // namespace
-
-std::vector<std::string> drawnVolumes() {
-  std::vector<std::string> names;
-  for (const VolumeKind& kind : volumeKinds())
-    if (kind.trees == TreeKind::obb4 ||
-        withVolume(kind.trees, []<class Volume, class Overlap>() { return hasOutline<Volume>(); }))
-      names.push_back(kind.name);
-  return names;
-}
 
 VolumePicture volumePicture(const TriangleMesh& mesh, const TreeNames& trees, std::size_t level,
                             const std::optional<ViewDirection>& from) {

@@ -11,10 +11,6 @@
 
 namespace corridor {
 
-/// Returns the names of the volumes of which pictures can be drawn: those with an `outline`
-/// (volume_outline.h), and obb, the 4-wide OBB tree.
-std::vector<std::string> drawnVolumes();
-
 /// A picture of one level of a tree.
 struct VolumePicture {
   std::string svg;  ///< at most some 100 KB
@@ -26,7 +22,7 @@ struct VolumePicture {
 
 /// Draws a mesh, and the volumes of a level of its tree. Without such a level, the picture has the
 /// last one.
-/// @param trees the tree; its volume is one of `drawnVolumes()`, and its words are legal.
+/// @param trees the tree; `invalidNameIn` reports nothing.
 /// @param from the direction of view; unset: from above, at an angle.
 VolumePicture volumePicture(const TriangleMesh& mesh, const TreeNames& trees, std::size_t level,
                             const std::optional<ViewDirection>& from = {});

@@ -28,7 +28,7 @@ TEST_F(ViewVolumes, WritesAPicture) {
 
 TEST_F(ViewVolumes, BadInputIsOneLineAndExit2) {
   expectFaultThatBegins("view " + piano + " --volume spher",
-                        "--volume: there is no picture of \"spher\" (did you mean \"sphere\"?); "
+                        "--volume: unknown volume \"spher\" (did you mean \"sphere\"?); "
                         "there are: obb, obb-binary, aabb, sphere, rss, kdop14, kdop18, kdop26");
   expectFaultThatBegins("view " + piano + " --volume aabb --level 999",
                         "--level: the tree has the levels 0 to ");
