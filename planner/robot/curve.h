@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "planner/robot/configuration_space.h"
+
+namespace corridor {
+
+/// A piece of a curve in a configuration space, for a parameter τ in [0, 1]. It is meant in real
+/// arithmetic on the stored doubles:
+/// - A line or a circle is the polynomial Σ_i B_i(τ)·coefficients(row, i), where B_i are the
+///   Bernstein polynomials of the piece's degree. The values of a circle are taken literally: the
+///   curve never goes "the shorter way", and angles may leave [−π, π].
+/// - A rotation is the slerp from the quaternion in the first column to that in the last column,
+///   normalised in real arithmetic, along the shorter arc and at a constant rate. The columns
+///   between are not used.
+/// A joint that mimics another joint has the value multiplier·q + offset for the literal q, so it
+/// never jumps.
+///
+/// The struct is plain data. The checker and the independent verifier both read it.
+struct CurvePiece {
+  static constexpr int kLargestDegree = 9;
+
+  /// One row for each number of a Configuration, and one column for each Bernstein coefficient:
+  /// degree + 1, from 2 to kLargestDegree + 1. Metres, radians; quaternions as (x, y, z, w).
+  Eigen::MatrixXd coefficients;
+  /// For each number, a bound of how far the curve that is meant may be from this polynomial, ≥ 0:
+  /// the rounding of a conversion. Proofs add it to the tube. The deviation of a rotation is an
+  /// angle, and is at the first of its four numbers. Metres, radians.
+  Configuration error;
+
+  int degree() const { return static_cast<int>(coefficients.cols()) - 1; }
+};
+
+/// A curve over time: pieces[k] covers the times [knots[k], knots[k + 1]], with
+/// τ = (time − knots[k]) / (knots[k + 1] − knots[k]) in real arithmetic.
+struct Curve {
+  std::vector<double> knots;  ///< seconds, strictly ascending; one more than pieces
+  std::vector<CurvePiece> pieces;
+};
+
+}  // namespace corridor
