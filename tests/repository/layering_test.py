@@ -12,8 +12,8 @@ LAYERS = [
     "collision/core", "collision/predicates", "collision/geometry", "collision/convex", "collision/volumes",
     "collision/hierarchy", "collision/queries", "collision/motion", "collision/world",
     "collision/collision.h",  # only for programs of users: our own files include the headers that they need
-    "planner/robot", "planner/model", "planner/problem", "planner/checker", "planner/verify", "planner/solve",
-    "planner/view", "planner/benchmark", "planner/app",
+    "planner/robot", "planner/model", "planner/problem", "planner/checker", "planner/verify", "planner/trajectory",
+    "planner/solve", "planner/view", "planner/benchmark", "planner/app",
 ]
 
 # The verifier shares only plain data and the test of the floating-point mode with the checker. So the headers that it
@@ -24,6 +24,7 @@ VERIFIER = {
     "collision/core/transform.h",
     "collision/geometry/convex_part.h",
     "collision/geometry/triangle_mesh.h",
+    "planner/robot/curve.h",
     "planner/robot/kinematic_tree.h",
 }
 
