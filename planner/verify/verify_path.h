@@ -9,6 +9,7 @@
 
 #include "collision/geometry/convex_part.h"
 #include "collision/geometry/triangle_mesh.h"
+#include "planner/robot/curve.h"
 #include "planner/robot/kinematic_tree.h"
 
 namespace corridor {
@@ -146,5 +147,25 @@ struct PathReport {
 /// - A body has neither a mesh nor parts, or both, or an empty mesh or part.
 /// - A pair names a body that does not exist.
 PathReport verifyPath(const PathProblem& problem, const std::vector<Configuration>& states);
+
+/// Verifies a curve of polynomial pieces, one after the other, as verifyPath() verifies edges. In
+/// the report, an edge is a piece: PathFinding::edge is its index, and PathFinding::t is the
+/// parameter τ of CurvePiece. The caller computes times from its knots, and checks the limits of
+/// positions, velocities and accelerations (polynomial_range.h).
+///
+/// The proof holds for every curve that differs from a piece by at most the tube plus the piece's
+/// `error`. A contact of the polynomial refutes the curve only if `error` displaces no body by more
+/// than the tolerance. Otherwise such a piece is undecided.
+///
+/// These faults give the finding `refuted`:
+/// - "jump": the piece does not begin where the piece before it ends. The ends may differ by the
+///   sum of the errors of both pieces. A circle must not jump by whole turns, either.
+/// - "ambiguous half turn": a rotation turns by 180° within 1e-9 rad in one piece.
+/// - "not a valid state": a coefficient is not finite, or a rotation begins or ends with a zero
+///   quaternion.
+/// @throws std::invalid_argument as verifyPath() does; also if `pieces` is empty, a piece has the
+/// wrong number of rows, a degree outside of [1, CurvePiece::kLargestDegree], or an error that is
+/// negative, not finite, or of another length than a configuration.
+PathReport verifyCurve(const PathProblem& problem, std::span<const CurvePiece> pieces);
 
 }  // namespace corridor
