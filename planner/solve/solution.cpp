@@ -5,12 +5,12 @@
 #include <sstream>
 #include <utility>
 
-#include "collision/core/read_file.h"
 #include "collision/core/shortest.h"
 #include "planner/problem/format_key.h"
 #include "planner/problem/yaml_reader.h"
 #include "planner/solve/state_rows.h"
 #include "planner/solve/whole_file.h"
+#include "planner/trajectory/trajectory_file.h"
 
 namespace corridor {
 namespace {
@@ -160,16 +160,9 @@ bool sameSpace(const YamlMap& map, const Solution& solution, YamlSource& source)
   return stated && *stated == numbers;
 }
 
-std::string readText(const std::filesystem::path& file) {
-  if (file != "-") return readTextFile(file, "a solution");
-  std::string text = readTextStream(file, "a solution");
-  if (text.size() > kMostDocumentBytes)
-    throw InputError(Fault{"-", 0, "is larger than 256 MiB, the limit for a solution"});
-  return text;
-}
-
-Solution readYaml(const std::filesystem::path& file, const ConfigurationSpace& space) {
-  const YamlValue document = parseYaml(file.string(), readText(file));
+Solution readYaml(const std::filesystem::path& file, const std::string& text,
+                  const ConfigurationSpace& space) {
+  const YamlValue document = parseYaml(file.string(), text);
   FaultList faults(file.string());
   YamlSource source{file.string(), faults, {}};
   Solution solution;
@@ -255,7 +248,13 @@ bool isSolutionFile(const std::filesystem::path& file) {
 }
 
 Solution readSolution(const std::filesystem::path& file, const ConfigurationSpace& space) {
-  return file.extension() == ".path" ? readPathFile(file, space) : readYaml(file, space);
+  return file.extension() == ".path" ? readPathFile(file, space)
+                                     : solutionOf(file, readMotionText(file, "a solution"), space);
+}
+
+Solution solutionOf(const std::filesystem::path& file, const std::string& text,
+                    const ConfigurationSpace& space) {
+  return readYaml(file, text, space);
 }
 
 }  // namespace corridor

@@ -115,20 +115,36 @@ bool isInGoal(const Problem& problem, const Away& away) {
   return isSame(away);
 }
 
-/// Checks that the path begins at the start and ends in the goal. @returns whether its end is in
-/// the goal.
-bool checkEnds(const Problem& problem, const Path& path, std::vector<std::string>& violations) {
-  const Away start = awayFrom(problem.model.space, problem.task.start, path.front());
-  if (!isSame(start)) violations.push_back("the first state is not the start: " + awayText(start));
+/// Returns by how much a state is not the start: "it is 0.1 m away"; "" if it is.
+std::string notStart(const Problem& problem, const Configuration& state) {
+  const Away away = awayFrom(problem.model.space, problem.task.start, state);
+  return isSame(away) ? "" : awayText(away);
+}
+
+/// Returns by how much a state is not in the nearest goal; "" if it is in a goal.
+std::string notInGoal(const Problem& problem, const Configuration& state) {
   Away nearest;
   nearest.distance = HUGE_VALL;
   for (const Configuration& goal : problem.task.goals) {
-    const Away away = awayFrom(problem.model.space, goal, path.back());
-    if (isInGoal(problem, away)) return true;
+    const Away away = awayFrom(problem.model.space, goal, state);
+    if (isInGoal(problem, away)) return "";
     if (away.distance < nearest.distance) nearest = away;
   }
-  violations.push_back("the last state is not in the goal: " + awayText(nearest));
-  return false;
+  return awayText(nearest);
+}
+
+/// Checks that the path begins at the start and ends in the goal. @returns whether its end is in
+/// the goal.
+bool checkEnds(const Problem& problem, const Path& path, std::vector<std::string>& violations) {
+  if (const std::string away = notStart(problem, path.front()); !away.empty())
+    violations.push_back("the first state is not the start: " + away);
+  const std::string away = notInGoal(problem, path.back());
+  if (!away.empty()) violations.push_back("the last state is not in the goal: " + away);
+  return away.empty();
+}
+
+std::string boundsText(const Coordinate& c) {
+  return "[" + shortest(c.lower) + ", " + shortest(c.upper) + "]";
 }
 
 void checkBounds(const Problem& problem, const Path& path, std::vector<std::string>& violations) {
@@ -138,9 +154,24 @@ void checkBounds(const Problem& problem, const Path& path, std::vector<std::stri
       const double value = path[i][static_cast<Eigen::Index>(c.first)];
       if (value >= c.lower && value <= c.upper) continue;
       violations.push_back("state " + std::to_string(i) + " is outside of the bounds: " + c.name +
-                           " = " + shortest(value) + " is not in [" + shortest(c.lower) + ", " +
-                           shortest(c.upper) + "]");
+                           " = " + shortest(value) + " is not in " + boundsText(c));
     }
+  }
+}
+
+/// Checks that a trajectory stays within the bounds between its rows, too.
+void checkBounds(const ConfigurationSpace& space, const TrajectoryRows& rows, const Curve& curve,
+                 std::vector<std::string>& violations) {
+  for (const OutsideBounds& outside : outsideBounds(space, curve.pieces)) {
+    const Coordinate& c = space.coordinates()[outside.coordinate];
+    const std::size_t p = outside.piece;
+    const double first = curve.knots[p], last = curve.knots[p + 1];
+    const int line = rows.rows[outside.t < 1 ? p : p + 1].line;
+    const std::string when =
+        rows.timed ? "at " + shortest(first + outside.t * (last - first)) + " s, " : "";
+    violations.push_back(c.name + " = " + shortest(outside.value) + " is outside of its bounds, " +
+                         boundsText(c) + ": " + when + (outside.t > 0 && outside.t < 1 ? "after " : "in ") +
+                         "line " + std::to_string(line));
   }
 }
 
@@ -251,6 +282,34 @@ VerifyReport verifySolution(const Problem& problem, const Solution& solution,
   // A path of many states, such as a trajectory's samples, needs some hundred queries an edge.
   plain.workLimit = std::max<std::uint64_t>(plain.workLimit, 2000 * solution.path.size());
   report.pathReport = verifyPath(plain, solution.path);
+  report.verdict = report.violations.empty() ? report.pathReport.verdict : PathVerdict::refuted;
+  return report;
+}
+
+VerifyReport verifyTrajectory(const Problem& problem, TrajectoryRows rows,
+                              std::optional<Between> between) {
+  VerifyReport report;
+  report.margin = problem.task.margin;
+  report.tube = problem.task.tube;
+  report.between = betweenOf(rows, between);
+  const ConfigurationSpace& space = problem.model.space;
+  const Curve curve = curveOf(rows, space, *report.between);
+  if (rows.timed) report.times = curve.knots;
+  report.notes = std::move(rows.notes);
+  const auto note = [&](const std::string& what, const std::string& away) {
+    if (!away.empty()) report.notes.push_back({what + away, NoteWeight::coverage});
+  };
+  note("the trajectory does not begin at the problem's start: ",
+       notStart(problem, rows.rows.front().positions));
+  const std::string fromGoal = notInGoal(problem, rows.rows.back().positions);
+  report.reachesGoal = fromGoal.empty();
+  note("the trajectory does not end in the problem's goal: ", fromGoal);
+  checkBounds(space, rows, curve, report.violations);
+  // Limits of velocities and accelerations are to be checked here.
+  PathProblem plain = plainProblem(problem);
+  // As for a path of many states.
+  plain.workLimit = std::max<std::uint64_t>(plain.workLimit, 2000 * curve.knots.size());
+  report.pathReport = verifyCurve(plain, curve.pieces);
   report.verdict = report.violations.empty() ? report.pathReport.verdict : PathVerdict::refuted;
   return report;
 }

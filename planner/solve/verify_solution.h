@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "planner/solve/solution.h"
+#include "planner/trajectory/trajectory_curve.h"
 #include "planner/verify/verify_path.h"
 
 namespace corridor {
@@ -35,6 +36,12 @@ struct VerifyReport {
   bool reachesGoal = true;  ///< the last state is in the goal
   double margin = 0;        ///< metres
   Configuration tube;       ///< the tube of the proof, as Task::tube
+  /// Of a trajectory: what lies between two rows; empty for a solution.
+  std::optional<Between> between;
+  /// Of a trajectory with times: the time of each row, seconds. An edge of `pathReport` is the
+  /// curve from one row to the next.
+  std::vector<double> times;
+  std::vector<Note> notes;  ///< of a trajectory: on its file, its start and its end
 };
 
 const char* nameOf(PathVerdict verdict);
@@ -58,5 +65,16 @@ PathProblem plainProblem(const Problem& problem);
 /// @throws InputError if one of these files can't be read.
 VerifyReport verifySolution(const Problem& problem, const Solution& solution,
                             DigestMismatch other = DigestMismatch::refused);
+
+/// Verifies a trajectory (planner/trajectory/README.md): planner/verify verifies that every curve in
+/// the problem's tube around the curve between the rows keeps the problem's margin. The whole curve
+/// must be within the bounds, not only its rows.
+///
+/// A trajectory does not claim to solve the problem. So a note says if it does not begin at the
+/// problem's start, or does not end in the goal; the verdict does not depend on either.
+/// @param between nullopt: as betweenOf.
+/// @throws InputError: as betweenOf and curveOf.
+VerifyReport verifyTrajectory(const Problem& problem, TrajectoryRows rows,
+                              std::optional<Between> between = {});
 
 }  // namespace corridor

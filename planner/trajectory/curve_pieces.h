@@ -1,0 +1,84 @@
+#pragma once
+
+#include <vector>
+
+#include "planner/robot/curve.h"
+
+/// Conversions to pieces of curves. A piece means a polynomial in real arithmetic; its `error`
+/// bounds how far that polynomial is from the curve that was given, and from what a controller
+/// computes that evaluates the same formula in doubles.
+///
+/// Error of a Hermite piece, u = 2^-53, T the duration. A controller computes the coefficients of
+/// the power series in t, such as (−3p0 + 3p1 − 2v0·T − v1·T)/T², and sums them up (the controllers
+/// of ros_control and ros2_control do). Its result is a sum of terms that are p0, p1, v0·T, v1·T,
+/// a0·T² or a1·T² times a factor and a power of τ = t/T in [0, 1]. Each term is off by a factor
+/// (1 + u)^±n, where n counts the roundings on its way, and 8 for each factor T of v·T and a·T²: the
+/// controller's T may be off by 8u·T. The sum of the terms is at most f·M, with
+///     M = |p0| + |p1| + T(|v0| + |v1|) + T²(|a0| + |a1|)
+/// and f the largest sum of the factors of one of these six. Hence the error n·f·u·M:
+///
+/// | piece | n | f | n·f | bound |
+/// |---|---|---|---|---|
+/// | linear | 4: difference, quotient, product, sum | 2 | 8 | 2^-49·M = 16u·M |
+/// | cubic | 22: product with T 2, sum 3, quotient by T³ 3, t³ 2, product 1, sum 3; T 8 | 6 (p0: 1 + 3 + 2) | 132 | 2^-45·M = 256u·M |
+/// | quintic | 41: products with T² 3, sum 5, quotient by 2T⁵ 6, t⁵ 4, product 1, sum 5; T² 16; 1 | 32 (p0: 1 + 10 + 15 + 6) | 1312 | 2^-42·M = 2048u·M |
+///
+/// The bounds have room for the terms of second order, and for the rounding of the Bernstein
+/// coefficients, which are computed in long double and rounded once: at most 2u·M. A controller that
+/// knows T less exactly, for instance because it takes times since 1970 in doubles, deviates by
+/// |v|·|δT| more: this is for the tube.
+namespace corridor {
+
+/// What a trajectory says about one time. m, rad, s. Empty vectors: unknown.
+struct CurvePoint {
+  Configuration position, velocity, acceleration;
+};
+
+/// Returns the line from one configuration to another. Angles are literal: the curve does not go
+/// the shorter way. Rotations go by slerp.
+CurvePiece linearPiece(const ConfigurationSpace& space, const Configuration& from,
+                       const Configuration& to);
+/// Returns the cubic polynomials with the positions and velocities at both ends. The numbers of
+/// rotations are not polynomials: rotations go by slerp.
+/// @param duration seconds, > 0.
+CurvePiece cubicPiece(const ConfigurationSpace& space, const CurvePoint& from, const CurvePoint& to,
+                      long double duration);
+/// Returns the same, with polynomials of degree 5 that have the accelerations at both ends, too.
+CurvePiece quinticPiece(const ConfigurationSpace& space, const CurvePoint& from,
+                        const CurvePoint& to, long double duration);
+
+/// Returns the polynomials Σ_k coefficients(row, k)·t^k for t in [0, duration]. The space must have
+/// no rotation.
+///
+/// The error bound is 2^-47·Σ_k |coefficients(row, k)|·duration^k, for degrees up to 9. It covers
+/// evaluation by Horner's rule in doubles: at most 18 roundings. The conversion is a weighted mean
+/// of the terms, in long double, rounded once: below 2u. For coefficients that cancel, the bound is
+/// large against the values: a power series is ill-conditioned.
+/// @throws std::invalid_argument for a degree that CurvePiece does not have.
+CurvePiece powerPiece(const Eigen::MatrixXd& coefficients, double duration);
+
+/// Returns the pieces of a B-spline, one for each knot interval that is not empty, and their knots.
+/// The coefficients are values of the polar form (de Boor's recursion), the same as those by knot
+/// insertion. The space must have no rotation.
+///
+/// The error bound is 2^-47·max |control point|, for each number. It covers evaluation by de Boor's
+/// recursion in doubles: 9 levels of convex combinations of 5 roundings each, which is 45u. The
+/// conversion does the same in long double, and rounds once.
+/// @param points one column for each control point.
+/// @param knots ascending; points.cols() + degree + 1 of them. The curve covers [knots[degree],
+/// knots[points.cols()]].
+/// @throws std::invalid_argument for another number of knots, knots that do not ascend, or a degree
+/// that CurvePiece does not have.
+Curve splineCurve(const Eigen::MatrixXd& points, const std::vector<double>& knots, int degree);
+
+/// Returns the curve of a path of edges (ConfigurationSpace): a piece for each edge, with the knots
+/// 0, 1, 2, … Circles go the shorter way, so their values may leave [−π, π]; they differ by whole
+/// turns from those of the states.
+///
+/// The error of a circle: whole turns are added in long double, and the sum is rounded once.
+/// Together this is at most 2^-52·|value|, plus 2^-60 for each turn.
+/// @throws std::invalid_argument if there are fewer than two states, or the shorter way of an edge
+/// is ambiguous.
+Curve curveOfPath(const ConfigurationSpace& space, const std::vector<Configuration>& states);
+
+}  // namespace corridor

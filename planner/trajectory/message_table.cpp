@@ -1,0 +1,204 @@
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "planner/problem/yaml_reader.h"
+#include "planner/problem/yaml_value.h"
+#include "planner/trajectory/trajectory_table.h"
+
+namespace corridor {
+namespace {
+
+/// The fields in which messages of ROS and MoveIt hold a JointTrajectory, at any depth.
+constexpr std::array kWrappers{"joint_trajectory", "trajectory", "planned_trajectory",
+                               "robot_trajectory", "goal",       "result",
+                               "motion_plan_response"};
+
+const MapKeys kTrajectory{{"header", "joint_names", "points"}, {}};
+const MapKeys kPoint{
+    {"positions", "velocities", "accelerations", "effort", "efforts", "time_from_start"}, {}};
+const MapKeys kDuration{{"sec", "nanosec", "secs", "nsecs"}, {}};
+constexpr WholeRange kSeconds{0, 4'294'967'295, "0 to 2^32 - 1"};
+constexpr WholeRange kNanoseconds{0, 999'999'999, "0 to 999999999"};
+
+const YamlValue* valueOf(const YamlValue& map, std::string_view key) {
+  for (const YamlValue::Entry& entry : map.entries)
+    if (entry.key == key) return &entry.value;
+  return nullptr;
+}
+
+bool hasPoints(const YamlValue& map) {
+  const YamlValue* const points = valueOf(map, "points");
+  return points && !points->items.empty();
+}
+
+/// Adds all maps that are trajectories. Adds a fault for trajectories of poses.
+void collectTrajectories(const YamlValue& value, std::vector<const YamlValue*>& found,
+                         YamlSource& source) {
+  for (const YamlValue& item : value.items) collectTrajectories(item, found, source);
+  if (valueOf(value, "points") || valueOf(value, "joint_names")) {
+    found.push_back(&value);
+    return;
+  }
+  for (const YamlValue::Entry& entry : value.entries) {
+    if (entry.key == "multi_dof_joint_trajectory" && hasPoints(entry.value))
+      source.fault(entry.line,
+                   "multi_dof_joint_trajectory: trajectories of poses are not read from messages; "
+                   "write rows of numbers (CSV)");
+    if (std::find(kWrappers.begin(), kWrappers.end(), entry.key) != kWrappers.end())
+      collectTrajectories(entry.value, found, source);
+  }
+}
+
+/// Returns the only trajectory of a document, or nullptr if a fault was added.
+const YamlValue* trajectoryIn(const YamlValue& document, YamlSource& source) {
+  std::vector<const YamlValue*> found;
+  collectTrajectories(document, found, source);
+  if (source.faults.size() > 0) return nullptr;
+  const auto empty = [](const YamlValue* map) { return !hasPoints(*map); };
+  if (found.size() > 1 && !std::all_of(found.begin(), found.end(), empty))
+    std::erase_if(found, empty);
+  if (found.empty())
+    source.fault(0,
+                 "has no trajectory: joint_names and points are needed, in a JointTrajectory or in "
+                 "a message that has one (joint_trajectory, trajectory, planned_trajectory)");
+  if (found.size() > 1)
+    source.fault(found[1]->line,
+                 "has " + std::to_string(found.size()) + " trajectories; keep one of them");
+  return found.size() == 1 ? found.front() : nullptr;
+}
+
+/// Returns the seconds of a duration: a number, {sec, nanosec} or {secs, nsecs}. The result is the
+/// double nearest to it (below 2^53 ns, which is 104 days).
+std::optional<double> readTime(const YamlMap& point) {
+  const YamlValue* const time = point.find("time_from_start");
+  if (!time) return std::nullopt;
+  if (time->kind != YamlValue::Kind::Map) return point.number("time_from_start");
+  const YamlMap map(*time, point.pathOf("time_from_start"), &kDuration, point.source());
+  const bool isRos1 = map.find("secs") || map.find("nsecs");
+  if (isRos1 && (map.find("sec") || map.find("nanosec"))) {
+    map.fault("sec", "secs and nsecs are given, too; keep one pair");
+    return std::nullopt;
+  }
+  if (map.entries().empty()) {
+    point.fault("time_from_start", "sec and nanosec are needed");
+    return std::nullopt;
+  }
+  const std::size_t faults = point.source().faults.size();
+  const std::uint64_t seconds = map.wholeNumber(isRos1 ? "secs" : "sec", kSeconds).value_or(0),
+                      rest = map.wholeNumber(isRos1 ? "nsecs" : "nanosec", kNanoseconds).value_or(0);
+  if (point.source().faults.size() > faults) return std::nullopt;
+  return static_cast<double>(seconds * 1'000'000'000 + rest) / 1e9;
+}
+
+/// Returns the numbers of a list. If the key is absent or its list is empty, the result is empty.
+/// Returns nullopt if a fault was added.
+std::optional<std::vector<double>> readList(const YamlMap& point, const char* key,
+                                            std::size_t count) {
+  if (isEmpty(point, key)) return std::vector<double>();
+  for (const YamlValue& item : point.find(key)->items)
+    if (item.text == "...") {
+      point.fault(key, "the list is cut off (...); record it by ros2 topic echo --full-length");
+      return std::nullopt;
+    }
+  return point.numbers(key, count);
+}
+
+class PointReader {
+ public:
+  PointReader(std::vector<std::string> names, YamlSource& source) : source_(source) {
+    table_.isMessage = true;
+    table_.positions = std::move(names);
+  }
+
+  void read(const YamlValue& value, std::size_t index) {
+    const std::string path = "points[" + std::to_string(index) + "]";
+    const YamlMap point(value, path, &kPoint, source_);
+    TrajectoryTable::Row row;
+    row.line = value.line;
+    const std::size_t faults = source_.faults.size();
+    const std::size_t count = table_.positions.size();
+    auto positions = readList(point, "positions", count);
+    auto velocities = readList(point, "velocities", count);
+    auto accelerations = readList(point, "accelerations", count);
+    row.time = readTime(point);
+    if (source_.faults.size() > faults || value.kind != YamlValue::Kind::Map) return;
+    if (positions->empty()) return point.fault("positions", "are missing");
+    row.positions = std::move(*positions);
+    row.velocities = std::move(*velocities);
+    row.accelerations = std::move(*accelerations);
+    if (!table_.rows.empty() && mixed(point, row)) return;
+    table_.rows.push_back(std::move(row));
+  }
+
+  TrajectoryTable take() {
+    if (table_.rows.empty()) return std::move(table_);
+    if (!table_.rows.front().velocities.empty()) table_.velocities = table_.positions;
+    if (!table_.rows.front().accelerations.empty()) table_.accelerations = table_.positions;
+    const bool atOnce = std::all_of(table_.rows.begin(), table_.rows.end(),
+                                    [](const auto& row) { return row.time == 0.0; });
+    if (atOnce && table_.rows.size() > 1 && table_.velocities.empty()) {
+      for (TrajectoryTable::Row& row : table_.rows) row.time.reset();
+      table_.notes.push_back({source_.file +
+                                  ": time_from_start is 0 at all points: the points are a path "
+                                  "without times",
+                              NoteWeight::motion});
+    }
+    return std::move(table_);
+  }
+
+ private:
+  /// Adds a fault and returns true if the row has other fields than the first row.
+  bool mixed(const YamlMap& point, const TrajectoryTable::Row& row) const {
+    const TrajectoryTable::Row& first = table_.rows.front();
+    const auto differs = [&](const char* what, bool has, bool firstHas) {
+      if (has == firstHas) return false;
+      point.source().fault(row.line, point.pathOf(what) + (has ? ": are given here" : ": are missing here") +
+                                         ", but the first point has " +
+                                         (firstHas ? "them" : "none") +
+                                         "; give them for all points or for none");
+      return true;
+    };
+    return differs("velocities", !row.velocities.empty(), !first.velocities.empty()) ||
+           differs("accelerations", !row.accelerations.empty(), !first.accelerations.empty()) ||
+           differs("time_from_start", row.time.has_value(), first.time.has_value());
+  }
+
+  YamlSource& source_;
+  TrajectoryTable table_;
+};
+
+/// Returns the text without a last line `---`, which `rostopic echo` writes after each message.
+std::string withoutLastMark(const std::string& text) {
+  const std::size_t end = text.find_last_not_of(" \t\r\n");
+  if (end == std::string::npos || end < 3 || text.compare(end - 2, 3, "---") != 0 ||
+      text[end - 3] != '\n')
+    return text;
+  return text.substr(0, end - 2);
+}
+
+}  // namespace
+
+TrajectoryTable readMessageTable(const std::string& file, const std::string& text) {
+  const YamlValue document = parseYaml(file, withoutLastMark(text));
+  FaultList faults(file);
+  YamlSource source{file, faults, {}};
+  const YamlValue* const found = trajectoryIn(document, source);
+  faults.throwIfAny();
+  const YamlMap map(*found, "", &kTrajectory, source);
+  const YamlValue* const names = map.require("joint_names", "such as [pan, lift]");
+  const YamlValue* const points = map.require("points", "the rows of the trajectory");
+  const auto words =
+      names ? readWords(*names, "such as [pan, lift]", "joint_names", source) : std::nullopt;
+  if (words && words->empty()) map.fault("joint_names", "has no name");
+  if (points && points->items.empty()) map.fault("points", "has no point");
+  faults.throwIfAny();
+  PointReader reader(*words, source);
+  for (std::size_t i = 0; i < points->items.size(); ++i) reader.read(points->items[i], i);
+  faults.throwIfAny();
+  TrajectoryTable table = reader.take();
+  table.namesLine = names->line;
+  return table;
+}
+
+}  // namespace corridor

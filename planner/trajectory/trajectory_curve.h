@@ -1,0 +1,53 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "planner/robot/curve.h"
+#include "planner/trajectory/trajectory_file.h"
+
+namespace corridor {
+
+/// What a robot does between two rows of a trajectory.
+enum class Between {
+  linear,  ///< every number is linear in time
+  cubic,   ///< the cubic polynomial with the positions and velocities of both rows
+  quintic  ///< the polynomial of degree 5 with the accelerations of both rows, too
+};
+const char* nameOf(Between between);
+
+/// Returns what lies between the rows: what is wanted or, by default, what the trajectory controllers
+/// of ros_control and ros2_control do: quintic if the file has accelerations, cubic if it has
+/// velocities, otherwise linear. Adds a note to the rows if velocities or accelerations are not used.
+/// @throws InputError if the file has not what is wanted.
+Between betweenOf(TrajectoryRows& rows, std::optional<Between> wanted);
+
+/// Returns the curve that the rows mean, with one piece from each row to the next. Its knots are the
+/// times or, if the file has none, 0, 1, 2, … Angles are literal, and rotations go by slerp.
+/// curve_pieces.h derives the error of the pieces.
+/// @throws InputError with all faults: a circle that jumps by more than half a turn from one row to
+/// the next (which is a jump of the angle, not a motion); values that are too large.
+Curve curveOf(const TrajectoryRows& rows, const ConfigurationSpace& space, Between between);
+
+/// A place where a curve is outside of the bounds of a coordinate.
+struct OutsideBounds {
+  std::size_t coordinate = 0;  ///< in the space
+  std::size_t piece = 0;
+  double t = 0;      ///< the parameter of the piece, in [0, 1]
+  double value = 0;  ///< of the coordinate at t, m or rad
+};
+
+/// Proves that the line coordinates of a curve stay within their bounds everywhere, not only at its
+/// rows. Returns a place outside for each coordinate of which this can't be proved, the first along
+/// the curve. A value beyond a bound by at most the piece's error is not outside.
+///
+/// A polynomial stays between the smallest and the largest of its Bernstein coefficients. If these
+/// are not within the bounds, the piece is halved (de Casteljau) until they are, or until the value
+/// at an end of the interval is outside. Halving rounds by less than 2^-55 of the largest
+/// coefficient; the errors of curve_pieces.h are larger.
+std::vector<OutsideBounds> outsideBounds(const ConfigurationSpace& space,
+                                         std::span<const CurvePiece> pieces);
+
+}  // namespace corridor

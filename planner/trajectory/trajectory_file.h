@@ -1,0 +1,64 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "planner/model/model.h"
+#include "planner/robot/note.h"
+
+namespace corridor {
+
+/// A row of a trajectory file: what the robot does at one time.
+struct TrajectoryRow {
+  int line = 0;     ///< in the file, counted from 1
+  double time = 0;  ///< seconds; of no meaning if the file has no times
+  /// In the order of the space's numbers: m, rad, quaternions as (x, y, z, w). The values are as
+  /// the file has them. Angles are literal: they are never reduced to one revolution.
+  Configuration positions;
+  /// m/s, rad/s; and m/s², rad/s². Empty if the file has none. The numbers of a rotation are 0:
+  /// a file can't give them.
+  Configuration velocities, accelerations;
+};
+
+/// The content of a trajectory file: rows of a problem's numbers. planner/trajectory/README.md lists
+/// the formats.
+struct TrajectoryRows {
+  std::string file;                 ///< for messages
+  std::vector<TrajectoryRow> rows;  ///< two or more
+  bool timed = false;               ///< every row has a time; the times are strictly ascending
+  bool hasVelocities = false, hasAccelerations = false;  ///< accelerations: only with velocities
+  /// The file is a message for a controller. A controller begins with the robot's state at time 0.
+  bool isMessage = false;
+  std::vector<Note> notes;  ///< what was not used, and what follows a rule
+};
+
+/// The kinds of files that describe a motion.
+enum class TrajectoryFormat {
+  solution,  ///< a solution file of Corridor (planner/solve/solution.h)
+  rows,      ///< rows of numbers (CSV)
+  message    ///< a JointTrajectory of ROS, as YAML or JSON, alone or in a message of MoveIt
+};
+/// Recognises the format of a text by its content. Every text has a format: the format's reader
+/// then reports its faults.
+TrajectoryFormat trajectoryFormatOf(std::string_view text);
+
+/// Returns the text of a file that describes a motion; "-" is the standard input.
+/// @param what the kind of file for messages: "a trajectory".
+/// @throws InputError as readTextFile and readTextStream (collision/core/read_file.h).
+std::string readMotionText(const std::filesystem::path& file, const std::string& what);
+
+/// Reads a trajectory of all joints that the model plans for.
+/// - Names are those of the space's numbers (`numberNames`), in any order. The robot's name before
+///   them ("left/pan") may be left out if only one robot has the joint.
+/// - A joint that is held must have the value at which it is held, up to `limitSlack`
+///   (planner/problem/urdf_robot.h). Otherwise the file is refused: a proof would be about another
+///   robot.
+/// - A joint that mimics another one is not read. A note says so, and by how much it is off its rule.
+/// @param file the name for messages.
+/// @param text a text of the format `rows` or `message`.
+/// @throws InputError with all faults.
+TrajectoryRows readTrajectory(const std::string& file, const std::string& text, const Model& model);
+
+}  // namespace corridor

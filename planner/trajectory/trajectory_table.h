@@ -1,0 +1,72 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "collision/core/fault_list.h"
+#include "planner/model/model.h"
+#include "planner/robot/note.h"
+
+/// The steps between the text of a trajectory file and its `TrajectoryRows`.
+namespace corridor {
+
+/// The names of joints in trajectory files, and what they mean in a model.
+class JointNames {
+ public:
+  struct Meaning {
+    enum class Kind {
+      number,  ///< `index` is that of a number of a Configuration
+      held,    ///< a single joint that is not planned for
+      mimic,   ///< a joint that follows another joint
+      other    ///< a joint that has no value of its own here: fixed, or a pose that is held
+    };
+    Kind kind = Kind::number;
+    std::size_t index = 0;  ///< `number`: of the number; others: of the joint in its robot
+    std::size_t robot = 0;  ///< in Model::robots; not for `number`
+    bool operator==(const Meaning&) const = default;
+  };
+
+  explicit JointNames(const Model& model);
+  /// Returns the meaning of a name. A name without the robot's name has one if it is unambiguous.
+  std::optional<Meaning> find(const std::string& name) const;
+  /// Returns the full names ("left/pan or right/pan") that a name may stand for if it is not
+  /// unambiguous, else "".
+  std::string ambiguous(const std::string& name) const;
+  const std::vector<std::string>& known() const { return known_; }
+  /// Returns the names of the numbers of a Configuration, in its order.
+  std::vector<std::string> numbers() const {
+    return {known_.begin(), known_.begin() + static_cast<std::ptrdiff_t>(numberCount_)};
+  }
+
+ private:
+  std::map<std::string, Meaning> meanings_;
+  std::map<std::string, std::vector<std::string>> short_;  // full names, by the short name
+  std::vector<std::string> known_;                         // full names, the numbers first
+  std::size_t numberCount_ = 0;
+};
+
+/// A trajectory file as it is written: names, and rows of numbers.
+struct TrajectoryTable {
+  struct Row {
+    int line = 0;
+    std::optional<double> time;
+    std::vector<double> positions, velocities, accelerations;
+  };
+  int namesLine = 0;  ///< 0: the file has no names, and the columns are the space's numbers
+  /// The name of each value of a row. A table without velocities has no names of them.
+  std::vector<std::string> positions, velocities, accelerations;
+  std::vector<Row> rows;
+  bool isMessage = false;
+  std::vector<Note> notes;
+};
+
+/// Reads rows of numbers, with or without a header. @throws InputError with all faults.
+TrajectoryTable readCsvTable(const std::string& file, const std::string& text,
+                             const JointNames& names);
+/// Reads a JointTrajectory of ROS. @throws InputError with all faults.
+TrajectoryTable readMessageTable(const std::string& file, const std::string& text);
+
+}  // namespace corridor
