@@ -66,38 +66,99 @@ EdgeCurve::EdgeCurve(const KinematicTree& tree, const std::vector<Coordinate>& c
                      const Configuration& from, const Configuration& to)
     : tree_(tree),
       coordinates_(coordinates),
-      lines_(static_cast<std::size_t>(from.size())),
-      arcAt_(static_cast<std::size_t>(from.size()), 0) {
+      numbers_(static_cast<std::size_t>(from.size())),
+      bounds_(numbers_.size()),
+      arcAt_(numbers_.size(), 0) {
   for (const Coordinate& c : coordinates) {
-    const auto i = static_cast<Eigen::Index>(c.first);
-    if (c.kind != Coordinate::Kind::rotation) {
-      const bool circle = c.kind == Coordinate::Kind::circle;
-      const Real way = circle ? circleDifference(from[i], to[i]) : Real(to[i]) - Real(from[i]);
-      // `way` is off by u·|way|, or by 32u for a circle. Each product and each sum is off by u
-      // times its value.
-      lines_[c.first] = {Real(from[i]), way,
-                         std::abs(Real(from[i])) + std::abs(way) + (circle ? 4 : 0)};
-      if (!circle) continue;
-      ambiguous_ |= kPi - std::abs(way) <= kAmbiguous;
-      const bool throughSeam = std::abs(Real(to[i]) - Real(from[i])) > kPi;
-      jumps_ |= throughSeam && std::any_of(tree.frames.begin(), tree.frames.end(),
-                                           [&](const Frame& f) { return leavesCircle(f, c); });
+    if (c.kind == Coordinate::Kind::rotation) {
+      addRotation(c.first, from, to);
       continue;
     }
-    Arc arc;
-    arc.q0 = from.segment<4>(i).cast<Real>().normalized();
-    arc.q1 = to.segment<4>(i).cast<Real>().normalized();
-    if (arc.q0.dot(arc.q1) < 0) arc.q1 = -arc.q1;
-    arc.omega = 2 * std::atan2((arc.q1 - arc.q0).norm(), (arc.q1 + arc.q0).norm());
-    ambiguous_ |= kPi - 2 * arc.omega <= kAmbiguous;
-    // The vector part of q1·q0⁻¹ is w0 v1 − w1 v0 − v1 × v0.
-    const RealVec v0 = arc.q0.head<3>(), v1 = arc.q1.head<3>();
-    const RealVec v = arc.q0[3] * v1 - arc.q1[3] * v0 - v1.cross(v0);
-    const Real length = v.norm();
-    if (arc.omega > 0 && length > 0) arc.turn = v * (2 * arc.omega / length);
-    arcAt_[c.first] = arcs_.size();
-    arcs_.push_back(arc);
+    const auto i = static_cast<Eigen::Index>(c.first);
+    const bool circle = c.kind == Coordinate::Kind::circle;
+    const Real way = circle ? circleDifference(from[i], to[i]) : Real(to[i]) - Real(from[i]);
+    // `way` is off by u·|way|, or by 32u for a circle. Each product and each sum is off by u
+    // times its value.
+    Number& number = numbers_[c.first];
+    number.from = from[i];
+    number.way = way;
+    number.terms = std::abs(Real(from[i])) + std::abs(way) + (circle ? 4 : 0);
+    boundsOf(c.first, {}) = {number.terms, std::abs(way), 0, number.terms};
+    if (!circle) continue;
+    ambiguous_ |= kPi - std::abs(way) <= kAmbiguous;
+    const bool throughSeam = std::abs(Real(to[i]) - Real(from[i])) > kPi;
+    jumps_ |= throughSeam && std::any_of(tree.frames.begin(), tree.frames.end(),
+                                         [&](const Frame& f) { return leavesCircle(f, c); });
   }
+}
+
+EdgeCurve::EdgeCurve(const KinematicTree& tree, const std::vector<Coordinate>& coordinates,
+                     const CurvePiece& piece)
+    : tree_(tree),
+      coordinates_(coordinates),
+      isPiece_(true),
+      numbers_(static_cast<std::size_t>(piece.coefficients.rows())),
+      bounds_(numbers_.size() * ((std::size_t(2) << kSegmentDepth) - 1)),
+      arcAt_(numbers_.size(), 0) {
+  for (const Coordinate& c : coordinates) {
+    if (c.kind == Coordinate::Kind::rotation) {
+      addRotation(c.first, piece.coefficients.col(0),
+                  piece.coefficients.col(piece.coefficients.cols() - 1));
+      continue;
+    }
+    const Configuration row = piece.coefficients.row(static_cast<Eigen::Index>(c.first));
+    Number& number = numbers_[c.first];
+    number.polynomial = Bernstein({row.data(), static_cast<std::size_t>(row.size())});
+    number.derivative = derivativeOf(number.polynomial);
+    number.terms = 3 * number.polynomial.largest();
+    addSegments(c.first, number.polynomial, number.derivative, derivativeOf(number.derivative), {});
+  }
+}
+
+void EdgeCurve::addRotation(std::size_t first, const Configuration& from, const Configuration& to) {
+  const auto i = static_cast<Eigen::Index>(first);
+  Arc arc;
+  arc.q0 = from.segment<4>(i).cast<Real>().normalized();
+  arc.q1 = to.segment<4>(i).cast<Real>().normalized();
+  if (arc.q0.dot(arc.q1) < 0) arc.q1 = -arc.q1;
+  arc.omega = 2 * std::atan2((arc.q1 - arc.q0).norm(), (arc.q1 + arc.q0).norm());
+  ambiguous_ |= kPi - 2 * arc.omega <= kAmbiguous;
+  // The vector part of q1·q0⁻¹ is w0 v1 − w1 v0 − v1 × v0.
+  const RealVec v0 = arc.q0.head<3>(), v1 = arc.q1.head<3>();
+  const RealVec v = arc.q0[3] * v1 - arc.q1[3] * v0 - v1.cross(v0);
+  const Real length = v.norm();
+  if (arc.omega > 0 && length > 0) arc.turn = v * (2 * arc.omega / length);
+  arcAt_[first] = arcs_.size();
+  arcs_.push_back(arc);
+}
+
+/// Sets the bounds of a number in a segment and in all segments within it. The polynomials are
+/// those of the segment, as functions on [0, 1] of the segment's share: the derivatives are by t.
+void EdgeCurve::addSegments(std::size_t number, const Bernstein& value, const Bernstein& rate,
+                            const Bernstein& bend, const Segment& segment) {
+  boundsOf(number, segment) = {value.largest(), rate.largest(), bend.largest(),
+                               numbers_[number].terms};
+  if (segment.depth == kSegmentDepth) return;
+  const auto values = verify::halvesOf(value), rates = verify::halvesOf(rate),
+             bends = verify::halvesOf(bend);
+  for (std::size_t i = 0; i < 2; ++i)
+    addSegments(number, values[i], rates[i], bends[i], {segment.depth + 1, 2 * segment.index + i});
+}
+
+EdgeCurve::Bounds& EdgeCurve::boundsOf(std::size_t number, const Segment& segment) {
+  const std::size_t place = (std::size_t(1) << segment.depth) - 1 + segment.index;
+  return bounds_[place * numbers_.size() + number];
+}
+
+const EdgeCurve::Bounds& EdgeCurve::boundsOf(std::size_t number, const Segment& segment) const {
+  return const_cast<EdgeCurve&>(*this).boundsOf(number, segment);
+}
+
+Segment EdgeCurve::segmentOf(Real middle, Real half) const {
+  if (!isPiece_ || half == 0) return {};
+  // The interval is one of those that halving makes: its width is 2^-k.
+  const int depth = std::clamp(-std::ilogb(half) - 1, 0, kSegmentDepth);
+  return {depth, static_cast<std::size_t>(std::ldexp(middle - half, depth))};
 }
 
 const EdgeCurve::Arc& EdgeCurve::arcOf(const Frame& frame) const {
@@ -111,12 +172,34 @@ RealMat EdgeCurve::arcAt(const Arc& arc, Real t) const {
   return rotationOf(w0 * arc.q0 + w1 * arc.q1);
 }
 
-EdgeCurve::Line EdgeCurve::valueOf(const Frame& frame) const {
+Real EdgeCurve::numberAt(std::size_t number, Real t) const {
+  const Number& of = numbers_[number];
+  return isPiece_ ? of.polynomial.at(t) : of.from + t * of.way;
+}
+
+Real EdgeCurve::rateAt(std::size_t number, Real t) const {
+  const Number& of = numbers_[number];
+  return isPiece_ ? of.derivative.at(t) : of.way;
+}
+
+Real EdgeCurve::valueAt(const Frame& frame, Real t) const {
   const Real offset = frame.offset, multiplier = frame.multiplier;
-  if (frame.variable == Frame::noVariable) return {offset, 0, std::abs(offset)};
-  const Line& line = lines_[frame.variable];
-  return {multiplier * line.from + offset, multiplier * line.way,
-          std::abs(multiplier) * line.terms + std::abs(offset)};
+  if (frame.variable == Frame::noVariable) return offset;
+  const Number& of = numbers_[frame.variable];
+  if (isPiece_) return multiplier * of.polynomial.at(t) + offset;
+  return multiplier * of.from + offset + t * (multiplier * of.way);
+}
+
+Real EdgeCurve::rateAt(const Frame& frame, Real t) const {
+  if (frame.variable == Frame::noVariable) return 0;
+  return Real(frame.multiplier) * rateAt(frame.variable, t);
+}
+
+EdgeCurve::Bounds EdgeCurve::boundsOf(const Frame& frame, const Segment& segment) const {
+  const Real offset = std::abs(Real(frame.offset)), times = std::abs(Real(frame.multiplier));
+  if (frame.variable == Frame::noVariable) return {offset, 0, 0, offset};
+  const Bounds& of = boundsOf(frame.variable, segment);
+  return {times * of.value + offset, times * of.rate, times * of.bend, times * of.terms + offset};
 }
 
 template <class See>
@@ -130,22 +213,16 @@ Placement EdgeCurve::walk(const KinematicChain& chain, Real t, const See& see) c
     switch (frame.joint) {
       case Frame::Joint::none:
         break;
-      case Frame::Joint::revolute: {
-        const Line value = valueOf(frame);
-        at.rotation = at.rotation * turnBy(axisOf(frame), value.from + t * value.way);
+      case Frame::Joint::revolute:
+        at.rotation = at.rotation * turnBy(axisOf(frame), valueAt(frame, t));
         break;
-      }
-      case Frame::Joint::prismatic: {
-        const Line value = valueOf(frame);
-        at.position += (value.from + t * value.way) * (at.rotation * axisOf(frame));
+      case Frame::Joint::prismatic:
+        at.position += valueAt(frame, t) * (at.rotation * axisOf(frame));
         break;
-      }
       case Frame::Joint::translation: {
         RealVec shift = RealVec::Zero();
-        for (std::size_t k = 0; k < frame.count; ++k) {
-          const Line& line = lines_[frame.variable + k];
-          shift[static_cast<Eigen::Index>(k)] = line.from + t * line.way;
-        }
+        for (std::size_t k = 0; k < frame.count; ++k)
+          shift[static_cast<Eigen::Index>(k)] = numberAt(frame.variable + k, t);
         at.position += at.rotation * shift;
         break;
       }
@@ -168,15 +245,15 @@ FrameState EdgeCurve::at(const KinematicChain& chain, Real t) const {
       case Frame::Joint::none:
         break;
       case Frame::Joint::revolute:
-        turns(valueOf(frame).way * (at.rotation * axisOf(frame)), at);
+        turns(rateAt(frame, t) * (at.rotation * axisOf(frame)), at);
         break;
       case Frame::Joint::prismatic:
-        state.linear += valueOf(frame).way * (at.rotation * axisOf(frame));
+        state.linear += rateAt(frame, t) * (at.rotation * axisOf(frame));
         break;
       case Frame::Joint::translation:
         for (std::size_t k = 0; k < frame.count; ++k)
           state.linear +=
-              lines_[frame.variable + k].way * at.rotation.col(static_cast<Eigen::Index>(k));
+              rateAt(frame.variable + k, t) * at.rotation.col(static_cast<Eigen::Index>(k));
         break;
       case Frame::Joint::rotation:
         turns(at.rotation * arcOf(frame).turn, at);
@@ -227,9 +304,9 @@ Perturbation EdgeCurve::perturbationAt(const KinematicChain& chain, Real t,
 }
 
 Configuration EdgeCurve::configuration(Real t) const {
-  Configuration q(static_cast<Eigen::Index>(lines_.size()));
-  for (std::size_t i = 0; i < lines_.size(); ++i)
-    q[static_cast<Eigen::Index>(i)] = static_cast<double>(lines_[i].from + t * lines_[i].way);
+  Configuration q(static_cast<Eigen::Index>(numbers_.size()));
+  for (std::size_t i = 0; i < numbers_.size(); ++i)
+    q[static_cast<Eigen::Index>(i)] = static_cast<double>(numberAt(i, t));
   for (const Coordinate& c : coordinates_) {
     if (c.kind != Coordinate::Kind::rotation) continue;
     const Arc& arc = arcs_[arcAt_[c.first]];
@@ -242,22 +319,24 @@ Configuration EdgeCurve::configuration(Real t) const {
   return q;
 }
 
-Reach EdgeCurve::reach(const KinematicChain& chain, Real radius, const Configuration& tube) const {
+Reach EdgeCurve::reach(const KinematicChain& chain, Real radius, const Configuration& tube,
+                       const Segment& segment) const {
   Reach reach;
   // The loop goes from the frame back to the base. `length` is the length of the chain after the
-  // current joint. Each revolute joint i adds to `bend` its term with itself, |Δ_i|² R_i, and its
-  // terms with all joints j after it, 2 |Δ_i| D. Here D is `speed` so far: the sum of |Δ_j| R_j
-  // (revolute) and |Δ_j| (prismatic). The same holds with τ instead of Δ.
+  // current joint. Each revolute joint i adds to `bend` its term with itself, V_i² R_i, and its
+  // terms with all joints j after it, 2 V_i D. Here D is `speed` so far: the sum of V_j R_j
+  // (revolute) and V_j (prismatic). The same holds with τ instead of V.
   Real length = radius, manyTurns = 1;
-  const auto turn = [&](Real delta, Real stray) {
-    reach.bend += delta * (delta * length + 2 * reach.speed);
-    reach.bendCross += 2 * (delta * stray * length + delta * reach.tube + stray * reach.speed);
+  const auto turn = [&](Real rate, Real bend, Real stray) {
+    reach.bend += rate * (rate * length + 2 * reach.speed) + bend * length;
+    reach.bendCross += 2 * (rate * stray * length + rate * reach.tube + stray * reach.speed);
     reach.bendTube += stray * (stray * length + 2 * reach.tube);
-    reach.speed += delta * length;
+    reach.speed += rate * length;
     reach.tube += stray * length;
   };
-  const auto slide = [&](Real delta, Real stray, Real longest) {
-    reach.speed += delta;
+  const auto slide = [&](Real rate, Real bend, Real stray, Real longest) {
+    reach.bend += bend;
+    reach.speed += rate;
     reach.tube += stray;
     length += longest + stray;
   };
@@ -266,37 +345,36 @@ Reach EdgeCurve::reach(const KinematicChain& chain, Real radius, const Configura
   };
   for (std::size_t k = chain.path.size(); k-- > 0;) {
     const Frame& frame = tree_.frames[chain.path[k]];
-    const Line value =
-        frame.joint == Frame::Joint::revolute || frame.joint == Frame::Joint::prismatic
-            ? valueOf(frame)
-            : Line{};
-    const bool held = frame.variable == Frame::noVariable;
+    const bool single =
+        frame.joint == Frame::Joint::revolute || frame.joint == Frame::Joint::prismatic;
+    const Bounds most = single ? boundsOf(frame, segment) : Bounds{};
+    const Real strayOfJoint = single && frame.variable != Frame::noVariable
+                                  ? std::abs(Real(frame.multiplier)) * strayOf(frame.variable)
+                                  : 0;
     switch (frame.joint) {
       case Frame::Joint::none:
         break;
       case Frame::Joint::revolute:
-        turn(std::abs(value.way),
-             held ? 0 : std::abs(Real(frame.multiplier)) * strayOf(frame.variable));
-        manyTurns += 0x1p-11L * value.terms;
+        turn(most.rate, most.bend, strayOfJoint);
+        manyTurns += 0x1p-11L * most.terms;
         break;
       case Frame::Joint::prismatic:
-        slide(std::abs(value.way),
-              held ? 0 : std::abs(Real(frame.multiplier)) * strayOf(frame.variable), value.terms);
+        slide(most.rate, most.bend, strayOfJoint, most.value);
         break;
       case Frame::Joint::translation: {
-        Real way = 0, stray = 0, longest = 0;
+        Real rate = 0, bend = 0, stray = 0, longest = 0;
         for (std::size_t i = 0; i < frame.count; ++i) {
-          const Line& line = lines_[frame.variable + i];
-          const Real most = std::abs(line.from) + std::abs(line.way);
-          way += line.way * line.way;
+          const Bounds& each = boundsOf(frame.variable + i, segment);
+          rate += each.rate * each.rate;
+          bend += each.bend * each.bend;
           stray += strayOf(frame.variable + i) * strayOf(frame.variable + i);
-          longest += most * most;
+          longest += each.value * each.value;
         }
-        slide(std::sqrt(way), std::sqrt(stray), std::sqrt(longest));
+        slide(std::sqrt(rate), std::sqrt(bend), std::sqrt(stray), std::sqrt(longest));
         break;
       }
       case Frame::Joint::rotation:
-        turn(arcOf(frame).turn.norm(), strayOf(frame.variable));
+        turn(arcOf(frame).turn.norm(), 0, strayOf(frame.variable));
         break;
     }
     length += frame.fixed.p.cast<Real>().norm();

@@ -3,8 +3,9 @@
 #include <cstddef>
 #include <vector>
 
+#include "planner/robot/curve.h"
 #include "planner/robot/kinematic_tree.h"
-#include "planner/verify/triangle_gap.h"
+#include "planner/verify/bernstein.h"
 
 namespace corridor::verify {
 
@@ -49,34 +50,45 @@ struct KinematicChain {
 KinematicChain chainOf(const KinematicTree& tree, std::size_t base, std::size_t frame);
 std::size_t commonAncestor(const KinematicTree& tree, std::size_t a, std::size_t b);
 
-/// Bounds on the motion of points of a frame, for all times of an edge. The points are at most
-/// `radius` from the frame's origin. The weights R_j are constant (Schwarzer, Saha, Latombe 2005).
+/// Bounds on the motion of points of a frame, for all times of a segment of an edge or of a piece
+/// of a curve. The points are at most `radius` from the frame's origin. The weights R_j are
+/// constant (Schwarzer, Saha, Latombe 2005).
 ///
-/// Let Δ_j be the displacement of joint j along the whole edge. Let R_j be the length of the chain
-/// from joint j to the frame, plus `radius`. Let P_j = Σ |Δ_i| over the revolute joints i before j.
-/// Then, with derivatives by t,
-///   |x'| ≤ speed = Σ_revolute |Δ_j| R_j + Σ_prismatic |Δ_j|,
-///   |x''| ≤ bend = Σ_revolute |Δ_j| R_j (|Δ_j| + 2 P_j) + Σ_prismatic 2 |Δ_j| P_j.
-/// The reason: x'' is a sum over ordered pairs of joints. The term of a pair is the cross product
-/// of two vectors: the rotation vector of the joint nearer to the base, and the other joint's share
-/// of x'. This share is not longer than |Δ_j| R_j (revolute) or |Δ_j| (prismatic). A prismatic
-/// joint moves in a straight line, so its pair with itself is zero. A perturbation of each number
-/// within its tube moves x by at most
+/// Let q_j be the value of joint j, V_j ≥ |q_j'| and A_j ≥ |q_j''| on the segment, with derivatives
+/// by t. (The numbers of a translation are one joint, with the norms of its vectors.) Along an
+/// edge, and in a slerp, V_j = |Δ_j| is the joint's whole displacement, and A_j = 0. For a
+/// polynomial, V_j and A_j are the largest coefficients of its derivatives in Bernstein form, such
+/// as V_j = n·max |d_(i+1) − d_i| for the whole piece. Let R_j be the length of the chain from
+/// joint j to the frame, plus `radius`. Let P_j = Σ V_i over the revolute joints i before j. Then
+///   |x'| ≤ speed = Σ_revolute V_j R_j + Σ_prismatic V_j,
+///   |x''| ≤ bend = Σ_revolute V_j R_j (V_j + 2 P_j) + Σ_prismatic 2 V_j P_j
+///                  + Σ_revolute A_j R_j + Σ_prismatic A_j.
+/// The reason: x'' = Σ_ij q_i' q_j' ∂²x/∂q_i∂q_j + Σ_j q_j'' ∂x/∂q_j. The first sum is over ordered
+/// pairs of joints. The term of a pair is the cross product of two vectors: the rotation vector of
+/// the joint nearer to the base, and the other joint's share of x'. This share is not longer than
+/// V_j R_j (revolute) or V_j (prismatic). A prismatic joint moves in a straight line, so its pair
+/// with itself is zero. In the second sum, |∂x/∂q_j| is at most R_j (revolute) or 1 (prismatic). A
+/// perturbation of each number within its tube moves x by at most
 ///   tube = Σ_revolute τ_j R_j + Σ_prismatic τ_j.
 ///
 /// Second order with perturbations. Let joint j deviate by δ_j, |δ_j| ≤ τ_j, from its value at a
-/// time s after t. Then the joint is s·Δ_j + δ_j away from its value at t. Let all joints move
-/// linearly from their values at t to these values. This is a motion of the same kind, with
-/// |s||Δ_j| + τ_j instead of |Δ_j|. (The perturbation of a free rotation is a rotation by at most τ
-/// about any axis, after s·Δ. Two successive rotations about one point have the same R. They are
-/// bounded like one rotation by the sum of their angles.) So x differs from its first-order value
-/// by at most half of `bend`, computed with the numbers |s||Δ_j| + τ_j. `bend` is a quadratic form
-/// in these numbers, hence
+/// time t + s of the segment. Then the joint is a_j = q_j(t + s) − q_j(t) + δ_j away from its value
+/// at t, and |a_j| ≤ |s| V_j + τ_j. Let all joints move linearly from their values at t to these
+/// values. This is a motion like an edge, with |a_j| instead of |Δ_j|. (The perturbation of a free
+/// rotation is a rotation by at most τ about any axis, after the slerp's. Two successive rotations
+/// about one point have the same R. They are bounded like one rotation by the sum of their angles.)
+/// So x differs from x(t) + Σ a_j ∂x/∂q_j(t) by at most half of the first line of `bend`, computed
+/// with |s| V_j + τ_j. This line is a quadratic form in these numbers. Moreover, |q_j(t + s) −
+/// q_j(t) − s q_j'(t)| ≤ s² A_j / 2, so Σ a_j ∂x/∂q_j(t) differs from s x'(t) + Σ δ_j ∂x/∂q_j(t) by
+/// at most half of s² times the second line. Hence
 ///   |x − x(t) − s x'(t) − Σ δ_j ∂x/∂q_j(t)| ≤ (s² bend + |s| bendCross + bendTube) / 2.
+///
+/// The values of all joints stay, during this linear motion too, within the range that R_j assumes:
+/// the range of their values is convex, and R_j includes τ_j.
 struct Reach {
   Real speed = 0, bend = 0, tube = 0;
-  Real bendCross = 0;  ///< the mixed terms of Δ and τ in the quadratic form
-  Real bendTube = 0;   ///< the quadratic form with τ instead of Δ
+  Real bendCross = 0;  ///< the mixed terms of V and τ in the quadratic form
+  Real bendTube = 0;   ///< the quadratic form with τ instead of V
   Real size = 0;       ///< upper bound of all lengths in the pose; rounding is below 2^-50 of it
   Real lengths = 0;    ///< `size` before it is increased for large angles
 };
@@ -90,27 +102,47 @@ struct Reach {
 /// tangent by at most 11√2·u + 2πu.
 Real circleDifference(double from, double to);
 
+/// A part of the times of an edge or a piece: [index, index + 1] / 2^depth.
+struct Segment {
+  int depth = 0;
+  std::size_t index = 0;
+};
+
 /// The curve of an edge, as ConfigurationSpace defines it, in the verifier's own arithmetic. Lines
 /// are linear in t. Circles go the shorter way round. Rotations are the slerp of the quaternions,
 /// normalised in real arithmetic, along the shorter arc. Frames follow by forward kinematics on the
 /// tree's stored doubles, with quaternions and axes normalised.
 ///
+/// Or the curve of a CurvePiece, as defined there, with t = τ. Its bounds are computed for segments
+/// of the piece: for wavy pieces, those of the whole piece would be too large.
+///
 /// Rounding, with u = 2^-64, and t of at most 63 bits:
 /// - Normalised quaternions are off by ≤ 5u each, their slerp by < 128u, the rotation by < 256u.
 ///   (The angle Ω = 2 atan2(|q1 − q0|, |q1 + q0|) is off by ≤ 32u. The weights of the slerp are off
 ///   by ≤ 0.6 times this error plus 8u.)
-/// - A revolute joint's value m·q0 + o + t·m·Δ is off by ≤ 8u times `Line::terms` (products, sums
-///   and the rounding of Δ). Sine, cosine and Rodrigues' matrix are off by < 16u.
+/// - A revolute joint's value m·q0 + o + t·m·Δ is off by ≤ 8u times `Number::terms` (products, sums
+///   and the rounding of Δ). Sine, cosine and Rodrigues' matrix are off by < 16u. The value of a
+///   polynomial with coefficients ≤ M is off by < 19u·M (Bernstein::at), and m·q + o by < 21u·|m|·M
+///   + u·|o|. So `terms` = 3M does for it. A prismatic joint is off by < 21u times its length.
+/// - The derivative of a polynomial is off by < 21u times the V_j of the whole piece (rounding of
+/// the
+///   differences, and of Bernstein::at). This displaces no point by more than 21u·speed.
 /// - Each frame multiplies two such matrices into the rotation, which adds 10u. In all, a frame
-/// with
-///   a free rotation adds < 300u, and any other frame < 40u.
+///   with a free rotation adds < 300u, and any other frame < 40u.
 /// - With n frames a point is off by ≤ n·300u times the length of the chain. This is below
 ///   2^14·u·size = 2^-50·size for n ≤ 54. For larger n, `Reach::size` is increased in proportion to
-///   n. `Reach::size` is also increased for large `Line::terms` of angles.
+///   n. `Reach::size` is also increased for large `Number::terms` of angles.
 class EdgeCurve {
  public:
+  /// Pieces are cut into segments of this depth, and their bounds are computed for each.
+  static constexpr int kSegmentDepth = 3;
+
   EdgeCurve(const KinematicTree& tree, const std::vector<Coordinate>& coordinates,
             const Configuration& from, const Configuration& to);
+  /// @pre the piece's coefficients are finite, and their rows and degree are valid. The first and
+  /// the last column of a rotation are not 0.
+  EdgeCurve(const KinematicTree& tree, const std::vector<Coordinate>& coordinates,
+            const CurvePiece& piece);
 
   /// Returns whether the shorter way round is not unique within 1e-9 rad. Then the edge defines no
   /// curve.
@@ -122,13 +154,23 @@ class EdgeCurve {
   FrameState at(const KinematicChain& chain, Real t) const;
   Perturbation perturbationAt(const KinematicChain& chain, Real t, const Configuration& tube) const;
   Configuration configuration(Real t) const;  ///< rounded
-  Reach reach(const KinematicChain& chain, Real radius, const Configuration& tube) const;
+  /// Returns the smallest segment with bounds of its own that contains [middle − half, middle +
+  /// half]. @pre the ends of this interval are multiples of 2·half, or half = 0.
+  Segment segmentOf(Real middle, Real half) const;
+  Reach reach(const KinematicChain& chain, Real radius, const Configuration& tube,
+              const Segment& segment = {}) const;
 
  private:
-  /// The value of a number of the configuration along the edge: from + t·way.
-  struct Line {
+  /// The value of a number of the configuration: from + t·way, or the polynomial.
+  struct Number {
     Real from = 0, way = 0;
-    Real terms = 0;  ///< 8u·terms bounds the rounding of from + t·way
+    Real terms = 0;                    ///< 8u·terms bounds the rounding of the value
+    Bernstein polynomial, derivative;  ///< of a piece
+  };
+  /// Bounds of a number of the configuration, or of a joint's value, in one segment.
+  struct Bounds {
+    Real value = 0, rate = 0, bend = 0;  ///< of the value and its first and second derivative
+    Real terms = 0;                      ///< as Number::terms
   };
   struct Arc {
     Eigen::Matrix<Real, 4, 1> q0, q1;  // x, y, z, w
@@ -139,13 +181,25 @@ class EdgeCurve {
   /// with X the placement before the joint.
   template <class See>
   Placement walk(const KinematicChain& chain, Real t, const See& see) const;
+  void addRotation(std::size_t first, const Configuration& from, const Configuration& to);
+  void addSegments(std::size_t number, const Bernstein& value, const Bernstein& rate,
+                   const Bernstein& bend, const Segment& segment);
   const Arc& arcOf(const Frame& frame) const;
   RealMat arcAt(const Arc& arc, Real t) const;
-  Line valueOf(const Frame& frame) const;
+  Real numberAt(std::size_t number, Real t) const;
+  Real rateAt(std::size_t number, Real t) const;
+  /// The value and the derivative of a revolute or prismatic joint.
+  Real valueAt(const Frame& frame, Real t) const;
+  Real rateAt(const Frame& frame, Real t) const;
+  Bounds& boundsOf(std::size_t number, const Segment& segment);
+  const Bounds& boundsOf(std::size_t number, const Segment& segment) const;
+  Bounds boundsOf(const Frame& frame, const Segment& segment) const;
 
   const KinematicTree& tree_;
   const std::vector<Coordinate>& coordinates_;
-  std::vector<Line> lines_;         // one per number of a configuration
+  bool isPiece_ = false;
+  std::vector<Number> numbers_;     // one per number of a configuration
+  std::vector<Bounds> bounds_;      // [segment][number], the longest segments first
   std::vector<Arc> arcs_;           // one per rotation
   std::vector<std::size_t> arcAt_;  // index in arcs_, by the rotation's first number
   bool ambiguous_ = false, jumps_ = false;

@@ -4,19 +4,21 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "planner/verify/curve_joins.h"
 #include "planner/verify/winding.h"
 
 namespace corridor::verify {
 namespace {
 
 constexpr const char* kTooLarge = "value too large: its rounding exceeds the clearance";
+constexpr const char* kErrorTooLarge = "the error of the piece may exceed the clearance";
 
-void require(const PathProblem& problem, const std::vector<Configuration>& states) {
-  const auto refuse = [](const std::string& what) {
-    throw std::invalid_argument("verifyPath: " + what);
-  };
+[[noreturn]] void refuse(const std::string& what) {
+  throw std::invalid_argument("verifyPath: " + what);
+}
+
+void require(const PathProblem& problem) {
   if (!problem.tree || !problem.space) refuse("tree and space must not be null");
-  if (states.empty()) refuse("states must not be empty");
   if (!(problem.margin >= 0 && std::isfinite(problem.margin)))
     refuse("margin must be finite and not negative");
   if (!(problem.wantedClearance >= 0 && std::isfinite(problem.wantedClearance)))
@@ -41,11 +43,47 @@ void require(const PathProblem& problem, const std::vector<Configuration>& state
       refuse("padding must be finite and not negative");
 }
 
+void require(const PathProblem& problem, const CurvePiece& piece) {
+  const auto size = static_cast<Eigen::Index>(problem.space->size());
+  if (piece.coefficients.rows() != size)
+    refuse("a piece must have one row for each number of a configuration");
+  if (piece.degree() < 1 || piece.degree() > CurvePiece::kLargestDegree)
+    refuse("the degree of a piece must be from 1 to 9");
+  if (piece.error.size() != size) refuse("error must have as many numbers as a configuration");
+  if (!piece.error.allFinite() || (piece.error.array() < 0).any())
+    refuse("error must be finite and not negative");
+}
+
+/// Returns the sum, rounded up. Computed in long double, so that flush-to-zero loses nothing.
+double sumUp(double a, double b) {
+  const Real sum = (Real(a) + Real(b)) * (b > 0 ? 1 + 0x1p-60L : 1);
+  const auto rounded = static_cast<double>(sum);
+  return rounded < sum ? std::nextafter(rounded, HUGE_VAL) : rounded;
+}
+
 }  // namespace
 
 PairProver::PairProver(const PathProblem& problem, const std::vector<Configuration>& states)
-    : problem_(problem) {
-  require(problem, states);
+    : PairProver(problem) {
+  if (states.empty()) refuse("states must not be empty");
+  const std::size_t edges = std::max<std::size_t>(states.size() - 1, 1);
+  for (std::size_t e = 0; e < edges; ++e)
+    addEdge(states[e], states[std::min(e + 1, states.size() - 1)]);
+}
+
+PairProver::PairProver(const PathProblem& problem, std::span<const CurvePiece> pieces)
+    : PairProver(problem) {
+  if (pieces.empty()) refuse("pieces must not be empty");
+  const CurvePiece* before = nullptr;
+  for (const CurvePiece& piece : pieces) {
+    require(problem, piece);
+    addPiece(piece, before);
+    before = &piece;
+  }
+}
+
+PairProver::PairProver(const PathProblem& problem) : problem_(problem) {
+  require(problem);
   std::map<const TriangleMesh*, std::size_t> known;
   for (const VerifyBody& body : problem.bodies) {
     const auto [same, isNew] = known.try_emplace(body.mesh, trees_.size());
@@ -66,33 +104,62 @@ PairProver::PairProver(const PathProblem& problem, const std::vector<Configurati
     pairs_.push_back({pair.a, pair.b, addChain(base, fa), addChain(base, fb), margin});
   }
   frameStates_.resize(chains_.size());
-  const std::size_t edges = std::max<std::size_t>(states.size() - 1, 1);
-  for (std::size_t e = 0; e < edges; ++e)
-    addEdge(states[e], states[std::min(e + 1, states.size() - 1)]);
 }
 
 void PairProver::addEdge(const Configuration& from, const Configuration& to) {
-  const std::size_t edge = curves_.size();
   const bool valid = isState(from) && isState(to);
   const Configuration some = Configuration::Ones(problem_.tube.size());
-  const EdgeCurve& curve = curves_.emplace_back(*problem_.tree, problem_.space->coordinates(),
-                                                valid ? from : some, valid ? to : some);
-  PathFinding finding;
-  finding.verdict = PathVerdict::refuted;
-  finding.edge = static_cast<int>(edge);
-  finding.configuration = isState(from) && !valid ? to : from;
+  EdgeCurve curve(*problem_.tree, problem_.space->coordinates(), valid ? from : some,
+                  valid ? to : some);
+  const char* fault = nullptr;
   if (!valid)
-    finding.reason = "not a valid state";
+    fault = "not a valid state";
   else if (curve.ambiguous())
-    finding.reason = "ambiguous half turn";
+    fault = "ambiguous half turn";
   else if (curve.jumps())
-    finding.reason =
+    fault =
         "a joint that mimics a continuous joint would jump where the continuous joint passes 180 "
         "degrees";
-  noCurve_.push_back(finding.reason.empty() ? std::nullopt : std::optional(std::move(finding)));
+  addCurve(std::move(curve), Configuration::Zero(problem_.tube.size()), fault,
+           isState(from) && !valid ? to : from);
+}
+
+void PairProver::addPiece(const CurvePiece& piece, const CurvePiece* before) {
+  const bool valid = isPiece(piece);
+  const CurvePiece some{Eigen::MatrixXd::Ones(problem_.tube.size(), 2), piece.error};
+  EdgeCurve curve(*problem_.tree, problem_.space->coordinates(), valid ? piece : some);
+  const char* fault = nullptr;
+  if (!valid)
+    fault = "not a valid state";
+  else if (before && isPiece(*before) && !joins(problem_.space->coordinates(), *before, piece))
+    fault = "jump";
+  else if (curve.ambiguous())
+    fault = "ambiguous half turn";
+  addCurve(std::move(curve), piece.error, fault, piece.coefficients.col(0));
+}
+
+void PairProver::addCurve(EdgeCurve curve, const Configuration& error, const char* fault,
+                          const Configuration& at) {
+  const std::size_t edge = curves_.size();
+  curves_.push_back(std::move(curve));
+  noCurve_.emplace_back();
+  if (fault) {
+    PathFinding& finding = noCurve_.back().emplace();
+    finding.verdict = PathVerdict::refuted;
+    finding.edge = static_cast<int>(edge);
+    finding.configuration = at;
+    finding.reason = fault;
+  }
+  Configuration& tube = tubes_.emplace_back(problem_.tube);
+  for (Eigen::Index i = 0; i < tube.size(); ++i) tube[i] = sumUp(tube[i], error[i]);
   std::vector<PairReach> reaches;
-  for (std::size_t p = 0; p < pairs_.size(); ++p) reaches.push_back(reachOf(edge, p));
+  for (std::size_t p = 0; p < pairs_.size(); ++p) reaches.push_back(reachOf(edge, p, error));
   reaches_.push_back(std::move(reaches));
+}
+
+bool PairProver::isPiece(const CurvePiece& piece) const {
+  return piece.coefficients.allFinite() && isState(piece.coefficients.col(0)) &&
+         isState(piece.coefficients.col(piece.degree()));
 }
 
 bool PairProver::isState(const Configuration& state) const {
@@ -111,13 +178,13 @@ std::size_t PairProver::addChain(std::size_t base, std::size_t frame) {
   return known->second;
 }
 
-PairProver::PairReach PairProver::reachOf(std::size_t edge, std::size_t pair) const {
+Reach PairProver::sumOf(std::size_t edge, std::size_t pair, const Configuration& tube,
+                        const Segment& segment) const {
   const Pair& p = pairs_[pair];
-  PairReach reach;
-  Reach& sum = reach.sum;
+  Reach sum;
   for (const auto& [chainIndex, body] : {std::pair{p.chainA, p.a}, std::pair{p.chainB, p.b}}) {
     const Reach one =
-        curves_[edge].reach(chains_[chainIndex], treeOf(body).radius(), problem_.tube);
+        curves_[edge].reach(chains_[chainIndex], treeOf(body).radius(), tube, segment);
     sum.speed += one.speed;
     sum.bend += one.bend;
     sum.tube += one.tube;
@@ -126,18 +193,42 @@ PairProver::PairReach PairProver::reachOf(std::size_t edge, std::size_t pair) co
     sum.size += one.size;
     sum.lengths += one.lengths;
   }
+  return sum;
+}
+
+PairProver::PairReach PairProver::reachOf(std::size_t edge, std::size_t pair,
+                                          const Configuration& error) const {
+  PairReach reach;
+  reach.sum = sumOf(edge, pair, tubes_[edge], {});
   // 2^-50·size = 2^14·u·size for each chain. The relative placement, the boxes (32u), the slabs
   // (16u) and the displacements together add no more than that.
-  reach.rounding = 0x1p-49L * sum.size;
-  reach.sharp = reach.rounding <= std::max<Real>(0x1p-48L * sum.lengths, problem_.tolerance);
+  reach.rounding = 0x1p-49L * reach.sum.size;
+  if (!error.isZero(0)) reach.stray = sumOf(edge, pair, error, {}).tube;
+  reach.sharp =
+      reach.rounding <= std::max<Real>(0x1p-48L * reach.sum.lengths, problem_.tolerance) &&
+      reach.stray <= problem_.tolerance;
   return reach;
 }
 
+const Reach& PairProver::reach(const TimeInterval& interval, std::size_t pair) {
+  const Segment segment = curves_[interval.edge].segmentOf(interval.middle, interval.half);
+  if (segment.depth == 0) return reaches_[interval.edge][pair].sum;
+  enter(interval.edge);
+  const std::size_t place = (std::size_t(1) << segment.depth) + segment.index;
+  const auto [known, isNew] = segments_.try_emplace({place, pair});
+  if (isNew) known->second = sumOf(interval.edge, pair, tubes_[interval.edge], segment);
+  return known->second;
+}
+
+void PairProver::enter(std::size_t edge) {
+  if (edgeAt_ == edge) return;
+  for (auto& [time, unused] : frameStates_) time = -1;
+  segments_.clear();
+  edgeAt_ = edge;
+}
+
 const FrameState& PairProver::stateOf(std::size_t edge, std::size_t chainIndex, Real t) {
-  if (edgeAt_ != edge) {
-    for (auto& [time, unused] : frameStates_) time = -1;
-    edgeAt_ = edge;
-  }
+  enter(edge);
   auto& [time, state] = frameStates_[chainIndex];
   if (time != t) {
     state = curves_[edge].at(chains_[chainIndex], t);
@@ -149,8 +240,9 @@ const FrameState& PairProver::stateOf(std::size_t edge, std::size_t chainIndex, 
 /// Returns an upper bound of the smallest distance that the pair has within the tube. For most
 /// pairs this is the distance at the pose. It is smaller for a body whose chain begins with a
 /// translation, against a body that is fixed in the base: the tube can displace such a body in any
-/// direction (of the plane, for a planar translation) by the smallest number of its tube.
-Real PairProver::leastInTube(std::size_t pair, const Measured& m) const {
+/// direction (of the plane, for a planar translation) by the smallest number of its tube. The curve
+/// that is meant may be farther away by the displacement of the piece's error.
+Real PairProver::leastInTube(std::size_t edge, std::size_t pair, const Measured& m) const {
   const RealVec between = m.gap.onB - m.gap.onA;
   const auto isFixed = [&](std::size_t chain) {
     return std::ranges::none_of(chains_[chain].path,
@@ -158,9 +250,10 @@ Real PairProver::leastInTube(std::size_t pair, const Measured& m) const {
   };
   std::size_t mover = pairs_[pair].chainB, other = pairs_[pair].chainA;
   if (isFixed(mover)) std::swap(mover, other);
-  if (isFixed(mover) || !isFixed(other)) return m.gap.upper;
+  const Real error = reaches_[edge][pair].stray, farthest = m.gap.upper + error;
+  if (isFixed(mover) || !isFixed(other)) return farthest;
   const Frame& frame = problem_.tree->frames[chains_[mover].path.front()];
-  if (frame.joint != Frame::Joint::translation || !frame.moves()) return m.gap.upper;
+  if (frame.joint != Frame::Joint::translation || !frame.moves()) return farthest;
   const auto first = static_cast<Eigen::Index>(frame.variable);
   const Real stray =
       problem_.tube.segment(first, static_cast<Eigen::Index>(frame.count)).minCoeff();
@@ -170,21 +263,24 @@ Real PairProver::leastInTube(std::size_t pair, const Measured& m) const {
     across = std::abs(between.dot(q.normalized() * RealVec::UnitZ()));
   }
   const Real along = std::sqrt(std::max<Real>(0, between.squaredNorm() - across * across));
-  return std::hypot(std::max<Real>(along - stray, 0), across);
+  return std::hypot(std::max<Real>(along - stray, 0), across) + error;
 }
 
 /// Returns why the path is refuted at these poses, or null if it is not. If the poses may be far
 /// from the path (not `sharp`), they refute nothing. The function then returns why the pair is
 /// undecided, or null.
-const char* PairProver::whyRefuted(const PairReach& reach, std::size_t pair,
-                                   const Measured& m) const {
+const char* PairProver::whyRefuted(std::size_t edge, std::size_t pair, const Measured& m) const {
+  const PairReach& reach = reaches_[edge][pair];
   const Real margin = pairs_[pair].margin;
-  if (!reach.sharp) return m.gap.upper <= margin + reach.rounding ? kTooLarge : nullptr;
+  if (!reach.sharp) {
+    const bool error = reach.stray > problem_.tolerance;
+    return m.gap.upper <= margin + reach.rounding ? (error ? kErrorTooLarge : kTooLarge) : nullptr;
+  }
   if (m.gap.touching) return "contact";
   if (margin > 0 && m.gap.upper <= margin)
     return margin > problem_.margin ? "closer than margin and padding" : "closer than the margin";
   // Some curve in the tube comes this close, so it touches, or violates the margin.
-  if (std::isfinite(m.gap.upper) && leastInTube(pair, m) <= margin)
+  if (std::isfinite(m.gap.upper) && leastInTube(edge, pair, m) <= margin)
     return "closer than the tube allows";
   return nullptr;
 }
@@ -225,16 +321,17 @@ void PairProver::measure(const PairReach& reach, std::size_t pair, PiecePair gue
       distance_.measure(guess, reach.sharp ? reach.rounding : 0, stop + reach.rounding, touches);
 }
 
-Real PairProver::secondOrder(const PairReach& reach, Real half) const {
+Real PairProver::secondOrder(const Reach& reach, Real half) const {
   return tubeMatters(reach)
-             ? (half * half * reach.sum.bend + half * reach.sum.bendCross + reach.sum.bendTube) / 2
-             : half * half * reach.sum.bend / 2 + reach.sum.tube;
+             ? (half * half * reach.bend + half * reach.bendCross + reach.bendTube) / 2
+             : half * half * reach.bend / 2 + reach.tube;
 }
 
 PairAnswer PairProver::decide(const TimeInterval& interval, const OpenPair& open,
                               Real usefulBound) {
-  const PairReach& reach = reaches_[interval.edge][open.pair];
-  const Real motionBound = reach.sum.speed * interval.half, pad = reach.sum.tube + reach.rounding;
+  const PairReach& whole = reaches_[interval.edge][open.pair];
+  const Reach& bounds = reach(interval, open.pair);
+  const Real motionBound = bounds.speed * interval.half, pad = bounds.tube + whole.rounding;
   const Real margin = pairs_[open.pair].margin;
   Measured m = place(interval, open.pair);
   PairAnswer answer;
@@ -246,7 +343,7 @@ PairAnswer PairProver::decide(const TimeInterval& interval, const OpenPair& open
     // here, so it is measured. (Other primitives may touch at this middle; a shorter interval finds
     // them, if the contact is not at this time only.)
     const Real least =
-        std::min(motionBound + pad, secondOrder(reach, interval.half) + reach.rounding);
+        std::min(motionBound + pad, secondOrder(bounds, interval.half) + whole.rounding);
     const TriangleGap guessed = distance_.gap(open.guess);
     const Real upper = guessed.upper;
     if (margin + pad < upper && upper <= margin + least) {
@@ -259,23 +356,23 @@ PairAnswer PairProver::decide(const TimeInterval& interval, const OpenPair& open
       return answer;
     }
   }
-  measure(reach, open.pair, open.guess, std::max<Real>(margin, usefulBound) + motionBound + pad, m);
+  measure(whole, open.pair, open.guess, std::max<Real>(margin, usefulBound) + motionBound + pad, m);
   answer.closest = m.gap.pair;
   answer.upper = m.gap.upper;
   answer.point = m.contact ? RealVec(m.contact->cast<Real>()) : m.gap.onB;
-  answer.reason = whyRefuted(reach, open.pair, m);
+  answer.reason = whyRefuted(interval.edge, open.pair, m);
   if (answer.reason) {
-    answer.verdict = reach.sharp ? PathVerdict::refuted : PathVerdict::undecided;
+    answer.verdict = whole.sharp ? PathVerdict::refuted : PathVerdict::undecided;
     return answer;
   }
   answer.bound = std::max(open.bound, m.gap.lower - motionBound - pad);
   answer.estimate = answer.bound;
-  if (answer.bound <= margin && (interval.half > 0 || tubeMatters(reach)))
+  if (answer.bound <= margin && (interval.half > 0 || tubeMatters(bounds)))
     answer.bound = std::max(answer.bound, boundPiecewise(interval, open.pair, m, usefulBound));
   if (answer.bound > margin) {
     answer.verdict = PathVerdict::proved;
   } else {
-    answer.reason = whyStuck(reach, open.pair, m);
+    answer.reason = whyStuck(whole, open.pair, m);
     if (motionBound <= problem_.tolerance) answer.verdict = PathVerdict::undecided;
   }
   return answer;
@@ -283,19 +380,20 @@ PairAnswer PairProver::decide(const TimeInterval& interval, const OpenPair& open
 
 Real PairProver::boundPiecewise(const TimeInterval& interval, std::size_t pair, const Measured& m,
                                 Real usefulBound) {
-  const PairReach& reach = reaches_[interval.edge][pair];
+  const Reach& bounds = reach(interval, pair);
+  const Configuration& tube = tubes_[interval.edge];
   const Real half = interval.half;
   PairMotion motion;
   motion.half = half;
-  motion.motionBound = reach.sum.speed * half;
-  motion.tube = reach.sum.tube;
-  motion.rounding = reach.rounding;
+  motion.motionBound = bounds.speed * half;
+  motion.tube = bounds.tube;
+  motion.rounding = reaches_[interval.edge][pair].rounding;
   Perturbation a, b;
-  motion.secondOrder = secondOrder(reach, half);
-  if (tubeMatters(reach)) {
+  motion.secondOrder = secondOrder(bounds, half);
+  if (tubeMatters(bounds)) {
     const EdgeCurve& curve = curves_[interval.edge];
-    a = curve.perturbationAt(chains_[pairs_[pair].chainA], interval.middle, problem_.tube);
-    b = curve.perturbationAt(chains_[pairs_[pair].chainB], interval.middle, problem_.tube);
+    a = curve.perturbationAt(chains_[pairs_[pair].chainA], interval.middle, tube);
+    b = curve.perturbationAt(chains_[pairs_[pair].chainB], interval.middle, tube);
   }
   motion.a = motionSeenFrom(m.a.at, m.a, std::move(a));
   motion.b = motionSeenFrom(m.a.at, m.b, std::move(b));

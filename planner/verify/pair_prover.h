@@ -2,6 +2,7 @@
 
 #include <map>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -12,8 +13,8 @@
 
 namespace corridor::verify {
 
-/// The times [middle − half, middle + half] of an edge, with t in [0, 1]. half = 0 is a single
-/// time.
+/// The times [middle − half, middle + half] of an edge or a piece, with t in [0, 1]. half = 0 is a
+/// single time. The intervals are those that halving [0, 1] makes.
 struct TimeInterval {
   std::size_t edge = 0;
   Real middle = 0.5L, half = 0.5L;
@@ -47,7 +48,8 @@ struct PairAnswer {
 };
 
 /// Decides one pair of bodies in one time interval of one edge. verifyPath() calls it for ever
-/// shorter intervals. No answer depends on earlier queries.
+/// shorter intervals. No answer depends on earlier queries. For verifyCurve(), the pieces of the
+/// curve take the place of the edges.
 ///
 /// The object stores all data that depend only on the problem (box trees, kinematic chains) or only
 /// on an edge (its curve and reach weights). It also caches the states of the frames at the latest
@@ -56,11 +58,14 @@ class PairProver {
  public:
   /// @throws std::invalid_argument as verifyPath() does.
   PairProver(const PathProblem& problem, const std::vector<Configuration>& states);
+  /// @throws std::invalid_argument as verifyCurve() does.
+  PairProver(const PathProblem& problem, std::span<const CurvePiece> pieces);
 
   std::size_t edges() const { return curves_.size(); }
   std::size_t pairs() const { return pairs_.size(); }
   /// Returns the finding `refuted` if the edge defines no curve: an end is not a state, a half turn
-  /// is ambiguous, or a joint jumps. Such an edge must not be passed to the functions below.
+  /// is ambiguous, or a joint jumps; or if the piece does not begin where the piece before it ends.
+  /// Such an edge must not be passed to the functions below.
   const std::optional<PathFinding>& noCurve(std::size_t edge) const { return noCurve_[edge]; }
 
   /// Decides a pair of bodies in an interval.
@@ -75,7 +80,8 @@ class PairProver {
   PathFinding finding(const TimeInterval& interval, std::size_t pair,
                       const PairAnswer& answer) const;
 
-  const Reach& reach(std::size_t edge, std::size_t pair) const { return reaches_[edge][pair].sum; }
+  /// Returns the bounds of the pair's motion that decide() uses in the interval.
+  const Reach& reach(const TimeInterval& interval, std::size_t pair);
 
  private:
   struct Pair {
@@ -84,9 +90,10 @@ class PairProver {
   };
   /// Motion bounds of both bodies along an edge, by their reach weights.
   struct PairReach {
-    Reach sum;
+    Reach sum;          ///< of the whole edge
     Real rounding = 0;  ///< metres; bound for every computed distance and displacement
     bool sharp = true;  ///< the computed poses are so close to the path that a contact refutes it
+    Real stray = 0;     ///< metres; the displacement by CurvePiece::error
   };
   /// Both bodies at the middle of an interval.
   struct Measured {
@@ -96,29 +103,41 @@ class PairProver {
     Placement X_AB;
   };
 
+  /// Sets the bodies and the pairs.
+  explicit PairProver(const PathProblem& problem);
   bool isState(const Configuration& state) const;
+  bool isPiece(const CurvePiece& piece) const;
   void addEdge(const Configuration& from, const Configuration& to);
+  void addPiece(const CurvePiece& piece, const CurvePiece* before);
+  /// Adds the curve of an edge, its tube and its reach weights. `error` is that of a CurvePiece.
+  /// @param fault why the edge defines no curve; empty if it does.
+  void addCurve(EdgeCurve curve, const Configuration& error, const char* fault,
+                const Configuration& at);
   std::size_t addChain(std::size_t base, std::size_t frame);
   const BoxTree& treeOf(std::size_t body) const { return trees_[treeOf_[body]]; }
-  PairReach reachOf(std::size_t edge, std::size_t pair) const;
+  PairReach reachOf(std::size_t edge, std::size_t pair, const Configuration& error) const;
+  Reach sumOf(std::size_t edge, std::size_t pair, const Configuration& tube,
+              const Segment& segment) const;
+  /// Forgets what belongs to another edge.
+  void enter(std::size_t edge);
   const FrameState& stateOf(std::size_t edge, std::size_t chainIndex, Real t);
   /// Sets the bodies' placement at the middle of the interval, for `distance_` and the result.
   Measured place(const TimeInterval& interval, std::size_t pair);
   /// Measures the distance of the placed bodies.
   void measure(const PairReach& reach, std::size_t pair, PiecePair guess, Real stop, Measured& m);
   /// Returns the terms of second order that reduce the distance in an interval, in any direction.
-  Real secondOrder(const PairReach& reach, Real half) const;
+  Real secondOrder(const Reach& reach, Real half) const;
   /// Returns a lower bound of the clearance by boundBySlabs().
   Real boundPiecewise(const TimeInterval& interval, std::size_t pair, const Measured& m,
                       Real usefulBound);
-  Real leastInTube(std::size_t pair, const Measured& m) const;
-  const char* whyRefuted(const PairReach& reach, std::size_t pair, const Measured& m) const;
+  Real leastInTube(std::size_t edge, std::size_t pair, const Measured& m) const;
+  const char* whyRefuted(std::size_t edge, std::size_t pair, const Measured& m) const;
   const char* whyStuck(const PairReach& reach, std::size_t pair, const Measured& m) const;
   std::optional<Vec3> pointInside(std::size_t solid, std::size_t other,
                                   const Placement& X_SolidOther) const;
   /// Returns whether the tube displaces points by more than the tolerance. Only then can a bound of
   /// the tube along one direction change a verdict.
-  bool tubeMatters(const PairReach& reach) const { return reach.sum.tube > problem_.tolerance; }
+  bool tubeMatters(const Reach& reach) const { return reach.tube > problem_.tolerance; }
 
   const PathProblem& problem_;
   std::vector<BoxTree> trees_;       // one per mesh; one per body of parts
@@ -127,8 +146,10 @@ class PairProver {
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> chainIndex_;  // by base and frame
   std::vector<Pair> pairs_;
   std::vector<EdgeCurve> curves_;
-  std::vector<std::optional<PathFinding>> noCurve_;       // one per edge
-  std::vector<std::vector<PairReach>> reaches_;           // [edge][pair]
+  std::vector<Configuration> tubes_;  // one per edge: the problem's tube, and the piece's error
+  std::vector<std::optional<PathFinding>> noCurve_;                // one per edge
+  std::vector<std::vector<PairReach>> reaches_;                    // [edge][pair]
+  std::map<std::pair<std::size_t, std::size_t>, Reach> segments_;  // of edgeAt_, by place and pair
   std::vector<std::pair<Real, FrameState>> frameStates_;  // one per chain, at a time of edgeAt_
   std::size_t edgeAt_ = SIZE_MAX;
   BodyDistance distance_;

@@ -64,12 +64,15 @@ struct WorstOnTop {
   bool operator()(const Interval& a, const Interval& b) const { return a.bound > b.bound; }
 };
 
-/// Bisects all edges. If a pair is undecided somewhere on an edge, this pair is not tested further
-/// on the edge. The other pairs are still tested, because one of them may refute the edge.
+/// Bisects all edges, or all pieces of a curve. If a pair is undecided somewhere on an edge, this
+/// pair is not tested further on the edge. The other pairs are still tested, because one of them
+/// may refute the edge.
 class Verifier {
  public:
   Verifier(const PathProblem& problem, const std::vector<Configuration>& states)
       : problem_(problem), prover_(problem, states), single_(states.size() == 1) {}
+  Verifier(const PathProblem& problem, std::span<const CurvePiece> pieces)
+      : problem_(problem), prover_(problem, pieces), single_(false) {}
   PathReport run();
 
  private:
@@ -213,7 +216,7 @@ void Verifier::refine() {
   const std::uint64_t limit = 5 * queries_ + kRefinement;
   while (!proved_.empty() && queries_ < limit) {
     const Interval worst = proved_.top();
-    const Reach& reach = prover_.reach(worst.time.edge, worst.pairs[0].pair);
+    const Reach& reach = prover_.reach(worst.time, worst.pairs[0].pair);
     if (worst.bound >= goalFor(smallest_ - reach.tube) ||
         reach.speed * worst.time.half <= problem_.tolerance || worst.depth >= kDepth)
       break;
@@ -308,21 +311,38 @@ PathReport Verifier::report() const {
   return report;
 }
 
+/// The report of a path that cannot be verified in this arithmetic.
+/// @param startOf returns the configuration at the start of an edge.
+template <class Start>
+PathReport refusal(FloatingPoint arithmetic, std::size_t edges, const Start& startOf) {
+  PathReport report;
+  report.verdict = PathVerdict::undecided;
+  report.edges = static_cast<int>(edges);
+  for (int edge = 0; edge < std::min(report.edges, kFindings); ++edge) {
+    PathFinding& finding = report.findings.emplace_back();
+    finding.edge = edge;
+    finding.configuration = startOf(static_cast<std::size_t>(edge));
+    finding.reason = described(arithmetic);
+  }
+  return report;
+}
+
 }  // namespace
 
 PathReport verifyPath(const PathProblem& problem, const std::vector<Configuration>& states) {
   const FloatingPoint arithmetic = floatingPoint();
   if (arithmetic == FloatingPoint::standard) return Verifier(problem, states).run();
-  PathReport report;
-  report.verdict = PathVerdict::undecided;
-  report.edges = static_cast<int>(std::max<std::size_t>(states.size(), 2)) - 1;
-  for (int edge = 0; edge < std::min(report.edges, kFindings); ++edge) {
-    PathFinding& finding = report.findings.emplace_back();
-    finding.edge = edge;
-    if (!states.empty()) finding.configuration = states[static_cast<std::size_t>(edge)];
-    finding.reason = described(arithmetic);
-  }
-  return report;
+  return refusal(arithmetic, std::max<std::size_t>(states.size(), 2) - 1,
+                 [&](std::size_t edge) { return states.empty() ? Configuration() : states[edge]; });
+}
+
+PathReport verifyCurve(const PathProblem& problem, std::span<const CurvePiece> pieces) {
+  const FloatingPoint arithmetic = floatingPoint();
+  if (arithmetic == FloatingPoint::standard) return Verifier(problem, pieces).run();
+  return refusal(arithmetic, pieces.size(), [&](std::size_t piece) -> Configuration {
+    const Eigen::MatrixXd& coefficients = pieces[piece].coefficients;
+    return coefficients.cols() > 0 ? Configuration(coefficients.col(0)) : Configuration();
+  });
 }
 
 }  // namespace corridor

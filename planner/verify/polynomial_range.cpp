@@ -1,0 +1,64 @@
+#include "planner/verify/polynomial_range.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace corridor::verify {
+namespace {
+
+/// τ then has 60 bits. The coefficients of an interval of width 2^-60 differ from its values by
+/// 2^-120 of the second derivative: by far less than one rounding of them.
+constexpr int kDepth = 60;
+/// A polynomial of degree 9 touches its limits at 10 places at most, with two intervals of each
+/// length around each. Only one that stays within rounding of a limit all along needs more.
+constexpr int kMostHalvings = 4000;
+
+struct Part {
+  Bernstein polynomial;
+  Real start = 0;  ///< of its interval
+  int depth = 0;   ///< the interval has width 2^-depth
+};
+
+}  // namespace
+
+RangeAnswer rangeOf(const Bernstein& polynomial, Real lower, Real upper) {
+  RangeAnswer answer;
+  /// Returns by how much a value is beyond the limits; negative inside.
+  const auto beyond = [&](Real value) { return std::max(value - upper, lower - value); };
+  // A difference is rounded once, so its sign is right. It is compared with an error that has a
+  // factor for this rounding.
+  constexpr Real up = 1 + 0x1p-50L, down = 1 - 0x1p-50L;
+  const auto record = [&](RangeAnswer::Verdict verdict, Real at, Real value) {
+    answer = {verdict, at, value};
+  };
+  int halvings = 0;
+  std::vector<Part> open = {{polynomial, 0, 0}};
+  while (!open.empty()) {
+    const Part part = open.back();
+    open.pop_back();
+    const Bernstein& p = part.polynomial;
+    const Real width = std::ldexp(Real(1), -part.depth), error = p.error;
+    Real most = -std::numeric_limits<Real>::infinity();
+    for (const Real each : p.coefficients()) most = std::max(most, beyond(each));
+    if (most <= 0 && -most * down >= error) continue;
+    for (const bool last : {false, true}) {
+      const Real value = p.c[last ? std::size_t(p.degree) : 0];
+      if (beyond(value) * down <= error) continue;
+      record(RangeAnswer::Verdict::exceeded, part.start + (last ? width : 0), value);
+      return answer;
+    }
+    if (most <= error * up || part.depth == kDepth || ++halvings > kMostHalvings) {
+      if (answer.verdict == RangeAnswer::Verdict::within)
+        record(RangeAnswer::Verdict::undecided, part.start, p.c[0]);
+      continue;
+    }
+    const std::array<Bernstein, 2> halves = halvesOf(p);
+    open.push_back({halves[1], part.start + width / 2, part.depth + 1});
+    open.push_back({halves[0], part.start, part.depth + 1});
+  }
+  return answer;
+}
+
+}  // namespace corridor::verify

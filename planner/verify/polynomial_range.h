@@ -1,0 +1,39 @@
+#pragma once
+
+#include "planner/verify/bernstein.h"
+
+namespace corridor::verify {
+
+/// The answer whether a polynomial stays within limits.
+struct RangeAnswer {
+  enum class Verdict {
+    /// The real polynomial is within [lower, upper] for every τ in [0, 1]. Never wrong.
+    within,
+    /// It is not, at τ = `at`. Never wrong.
+    exceeded,
+    /// At τ = `at` it is so close to a limit that rounding, or the polynomial's own `error`,
+    /// decides.
+    undecided,
+  };
+  Verdict verdict = Verdict::within;
+  Real at = 0;     ///< τ; exceeded or undecided only
+  Real value = 0;  ///< the value there, rounded
+};
+
+/// Decides whether a polynomial stays within [lower, upper] on [0, 1]. Both limits are inclusive,
+/// and may be infinite. A limit of positions takes the piece's coefficients as they are. A limit of
+/// velocities or accelerations takes derivativeOf() with the piece's duration, once or twice.
+///
+/// Method (Lane, Riesenfeld 1980): the polynomial is within its coefficients' range. If this range
+/// is not within the limits, and no end of the interval is beyond them, the interval is halved.
+/// Coefficients approach the polynomial with the square of the interval's width. So only intervals
+/// around a place that touches a limit are halved often. Halving ends where no coefficient is
+/// beyond the limit by more than Bernstein::error. There, no value can be shown to exceed the
+/// limit.
+///
+/// A piece that starts or ends exactly on a limit is decided exactly: its first and last
+/// coefficient are its values, and they have no error.
+/// @pre all coefficients are finite; lower ≤ upper.
+RangeAnswer rangeOf(const Bernstein& polynomial, Real lower, Real upper);
+
+}  // namespace corridor::verify
