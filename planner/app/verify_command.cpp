@@ -1,3 +1,5 @@
+#include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -19,6 +21,7 @@ namespace {
 struct VerifyArguments {
   std::string problem, solution;
   std::optional<double> margin;
+  std::optional<std::string> between;  ///< the name of a Between; trajectories only
   bool ignoreDigest = false;  ///< verify the solution even if its digest is not the problem's
   bool json = false, quiet = false;
 };
@@ -37,16 +40,42 @@ std::string sideText(const std::string& name, std::uint32_t triangle, const Prob
          (kind.empty() ? "" : " (" + kind + " " + std::to_string(triangle) + ")");
 }
 
-/// Returns ", free until then", ", free until 0.25", or "" if nothing is proved before the finding.
-std::string freeUntilText(const PathFinding& f) {
-  if (!f.freeUntil || *f.freeUntil == 0) return "";
-  const std::string until = rounded(*f.freeUntil);
-  return ", free until " + (until == rounded(f.t) ? "then" : until);
+/// Returns the time, seconds, at which an edge of a trajectory has the parameter t.
+double timeAt(const VerifyReport& report, int edge, double t) {
+  const auto k = static_cast<std::size_t>(edge);
+  return report.times[k] + t * (report.times[k + 1] - report.times[k]);
 }
 
-std::string text(const PathFinding& f, const Problem& problem) {
-  std::string line = std::string(nameOf(f.verdict)) + ": edge " + std::to_string(f.edge) +
-                     " at t = " + rounded(f.t) + freeUntilText(f) + ": " + f.reason;
+/// Returns the seconds with seven significant digits.
+std::string secondsText(double seconds) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.7g", seconds + 0.0);  // no "-0"
+  return text;
+}
+
+/// Returns ", free until then", ", free until 0.25", or "" if nothing is proved before the finding.
+std::string freeUntilText(const PathFinding& f, const std::string& until, const std::string& at) {
+  if (!f.freeUntil || (*f.freeUntil == 0 && f.edge == 0)) return "";
+  return ", free until " + (until == at ? "then" : until);
+}
+
+/// Returns "edge 3 at t = 0.3, free until 0.25" or, with times, "at 1.2 s, free until 1.1 s, edge
+/// 3".
+std::string whenText(const PathFinding& f, const VerifyReport& report) {
+  const std::string edge = "edge " + std::to_string(f.edge);
+  if (report.times.empty()) {
+    const bool isFirst = f.freeUntil && *f.freeUntil == 0;
+    return edge + " at t = " + rounded(f.t) +
+           (isFirst ? "" : freeUntilText(f, rounded(f.freeUntil.value_or(0)), rounded(f.t)));
+  }
+  const std::string at = secondsText(timeAt(report, f.edge, f.t)) + " s";
+  return "at " + at +
+         freeUntilText(f, secondsText(timeAt(report, f.edge, f.freeUntil.value_or(0))) + " s", at) +
+         ", " + edge;
+}
+
+std::string text(const PathFinding& f, const VerifyReport& report, const Problem& problem) {
+  std::string line = std::string(nameOf(f.verdict)) + ": " + whenText(f, report) + ": " + f.reason;
   if (!f.a.empty()) {
     line +=
         ": " + sideText(f.a, f.triangleA, problem) + " and " + sideText(f.b, f.triangleB, problem);
@@ -56,12 +85,17 @@ std::string text(const PathFinding& f, const Problem& problem) {
   return line + "; at " + stateText(problem.model.space, f.configuration);
 }
 
-ordered_json jsonOf(const PathFinding& f) {
+ordered_json jsonOf(const PathFinding& f, const VerifyReport& report) {
+  const auto seconds = [&](const std::optional<double>& t) {
+    return t && !report.times.empty() ? ordered_json(timeAt(report, f.edge, *t)) : ordered_json();
+  };
   return {{"verdict", nameOf(f.verdict)},
           {"reason", f.reason},
           {"edge", f.edge},
           {"t", f.t},
           {"free_until", f.freeUntil ? ordered_json(*f.freeUntil) : ordered_json()},
+          {"time_s", seconds(f.t)},
+          {"free_until_s", seconds(f.freeUntil)},
           {"state", numbersJson(f.configuration)},
           {"a", f.a},
           {"triangle_a", f.triangleA},
@@ -78,6 +112,9 @@ ordered_json jsonOf(const Verified& verified, const Problem& problem, const Veri
                     {"solution", a.solution},
                     {"verdict", verdictName(r)},
                     {"digest", nameOf(r.digest)},
+                    {"between", r.between ? ordered_json(nameOf(*r.between)) : ordered_json()},
+                    {"begin_s", r.times.empty() ? ordered_json() : r.times.front()},
+                    {"end_s", r.times.empty() ? ordered_json() : r.times.back()},
                     {"notes", textsOf(problem.source.notes)},
                     {"warnings", verified.warnings},
                     {"edges", r.pathReport.edges},
@@ -90,17 +127,24 @@ ordered_json jsonOf(const Verified& verified, const Problem& problem, const Veri
                     {"distance_queries", r.pathReport.distanceQueries},
                     {"violations", r.violations},
                     {"findings", ordered_json::array()}};
-  for (const PathFinding& finding : r.pathReport.findings) j["findings"].push_back(jsonOf(finding));
+  for (const PathFinding& finding : r.pathReport.findings)
+    j["findings"].push_back(jsonOf(finding, r));
   return j;
 }
 
 void print(const VerifyReport& r, const Problem& problem, const VerifyArguments& a) {
   const ResultPrinter out(a.quiet);
   out.line("problem", a.problem);
-  out.line("solution", a.solution);
+  out.line(r.between ? "trajectory" : "solution", a.solution);
   out.line("verdict", verdictName(r), r.verdict == PathVerdict::proved ? Tone::good : Tone::bad);
   if (r.otherProblem) return;
   for (const std::string& note : condensed(textsOf(problem.source.notes))) out.line("note", note);
+  if (r.between)
+    out.line("between rows",
+             std::string(nameOf(*r.between)) +
+                 (r.times.empty() ? ", without times"
+                                  : ", from " + secondsText(r.times.front()) + " s to " +
+                                        secondsText(r.times.back()) + " s"));
   out.line("edges proved",
            std::to_string(r.pathReport.edgesProved) + " of " + std::to_string(r.pathReport.edges));
   if (r.pathReport.verdict == PathVerdict::proved)
@@ -114,20 +158,46 @@ void print(const VerifyReport& r, const Problem& problem, const VerifyArguments&
     out.line("padding",
              "up to " + rounded(problem.task.padding.largest()) + " m, as in the problem");
   out.line("tube", tubeText(problem.model.space, r.tube));
-  out.line("start, goal, bounds", r.violations.empty() ? "hold" : "violated",
+  out.line(r.between ? "bounds" : "start, goal, bounds", r.violations.empty() ? "hold" : "violated",
            r.violations.empty() ? Tone::plain : Tone::bad);
   for (const std::string& violation : r.violations) out.line("violation", violation);
   for (const PathFinding& finding : r.pathReport.findings)
-    out.line("finding", text(finding, problem));
+    out.line("finding", text(finding, r, problem));
   out.line("distance queries", grouped(r.pathReport.distanceQueries));
+}
+
+std::optional<Between> betweenNamed(const std::optional<std::string>& name) {
+  for (const Between between : {Between::linear, Between::cubic, Between::quintic})
+    if (name == nameOf(between)) return between;
+  return std::nullopt;
+}
+
+/// Reads and verifies the solution or trajectory. Adds the notes on a trajectory to the problem's.
+Verified verify(Problem& problem, const VerifyArguments& a) {
+  const auto verifySolutionOf = [&](const Solution& solution) {
+    if (a.between)
+      throw InputError(Fault{"--between", 0,
+                             a.solution +
+                                 " is a solution, whose edges are linear; --between is for "
+                                 "trajectories"});
+    return verifyWithWarning(problem, solution, a.problem, a.solution, a.ignoreDigest);
+  };
+  const std::filesystem::path file = a.solution;
+  if (file.extension() == ".path") return verifySolutionOf(readSolution(file, problem.model.space));
+  const std::string text = readMotionText(file, "a solution or a trajectory");
+  if (trajectoryFormatOf(text) == TrajectoryFormat::solution)
+    return verifySolutionOf(solutionOf(file, text, problem.model.space));
+  Verified verified{verifyTrajectory(problem, readTrajectory(a.solution, text, problem.model),
+                                     betweenNamed(a.between)),
+                    {}};
+  addAll(verified.report.notes, problem.source.notes);
+  return verified;
 }
 
 int verifyCommand(const VerifyArguments& a) {
   Problem problem = readProblemOf(a.problem);
   if (a.margin) setMargin(problem, *a.margin);
-  const Solution solution = readSolution(a.solution, problem.model.space);
-  const Verified verified =
-      verifyWithWarning(problem, solution, a.problem, a.solution, a.ignoreDigest);
+  const Verified verified = verify(problem, a);
   if (hasStillPairs(problem.model))
     addFirst(notesOnStillPairs(Checker(problem), startOf(problem)), problem.source.notes);
   if (!a.json) {
@@ -148,10 +218,17 @@ void addVerify(CLI::App& program, int& status) {
   command->add_option("PROBLEM", a.problem, "the problem, as for solve")->required();
   command
       ->add_option(
-          "SOLUTION", a.solution,
-          "a solution file (-: standard input), or an OMPL.app .path file with one state per "
-          "line")
+          "TRAJECTORY", a.solution,
+          "a solution file (-: standard input), rows of joint values (CSV) with or without "
+          "times, a JointTrajectory of ROS or MoveIt (YAML, JSON), or an OMPL.app .path "
+          "file")
       ->required();
+  command
+      ->add_option("--between", a.between,
+                   "what a trajectory does between its rows: linear, cubic (with their velocities) "
+                   "or quintic (and their accelerations). Default: the highest for which the file "
+                   "has the values, as controllers of ros_control do")
+      ->check(isOneOf({"linear", "cubic", "quintic"}));
   command
       ->add_option("--margin", a.margin,
                    "metres that all tested pairs must keep apart, in place of the problem's margin")
@@ -159,8 +236,12 @@ void addVerify(CLI::App& program, int& status) {
   addIgnoreDigest(*command, a.ignoreDigest);
   addJson(*command, a.json);
   addQuiet(*command, a.quiet);
-  command->footer(std::string("Example: corridor verify problems/piano piano.solution.yaml\n") +
-                  kExitStatus);
+  command->footer(
+      std::string("A trajectory makes no claim to solve the problem: if it does not begin at the "
+                  "start or end in the goal, a note says so.\n"
+                  "Examples: corridor verify problems/piano piano.solution.yaml\n"
+                  "          corridor verify mine/problem.yaml recorded.csv --between linear\n") +
+      kExitStatus);
   command->callback([arguments, &status] { status = verifyCommand(*arguments); });
 }
 

@@ -47,7 +47,8 @@ bool isSolutionFile(const std::filesystem::path& file);
 /// @throws InputError with all faults: wrong format; unknown, missing or repeated keys; states of
 /// another space.
 Solution readSolution(const std::filesystem::path& file, const ConfigurationSpace& space);
-/// Reads the text of a solution file. @param file for messages. @throws InputError: as readSolution.
+/// Reads the text of a solution file. @param file for messages. @throws InputError: as
+/// readSolution.
 Solution solutionOf(const std::filesystem::path& file, const std::string& text,
                     const ConfigurationSpace& space);
 

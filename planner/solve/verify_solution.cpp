@@ -170,8 +170,9 @@ void checkBounds(const ConfigurationSpace& space, const TrajectoryRows& rows, co
     const std::string when =
         rows.timed ? "at " + shortest(first + outside.t * (last - first)) + " s, " : "";
     violations.push_back(c.name + " = " + shortest(outside.value) + " is outside of its bounds, " +
-                         boundsText(c) + ": " + when + (outside.t > 0 && outside.t < 1 ? "after " : "in ") +
-                         "line " + std::to_string(line));
+                         boundsText(c) + ": " + when +
+                         (outside.t > 0 && outside.t < 1 ? "after " : "in ") + "line " +
+                         std::to_string(line));
   }
 }
 

@@ -66,9 +66,9 @@ PathProblem plainProblem(const Problem& problem);
 VerifyReport verifySolution(const Problem& problem, const Solution& solution,
                             DigestMismatch other = DigestMismatch::refused);
 
-/// Verifies a trajectory (planner/trajectory/README.md): planner/verify verifies that every curve in
-/// the problem's tube around the curve between the rows keeps the problem's margin. The whole curve
-/// must be within the bounds, not only its rows.
+/// Verifies a trajectory (planner/trajectory/README.md): planner/verify verifies that every curve
+/// in the problem's tube around the curve between the rows keeps the problem's margin. The whole
+/// curve must be within the bounds, not only its rows.
 ///
 /// A trajectory does not claim to solve the problem. So a note says if it does not begin at the
 /// problem's start, or does not end in the goal; the verdict does not depend on either.

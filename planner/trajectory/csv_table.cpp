@@ -156,8 +156,7 @@ class CsvReader {
     }
     faults_.throwIfAny();
     if (!ignored.empty())
-      table_.notes.push_back(
-          {file_ + ": not used: " + joinedFirst(ignored), NoteWeight::detail});
+      table_.notes.push_back({file_ + ": not used: " + joinedFirst(ignored), NoteWeight::detail});
   }
 
   void readRow(const std::vector<std::string>& words, int line) {

@@ -22,7 +22,8 @@ double roundedUp(Real bound) {
   return static_cast<double>(bound * (1 + 0x1p-50L) + 0x1p-1000L);
 }
 
-CurvePiece pieceOf(const RealMatrix& coefficients, const Eigen::Matrix<Real, Eigen::Dynamic, 1>& error) {
+CurvePiece pieceOf(const RealMatrix& coefficients,
+                   const Eigen::Matrix<Real, Eigen::Dynamic, 1>& error) {
   CurvePiece piece;
   piece.coefficients = coefficients.cast<double>();
   piece.error.resize(error.size());
@@ -165,8 +166,8 @@ Curve curveOfPath(const ConfigurationSpace& space, const std::vector<Configurati
       };
       from[i] = unwrapped(from[i]);
       const Real way = verify::circleDifference(states[k][i], to[i]);
-      turns[i] += static_cast<double>(
-          std::round((way - (Real(to[i]) - Real(states[k][i]))) / kTurn));
+      turns[i] +=
+          static_cast<double>(std::round((way - (Real(to[i]) - Real(states[k][i]))) / kTurn));
       to[i] = unwrapped(to[i]);
     }
     CurvePiece piece = linearPiece(space, from, to);

@@ -12,21 +12,22 @@
 /// the power series in t, such as (−3p0 + 3p1 − 2v0·T − v1·T)/T², and sums them up (the controllers
 /// of ros_control and ros2_control do). Its result is a sum of terms that are p0, p1, v0·T, v1·T,
 /// a0·T² or a1·T² times a factor and a power of τ = t/T in [0, 1]. Each term is off by a factor
-/// (1 + u)^±n, where n counts the roundings on its way, and 8 for each factor T of v·T and a·T²: the
-/// controller's T may be off by 8u·T. The sum of the terms is at most f·M, with
+/// (1 + u)^±n, where n counts the roundings on its way, and 8 for each factor T of v·T and a·T²:
+/// the controller's T may be off by 8u·T. The sum of the terms is at most f·M, with
 ///     M = |p0| + |p1| + T(|v0| + |v1|) + T²(|a0| + |a1|)
 /// and f the largest sum of the factors of one of these six. Hence the error n·f·u·M:
 ///
 /// | piece | n | f | n·f | bound |
 /// |---|---|---|---|---|
 /// | linear | 4: difference, quotient, product, sum | 2 | 8 | 2^-49·M = 16u·M |
-/// | cubic | 22: product with T 2, sum 3, quotient by T³ 3, t³ 2, product 1, sum 3; T 8 | 6 (p0: 1 + 3 + 2) | 132 | 2^-45·M = 256u·M |
-/// | quintic | 41: products with T² 3, sum 5, quotient by 2T⁵ 6, t⁵ 4, product 1, sum 5; T² 16; 1 | 32 (p0: 1 + 10 + 15 + 6) | 1312 | 2^-42·M = 2048u·M |
+/// | cubic | 22: product with T 2, sum 3, quotient by T³ 3, t³ 2, product 1, sum 3; T 8 | 6 (p0: 1
+/// + 3 + 2) | 132 | 2^-45·M = 256u·M | | quintic | 41: products with T² 3, sum 5, quotient by 2T⁵
+/// 6, t⁵ 4, product 1, sum 5; T² 16; 1 | 32 (p0: 1 + 10 + 15 + 6) | 1312 | 2^-42·M = 2048u·M |
 ///
 /// The bounds have room for the terms of second order, and for the rounding of the Bernstein
-/// coefficients, which are computed in long double and rounded once: at most 2u·M. A controller that
-/// knows T less exactly, for instance because it takes times since 1970 in doubles, deviates by
-/// |v|·|δT| more: this is for the tube.
+/// coefficients, which are computed in long double and rounded once: at most 2u·M. A controller
+/// that knows T less exactly, for instance because it takes times since 1970 in doubles, deviates
+/// by |v|·|δT| more: this is for the tube.
 namespace corridor {
 
 /// What a trajectory says about one time. m, rad, s. Empty vectors: unknown.

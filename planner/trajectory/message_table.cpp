@@ -10,8 +10,8 @@ namespace corridor {
 namespace {
 
 /// The fields in which messages of ROS and MoveIt hold a JointTrajectory, at any depth.
-constexpr std::array kWrappers{"joint_trajectory", "trajectory", "planned_trajectory",
-                               "robot_trajectory", "goal",       "result",
+constexpr std::array kWrappers{"joint_trajectory",    "trajectory", "planned_trajectory",
+                               "robot_trajectory",    "goal",       "result",
                                "motion_plan_response"};
 
 const MapKeys kTrajectory{{"header", "joint_names", "points"}, {}};
@@ -86,7 +86,8 @@ std::optional<double> readTime(const YamlMap& point) {
   }
   const std::size_t faults = point.source().faults.size();
   const std::uint64_t seconds = map.wholeNumber(isRos1 ? "secs" : "sec", kSeconds).value_or(0),
-                      rest = map.wholeNumber(isRos1 ? "nsecs" : "nanosec", kNanoseconds).value_or(0);
+                      rest =
+                          map.wholeNumber(isRos1 ? "nsecs" : "nanosec", kNanoseconds).value_or(0);
   if (point.source().faults.size() > faults) return std::nullopt;
   return static_cast<double>(seconds * 1'000'000'000 + rest) / 1e9;
 }
@@ -153,10 +154,10 @@ class PointReader {
     const TrajectoryTable::Row& first = table_.rows.front();
     const auto differs = [&](const char* what, bool has, bool firstHas) {
       if (has == firstHas) return false;
-      point.source().fault(row.line, point.pathOf(what) + (has ? ": are given here" : ": are missing here") +
-                                         ", but the first point has " +
-                                         (firstHas ? "them" : "none") +
-                                         "; give them for all points or for none");
+      point.source().fault(row.line,
+                           point.pathOf(what) + (has ? ": are given here" : ": are missing here") +
+                               ", but the first point has " + (firstHas ? "them" : "none") +
+                               "; give them for all points or for none");
       return true;
     };
     return differs("velocities", !row.velocities.empty(), !first.velocities.empty()) ||

@@ -8,6 +8,7 @@
 #include "collision/core/fault_list.h"
 #include "collision/core/shortest.h"
 #include "planner/trajectory/curve_pieces.h"
+#include "planner/verify/polynomial_range.h"
 
 namespace corridor {
 namespace {
@@ -22,49 +23,13 @@ void checkTurns(const TrajectoryRows& rows, std::size_t row, const Configuration
     const auto i = static_cast<Eigen::Index>(c.first);
     const double from = rows.rows[row - 1].positions[i], to = rows.rows[row].positions[i];
     if (std::abs(to - from) <= std::numbers::pi) continue;
-    faults.add(rows.file, rows.rows[row].line,
-               c.name + " jumps from " + shortest(from) + " to " + shortest(to) +
-                   " rad, by more than half a turn: angles are literal; add or subtract whole turns "
-                   "so that they go on, or add rows between");
+    faults.add(
+        rows.file, rows.rows[row].line,
+        c.name + " jumps from " + shortest(from) + " to " + shortest(to) +
+            " rad, by more than half a turn: angles are literal; add or subtract whole turns "
+            "so that they go on, or add rows between");
   }
 }
-
-struct Place {
-  double t = 0, value = 0;
-};
-
-/// Looks for a value outside of [lower, upper] in a part of a piece.
-class BoundSearch {
- public:
-  BoundSearch(Real lower, Real upper) : lower_(lower), upper_(upper) {}
-
-  /// @param c the Bernstein coefficients of the part [begin, begin + width].
-  std::optional<Place> find(std::vector<Real> c, Real begin, Real width, int depth) const {
-    if (std::all_of(c.begin(), c.end(), [&](Real value) { return isInside(value); }))
-      return std::nullopt;
-    if (!isInside(c.front())) return placeOf(begin, c.front());
-    if (depth == kDepth)
-      return isInside(c.back()) ? placeOf(begin, c.front()) : placeOf(begin + width, c.back());
-    // de Casteljau at 1/2: `c` becomes the right half.
-    std::vector<Real> left{c.front()};
-    for (std::size_t last = c.size() - 1; last > 0; --last) {
-      for (std::size_t i = 0; i < last; ++i) c[i] = (c[i] + c[i + 1]) / 2;
-      left.push_back(c.front());
-    }
-    if (const auto place = find(std::move(left), begin, width / 2, depth + 1)) return place;
-    return find(std::move(c), begin + width / 2, width / 2, depth + 1);
-  }
-
- private:
-  // The coefficients of a part of width 2^-k exceed the polynomial by some 4^-k of their range. So
-  // at this depth they exceed it by less than rounding.
-  static constexpr int kDepth = 40;
-  bool isInside(Real value) const { return lower_ <= value && value <= upper_; }
-  static Place placeOf(Real t, Real value) {
-    return {static_cast<double>(t), static_cast<double>(value)};
-  }
-  Real lower_, upper_;
-};
 
 }  // namespace
 
@@ -85,9 +50,9 @@ Between betweenOf(TrajectoryRows& rows, std::optional<Between> wanted) {
                                " is used"});
   if (between < usual)
     rows.notes.push_back({rows.file + ": --between " + nameOf(between) + ": the file's " +
-                              (between == Between::cubic  ? "accelerations"
-                               : rows.hasAccelerations    ? "velocities and accelerations"
-                                                          : "velocities") +
+                              (between == Between::cubic ? "accelerations"
+                               : rows.hasAccelerations   ? "velocities and accelerations"
+                                                         : "velocities") +
                               " are not used",
                           NoteWeight::motion});
   return between;
@@ -128,13 +93,13 @@ std::vector<OutsideBounds> outsideBounds(const ConfigurationSpace& space,
     if (c.kind != Coordinate::Kind::line) continue;
     const auto row = static_cast<Eigen::Index>(c.first);
     for (std::size_t p = 0; p < pieces.size(); ++p) {
-      // Halving in long double adds less than 2^-55 of the coefficients, a small part of the error.
-      const Real slack = Real(pieces[p].error[row]) * 0.9L;
-      const auto values = pieces[p].coefficients.row(row);
-      const auto place = BoundSearch(c.lower - slack, c.upper + slack)
-                             .find({values.begin(), values.end()}, 0, 1, 0);
-      if (!place) continue;
-      all.push_back({k, p, place->t, place->value});
+      const Eigen::VectorXd values = pieces[p].coefficients.row(row);
+      const Real slack = pieces[p].error[row];
+      const verify::RangeAnswer answer =
+          verify::rangeOf(verify::Bernstein(std::span(values.data(), std::size_t(values.size()))),
+                          c.lower - slack, c.upper + slack);
+      if (answer.verdict == verify::RangeAnswer::Verdict::within) continue;
+      all.push_back({k, p, static_cast<double>(answer.at), static_cast<double>(answer.value)});
       break;
     }
   }

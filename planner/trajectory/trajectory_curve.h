@@ -18,14 +18,15 @@ enum class Between {
 };
 const char* nameOf(Between between);
 
-/// Returns what lies between the rows: what is wanted or, by default, what the trajectory controllers
-/// of ros_control and ros2_control do: quintic if the file has accelerations, cubic if it has
-/// velocities, otherwise linear. Adds a note to the rows if velocities or accelerations are not used.
+/// Returns what lies between the rows: what is wanted or, by default, what the trajectory
+/// controllers of ros_control and ros2_control do: quintic if the file has accelerations, cubic if
+/// it has velocities, otherwise linear. Adds a note to the rows if velocities or accelerations are
+/// not used.
 /// @throws InputError if the file has not what is wanted.
 Between betweenOf(TrajectoryRows& rows, std::optional<Between> wanted);
 
-/// Returns the curve that the rows mean, with one piece from each row to the next. Its knots are the
-/// times or, if the file has none, 0, 1, 2, … Angles are literal, and rotations go by slerp.
+/// Returns the curve that the rows mean, with one piece from each row to the next. Its knots are
+/// the times or, if the file has none, 0, 1, 2, … Angles are literal, and rotations go by slerp.
 /// curve_pieces.h derives the error of the pieces.
 /// @throws InputError with all faults: a circle that jumps by more than half a turn from one row to
 /// the next (which is a jump of the angle, not a motion); values that are too large.
@@ -40,13 +41,9 @@ struct OutsideBounds {
 };
 
 /// Proves that the line coordinates of a curve stay within their bounds everywhere, not only at its
-/// rows. Returns a place outside for each coordinate of which this can't be proved, the first along
-/// the curve. A value beyond a bound by at most the piece's error is not outside.
-///
-/// A polynomial stays between the smallest and the largest of its Bernstein coefficients. If these
-/// are not within the bounds, the piece is halved (de Casteljau) until they are, or until the value
-/// at an end of the interval is outside. Halving rounds by less than 2^-55 of the largest
-/// coefficient; the errors of curve_pieces.h are larger.
+/// rows. For each coordinate of which this can't be proved, returns a place in the first piece that
+/// leaves the bounds (verify/polynomial_range.h). A value beyond a bound by at most the piece's error is
+/// not outside.
 std::vector<OutsideBounds> outsideBounds(const ConfigurationSpace& space,
                                          std::span<const CurvePiece> pieces);
 

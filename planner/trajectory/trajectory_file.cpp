@@ -96,7 +96,8 @@ class RowMaker {
     std::vector<std::string> missing;
     const std::vector<std::string> numbers = names_.numbers();
     for (std::size_t i = 0; i < numbers.size(); ++i) {
-      const bool has = std::find(columns.begin(), columns.end(), Meaning{Meaning::Kind::number, i, 0}) != columns.end();
+      const bool has = std::find(columns.begin(), columns.end(),
+                                 Meaning{Meaning::Kind::number, i, 0}) != columns.end();
       const bool isRotation = isOfRotation(i);
       if (quantity != "position" && isRotation && has)
         fault(what + quotedWord(numbers[i]) +
@@ -178,8 +179,9 @@ class RowMaker {
       const std::string& name = table.positions[i];
       if (columns[i].kind == Meaning::Kind::other) {
         faults_.add(file_, table.namesLine,
-                    quotedWord(name) + " is not planned for, and has no value of its own; leave "
-                                       "it out");
+                    quotedWord(name) +
+                        " is not planned for, and has no value of its own; leave "
+                        "it out");
       } else if (columns[i].kind == Meaning::Kind::held) {
         checkHeld(robot.held.at(columns[i].index), name, joint.name, i, table);
       } else {
@@ -203,8 +205,8 @@ class RowMaker {
       if (!first && std::abs(value - held) > limitSlack) first = &row;
     }
     if (!first) return;
-    const std::string isHeld = quotedWord(name) + " is held at " + shortest(held) +
-                               " in the problem, but is ";
+    const std::string isHeld =
+        quotedWord(name) + " is held at " + shortest(held) + " in the problem, but is ";
     if (upper - lower <= limitSlack)
       faults_.add(file_, first->line,
                   isHeld + shortest(first->positions[column]) +
@@ -231,12 +233,11 @@ class RowMaker {
       if (off > largest) largest = off, line = table.rows[r].line;
     }
     if (largest > limitSlack)
-      result.notes.push_back(
-          {file_ + ": " + quotedWord(name) + " is up to " + shortest(largest) +
-               " off the rule by which it follows " +
-               quotedWord(robot.description.joints[mimic.joint].name) + " (line " +
-               std::to_string(line) + "); the proof is for the rule",
-           NoteWeight::coverage});
+      result.notes.push_back({file_ + ": " + quotedWord(name) + " is up to " + shortest(largest) +
+                                  " off the rule by which it follows " +
+                                  quotedWord(robot.description.joints[mimic.joint].name) +
+                                  " (line " + std::to_string(line) + "); the proof is for the rule",
+                              NoteWeight::coverage});
   }
 
   void noteStart(TrajectoryRows& result) const {

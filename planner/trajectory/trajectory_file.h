@@ -22,8 +22,8 @@ struct TrajectoryRow {
   Configuration velocities, accelerations;
 };
 
-/// The content of a trajectory file: rows of a problem's numbers. planner/trajectory/README.md lists
-/// the formats.
+/// The content of a trajectory file: rows of a problem's numbers. planner/trajectory/README.md
+/// lists the formats.
 struct TrajectoryRows {
   std::string file;                 ///< for messages
   std::vector<TrajectoryRow> rows;  ///< two or more
@@ -55,7 +55,8 @@ std::string readMotionText(const std::filesystem::path& file, const std::string&
 /// - A joint that is held must have the value at which it is held, up to `limitSlack`
 ///   (planner/problem/urdf_robot.h). Otherwise the file is refused: a proof would be about another
 ///   robot.
-/// - A joint that mimics another one is not read. A note says so, and by how much it is off its rule.
+/// - A joint that mimics another one is not read. A note says so, and by how much it is off its
+/// rule.
 /// @param file the name for messages.
 /// @param text a text of the format `rows` or `message`.
 /// @throws InputError with all faults.
