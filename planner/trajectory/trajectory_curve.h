@@ -42,8 +42,8 @@ struct OutsideBounds {
 
 /// Proves that the line coordinates of a curve stay within their bounds everywhere, not only at its
 /// rows. For each coordinate of which this can't be proved, returns a place in the first piece that
-/// leaves the bounds (verify/polynomial_range.h). A value beyond a bound by at most the piece's error is
-/// not outside.
+/// leaves the bounds (verify/polynomial_range.h). A value beyond a bound by at most the piece's
+/// error is not outside.
 std::vector<OutsideBounds> outsideBounds(const ConfigurationSpace& space,
                                          std::span<const CurvePiece> pieces);
 
