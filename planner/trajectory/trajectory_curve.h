@@ -27,7 +27,8 @@ Between betweenOf(TrajectoryRows& rows, std::optional<Between> wanted);
 
 /// Returns the curve that the rows mean, with one piece from each row to the next. Its knots are
 /// the times or, if the file has none, 0, 1, 2, … Angles are literal, and rotations go by slerp.
-/// curve_pieces.h derives the error of the pieces.
+/// curve_pieces.h derives the error of the pieces. It includes that of a controller's times, if it
+/// counts them from the begin of the file, in doubles.
 /// @throws InputError with all faults: a circle that jumps by more than half a turn from one row to
 /// the next (which is a jump of the angle, not a motion); values that are too large.
 Curve curveOf(const TrajectoryRows& rows, const ConfigurationSpace& space, Between between);

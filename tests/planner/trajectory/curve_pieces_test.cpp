@@ -113,7 +113,7 @@ TEST(CurvePieces, HermitePiecesAreWithinTheirError) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> unit(0, 1);
   const ConfigurationSpace space = lineSpace();
-  double worst[3] = {}, controller[3] = {};
+  double worst[3] = {}, controller[3] = {}, duration[2] = {};
   for (int i = 0; i < 1000; ++i) {
     const Hermite h = randomCase(random);
     const CurvePoint from{one(h.p0), one(h.v0), one(h.a0)}, to{one(h.p1), one(h.v1), one(h.a1)};
@@ -134,12 +134,22 @@ TEST(CurvePieces, HermitePiecesAreWithinTheirError) {
     expectWithin(linear, tau, Rational(h.p0 + t * ((h.p1 - h.p0) / h.T)), controller[0], what);
     expectWithin(cubic, tau, Rational(controllerCubic(h, t)), controller[1], what);
     expectWithin(quintic, tau, Rational(controllerQuintic(h, t)), controller[2], what);
+    // A controller whose duration is off.
+    const double off = 1e-3 * h.T;
+    Hermite longer = h;
+    longer.T += off;
+    expectWithin(cubicPiece(space, from, to, h.T, off), tau, cubicAt(longer, tau), duration[0],
+                 what);
+    expectWithin(quinticPiece(space, from, to, h.T, off), tau, quinticAt(longer, tau), duration[1],
+                 what);
   }
   // The bounds are not far too large: a controller reaches a part of them.
   for (const double share : controller) EXPECT_GT(share, 1.0 / 500);
+  for (const double share : duration) EXPECT_GT(share, 1.0 / 500);
   std::cout << "largest share of the error, conversion: cubic " << worst[1] << ", quintic "
             << worst[2] << "; controller: linear " << controller[0] << ", cubic " << controller[1]
-            << ", quintic " << controller[2] << "\n";
+            << ", quintic " << controller[2] << "; duration: " << duration[0] << ", " << duration[1]
+            << "\n";
 }
 
 TEST(CurvePieces, PowerSeriesOfEveryDegree) {
