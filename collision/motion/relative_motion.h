@@ -30,11 +30,11 @@ struct ScrewMotion {
   Vec3 axis = Vec3::Zero();   ///< of unit length up to rounding
   Vec3 point = Vec3::Zero();  ///< metres
   double amount = 0;  ///< half of the joint's motion in the interval, ≥ 0, rounded up; rad or m
+  double tube = 0;    ///< largest perturbation in addition to `amount`, ≥ 0; rad or m
   /// The largest deviation from a uniform motion by ±`amount` in the interval, ≥ 0, rounded up; rad
   /// or m. 0 if the joint moves uniformly. For a smooth motion it shrinks with the square of the
   /// interval's length. A joint that turns round at the middle has `amount` 0 and a deviation.
   double deviation = 0;
-  double tube = 0;  ///< largest perturbation in addition to these, ≥ 0; rad or m
 };
 
 /// The motion of a body b relative to a body a in a time interval [t − h, t + h], described from

@@ -58,8 +58,8 @@ Ratios ratios(const Trial& trial) {
                       .axis = axis,
                       .point = joint.point,
                       .amount = std::abs(joint.amount),
-                      .deviation = joint.deviation,
-                      .tube = joint.tube});
+                      .tube = joint.tube,
+                      .deviation = joint.deviation});
     if (joint.kind == ScrewMotion::Kind::prismatic) w.linear += joint.amount * axis;
     if (joint.kind != ScrewMotion::Kind::revolute) continue;
     w.linear += joint.amount * axis.cross(trial.origin - joint.point);
@@ -287,6 +287,20 @@ TEST(MotionBounds, Tubes) {
   EXPECT_NEAR(bound.pad, 0.01 * 3 + 0.02 * 4 + 0.1, 1e-14);
   EXPECT_NEAR(bound.isotropic, 0.5 + 0.5 * (0.01 + 0.02), 1e-14);
   EXPECT_NEAR(bound.secondOrder, 0.5 * (0.01 + 0.02), 1e-14);
+}
+
+/// Deviations from uniform motion add to the second order, with the arms as far as the joints after
+/// them may reach. They never add to `pad`.
+TEST(MotionBounds, Deviations) {
+  using Kind = ScrewMotion::Kind;
+  const ScrewMotion screws[] = {{Kind::revolute, Vec3::UnitZ(), Vec3(4, 0, 0), 0, 0, 0.02},
+                                {Kind::prismatic, Vec3::UnitX(), Vec3::Zero(), 0.5, 0, 0.1}};
+  const MotionBound bound =
+      motionBound(relativeMotionOf(screws, Vec3(0.5, 0, 0), Vec3::Zero()), Vec3(0, 0, 0), 0);
+  const double deviated = 0.1 + 0.02 * (4 + 0.6);
+  EXPECT_LT(bound.pad, 1e-12);
+  EXPECT_NEAR(bound.secondOrder, deviated, 1e-13);
+  EXPECT_NEAR(bound.isotropic, std::min(0.6 + 4 * chord(0.02), 0.5 + deviated), 1e-13);
 }
 
 }  // namespace

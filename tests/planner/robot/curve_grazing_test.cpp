@@ -105,7 +105,7 @@ struct CurveGrazing {
 
 TEST(CurveMotion, CurvesThatGrazeByConstruction) {
   RandomTrees random(test::testSeed(51));
-  const int count = (test::isStressRun() ? 20'000 : 2'000) / test::kSlowdown;
+  const int count = (test::isStressRun() ? 20'000 : 600) / test::kSlowdown;
   int apart = 0, together = 0, notFree = 0, notFound = 0;
   QueryContext context;
   for (int n = 0; apart + together < count; ++n) {

@@ -57,8 +57,9 @@ std::pair<double, double> interval(RandomTrees& random) {
 /// The rounding error of the reference: some 100 roundings of 2^-64 of the values, which have up to
 /// 10^3 rad or m, times the lengths.
 double noise(const CurvePiece& piece, double reach) {
-  return 1e-17 * (1 + piece.coefficients.cwiseAbs().maxCoeff()) * (10 + reach) *
-         (1 + piece.degree());
+  const double largest =
+      piece.coefficients.size() == 0 ? 0 : piece.coefficients.cwiseAbs().maxCoeff();
+  return 1e-17 * (1 + largest) * (10 + reach) * (1 + piece.degree());
 }
 
 TEST(CurveMotion, PosesAndTwistsAreWithinTheirStatedError) {
