@@ -15,6 +15,11 @@ constexpr int kHalvings = 5;
 /// that starts from rest needs a part of the edge to gain speed.
 constexpr double kShareOfFirstEdge = 0.9;
 
+/// Directions that differ by at most this share are the same: a state between them is no corner.
+/// Rounding of inserted states causes some 10^-15 of an edge's length; the path without the state
+/// is proved like every other curve.
+constexpr double kStraight = 1e-9;
+
 /// A curve from a place on one edge to a place on a later one. Places are lengths from the edge's
 /// begin.
 struct Blend {
@@ -58,9 +63,20 @@ class Smoother {
       const double length = lengthOf(next - states_.back());
       const bool turns = rotates(states_.back(), next);
       if (length == 0 && !turns) continue;
+      if (!edges_.empty() && !turns && !edges_.back().rotates && continues(next, length)) {
+        states_.back() = next;
+        edges_.back().length = lengthOf(next - states_[states_.size() - 2]);
+        continue;
+      }
       edges_.push_back({length, turns});
       states_.push_back(next);
     }
+  }
+
+  /// Returns whether the edge to a state continues the last edge in a straight line.
+  bool continues(const Configuration& next, double length) const {
+    const Configuration u = direction(edges_.size() - 1);
+    return lengthOf((next - states_.back()) / length - u) <= kStraight;
   }
 
   bool rotates(const Configuration& a, const Configuration& b) const {
