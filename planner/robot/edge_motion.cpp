@@ -20,11 +20,6 @@ constexpr double kLeastError = 0x1p-400;
 
 constexpr std::size_t kItself = SIZE_MAX;  // instead of a view: the frame is the ancestor itself
 
-/// An error bound for a point at lever y from the origin of frame b: fixed + reach·|y| metres.
-struct LeverError {
-  double fixed = 0, reach = 0;
-};
-
 }  // namespace
 
 /// Poses are cached in *views*. A view is the pose of a frame in the coordinates of one of its
@@ -33,6 +28,9 @@ struct LeverError {
 /// between the world and the ancestor are not evaluated, and their rounding is not counted. If one
 /// frame of a pair is the ancestor itself, the view of the other frame is the relative pose.
 struct EdgeMotion::Impl {
+  struct LeverError {  // metres, for a point at lever y from frame b's origin: fixed + reach·|y|
+    double fixed = 0, reach = 0;
+  };
   struct Place {  // pose of a frame in its nearest ancestor that is kept
     MovingJoint joint;
     Transform X;
