@@ -22,10 +22,10 @@ const Words shapeKeys =
           "points", "octomap", "unit",   "up",      "solid",    "deviation"} +
     placementKeys;
 
-using Keys = std::map<std::string, MapKeys>;
+using KeysOfMaps = std::map<std::string, MapKeys>;
 
 /// Adds the keys of a shape at `path`, and the keys `more`.
-void addShape(Keys& keys, const std::string& path, const Words& more) {
+void addShape(KeysOfMaps& keys, const std::string& path, const Words& more) {
   keys[path] = {shapeKeys + more, {}};
   keys[path + ".sphere"] = {{"radius"}, {}};
   keys[path + ".capsule"] = {{"radius", "length"}, {}};
@@ -34,8 +34,8 @@ void addShape(Keys& keys, const std::string& path, const Words& more) {
   keys[path + ".octomap"] = {{"file", "unknown", "threshold"}, {}};
 }
 
-Keys makeProblemKeys() {
-  Keys keys{
+KeysOfMaps makeProblemKeys() {
+  KeysOfMaps keys{
       {"",
        {{"format", "robot", "robots", "base", "world", "allow", "start", "goal", "moveit", "bounds",
          "margin", "padding", "prefer", "tube", "planner", "sampler", "simplify", "checker",
@@ -62,8 +62,8 @@ Keys makeProblemKeys() {
   return keys;
 }
 
-Keys makeRobotKeys() {
-  Keys keys{
+KeysOfMaps makeRobotKeys() {
+  KeysOfMaps keys{
       {"",
        {{"format", "name", "urdf", "srdf", "xacro", "packages", "visuals", "limits", "collada_up",
          "group", "joints", "hold", "states", "allow", "never_in_contact", "rigid", "shapes",
@@ -95,12 +95,12 @@ Words ofAnyVolume(Words VolumeKind::*variants) {
 }  // namespace
 
 const std::map<std::string, MapKeys>& problemKeys() {
-  static const Keys keys = makeProblemKeys();
+  static const KeysOfMaps keys = makeProblemKeys();
   return keys;
 }
 
 const std::map<std::string, MapKeys>& robotKeys() {
-  static const Keys keys = makeRobotKeys();
+  static const KeysOfMaps keys = makeRobotKeys();
   return keys;
 }
 

@@ -24,7 +24,7 @@ namespace {
 const MapKeys* keysOf(const char* map) {
   return &problemKeys().at(map);
 }
-const std::vector<std::string>& wordsOf(const char* key) {
+const std::vector<std::string>& wordsOfKey(const char* key) {
   return problemChoices().at(key);
 }
 
@@ -127,7 +127,7 @@ void readPlanner(const YamlMap& file, PlannerSettings& planner) {
   const YamlMap map(*value, "planner", keysOf("planner"), file.source());
   planner.name = map.text("name").value_or(planner.name);
   planner.time = map.number("time", Range::Positive).value_or(planner.time);
-  if (const auto stop = map.choice("stop", wordsOf("planner.stop")))
+  if (const auto stop = map.choice("stop", wordsOfKey("planner.stop")))
     planner.stopAtFirst = *stop == "first";
   if (const auto edges = map.wholeNumber("restart")) planner.restart = edges;
   const YamlValue* params = map.find("params");
