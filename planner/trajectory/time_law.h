@@ -28,18 +28,6 @@ struct LimitUse {
   double velocity = 0, acceleration = 0;
 };
 
-/// The times at which a path is passed through.
-struct TimeLaw {
-  /// In the order of time, without gaps. Empty if the path has no length, or with a fault.
-  std::vector<LawSegment> segments;
-  double duration = 0;            ///< seconds
-  std::vector<double> stopTimes;  ///< times between start and end at which the robot rests
-  /// For each number of a Configuration (see JointLimits for positions and rotations).
-  std::vector<LimitUse> use;
-  /// The reason why there is no law, one line; or "".
-  std::string fault;
-};
-
 struct TimeLawOptions {
   /// dτ/dt at the start of the first piece and at the end of the last one, 1/s, ≥ 0. The velocity
   /// there is rate·dq/dτ. 0: at rest.
@@ -52,6 +40,19 @@ struct TimeLawOptions {
   bool smooth = false;
   /// Grid intervals of each run between two stops, before refinement.
   int intervals = 96;
+};
+
+/// The times at which a path is passed through.
+struct TimeLaw {
+  /// In the order of time, without gaps. Empty if the path has no length, or with a fault.
+  std::vector<LawSegment> segments;
+  double duration = 0;            ///< seconds
+  std::vector<double> stopTimes;  ///< times between start and end at which the robot rests
+  /// For each number of a Configuration (see JointLimits for positions and rotations).
+  std::vector<LimitUse> use;
+  TimeLawOptions options;  ///< with which the law was made
+  /// The reason why there is no law, one line; or "".
+  std::string fault;
 };
 
 /// Returns a law that passes through a path in the shortest time that velocity and acceleration
