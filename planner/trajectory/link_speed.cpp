@@ -84,9 +84,9 @@ std::vector<double> linkSpeedShares(const KinematicTree& tree, const std::vector
   return shares;
 }
 
-double pointAccelerationBound(const KinematicTree& tree, const LinkSpeed& link,
-                              const Configuration& reach, const Configuration& velocity,
-                              const Configuration& acceleration) {
+PointBounds pointBounds(const KinematicTree& tree, const LinkSpeed& link,
+                        const Configuration& reach, const Configuration& velocity,
+                        const Configuration& acceleration) {
   // Walking from the link to the world, each frame adds a rotation with |ω| ≤ w, |ω̇| ≤ e about its
   // origin, and a translation with |d| ≤ l, |ḋ| ≤ v, |d̈| ≤ c, to a point that has |r| ≤ L, |ṙ| ≤ V
   // and |r̈| ≤ A relative to it. The point's new bounds are those of the sum and of the products:
@@ -125,7 +125,7 @@ double pointAccelerationBound(const KinematicTree& tree, const LinkSpeed& link,
     speed += w * length + v;
     length += l;
   }
-  return result;
+  return {speed, result};
 }
 
 }  // namespace corridor

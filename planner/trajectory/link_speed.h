@@ -15,11 +15,15 @@ namespace corridor {
 std::vector<double> linkSpeedShares(const KinematicTree& tree, const std::vector<LinkSpeed>& links,
                                     const Configuration& q, const Configuration& velocity);
 
-/// Returns a bound of the acceleration of the points of a link, m/s², while each number's velocity
-/// and acceleration are at most `velocity` and `acceleration` in absolute value, for all
-/// configurations whose translations and slides are at most `reach` in absolute value.
-double pointAccelerationBound(const KinematicTree& tree, const LinkSpeed& link,
-                              const Configuration& reach, const Configuration& velocity,
-                              const Configuration& acceleration);
+/// Bounds of the points of a link.
+struct PointBounds {
+  double speed = 0, acceleration = 0;  ///< m/s, m/s²
+};
+/// Returns bounds that hold while each number's velocity and acceleration are at most `velocity`
+/// and `acceleration` in absolute value, for all configurations whose translations and slides are
+/// at most `reach` in absolute value.
+PointBounds pointBounds(const KinematicTree& tree, const LinkSpeed& link,
+                        const Configuration& reach, const Configuration& velocity,
+                        const Configuration& acceleration);
 
 }  // namespace corridor

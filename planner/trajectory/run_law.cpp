@@ -12,6 +12,8 @@ constexpr double kExcess = 5e-4;
 /// An interval is halved if a jump of u at its end changes x by more than this share within the
 /// interval: the switch is then known up to about this share of x.
 constexpr double kSwitch = 0.01;
+/// An interval is halved if x changes by a larger factor within it.
+constexpr double kSteep = 2;
 constexpr int kRounds = 6;
 constexpr double kShortest = 1e-5;  ///< the shortest interval that is halved, as a share of the run
 
@@ -83,7 +85,7 @@ class RunGrid {
       if (!(width > kShortest * total_)) continue;
       const double x = (profile.x[i] + profile.x[i + 1]) / 2, u = profile.u[i];
       const Node middle = nodeAt(nodes_[i].part, (nodes_[i].tau + nodes_[i + 1].tau) / 2);
-      marked[i] = jumps(profile, i, x) || exceeds(middle, x, u);
+      marked[i] = steep(profile, i) || jumps(profile, i, x) || exceeds(middle, x, u);
       any = any || marked[i];
     }
     if (!any) return false;
@@ -123,6 +125,12 @@ class RunGrid {
  private:
   Node nodeAt(std::size_t part, double tau) const {
     return {part, tau, begins_[part] + tau * run_.parts[part].length};
+  }
+
+  /// Whether x changes by a large factor within interval i, although it is not at rest at an end.
+  bool steep(const Profile& profile, std::size_t i) const {
+    const double low = std::min(profile.x[i], profile.x[i + 1]);
+    return low > 0 && std::max(profile.x[i], profile.x[i + 1]) > kSteep * low;
   }
 
   /// Whether u jumps by an amount that matters between interval i and one of its neighbours.
