@@ -22,6 +22,9 @@ const Words shapeKeys =
           "points", "octomap", "unit",   "up",      "solid",    "deviation"} +
     placementKeys;
 
+const Words limitKeys{"velocity", "acceleration", "jerk"};
+const Words angleLimitKeys = limitKeys + Words{"velocity_deg", "acceleration_deg", "jerk_deg"};
+
 using KeysOfMaps = std::map<std::string, MapKeys>;
 
 /// Adds the keys of a shape at `path`, and the keys `more`.
@@ -37,9 +40,9 @@ void addShape(KeysOfMaps& keys, const std::string& path, const Words& more) {
 KeysOfMaps makeProblemKeys() {
   KeysOfMaps keys{
       {"",
-       {{"format", "robot", "robots", "base", "world", "allow", "start", "goal", "moveit", "bounds",
-         "margin", "padding", "prefer", "tube", "planner", "sampler", "simplify", "checker",
-         "seed"},
+       {{"format", "robot",   "robots",  "base",     "world",   "allow",  "start",
+         "goal",   "moveit",  "bounds",  "margin",   "padding", "prefer", "tube",
+         "limits", "planner", "sampler", "simplify", "checker", "seed"},
         {}}},
       {"moveit", {{"scene", "request"}, {}}},
       {"robots.*", {{"file", "base"}, {}}},
@@ -50,6 +53,15 @@ KeysOfMaps makeProblemKeys() {
       {"goal.within", {{"at", "angle_deg", "angle", "joints_deg", "joints"}, {}}},
       {"bounds", {{"at"}, {}}},
       {"tube", {{"joints_deg", "joints", "slides", "position", "rotation_deg", "rotation"}, {}}},
+      {"limits",
+       {{"file", "velocity_scale", "acceleration_scale", "default", "slides", "position",
+         "rotation", "joints", "link_speed"},
+        {}}},
+      {"limits.default", {angleLimitKeys, {}}},
+      {"limits.slides", {limitKeys, {}}},
+      {"limits.position", {limitKeys, {}}},
+      {"limits.rotation", {angleLimitKeys, {}}},
+      {"limits.joints.*", {angleLimitKeys, {}}},
       {"padding", {{"bodies", "pairs"}, {}}},
       {"prefer", {{"clearance", "detour"}, {}}},
       {"planner", {{"name", "time", "stop", "restart", "params"}, {}}},

@@ -162,7 +162,9 @@ class Mimics {
                                          : ""));
       return;
     }
-    const auto& [lower, upper, line] = *joint.limit;
+    const auto& lower = joint.limit->lower;
+    const auto& upper = joint.limit->upper;
+    const int line = joint.limit->line;
     const JointRange range = rangeOf(joint);
     // A joint of several turns has limits of at most 30 rad; degrees are at most a few hundred.
     constexpr double mostRadians = 30, mostDegrees = 1000;
