@@ -83,7 +83,7 @@ std::string poseText(const Configuration& q, std::size_t first, bool planar) {
 }
 
 /// Returns a configuration as a problem file writes it.
-std::string stateText(const Model& model, const Configuration& q) {
+std::string yamlStateOf(const Model& model, const Configuration& q) {
   const ModelRobot& robot = model.robots.front();
   std::string text;
   for (const PlannedJoint& planned : robot.plannedJoints) {
@@ -185,7 +185,7 @@ class StateFinder {
       if (!q || !isNew(*q)) continue;
       const bool byName = holdsAgree(robot, state);
       found_.push_back(
-          {*q, byName ? yamlWord(name) : stateText(model_, *q),
+          {*q, byName ? yamlWord(name) : yamlStateOf(model_, *q),
            byName ? "a named state of the robot"
                   : "the named state " + yamlWord(name) + ", without the joints that are held"});
     }
@@ -213,7 +213,7 @@ class StateFinder {
     // Three decimals are easy to read and to edit. The state is tested as it is written.
     q = (q * 1000).array().round() / 1000;
     if (!isNew(q)) return;
-    FoundState state{q, stateText(model_, q), "a random valid state"};
+    FoundState state{q, yamlStateOf(model_, q), "a random valid state"};
     if (found_.empty() || checker_.isProvedFree(found_.front().q, q))
       found_.push_back(std::move(state));
     else if (!spare_)
@@ -222,7 +222,7 @@ class StateFinder {
 
   void add(const Configuration& q, const std::string& origin) {
     if (!isNew(q)) return;
-    FoundState state{q, stateText(model_, q), origin};
+    FoundState state{q, yamlStateOf(model_, q), origin};
     if (found_.empty() || checker_.isProvedFree(found_.front().q, q))
       found_.push_back(std::move(state));
   }
@@ -275,7 +275,7 @@ std::vector<FoundState> rigidStates(const Alone& alone, const Checker& checker) 
     Configuration q = Configuration::Zero(static_cast<Eigen::Index>(alone.model.space.size()));
     q[0] = x;
     if (alone.model.robots.front().description.mount == JointType::floating) q[6] = 1;
-    if (checker.isProvedFree(q)) found.push_back({q, stateText(alone.model, q), "an example"});
+    if (checker.isProvedFree(q)) found.push_back({q, yamlStateOf(alone.model, q), "an example"});
   }
   return found;
 }
@@ -326,7 +326,7 @@ int newProblem(const NewProblemArguments& a) {
                                 std::to_string(kRandomStates) + " random states") +
                    ". corridor check names the links that touch.") +
            ((i > 0 && found.empty()) || why.empty() ? "" : comment("Why: " + why)) + key + ": " +
-           stateText(alone.model, q) + "\n";
+           yamlStateOf(alone.model, q) + "\n";
   };
   text += end("start", 0) + end("goal", 1) + boundsText(alone) + kMore;
   writeNewFile(a.file, text);

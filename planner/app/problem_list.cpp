@@ -48,7 +48,7 @@ std::vector<std::string> problemsIn(const fs::path& folder) {
 
 /// Returns the name of a problem without its folder: "set-3", "piano". With `parent`, the name of
 /// that folder comes first.
-std::string nameOf(const std::string& file, bool parent) {
+std::string shortNameOf(const std::string& file, bool parent) {
   std::string path = file, index;
   if (const auto hash = file.rfind(".json#"); hash != std::string::npos) {
     path = file.substr(0, hash + 5);
@@ -68,12 +68,12 @@ std::string nameOf(const std::string& file, bool parent) {
 /// and then a number.
 std::vector<ListedProblem> named(const std::vector<std::string>& files) {
   std::map<std::string, std::set<std::string>> uses;  // the files of each name
-  for (const std::string& file : files) uses[nameOf(file, false)].insert(file);
+  for (const std::string& file : files) uses[shortNameOf(file, false)].insert(file);
   std::vector<ListedProblem> problems;
   std::set<std::string> taken;
   for (const std::string& file : files) {
-    const std::string own = nameOf(file, false),
-                      name = uses[own].size() > 1 ? nameOf(file, true) : own;
+    const std::string own = shortNameOf(file, false),
+                      name = uses[own].size() > 1 ? shortNameOf(file, true) : own;
     std::string unique = name;
     for (int n = 2; !taken.insert(unique).second; ++n) unique = name + "-" + std::to_string(n);
     problems.push_back({file, unique});

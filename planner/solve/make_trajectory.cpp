@@ -15,7 +15,7 @@ namespace {
 /// velocity by 10^-6 of itself, and an acceleration by twice this share. So the law of a message
 /// gets this much less of each limit.
 constexpr double kShareForRounding = 1e-5;
-constexpr int kTries = 4;
+constexpr int kDeviations = 4;
 
 /// Returns the limits of each number by itself. A planar or floating joint has its limits at its
 /// first number, x.
@@ -110,7 +110,7 @@ MadeTrajectory makeTrajectory(const Problem& problem, const Checker& checker, co
   emit.degree = limitsJerk ? 5 : 3;
   emit.rate = options.rate;
   emit.deviation = options.deviation;
-  for (int i = 0; i < kTries && made.fault.empty(); ++i, emit.deviation /= 4) {
+  for (int i = 0; i < kDeviations && made.fault.empty(); ++i, emit.deviation /= 4) {
     const Emission emission = emitRows(law, smooth.pieces, space, kept, problem.model.tree, emit);
     made.fault = emission.fault;
     if (!made.fault.empty()) break;

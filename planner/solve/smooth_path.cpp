@@ -10,7 +10,7 @@ namespace corridor {
 namespace {
 
 /// A try that fails is halved this often. The smallest curve of a corner takes 1/64 of the edge.
-constexpr int kHalvings = 5;
+constexpr int kCurveHalvings = 5;
 /// A curve takes at most this share of an edge at the beginning or end of the path, because a robot
 /// that starts from rest needs a part of the edge to gain speed.
 constexpr double kShareOfFirstEdge = 0.9;
@@ -168,7 +168,7 @@ class Smoother {
     if (bend > 0) most = std::min(most, options_.deviation / (7.0 / 64 * bend));
     const double least = own ? own->to : 0;
     double proved = 0;
-    for (int i = 0; i <= kHalvings && proved == 0; ++i) {
+    for (int i = 0; i <= kCurveHalvings && proved == 0; ++i) {
       const double reach = most / (1 << i);
       if (!(reach > 1.05 * least)) break;
       if (tryCorner(k, reach)) proved = reach;

@@ -13,9 +13,9 @@ namespace corridor {
 namespace {
 
 /// An interval between rows is halved if it uses a limit by more than this factor.
-constexpr double kExcess = 1.0005;
+constexpr double kMostExcess = 1.0005;
 /// Halvings of one segment of the law.
-constexpr int kHalvings = 10;
+constexpr int kLevels = 10;
 constexpr std::size_t kMostRows = 1'000'000;
 
 /// Chooses the rows of a law.
@@ -34,7 +34,7 @@ class Rows {
   void make() {
     rows.push_back(clock_.row({0, 0}));
     for (std::size_t i = 0; i + 1 < required_.size(); ++i)
-      fill(required_[i], required_[i + 1], kHalvings);
+      fill(required_[i], required_[i + 1], kLevels);
     extra = rows.size() - required_.size();
   }
 
@@ -82,8 +82,7 @@ class Rows {
     // A switch inside one segment can't be: there, only the deviation is a reason to halve.
     const bool oneSegment =
         to.segment == from.segment || (to.segment == from.segment + 1 && to.since == 0);
-    const bool fine =
-        isNear && (usesLittle(first, last) || (oneSegment && halvings < kHalvings - 2));
+    const bool fine = isNear && (usesLittle(first, last) || (oneSegment && halvings < kLevels - 2));
     if (fine || halvings == 0 || rows.size() >= kMostRows) {
       rows.push_back(last);
       deviation = std::max(deviation, distance);
@@ -105,7 +104,7 @@ class Rows {
     return {from.segment + (last - from.segment + 1) / 2, 0};
   }
 
-  /// Whether the curve of two rows exceeds no limit by more than the factor kExcess.
+  /// Whether the curve of two rows exceeds no limit by more than the factor kMostExcess.
   bool usesLittle(const TimedRow& first, const TimedRow& last) const {
     const auto size = static_cast<Eigen::Index>(view_.space().size());
     Configuration most[2][6];
@@ -125,7 +124,7 @@ class Rows {
     for (const Configuration* limit : {&limits_.acceleration, &limits_.jerk}) {
       for (int i = 0; i <= degrees[kind]; ++i) {
         for (const Eigen::Index r : view_.rotations()) most[kind][i].segment<4>(r).setZero();
-        if (sharesOf(most[kind][i], *limit, view_.space()).maxCoeff() > kExcess) return false;
+        if (sharesOf(most[kind][i], *limit, view_.space()).maxCoeff() > kMostExcess) return false;
       }
       ++kind;
     }

@@ -19,7 +19,7 @@ const MapKeys kPoint{
     {"positions", "velocities", "accelerations", "effort", "efforts", "time_from_start"}, {}};
 const MapKeys kDuration{{"sec", "nanosec", "secs", "nsecs"}, {}};
 constexpr WholeRange kSeconds{0, 4'294'967'295, "0 to 2^32 - 1"};
-constexpr WholeRange kNanoseconds{0, 999'999'999, "0 to 999999999"};
+constexpr WholeRange kWithinSecond{0, 999'999'999, "0 to 999999999"};
 
 const YamlValue* valueOf(const YamlValue& map, std::string_view key) {
   for (const YamlValue::Entry& entry : map.entries)
@@ -87,7 +87,7 @@ std::optional<double> readTime(const YamlMap& point) {
   const std::size_t faults = point.source().faults.size();
   const std::uint64_t seconds = map.wholeNumber(isRos1 ? "secs" : "sec", kSeconds).value_or(0),
                       rest =
-                          map.wholeNumber(isRos1 ? "nsecs" : "nanosec", kNanoseconds).value_or(0);
+                          map.wholeNumber(isRos1 ? "nsecs" : "nanosec", kWithinSecond).value_or(0);
   if (point.source().faults.size() > faults) return std::nullopt;
   return static_cast<double>(seconds * 1'000'000'000 + rest) / 1e9;
 }
