@@ -11,12 +11,12 @@
 namespace corridor {
 namespace {
 
-constexpr double kNoBound = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 /// A bound within this share of an attained value is not improved further.
 constexpr double kTight = 1e-4;
 /// Each halving brings the control polygon four times nearer to the curve, so 24 halvings are
 /// beyond what kTight needs, except near a value of 0.
-constexpr int kMostHalvings = 24;
+constexpr int kBoundHalvings = 24;
 
 /// A vector of up to three polynomials of one degree.
 struct Vectors {
@@ -61,7 +61,7 @@ struct Vectors {
 
 /// Returns a bound of the largest length on [0, 1]. Parts whose bound is at most `known` are not
 /// improved.
-double largestLength(Vectors part, double known, int halvings = kMostHalvings) {
+double largestLength(Vectors part, double known, int halvings = kBoundHalvings) {
   const double bound = part.bound();
   if (bound <= known || halvings == 0 || part.degree == 0) return bound;
   const double enough = std::max(known, part.attained() * (1 + kTight));
@@ -214,7 +214,7 @@ class Prover {
                (rows_[k + 1].time - rows_[k].time);
       };
       if (std::isfinite(limits_.acceleration[n]) && rate(i) != rate(i - 1))
-        raise(ratios_.acceleration, kNoBound, static_cast<std::size_t>(n), rows_[i].time);
+        raise(ratios_.acceleration, kUnbounded, static_cast<std::size_t>(n), rows_[i].time);
     }
   }
 

@@ -8,7 +8,7 @@ namespace {
 
 /// An interval is halved if its middle exceeds a limit by more than this share. It is a fourth of
 /// the share that is acceptable as a stretch of time: emitRows slows the law down by about half.
-constexpr double kExcess = 5e-4;
+constexpr double kGridExcess = 5e-4;
 /// An interval is halved if a jump of u at its end changes x by more than this share within the
 /// interval: the switch is then known up to about this share of x.
 constexpr double kSwitch = 0.01;
@@ -146,11 +146,11 @@ class RunGrid {
 
   bool exceeds(const Node& middle, double x, double u) {
     const PathRun::Part& part = run_.parts[middle.part];
-    if (x >
-        (1 + 2 * kExcess) * bands_.at(part.piece, middle.tau, part.length, a_.data(), b_.data()))
+    if (x > (1 + 2 * kGridExcess) *
+                bands_.at(part.piece, middle.tau, part.length, a_.data(), b_.data()))
       return true;
     for (std::size_t k = 0; k < a_.size(); ++k)
-      if (std::abs(a_[k] * u + b_[k] * x) > 1 + kExcess) return true;
+      if (std::abs(a_[k] * u + b_[k] * x) > 1 + kGridExcess) return true;
     return false;
   }
 
