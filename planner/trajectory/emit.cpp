@@ -12,7 +12,9 @@
 namespace corridor {
 namespace {
 
-/// An interval between rows is halved if it uses a limit by more than this factor.
+/// An interval between rows is halved if it exceeds a limit by more than this factor. If the law is
+/// made slower, it gets this much slower than needed, and intervals may not exceed limits at all:
+/// then the next attempt succeeds.
 constexpr double kExcess = 1.0005;
 /// Halvings of one segment of the law.
 constexpr int kHalvings = 10;
@@ -22,11 +24,12 @@ constexpr std::size_t kMostRows = 1'000'000;
 class Rows {
  public:
   Rows(const std::vector<LawSegment>& segments, const std::vector<double>& stops,
-       const PathView& view, const JointLimits& limits, const EmitOptions& options)
+       const PathView& view, const JointLimits& limits, const EmitOptions& options, double excess)
       : segments_(segments),
         view_(view),
         limits_(limits),
         options_(options),
+        excess_(excess),
         clock_(segments, view) {
     addRequired(stops);
   }
@@ -105,7 +108,7 @@ class Rows {
     return {from.segment + (last - from.segment + 1) / 2, 0};
   }
 
-  /// Whether the curve of two rows exceeds no limit by more than the factor kExcess.
+  /// Whether the curve of two rows exceeds no limit by more than the factor `excess_`.
   bool usesLittle(const TimedRow& first, const TimedRow& last) const {
     const auto size = static_cast<Eigen::Index>(view_.space().size());
     Configuration most[2][6];
@@ -125,7 +128,7 @@ class Rows {
     for (const Configuration* limit : {&limits_.acceleration, &limits_.jerk}) {
       for (int i = 0; i <= degrees[kind]; ++i) {
         for (const Eigen::Index r : view_.rotations()) most[kind][i].segment<4>(r).setZero();
-        if (sharesOf(most[kind][i], *limit, view_.space()).maxCoeff() > kExcess) return false;
+        if (sharesOf(most[kind][i], *limit, view_.space()).maxCoeff() > excess_) return false;
       }
       ++kind;
     }
@@ -136,6 +139,7 @@ class Rows {
   const PathView& view_;
   const JointLimits& limits_;
   const EmitOptions& options_;
+  double excess_;
   LawClock clock_;
   std::vector<LawTime> required_;
 };
@@ -221,7 +225,7 @@ Emission emitRows(const TimeLaw& given, const std::vector<CurvePiece>& path,
     return fail("more than 10^6 rows; use a smaller rate");
   // Each attempt brings the largest share nearer to 1; two or three are needed.
   for (int attempt = 0; attempt < 8; ++attempt) {
-    Rows rows(law.segments, law.stopTimes, view, limits, options);
+    Rows rows(law.segments, law.stopTimes, view, limits, options, attempt == 0 ? kExcess : 1);
     rows.make();
     if (rows.deviation > options.deviation)
       return fail("rows within " + shortest(options.deviation) +
@@ -246,17 +250,18 @@ Emission emitRows(const TimeLaw& given, const std::vector<CurvePiece>& path,
     const double factor = neededFactor(result.ratios);
     if (!std::isfinite(factor)) break;
     if (atRest) {  // with a rate: slow the law down, and choose rows again
-      slowDown(law.segments, factor * (1 + 1e-9));
-      for (double& stop : law.stopTimes) stop *= factor * (1 + 1e-9);
-      law.duration *= factor * (1 + 1e-9);
-      result.stretch *= factor * (1 + 1e-9);
+      const double by = factor * kExcess;
+      slowDown(law.segments, by);
+      for (double& stop : law.stopTimes) stop *= by;
+      law.duration *= by;
+      result.stretch *= by;
       alignRuns(law, 1 / *options.rate);
       continue;
     }
-    smaller.velocity /= std::max(1.0, result.ratios.velocity.share) * (1 + 1e-6);
-    smaller.acceleration /= std::max(1.0, result.ratios.acceleration.share) * (1 + 1e-6);
+    smaller.velocity /= std::max(1.0, result.ratios.velocity.share) * kExcess;
+    smaller.acceleration /= std::max(1.0, result.ratios.acceleration.share) * kExcess;
     for (LinkSpeed& link : smaller.links)
-      link.speed /= std::max(1.0, result.ratios.link.share) * (1 + 1e-6);
+      link.speed /= std::max(1.0, result.ratios.link.share) * kExcess;
     law = timeLaw(path, space, smaller, tree, given.options);
     if (!law.fault.empty())
       return fail("the rates at the ends are too near to the limits for rows that keep them; " +
