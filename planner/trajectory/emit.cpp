@@ -1,10 +1,12 @@
 #include "planner/trajectory/emit.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "collision/core/shortest.h"
 #include "planner/trajectory/limit_bands.h"
+#include "planner/trajectory/link_speed.h"
 #include "planner/trajectory/row_deviation.h"
 #include "planner/trajectory/row_polynomials.h"
 #include "planner/trajectory/smooth_law.h"
@@ -24,10 +26,12 @@ constexpr std::size_t kMostRows = 1'000'000;
 class Rows {
  public:
   Rows(const std::vector<LawSegment>& segments, const std::vector<double>& stops,
-       const PathView& view, const JointLimits& limits, const EmitOptions& options, double excess)
+       const PathView& view, const JointLimits& limits, const KinematicTree& tree,
+       const EmitOptions& options, double excess)
       : segments_(segments),
         view_(view),
         limits_(limits),
+        tree_(tree),
         options_(options),
         excess_(excess),
         clock_(segments, view) {
@@ -108,29 +112,39 @@ class Rows {
     return {from.segment + (last - from.segment + 1) / 2, 0};
   }
 
-  /// Whether the curve of two rows exceeds no limit by more than the factor `excess_`.
+  /// Whether the curve of two rows exceeds no limit by more than the factor `excess_`. Speeds of
+  /// links are sampled here; proveLimits proves them.
   bool usesLittle(const TimedRow& first, const TimedRow& last) const {
     const auto size = static_cast<Eigen::Index>(view_.space().size());
-    Configuration most[2][6];
-    for (auto& kind : most)
-      for (Configuration& values : kind) values = Configuration::Zero(size);
-    int degrees[2] = {0, 0};
+    constexpr int kinds = 3;
+    std::array<std::array<Configuration, 6>, kinds> values;
+    for (auto& kind : values) kind.fill(Configuration::Zero(size));
+    std::array<int, kinds> degrees{};
     for (Eigen::Index n = 0; n < size; ++n) {
       const RowPolynomials p = rowPolynomials(first, last, options_.degree, n);
-      int kind = 0;
-      for (const BoundedPolynomial* polynomial : {&p.acceleration, &p.jerk}) {
-        degrees[kind] = polynomial->degree;
-        for (int i = 0; i <= polynomial->degree; ++i) most[kind][i][n] = polynomial->c[i];
-        ++kind;
+      const std::array polynomials{&p.velocity, &p.acceleration, &p.jerk};
+      for (std::size_t kind = 0; kind < kinds; ++kind) {
+        degrees[kind] = polynomials[kind]->degree;
+        for (std::size_t i = 0; i < 6; ++i) values[kind][i][n] = polynomials[kind]->c[i];
       }
     }
-    int kind = 0;
-    for (const Configuration* limit : {&limits_.acceleration, &limits_.jerk}) {
+    const std::array limits{&limits_.velocity, &limits_.acceleration, &limits_.jerk};
+    for (std::size_t kind = 0; kind < kinds; ++kind)
       for (int i = 0; i <= degrees[kind]; ++i) {
-        for (const Eigen::Index r : view_.rotations()) most[kind][i].segment<4>(r).setZero();
-        if (sharesOf(most[kind][i], *limit, view_.space()).maxCoeff() > excess_) return false;
+        Configuration& at = values[kind][static_cast<std::size_t>(i)];
+        for (const Eigen::Index r : view_.rotations()) at.segment<4>(r).setZero();
+        if (sharesOf(at, *limits[kind], view_.space()).maxCoeff() > excess_) return false;
       }
-      ++kind;
+    if (limits_.links.empty()) return true;
+    // The Bernstein coefficients of the velocity, each with the position at either row: near the
+    // speeds between the rows if these are near each other.
+    for (int i = 0; i <= degrees[0]; ++i) {
+      Configuration& velocity = values[0][static_cast<std::size_t>(i)];
+      const TimedRow& row = 2 * i < degrees[0] ? first : last;
+      for (const Eigen::Index r : view_.rotations())
+        velocity.segment<4>(r) = row.velocity.segment<4>(r);
+      for (const double share : linkSpeedShares(tree_, limits_.links, row.position, velocity))
+        if (share > excess_) return false;
     }
     return true;
   }
@@ -138,6 +152,7 @@ class Rows {
   const std::vector<LawSegment>& segments_;
   const PathView& view_;
   const JointLimits& limits_;
+  const KinematicTree& tree_;
   const EmitOptions& options_;
   double excess_;
   LawClock clock_;
@@ -225,7 +240,7 @@ Emission emitRows(const TimeLaw& given, const std::vector<CurvePiece>& path,
     return fail("more than 10^6 rows; use a smaller rate");
   // Each attempt brings the largest share nearer to 1; two or three are needed.
   for (int attempt = 0; attempt < 8; ++attempt) {
-    Rows rows(law.segments, law.stopTimes, view, limits, options, attempt == 0 ? kExcess : 1);
+    Rows rows(law.segments, law.stopTimes, view, limits, tree, options, attempt == 0 ? kExcess : 1);
     rows.make();
     if (rows.deviation > options.deviation)
       return fail("rows within " + shortest(options.deviation) +
