@@ -1,10 +1,12 @@
 #include "planner/trajectory/emit.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "collision/core/shortest.h"
 #include "planner/trajectory/limit_bands.h"
+#include "planner/trajectory/link_speed.h"
 #include "planner/trajectory/row_deviation.h"
 #include "planner/trajectory/row_polynomials.h"
 #include "planner/trajectory/smooth_law.h"
@@ -12,7 +14,9 @@
 namespace corridor {
 namespace {
 
-/// An interval between rows is halved if it uses a limit by more than this factor.
+/// An interval between rows is halved if it exceeds a limit by more than this factor. If the law is
+/// made slower, it gets this much slower than needed, and intervals may not exceed limits at all:
+/// then the next attempt succeeds.
 constexpr double kMostExcess = 1.0005;
 /// Halvings of one segment of the law.
 constexpr int kLevels = 10;
@@ -22,11 +26,14 @@ constexpr std::size_t kMostRows = 1'000'000;
 class Rows {
  public:
   Rows(const std::vector<LawSegment>& segments, const std::vector<double>& stops,
-       const PathView& view, const JointLimits& limits, const EmitOptions& options)
+       const PathView& view, const JointLimits& limits, const KinematicTree& tree,
+       const EmitOptions& options, double excess)
       : segments_(segments),
         view_(view),
         limits_(limits),
+        tree_(tree),
         options_(options),
+        excess_(excess),
         clock_(segments, view) {
     addRequired(stops);
   }
@@ -82,7 +89,8 @@ class Rows {
     // A switch inside one segment can't be: there, only the deviation is a reason to halve.
     const bool oneSegment =
         to.segment == from.segment || (to.segment == from.segment + 1 && to.since == 0);
-    const bool fine = isNear && (usesLittle(first, last) || (oneSegment && halvings < kLevels - 2));
+    const bool fine =
+        isNear && (usesLittle(first, last) || (oneSegment && halvings < kLevels - 2));
     if (fine || halvings == 0 || rows.size() >= kMostRows) {
       rows.push_back(last);
       deviation = std::max(deviation, distance);
@@ -104,29 +112,39 @@ class Rows {
     return {from.segment + (last - from.segment + 1) / 2, 0};
   }
 
-  /// Whether the curve of two rows exceeds no limit by more than the factor kMostExcess.
+  /// Whether the curve of two rows exceeds no limit by more than the factor `excess_`. Speeds of
+  /// links are sampled here; proveLimits proves them.
   bool usesLittle(const TimedRow& first, const TimedRow& last) const {
     const auto size = static_cast<Eigen::Index>(view_.space().size());
-    Configuration most[2][6];
-    for (auto& kind : most)
-      for (Configuration& values : kind) values = Configuration::Zero(size);
-    int degrees[2] = {0, 0};
+    constexpr int kinds = 3;
+    std::array<std::array<Configuration, 6>, kinds> values;
+    for (auto& kind : values) kind.fill(Configuration::Zero(size));
+    std::array<int, kinds> degrees{};
     for (Eigen::Index n = 0; n < size; ++n) {
       const RowPolynomials p = rowPolynomials(first, last, options_.degree, n);
-      int kind = 0;
-      for (const BoundedPolynomial* polynomial : {&p.acceleration, &p.jerk}) {
-        degrees[kind] = polynomial->degree;
-        for (int i = 0; i <= polynomial->degree; ++i) most[kind][i][n] = polynomial->c[i];
-        ++kind;
+      const std::array polynomials{&p.velocity, &p.acceleration, &p.jerk};
+      for (std::size_t kind = 0; kind < kinds; ++kind) {
+        degrees[kind] = polynomials[kind]->degree;
+        for (std::size_t i = 0; i < 6; ++i) values[kind][i][n] = polynomials[kind]->c[i];
       }
     }
-    int kind = 0;
-    for (const Configuration* limit : {&limits_.acceleration, &limits_.jerk}) {
+    const std::array limits{&limits_.velocity, &limits_.acceleration, &limits_.jerk};
+    for (std::size_t kind = 0; kind < kinds; ++kind)
       for (int i = 0; i <= degrees[kind]; ++i) {
-        for (const Eigen::Index r : view_.rotations()) most[kind][i].segment<4>(r).setZero();
-        if (sharesOf(most[kind][i], *limit, view_.space()).maxCoeff() > kMostExcess) return false;
+        Configuration& at = values[kind][static_cast<std::size_t>(i)];
+        for (const Eigen::Index r : view_.rotations()) at.segment<4>(r).setZero();
+        if (sharesOf(at, *limits[kind], view_.space()).maxCoeff() > excess_) return false;
       }
-      ++kind;
+    if (limits_.links.empty()) return true;
+    // The Bernstein coefficients of the velocity, each with the position at either row: near the
+    // speeds between the rows if these are near each other.
+    for (int i = 0; i <= degrees[0]; ++i) {
+      Configuration& velocity = values[0][static_cast<std::size_t>(i)];
+      const TimedRow& row = 2 * i < degrees[0] ? first : last;
+      for (const Eigen::Index r : view_.rotations())
+        velocity.segment<4>(r) = row.velocity.segment<4>(r);
+      for (const double share : linkSpeedShares(tree_, limits_.links, row.position, velocity))
+        if (share > excess_) return false;
     }
     return true;
   }
@@ -134,7 +152,9 @@ class Rows {
   const std::vector<LawSegment>& segments_;
   const PathView& view_;
   const JointLimits& limits_;
+  const KinematicTree& tree_;
   const EmitOptions& options_;
+  double excess_;
   LawClock clock_;
   std::vector<LawTime> required_;
 };
@@ -220,7 +240,7 @@ Emission emitRows(const TimeLaw& given, const std::vector<CurvePiece>& path,
     return fail("more than 10^6 rows; use a smaller rate");
   // Each attempt brings the largest share nearer to 1; two or three are needed.
   for (int attempt = 0; attempt < 8; ++attempt) {
-    Rows rows(law.segments, law.stopTimes, view, limits, options);
+    Rows rows(law.segments, law.stopTimes, view, limits, tree, options, attempt == 0 ? kMostExcess : 1);
     rows.make();
     if (rows.deviation > options.deviation)
       return fail("rows within " + shortest(options.deviation) +
@@ -245,17 +265,18 @@ Emission emitRows(const TimeLaw& given, const std::vector<CurvePiece>& path,
     const double factor = neededFactor(result.ratios);
     if (!std::isfinite(factor)) break;
     if (atRest) {  // with a rate: slow the law down, and choose rows again
-      slowDown(law.segments, factor * (1 + 1e-9));
-      for (double& stop : law.stopTimes) stop *= factor * (1 + 1e-9);
-      law.duration *= factor * (1 + 1e-9);
-      result.stretch *= factor * (1 + 1e-9);
+      const double by = factor * kMostExcess;
+      slowDown(law.segments, by);
+      for (double& stop : law.stopTimes) stop *= by;
+      law.duration *= by;
+      result.stretch *= by;
       alignRuns(law, 1 / *options.rate);
       continue;
     }
-    smaller.velocity /= std::max(1.0, result.ratios.velocity.share) * (1 + 1e-6);
-    smaller.acceleration /= std::max(1.0, result.ratios.acceleration.share) * (1 + 1e-6);
+    smaller.velocity /= std::max(1.0, result.ratios.velocity.share) * kMostExcess;
+    smaller.acceleration /= std::max(1.0, result.ratios.acceleration.share) * kMostExcess;
     for (LinkSpeed& link : smaller.links)
-      link.speed /= std::max(1.0, result.ratios.link.share) * (1 + 1e-6);
+      link.speed /= std::max(1.0, result.ratios.link.share) * kMostExcess;
     law = timeLaw(path, space, smaller, tree, given.options);
     if (!law.fault.empty())
       return fail("the rates at the ends are too near to the limits for rows that keep them; " +

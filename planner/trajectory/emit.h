@@ -14,7 +14,7 @@ struct EmitOptions {
   /// also meets the accelerations. For 5, the law should be smooth.
   int degree = 3;
   /// Rows per second. Unset: rows where they are needed.
-  std::optional<double> rate;
+  std::optional<double> rate = {};
   /// The largest distance of the rows' curve from the path, in each number; rad and m.
   double deviation = 1e-4;
 };

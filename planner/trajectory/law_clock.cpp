@@ -1,6 +1,7 @@
 #include "planner/trajectory/law_clock.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace corridor {
 
@@ -21,7 +22,9 @@ TimedRow LawClock::row(const LawTime& t) const {
   const bool endsPiece =
       t.segment + 1 == segments_.size() || segments_[t.segment + 1].piece != s.piece;
   if (endsPiece && d == s.duration) tau = 1;
-  const double rate = s.rate + d * (s.acceleration + d / 2 * s.jerk);
+  double rate = s.rate + d * (s.acceleration + d / 2 * s.jerk);
+  // A law that ends at rest has the rounding of 0 here.
+  if (endsPiece && d == s.duration && std::abs(rate) < 0x1p-40 * s.rate) rate = 0;
   Configuration first, second;
   view_.derivatives(s.piece, tau, first, second);
   TimedRow row{timeOf(t), view_.value(s.piece, tau), first * rate,

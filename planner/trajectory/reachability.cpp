@@ -76,9 +76,9 @@ class Cell {
  private:
   void add(double a, double b) {
     const double size = std::abs(a), slope = a < 0 ? -b : b;
-    // A band without u bounds x alone. The threshold only avoids overflows: beyond it, the band
-    // allows u of 1e200.
-    if (size < 1e-200)
+    // A band with hardly any u bounds x alone. Within the interval, |u| is at most x/(2·width), so
+    // its share of the limit is at most 1e-9 where this is decided.
+    if (size <= 1e-9 * (2 * width_ * std::abs(b)) || size < 1e-200)
       cap_ = std::min(cap_, std::abs(b) > 0 ? 1 / std::abs(b) : kInfinity);
     else
       lines_.push_back({1 / size, slope / size});
@@ -86,18 +86,19 @@ class Cell {
 
   /// Returns the first x, from `x` downwards (or upwards) at which some u is allowed; NaN: none.
   double root(double x, const Interval& next, bool downwards) const {
+    // x = 0 with u = 0 is always allowed if the next x may be 0.
+    const double none = downwards && next.lower == 0 ? 0 : NAN;
     for (std::size_t step = 0; step < 4 * lines_.size() + 8; ++step) {
       Line low, high;
       bounds(x, next, low, high);
       const double gap = high.at(x) - low.at(x);
-      const double size = std::abs(high.value) + std::abs(low.value) +
-                          (std::abs(high.slope) + std::abs(low.slope)) * x;
-      if (gap >= -0x1p-40 * size) return x;  // 2^-40: far above the rounding of the lines' values
+      if (gap >= 0) return x;
       const double slope = low.slope - high.slope;  // of the gap
-      if (downwards ? slope >= 0 : slope <= 0) return NAN;
+      if (downwards ? slope >= 0 : slope <= 0) return none;
       const double to = x - gap / slope;
-      if (!(downwards ? to < x : to > x)) return x;
-      if (to < 0) return downwards ? (x > 0 && gap >= -0x1p-30 * size ? 0 : NAN) : NAN;
+      if (to < 0) return none;
+      // Rounding of the lines keeps the gap from becoming exactly 0.
+      if (std::abs(to - x) <= 0x1p-44 * x) return to;
       x = to;
     }
     return x;

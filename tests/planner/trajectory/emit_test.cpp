@@ -131,12 +131,13 @@ TEST(EmitRows, StopsAtCornersOfAPolyline) {
   const JointLimits limits = uniformLimits(2, 1, 2);
   const TimeLaw law = timeLaw(path, jointSpace(2), limits, kNoTree);
   for (const std::optional<double> rate : {std::optional<double>(), std::optional<double>(100)}) {
-    const Emission emission = emitRows(law, path, jointSpace(2), limits, kNoTree,
-                                       {.rate = rate, .deviation = 1e-9});
+    const Emission emission =
+        emitRows(law, path, jointSpace(2), limits, kNoTree, {.rate = rate, .deviation = 1e-9});
     expectKept(emission, 3, limits);
-    const bool stops = std::any_of(
-        emission.rows.begin(), emission.rows.end(), [](const TimedRow& row) {
-          return row.position == Configuration(Eigen::Vector2d(1, 0)) && row.velocity.norm() < 1e-12;
+    const bool stops =
+        std::any_of(emission.rows.begin(), emission.rows.end(), [](const TimedRow& row) {
+          return row.position == Configuration(Eigen::Vector2d(1, 0)) &&
+                 row.velocity.norm() < 1e-12;
         });
     EXPECT_TRUE(stops);
     EXPECT_NEAR(emission.duration, law.duration, rate ? 0.03 : 1e-6);
@@ -149,11 +150,12 @@ TEST(EmitRows, RotationsKeepTheirRate) {
   CoordinateGroup group{CoordinateGroup::Kind::floating, "body", {}};
   for (const char* name : {"x", "y", "z"})
     group.coordinates.push_back(space.add({Coordinate::Kind::line, name, 0, -9, 9, false, 1}));
-  group.coordinates.push_back(space.add({Coordinate::Kind::rotation, "rotation", 0, 0, 0, true, 1}));
+  group.coordinates.push_back(
+      space.add({Coordinate::Kind::rotation, "rotation", 0, 0, 0, true, 1}));
   space.addGroup(group);
   const double half = 0.6;  // half of the rotation angle
-  const std::vector<CurvePiece> path{piece({{0, 3}, {0, 4}, {0, 0}, {0, std::sin(half)}, {0, 0},
-                                            {0, 0}, {1, std::cos(half)}})};
+  const std::vector<CurvePiece> path{
+      piece({{0, 3}, {0, 4}, {0, 0}, {0, std::sin(half)}, {0, 0}, {0, 0}, {1, std::cos(half)}})};
   JointLimits limits = uniformLimits(7, std::numeric_limits<double>::infinity(), 2);
   limits.velocity[3] = 0.25;
   const TimeLaw law = timeLaw(path, space, limits, kNoTree);
@@ -202,7 +204,8 @@ TEST(EmitRows, Faults) {
   EXPECT_EQ(faultOf({.rate = 0}), "trajectory: the rate must be positive");
   EXPECT_EQ(faultOf({.rate = 1e9}), "trajectory: more than 10^6 rows; use a smaller rate");
   EXPECT_EQ(faultOf({.deviation = 0}), "trajectory: the deviation must be positive");
-  EXPECT_EQ(emitRows({}, {}, jointSpace(1), limits, kNoTree).fault, "trajectory: the path is empty");
+  EXPECT_EQ(emitRows({}, {}, jointSpace(1), limits, kNoTree).fault,
+            "trajectory: the path is empty");
   const std::vector<CurvePiece> point{piece({{2, 2}})};
   EXPECT_EQ(emitRows(timeLaw(point, jointSpace(1), limits, kNoTree), point, jointSpace(1), limits,
                      kNoTree)

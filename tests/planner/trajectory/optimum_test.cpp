@@ -21,16 +21,28 @@ double shortestTime(const CurvePiece& path, double velocity, double acceleration
     return sampleAt(unit, {path}, tau);
   };
   const auto mostAt = [&](int i) {
-    return std::pow(velocity / derivatives(i * width).v.cwiseAbs().maxCoeff(), 2);
+    const Configuration v = derivatives(i * width).v.cwiseAbs();
+    double most = std::pow(velocity / v.maxCoeff(), 2);
+    // From rest to rest over a length of at most L, a joint reaches at most sqrt(a·L).
+    for (Eigen::Index j = 0; j < v.size(); ++j) {
+      double length = 0;
+      for (Eigen::Index k = 0; k + 1 < path.coefficients.cols(); ++k)
+        length += std::abs(path.coefficients(j, k + 1) - path.coefficients(j, k));
+      most = std::min(most, acceleration * length / (v[j] * v[j]));
+    }
+    return most;
   };
   std::vector<double> next(static_cast<std::size_t>(levels) + 1, infinity), now = next;
   next[0] = 0;
+  std::vector<double> root(next.size());  // of the next values of x
   double mostNext = mostAt(n);
   for (int i = n - 1; i >= 0; --i) {
     const double most = mostAt(i);
+    for (std::size_t m = 0; m < root.size(); ++m)
+      root[m] = std::sqrt(mostNext * static_cast<double>(m) / levels);
     const Sample middle = derivatives((i + 0.5) * width);
     for (int k = 0; k <= levels; ++k) {
-      const double x = most * k / levels;
+      const double x = most * k / levels, rootX = std::sqrt(x);
       // |q′·(y − x)/(2·width) + q″·(x + y)/2| ≤ a bounds y for each joint.
       double low = 0, high = mostNext;
       for (Eigen::Index j = 0; j < middle.v.size(); ++j) {
@@ -43,9 +55,8 @@ double shortestTime(const CurvePiece& path, double velocity, double acceleration
       double best = infinity;
       for (int m = static_cast<int>(std::ceil(low / mostNext * levels));
            m <= levels && mostNext * m / levels <= high; ++m)
-        if (const double y = mostNext * m / levels; x + y > 0)
-          best = std::min(best, next[static_cast<std::size_t>(m)] +
-                                    2 * width / (std::sqrt(x) + std::sqrt(y)));
+        if (const auto to = static_cast<std::size_t>(m); rootX + root[to] > 0)
+          best = std::min(best, next[to] + 2 * width / (rootX + root[to]));
       now[static_cast<std::size_t>(k)] = best;
     }
     std::swap(now, next);
@@ -55,7 +66,7 @@ double shortestTime(const CurvePiece& path, double velocity, double acceleration
 }
 
 TEST(Optimum, ProgrammingFindsATriangle) {
-  EXPECT_NEAR(shortestTime(piece({{0, 1}}), 9, 1, 100, 4000), 2, 0.01);
+  EXPECT_NEAR(shortestTime(piece({{0, 1}}), 9, 1, 100, 1500), 2, 0.01);
 }
 
 TEST(Optimum, IsFoundOnRandomCurves) {
@@ -69,12 +80,12 @@ TEST(Optimum, IsFoundOnRandomCurves) {
     for (auto& row : rows)
       for (double& c : row) c = value(random);
     for (std::size_t k = 0; k <= degree; ++k) rows[0][k] += 0.7 * static_cast<double>(k);
-    const double velocity = i % 2 == 0 ? 1 : 4, acceleration = 2;
+    const double velocity = i % 2 == 0 ? 1 : 2.5, acceleration = 2;
     const CurvePiece path = piece(rows);
-    const TimeLaw law = timeLaw({path}, jointSpace(joints),
-                                uniformLimits(joints, velocity, acceleration), {});
+    const TimeLaw law =
+        timeLaw({path}, jointSpace(joints), uniformLimits(joints, velocity, acceleration), {});
     ASSERT_EQ(law.fault, "");
-    const double best = shortestTime(path, velocity, acceleration, 120, 2400);
+    const double best = shortestTime(path, velocity, acceleration, 100, 1500);
     EXPECT_NEAR(law.duration, best, 0.01 * best) << "seed " << seed << ", curve " << i;
   }
 }

@@ -12,8 +12,8 @@ inline ConfigurationSpace jointSpace(std::size_t joints) {
   ConfigurationSpace space;
   CoordinateGroup group;
   for (std::size_t j = 0; j < joints; ++j)
-    group.coordinates.push_back(space.add(
-        {Coordinate::Kind::line, "j" + std::to_string(j), 0, -1e9, 1e9, true, 1}));
+    group.coordinates.push_back(
+        space.add({Coordinate::Kind::line, "j" + std::to_string(j), 0, -1e9, 1e9, true, 1}));
   space.addGroup(group);
   return space;
 }

@@ -1,0 +1,142 @@
+#include "planner/problem/limits_yaml.h"
+
+#include "tests/planner/problem/arm_fixture.h"
+
+namespace corridor::test {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::infinity();
+
+/// Reads `limits` for an arm with the joints pan (no velocity in the URDF), lift and slide (1
+/// rad/s, 1 m/s), and follow, which mimics slide by −1. All of them are planned for.
+class LimitsTest : public ArmTest {
+ protected:
+  void SetUp() override {
+    ArmTest::SetUp();
+    write("arm.yaml", "format: corridor-robot-1\nname: arm7\nurdf: arm.urdf\n");
+    model_ = read(armHead +
+                  "start: {pan: 0, lift: 0, slide: 0.02}\ngoal: {pan: 1, lift: 0.3, "
+                  "slide: 0.03}\n")
+                 .model;
+  }
+
+  LimitSpec specOf(const std::string& limits) {
+    const YamlValue document = parseYaml("problem.yaml", "limits:\n" + limits);
+    FaultList faults("problem.yaml");
+    YamlSource source{"problem.yaml", faults, {}};
+    const YamlMap map(document, "", nullptr, source);
+    std::vector<std::filesystem::path> files;
+    LimitSpec spec = readLimits(map, folder_, model_, true, files);
+    notes_ = source.notes;
+    faults.throwIfAny();
+    return spec;
+  }
+  std::string complaintOfLimits(const std::string& limits) {
+    try {
+      specOf(limits);
+    } catch (const InputError& error) {
+      std::string text = error.what();
+      const std::string prefix = folder_.string() + '/';
+      for (auto at = text.find(prefix); at != text.npos; at = text.find(prefix))
+        text.erase(at, prefix.size());
+      return text;
+    }
+    return "no complaint";
+  }
+  std::string complaintOfFile(const std::string& text) {
+    write("joint_limits.yaml", text);
+    return complaintOfLimits("  file: joint_limits.yaml\n");
+  }
+
+  Model model_;
+  std::vector<Note> notes_;
+};
+
+TEST_F(LimitsTest, NamedValuesReplaceOthers) {
+  const LimitSpec spec = specOf(
+      "  default: {velocity: 2, acceleration_deg: 180}\n  slides: {acceleration: 0.5}\n"
+      "  joints: {lift: {velocity: 0.4, jerk: 9}, follow: {velocity: 0.1}}\n"
+      "  acceleration_scale: 0.5\n");
+  const JointLimits limits = limitsOf(model_, spec);
+  ASSERT_EQ(limits.velocity.size(), 3);
+  EXPECT_EQ(limits.velocity[0], 2);
+  EXPECT_EQ(limits.velocity[1], 0.4);
+  EXPECT_EQ(limits.velocity[2], 0.1);  // of follow, by |−1|
+  EXPECT_NEAR(limits.acceleration[0], 1.5707963267948966, 1e-15);
+  EXPECT_NEAR(limits.acceleration[1], 1.5707963267948966, 1e-15);
+  EXPECT_EQ(limits.acceleration[2], 0.25);
+  EXPECT_EQ(limits.jerk[0], kNone);
+  EXPECT_EQ(limits.jerk[1], 9);
+  EXPECT_TRUE(limits.notes.empty());
+}
+
+TEST_F(LimitsTest, AccelerationIsAssumed) {
+  const JointLimits limits = limitsOf(model_);
+  EXPECT_EQ(limits.acceleration, Configuration(Eigen::Vector3d(1, 1, 1)));
+  ASSERT_EQ(limits.notes.size(), 1);
+  EXPECT_EQ(
+      limits.notes[0],
+      "limits: no acceleration is given for pan, lift and slide; 1 rad/s² or m/s² is assumed");
+}
+
+TEST_F(LimitsTest, MoveitFile) {
+  write(
+      "joint_limits.yaml",
+      "default_velocity_scaling_factor: 0.1\ndefault_acceleration_scaling_factor: 0.5\n"
+      "joint_limits:\n"
+      "  pan: {has_velocity_limits: true, max_velocity: 2.5, has_acceleration_limits: true, "
+      "max_acceleration: 3, has_deceleration_limits: true, max_deceleration: 2}\n"
+      "  lift: {has_velocity_limits: false, max_velocity: 0, has_jerk_limits: true, max_jerk: 7}\n"
+      "  other: {has_velocity_limits: true, max_velocity: 1}\n");
+  const LimitSpec spec = specOf("  file: joint_limits.yaml\n  velocity_scale: 0.2\n");
+  EXPECT_EQ(spec.velocityScale, 0.2);
+  EXPECT_EQ(spec.accelerationScale, 0.5);
+  EXPECT_EQ(spec.named.at("pan").velocity, 2.5);
+  EXPECT_EQ(spec.named.at("pan").acceleration, 2);
+  EXPECT_FALSE(spec.named.at("lift").velocity.has_value());
+  EXPECT_EQ(spec.named.at("lift").jerk, 7);
+  ASSERT_EQ(notes_.size(), 1);
+  EXPECT_THAT(notes_[0].text, testing::HasSubstr("limits of other are not used: not planned for"));
+}
+
+TEST_F(LimitsTest, LinkSpeedLimitsTheBoxOfTheLink) {
+  const JointLimits limits = limitsOf(model_, specOf("  link_speed: {finger: 0.25}\n"));
+  ASSERT_EQ(limits.links.size(), 1);
+  EXPECT_EQ(limits.links[0].speed, 0.25);
+  EXPECT_EQ(model_.tree.frames[limits.links[0].frame].name, "finger");
+  EXPECT_EQ(limits.links[0].points.size(), 9);  // the origin and the corners
+  EXPECT_EQ(limits.links[0].points[1].cwiseAbs(), Vec3(0.02, 0.02, 0.02));
+}
+
+TEST_F(LimitsTest, Faults) {
+  EXPECT_EQ(complaintOfLimits("  velocity_scale: 1.5\n"),
+            "problem.yaml:2: limits.velocity_scale: at most 1 is needed: it is a share of the "
+            "limits");
+  EXPECT_THAT(complaintOfLimits("  joints: {lift: {velocity: 0}}\n"),
+              testing::HasSubstr("problem.yaml:2: limits.joints.lift.velocity: "));
+  EXPECT_THAT(complaintOfLimits("  joints: {lifd: {velocity: 1}}\n"),
+              testing::HasSubstr("limits.joints.lifd: there is no joint of that name that is "
+                                 "planned for (did you mean \"lift\"?)"));
+  EXPECT_EQ(complaintOfLimits("  joints: {slide: {velocity_deg: 1}}\n"),
+            "problem.yaml:2: limits.joints.slide.velocity_deg: slide is a length; use velocity, in "
+            "metres");
+  EXPECT_THAT(complaintOfLimits("  link_speed: {fingr: 1}\n"),
+              testing::HasSubstr("limits.link_speed.fingr: there is no link of that name (did you "
+                                 "mean \"finger\"?)"));
+  EXPECT_EQ(complaintOfLimits("  position: {velocity: 1}\n"),
+            "problem.yaml:2: limits.position: there is no rigid body and no planar or floating "
+            "joint here; use default or joints");
+  EXPECT_THAT(complaintOfLimits("  file: missing.yaml\n"),
+              testing::HasSubstr("problem.yaml:2: limits.file: missing.yaml: "));
+  EXPECT_EQ(complaintOfFile("joint_limits: {pan: {max_velocity: 2}}\n"),
+            "joint_limits.yaml:1: joint_limits.pan.max_velocity: MoveIt uses it only with "
+            "has_velocity_limits: true; add true or false");
+  EXPECT_THAT(
+      complaintOfFile("joint_limits: {pan: {has_velocity_limits: true}}\n"),
+      testing::HasSubstr("joint_limits.yaml:1: missing key \"joint_limits.pan.max_velocity\""));
+  EXPECT_EQ(complaintOfFile("joint_limits: {pan2: {has_velocity_limits: true, max_velocity: 1}}\n"),
+            "joint_limits.yaml:1: joint_limits: no joint of this file is planned for: pan2");
+}
+
+}  // namespace
+}  // namespace corridor::test
