@@ -75,12 +75,12 @@ struct ConvexSet {
 /// small. A contact is never missed, and a distance is never too large.
 class PosedSet {
  public:
-  PosedSet(const ConvexSet& set, const Transform& X);
+  PosedSet(const ConvexSet& set, const Transform& X) : set_(set), X_(X) {}
 
   /// Returns max n·x over all points x of the image, off by at most `error()`. @pre |n| ≤ 1 + 5u.
   /// @param start  as for `ConvexSet::farthest`.
   double highest(const Vec3& n, std::uint32_t start = ConvexSet::kCold) const;
-  double error() const { return error_; }
+  double error() const { return found(), error_; }
 
   /// Returns max m·p over the points p of the core, in the set's own frame; rounded.
   double coreHighest(const Vec3& m, std::uint32_t start = ConvexSet::kCold) const;
@@ -92,14 +92,19 @@ class PosedSet {
   const Transform& pose() const { return X_; }
   /// Returns the largest |p| + ball + disc over the points p in the set's own frame; rounded up.
   /// Metres.
-  double localReach() const { return localReach_; }
+  double localReach() const { return found(), localReach_; }
   /// Returns ‖M‖_F·`localReach()`, rounded up: how far the image reaches from the map's t. Metres.
-  double reach() const { return reach_; }
+  double reach() const { return found(), reach_; }
 
  private:
+  void found() const {
+    if (!(error_ >= 0)) findBounds();
+  }
+  void findBounds() const;
+
   ConvexSet set_;
   Transform X_;
-  double localReach_ = 0, reach_ = 0, error_ = 0;
+  mutable double localReach_ = 0, reach_ = 0, error_ = -1;  // found when first needed
 };
 
 }  // namespace corridor
