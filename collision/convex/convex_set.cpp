@@ -11,9 +11,8 @@
 
 namespace corridor {
 
-ConvexSet::ConvexSet(const ConvexPart& part) : points(part.points), ball(part.radius) {
-  if (!part.flatEnds) return;
-  const Vec3 d = part.points[1] - part.points[0];
+void ConvexSet::sweepDisc() {
+  const Vec3 d = points[1] - points[0];
   const double square = d.squaredNorm();
   // If the axis cannot be normalised, the set becomes the capsule, which contains the cylinder.
   if (!(square > 0x1p-900 && square < 0x1p900)) return;

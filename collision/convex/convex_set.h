@@ -20,7 +20,10 @@ class Polytope;
 /// hill climbing on a `Polytope`, and by the hierarchy of a `DobkinKirkpatrick`, in O(n), some
 /// O(√n) and O(log n). The answers are the same up to the promised errors.
 struct ConvexSet {
-  ConvexSet(const ConvexPart& part);             // NOLINT: a part is a convex set
+  ConvexSet(const ConvexPart& part)  // NOLINT: a part is a convex set
+      : points(part.points), ball(part.radius) {
+    if (part.flatEnds) sweepDisc();
+  }
   ConvexSet(const Triangle& triangle);           // NOLINT: a triangle is a convex set
   ConvexSet(const Polytope& polytope);           // NOLINT: a polytope is a convex set
   ConvexSet(const DobkinKirkpatrick& polytope);  // NOLINT: a polytope is a convex set
@@ -50,6 +53,7 @@ struct ConvexSet {
   const DobkinKirkpatrick* hierarchy = nullptr;  ///< null, unless the view is of a hierarchy
 
  private:
+  void sweepDisc();  ///< makes a cylinder of a capsule
   std::uint32_t farthestVertex(const Vec3& m, std::uint32_t start) const;
 };
 

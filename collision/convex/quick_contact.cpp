@@ -10,35 +10,42 @@
 #include "collision/convex/quick_set.h"
 #include "collision/core/rounding.h"
 
-/// Notation. A set is {M p + t} over its points p, with its disc and its sphere. F, ρ and S: see
-/// `QuickSet`. w is the difference of a point of b and a point of a, so the sets' cores touch if
-/// and only if the hull of all w contains 0.
+/// Notation. A set is {M p + t} over its points p, with its disc and its sphere. F, ρ and S = Σ(Fρ
+/// + |t|) over both sets: see `QuickSet`. w is the difference of a point of b and a point of a; the
+/// cores touch if and only if the hull of all w contains 0. N = |n|.
 ///
-/// Separation. Let N = |n| and let p be the point whose computed product fl(m·p), m = fl(Mᵀn), is
-/// the largest. m is off by 3.1uFN, and the product by 3.1uFNρ more. Therefore no point of the set
-/// is farther along n than p by more than 2·6.2uFNρ. The image of p is off by 4.1u(Fρ + |t|), the
-/// difference w by u|w|, and n·w by 3.1uN|w|. With S = Σ(Fρ + |t|) over both sets, these errors are
-/// below 21uSN. The sphere's share r|m| is off by 7.1uFNr, and subtracting the shares by 2uSN, in
-/// total below 32uSN. For a disc, the point is not used, but its share disc·|m × axis|, which
-/// `PosedSet::highest` bounds by u(20Fρ + 6|t|)N: less than 32uSN for both sets, with the sums.
-/// For a box, `QuickSet::boxError` is added. `slack` is 40uS: the rest covers its own rounding.
+/// Separation. Let p be the point whose computed product fl(m·p), m = fl(Mᵀn), is the largest. m is
+/// off by 3.1uFN, and the product by 3.1uFNρ more. Therefore no point of the set is farther along n
+/// than p by more than 2·6.2uFNρ. The image of p is off by 4.1u(Fρ + |t|), the difference w by
+/// u|w|, and n·w by 3.1uN|w|. These errors are below 21uSN. The share r|m| of a sphere is off
+/// by 7.1uFNr, and subtracting the shares by 2uSN: together below 31uSN. A box adds `boxError`, and
+/// a disc 35uSN (`QuickSet::radial`). `slack` is 40uS, or 80uS with a disc; the rest of it covers
+/// its own rounding.
 ///
 /// Contact of the cores. The origin is inside four corners w_i if the four determinants of three
 /// corners, with their signs, are all positive. A corner is off by e: 4.1u(Fρ + |t|) for each
-/// point, 12uF·disc more for a point on a disc (axis 6u, two projections and a norm 6u), and u|w|.
-/// Hence e < 16uS. With |w| ≤ S a determinant is off by at most (18e + 40uS)S² < 328uS³
+/// point, 12uF·disc for a point on a disc (axis 6u, projections and a norm 6u), and u|w|. Hence e <
+/// 16uS. With |w| ≤ S a determinant is off by at most (18e + 40uS)S² < 328uS³
 /// (predicates/orientation.cpp); `inside` is 512uS³.
 ///
-/// Contact of swept spheres. `upper` is the length of a convex combination of corners, off by less
-/// than e + 8uS = 24uS. So sets that count as touching are closer than 2^-49·S + 24uS < 2^-47.9·S.
-/// S is below 12 times the largest coordinate, so this is within the band of 2^-44.
+/// Contact within the band. Let c be the largest coordinate involved, so |p| ≤ √3·c, S < 17c and
+/// |w| < 4c. `upper` is a convex combination of differences w. A coordinate of an image is off by
+/// 4.1u(√3 + 1)c, so w is off by 43uc, the combination by 8u|w| more: 75uc together. `toPoint`
+/// finds a point of the solid up to 2√3(r + 6uρ) < 100uc for a box (r < 2^-50·2c), and 40uc for a
+/// cylinder. The maps may shrink each sphere by 3·2^-48·c = 96uc (`keepsBall`), and `near` allows
+/// 2^-51·S < 70uc. The sum is below 75 + 100 + 192 + 70 < 512 = 2^-44/u: the band.
 ///
 /// Underflow. S is within 2^±100. A product that underflows is off by 2^-1022, and later factors
-/// are below 2^400. The smallest slack, uSN with N > 2^-60·S, is far larger.
+/// are below 2^400. The smallest slack, 40uSN with N > 2^-60·S, is far larger.
 namespace corridor {
 namespace {
 
 constexpr int kRounds = 24;  // more are slower than the search that follows
+
+/// Returns x clamped to [0, 1].
+double within(double x) {
+  return std::min(std::max(x, 0.0), 1.0);
+}
 
 /// Two corners or three of a simplex that may contain the point closest to the origin.
 struct Face {
@@ -74,7 +81,9 @@ Face triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
   if (!(inA > 0 && inB > 0 && inC > 0)) return segment(b, c);
   const Vec3 n = ab.cross(ac);
   const double sum = 1 / (inA + inB + inC);
-  return {{a, b, c}, 3, n * (n.dot(a) / n.squaredNorm()),
+  return {{a, b, c},
+          3,
+          n * (n.dot(a) / n.squaredNorm()),
           a * (inA * sum) + b * (inB * sum) + c * (inC * sum)};
 }
 
@@ -87,19 +96,21 @@ class Query {
 
   std::optional<bool> decide() {
     if (!(size_ > 0x1p-100 && size_ < 0x1p100)) return std::nullopt;  // also NaN
-    if (a_.count == 1 && b_.count == 1) return verdict(b_.image(b_.points[0]) - a_.image(a_.points[0]));
+    if (a_.count == 1 && b_.count == 1)
+      return verdict(b_.image(b_.points[0]) - a_.image(a_.points[0]));
     if (a_.box && b_.box) return quickBoxes(a_, b_);
     if (a_.count == 1 && (b_.box || b_.flatEnds)) return verdict(toPoint(b_, a_));
     if (b_.count == 1 && (a_.box || a_.flatEnds)) return verdict(-toPoint(a_, b_));
     if (a_.count <= 2 && b_.count <= 2 && !a_.flatEnds && !b_.flatEnds) return segments();
-    if (apart(b_.image(b_.middle) - a_.image(a_.middle))) return false;
+    w_ = b_.image(b_.middle) - a_.image(a_.middle);
+    if (apart(w_)) return false;
     return search();
   }
 
  private:
   /// Returns whether n proves that the sets are apart. Sets `w_` to the corner that is extreme
   /// along n.
-  bool apart(const Vec3& n) {
+  bool apart(const Vec3 n) {  // a copy: n may be `w_`
     const double square = n.squaredNorm();
     if (!(square > 0x1p-120 * size_ * size_)) return false;
     const Vec3 m = a_.local(n), k = -b_.local(n);
@@ -117,7 +128,7 @@ class Query {
   /// Returns true if the cores are close enough for the sets to touch. @param upper the length of a
   /// vector from a point of core a to a point of core b
   bool near(const Vec3& upper) const {
-    const double limit = radii_ + 0x1p-50 * size_;
+    const double limit = radii_ + 0x1p-51 * size_;
     return upper.squaredNorm() <= limit * limit && a_.posed.keepsBall() && b_.posed.keepsBall();
   }
 
@@ -136,22 +147,19 @@ class Query {
     const double dd = d.squaredNorm(), ee = e.squaredNorm(), de = d.dot(e), dr = d.dot(r),
                  er = e.dot(r), area = dd * ee - de * de;
     if (!(dd > 0 && ee > 0)) return std::nullopt;
-    double s = area > 0 ? std::clamp((de * er - dr * ee) / area, 0.0, 1.0) : 0;
-    double t = (de * s + er) / ee;
-    if (!(t >= 0 && t <= 1)) {
-      t = t > 1 ? 1 : 0;
-      s = std::clamp((t * de - dr) / dd, 0.0, 1.0);
-    }
+    double s = area > 0 ? within((de * er - dr * ee) / area) : 0;
+    const double t = within((de * s + er) / ee);
+    s = within((t * de - dr) / dd);
     return verdict(e * t - d * s - r);
   }
 
-  /// Returns the vector from a point to the point of a box or cylinder that is closest to it. If the
-  /// map is not rigid it is some point of the solid.
+  /// Returns the vector from a point to the point of a box or cylinder that is closest to it. If
+  /// the map is not rigid it is some point of the solid.
   Vec3 toPoint(const QuickSet& solid, const QuickSet& point) const {
     const Vec3 p = point.image(point.points[0]), q = solid.local(p - solid.t) - solid.points[0];
     if (solid.box) {
       Vec3 foot = solid.points[0];
-      for (const Vec3& e : solid.edge) foot += e * std::clamp(e.dot(q) / e.squaredNorm(), 0.0, 1.0);
+      for (const Vec3& e : solid.edge) foot += e * within(e.dot(q) / e.squaredNorm());
       return solid.image(foot) - p;
     }
     const Vec3& axis = solid.posed.set().axis;
@@ -161,8 +169,7 @@ class Query {
     const double square = out.squaredNorm(), disc = solid.posed.set().disc;
     if (square > disc * disc) out *= disc / std::sqrt(square);
     out -= axis * axis.dot(out);
-    return solid.image(solid.points[0] + d * std::clamp(d.dot(q) / d.squaredNorm(), 0.0, 1.0) + out) -
-           p;
+    return solid.image(solid.points[0] + d * within(d.dot(q) / d.squaredNorm()) + out) - p;
   }
 
   /// GJK, with the corner `w_` of the first direction as its first simplex.

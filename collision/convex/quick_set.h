@@ -42,8 +42,8 @@ struct QuickSet {
     if (count == 8 && findEdges()) {
       box = true;
       middle = 0.5 * (points[0] + points[7]);
-      reach = middle.cwiseAbs() +
-              0.5 * (edge[0].cwiseAbs() + edge[1].cwiseAbs() + edge[2].cwiseAbs());
+      reach =
+          middle.cwiseAbs() + 0.5 * (edge[0].cwiseAbs() + edge[1].cwiseAbs() + edge[2].cwiseAbs());
     } else {
       middle = points[0];
       reach = middle.cwiseAbs();
@@ -58,7 +58,11 @@ struct QuickSet {
     if (box) boxError = roundedUp(map * (8 * residual + 90 * kUnit * local));
   }
 
-  Vec3 image(const Vec3& p) const { return M * p + t; }
+  Vec3 image(const Vec3& p) const {
+    return {M(0, 0) * p[0] + M(0, 1) * p[1] + M(0, 2) * p[2] + t[0],
+            M(1, 0) * p[0] + M(1, 1) * p[1] + M(1, 2) * p[2] + t[1],
+            M(2, 0) * p[0] + M(2, 1) * p[1] + M(2, 2) * p[2] + t[2]};
+  }
   /// Returns Mᵀn.
   Vec3 local(const Vec3& n) const { return {M.col(0).dot(n), M.col(1).dot(n), M.col(2).dot(n)}; }
 
@@ -90,6 +94,11 @@ struct QuickSet {
   double size, boxError = 0;
 
  private:
+  /// Returns the vector to the disc's point that is farthest along m.
+  ///
+  /// The component of m across the axis is off by 19u|m| (axis 2·6u, rounding 7u). The second
+  /// projection removes what rounding has left along the axis, so that m·unit is this component up
+  /// to 30u|m|. The point is rounded by 5uρ.
   Vec3 radial(const Vec3& m, double& missed) const {
     const Vec3& axis = posed.set().axis;
     const double disc = posed.set().disc, square = m.squaredNorm();
@@ -111,7 +120,7 @@ struct QuickSet {
                        .cwiseMax((points[7] - points[6] - edge[0]).cwiseAbs());
     residual = d.maxCoeff();
     const double far = points[0].cwiseAbs().maxCoeff() + points[7].cwiseAbs().maxCoeff();
-    if (residual <= 0x1p-48 * far) return true;
+    if (residual <= 0x1p-50 * far) return true;
     residual = 0;
     return false;
   }
