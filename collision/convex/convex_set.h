@@ -77,6 +77,9 @@ struct ConvexSet {
 /// Sizes and coordinates should be 0 or within 2^±440 m. Outside this range, squares overflow or
 /// vanish. Then contact queries may report a contact that does not exist, and distances may be too
 /// small. A contact is never missed, and a distance is never too large.
+///
+/// `error`, `localReach` and `reach` are computed by the first call of one of them. So threads must
+/// not share a `PosedSet`.
 class PosedSet {
  public:
   PosedSet(const ConvexSet& set, const Transform& X) : set_(set), X_(X) {}

@@ -102,20 +102,24 @@ class Query {
     if (a_.count == 1 && (b_.box || b_.flatEnds)) return verdict(toPoint(b_, a_));
     if (b_.count == 1 && (a_.box || a_.flatEnds)) return verdict(-toPoint(a_, b_));
     if (a_.count <= 2 && b_.count <= 2 && !a_.flatEnds && !b_.flatEnds) return segments();
-    w_ = b_.image(b_.middle) - a_.image(a_.middle);
-    if (apart(w_)) return false;
+    const Vec3 between = b_.image(b_.middle) - a_.image(a_.middle);
+    w_ = between;  // remains if it is too short for a direction
+    if (apart(between)) return false;
     return search();
   }
 
  private:
   /// Returns whether n proves that the sets are apart. Sets `w_` to the corner that is extreme
   /// along n.
-  bool apart(const Vec3 n) {  // a copy: n may be `w_`
+  bool apart(const Vec3& n) {
     const double square = n.squaredNorm();
     if (!(square > 0x1p-120 * size_ * size_)) return false;
     const Vec3 m = a_.local(n), k = -b_.local(n);
     double missed = 0;
-    w_ = b_.farthest(k, missed) - a_.farthest(m, missed);
+    if (a_.count == 1 && b_.count == 1)
+      w_ = n;  // the only corner, which `decide` has computed
+    else
+      w_ = b_.farthest(k, missed) - a_.farthest(m, missed);
     const double along = n.dot(w_) - missed;
     if (!(along > 0)) return false;
     const double length = std::sqrt(square);
