@@ -1,10 +1,13 @@
 #include "collision/convex/convex_contact.h"
 
 #include "collision/convex/gjk.h"
+#include "collision/convex/quick_contact.h"
 
 namespace corridor {
 
 PredicateResult convexSetsTouch(const PosedSet& a, const PosedSet& b, ConvexCache* cache) {
+  if (!cache)
+    if (const auto quick = quickContact(a, b)) return {*quick, false};
   const double size = a.reach() + a.pose().t.norm() + b.reach() + b.pose().t.norm();
   double radii = a.set().ball + b.set().ball;
   // `slack` bounds the errors of both projections and of their sum; each projection is below

@@ -11,9 +11,8 @@
 
 namespace corridor {
 
-ConvexSet::ConvexSet(const ConvexPart& part) : points(part.points), ball(part.radius) {
-  if (!part.flatEnds) return;
-  const Vec3 d = part.points[1] - part.points[0];
+void ConvexSet::sweepDisc() {
+  const Vec3 d = points[1] - points[0];
   const double square = d.squaredNorm();
   // If the axis cannot be normalised, the set becomes the capsule, which contains the cylinder.
   if (!(square > 0x1p-900 && square < 0x1p900)) return;
@@ -40,15 +39,15 @@ std::uint32_t ConvexSet::farthestVertex(const Vec3& m, std::uint32_t start) cons
   return hierarchy->extreme(m);
 }
 
-PosedSet::PosedSet(const ConvexSet& set, const Transform& X) : set_(set), X_(X) {
+void PosedSet::findBounds() const {
   double farthest = set_.polytope ? set_.polytope->reachSquared() : 0;
   if (!set_.polytope)
     for (const Vec3& p : set_.points) farthest = std::max(farthest, p.squaredNorm());
   // Squares below 2^-1022 vanish, and so do lengths below 2^-511. 2^-500 covers this for points,
   // and 2^-440 for ‖M‖ and for the length of Mᵀn: 20u·2^-440 > 2^-511.
-  localReach_ = roundedUp(std::sqrt(farthest) + set.ball + set.disc + 0x1p-500);
-  reach_ = roundedUp(std::max(0x1p-440, X.m.norm()) * localReach_);
-  error_ = roundedUp(kUnit * (20 * reach_ + 6 * X.t.norm()));
+  localReach_ = roundedUp(std::sqrt(farthest) + set_.ball + set_.disc + 0x1p-500);
+  reach_ = roundedUp(std::max(0x1p-440, X_.m.norm()) * localReach_);
+  error_ = roundedUp(kUnit * (20 * reach_ + 6 * X_.t.norm()));
 }
 
 bool PosedSet::keepsBall() const {

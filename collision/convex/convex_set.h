@@ -20,7 +20,10 @@ class Polytope;
 /// hill climbing on a `Polytope`, and by the hierarchy of a `DobkinKirkpatrick`, in O(n), some
 /// O(√n) and O(log n). The answers are the same up to the promised errors.
 struct ConvexSet {
-  ConvexSet(const ConvexPart& part);             // NOLINT: a part is a convex set
+  ConvexSet(const ConvexPart& part)  // NOLINT: a part is a convex set
+      : points(part.points), ball(part.radius) {
+    if (part.flatEnds) sweepDisc();
+  }
   ConvexSet(const Triangle& triangle);           // NOLINT: a triangle is a convex set
   ConvexSet(const Polytope& polytope);           // NOLINT: a polytope is a convex set
   ConvexSet(const DobkinKirkpatrick& polytope);  // NOLINT: a polytope is a convex set
@@ -50,6 +53,7 @@ struct ConvexSet {
   const DobkinKirkpatrick* hierarchy = nullptr;  ///< null, unless the view is of a hierarchy
 
  private:
+  void sweepDisc();  ///< makes a cylinder of a capsule
   std::uint32_t farthestVertex(const Vec3& m, std::uint32_t start) const;
 };
 
@@ -73,14 +77,17 @@ struct ConvexSet {
 /// Sizes and coordinates should be 0 or within 2^±440 m. Outside this range, squares overflow or
 /// vanish. Then contact queries may report a contact that does not exist, and distances may be too
 /// small. A contact is never missed, and a distance is never too large.
+///
+/// `error`, `localReach` and `reach` are computed by the first call of one of them. So threads must
+/// not share a `PosedSet`.
 class PosedSet {
  public:
-  PosedSet(const ConvexSet& set, const Transform& X);
+  PosedSet(const ConvexSet& set, const Transform& X) : set_(set), X_(X) {}
 
   /// Returns max n·x over all points x of the image, off by at most `error()`. @pre |n| ≤ 1 + 5u.
   /// @param start  as for `ConvexSet::farthest`.
   double highest(const Vec3& n, std::uint32_t start = ConvexSet::kCold) const;
-  double error() const { return error_; }
+  double error() const { return found(), error_; }
 
   /// Returns max m·p over the points p of the core, in the set's own frame; rounded.
   double coreHighest(const Vec3& m, std::uint32_t start = ConvexSet::kCold) const;
@@ -92,14 +99,19 @@ class PosedSet {
   const Transform& pose() const { return X_; }
   /// Returns the largest |p| + ball + disc over the points p in the set's own frame; rounded up.
   /// Metres.
-  double localReach() const { return localReach_; }
+  double localReach() const { return found(), localReach_; }
   /// Returns ‖M‖_F·`localReach()`, rounded up: how far the image reaches from the map's t. Metres.
-  double reach() const { return reach_; }
+  double reach() const { return found(), reach_; }
 
  private:
+  void found() const {
+    if (!(error_ >= 0)) findBounds();
+  }
+  void findBounds() const;
+
   ConvexSet set_;
   Transform X_;
-  double localReach_ = 0, reach_ = 0, error_ = 0;
+  mutable double localReach_ = 0, reach_ = 0, error_ = -1;  // found when first needed
 };
 
 }  // namespace corridor

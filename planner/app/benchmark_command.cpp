@@ -177,6 +177,7 @@ int benchmarkCommand(const BenchmarkArguments& a) {
     campaign.notes.push_back(note);
     warn(note);
   }
+  for (const std::string& line : failuresOf(result.cells)) warn(line);
   if (result.interrupted)
     warn(!any       ? "interrupted before the first run was done; nothing is written"
          : a.output ? "interrupted: the results cover the finished runs; --resume continues"

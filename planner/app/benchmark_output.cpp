@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <set>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -103,6 +105,20 @@ std::vector<std::string> notesOf(const Campaign& campaign, const std::vector<Cam
     notes.push_back("the runs are from several machines, whose times differ: " +
                     joined(std::vector<std::string>(hosts.begin(), hosts.end())));
   return notes;
+}
+
+std::vector<std::string> failuresOf(const std::vector<CampaignCell>& cells) {
+  std::map<std::string, std::size_t> counts;
+  for (const CampaignCell& cell : cells)
+    for (const BenchmarkRun& run : cell.runs)
+      if (!run.failure.empty()) ++counts[run.failure];
+  std::vector<std::pair<std::string, std::size_t>> reasons(counts.begin(), counts.end());
+  std::stable_sort(reasons.begin(), reasons.end(),
+                   [](const auto& a, const auto& b) { return a.second > b.second; });
+  std::vector<std::string> lines;
+  for (const auto& [why, runs] : reasons)
+    lines.push_back(std::to_string(runs) + (runs == 1 ? " run failed: " : " runs failed: ") + why);
+  return lines;
 }
 
 std::string campaignJson(const Campaign& campaign, const CampaignResult& result) {

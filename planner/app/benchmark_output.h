@@ -19,6 +19,10 @@ void showProgress(const Campaign& campaign, const CampaignProgress& progress);
 std::vector<std::string> notesOf(const Campaign& campaign, const std::vector<CampaignCell>& cells,
                                  const std::vector<CampaignSession>& sessions);
 
+/// Returns a line for each distinct reason for which runs failed, the most frequent first: "3 runs
+/// failed: out of memory". `runs.csv` has the reason of each run.
+std::vector<std::string> failuresOf(const std::vector<CampaignCell>& cells);
+
 /// Returns the object that --json prints.
 std::string campaignJson(const Campaign& campaign, const CampaignResult& result);
 

@@ -11,6 +11,7 @@
 
 #include "collision/core/error.h"
 #include "collision/core/spelling.h"
+#include "collision/geometry/assimp_import.h"
 #include "collision/geometry/mesh_file.h"
 #include "planner/app/commands.h"
 #include "planner/app/interrupt.h"
@@ -98,6 +99,18 @@ int viewVolumes(const ViewArguments& a) {
   return kDone;
 }
 
+/// @throws InputError if a mesh is given where a problem is needed.
+void refuseMesh(const std::string& file) {
+  const std::string extension = lowered(std::filesystem::path(file).extension().string());
+  const auto is = [&](const auto& formats) {
+    return std::find(formats.begin(), formats.end(), extension) != formats.end();
+  };
+  if (is(kOwnFormats) || is(kAssimpFormats))
+    throw InputError(Fault{file, 0,
+                           "is a mesh, and view draws a problem; add --volume NAME to draw the "
+                           "bounding volumes of a mesh"});
+}
+
 int viewCommand(const ViewArguments& a) {
   if (a.volume) return viewVolumes(a);
   if (a.level) throw InputError(Fault{"--level", 0, "needs --volume, which is not given"});
@@ -112,6 +125,7 @@ int viewCommand(const ViewArguments& a) {
   const std::optional<std::filesystem::path> browser =
       a.image ? std::optional(requireBrowser("--image")) : std::nullopt;
 
+  refuseMesh(a.problem);
   const Problem problem = readProblemOf(a.problem);
   std::optional<std::string> pageFile = a.output;
   if (!a.output && !a.image) {

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "collision/convex/convex_contact.h"
 #include "collision/convex/dobkin_kirkpatrick.h"
 #include "collision/convex/exact_contact.h"
 #include "collision/convex/linear_program.h"
@@ -17,6 +18,7 @@
 #include "collision/convex/vclip.h"
 #include "collision/core/floating_point.h"
 #include "collision/motion/check_certificate.h"
+#include "tests/collision/convex/touching_pairs.h"
 #include "tests/collision/motion/bodies.h"
 #include "tests/collision/motion/grazing.h"
 #include "tests/support/support.h"
@@ -81,6 +83,34 @@ TEST(FlushToZero, ContactOfTinyPolytopesIsExact) {
     EXPECT_EQ(separatingAxis(features, {}, features, X).separated, !touch) << n;
     EXPECT_EQ(closestFeatures(features, {}, features, X, pair).distance.distance == 0, touch) << n;
   }
+}
+
+/// Contacts of primitives of any scale are never missed, also where squares or products of three
+/// lengths become 0. From 2^-90 m on, gaps are found, too.
+TEST(FlushToZero, ContactsOfTinyPrimitivesAreNotMissed) {
+  test::Touching make(test::testSeed(11));
+  int apart = 0;
+  for (const test::Shape sa : test::kShapes)
+    for (const test::Shape sb : test::kShapes)
+      for (int n = 0; n < 100; ++n) {
+        test::Feature a = make.feature(sa), b = make.feature(sb);
+        const double scale = std::ldexp(1.0, n % 2 ? -make.pick(90) : -make.pick(1050));
+        for (test::Feature* f : {&a, &b}) {
+          for (Vec3& p : f->part.points) p *= scale;
+          f->part.radius *= scale;
+          f->x *= scale;
+        }
+        const Vec3 normal = make.vector().normalized(), x = make.vector() * scale;
+        const Transform X_WA = make.pose(a, x, normal), X_WB = make.pose(b, x, -normal);
+        Transform deep = X_WB, far = X_WB;
+        deep.t -= normal * (0x1p-40 * scale);
+        far.t += normal * (0x1p-20 * scale);
+        ASSERT_TRUE(convexSetsTouch({a.set(), X_WA}, {b.set(), deep})) << n << " " << scale;
+        if (n % 2 == 0) continue;
+        ASSERT_FALSE(convexSetsTouch({a.set(), X_WA}, {b.set(), far})) << n << " " << scale;
+        ++apart;
+      }
+  EXPECT_GT(apart, 1'000);
 }
 
 TEST(FlushToZero, TinyLinearProgramsAreExact) {

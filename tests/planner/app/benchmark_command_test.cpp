@@ -281,7 +281,9 @@ TEST_F(BenchmarkCommand, ARunOutOfMemoryCountsAsFailed) {
   EXPECT_EQ(cell["failed"], 1);
   EXPECT_EQ(cell["rows"][0]["result"], "failed");
   EXPECT_EQ(cell["rows"][0]["time_s"], nullptr);
-  EXPECT_FALSE(cell["rows"][0]["failure"].get<std::string>().empty());
+  const auto why = cell["rows"][0]["failure"].get<std::string>();
+  EXPECT_FALSE(why.empty());
+  EXPECT_THAT(result.err, testing::HasSubstr("1 run failed: " + why + "\n"));
 }
 
 TEST_F(BenchmarkCommand, AnUnsolvedProblemIsNoError) {

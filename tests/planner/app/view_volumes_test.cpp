@@ -33,6 +33,9 @@ TEST_F(ViewVolumes, BadInputIsOneLineAndExit2) {
   expectFaultThatBegins("view " + piano + " --volume aabb --level 999",
                         "--level: the tree has the levels 0 to ");
   expectFault("view " + piano + " --level 1", "--level: needs --volume, which is not given");
+  expectFault("view " + piano, piano +
+                                   ": is a mesh, and view draws a problem; add --volume NAME "
+                                   "to draw the bounding volumes of a mesh");
   expectFault("view " + piano + " --volume aabb --size 9x9",
               "--size: can't be used with --volume, which draws a mesh");
   expectFault("view " + piano + " --volume aabb -o a.html",

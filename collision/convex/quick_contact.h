@@ -1,0 +1,18 @@
+#pragma once
+
+#include <optional>
+
+#include "collision/convex/convex_set.h"
+
+namespace corridor {
+
+/// Decides contact of two convex sets in double, if double suffices; else returns nullopt. It is
+/// the first step of `convexSetsTouch`, with the same guarantee: `false` is proved in real
+/// arithmetic, and `true` is right unless the sets are closer than the band.
+///
+/// Method: the closest points of two segments, and of a point and a box, in closed form; two boxes
+/// by separating axes (Gottschalk, Lin, Manocha 1996); GJK for all other sets. Whatever finds a
+/// direction, a projection of both sets proves the gap. Polytopes are not taken: nullopt.
+std::optional<bool> quickContact(const PosedSet& a, const PosedSet& b);
+
+}  // namespace corridor
