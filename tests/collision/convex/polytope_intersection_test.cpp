@@ -83,7 +83,7 @@ void expectRight(const Preprocessed& p, const Transform& X_WP, const Preprocesse
 TEST(PolytopeIntersection, AgreesWithRationalSimplexUnderPoses) {
   test::ExactPairs random(test::testSeed(61));
   Tally tally;
-  const int pairs = test::isStressRun() ? 20'000 : 700 / test::kSlowdown;
+  const int pairs = test::isStressRun() ? 20'000 : 280 / test::kSlowdown;
   for (int n = 0; n < pairs; ++n) {
     const Preprocessed p(random.polytope(n % random.kKinds)),
         q(random.polytope(n / random.kKinds % random.kKinds));
@@ -105,7 +105,7 @@ TEST(PolytopeIntersection, AgreesWithRationalSimplexUnderPoses) {
 TEST(PolytopeIntersection, AgreesWithRationalSimplexOnDegeneratePairs) {
   test::HullPairs<3> random(test::testSeed(62));
   Tally tally;
-  const int tries = test::isStressRun() ? 40'000 : 2000 / test::kSlowdown;
+  const int tries = test::isStressRun() ? 40'000 : 900 / test::kSlowdown;
   for (int n = 0; n < tries; ++n) {
     const auto [a, b] = random.next();
     try {
@@ -190,7 +190,7 @@ void expectInvariants(const PolytopePruning& left, const Preprocessed& p, const 
 
 TEST(PolytopeIntersection, EachPruningKeepsBothInvariants) {
   Random random(test::testSeed(63));
-  const int pairs = test::isStressRun() ? 3000 : 120 / test::kSlowdown;
+  const int pairs = test::isStressRun() ? 3000 : 64 / test::kSlowdown;
   int steps[2] = {0, 0}, changes = 0, deepest = 0;
   for (int n = 0; n < pairs; ++n) {
     const std::size_t size = n % 8 == 0 ? 1000 : 20 + 10 * static_cast<std::size_t>(n % 7);
@@ -235,7 +235,7 @@ TEST(PolytopeIntersection, EachPruningKeepsBothInvariants) {
 /// The number of steps grows like the logarithm, also for polytopes that nearly touch.
 TEST(PolytopeIntersection, TakesLogarithmicallyManySteps) {
   Random random(test::testSeed(64));
-  for (const std::size_t n : {10u, 100u, 1000u, 20'000u / test::kSlowdown}) {
+  for (const std::size_t n : {10u, 100u, 1000u, 4000u / test::kSlowdown}) {
     const Preprocessed p{Polytope(random.onSphere(n))}, q{Polytope(random.onSphere(n))};
     const std::size_t levels = p.inner.levels() + q.outer.polar()->levels();
     int most = 0, sum = 0, exact = 0;
