@@ -20,8 +20,7 @@ struct PlaneSeparation {
   std::uint32_t witness = 0;
   /// Bounds of the separation, which include all rounding: the distance from the plane if `side` is
   /// not 0, else minus the least depth, which is how far the polytope must move along the normal,
-  /// or against it, until it only touches the plane. 0 < upper or lower < 0 never contradict
-  /// `side`.
+  /// or against it, until it only touches the plane. lower ≥ 0 if `side` is not 0, else upper ≤ 0.
   double lower = 0, upper = 0;
 };
 

@@ -39,7 +39,8 @@ struct PolytopePruning {
 /// exact, in real arithmetic on the given doubles, for any finite maps.
 ///
 /// Method: L. Barba, S. Langerman, Optimal detection of intersections between convex polyhedra
-/// (SODA 2015), in space. P_i is the inner hierarchy of P, Q_j the outer one of Q, and i and j only
+/// (SODA 2015), in space: its hierarchies and its two invariants; the step of constant time is
+/// derived here. P_i is the inner hierarchy of P, Q_j the outer one of Q, and i and j only
 /// decrease. One of two invariants holds:
 /// * Separation: a plane h separates P_i from Q_j. At most one vertex v of P_{i−1} is beyond h,
 ///   because such vertices are no neighbours. All of P_{i−1} beyond h is in the hull of v and its
@@ -49,7 +50,7 @@ struct PolytopePruning {
 ///
 /// Let T_P be the hull of v, its neighbours, and the last x; and T_Q the half-spaces H, its
 /// neighbours, and the half-space beyond the last h: at most ten each.
-/// * If T_P and T_Q are apart, by a plane g, then a plane through v and the line where g meets h
+/// * If T_P and T_Q are apart, by a plane g, then the plane through v and the line where g meets h
 ///   separates P_{i−1} from T_Q, and so from Q. (Let h, g ≤ 0 on the side of P. For y of P_{i−1}
 ///   with h(y) < 0 and g(y) > 0, the segment to v meets h = 0 in the hull of v and its neighbours,
 ///   where g ≤ 0. So y is below this plane.) It is the next h, and i decreases.
