@@ -132,8 +132,8 @@ void measure(std::size_t n, std::size_t queries) {
   std::optional<OuterHierarchy> outerB;
   const double outerMs = milliseconds([&] { outerB.emplace(fastB); });
   row("build outer hierarchy (ms)", "Barba-Langerman", outerMs);
-  row("levels", "Barba-Langerman, outer", static_cast<double>(outerB->polar()->levels()));
-  row("bytes per vertex", "Barba-Langerman, outer",
+  row("levels", "outer hierarchy", static_cast<double>(outerB->polar()->levels()));
+  row("bytes per vertex", "outer hierarchy",
       static_cast<double>(outerB->bytes()) / static_cast<double>(n));
 
   std::vector<Vec3> directions(queries);
