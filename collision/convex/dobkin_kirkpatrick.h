@@ -33,6 +33,17 @@ class DobkinKirkpatrick {
   /// The number of vertices of P_i.
   std::size_t vertexCount(std::size_t level) const { return vertexCounts_[level]; }
   std::size_t bytes() const;
+  /// The vertices of the simplex.
+  std::span<const std::uint32_t> simplex() const { return simplex_; }
+  /// The last (coarsest) level i whose polytope P_i has vertex v.
+  std::size_t lastLevel(std::uint32_t v) const {
+    return rings_[v].removed > 0 ? rings_[v].removed - 1U : levels() - 1;
+  }
+  /// The neighbours of vertex v in that polytope, counterclockwise: at most 8. Empty for a vertex
+  /// of the simplex.
+  std::span<const std::uint32_t> ringOf(std::uint32_t v) const {
+    return std::span(ringVertex_).subspan(rings_[v].start, rings_[v].size);
+  }
 
   /// What a query did.
   struct Cost {
@@ -42,12 +53,9 @@ class DobkinKirkpatrick {
   /// Returns a vertex that is farthest along a direction: exact, in real arithmetic on the given
   /// doubles. O(log n).
   ///
-  /// Method. The shadow of P_i on a plane that contains the direction is a polygon. The query keeps
-  /// its topmost vertex v and the two edges of the shadow at v. A vertex of P_{i−1} that is higher
-  /// than v, or beyond one of these edges, is opposite to one of the four faces at these edges, so
-  /// a level takes constant time (J. O'Rourke, Computational Geometry in C, section 7.10). This is
-  /// done in double. At the end, the two edges prove in exact arithmetic that v is topmost. If
-  /// rounding led astray, the query climbs from v along edges, with exact comparisons.
+  /// Method: the hierarchy of projections (polytope_shadow.h), in double. At the end, two edges
+  /// prove in exact arithmetic that the vertex is farthest. If rounding led astray, the query
+  /// climbs from there along edges, with exact comparisons.
   /// @pre the direction is finite. 0: any vertex.
   std::uint32_t extreme(const Vec3& direction, Cost* cost = nullptr) const;
 
@@ -59,6 +67,7 @@ class DobkinKirkpatrick {
 
  private:
   friend class DobkinKirkpatrickBuilder;
+  friend class PolytopeShadow;
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
   struct Face {
@@ -73,12 +82,6 @@ class DobkinKirkpatrick {
     std::uint16_t size = 0;
     std::uint16_t removed = 0;  ///< the first level without the vertex; 0: a vertex of the simplex
   };
-  struct Edge;
-  struct Shadow;
-
-  std::span<const std::uint32_t> ringOf(std::uint32_t v) const {
-    return std::span(ringVertex_).subspan(rings_[v].start, rings_[v].size);
-  }
   std::span<const std::uint32_t> starOf(std::uint32_t v) const {
     return std::span(ringFace_).subspan(rings_[v].start, rings_[v].size);
   }

@@ -400,7 +400,9 @@ void addQuery(CLI::App& program, int& status) {
               "separating plane by linear programming, on the rounded vertices of B at each pose "
               "(interference only). vclip finds the closest vertices, edges or faces (no depth). "
               "axes tests the normals of faces and the products of edges (interference only); its "
-              "time grows with the product of the numbers of edges, so it is for small hulls")
+              "time grows with the product of the numbers of edges, so it is for small hulls. "
+              "barba-langerman tests parts of an inner hierarchy of A against parts of an outer "
+              "one of B (interference only)")
       ->group(asked);
   command
       ->add_flag(
@@ -435,7 +437,8 @@ void addQuery(CLI::App& program, int& status) {
           "closest point of each hull; depth: pose,lower,upper,nx,ny,nz,ax,ay,az,bx,by,bz,steps, "
           "with bounds of the "
           "least length by which B must move to leave A, and the direction; steps are rounds of "
-          "the search, with vclip also pairs of features, with axes the axes tested, with lp 0\n"
+          "the search, with vclip also pairs of features, with axes the axes tested, with lp 0, "
+          "with barba-langerman the tests of two parts\n"
           "  tolerance: pose,closer, which is 1 if A and B are at most the tolerance apart\n"
           "  with --deform: frame before these columns, 0 for A itself; after them refit_ms, the "
           "time to refit the tree of A to the frame, and query_ns\n"

@@ -11,7 +11,9 @@
 #include "collision/convex/convex_contact.h"
 #include "collision/convex/convex_distance.h"
 #include "collision/convex/dobkin_kirkpatrick.h"
+#include "collision/convex/outer_hierarchy.h"
 #include "collision/convex/penetration.h"
+#include "collision/convex/polytope_intersection.h"
 #include "collision/convex/separating_axes.h"
 #include "collision/convex/separating_plane.h"
 #include "collision/convex/vclip.h"
@@ -30,9 +32,11 @@ namespace {
 struct Hull {
   std::optional<DobkinKirkpatrick> hierarchy;
   std::optional<PolytopeFeatures> features;  ///< with vclip and axes
+  std::optional<OuterHierarchy> outer;       ///< with barba-langerman; refers to `hierarchy`
   ConvexPart part;                           ///< the vertices of the hull
   double buildMs = 0;
 
+  Hull(const Hull&) = delete;
   Hull(const HullInput& input, const std::string& method) {
     const auto start = std::chrono::steady_clock::now();
     try {
@@ -43,6 +47,7 @@ struct Hull {
           if (!taken[v]) taken[v] = true, used.push_back(input.mesh.vertices[v]);
       hierarchy.emplace(Polytope(used));
       if (method == "vclip" || method == "axes") features.emplace(*hierarchy);
+      if (method == "barba-langerman") outer.emplace(*hierarchy);
     } catch (const std::invalid_argument& error) {
       throw InputError(
           Fault{input.file, 0, std::string("--hulls needs a solid hull: ") + error.what()});
@@ -92,8 +97,8 @@ void requireNameAmong(const std::vector<std::string>& names, const std::string& 
 }  // namespace
 
 const std::vector<std::string>& hullMethods() {
-  static const std::vector<std::string> names = {"hierarchy", "climbing", "every-vertex",
-                                                 "lp",        "vclip",    "axes"};
+  static const std::vector<std::string> names = {"hierarchy", "climbing", "every-vertex",   "lp",
+                                                 "vclip",     "axes",     "barba-langerman"};
   return names;
 }
 
@@ -102,14 +107,15 @@ void requireHullQuery(const std::string& method, const std::optional<std::string
   const std::string query = asked.value_or("interference");
   requireNameAmong(hullMethods(), method, "--hulls", "method");
   requireNameAmong({"interference", "distance", "depth"}, query, "--query", "query with --hulls:");
-  if ((method == "lp" || method == "axes") && query != "interference")
+  const bool keepsNothing = method == "lp" || method == "barba-langerman";
+  if ((keepsNothing || method == "axes") && query != "interference")
     throw InputError(Fault{"--hulls", 0, method + " needs --query interference"});
   if (method == "vclip" && query == "depth")
     throw InputError(Fault{"--hulls", 0, "vclip needs --query interference or distance"});
-  if (coherent && (method == "lp" || query == "depth"))
+  if (coherent && (keepsNothing || query == "depth"))
     throw InputError(Fault{"--coherent", 0,
-                           std::string("can't be used with ") +
-                               (method == "lp" ? "--hulls lp" : "--query depth") +
+                           "can't be used with " +
+                               (keepsNothing ? "--hulls " + method : "--query depth") +
                                ", which keeps nothing from pose to pose"});
 }
 
@@ -126,8 +132,8 @@ void queryHulls(const HullInput& inputA, const HullInput& inputB,
   BatchResult result;
   result.buildMsA = a.buildMs;
   result.buildMsB = b.buildMs;
-  result.bytesA = a.hierarchy->bytes();
-  result.bytesB = b.hierarchy->bytes();
+  result.bytesA = a.hierarchy->bytes() + (a.outer ? a.outer->bytes() : 0);
+  result.bytesB = b.hierarchy->bytes() + (b.outer ? b.outer->bytes() : 0);
   std::size_t hits = 0, allSteps = 0;
   LastQuery last;
   for (std::size_t i = 0; i < poses.size(); ++i) {
@@ -148,6 +154,12 @@ void queryHulls(const HullInput& inputA, const HullInput& inputB,
         for (const Vec3& p : b.part.points) moved.push_back(poses[i] * p);
         hit = separatingPlane<3>(std::span<const Vec3>(a.part.points), std::span<const Vec3>(moved))
                   .relation != HullRelation::disjoint;
+        return;
+      }
+      if (method == "barba-langerman") {
+        const PolytopeIntersection found = intersection(*a.hierarchy, {}, *b.outer, poses[i]);
+        hit = found.intersects;
+        steps = static_cast<std::size_t>(found.steps);
         return;
       }
       if (method == "axes") {

@@ -11,7 +11,7 @@ namespace corridor::app {
 
 /// The methods of `corridor query --hulls`; the first is the default: how GJK finds the vertex of a
 /// hull that is farthest along a direction; or `lp`, linear programming; `vclip`, closest features;
-/// `axes`, separating axes.
+/// `axes`, separating axes; `barba-langerman`, inner and outer hierarchies.
 const std::vector<std::string>& hullMethods();
 
 /// Checks the names that `queryHulls` takes.

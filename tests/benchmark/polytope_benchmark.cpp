@@ -14,7 +14,11 @@
 ///   others overlapping by as much; along random directions.
 /// * `touching`: the same with a gap or depth of 1e-12 of the size.
 /// * `distance`, `depth`, `depth along`: of the disjoint, or the overlapping pairs.
-/// * the contact queries also by V-Clip, separating axes (up to 1000 vertices) and linear
+/// * `separation`: the signed separation from such a plane, with its witness; `side`: only its
+/// side.
+/// * the contact queries also by Barba and Langerman's algorithm with inner and outer hierarchies,
+/// by
+///   V-Clip, separating axes (up to 1000 vertices) and linear
 /// programming
 ///   (up to 10^4), the distance also by V-Clip.
 /// * `polygon interference`: of two convex polygons of n vertices, in the same way.
@@ -30,8 +34,11 @@
 #include "collision/convex/convex_contact.h"
 #include "collision/convex/convex_distance.h"
 #include "collision/convex/dobkin_kirkpatrick.h"
+#include "collision/convex/outer_hierarchy.h"
 #include "collision/convex/penetration.h"
+#include "collision/convex/plane_separation.h"
 #include "collision/convex/polygon_intersection.h"
+#include "collision/convex/polytope_intersection.h"
 #include "collision/convex/separating_axes.h"
 #include "collision/convex/separating_plane.h"
 #include "collision/convex/vclip.h"
@@ -122,6 +129,12 @@ void measure(std::size_t n, std::size_t queries) {
   row("levels", "Dobkin-Kirkpatrick", static_cast<double>(fastA->levels()));
   row("bytes per vertex", "Dobkin-Kirkpatrick",
       static_cast<double>(fastA->bytes()) / static_cast<double>(n));
+  std::optional<OuterHierarchy> outerB;
+  const double outerMs = milliseconds([&] { outerB.emplace(fastB); });
+  row("build outer hierarchy (ms)", "Barba-Langerman", outerMs);
+  row("levels", "outer hierarchy", static_cast<double>(outerB->polar()->levels()));
+  row("bytes per vertex", "outer hierarchy",
+      static_cast<double>(outerB->bytes()) / static_cast<double>(n));
 
   std::vector<Vec3> directions(queries);
   std::vector<double> offsets(queries);
@@ -143,6 +156,12 @@ void measure(std::size_t n, std::size_t queries) {
           sink += -set.highest(-directions[i]) > offsets[i];
         }));
   }
+  row("separation", "hierarchy", medianMicroseconds(queries, [&](std::size_t i) {
+        sink += planeSeparation(*fastA, {directions[i], offsets[i]}).lower > 0;
+      }));
+  row("side", "hierarchy", medianMicroseconds(queries, [&](std::size_t i) {
+        sink += sideOfPlane(*fastA, {directions[i], offsets[i]}) > 0;
+      }));
   const auto pairsWith = [&](const std::vector<double>& gaps, std::size_t count) {
     std::vector<Pair> pairs;
     for (std::size_t i = 0; i < count; ++i)
@@ -182,6 +201,22 @@ void measure(std::size_t n, std::size_t queries) {
   other("distance", "V-Clip", apart, closest);
   for (const auto& [query, pairs] :
        {std::pair("interference", &clear), std::pair("touching", &touching)}) {
+    int most = 0;
+    std::size_t steps = 0, exact = 0;
+    for (const Pair& pair : *pairs) {
+      const auto found = intersection(*fastA, pair.X_WA, *outerB, pair.X_WB);
+      steps += static_cast<std::size_t>(found.steps);
+      exact += found.exact;
+      most = std::max(most, found.steps);
+    }
+    other(query, "Barba-Langerman", *pairs, [&](const Pair& pair) {
+      sink += intersection(*fastA, pair.X_WA, *outerB, pair.X_WB).intersects;
+    });
+    row(std::string(query) + " (mean steps)", "Barba-Langerman",
+        static_cast<double>(steps) / static_cast<double>(pairs->size()));
+    row(std::string(query) + " (most steps)", "Barba-Langerman", most);
+    row(std::string(query) + " (decided by all)", "Barba-Langerman",
+        static_cast<double>(exact) / static_cast<double>(pairs->size()));
     other(query, "V-Clip", *pairs, closest);
     if (n <= kMostForAxes)
       other(query, "separating axes", *pairs, [&](const Pair& pair) {

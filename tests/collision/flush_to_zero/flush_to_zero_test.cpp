@@ -13,6 +13,9 @@
 #include "collision/convex/dobkin_kirkpatrick.h"
 #include "collision/convex/exact_contact.h"
 #include "collision/convex/linear_program.h"
+#include "collision/convex/outer_hierarchy.h"
+#include "collision/convex/plane_separation.h"
+#include "collision/convex/polytope_intersection.h"
 #include "collision/convex/separating_axes.h"
 #include "collision/convex/separating_plane.h"
 #include "collision/convex/vclip.h"
@@ -69,12 +72,14 @@ TEST(FlushToZero, RelationsOfTinyHullsAreExact) {
   EXPECT_GT(touching, 10);
 }
 
-/// Contact of tiny polytopes is exact, by closest features and by separating axes.
+/// Contact of tiny polytopes is exact, by closest features, separating axes and hierarchies.
 TEST(FlushToZero, ContactOfTinyPolytopesIsExact) {
   std::vector<Vec3> cube;
   for (int i = 0; i < 8; ++i) cube.push_back({tiny(i & 1), tiny(i >> 1 & 1), tiny(i >> 2)});
   const Polytope box(cube);
   const PolytopeFeatures features(box);
+  const DobkinKirkpatrick inner(box);
+  const OuterHierarchy outer(inner);
   FeaturePair pair;
   for (int n = 0; n < 125; ++n) {
     const int at[] = {n % 5 - 2, n / 5 % 5 - 2, n / 25 - 2};
@@ -82,6 +87,7 @@ TEST(FlushToZero, ContactOfTinyPolytopesIsExact) {
     const bool touch = std::max({std::abs(at[0]), std::abs(at[1]), std::abs(at[2])}) <= 1;
     EXPECT_EQ(separatingAxis(features, {}, features, X).separated, !touch) << n;
     EXPECT_EQ(closestFeatures(features, {}, features, X, pair).distance.distance == 0, touch) << n;
+    EXPECT_EQ(intersection(inner, {}, outer, X).intersects, touch) << n;
   }
 }
 
@@ -146,6 +152,22 @@ TEST(FlushToZero, ExtremeVerticesAreExact) {
         }
       }
     }
+  }
+}
+
+/// A unit cube and planes with tiny normals or offsets.
+TEST(FlushToZero, SidesOfPlanesAreExact) {
+  std::vector<Vec3> cube;
+  for (int i = 0; i < 8; ++i) cube.emplace_back(i & 1, i >> 1 & 1, i >> 2);
+  const DobkinKirkpatrick hierarchy{Polytope(cube)};
+  for (int offset = -4; offset <= 4; ++offset) {
+    const int side = offset < 0 ? 1 : offset > 3 ? -1 : 0;
+    const HalfSpace<3> small{Vec3::Constant(tiny(1)), tiny(offset)};
+    EXPECT_EQ(sideOfPlane(hierarchy, small), side) << offset;
+    EXPECT_EQ(planeSeparation(hierarchy, small).side, side) << offset;
+    const HalfSpace<3> usual{Vec3::Ones(), tiny(offset)};
+    EXPECT_EQ(sideOfPlane(hierarchy, usual), offset < 0 ? 1 : 0) << offset;
+    EXPECT_EQ(planeSeparation(hierarchy, usual).side, offset < 0 ? 1 : 0) << offset;
   }
 }
 

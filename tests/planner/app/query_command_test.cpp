@@ -30,7 +30,8 @@ TEST_F(QueryCommand, Hulls) {
   write("a.obj", cube + "v 0.5 0.5 0.5\nf 1 2 3\nf 6 7 8\nf 4 5 9\n");  // one vertex is inside
   write("b.obj", cube + "f 1 2 3\nf 6 7 8\nf 4 5 6\n");
   write("poses.txt", kStill + "1.5 0 0\n" + kStill + "1 1 1\n" + kStill + "0.75 0 0.5\n");
-  for (const char* method : {"hierarchy", "climbing", "every-vertex", "lp", "vclip", "axes"}) {
+  for (const char* method :
+       {"hierarchy", "climbing", "every-vertex", "lp", "vclip", "axes", "barba-langerman"}) {
     const Result result = query(std::string("--poses poses.txt --hulls ") + method);
     EXPECT_EQ(result.status, 0) << result.err;
     const auto rows = lines(result.out);
@@ -150,6 +151,11 @@ TEST_F(QueryCommand, HullsOnBadInput) {
               HasSubstr("--hulls: unknown method \"hirarchy\" (did you mean \"hierarchy\"?)"));
   EXPECT_THAT(fault("--hulls lp --query depth"), HasSubstr("lp needs --query interference"));
   EXPECT_THAT(fault("--hulls axes --query distance"), HasSubstr("axes needs --query interference"));
+  EXPECT_THAT(fault("--hulls barba-langerman --query distance"),
+              HasSubstr("barba-langerman needs --query interference"));
+  EXPECT_EQ(fault("--hulls barba-langerman --coherent"),
+            "--coherent: can't be used with --hulls barba-langerman, which keeps nothing from pose "
+            "to pose\n");
   EXPECT_THAT(fault("--hulls vclip --query depth"),
               HasSubstr("vclip needs --query interference or distance"));
   EXPECT_EQ(fault("--hulls lp --coherent"),

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "collision/convex/dobkin_kirkpatrick.h"
+
+namespace corridor {
+
+/// The outer hierarchy of a convex polytope Q: Q_0 is Q, and Q_j is what remains of the half-spaces
+/// of Q_{j−1} without an independent set of them, each with at most 8 neighbours, down to four. So
+/// Q_0 ⊂ Q_1 ⊂ … contain Q, while the polytopes of the inner hierarchy (`DobkinKirkpatrick`) are in
+/// it. Height O(log n), memory O(n).
+///
+/// The vertices of Q_j are no doubles, so it is kept as half-spaces. It is the hierarchy of Dobkin
+/// and Kirkpatrick of the polar polytope, whose vertices are y for the half-spaces y·(x − o) ≤ 1
+/// about a center o inside Q. The y are rounded: each is off by a few units in the last place,
+/// measured at the distance of its plane from o. Coplanar triangles make one half-space. So the
+/// hierarchy guides searches, and their answers need a proof by the vertices of Q.
+///
+/// Building: the hierarchy takes O(n), but the hull of the rounded points is computed anew, in
+/// O(n log n) on usual polytopes.
+///
+/// Source: L. Barba, S. Langerman, Optimal detection of intersections between convex polyhedra
+/// (SODA 2015).
+class OuterHierarchy {
+ public:
+  /// @param inner  the hierarchy of the same polytope, which must outlive this.
+  explicit OuterHierarchy(const DobkinKirkpatrick& inner);
+
+  const DobkinKirkpatrick& inner() const { return *inner_; }
+  /// The hierarchy of the polar polytope; null if rounding leaves no polar polytope, because Q is
+  /// nearly flat in double, or its numbers are huge or tiny.
+  const DobkinKirkpatrick* polar() const { return polar_ ? &*polar_ : nullptr; }
+  /// The point o.
+  const Vec3& center() const { return center_; }
+  /// Vertices of Q whose hull contains the center, up to rounding: at most 10.
+  std::span<const std::uint32_t> core() const { return core_; }
+  /// The vertices of the face of Q on the plane of half-space k (a vertex of the polar),
+  /// counterclockwise from outside.
+  std::span<const std::uint32_t> face(std::uint32_t k) const {
+    const std::size_t f = polar_->polytope().source(k);
+    return std::span(faceVertex_).subspan(start_[f], start_[f + 1] - start_[f]);
+  }
+  /// The number of faces: planes of Q.
+  std::size_t faceCount() const { return start_.size() - 1; }
+  std::size_t bytes() const;
+
+  /// Reports what is wrong with the hierarchy, or nothing: that of the polar (exactly), and that
+  /// the faces are those of Q: each has its vertices on one plane, all vertices of Q on the plane
+  /// or below it, and each triangle of Q belongs to one face. Exact, O(n²).
+  std::optional<std::string> check() const;
+
+ private:
+  void findFaces();
+  void findCenter();
+
+  const DobkinKirkpatrick* inner_;
+  Vec3 center_ = Vec3::Zero();
+  std::vector<std::uint32_t> core_;
+  std::vector<std::uint32_t> start_, faceVertex_;
+  std::optional<DobkinKirkpatrick> polar_;
+};
+
+}  // namespace corridor

@@ -1,0 +1,138 @@
+#include "collision/convex/plane_separation.h"
+
+#include <cmath>
+#include <iostream>
+#include <limits>
+#include <random>
+#include <stdexcept>
+#include <vector>
+
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <boost/multiprecision/cpp_int.hpp>
+#include <gtest/gtest.h>
+
+#include "tests/collision/convex/posed_polytopes.h"
+#include "tests/support/support.h"
+
+namespace corridor {
+namespace {
+
+using Rational = boost::multiprecision::cpp_rational;
+using Wide = boost::multiprecision::cpp_bin_float_100;
+
+Rational height(const HalfSpace<3>& half, const Vec3& x) {
+  Rational sum = -Rational(half.offset);
+  for (int k = 0; k < 3; ++k) sum += Rational(half.normal[k]) * Rational(x[k]);
+  return sum;
+}
+
+/// Planes of all kinds: any; through a vertex; along a face, and one unit in the last place off.
+HalfSpace<3> plane(test::ExactPairs& random, const Polytope& polytope, int kind) {
+  const auto vertices = polytope.vertices();
+  const auto any = [&] { return vertices[random.pick(static_cast<int>(vertices.size()))]; };
+  HalfSpace<3> half{random.vector(), 2 * random.real()};
+  if (kind == 1) half.normal = Vec3(Vec3::Unit(random.pick(3))) * (random.pick(2) ? 3 : -0.5);
+  if (kind == 2) {
+    const auto& f = polytope.faces()[random.pick(static_cast<int>(polytope.faces().size()))];
+    half.normal = (vertices[f[1]] - vertices[f[0]]).cross(vertices[f[2]] - vertices[f[0]]);
+    half.offset = half.normal.dot(vertices[f[0]]);  // a product of few bits, mostly exact
+    if (random.pick(3) == 0) half.offset = std::nextafter(half.offset, random.pick(2) ? 9 : -9);
+  }
+  if (kind == 3) half.offset = half.normal.dot(any());
+  if (kind == 4) {
+    const double scale = std::ldexp(1.0, random.pick(2) ? 500 : -500);
+    half.normal *= scale, half.offset *= scale;
+  }
+  return half;
+}
+
+TEST(PlaneSeparation, AgreesWithEveryVertexInRationals) {
+  test::ExactPairs random(test::testSeed(71));
+  int sides[3] = {0, 0, 0}, touching = 0;
+  const int count = test::isStressRun() ? 50'000 : 700 / test::kSlowdown;
+  for (int n = 0; n < count; ++n) {
+    std::vector<Vec3> points;
+    const Polytope drawn = random.polytope(n % random.kKinds);
+    const Vec3 away = n % 4 == 0 ? Vec3(1e6, -1e6, 3) : Vec3(Vec3::Zero());
+    for (const Vec3& p : drawn.vertices()) points.push_back(p + away);
+    const DobkinKirkpatrick polytope{Polytope(points)};
+    const HalfSpace<3> half = plane(random, polytope.polytope(), n % 5);
+    Rational low = height(half, points[0]), high = low;
+    for (const Vec3& p : points) {
+      low = std::min(low, height(half, p));
+      high = std::max(high, height(half, p));
+    }
+    const int side = low > 0 ? 1 : high < 0 ? -1 : 0;
+    const PlaneSeparation found = planeSeparation(polytope, half);
+    ASSERT_EQ(found.side, side) << n;
+    ASSERT_EQ(sideOfPlane(polytope, half), side) << n;
+    const auto vertices = polytope.polytope().vertices();
+    ASSERT_EQ(height(half, vertices[found.innermost]), low) << n;
+    ASSERT_EQ(height(half, vertices[found.outermost]), high) << n;
+    EXPECT_TRUE(found.witness == found.innermost || found.witness == found.outermost) << n;
+    Wide length = 0;
+    for (int k = 0; k < 3; ++k) length += Wide(half.normal[k]) * Wide(half.normal[k]);
+    length = sqrt(length);
+    const Rational most = std::max(low, Rational(-high));
+    const Wide separation = Wide(numerator(most)) / Wide(denominator(most)) / length;
+    EXPECT_LE(Wide(found.lower), separation) << n;
+    EXPECT_GE(Wide(found.upper), separation) << n;
+    // A height is off by 8u of its terms, and a bound rounds by 2^-48 = 32u more: 80u for both.
+    const double size =
+        std::sqrt(3.0) * (1e6 * (n % 4 == 0) + 4) + std::abs(half.offset) / half.normal.norm();
+    EXPECT_LE(found.upper - found.lower, 96 * 0x1p-53 * size) << n;
+    // The witness is where the separation is, up to the bounds.
+    const Rational there = height(half, vertices[found.witness]);
+    const Wide value = abs(Wide(numerator(there)) / Wide(denominator(there)) / length);
+    EXPECT_LE(abs(value - abs(separation)), Wide(found.upper - found.lower)) << n;
+    ++sides[side + 1];
+    touching += low == 0 || high == 0;
+  }
+  std::cout << sides[0] << " inside, " << sides[2] << " outside, " << sides[1] << " across; "
+            << touching << " touching\n";
+  EXPECT_GT(sides[0], count / 20);
+  EXPECT_GT(sides[2], count / 20);
+  EXPECT_GT(sides[1], count / 5);
+  EXPECT_GT(touching, count / 20);
+}
+
+/// The width of the translation that `upper` and `lower` promise takes the polytope off the plane.
+TEST(PlaneSeparation, DepthsLeadOffThePlane) {
+  test::ExactPairs random(test::testSeed(72));
+  for (int n = 0; n < 100; ++n) {
+    const DobkinKirkpatrick polytope{random.polytope(n % random.kKinds)};
+    HalfSpace<3> half{random.vector().normalized(), 0.2 * random.real()};
+    const PlaneSeparation found = planeSeparation(polytope, half);
+    if (found.side != 0) continue;
+    // Moving the plane instead of the polytope.
+    const double out = found.witness == found.innermost ? -1 : 1;
+    half.offset += out * (-found.lower + 1e-12);
+    EXPECT_EQ(sideOfPlane(polytope, half), -out) << n;
+    half.offset -= out * 2e-12;
+    EXPECT_EQ(sideOfPlane(polytope, half), 0) << n;
+  }
+}
+
+TEST(PlaneSeparation, OneUlpDecides) {
+  std::vector<Vec3> corners;
+  for (int i = 0; i < 8; ++i) corners.emplace_back(i & 1, i >> 1 & 1, i >> 2);
+  const DobkinKirkpatrick cube{Polytope(corners)};
+  const Vec3 n = Vec3::Ones();
+  EXPECT_EQ(sideOfPlane(cube, {n, 3}), 0);
+  EXPECT_EQ(sideOfPlane(cube, {n, std::nextafter(3.0, 4.0)}), -1);
+  EXPECT_EQ(sideOfPlane(cube, {n, 0}), 0);
+  const double e = std::numeric_limits<double>::denorm_min();
+  EXPECT_EQ(sideOfPlane(cube, {n, -e}), 1);
+  EXPECT_EQ(planeSeparation(cube, {n, -e}).side, 1);
+  EXPECT_EQ(planeSeparation(cube, {e * n, 0}).side, 0);
+  const PlaneSeparation across = planeSeparation(cube, {Vec3::UnitX(), 0.25});
+  EXPECT_EQ(across.side, 0);
+  EXPECT_NEAR(across.lower, -0.25, 1e-14);
+  EXPECT_NEAR(across.upper, -0.25, 1e-14);
+  EXPECT_EQ(across.witness, across.innermost);
+  EXPECT_THROW(planeSeparation(cube, {Vec3::Zero(), 1}), std::invalid_argument);
+  EXPECT_THROW(sideOfPlane(cube, {n, std::nan("")}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace corridor
