@@ -89,8 +89,7 @@ class Rows {
     // A switch inside one segment can't be: there, only the deviation is a reason to halve.
     const bool oneSegment =
         to.segment == from.segment || (to.segment == from.segment + 1 && to.since == 0);
-    const bool fine =
-        isNear && (usesLittle(first, last) || (oneSegment && halvings < kLevels - 2));
+    const bool fine = isNear && (usesLittle(first, last) || (oneSegment && halvings < kLevels - 2));
     if (fine || halvings == 0 || rows.size() >= kMostRows) {
       rows.push_back(last);
       deviation = std::max(deviation, distance);
@@ -240,7 +239,8 @@ Emission emitRows(const TimeLaw& given, const std::vector<CurvePiece>& path,
     return fail("more than 10^6 rows; use a smaller rate");
   // Each attempt brings the largest share nearer to 1; two or three are needed.
   for (int attempt = 0; attempt < 8; ++attempt) {
-    Rows rows(law.segments, law.stopTimes, view, limits, tree, options, attempt == 0 ? kMostExcess : 1);
+    Rows rows(law.segments, law.stopTimes, view, limits, tree, options,
+              attempt == 0 ? kMostExcess : 1);
     rows.make();
     if (rows.deviation > options.deviation)
       return fail("rows within " + shortest(options.deviation) +
