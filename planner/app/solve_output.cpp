@@ -5,7 +5,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "planner/app/limits_output.h"
 #include "planner/app/output.h"
+#include "planner/trajectory/rows_limits.h"
 
 namespace corridor::app {
 
@@ -70,25 +72,6 @@ ordered_json clearanceJson(const PathClearance& c) {
   return j;
 }
 
-/// Returns "97.3 % (elbow)".
-std::string shareText(const Problem& problem, const LimitShare& share, bool isLink) {
-  const std::string name = isLink ? problem.task.limits.links[share.number].link
-                                  : problem.model.space.numberNames()[share.number];
-  return rounded(std::ceil(1e3 * share.share) / 10) + " % (" + name + ")";
-}
-
-std::string limitsText(const Problem& problem, const MadeTrajectory& made) {
-  std::string text = made.keepsLimits() ? "kept at every instant" : "exceeded";
-  const auto add = [&](const char* what, const LimitShare& share, bool isLink = false) {
-    if (share.share > 0) text += std::string("; ") + what + " " + shareText(problem, share, isLink);
-  };
-  add("velocity", made.ratios.velocity);
-  add("acceleration", made.ratios.acceleration);
-  add("jerk", made.ratios.jerk);
-  add("speed of links", made.ratios.link, true);
-  return text;
-}
-
 void printTrajectory(const ResultPrinter& out, const Problem& p, const MadeTrajectory& made) {
   if (!made.fault.empty()) {
     out.line("trajectory", "none: " + made.fault, Tone::bad);
@@ -107,27 +90,20 @@ void printTrajectory(const ResultPrinter& out, const Problem& p, const MadeTraje
                                " between rows " + std::to_string(made.failedPiece) + " and " +
                                std::to_string(made.failedPiece + 1),
            made.proved() ? Tone::good : Tone::bad);
-  out.line("limits", limitsText(p, made), made.keepsLimits() ? Tone::plain : Tone::bad);
+  out.line("limits", limitsText(p, made.ratios),
+           keepsLimits(made.ratios) ? Tone::plain : Tone::bad);
   for (const std::string& note : p.task.limits.notes) out.line("note", note);
 }
 
 ordered_json trajectoryJson(const Problem& p, const MadeTrajectory& made) {
   if (!made.fault.empty()) return {{"why_none", made.fault}};
-  const auto share = [&](const LimitShare& s) { return numberJson(s.share); };
-  return {{"duration_s", made.duration},
-          {"rows", made.rows},
-          {"between", nameOf(made.between)},
-          {"proved", made.proved()},
-          {"corners", made.corners},
-          {"corners_rounded", made.rounded},
-          {"curve_tests", made.curveTests},
-          {"limits", made.keepsLimits() ? "kept" : "exceeded"},
-          {"velocity_share", share(made.ratios.velocity)},
-          {"acceleration_share", share(made.ratios.acceleration)},
-          {"jerk_share", share(made.ratios.jerk)},
-          {"link_speed_share", share(made.ratios.link)},
-          {"stretch", made.stretch},
-          {"notes", p.task.limits.notes}};
+  ordered_json j = {{"duration_s", made.duration},     {"rows", made.rows},
+                    {"between", nameOf(made.between)}, {"proved", made.proved()},
+                    {"corners", made.corners},         {"corners_rounded", made.rounded},
+                    {"curve_tests", made.curveTests},  {"stretch", made.stretch},
+                    {"notes", p.task.limits.notes}};
+  addLimits(j, made.ratios);
+  return j;
 }
 
 }  // namespace

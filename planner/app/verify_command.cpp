@@ -8,12 +8,14 @@
 #include <nlohmann/json.hpp>
 
 #include "planner/app/commands.h"
+#include "planner/app/limits_output.h"
 #include "planner/app/options.h"
 #include "planner/app/output.h"
 #include "planner/checker/problem_goal.h"
 #include "planner/checker/still_pairs.h"
 #include "planner/problem/nothing_tested.h"
 #include "planner/solve/verify_solution.h"
+#include "planner/trajectory/rows_limits.h"
 
 namespace corridor::app {
 namespace {
@@ -23,6 +25,7 @@ struct VerifyArguments {
   std::optional<double> margin;
   std::optional<std::string> between;  ///< the name of a Between; trajectories only
   bool ignoreDigest = false;  ///< verify the solution even if its digest is not the problem's
+  bool limits = false;        ///< exceeded limits over time give the exit status 1
   bool json = false, quiet = false;
 };
 
@@ -124,6 +127,7 @@ ordered_json jsonOf(const Verified& verified, const Problem& problem, const Veri
                     {"findings", ordered_json::array()}};
   for (const PathFinding& finding : r.pathReport.findings)
     j["findings"].push_back(jsonOf(finding, r));
+  if (r.limits) addLimits(j, *r.limits);
   return j;
 }
 
@@ -156,6 +160,9 @@ void print(const VerifyReport& r, const Problem& problem, const VerifyArguments&
   out.line(r.between ? "bounds" : "start, goal, bounds", r.violations.empty() ? "hold" : "violated",
            r.violations.empty() ? Tone::plain : Tone::bad);
   for (const std::string& violation : r.violations) out.line("violation", violation);
+  if (r.limits)
+    out.line("limits over time", limitsText(problem, *r.limits),
+             keepsLimits(*r.limits) ? Tone::plain : Tone::bad);
   for (const PathFinding& finding : r.pathReport.findings)
     out.line("finding", text(finding, r, problem));
   out.line("distance queries", grouped(r.pathReport.distanceQueries));
@@ -193,6 +200,8 @@ int verifyCommand(const VerifyArguments& a) {
   Problem problem = readProblemOf(a.problem);
   if (a.margin) setMargin(problem, *a.margin);
   const Verified verified = verify(problem, a);
+  if (a.limits && !verified.report.limits)
+    throw InputError(Fault{"--limits", 0, a.solution + " has no times, so it has no speed"});
   if (hasStillPairs(problem.model))
     addFirst(notesOnStillPairs(Checker(problem), startOf(problem)), problem.source.notes);
   if (!a.json) {
@@ -200,7 +209,10 @@ int verifyCommand(const VerifyArguments& a) {
   } else if (!a.quiet) {
     std::cout << jsonOf(verified, problem, a).dump(2) << '\n';
   }
-  return verified.report.verdict == PathVerdict::proved ? kDone : kNegativeResult;
+  const std::optional<LimitRatios>& limits = verified.report.limits;
+  const bool holds = verified.report.verdict == PathVerdict::proved &&
+                     !(a.limits && limits && !keepsLimits(*limits));
+  return holds ? kDone : kNegativeResult;
 }
 
 }  // namespace
@@ -228,6 +240,9 @@ void addVerify(CLI::App& program, int& status) {
       ->add_option("--margin", a.margin,
                    "metres that all tested pairs must keep apart, in place of the problem's margin")
       ->check(isMetres());
+  command->add_flag("--limits", a.limits,
+                    "exit with status 1, too, if a trajectory exceeds the problem's limits of "
+                    "velocity, acceleration or jerk");
   addIgnoreDigest(*command, a.ignoreDigest);
   addJson(*command, a.json);
   addQuiet(*command, a.quiet);

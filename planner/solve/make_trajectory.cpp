@@ -78,12 +78,6 @@ void prove(const Checker& checker, MadeTrajectory& made) {
 
 }  // namespace
 
-bool MadeTrajectory::keepsLimits() const {
-  return std::max({ratios.velocity.share, ratios.acceleration.share, ratios.jerk.share,
-                   ratios.link.share}) <= 1 &&
-         ratios.position.share <= 0;
-}
-
 MadeTrajectory makeTrajectory(const Problem& problem, const Checker& checker, const Path& path,
                               const TrajectoryOptions& options, const std::function<bool()>& stop) {
   const ConfigurationSpace& space = problem.model.space;
@@ -120,10 +114,7 @@ MadeTrajectory makeTrajectory(const Problem& problem, const Checker& checker, co
     const TrajectoryRows read = readTrajectory("the trajectory", made.text, problem.model);
     made.rows = read.rows.size();
     made.curve = curveOf(read, space, made.between);
-    std::vector<TimedRow> rows;
-    for (const TrajectoryRow& row : read.rows)
-      rows.push_back({row.time, row.positions, row.velocities, row.accelerations});
-    made.ratios = proveLimits(rows, emit.degree, space, limits, problem.model.tree);
+    made.ratios = limitsOfRows(read, made.between, space, limits, problem.model.tree);
     prove(checker, made);
     if (made.proved()) break;
   }

@@ -6,8 +6,7 @@
 #include "planner/checker/checker.h"
 #include "planner/problem/problem.h"
 #include "planner/solve/finish_path.h"
-#include "planner/trajectory/limits_proof.h"
-#include "planner/trajectory/trajectory_curve.h"
+#include "planner/trajectory/rows_limits.h"
 
 namespace corridor {
 
@@ -36,7 +35,7 @@ struct MadeTrajectory {
   std::size_t rows = 0;
   std::size_t corners = 0, rounded = 0;  ///< corners of the path, and those without a stop
   std::size_t curveTests = 0;            ///< curves that were tested to round corners
-  LimitRatios ratios;                    ///< proved shares of the limits, for the file's curve
+  LimitRatios ratios;                    ///< limitsOfRows, of the file's curve
   double stretch = 1;                    ///< how much the law was slowed down (Emission::stretch)
   /// `free`: the checker proved every piece of `curve`. Otherwise the answer for the first piece
   /// that it could not prove.
@@ -45,8 +44,6 @@ struct MadeTrajectory {
   std::string fault;            ///< why there is no trajectory, one line; or ""
 
   bool proved() const { return fault.empty() && proof.verdict == MotionVerdict::free; }
-  /// Whether the file's curve keeps all limits at every instant.
-  bool keepsLimits() const;
 };
 
 /// Makes a trajectory along a path, in these steps:

@@ -295,7 +295,11 @@ VerifyReport verifyTrajectory(const Problem& problem, TrajectoryRows rows,
   report.between = betweenOf(rows, between);
   const ConfigurationSpace& space = problem.model.space;
   const Curve curve = curveOf(rows, space, *report.between);
-  if (rows.timed) report.times = curve.knots;
+  if (rows.timed) {
+    report.times = curve.knots;
+    report.limits =
+        limitsOfRows(rows, *report.between, space, problem.task.limits, problem.model.tree);
+  }
   report.notes = std::move(rows.notes);
   const auto note = [&](const std::string& what, const std::string& away) {
     if (!away.empty()) report.notes.push_back({what + away, NoteWeight::coverage});
@@ -306,7 +310,6 @@ VerifyReport verifyTrajectory(const Problem& problem, TrajectoryRows rows,
   report.reachesGoal = fromGoal.empty();
   note("the trajectory does not end in the problem's goal: ", fromGoal);
   checkBounds(space, rows, curve, report.violations);
-  // Limits of velocities and accelerations are to be checked here.
   PathProblem plain = plainProblem(problem);
   // As for a path of many states.
   plain.workLimit = std::max<std::uint64_t>(plain.workLimit, 2000 * curve.knots.size());

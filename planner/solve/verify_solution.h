@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "planner/solve/solution.h"
-#include "planner/trajectory/trajectory_curve.h"
+#include "planner/trajectory/rows_limits.h"
 #include "planner/verify/verify_path.h"
 
 namespace corridor {
@@ -41,6 +41,9 @@ struct VerifyReport {
   /// Of a trajectory with times: the time of each row, seconds. An edge of `pathReport` is the
   /// curve from one row to the next.
   std::vector<double> times;
+  /// Of a trajectory with times: the proved shares of the problem's limits over time. The verdict
+  /// does not depend on them.
+  std::optional<LimitRatios> limits;
   std::vector<Note> notes;  ///< of a trajectory: on its file, its start and its end
 };
 

@@ -181,7 +181,7 @@ void compare(const std::string& name, const Problem& problem, std::uint64_t seed
   const PathVerdict splineVerdict = verdictOf(spline), checkedVerdict = verdictOf(checked);
   const bool good = made.proved() && verdict == PathVerdict::proved;
   tally.ours += good;
-  tally.limits += good && made.keepsLimits();
+  tally.limits += good && keepsLimits(made.ratios);
   tally.refuted[0] += splineVerdict == PathVerdict::refuted;
   tally.refuted[1] += checkedVerdict == PathVerdict::refuted;
   tally.makeMs.push_back(1e3 * make);
