@@ -70,7 +70,8 @@ void readFile(const YamlMap& map, const Model& model, bool isComplete, LimitSpec
   }
   if (!isComplete) return;
   if (!unused.empty() && unused.size() == limits.entries().size())
-    return limits.fault("", "no joint of this file is planned for: " + joinedFirst(unused));
+    return map.fault("joint_limits",
+                     "no joint of this file is planned for: " + joinedFirst(unused));
   if (!unused.empty())
     notes.push_back({file + ": limits of " + joinedFirst(unused) + " are not used: not planned for",
                      NoteWeight::detail});

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Geometry>
+
 #include "planner/trajectory/limit_bands.h"
 #include "planner/trajectory/link_speed.h"
 #include "planner/trajectory/path_view.h"

@@ -60,13 +60,13 @@ struct TimeLaw {
 ///
 /// Method: reachability analysis (Pham and Pham 2018, "A New Approach to Time-Optimal Path
 /// Parameterization Based on Reachability Analysis", IEEE Transactions on Robotics 34(3)). With
-/// x = ṡ² and u = s̈, the limits at a point of the path are linear in (u, x) (their equation 4):
+/// x = ṡ² and u = s̈, the limits at a point of the path are linear in (u, x):
 ///   |q'_j|²·x ≤ v_j²  and  |q'_j·u + q''_j·x| ≤ a_j.
-/// On a grid s_0 … s_N with constant u in each interval, x_{i+1} = x_i + 2·Δ_i·u_i (equation 6).
+/// On a grid s_0 … s_N with constant u in each interval, x_{i+1} = x_i + 2·Δ_i·u_i.
 /// 1. Backward pass: the controllable set K_i has all x from which K_{i+1} can be reached; it is an
-///    interval (equations 10, 11, algorithm 1).
-/// 2. Forward pass: from x_0, the largest u that stays in K_{i+1} (algorithm 1).
-/// The limits of an interval hold at both of its ends (the interpolation scheme, section III-E).
+///    interval (the first loop of their algorithm 1, TOPP-RA).
+/// 2. Forward pass: from x_0, the largest u that stays in K_{i+1} (the second loop).
+/// The limits of an interval hold at both of its ends (their interpolation scheme).
 /// Intervals are halved where u jumps, and where the middle exceeds a limit by more than 0.05 %.
 ///
 /// - The path is split into runs. Between two runs the robot rests: at corners (see `cornerAngle`),
@@ -79,7 +79,7 @@ struct TimeLaw {
 /// - A limit of a link's speed bounds ṡ by the Jacobian at the points of the grid.
 /// - `smooth`: the optimal law of each run is averaged over a window of time. This bounds the jerk
 ///   of s, keeps the path, and takes a window longer. Where the averaged law exceeds a limit, the
-///   whole run is slowed down by one factor. The window with the shortest time is used, of 24 that
+///   whole run is slowed down by one factor. The window with the shortest time is used, of 20 that
 ///   are tried. The result keeps the limits of jerk at points of the grid, but is not time-optimal.
 ///   The path must start and end at rest.
 ///

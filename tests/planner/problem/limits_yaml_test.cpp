@@ -74,9 +74,8 @@ TEST_F(LimitsTest, AccelerationIsAssumed) {
   const JointLimits limits = limitsOf(model_);
   EXPECT_EQ(limits.acceleration, Configuration(Eigen::Vector3d(1, 1, 1)));
   ASSERT_EQ(limits.notes.size(), 1);
-  EXPECT_EQ(
-      limits.notes[0],
-      "limits: no acceleration is given for pan, lift and slide; 1 rad/s² or m/s² is assumed");
+  EXPECT_EQ(limits.notes[0],
+            "limits: no acceleration is given for pan, lift, slide; 1 rad/s² or m/s² is assumed");
 }
 
 TEST_F(LimitsTest, MoveitFile) {
@@ -133,7 +132,8 @@ TEST_F(LimitsTest, Faults) {
             "has_velocity_limits: true; add true or false");
   EXPECT_THAT(
       complaintOfFile("joint_limits: {pan: {has_velocity_limits: true}}\n"),
-      testing::HasSubstr("joint_limits.yaml:1: missing key \"joint_limits.pan.max_velocity\""));
+      testing::HasSubstr(
+          "joint_limits.yaml:1: missing key \"max_velocity\" in joint_limits.pan: the limit"));
   EXPECT_EQ(complaintOfFile("joint_limits: {pan2: {has_velocity_limits: true, max_velocity: 1}}\n"),
             "joint_limits.yaml:1: joint_limits: no joint of this file is planned for: pan2");
 }
