@@ -1,10 +1,5 @@
 #include "planner/robot/curve.h"
 
-#include <cmath>
-
-#include "collision/core/rounding.h"
-#include "planner/robot/angles.h"
-
 namespace corridor {
 
 Configuration configurationAt(const ConfigurationSpace& space, const CurvePiece& piece,
@@ -20,24 +15,6 @@ Configuration configurationAt(const ConfigurationSpace& space, const CurvePiece&
     q.segment<4>(first) = space.interpolate(from, to, tau).segment<4>(first);
   }
   return q;
-}
-
-CurvePiece straightPiece(const ConfigurationSpace& space, const Configuration& from,
-                         const Configuration& to) {
-  CurvePiece piece;
-  piece.coefficients.resize(from.size(), 2);
-  piece.coefficients << from, to;
-  piece.error = Configuration::Zero(from.size());
-  for (const Coordinate& c : space.coordinates()) {
-    if (c.kind != Coordinate::Kind::circle) continue;
-    const auto i = static_cast<Eigen::Index>(c.first);
-    const CircleTurn turn = circleTurn(from[i], to[i]);
-    if (turn.angle == to[i] - from[i]) continue;
-    piece.coefficients(i, 1) = from[i] + turn.angle;
-    // The sum rounds by u of itself; 2u leaves room for the rounding of this product.
-    piece.error[i] = roundedUp(turn.error + 2 * kUnit * (std::abs(from[i]) + std::abs(turn.angle)));
-  }
-  return piece;
 }
 
 }  // namespace corridor

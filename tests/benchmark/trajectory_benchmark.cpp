@@ -109,7 +109,7 @@ double bulgeRatio(const Checker& checker, const Path& path, std::uint64_t seed) 
   std::normal_distribution<double> normal;
   double chords = 0, curves = 0;
   for (std::size_t k = 0; k + 1 < path.size(); ++k) {
-    CurvePiece piece = straightPiece(checker.space(), path[k], path[k + 1]);
+    CurvePiece piece = curveOfPath(checker.space(), {path[k], path[k + 1]}).pieces[0];
     const Configuration a = piece.coefficients.col(0), b = piece.coefficients.col(1);
     const double length = (b - a).norm();
     for (int n = 0; n < 10; ++n) {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "planner/robot/edge_motion.h"
+#include "planner/trajectory/curve_pieces.h"
 #include "tests/planner/robot/random_trees.h"
 #include "tests/planner/robot/reference_kinematics.h"
 #include "tests/support/support.h"
@@ -191,7 +192,7 @@ TEST(CurveMotion, StraightPiecesAreEdges) {
     EdgeMotion curve(random.tree, random.space, pair, random.noTube());
     edge.set(random.from, random.to);
     if (edge.ambiguous()) continue;
-    const CurvePiece piece = straightPiece(random.space, random.from, random.to);
+    const CurvePiece piece = curveOfPath(random.space, {random.from, random.to}).pieces[0];
     curve.set(piece);
     const auto [t, h] = interval(random);
     const RelativeMotion v = edge.relativeMotion(0, t, h), w = curve.relativeMotion(0, t, h);
