@@ -15,7 +15,7 @@ class ProblemFaults : public ProblemTest {
 
 constexpr const char* topKeys =
     " (known: format, robot, robots, base, world, allow, start, goal, moveit, bounds, margin, "
-    "padding, prefer, tube, "
+    "padding, prefer, tube, limits, "
     "planner, sampler, simplify, checker, seed)";
 
 TEST_F(ProblemFaults, Files) {
