@@ -37,10 +37,15 @@ namespace corridor {
 /// Distances come from plain AABB trees in long double, each certified by a slab between the two
 /// triangles or parts. Contacts of triangles are decided in rational arithmetic.
 ///
-/// Files: edge_curve (edges, forward kinematics, reach weights), triangle_gap and convex_gap
-/// (distance of two leaf primitives), moved_slab (two moving leaf primitives), box_tree (two
-/// bodies), exact_contact (rational arithmetic), winding (inside a solid), pair_prover (two bodies
-/// in a time interval), verify_path (the bisection).
+/// verifyCurve() does the same for polynomial pieces instead of edges. |Δ_j| is then the largest
+/// |q_j'| in an eighth of the piece that contains the interval, and the second-order term also has
+/// the largest |q_j''| (edge_curve.h).
+///
+/// Files: edge_curve (edges and pieces, forward kinematics, reach weights), bernstein
+/// (polynomials), curve_joins (the ends of pieces), polynomial_range (limits), triangle_gap and
+/// convex_gap (distance of two leaf primitives), moved_slab (two moving leaf primitives), box_tree
+/// (two bodies), exact_contact (rational arithmetic), winding (inside a solid), pair_prover (two
+/// bodies in a time interval), verify_path (the bisection).
 
 struct VerifyBody {
   std::string name;
@@ -95,7 +100,7 @@ enum class PathVerdict {
 /// one met.
 struct PathFinding {
   PathVerdict verdict = PathVerdict::undecided;
-  int edge = 0;  ///< the edge from state `edge` to state `edge` + 1, from 0
+  int edge = 0;  ///< the edge from state `edge` to state `edge` + 1, from 0; or the piece
   double t = 0;  ///< time on the edge, in [0, 1]
   /// On the first refuted edge, the edge is proved on [0, freeUntil], and its first refutation is
   /// in (freeUntil, t]. This bracket is narrowed until the motion bound in it is below the

@@ -76,8 +76,8 @@ TEST(EdgeCurve, TheBoundsOfAPieceAreAttained) {
     for (std::size_t index = 0; index < std::size_t(1) << depth; ++index) {
       const Real end = width * static_cast<Real>(index + 1);
       const Reach reach = curve.reach(chain, 0, none, {depth, index});
-      EXPECT_NEAR(static_cast<double>(reach.speed), static_cast<double>(9 * end * end), 1e-14);
-      EXPECT_NEAR(static_cast<double>(reach.bend), static_cast<double>(18 * end), 1e-14);
+      EXPECT_NEAR(static_cast<double>(reach.speed), static_cast<double>(9 * end * end), 1e-12);
+      EXPECT_NEAR(static_cast<double>(reach.bend), static_cast<double>(18 * end), 1e-12);
       EXPECT_GE(reach.speed, 9 * end * end);
       EXPECT_GE(reach.bend, 18 * end);
     }
