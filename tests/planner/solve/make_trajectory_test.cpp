@@ -1,0 +1,140 @@
+#include "planner/solve/make_trajectory.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "planner/solve/verify_solution.h"
+#include "tests/planner/problem/problem_fixture.h"
+
+namespace corridor {
+namespace {
+
+/// A square of 0.2 m in the plane, above a floor whose top is at y = 0, with a post to go around.
+class MakeTrajectory : public test::ProblemTest {
+ protected:
+  void SetUp() override {
+    ProblemTest::SetUp();
+    write("square.yaml",
+          "format: corridor-robot-1\nname: square\nrigid: SE2\nshapes: [{box: [0.2, 0.2, 0.2]}]\n");
+  }
+  Problem problemWith(const std::string& more = "") const {
+    return read(
+        "format: corridor-problem-1\nrobot: square.yaml\nworld:\n"
+        "  floor: {box: [10, 1, 1], at: [0, -0.5, 0]}\n"
+        "  post: {box: [0.2, 1, 1], at: [1, 0.5, 0]}\n"
+        "start: {at: [0, 0.2]}\ngoal: {at: [2, 0.2]}\nbounds: {at: [[-3, -3], [5, 5]]}\n" +
+        more);
+  }
+  static Configuration at(double x, double y, double yaw = 0) { return test::numbers({x, y, yaw}); }
+  static Path overThePost() { return {at(0, 0.2), at(0.5, 1.3), at(1.5, 1.3), at(2, 0.2)}; }
+  static VerifyReport verified(const Problem& problem, const MadeTrajectory& made) {
+    return verifyTrajectory(problem, readTrajectory("made", made.text, problem.model));
+  }
+};
+
+TEST_F(MakeTrajectory, IsProvedAsItIsWritten) {
+  const Problem problem = problemWith();
+  const Checker checker(problem);
+  for (const TrajectoryFileKind kind : {TrajectoryFileKind::csv, TrajectoryFileKind::message}) {
+    TrajectoryOptions options;
+    options.kind = kind;
+    const MadeTrajectory made = makeTrajectory(problem, checker, overThePost(), options);
+    EXPECT_EQ(made.fault, "");
+    EXPECT_TRUE(made.proved());
+    EXPECT_EQ(made.corners, 2u);
+    EXPECT_EQ(made.rounded, 2u);
+    EXPECT_TRUE(keepsLimits(made.ratios)) << made.ratios.acceleration.share;
+    EXPECT_GT(made.ratios.acceleration.share, 0.99);
+    const VerifyReport report = verified(problem, made);
+    EXPECT_EQ(report.verdict, PathVerdict::proved);
+    EXPECT_TRUE(report.reachesGoal);
+    ASSERT_TRUE(report.limits);
+    EXPECT_TRUE(keepsLimits(*report.limits));
+    EXPECT_EQ(report.times.back(), made.duration);
+  }
+}
+
+/// Stopping at every corner takes longer. Without any curve that is proved, the robot stops.
+TEST_F(MakeTrajectory, StopsOnlyWhereNoCurveIsProved) {
+  const Problem problem = problemWith();
+  const MadeTrajectory made = makeTrajectory(problem, Checker(problem), overThePost());
+  TrajectoryOptions tight;
+  tight.cornerDeviation = 1e-6;
+  const MadeTrajectory slow = makeTrajectory(problem, Checker(problem), overThePost(), tight);
+  EXPECT_TRUE(slow.proved());
+  EXPECT_GT(slow.duration, 1.05 * made.duration);
+  const MadeTrajectory stopped =
+      makeTrajectory(problem, Checker(problem), overThePost(), {}, [] { return true; });
+  EXPECT_EQ(stopped.rounded, 0u);
+  EXPECT_TRUE(stopped.proved());
+  EXPECT_GE(stopped.duration, slow.duration);
+}
+
+TEST_F(MakeTrajectory, KeepsJerkRateAndScale) {
+  const Problem problem =
+      problemWith("limits: {position: {velocity: 0.5, acceleration: 1, jerk: 4}}\n");
+  TrajectoryOptions options;
+  options.rate = 50;
+  const MadeTrajectory made = makeTrajectory(problem, Checker(problem), overThePost(), options);
+  EXPECT_EQ(made.fault, "");
+  EXPECT_TRUE(made.proved());
+  EXPECT_EQ(made.between, Between::quintic);
+  EXPECT_GT(made.ratios.jerk.share, 0);
+  EXPECT_TRUE(keepsLimits(made.ratios));
+  EXPECT_GE(made.rows, 50 * made.duration);
+  EXPECT_LE(made.ratios.velocity.share, 1);
+}
+
+/// Rows whose curve dips for less than a millisecond: by 10^-6 m into the floor, or to 10^-6 m
+/// above it. Exactly one row differs.
+TEST_F(MakeTrajectory, AClipOfAMicrometreIsFound) {
+  const Problem problem = problemWith();
+  const Checker checker(problem);
+  for (const double gap : {1e-6, -1e-6}) {
+    // At the dip, the bottom of the square (y − 0.1) is `gap` above the floor.
+    std::string text = "time,x,y,yaw,x_velocity,y_velocity,yaw_velocity\n";
+    for (int k = 0; k <= 10; ++k) {
+      const double y = k == 6 ? 0.1 + gap : 0.2;
+      std::ostringstream line;
+      line.precision(17);
+      line << 0.1 * k << ',' << 0.05 * k << ',' << y << ",0,0.5,0,0\n";
+      text += line.str();
+    }
+    const TrajectoryRows rows = readTrajectory("clip.csv", text, problem.model);
+    const VerifyReport report = verifyTrajectory(problem, rows);
+    const Curve curve = curveOf(rows, problem.model.space, Between::cubic);
+    std::size_t touching = 0;
+    for (const CurvePiece& piece : curve.pieces)
+      touching += checker.certifyCurve(piece).verdict == MotionVerdict::contact;
+    if (gap > 0) {
+      EXPECT_EQ(report.verdict, PathVerdict::proved);
+      EXPECT_EQ(touching, 0u);
+      continue;
+    }
+    EXPECT_GT(touching, 0u);
+    EXPECT_EQ(report.verdict, PathVerdict::refuted);
+    ASSERT_FALSE(report.pathReport.findings.empty());
+    const PathFinding& first = report.pathReport.findings.front();
+    EXPECT_EQ(first.edge, 5);
+    // y − 0.1 ≈ −10^-6 + 3·0.1·(Δt/0.1)²: below 0 for 0.18 ms before the row.
+    EXPECT_GT(first.t, 1 - 0.0021);
+    EXPECT_TRUE(first.a == "floor" || first.b == "floor") << first.a << ' ' << first.b;
+  }
+}
+
+/// The curve between rows of a spline that overshoots is refuted, although every row is free.
+TEST_F(MakeTrajectory, RowsThatAreFreeDoNotSuffice) {
+  const Problem problem = problemWith();
+  const std::string text =
+      "time,x,y,yaw,x_velocity,y_velocity,yaw_velocity\n"
+      "0,0,0.3,0,0,-2,0\n1,0.2,0.3,0,0,2,0\n";
+  const VerifyReport report =
+      verifyTrajectory(problem, readTrajectory("spline.csv", text, problem.model));
+  EXPECT_EQ(report.verdict, PathVerdict::refuted);
+  ASSERT_TRUE(report.limits);
+  EXPECT_FALSE(keepsLimits(*report.limits));  // 4 m/s² at the rows, and 1 m/s² is assumed
+}
+
+}  // namespace
+}  // namespace corridor
