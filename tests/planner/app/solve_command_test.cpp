@@ -99,6 +99,58 @@ TEST_F(SolveArm, JsonHasThePathAndThePhases) {
                   "certification .* ms\n"));
 }
 
+/// The trajectory is written as it was proved: `verify` proves it, and its limits, from both kinds
+/// of file.
+TEST_F(SolveArm, WritesATrajectory) {
+  for (const std::string file : {"t.csv", "t.yaml"}) {
+    const Result solved = run("solve arm.yaml --trajectory " + file);
+    EXPECT_EQ(solved.status, 0) << solved.err << solved.out;
+    EXPECT_THAT(solved.out, testing::ContainsRegex("trajectory: [0-9.]+ s, [0-9]+ rows, cubic "
+                                                   "between rows; [0-9]+ of [0-9]+ corners?"));
+    EXPECT_THAT(solved.out, HasSubstr("trajectory proved: yes, as it is written\n"));
+    EXPECT_THAT(solved.out, HasSubstr("limits: kept at every instant; velocity "));
+    EXPECT_THAT(solved.out, HasSubstr("trajectory file: " + file + "\n"));
+    const Result verified = run("verify arm.yaml " + file + " --limits");
+    EXPECT_EQ(verified.status, 0) << verified.err << verified.out;
+    EXPECT_THAT(verified.out, HasSubstr("limits over time: kept at every instant"));
+  }
+  const Result solved = run("solve arm.yaml --trajectory t.csv --rate 100 --json");
+  const auto report = nlohmann::json::parse(solved.out)["problems"][0]["trajectory"];
+  EXPECT_EQ(report["proved"], true);
+  EXPECT_EQ(report["limits"], "kept");
+  EXPECT_GE(report["rows"].get<double>(), 100 * report["duration_s"].get<double>());
+  EXPECT_LE(report["acceleration_share"].get<double>(), 1);
+}
+
+/// Half of the time between the rows: velocities and accelerations exceed their limits. The verdict
+/// stays, and `--limits` gives the exit status 1.
+TEST_F(SolveArm, ExceededLimitsOfATrajectory) {
+  write("fast.csv",
+        "time,shoulder,elbow,shoulder_velocity,elbow_velocity\n0,0,0,0,0\n0.1,0.5,0.1,0,0\n");
+  const Result verified = run("verify arm.yaml fast.csv");
+  EXPECT_EQ(verified.status, 0) << verified.out;
+  EXPECT_THAT(verified.out, HasSubstr("limits over time: exceeded; velocity 750 % (shoulder)"));
+  EXPECT_EQ(run("verify arm.yaml fast.csv --limits").status, 1);
+  EXPECT_THAT(run("verify arm.yaml fast.csv --json").out, HasSubstr("\"limits\": \"exceeded\""));
+  write("path.csv", "shoulder,elbow\n0,0\n0.5,0.1\n");
+  expectFault("verify arm.yaml path.csv --limits",
+              "--limits: path.csv has no times, so it has no speed");
+}
+
+TEST_F(SolveArm, FaultsOfTrajectories) {
+  expectFault("solve arm.yaml --trajectory t.txt",
+              "--trajectory: a name that ends in .csv or .yaml is needed");
+  expectFault("solve arm.yaml --rate 10", "--rate: needs --trajectory, which is not given");
+  expectFault("solve arm.yaml --deviation 1e-3",
+              "--deviation: needs --trajectory, which is not given");
+  expectFault("solve arm.yaml arm.yaml --trajectory t.csv",
+              "--trajectory: is a file for one problem, and several are given");
+  expectFault("solve arm.yaml -o t.yaml --trajectory t.yaml",
+              "--trajectory: is the file of --output; name another one");
+  expectFault("solve arm.yaml --trajectory none/t.csv", "--trajectory: there is no folder none");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "t.yaml"));
+}
+
 /// Joints may have any names: the joints' types decide whether a problem has a rigid body.
 TEST_F(SolveArm, KeepsItsDistance) {
   const Result solved = run("solve arm.yaml -o s.yaml --json");
