@@ -234,6 +234,7 @@ void printTable(const std::vector<ordered_json>& reports, const ResultPrinter& o
     if (solved.empty()) continue;
     std::string times;
     for (const auto& [key, name] : kSolvePhases) {
+      if (key == std::string_view("trajectory_s")) continue;  // of single problems only
       std::vector<double> seconds;
       for (const ordered_json* report : solved) seconds.push_back((*report)["phases"][key]);
       times +=
