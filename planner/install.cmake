@@ -17,6 +17,7 @@ install(TARGETS corridor RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 # Not installed: headers that need libraries which users of corridor::planner need not have.
 file(GLOB planner_headers CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
      ${CMAKE_CURRENT_LIST_DIR}/robot/*.h ${CMAKE_CURRENT_LIST_DIR}/model/*.h ${CMAKE_CURRENT_LIST_DIR}/problem/*.h
-     ${CMAKE_CURRENT_LIST_DIR}/checker/*.h ${CMAKE_CURRENT_LIST_DIR}/solve/*.h ${CMAKE_CURRENT_LIST_DIR}/verify/verify_path.h)
+     ${CMAKE_CURRENT_LIST_DIR}/checker/*.h ${CMAKE_CURRENT_LIST_DIR}/trajectory/*.h ${CMAKE_CURRENT_LIST_DIR}/solve/*.h
+     ${CMAKE_CURRENT_LIST_DIR}/verify/verify_path.h)
 list(FILTER planner_headers EXCLUDE REGEX "/(urdfdom|xml_file|urdf_outline|mesh_store|srdf_[a-z]+)\\.h$")
 corridor_install_headers(${planner_headers})

@@ -53,25 +53,20 @@ std::string secondsText(double seconds) {
   return text;
 }
 
-/// Returns ", free until then", ", free until 0.25", or "" if nothing is proved before the finding.
-std::string freeUntilText(const PathFinding& f, const std::string& until, const std::string& at) {
-  if (!f.freeUntil || (*f.freeUntil == 0 && f.edge == 0)) return "";
-  return ", free until " + (until == at ? "then" : until);
-}
-
-/// Returns "edge 3 at t = 0.3, free until 0.25" or, with times, "at 1.2 s, free until 1.1 s, edge
-/// 3".
+/// Returns "edge 3 at t = 0.3, free until 0.25" or, with times, "edge 3 at 1.2 s, free until 1.1
+/// s". Leaves "free until" out if nothing of the edge is proved before the finding.
 std::string whenText(const PathFinding& f, const VerifyReport& report) {
-  const std::string edge = "edge " + std::to_string(f.edge);
-  if (report.times.empty()) {
-    const bool isFirst = f.freeUntil && *f.freeUntil == 0;
-    return edge + " at t = " + rounded(f.t) +
-           (isFirst ? "" : freeUntilText(f, rounded(f.freeUntil.value_or(0)), rounded(f.t)));
+  const auto textAt = [&](double t) {
+    return report.times.empty() ? rounded(t) : secondsText(timeAt(report, f.edge, t)) + " s";
+  };
+  const std::string at = textAt(f.t);
+  std::string text =
+      "edge " + std::to_string(f.edge) + (report.times.empty() ? " at t = " : " at ") + at;
+  if (f.freeUntil && *f.freeUntil > 0) {
+    const std::string until = textAt(*f.freeUntil);
+    text += ", free until " + (until == at ? "then" : until);
   }
-  const std::string at = secondsText(timeAt(report, f.edge, f.t)) + " s";
-  return "at " + at +
-         freeUntilText(f, secondsText(timeAt(report, f.edge, f.freeUntil.value_or(0))) + " s", at) +
-         ", " + edge;
+  return text;
 }
 
 std::string text(const PathFinding& f, const VerifyReport& report, const Problem& problem) {
@@ -113,8 +108,8 @@ ordered_json jsonOf(const Verified& verified, const Problem& problem, const Veri
                     {"verdict", verdictName(r)},
                     {"digest", nameOf(r.digest)},
                     {"between", r.between ? ordered_json(nameOf(*r.between)) : ordered_json()},
-                    {"begin_s", r.times.empty() ? ordered_json() : r.times.front()},
-                    {"end_s", r.times.empty() ? ordered_json() : r.times.back()},
+                    {"begin_s", r.times.empty() ? ordered_json() : ordered_json(r.times.front())},
+                    {"end_s", r.times.empty() ? ordered_json() : ordered_json(r.times.back())},
                     {"notes", textsOf(problem.source.notes)},
                     {"warnings", verified.warnings},
                     {"edges", r.pathReport.edges},

@@ -12,6 +12,7 @@ namespace {
 
 using Real = long double;
 using RealMatrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
+using RealVector = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
 
 // Factors of M, derived in the header.
 constexpr Real kLinear = 0x1p-49L, kCubic = 0x1p-45L, kQuintic = 0x1p-42L, kPower = 0x1p-47L,
@@ -22,8 +23,7 @@ double roundedUp(Real bound) {
   return static_cast<double>(bound * (1 + 0x1p-50L) + 0x1p-1000L);
 }
 
-CurvePiece pieceOf(const RealMatrix& coefficients,
-                   const Eigen::Matrix<Real, Eigen::Dynamic, 1>& error) {
+CurvePiece pieceOf(const RealMatrix& coefficients, const RealVector& error) {
   CurvePiece piece;
   piece.coefficients = coefficients.cast<double>();
   piece.error.resize(error.size());
@@ -51,9 +51,8 @@ void requireDegree(Eigen::Index degree) {
 
 /// Returns the value of the polar form of a B-spline's piece on [knots[k], knots[k + 1]], at
 /// `degree` arguments: `degree` − ends times the left end, `ends` times the right end.
-Eigen::Matrix<Real, Eigen::Dynamic, 1> polarForm(const Eigen::MatrixXd& points,
-                                                 const std::vector<double>& knots, int degree,
-                                                 std::size_t k, int ends) {
+RealVector polarForm(const Eigen::MatrixXd& points, const std::vector<double>& knots, int degree,
+                     std::size_t k, int ends) {
   const auto first = static_cast<Eigen::Index>(k) - degree;
   RealMatrix d = points.middleCols(first, degree + 1).cast<Real>();
   for (int level = 1; level <= degree; ++level) {
@@ -80,27 +79,33 @@ CurvePiece linearPiece(const ConfigurationSpace& space, const Configuration& fro
 }
 
 CurvePiece cubicPiece(const ConfigurationSpace& space, const CurvePoint& from, const CurvePoint& to,
-                      long double duration) {
+                      long double duration, long double durationError) {
   const auto p0 = from.position.cast<Real>(), p1 = to.position.cast<Real>();
   const auto v0 = from.velocity.cast<Real>() * duration, v1 = to.velocity.cast<Real>() * duration;
   RealMatrix c(p0.size(), 4);
   c << p0, p0 + v0 / 3, p1 - v1 / 3, p1;
-  CurvePiece piece =
-      pieceOf(c, kCubic * (p0.cwiseAbs() + p1.cwiseAbs() + v0.cwiseAbs() + v1.cwiseAbs()));
+  const Real share = durationError / duration;
+  const RealVector positions = p0.cwiseAbs() + p1.cwiseAbs(),
+                   velocities = v0.cwiseAbs() + v1.cwiseAbs();
+  CurvePiece piece = pieceOf(c, kCubic * (positions + velocities) + share * velocities);
   setRotations(space, from.position, to.position, piece);
   return piece;
 }
 
 CurvePiece quinticPiece(const ConfigurationSpace& space, const CurvePoint& from,
-                        const CurvePoint& to, long double duration) {
+                        const CurvePoint& to, long double duration, long double durationError) {
   const auto p0 = from.position.cast<Real>(), p1 = to.position.cast<Real>();
   const auto v0 = from.velocity.cast<Real>() * duration, v1 = to.velocity.cast<Real>() * duration;
   const auto a0 = from.acceleration.cast<Real>() * (duration * duration),
              a1 = to.acceleration.cast<Real>() * (duration * duration);
   RealMatrix c(p0.size(), 6);
   c << p0, p0 + v0 / 5, p0 + 2 * v0 / 5 + a0 / 20, p1 - 2 * v1 / 5 + a1 / 20, p1 - v1 / 5, p1;
-  CurvePiece piece = pieceOf(c, kQuintic * (p0.cwiseAbs() + p1.cwiseAbs() + v0.cwiseAbs() +
-                                            v1.cwiseAbs() + a0.cwiseAbs() + a1.cwiseAbs()));
+  const Real share = durationError / duration;
+  const RealVector positions = p0.cwiseAbs() + p1.cwiseAbs(),
+                   velocities = v0.cwiseAbs() + v1.cwiseAbs(),
+                   accelerations = a0.cwiseAbs() + a1.cwiseAbs();
+  CurvePiece piece = pieceOf(c, kQuintic * (positions + velocities + accelerations) +
+                                    share * (velocities + 3 * accelerations));
   setRotations(space, from.position, to.position, piece);
   return piece;
 }
@@ -130,8 +135,7 @@ Curve splineCurve(const Eigen::MatrixXd& points, const std::vector<double>& knot
     throw std::invalid_argument("a B-spline of n control points needs n + degree + 1 knots");
   if (!std::is_sorted(knots.begin(), knots.end()) || !(knots[p] < knots[count]))
     throw std::invalid_argument("the knots of a B-spline must ascend");
-  const Eigen::Matrix<Real, Eigen::Dynamic, 1> error =
-      kSpline * points.cwiseAbs().rowwise().maxCoeff().cast<Real>();
+  const RealVector error = kSpline * points.cwiseAbs().rowwise().maxCoeff().cast<Real>();
   Curve curve;
   curve.knots.push_back(knots[p]);
   for (std::size_t k = p; k < count; ++k) {

@@ -25,9 +25,12 @@
 /// 6, t⁵ 4, product 1, sum 5; T² 16; 1 | 32 (p0: 1 + 10 + 15 + 6) | 1312 | 2^-42·M = 2048u·M |
 ///
 /// The bounds have room for the terms of second order, and for the rounding of the Bernstein
-/// coefficients, which are computed in long double and rounded once: at most 2u·M. A controller
-/// that knows T less exactly, for instance because it takes times since 1970 in doubles, deviates
-/// by |v|·|δT| more: this is for the tube.
+/// coefficients, which are computed in long double and rounded once: at most 2u·M.
+///
+/// A controller that takes the duration from times in doubles knows it less exactly: to δ seconds.
+/// Its curve then has T + δ in the terms v·T and a·T². The polynomials that these are multiplied by
+/// are below 1 on [0, 1]. So it deviates by at most δ·(|v0| + |v1|) + 3·δ·T·(|a0| + |a1|) for δ ≤
+/// T: the functions below add this for their `durationError`.
 namespace corridor {
 
 /// What a trajectory says about one time. m, rad, s. Empty vectors: unknown.
@@ -42,11 +45,12 @@ CurvePiece linearPiece(const ConfigurationSpace& space, const Configuration& fro
 /// Returns the cubic polynomials with the positions and velocities at both ends. The numbers of
 /// rotations are not polynomials: rotations go by slerp.
 /// @param duration seconds, > 0.
+/// @param durationError seconds: how far a controller's duration may be from `duration`.
 CurvePiece cubicPiece(const ConfigurationSpace& space, const CurvePoint& from, const CurvePoint& to,
-                      long double duration);
+                      long double duration, long double durationError = 0);
 /// Returns the same, with polynomials of degree 5 that have the accelerations at both ends, too.
 CurvePiece quinticPiece(const ConfigurationSpace& space, const CurvePoint& from,
-                        const CurvePoint& to, long double duration);
+                        const CurvePoint& to, long double duration, long double durationError = 0);
 
 /// Returns the polynomials Σ_k coefficients(row, k)·t^k for t in [0, duration]. The space must have
 /// no rotation.

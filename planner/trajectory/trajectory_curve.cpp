@@ -15,6 +15,11 @@ namespace {
 
 using Real = long double;
 
+/// A controller that computes times in doubles, as seconds plus nanoseconds times 1e-9, is off by 3
+/// roundings at both ends of a piece, and by one in their difference: by at most 7·2^-53 of the
+/// larger time.
+constexpr Real kTimeRounding = 0x1p-50L;
+
 /// Adds a fault for each circle that jumps by more than half a turn between two rows.
 void checkTurns(const TrajectoryRows& rows, std::size_t row, const ConfigurationSpace& space,
                 FaultList& faults) {
@@ -69,12 +74,13 @@ Curve curveOf(const TrajectoryRows& rows, const ConfigurationSpace& space, Betwe
     const TrajectoryRow &from = rows.rows[k - 1], &to = rows.rows[k];
     checkTurns(rows, k, space, faults);
     const Real duration = Real(timeOf(k)) - Real(timeOf(k - 1));
+    const Real off = kTimeRounding * std::max(std::abs(timeOf(k)), std::abs(timeOf(k - 1)));
     const CurvePoint begin{from.positions, from.velocities, from.accelerations},
         end{to.positions, to.velocities, to.accelerations};
-    curve.pieces.push_back(between == Between::linear
-                               ? linearPiece(space, from.positions, to.positions)
-                           : between == Between::cubic ? cubicPiece(space, begin, end, duration)
-                                                       : quinticPiece(space, begin, end, duration));
+    curve.pieces.push_back(
+        between == Between::linear  ? linearPiece(space, from.positions, to.positions)
+        : between == Between::cubic ? cubicPiece(space, begin, end, duration, off)
+                                    : quinticPiece(space, begin, end, duration, off));
     const CurvePiece& piece = curve.pieces.back();
     if (!piece.coefficients.allFinite() || !piece.error.allFinite())
       faults.add(rows.file, to.line,

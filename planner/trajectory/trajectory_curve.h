@@ -27,7 +27,8 @@ Between betweenOf(TrajectoryRows& rows, std::optional<Between> wanted);
 
 /// Returns the curve that the rows mean, with one piece from each row to the next. Its knots are
 /// the times or, if the file has none, 0, 1, 2, … Angles are literal, and rotations go by slerp.
-/// curve_pieces.h derives the error of the pieces.
+/// curve_pieces.h derives the error of the pieces. It includes that of a controller's times, if it
+/// counts them from the begin of the file, in doubles.
 /// @throws InputError with all faults: a circle that jumps by more than half a turn from one row to
 /// the next (which is a jump of the angle, not a motion); values that are too large.
 Curve curveOf(const TrajectoryRows& rows, const ConfigurationSpace& space, Between between);
@@ -42,8 +43,8 @@ struct OutsideBounds {
 
 /// Proves that the line coordinates of a curve stay within their bounds everywhere, not only at its
 /// rows. For each coordinate of which this can't be proved, returns a place in the first piece that
-/// leaves the bounds (verify/polynomial_range.h). A value beyond a bound by at most the piece's error is
-/// not outside.
+/// leaves the bounds (verify/polynomial_range.h). A value beyond a bound by at most the piece's
+/// error is not outside.
 std::vector<OutsideBounds> outsideBounds(const ConfigurationSpace& space,
                                          std::span<const CurvePiece> pieces);
 

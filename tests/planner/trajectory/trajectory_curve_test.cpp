@@ -93,7 +93,9 @@ TEST_F(TrajectoryCurve, BoundsHoldAlongTheWholeCurve) {
     EXPECT_EQ(places[0].coordinate, 1u);
     EXPECT_EQ(places[0].piece, std::abs(v) > 500 ? 0u : 1u);
     EXPECT_GT(std::abs(places[0].value), 3.14159);
-    if (places[0].piece == 1) EXPECT_NEAR(places[0].t, 1.0 / 3, 0.01);
+    if (places[0].piece == 1) {
+      EXPECT_NEAR(places[0].t, 1.0 / 3, 0.01);
+    }
   }
   // A curve that rests at its bound is within it.
   TrajectoryRows still = rows("time pan lift pan_vel lift_vel\n0 0 3.14159 0 0\n1 0 3.14159 0 0\n");
@@ -130,10 +132,16 @@ TEST_F(TrajectoryCurve, WrittenTextsReadBackAsTheSameDoubles) {
         EXPECT_EQ(read.hasVelocities, has > 0);
         EXPECT_EQ(read.hasAccelerations, has > 1);
         for (std::size_t k = 0; k < read.rows.size(); ++k) {
-          if (timed) ASSERT_EQ(read.rows[k].time, wrote.rows[k].time) << k;
+          if (timed) {
+            ASSERT_EQ(read.rows[k].time, wrote.rows[k].time) << k;
+          }
           ASSERT_EQ(read.rows[k].positions, wrote.rows[k].positions) << k;
-          if (has > 0) ASSERT_EQ(read.rows[k].velocities, wrote.rows[k].velocities) << k;
-          if (has > 1) ASSERT_EQ(read.rows[k].accelerations, wrote.rows[k].accelerations) << k;
+          if (has > 0) {
+            ASSERT_EQ(read.rows[k].velocities, wrote.rows[k].velocities) << k;
+          }
+          if (has > 1) {
+            ASSERT_EQ(read.rows[k].accelerations, wrote.rows[k].accelerations) << k;
+          }
         }
       }
     }

@@ -15,6 +15,7 @@ words() {
     read_cloud) set -- collision/geometry/{pcd_reader,ply_header,occupancy_map}.cpp ;;
     read_urdf | read_srdf) set -- planner/robot/{urdf_*,srdf_file,joint_types}.cpp ;;
     read_campaign) set -- planner/{benchmark/campaign_yaml,problem/keys,problem/checker_yaml}.cpp ;;
+    read_trajectory) set -- planner/trajectory/*_table.cpp ;;
     read_solution) set -- planner/solve/solution.cpp ;;
     read_*) set -- planner/problem/*.cpp ;;
     *) return ;;
