@@ -1,5 +1,5 @@
 // Tests that a page plays a trajectory at its true speed: poses, plots and findings at their times.
-#include <cmath>
+#include <algorithm>
 #include <limits>
 
 #include <Eigen/Geometry>
@@ -70,7 +70,7 @@ TEST_F(TrajectoryPage, PosesAreAtTheirTimes) {
   ASSERT_EQ(states.size(), 3U);
   EXPECT_EQ(at[states[1]], static_cast<float>(0.5 / 3));
   EXPECT_EQ(at.back(), 1);
-  ASSERT_GT(at.size(), 40U) << "pan and lift turn by more than 80°, at most 2° between samples";
+  ASSERT_GE(at.size(), 400U) << "no step is larger than a 400th of the path";
   std::vector<std::size_t> frames;
   for (const ModelBody& body : problem_.model.bodies)
     if (body.frame != 0 && (frames.empty() || frames.back() != body.frame))
@@ -120,7 +120,7 @@ TEST_F(TrajectoryPage, PlotsHaveAllDerivativesAndTheLimits) {
       const auto values = [&](int quantity) {
         return reader.array<double>(joints[joint]["values"][quantity]).at(i);
       };
-      // Floats, and `at` is off by 2^-24 of 3 s; jerks are below 50 rad/s³.
+      // Floats, and `at` is off by 2^-24 of 3 s; jerks are below 60 rad/s³.
       EXPECT_NEAR(values(0), cubic.position(s), 2e-5);
       EXPECT_NEAR(values(1), cubic.velocity(s), 2e-5);
       EXPECT_NEAR(values(2), cubic.acceleration(s), 2e-5);
@@ -141,15 +141,19 @@ TEST_F(TrajectoryPage, RowsWithoutTimesPlayAsAPath) {
   solution.report = verifySolution(problem_, solution.solution);
   const PageReader path = page(solution);
   for (const char* key : {"at", "t", "edge", "poses"})
-    EXPECT_EQ(reader.array<double>(reader.json["path"][key]),
-              path.array<double>(path.json["path"][key]))
+    EXPECT_THAT(
+        reader.array<double>(reader.json["path"][key]),
+        testing::Pointwise(testing::DoubleNear(1e-6), path.array<double>(path.json["path"][key])))
         << key;
   EXPECT_EQ(reader.json["solution"]["rotation_rad"], path.json["solution"]["rotation_rad"]);
 }
 
-/// The lower arm, 0.7 m above the ground, swings through the post beside it.
+/// The lower arm is level, 0.7 m above the ground, and reaches 0.4 m. It swings through a post.
 TEST_F(TrajectoryPage, FindingsAreAtTheirTimes) {
-  const ViewedPath path = viewed("time,pan,lift\n10,0,1.9\n12,1.6,1.9\n");
+  problem_ = read(
+      "format: corridor-problem-1\nrobot: arm.yaml\nworld:\n  post: {box: [0.1, 0.1, 1], at: "
+      "[0.3, 0.3, 0.5]}\nstart: {pan: 0, lift: 0}\ngoal: {pan: 1, lift: 0.5}\n");
+  const ViewedPath path = viewed("time,pan,lift\n10,0,1.57\n12,1.6,1.57\n");
   ASSERT_EQ(path.report.verdict, PathVerdict::refuted);
   const PageReader reader = page(path);
   const auto& finding = reader.json["verdict"]["findings"].at(0);
