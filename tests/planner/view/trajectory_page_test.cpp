@@ -64,7 +64,8 @@ TEST_F(TrajectoryPage, PosesAreAtTheirTimes) {
   EXPECT_TRUE(reader.json["solution"]["length_m"].is_null() &&
               reader.json["solution"]["rotation_rad"].is_null())
       << "the rows do not give the length of a curve";
-  const auto at = reader.array<double>(json["at"]), poses = reader.array<double>(json["poses"]);
+  const auto at = reader.array<double>(json["at"]),
+             framePoseNumbers = reader.array<double>(json["poses"]);
   const auto edge = reader.array<std::size_t>(json["edge"]);
   const std::vector<std::size_t> states = json["states"];
   ASSERT_EQ(states.size(), 3U);
@@ -77,7 +78,7 @@ TEST_F(TrajectoryPage, PosesAreAtTheirTimes) {
       frames.push_back(body.frame);
   std::sort(frames.begin(), frames.end());
   frames.erase(std::unique(frames.begin(), frames.end()), frames.end());
-  ASSERT_EQ(poses.size(), 7 * frames.size() * at.size());
+  ASSERT_EQ(framePoseNumbers.size(), 7 * frames.size() * at.size());
   const double origin[3] = {reader.json["origin"][0], reader.json["origin"][1],
                             reader.json["origin"][2]};
   for (std::size_t i = 0; i < at.size(); ++i) {
@@ -86,7 +87,7 @@ TEST_F(TrajectoryPage, PosesAreAtTheirTimes) {
     q << pan_[edge[i]].position(s), lift_[edge[i]].position(s);
     const std::vector<Transform> real = framePoses(problem_.model.tree, q);
     for (std::size_t k = 0; k < frames.size(); ++k) {
-      const double* p = poses.data() + 7 * (i * frames.size() + k);
+      const double* p = framePoseNumbers.data() + 7 * (i * frames.size() + k);
       // `at` and poses are floats: the time is off by 3·2^-24 s, and speeds are below 5 m/s, 5
       // rad/s.
       const Vec3 position(p[0] + origin[0], p[1] + origin[1], p[2] + origin[2]);
