@@ -74,7 +74,7 @@ TEST_F(ViewCommand, ReportsAPathOfChangedFilesOnThePage) {
 /// A file that `corridor verify` takes as a trajectory is played at its true speed.
 TEST_F(ViewCommand, PlaysATrajectory) {
   const std::string header = "time,x,y,z,qx,qy,qz,qw\n";
-  write("through.csv", header + "0.5,-3,-2,0,0,0,0,1\n3,3,-2,0,0,0,0,1\n");
+  write("through.csv", header + "0.5,-2.5,-2,0,0,0,0,1\n3,3,-2,0,0,0,0,1\n");
   const Result result = run("view " + plate + " through.csv -o page.html");
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("verdict: refuted\n"));

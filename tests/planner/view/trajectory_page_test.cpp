@@ -108,7 +108,7 @@ TEST_F(TrajectoryPage, PlotsHaveAllDerivativesAndTheLimits) {
   EXPECT_EQ(joints[0]["unit"], "rad");
   EXPECT_TRUE(joints[0]["bounds"].is_null()) << "pan turns without end";
   EXPECT_EQ(joints[0]["velocity"], 3.0);
-  EXPECT_EQ(joints[1]["bounds"], (nlohmann::json{-2.0, 2.0}));
+  EXPECT_EQ(joints[1]["bounds"], (nlohmann::json{-3.14159, 3.14159}));
   EXPECT_TRUE(joints[1]["velocity"].is_null());
   EXPECT_TRUE(joints[0]["acceleration"].is_null());
   const auto at = reader.array<double>(reader.json["plots"]["at"]);
