@@ -18,8 +18,8 @@ struct Head {
   std::uint64_t isCollada = 0;
 };
 
-using Triangle = std::array<std::uint32_t, 3>;
-static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(Triangle) == 12);
+using Indices = std::array<std::uint32_t, 3>;
+static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(Indices) == 12);
 
 template <class T>
 void append(std::string& bytes, const T* from, std::size_t count) {
@@ -43,7 +43,7 @@ std::string packed(const AssimpImport& import) {
                   import.fileUnit,
                   import.isCollada};
   std::string bytes;
-  bytes.reserve(sizeof head + head.vertices * sizeof(Vec3) + head.triangles * sizeof(Triangle) +
+  bytes.reserve(sizeof head + head.vertices * sizeof(Vec3) + head.triangles * sizeof(Indices) +
                 head.format + head.error);
   append(bytes, &head, 1);
   append(bytes, import.mesh.vertices.data(), import.mesh.vertices.size());
@@ -59,7 +59,7 @@ bool unpack(std::string_view bytes, AssimpImport& import) {
   // The counts are compared with the size first, so that their products cannot overflow.
   if (head.magic != kMagic || head.vertices > bytes.size() || head.triangles > bytes.size() ||
       head.format > bytes.size() || head.error > bytes.size() ||
-      bytes.size() != head.vertices * sizeof(Vec3) + head.triangles * sizeof(Triangle) +
+      bytes.size() != head.vertices * sizeof(Vec3) + head.triangles * sizeof(Indices) +
                           head.format + head.error)
     return false;
   import.mesh.vertices.resize(head.vertices);

@@ -11,7 +11,7 @@
 namespace corridor {
 namespace {
 
-using Triangle = std::array<std::uint32_t, 3>;
+using Indices = std::array<std::uint32_t, 3>;
 
 /// The bounds of the corners of triangles. Lengths relative to their diagonal have squares that
 /// neither overflow nor underflow, whatever the mesh's size.
@@ -47,7 +47,7 @@ TriangleQuality qualityOf(const Vec3& a, const Vec3& b, const Vec3& c, const Bou
   return doubleArea < sliverRatio * longest ? TriangleQuality::sliver : TriangleQuality::fair;
 }
 
-Triangle sorted(Triangle t) {
+Indices sorted(Indices t) {
   std::sort(t.begin(), t.end());
   return t;
 }
@@ -68,10 +68,10 @@ void forEachRun(std::vector<std::uint64_t>& values, Use use) {
   }
 }
 
-void countEdges(const std::vector<Triangle>& distinctFair, MeshHealth& health) {
+void countEdges(const std::vector<Indices>& distinctFair, MeshHealth& health) {
   std::vector<std::uint64_t> edges;
   edges.reserve(3 * distinctFair.size());
-  for (const Triangle& t : distinctFair) {
+  for (const Indices& t : distinctFair) {
     for (int i = 0; i < 3; ++i) edges.push_back(undirected(t[i], t[(i + 1) % 3]));
   }
   forEachRun(edges, [&](std::ptrdiff_t uses) {
@@ -87,9 +87,9 @@ struct EdgeUses {
   std::size_t turned = 0;  ///< edges of two triangles, in the same direction
   std::size_t many = 0;    ///< edges of three triangles or more
 
-  explicit EdgeUses(const std::vector<Triangle>& triangles) {
+  explicit EdgeUses(const std::vector<Indices>& triangles) {
     std::vector<std::uint64_t> forward, backward;
-    for (const Triangle& t : triangles) {
+    for (const Indices& t : triangles) {
       if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
       for (int i = 0; i < 3; ++i) {
         const std::uint32_t a = t[i], b = t[(i + 1) % 3];
@@ -124,7 +124,7 @@ std::string whyNotWatertight(const EdgeUses& edges, bool repeated) {
   return "none of its triangles has three different corners";
 }
 
-std::size_t countComponents(const std::vector<Triangle>& triangles, std::size_t points) {
+std::size_t countComponents(const std::vector<Indices>& triangles, std::size_t points) {
   std::vector<std::uint32_t> parent(points);
   std::iota(parent.begin(), parent.end(), 0u);
   const auto root = [&](std::uint32_t i) {
@@ -132,7 +132,7 @@ std::size_t countComponents(const std::vector<Triangle>& triangles, std::size_t 
     return i;
   };
   std::size_t components = points;  // every point is a corner of some triangle
-  for (const Triangle& t : triangles) {
+  for (const Indices& t : triangles) {
     for (int i = 1; i < 3; ++i) {
       const std::uint32_t a = root(t[0]), b = root(t[i]);
       if (a == b) continue;
@@ -145,11 +145,11 @@ std::size_t countComponents(const std::vector<Triangle>& triangles, std::size_t 
 
 /// Returns the volume by the divergence theorem. The reference point is the centre of the bounds,
 /// for less cancellation far from the origin.
-double volumeOf(const std::vector<Triangle>& triangles, const std::vector<Vec3>& points,
+double volumeOf(const std::vector<Indices>& triangles, const std::vector<Vec3>& points,
                 const Bounds& bounds) {
   const Vec3 centre = bounds.min / 2 + bounds.max / 2;
   double sum = 0;
-  for (const Triangle& t : triangles) {
+  for (const Indices& t : triangles) {
     const Vec3 a = bounds.share(centre, points[t[0]]), b = bounds.share(centre, points[t[1]]),
                c = bounds.share(centre, points[t[2]]);
     sum += a.dot(b.cross(c));
@@ -169,8 +169,8 @@ MeshHealth inspectMesh(const TriangleMesh& mesh) {
   }
 
   VertexWelder welder(mesh.vertices.size());
-  std::vector<Triangle> triangles = mesh.triangles;
-  for (Triangle& t : triangles) {
+  std::vector<Indices> triangles = mesh.triangles;
+  for (Indices& t : triangles) {
     for (std::uint32_t& corner : t) corner = welder.index(mesh.vertices[corner]);
   }
   const std::vector<Vec3> points = welder.takePoints();
@@ -178,15 +178,15 @@ MeshHealth inspectMesh(const TriangleMesh& mesh) {
   health.min = bounds.min + Vec3::Zero();  // no -0
   health.max = bounds.max + Vec3::Zero();
 
-  std::vector<Triangle> all, fair;  // with sorted corners; repeated ones are removed below
-  for (const Triangle& t : triangles) {
+  std::vector<Indices> all, fair;  // with sorted corners; repeated ones are removed below
+  for (const Indices& t : triangles) {
     const auto quality = qualityOf(points[t[0]], points[t[1]], points[t[2]], bounds);
     health.degenerateTriangles += quality == TriangleQuality::degenerate;
     health.sliverTriangles += quality == TriangleQuality::sliver;
     all.push_back(sorted(t));
     if (quality != TriangleQuality::degenerate) fair.push_back(all.back());
   }
-  const auto makeDistinct = [](std::vector<Triangle>& list) {
+  const auto makeDistinct = [](std::vector<Indices>& list) {
     std::sort(list.begin(), list.end());
     list.erase(std::unique(list.begin(), list.end()), list.end());
   };

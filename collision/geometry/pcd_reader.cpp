@@ -43,9 +43,9 @@ bool isIdentity(const std::vector<std::string>& viewpoint) {
 }
 
 /// Reads the header: lines of a keyword and words, until the line DATA.
-class HeaderReader {
+class PcdHeaderReader {
  public:
-  HeaderReader(std::string_view bytes, MeshFaults& faults)
+  PcdHeaderReader(std::string_view bytes, MeshFaults& faults)
       : cursor_(bytes), bytes_(bytes), faults_(faults) {}
 
   Header read() {
@@ -305,7 +305,7 @@ std::vector<Vec3> readCompressed(std::string_view body, const Header& header, Me
 }  // namespace
 
 PointCloud readPcd(std::string_view bytes, MeshFaults& faults) {
-  const Header header = HeaderReader(bytes, faults).read();
+  const Header header = PcdHeaderReader(bytes, faults).read();
   const std::string_view body = bytes.substr(header.size);
   const auto cloud = [&](std::vector<Vec3> points, const char* format) {
     return PointCloud{std::move(points), format, 0, header.hasViewpoint};

@@ -11,7 +11,7 @@
 namespace corridor {
 namespace {
 
-using Reader = PointCloud (*)(std::string_view, MeshFaults&);
+using CloudReader = PointCloud (*)(std::string_view, MeshFaults&);
 
 bool isRead(const std::string& extension) {
   for (const char* known : {".ply", ".pcd", ".xyz", ".txt", ".asc", ".pts", ".csv"})
@@ -21,7 +21,7 @@ bool isRead(const std::string& extension) {
 
 /// Returns the reader of a file. The content decides, because files of every kind are called .xyz
 /// or .txt; the extension decides only about files that begin like none.
-Reader readerOf(std::string_view bytes, const std::string& extension) {
+CloudReader readerOf(std::string_view bytes, const std::string& extension) {
   if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return readPlyPoints;
   if (bytes.starts_with("# .PCD") || bytes.starts_with("# PCD")) return readPcd;
   return extension == ".ply" ? readPlyPoints : extension == ".pcd" ? readPcd : readXyz;

@@ -147,15 +147,17 @@ class MotionBound4 {
 
       const V zero = hn::Zero(d_);
       V displaced = zero, rate = zero, second = zero, pad = error, tubeGrowth = zero,
-        singleTravel = zero;
+        singleTravel = zero, deviated = zero;
       int turns = 0;
       bool slid = false, isLastToMove = false;
       for (std::size_t j = w.screws.size(); j-- > 0;) {
         const ScrewMotion& screw = w.screws[j];
-        const V amount = set(screw.amount), tube = set(screw.tube);
+        const V amount = set(screw.amount), deviation = set(screw.deviation),
+                tube = set(screw.tube);
         if (screw.kind == ScrewMotion::Kind::prismatic) {
-          displaced = hn::Add(displaced, amount);
+          displaced = hn::Add(displaced, hn::Add(amount, deviation));
           rate = hn::Add(rate, amount);
+          deviated = hn::Add(deviated, deviation);
           pad = hn::Add(pad, tube);
           slid = slid || screw.amount != 0;
           continue;
@@ -174,14 +176,19 @@ class MotionBound4 {
         }
         pad = hn::MulAdd(r, tube, pad);
         tubeGrowth = hn::MulAdd(displaced, tube, tubeGrowth);
-        if (screw.amount == 0) continue;
-        const V onward = hn::Mul(hn::Add(r, displaced), amount);
-        isLastToMove = turns == 0 && !slid;
-        if (isLastToMove) singleTravel = onward;
-        ++turns;
-        second = hn::MulAdd(amount, hn::MulAdd(set(2), rate, onward), second);
-        rate = hn::Add(rate, onward);
-        displaced = hn::MulAdd(r, set(chord(screw.amount)), displaced);
+        const double most = screw.amount + screw.deviation;
+        if (most == 0) continue;
+        const V far = hn::Add(r, displaced);
+        deviated = hn::MulAdd(far, deviation, deviated);
+        if (screw.amount > 0) {
+          const V onward = hn::Mul(far, amount);
+          isLastToMove = turns == 0 && !slid;
+          if (isLastToMove) singleTravel = onward;
+          ++turns;
+          second = hn::MulAdd(amount, hn::MulAdd(set(2), rate, onward), second);
+          rate = hn::Add(rate, onward);
+        }
+        displaced = hn::MulAdd(r, set(chord(most)), displaced);
       }
       const V l[3] = {hn::NegMulAdd(set(w.angular[2]), y[1], hn::Mul(set(w.angular[1]), y[2])),
                       hn::NegMulAdd(set(w.angular[0]), y[2], hn::Mul(set(w.angular[2]), y[0])),
@@ -192,13 +199,13 @@ class MotionBound4 {
       const V blur = hn::MulAdd(set(16 * kUnit), hn::MulAdd(set(w.angle), lever, set(w.speed)),
                                 set(w.angle * leverError_));
       const V first = hn::Add(hn::MulAdd(set(w.angle), grown, norm(v[0], v[1], v[2])),
-                              hn::MulAdd(set(0.5), second, blur));
+                              hn::Add(hn::MulAdd(set(0.5), second, blur), deviated));
       const bool isSingleRotation = turns == 1 && isLastToMove;
       const V scaled = set(scale_ * unit_);
       const V isotropic = hn::Mul(scaled, hn::Add(hn::Min(displaced, first), tubeGrowth));
       const V tilt = set(isSingleRotation ? w.reachError + 8 * kUnit : 0.5);
       store(isotropic, bound.isotropic, at);
-      V secondOrder = hn::MulAdd(tilt, second, hn::Add(tubeGrowth, blur));
+      V secondOrder = hn::MulAdd(tilt, second, hn::Add(hn::Add(tubeGrowth, blur), deviated));
       if (isSingleRotation) secondOrder = hn::MulAdd(set(w.reachError), singleTravel, secondOrder);
       store(hn::Mul(scaled, secondOrder), bound.secondOrder, at);
       store(isSingleRotation ? hn::Mul(scaled, hn::Mul(set(0.5), singleTravel)) : zero,

@@ -47,12 +47,22 @@
 ///   (moving_triangles.cpp). `amount` is at least the real δ, and at most e above |angular|.
 ///   Therefore ½ r (δ² − |angular|²) ≤ r·amount·e, which is the term added.
 ///
-/// Tube.
-///   x(s, ε) − x(s, 0) = Σ_j T_1(sδ_1 + ε_1) … [T_j(sδ_j + ε_j) − T_j(sδ_j)] z_(j+1),
-/// where the joints after j are nominal. A bracket is at most |ε_j| times the distance of z_(j+1)
-/// from axis j, which is again at most r̄_j (1 for translations). At the middle D = 0, so the tube
-/// adds r_j τ_j there, where τ_j is the joint's `tube`. This term goes to `pad`. The rest, D_(j+1)
-/// τ_j, decreases with the length of the interval. It goes to `isotropic` and `secondOrder`.
+/// Deviations. Joint j moves by σ_j(s) = sδ_j + η_j(s) instead of sδ_j, with |η_j| ≤ ρ_j (its
+/// `deviation`). In `isotropic`, |σ_j| ≤ δ_j + ρ_j takes the place of δ_j, also in D_j. The curve
+/// above, with all η = 0, is the uniform one. The difference from it is
+///   x(s, η) − x(s, 0) = Σ_j T_1(σ_1) … T_(j−1)(σ_(j−1)) [T_j(σ_j) − T_j(sδ_j)] z_(j+1),
+/// where the joints after j move uniformly. A bracket is at most |η_j| times the distance of
+/// z_(j+1) from axis j, at most ρ_j r̄_j (ρ_j for translations). The variable `deviated` is the sum
+/// of these terms. It adds to `secondOrder`, and not to `pad`, because it vanishes with the
+/// interval.
+///
+/// Tube. With σ as above, a tube displaces the point further by
+///   x(s, η + ε) − x(s, η) = Σ_j T_1(σ_1 + ε_1) … [T_j(σ_j + ε_j) − T_j(σ_j)] z_(j+1),
+/// where now z_(j+1) is the point after the motions σ of the joints after j. A bracket is at most
+/// |ε_j| times the distance of z_(j+1) from axis j, which is again at most r̄_j (1 for
+/// translations). At the middle D = 0, so the tube adds r_j τ_j there, where τ_j is the joint's
+/// `tube`. This term goes to `pad`. The rest, D_(j+1) τ_j, decreases with the length of the
+/// interval. It goes to `isotropic` and `secondOrder`.
 ///
 /// Rounding. The relative motion states the error of its own numbers (`fixedError`, `reachError`).
 /// For a point with lever y this error is at most E = fixedError + reachError·|y|. The distances
@@ -88,15 +98,16 @@ MotionBound motionBound(const RelativeMotion& relative, const Vec3& x_A, double 
   const double grown = radius + error + loose;
 
   const double scale = 1 + kUnit * static_cast<double>(64 + 8 * relative.screws.size());
-  double displaced = 0, rate = 0, second = 0, pad = error, tubeGrowth = 0;
+  double displaced = 0, rate = 0, second = 0, pad = error, tubeGrowth = 0, deviated = 0;
   // r δ of the only rotation so far, if no translation comes after it in the chain; otherwise 0.
   double singleTravel = 0;
   int turns = 0;
   for (std::size_t j = relative.screws.size(); j-- > 0;) {
     const ScrewMotion& screw = relative.screws[j];
     if (screw.kind == ScrewMotion::Kind::prismatic) {
-      displaced += screw.amount;
+      displaced += screw.amount + screw.deviation;
       rate += screw.amount;
+      deviated += screw.deviation;
       pad += screw.tube;
       continue;
     }
@@ -106,13 +117,17 @@ MotionBound motionBound(const RelativeMotion& relative, const Vec3& x_A, double 
                      grown + 16 * kUnit * taxicab(d);
     pad += r * screw.tube;
     tubeGrowth += displaced * screw.tube;
-    if (screw.amount == 0) continue;
-    const double onward = (r + displaced) * screw.amount;
-    singleTravel = turns == 0 && rate == 0 ? onward : 0;
-    ++turns;
-    second += screw.amount * (onward + 2 * rate);
-    rate += onward;
-    displaced += r * chord(screw.amount);
+    const double most = screw.amount + screw.deviation;
+    if (most == 0) continue;
+    deviated += (r + displaced) * screw.deviation;
+    if (screw.amount > 0) {
+      const double onward = (r + displaced) * screw.amount;
+      singleTravel = turns == 0 && rate == 0 ? onward : 0;
+      ++turns;
+      second += screw.amount * (onward + 2 * rate);
+      rate += onward;
+    }
+    displaced += r * chord(most);
   }
 
   MotionBound bound;
@@ -124,14 +139,14 @@ MotionBound motionBound(const RelativeMotion& relative, const Vec3& x_A, double 
       length(l[0] + (w[1] * y[2] - w[2] * y[1]), l[1] + (w[2] * y[0] - w[0] * y[2]),
              l[2] + (w[0] * y[1] - w[1] * y[0])) +
       relative.angle * grown + 16 * kUnit * (relative.speed + relative.angle * lever) +
-      0.5 * second;
+      0.5 * second + deviated;
   bound.isotropic = scale * (std::min(displaced, firstOrder) + tubeGrowth);
   const bool isSingleRotation = singleTravel > 0 && turns == 1;
   const double tilt = isSingleRotation ? relative.reachError + 8 * kUnit : 0.5;
   bound.secondOrderAcross = isSingleRotation ? scale * 0.5 * singleTravel : 0;
   bound.secondOrder =
-      scale *
-      (tilt * second + (isSingleRotation ? relative.reachError * singleTravel : 0) + tubeGrowth);
+      scale * (tilt * second + (isSingleRotation ? relative.reachError * singleTravel : 0) +
+               deviated + tubeGrowth);
   return bound;
 }
 

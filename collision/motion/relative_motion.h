@@ -31,6 +31,10 @@ struct ScrewMotion {
   Vec3 point = Vec3::Zero();  ///< metres
   double amount = 0;  ///< half of the joint's motion in the interval, ≥ 0, rounded up; rad or m
   double tube = 0;    ///< largest perturbation in addition to `amount`, ≥ 0; rad or m
+  /// The largest deviation from a uniform motion by ±`amount` in the interval, ≥ 0, rounded up; rad
+  /// or m. 0 if the joint moves uniformly. For a smooth motion it shrinks with the square of the
+  /// interval's length. A joint that turns round at the middle has `amount` 0 and a deviation.
+  double deviation = 0;
 };
 
 /// The motion of a body b relative to a body a in a time interval [t − h, t + h], described from
@@ -38,8 +42,8 @@ struct ScrewMotion {
 ///
 /// Both bodies may move; frame A of a is at rest here. The motion is that of the kinematic chain
 /// from a to b. At time t + s·h, |s| ≤ 1, its exact map is
-///   X_AB(s) = T_1(s·δ_1 + ε_1) … T_k(s·δ_k + ε_k),
-///   |δ_j| = screws[j].amount, |ε_j| ≤ screws[j].tube.
+///   X_AB(s) = T_1(s·δ_1 + η_1(s) + ε_1) … T_k(s·δ_k + η_k(s) + ε_k),
+///   |δ_j| = screws[j].amount, η_j(0) = 0, |η_j| ≤ screws[j].deviation, |ε_j| ≤ screws[j].tube.
 /// Each T_j is a rotation about an axis, or a translation along an axis. The axis of joint j is
 /// moved by the joints before j.
 ///
@@ -68,8 +72,9 @@ struct RelativeMotion {
 ///   secondOrder·|n| + pad·|n|
 /// and |x(s) − x(0)| ≤ isotropic + pad.
 /// * `pad` bounds the rounding errors, and the displacement by the tube at the middle.
-/// * `isotropic` and `secondOrder` include the tube's growth: how much more the tube can displace
-///   the points at other times of the interval.
+/// * `isotropic` and `secondOrder` include the deviations of the joints from uniform motion, and
+/// the
+///   tube's growth: how much more the tube can displace the points at other times of the interval.
 ///
 /// All four numbers are rounded up. They are in metres, except `secondOrderAcross` (metres per
 /// radian of `angular`).

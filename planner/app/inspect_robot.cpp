@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-std::string jointText(const RobotModel& model, const JointModel& joint) {
+std::string jointLine(const RobotModel& model, const JointModel& joint) {
   std::string text = "\"" + joint.name + "\": " + nameOf(joint.type) + ", " +
                      model.links[joint.parent].name + " to " + model.links[joint.child].name;
   if (!joint.mimic && (std::isfinite(joint.lower) || std::isfinite(joint.upper)))
@@ -162,7 +162,7 @@ int inspectRobot(const InspectArguments& a) {
   out.line("root", model.links[model.root].name);
   for (const JointModel& joint : model.joints) {
     j["joints"].push_back(jointJson(model, joint));
-    out.line("joint", jointText(model, joint));
+    out.line("joint", jointLine(model, joint));
   }
   const std::vector<double> reach = reachOfLinks(model);
   for (std::size_t i = 0; i < model.links.size(); ++i) {

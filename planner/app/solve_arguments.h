@@ -17,7 +17,8 @@ struct SolveArguments {
   std::optional<double> time, resolution, margin, clearance;
   std::optional<std::uint64_t> seed;
   std::vector<std::string> set;  ///< key=value
-  std::optional<std::string> output, picture, from;
+  std::optional<std::string> output, picture, from, trajectory;
+  std::optional<double> rate, deviation, cornerDeviation;
   std::uint64_t jobs = 1, tries = 1;
   std::string keep = "shortest";  ///< which try is kept: shortest or clearest
   bool json = false, jsonLines = false, quiet = false, noSimplify = false;

@@ -36,7 +36,25 @@ int solveSingle(const std::string& file, const SolveArguments& a,
   else if (!a.json && !a.jsonLines)
     print(solved, file, a);
   if (interrupted) return interruptedStatus();
-  return solved.report.outcome == SolveOutcome::solved ? kDone : kNegativeResult;
+  const bool done = solved.report.outcome == SolveOutcome::solved &&
+                    (!solved.report.trajectory || solved.report.trajectory->proved());
+  return done ? kDone : kNegativeResult;
+}
+
+/// Tests the options of the trajectory. @throws InputError
+void requireTrajectory(const SolveArguments& a, bool several) {
+  const auto need = [&](const std::optional<double>& value, const char* option) {
+    if (value && !a.trajectory)
+      throw InputError(Fault{option, 0, "needs --trajectory, which is not given"});
+  };
+  need(a.rate, "--rate");
+  need(a.deviation, "--deviation");
+  need(a.cornerDeviation, "--corner-deviation");
+  if (!a.trajectory) return;
+  if (several)
+    throw InputError(Fault{"--trajectory", 0, "is a file for one problem, and several are given"});
+  trajectoryKindOf(*a.trajectory);
+  requireWritable(a.trajectory, "--trajectory");
 }
 
 /// Tests the options of the results for a single problem. @throws InputError
@@ -61,6 +79,8 @@ void requireFiles(const SolveArguments& a) {
   };
   if (a.output && a.picture && *a.output != "-" && whole(*a.output) == whole(*a.picture))
     throw InputError(Fault{"--picture", 0, "is the file of --output; name another one"});
+  if (a.output && a.trajectory && *a.output != "-" && whole(*a.output) == whole(*a.trajectory))
+    throw InputError(Fault{"--trajectory", 0, "is the file of --output; name another one"});
 }
 
 int solveCommand(const SolveArguments& a) {
@@ -70,6 +90,7 @@ int solveCommand(const SolveArguments& a) {
   if (a.keep == "clearest" && a.tries == 1)
     throw InputError(Fault{"--keep", 0, "needs --tries, which is not given"});
   const ProblemList list = listProblems(a.problems);
+  requireTrajectory(a, list.several);
   if (list.several) return solveMany(list.problems, a, listenForInterrupts());
   requireFiles(a);
   return solveSingle(list.problems.front().file, a, listenForInterrupts());
@@ -182,6 +203,30 @@ void addSolve(CLI::App& program, int& status) {
                    "for several problems, to this folder")
       ->group(results);
   addFrom(*command, a.from, results);
+  const char* motion = "Trajectory";
+  command
+      ->add_option("--trajectory", a.trajectory,
+                   "make a trajectory along the path, prove it, and write it to this file: .csv "
+                   "(rows of numbers) or .yaml (a JointTrajectory of ROS 2); it keeps the "
+                   "problem's limits")
+      ->group(motion);
+  command
+      ->add_option("--rate", a.rate,
+                   "rows per second (default: rows where the time law needs them)")
+      ->check(isWithin<double>(1, 10'000, "a number from 1 to 10000"))
+      ->group(motion);
+  command
+      ->add_option("--deviation", a.deviation,
+                   "the largest distance of the file's curve from the smoothed path, rad or m "
+                   "(default 1e-4)")
+      ->check(isWithin<double>(1e-9, 1, "a number from 1e-9 to 1"))
+      ->group(motion);
+  command
+      ->add_option("--corner-deviation", a.cornerDeviation,
+                   "the largest distance of a rounded corner from the path, rad or m (default: "
+                   "as far as the curve is proved)")
+      ->check(isWithin<double>(1e-6, 10, "a number from 1e-6 to 10"))
+      ->group(motion);
   CLI::Option* const json = command->add_flag("--json", a.json, "print one JSON object");
   json->group(results);
   command

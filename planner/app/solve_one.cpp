@@ -6,6 +6,7 @@
 #include <iostream>
 #include <unistd.h>
 
+#include "collision/core/spelling.h"
 #include "planner/app/options.h"
 #include "planner/app/output.h"
 #include "planner/problem/digest.h"
@@ -64,6 +65,13 @@ SolveReport bestOf(const SolveArguments& a, Problem& problem, const SolveOptions
 
 }  // namespace
 
+TrajectoryFileKind trajectoryKindOf(const std::string& file) {
+  const std::string extension = lowered(std::filesystem::path(file).extension().string());
+  if (extension == ".csv") return TrajectoryFileKind::csv;
+  if (extension == ".yaml" || extension == ".yml") return TrajectoryFileKind::message;
+  throw InputError(Fault{"--trajectory", 0, "a name that ends in .csv or .yaml is needed"});
+}
+
 Solved solveOne(const std::string& file, const SolveArguments& a,
                 const std::atomic<bool>& interrupted, const std::function<void()>& beforeWriting) {
   const auto before = std::chrono::steady_clock::now();
@@ -73,10 +81,18 @@ Solved solveOne(const std::string& file, const SolveArguments& a,
   const std::string digest = a.output ? digestOf(problem) : "";
   requireNotAnInput(a.output, "--output", problem.source.files, "the problem");
   requireNotAnInput(a.picture, "--picture", problem.source.files, "the problem");
+  requireNotAnInput(a.trajectory, "--trajectory", problem.source.files, "the problem");
   SolveOptions options;
   options.valueOrigins = applyArguments(a, problem);
   options.interrupted = &interrupted;
   options.noteStillPairs = true;
+  if (a.trajectory) {
+    options.trajectory.emplace();
+    options.trajectory->kind = trajectoryKindOf(*a.trajectory);
+    options.trajectory->rate = a.rate;
+    options.trajectory->cornerDeviation = a.cornerDeviation;
+    if (a.deviation) options.trajectory->deviation = *a.deviation;
+  }
   const bool show = !a.quiet && ::isatty(STDERR_FILENO) != 0;
   if (show) {
     options.progress = [&](const SolveProgress& p) {
@@ -98,6 +114,8 @@ Solved solveOne(const std::string& file, const SolveArguments& a,
       std::cout << solutionText(makeSolution(problem, report, digest));
     else if (a.output)
       writeSolution(makeSolution(problem, report, digest), *a.output);
+    if (report.trajectory && report.trajectory->proved())
+      writeWhole(*a.trajectory, report.trajectory->text);
     if (a.picture == "-")
       std::cout << svgPicture(problem, report.path, from);
     else if (a.picture)

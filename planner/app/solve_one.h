@@ -8,6 +8,9 @@
 
 namespace corridor::app {
 
+/// Returns the kind of the file that `--trajectory` names, by its extension. @throws InputError
+TrajectoryFileKind trajectoryKindOf(const std::string& file);
+
 /// Solves one problem, and writes the solution and the picture that the arguments name. With
 /// several tries, each has a seed of its own, from the problem's seed upwards; the best path is
 /// kept.

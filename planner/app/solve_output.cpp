@@ -39,8 +39,12 @@ namespace {
 std::array<double, kSolvePhases.size()> secondsOf(const Solved& solved) {
   const SolveReport& r = solved.report;
   const bool finished = r.outcome == SolveOutcome::solved;
-  return {solved.readingTime, r.setUpTime, r.planningTime - r.setUpTime,
-          finished ? r.time - r.planningTime - r.certificationTime : 0, r.certificationTime};
+  return {solved.readingTime,
+          r.setUpTime,
+          r.planningTime - r.setUpTime,
+          finished ? r.time - r.planningTime - r.certificationTime - r.trajectoryTime : 0,
+          r.certificationTime,
+          r.trajectoryTime};
 }
 
 /// Returns the lines of the report about the clearance of the path.
@@ -66,6 +70,66 @@ ordered_json clearanceJson(const PathClearance& c) {
   return j;
 }
 
+/// Returns "97.3 % (elbow)".
+std::string shareText(const Problem& problem, const LimitShare& share, bool isLink) {
+  const std::string name = isLink ? problem.task.limits.links[share.number].link
+                                  : problem.model.space.numberNames()[share.number];
+  return rounded(std::ceil(1e3 * share.share) / 10) + " % (" + name + ")";
+}
+
+std::string limitsText(const Problem& problem, const MadeTrajectory& made) {
+  std::string text = made.keepsLimits() ? "kept at every instant" : "exceeded";
+  const auto add = [&](const char* what, const LimitShare& share, bool isLink = false) {
+    if (share.share > 0) text += std::string("; ") + what + " " + shareText(problem, share, isLink);
+  };
+  add("velocity", made.ratios.velocity);
+  add("acceleration", made.ratios.acceleration);
+  add("jerk", made.ratios.jerk);
+  add("speed of links", made.ratios.link, true);
+  return text;
+}
+
+void printTrajectory(const ResultPrinter& out, const Problem& p, const MadeTrajectory& made) {
+  if (!made.fault.empty()) {
+    out.line("trajectory", "none: " + made.fault, Tone::bad);
+    return;
+  }
+  out.line("trajectory", rounded(made.duration) + " s, " + counted(made.rows, "row") + ", " +
+                             nameOf(made.between) + " between rows; " +
+                             std::to_string(made.rounded) + " of " +
+                             counted(made.corners, "corner") + " rounded");
+  const MotionResult& proof = made.proof;
+  out.line("trajectory proved",
+           made.proved() ? "yes, as it is written"
+                         : "no: " +
+                               std::string(proof.verdict == MotionVerdict::contact ? "contact"
+                                                                                   : "undecided") +
+                               " between rows " + std::to_string(made.failedPiece) + " and " +
+                               std::to_string(made.failedPiece + 1),
+           made.proved() ? Tone::good : Tone::bad);
+  out.line("limits", limitsText(p, made), made.keepsLimits() ? Tone::plain : Tone::bad);
+  for (const std::string& note : p.task.limits.notes) out.line("note", note);
+}
+
+ordered_json trajectoryJson(const Problem& p, const MadeTrajectory& made) {
+  if (!made.fault.empty()) return {{"why_none", made.fault}};
+  const auto share = [&](const LimitShare& s) { return numberJson(s.share); };
+  return {{"duration_s", made.duration},
+          {"rows", made.rows},
+          {"between", nameOf(made.between)},
+          {"proved", made.proved()},
+          {"corners", made.corners},
+          {"corners_rounded", made.rounded},
+          {"curve_tests", made.curveTests},
+          {"limits", made.keepsLimits() ? "kept" : "exceeded"},
+          {"velocity_share", share(made.ratios.velocity)},
+          {"acceleration_share", share(made.ratios.acceleration)},
+          {"jerk_share", share(made.ratios.jerk)},
+          {"link_speed_share", share(made.ratios.link)},
+          {"stretch", made.stretch},
+          {"notes", p.task.limits.notes}};
+}
+
 }  // namespace
 
 void print(const Solved& result, const std::string& problem, const SolveArguments& a) {
@@ -88,8 +152,9 @@ void print(const Solved& result, const std::string& problem, const SolveArgument
   std::string phases;
   const auto seconds = secondsOf(result);
   for (std::size_t i = 0; i < seconds.size(); ++i)
-    phases +=
-        (i == 0 ? "" : ", ") + std::string(kSolvePhases[i].name) + " " + durationText(seconds[i]);
+    if (a.trajectory || kSolvePhases[i].key != std::string_view("trajectory_s"))
+      phases +=
+          (i == 0 ? "" : ", ") + std::string(kSolvePhases[i].name) + " " + durationText(seconds[i]);
   out.line("time", phases);
   if (r.restarts > 0) out.line("restarts of the search", grouped(r.restarts));
   out.line("states checked", grouped(r.counters.states));
@@ -105,7 +170,9 @@ void print(const Solved& result, const std::string& problem, const SolveArgument
   }
   out.line("certified", r.certified ? "yes" : "no (" + r.checker + ")",
            r.certified ? Tone::good : Tone::bad);
+  if (r.trajectory) printTrajectory(out, p, *r.trajectory);
   if (a.output) out.line("solution", *a.output);
+  if (r.trajectory && r.trajectory->proved()) out.line("trajectory file", *a.trajectory);
   if (a.picture) out.line("picture", *a.picture);
 }
 
@@ -114,7 +181,9 @@ ordered_json jsonOf(const Solved& result, const std::string& problem) {
   const SolveReport& r = result.report;
   ordered_json phases;
   const auto seconds = secondsOf(result);
-  for (std::size_t i = 0; i < seconds.size(); ++i) phases[kSolvePhases[i].key] = seconds[i];
+  for (std::size_t i = 0; i < seconds.size(); ++i)
+    if (r.trajectory || kSolvePhases[i].key != std::string_view("trajectory_s"))
+      phases[kSolvePhases[i].key] = seconds[i];
   ordered_json j = {{"problem", problem},
                     {"result", nameOf(r.outcome)},
                     {"planner", r.planner},
@@ -144,6 +213,7 @@ ordered_json jsonOf(const Solved& result, const std::string& problem) {
     ordered_json rows = ordered_json::array();
     for (const Configuration& q : r.path) rows.push_back(numbersJson(q));
     if (r.clearance) j["clearance"] = clearanceJson(*r.clearance);
+    if (r.trajectory) j["trajectory"] = trajectoryJson(p, *r.trajectory);
     j["numbers"] = p.model.space.numberNames();
     j["path"] = {{"states", r.path.size()},
                  {"length_m", r.length.metres},

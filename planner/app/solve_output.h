@@ -34,11 +34,12 @@ struct SolvePhase {
   const char* name;
 };
 /// The phases in their order. The first one is not part of `SolveReport::time`.
-inline constexpr std::array<SolvePhase, 5> kSolvePhases{{{"read_s", "reading"},
+inline constexpr std::array<SolvePhase, 6> kSolvePhases{{{"read_s", "reading"},
                                                          {"set_up_s", "set-up"},
                                                          {"search_s", "search"},
                                                          {"simplify_s", "simplification"},
-                                                         {"certify_s", "certification"}}};
+                                                         {"certify_s", "certification"},
+                                                         {"trajectory_s", "trajectory"}}};
 
 /// Prints the report on one problem.
 void print(const Solved& result, const std::string& problem, const SolveArguments& a);

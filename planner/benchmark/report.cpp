@@ -28,7 +28,7 @@ std::string counted(std::size_t number, const std::string& noun) {
 
 /// Size of a plot in SVG units. The height grows with the legend, so that a long legend does not
 /// shrink the plot.
-constexpr int kWidth = 560;
+constexpr int kPlotWidth = 560;
 int heightOf(const Plot& plot) {
   const auto names = plot.shapes.size() + static_cast<std::size_t>(std::count_if(
                                               plot.series.begin(), plot.series.end(),
@@ -185,7 +185,7 @@ class Report {
     if (!canPlot()) return none("");
     std::string svg;
     try {
-      svg = svgOf(plot, kWidth, heightOf(plot));
+      svg = svgOf(plot, kPlotWidth, heightOf(plot));
     } catch (const std::runtime_error& error) {
       return none(": " + std::string(error.what()));
     }

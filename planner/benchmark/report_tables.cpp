@@ -17,7 +17,7 @@ namespace {
 using view::escapedHtml;
 
 /// Returns three significant digits. Numbers from 1000 are whole, with digits in groups of three.
-std::string digits(double value) {
+std::string threeDigits(double value) {
   if (std::isnan(value)) return "–";
   if (std::isinf(value)) return "∞";
   char text[64];
@@ -87,10 +87,10 @@ std::vector<std::string> cellRow(const Campaign& campaign, const CampaignCell& c
     length.push_back(metres ? run.length.metres : run.length.radians);
   }
   const bool competes = campaign.variants[cell.variant].competitor.has_value();
-  const auto median = [](const std::vector<double>& of) { return digits(medianOf(of)); };
+  const auto median = [](const std::vector<double>& of) { return threeDigits(medianOf(of)); };
   return {escapedHtml(cell.planner.label),
           variantHtml(campaign, cell.variant),
-          median(times) + (times.empty() ? "" : interval(medianInterval(times), digits)),
+          median(times) + (times.empty() ? "" : interval(medianInterval(times), threeDigits)),
           count(times.size(), cell.runs.size()),
           refuted(refutedPaths, judged),
           median(states),
@@ -163,14 +163,14 @@ std::string rankingTable(const Campaign& campaign, const std::vector<CampaignCel
   for (const VariantScore& s : scores) {
     const double share =
         s.judged() ? static_cast<double>(s.refuted) / static_cast<double>(s.judged()) : NAN;
-    table.row(
-        {variantHtml(campaign, s.variant), refuted(s.refuted, s.judged()),
-         s.judged() ? percent(share) + interval(s.refutedShare, percent) : "–",
-         count(s.solved, s.runs) + interval(s.solvedShare, percent),
-         digits(s.timeRatio) +
-             (s.variant == reference || s.pairs == 0 ? "" : interval(s.timeRatioInterval, digits)),
-         std::isnan(s.checkingShare) ? "–" : percent(s.checkingShare),
-         std::isnan(s.lengthShare) ? "–" : percent(s.lengthShare)});
+    table.row({variantHtml(campaign, s.variant), refuted(s.refuted, s.judged()),
+               s.judged() ? percent(share) + interval(s.refutedShare, percent) : "–",
+               count(s.solved, s.runs) + interval(s.solvedShare, percent),
+               threeDigits(s.timeRatio) + (s.variant == reference || s.pairs == 0
+                                               ? ""
+                                               : interval(s.timeRatioInterval, threeDigits)),
+               std::isnan(s.checkingShare) ? "–" : percent(s.checkingShare),
+               std::isnan(s.lengthShare) ? "–" : percent(s.lengthShare)});
   }
   return table.html();
 }
@@ -179,9 +179,10 @@ std::string costTable(const Campaign& campaign, const std::vector<VariantScore>&
   for (const VariantScore& s : scores)
     if (s.cost)
       table.row({variantHtml(campaign, s.variant),
-                 s.cost->model.boxKnown ? digits(s.cost->model.box) : "–",
-                 s.cost->model.triangleKnown ? digits(s.cost->model.triangle) : "–",
-                 digits(s.cost->ratioP5), digits(s.cost->ratioMedian), digits(s.cost->ratioP95)});
+                 s.cost->model.boxKnown ? threeDigits(s.cost->model.box) : "–",
+                 s.cost->model.triangleKnown ? threeDigits(s.cost->model.triangle) : "–",
+                 threeDigits(s.cost->ratioP5), threeDigits(s.cost->ratioMedian),
+                 threeDigits(s.cost->ratioP95)});
   return table.html();
 }
 
@@ -218,9 +219,9 @@ std::string measuredTable(const Campaign& campaign, const std::vector<CampaignCe
                    " at a time, by commit " + escapedHtml(session.commit)});
   table.row({"seeds", std::to_string(campaign.seed) + " to " +
                           std::to_string(campaign.seed + campaign.runs - 1)});
-  table.row(
-      {"limits", (campaign.time ? digits(*campaign.time) + " s" : "each problem’s time limit") +
-                     ", " + digits(campaign.limits.memory) + " MB per run"});
+  table.row({"limits",
+             (campaign.time ? threeDigits(*campaign.time) + " s" : "each problem’s time limit") +
+                 ", " + threeDigits(campaign.limits.memory) + " MB per run"});
   table.row({"simplified",
              campaign.simplify ? simplifierText(*campaign.simplify) : "each problem’s setting"});
   table.row({"verified", campaign.verify ? "yes" : "no"});

@@ -10,7 +10,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 /// Milliseconds between the parent's tests of `interrupted`.
-constexpr int kPollMs = 200;
+constexpr int kCampaignPollMs = 200;
 
 struct QueuedRun {
   std::size_t cell = 0;
@@ -110,7 +110,7 @@ CampaignResult runCampaign(const Campaign& campaign, const CampaignOptions& opti
     if (interrupted()) break;  // destroying `running` kills its runs
     std::vector<ChildProcess*> children;
     for (Running& one : running) children.push_back(&one.run.process());
-    ChildProcess::waitForAny(children, kPollMs);
+    ChildProcess::waitForAny(children, kCampaignPollMs);
     std::erase_if(running, [&](Running& one) {
       const bool over = one.run.process().advance();
       if (over) end(one);

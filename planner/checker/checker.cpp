@@ -209,6 +209,15 @@ MotionResult Checker::certify(const Configuration& from, const Configuration& to
   return scene_.certify(workspace.motion, options, workspace.context, method);
 }
 
+MotionResult Checker::certifyCurve(const CurvePiece& piece, bool earliest) const {
+  if (!standardFloatingPoint()) return refused();
+  MotionOptions options = options_;
+  options.earliest = earliest;
+  Workspace& workspace = workspaceOfThread();
+  workspace.motion.set(piece);
+  return scene_.certify(workspace.motion, options, workspace.context, EdgeMethod::directional);
+}
+
 std::optional<Contact> Checker::interference(const Configuration& q) const {
   requireStandardFloatingPoint();
   Workspace& workspace = workspaceOfThread();

@@ -8,6 +8,7 @@
 #include "planner/model/model.h"
 #include "planner/model/settings.h"
 #include "planner/model/task.h"
+#include "planner/robot/curve.h"
 
 namespace corridor {
 
@@ -87,6 +88,10 @@ class Checker {
   /// @throws std::invalid_argument for numbers that are not finite or are negative.
   MotionResult certifyEdge(const Configuration& from, const Configuration& to,
                            const PairMargins& more, bool earliest = false) const;
+  /// Decides whether a piece of a curve is free, for the tube widened by the piece's `error`. Times
+  /// in the result are values of τ. The method is always `EdgeMethod::directional`. Doesn't test
+  /// the bounds. @pre finite, of the space's size, of a degree from 1 to 9.
+  MotionResult certifyCurve(const CurvePiece& piece, bool earliest = false) const;
   /// Tests exactly whether a tested pair is in contact at the rounded poses of the frames. Margin,
   /// padding, tolerance and tube are ignored. @pre finite.
   /// @throws std::runtime_error if the processor's floating-point mode makes the bounds invalid

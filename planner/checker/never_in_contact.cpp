@@ -26,7 +26,7 @@ std::vector<std::size_t> upTo(const KinematicTree& tree, std::size_t f, std::siz
   return frames;
 }
 
-struct Range {
+struct VariableRange {
   double lower = 0, upper = 0;
 };
 
@@ -34,8 +34,8 @@ struct Range {
 /// @param wholeTurns whether every joint that the variable moves returns to the same pose after a
 /// full turn of the variable.
 /// @param beyond how far the proof must reach beyond each limit, rad or m.
-std::optional<Range> rangeOf(const ConfigurationSpace& space, std::size_t variable, bool wholeTurns,
-                             double beyond) {
+std::optional<VariableRange> rangeOf(const ConfigurationSpace& space, std::size_t variable,
+                                     bool wholeTurns, double beyond) {
   const auto found =
       std::find_if(space.coordinates().begin(), space.coordinates().end(),
                    [&](const Coordinate& c) { return c.first == variable && c.size() == 1; });
@@ -44,11 +44,12 @@ std::optional<Range> rangeOf(const ConfigurationSpace& space, std::size_t variab
   const bool circle = found->kind == Coordinate::Kind::circle;
   // The next double above π: the interval covers the whole circle in real arithmetic.
   const double pi = std::nextafter(std::numbers::pi, 4);
-  if (wholeTurns && (circle || !(found->upper - found->lower < 2 * pi))) return Range{-pi, pi};
+  if (wholeTurns && (circle || !(found->upper - found->lower < 2 * pi)))
+    return VariableRange{-pi, pi};
   if (circle || !(std::isfinite(found->lower) && std::isfinite(found->upper))) return std::nullopt;
-  if (beyond == 0) return Range{found->lower, found->upper};
-  return Range{std::nextafter(found->lower - beyond, -infinity),
-               std::nextafter(found->upper + beyond, infinity)};
+  if (beyond == 0) return VariableRange{found->lower, found->upper};
+  return VariableRange{std::nextafter(found->lower - beyond, -infinity),
+                       std::nextafter(found->upper + beyond, infinity)};
 }
 
 /// The frames between two bodies, as a separate tree. Its root is the lowest common ancestor of the
@@ -58,7 +59,7 @@ struct Between {
   ConfigurationSpace space;
   Scene::FramePair pair;
   std::vector<std::size_t> variables;  // of the moving frames, in order from a to b
-  std::vector<Range> box;              // for each variable
+  std::vector<VariableRange> box;      // for each variable
 };
 
 /// Returns nullopt if the proof can't be tried.
@@ -113,7 +114,7 @@ std::optional<Between> framesBetween(const Model& model, std::size_t a, std::siz
 
 /// A box of joint values that is not proved yet.
 struct Box {
-  std::vector<Range> ranges;
+  std::vector<VariableRange> ranges;
   std::vector<MotionPair> open;  // the pairs of shapes that are not separated yet
   double share = 1;              // of the box of all joint values
 };

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "planner/model/limits.h"
 #include "planner/robot/configuration_space.h"
 
 namespace corridor {
@@ -46,6 +47,8 @@ struct Task {
   Padding padding;
   /// The half widths of the tube that the proof covers, as `tubeOf` returns them.
   Configuration tube;
+  /// Limits of speed, acceleration and jerk. They matter to time laws only (planner/trajectory).
+  JointLimits limits;
 };
 
 /// The deviation from the path that a proof shall cover, in each coordinate that is planned for. It

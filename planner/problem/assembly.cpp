@@ -147,6 +147,7 @@ void addRobots(std::vector<RobotSetup> robots, ModelBuilder& builder, Source& so
 }
 
 void finishProblem(const AllowedBodies& allowed, const TubeSpec& tube, Problem& problem) {
+  if (problem.task.limits.velocity.size() == 0) problem.task.limits = limitsOf(problem.model);
   requireFewPairs(problem.model, problem.source.file.string());
   requireFiniteSizes(problem.model, problem.source.file.string());
   for (const auto& [a, b] : allowed) problem.model.filter.skip(a, b, "allow");

@@ -22,10 +22,13 @@ const Words shapeKeys =
           "points", "octomap", "unit",   "up",      "solid",    "deviation"} +
     placementKeys;
 
-using Keys = std::map<std::string, MapKeys>;
+const Words limitKeys{"velocity", "acceleration", "jerk"};
+const Words angleLimitKeys = limitKeys + Words{"velocity_deg", "acceleration_deg", "jerk_deg"};
+
+using KeysOfMaps = std::map<std::string, MapKeys>;
 
 /// Adds the keys of a shape at `path`, and the keys `more`.
-void addShape(Keys& keys, const std::string& path, const Words& more) {
+void addShape(KeysOfMaps& keys, const std::string& path, const Words& more) {
   keys[path] = {shapeKeys + more, {}};
   keys[path + ".sphere"] = {{"radius"}, {}};
   keys[path + ".capsule"] = {{"radius", "length"}, {}};
@@ -34,12 +37,12 @@ void addShape(Keys& keys, const std::string& path, const Words& more) {
   keys[path + ".octomap"] = {{"file", "unknown", "threshold"}, {}};
 }
 
-Keys makeProblemKeys() {
-  Keys keys{
+KeysOfMaps makeProblemKeys() {
+  KeysOfMaps keys{
       {"",
-       {{"format", "robot", "robots", "base", "world", "allow", "start", "goal", "moveit", "bounds",
-         "margin", "padding", "prefer", "tube", "planner", "sampler", "simplify", "checker",
-         "seed"},
+       {{"format", "robot",   "robots",  "base",     "world",   "allow",  "start",
+         "goal",   "moveit",  "bounds",  "margin",   "padding", "prefer", "tube",
+         "limits", "planner", "sampler", "simplify", "checker", "seed"},
         {}}},
       {"moveit", {{"scene", "request"}, {}}},
       {"robots.*", {{"file", "base"}, {}}},
@@ -50,6 +53,15 @@ Keys makeProblemKeys() {
       {"goal.within", {{"at", "angle_deg", "angle", "joints_deg", "joints"}, {}}},
       {"bounds", {{"at"}, {}}},
       {"tube", {{"joints_deg", "joints", "slides", "position", "rotation_deg", "rotation"}, {}}},
+      {"limits",
+       {{"file", "velocity_scale", "acceleration_scale", "default", "slides", "position",
+         "rotation", "joints", "link_speed"},
+        {}}},
+      {"limits.default", {angleLimitKeys, {}}},
+      {"limits.slides", {limitKeys, {}}},
+      {"limits.position", {limitKeys, {}}},
+      {"limits.rotation", {angleLimitKeys, {}}},
+      {"limits.joints.*", {angleLimitKeys, {}}},
       {"padding", {{"bodies", "pairs"}, {}}},
       {"prefer", {{"clearance", "detour"}, {}}},
       {"planner", {{"name", "time", "stop", "restart", "params"}, {}}},
@@ -62,8 +74,8 @@ Keys makeProblemKeys() {
   return keys;
 }
 
-Keys makeRobotKeys() {
-  Keys keys{
+KeysOfMaps makeRobotKeys() {
+  KeysOfMaps keys{
       {"",
        {{"format", "name", "urdf", "srdf", "xacro", "packages", "visuals", "limits", "collada_up",
          "group", "joints", "hold", "states", "allow", "never_in_contact", "rigid", "shapes",
@@ -95,12 +107,12 @@ Words ofAnyVolume(Words VolumeKind::*variants) {
 }  // namespace
 
 const std::map<std::string, MapKeys>& problemKeys() {
-  static const Keys keys = makeProblemKeys();
+  static const KeysOfMaps keys = makeProblemKeys();
   return keys;
 }
 
 const std::map<std::string, MapKeys>& robotKeys() {
-  static const Keys keys = makeRobotKeys();
+  static const KeysOfMaps keys = makeRobotKeys();
   return keys;
 }
 

@@ -11,6 +11,7 @@
 #include "planner/problem/goal_yaml.h"
 #include "planner/problem/hold_yaml.h"
 #include "planner/problem/keys.h"
+#include "planner/problem/limits_yaml.h"
 #include "planner/problem/moveit_request.h"
 #include "planner/problem/moveit_scene.h"
 #include "planner/problem/placement.h"
@@ -24,7 +25,7 @@ namespace {
 const MapKeys* keysOf(const char* map) {
   return &problemKeys().at(map);
 }
-const std::vector<std::string>& wordsOf(const char* key) {
+const std::vector<std::string>& wordsOfKey(const char* key) {
   return problemChoices().at(key);
 }
 
@@ -127,7 +128,7 @@ void readPlanner(const YamlMap& file, PlannerSettings& planner) {
   const YamlMap map(*value, "planner", keysOf("planner"), file.source());
   planner.name = map.text("name").value_or(planner.name);
   planner.time = map.number("time", Range::Positive).value_or(planner.time);
-  if (const auto stop = map.choice("stop", wordsOf("planner.stop")))
+  if (const auto stop = map.choice("stop", wordsOfKey("planner.stop")))
     planner.stopAtFirst = *stop == "first";
   if (const auto edges = map.wholeNumber("restart")) planner.restart = edges;
   const YamlValue* params = map.find("params");
@@ -232,6 +233,8 @@ void readYaml(const std::filesystem::path& file, Problem& problem) {
   }
   problem.task.margin = map.number("margin", Range::NotNegative).value_or(problem.task.margin);
   const TubeSpec tube = readTube(map, problem.model.space, known);
+  const LimitSpec limits =
+      readLimits(map, file.parent_path(), problem.model, known, problem.source.files);
   readPlanner(map, problem.settings.planner);
   if (const auto sampler = map.choice("sampler", wordsFor<ValidSampler>()))
     problem.settings.sampler = *choiceNamed<ValidSampler>(*sampler);
@@ -251,6 +254,7 @@ void readYaml(const std::filesystem::path& file, Problem& problem) {
   }
   addAll(source.notes, problem.source.notes);
   faults.throwIfAny();
+  problem.task.limits = limitsOf(problem.model, limits);
   finishProblem(allowed, tube, problem);
   problem.source.lines = std::move(source.lines);
 }

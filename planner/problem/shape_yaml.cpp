@@ -17,7 +17,7 @@ namespace {
 const std::vector<std::string> kinds{"mesh",   "box",     "sphere", "capsule", "cylinder",
                                      "convex", "polygon", "points", "octomap"};
 
-const MapKeys* keysOf(const char* primitive) {
+const MapKeys* primitiveKeys(const char* primitive) {
   return &problemKeys().at(std::string("world.*.") + primitive);
 }
 
@@ -69,7 +69,7 @@ std::optional<Primitive> readSphere(const YamlMap& map) {
   const YamlValue& value = *map.find("sphere");
   std::optional<double> radius;
   if (value.kind == YamlValue::Kind::Map) {
-    const YamlMap inner(value, map.pathOf("sphere"), keysOf("sphere"), map.source());
+    const YamlMap inner(value, map.pathOf("sphere"), primitiveKeys("sphere"), map.source());
     inner.require("radius", "metres");
     radius = inner.number("radius");
   } else {
@@ -82,7 +82,7 @@ std::optional<Primitive> readSphere(const YamlMap& map) {
 /// Reads a Capsule or a Cylinder. @param length what the length means, for messages.
 template <class Round>
 std::optional<Primitive> readRound(const YamlMap& map, const char* key, const char* length) {
-  const YamlMap inner(*map.find(key), map.pathOf(key), keysOf(key), map.source());
+  const YamlMap inner(*map.find(key), map.pathOf(key), primitiveKeys(key), map.source());
   inner.require("radius", "metres");
   inner.require("length", length);
   const auto radius = inner.number("radius"), along = inner.number("length");
@@ -221,8 +221,8 @@ std::optional<PlacedShape> readShape(const YamlMap& map, const ShapePlace& place
   shape.at = whole.pose;
   bool inRange = true;
   if (*kind == "points" || *kind == "octomap") {
-    if (!readCloud(map, *kind, *keysOf(kind->c_str()), place.folder, readMeshOptions(map), whole.X,
-                   shape, files.files) ||
+    if (!readCloud(map, *kind, *primitiveKeys(kind->c_str()), place.folder, readMeshOptions(map),
+                   whole.X, shape, files.files) ||
         !own)
       return std::nullopt;
     inRange = std::all_of(shape.parts.begin(), shape.parts.end(), isFinite);

@@ -84,7 +84,7 @@ std::optional<RobotModel> readModel(const std::filesystem::path& urdf, const Urd
   return std::nullopt;
 }
 
-using Joints = std::vector<std::size_t>;
+using JointList = std::vector<std::size_t>;
 
 /// Lets the problem name the group's states without the group: if the group is "arm", "home" also
 /// means "arm/home".
@@ -99,8 +99,8 @@ void addStatesOf(const std::string& group, RobotModel& model) {
 
 /// Returns the joints of the group that are planned for, and adds faults to the map's source.
 /// @param byDefault the name of the group that is used if the file has no key `group`.
-Joints readGroup(const YamlMap& map, const std::string& byDefault, RobotModel& model) {
-  Joints active;
+JointList readGroup(const YamlMap& map, const std::string& byDefault, RobotModel& model) {
+  JointList active;
   const auto name = map.find("group") ? map.text("group") : std::optional(byDefault);
   if (!name) return active;
   const auto found = model.groups.find(*name);
@@ -140,8 +140,8 @@ Joints readGroup(const YamlMap& map, const std::string& byDefault, RobotModel& m
   return active;
 }
 
-Joints readJointList(const YamlMap& map, const RobotModel& model) {
-  Joints active;
+JointList readJointList(const YamlMap& map, const RobotModel& model) {
+  JointList active;
   const auto names = readWords(*map.find("joints"), "such as [pan, lift]", "joints", map.source());
   if (!names) return active;
   if (names->empty()) map.fault("joints", "at least one joint is needed");
@@ -301,7 +301,7 @@ std::optional<RobotSetup> readUrdfRobot(const YamlMap& map, const std::string& n
   if (heldState && !isChosen) holdState(*heldState, {}, hold, setup);
   readAllow(map, setup.robot.description);
   readWeights(map, setup);
-  Joints active;
+  JointList active;
   if (map.find("group") && map.find("joints"))
     map.fault("joints", "one of group and joints is needed, not both");
   else if (map.find("group") || hasDefault)
@@ -333,7 +333,7 @@ std::optional<RobotSetup> readBareUrdf(const std::filesystem::path& file, RobotU
   auto model = readModel(file, {}, std::nullopt, faults, setup.files, notesOfFaulty);
   if (!model) return std::nullopt;
   setup.robot.description = std::move(*model);
-  const Joints active = allMoving(setup.robot);
+  const JointList active = allMoving(setup.robot);
   if (active.empty() && use == RobotUse::describe) {
     noteThatNoneMoves(file, setup.robot);
   } else if (active.empty()) {

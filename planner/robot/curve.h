@@ -35,6 +35,15 @@ struct CurvePiece {
   int degree() const { return static_cast<int>(coefficients.cols()) - 1; }
 };
 
+/// Returns the configuration at τ in [0, 1], computed in double. Circles are not reduced.
+Configuration configurationAt(const ConfigurationSpace& space, const CurvePiece& piece, double tau);
+
+/// Returns the edge between two configurations as a piece of degree 1. A circle goes the shorter
+/// way: the value at its end is from + turn. `error` bounds the rounding of this sum.
+/// @pre the edge is not `ambiguous`.
+CurvePiece straightPiece(const ConfigurationSpace& space, const Configuration& from,
+                         const Configuration& to);
+
 /// A curve over time: pieces[k] covers the times [knots[k], knots[k + 1]], with
 /// τ = (time − knots[k]) / (knots[k + 1] − knots[k]) in real arithmetic.
 struct Curve {

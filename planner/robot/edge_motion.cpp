@@ -20,11 +20,6 @@ constexpr double kLeastError = 0x1p-400;
 
 constexpr std::size_t kItself = SIZE_MAX;  // instead of a view: the frame is the ancestor itself
 
-/// An error bound for a point at lever y from the origin of frame b: fixed + reach·|y| metres.
-struct LeverError {
-  double fixed = 0, reach = 0;
-};
-
 }  // namespace
 
 /// Poses are cached in *views*. A view is the pose of a frame in the coordinates of one of its
@@ -33,6 +28,9 @@ struct LeverError {
 /// between the world and the ancestor are not evaluated, and their rounding is not counted. If one
 /// frame of a pair is the ancestor itself, the view of the other frame is the relative pose.
 struct EdgeMotion::Impl {
+  struct LeverError {  // metres, for a point at lever y from frame b's origin: fixed + reach·|y|
+    double fixed = 0, reach = 0;
+  };
   struct Place {  // pose of a frame in its nearest ancestor that is kept
     MovingJoint joint;
     Transform X;
@@ -77,6 +75,9 @@ struct EdgeMotion::Impl {
   Impl(const KinematicTree& tree, const ConfigurationSpace& moved,
        std::span<const Scene::FramePair> pairs, const Configuration& tube);
 
+  /// Begins an edge or a piece. `setJoint` sets it in a joint.
+  template <class SetJoint>
+  void begin(bool hasNoCurve, const SetJoint& setJoint);
   const View& viewAt(std::size_t index);
   const View& viewWithErrors(std::size_t index);
   void setErrors(Path& path);
@@ -151,6 +152,24 @@ EdgeMotion::Impl::Impl(const KinematicTree& tree, const ConfigurationSpace& move
     path.screws.reserve(2 * path.steps.size());
     paths.push_back(std::move(path));
   }
+}
+
+template <class SetJoint>
+void EdgeMotion::Impl::begin(bool hasNoCurve, const SetJoint& setJoint) {
+  ++stamp;
+  t = 0;
+  ambiguous = hasNoCurve || !standardFloatingPoint();
+  still = true;
+  for (const std::size_t moving : movingPlaces) {
+    Place& place = places[moving];
+    setJoint(place.joint);
+    if (place.joint.still())
+      place.X = place.joint.at(0);
+    else
+      still = false;
+    ambiguous = ambiguous || place.joint.ambiguous();
+  }
+  ++edge;
 }
 
 const EdgeMotion::Impl::View& EdgeMotion::Impl::viewAt(std::size_t index) {
@@ -231,7 +250,7 @@ void EdgeMotion::Impl::setErrors(Path& path) {
     const MovingJoint& joint = places[view.place].joint;
     if (step->up) lever += joint.length();
     if (joint.joint() != Frame::Joint::none) {
-      const double rate = std::abs(joint.rate()) + joint.rateError();
+      const double rate = joint.largestRate();
       const double axisError = view.rotationError + turned.reach + 40 * kUnit + arithmetic;
       if (turns(joint.joint())) {
         const double pointError = view.shiftError + turned.fixed + axisError * lever;
@@ -255,21 +274,11 @@ EdgeMotion::EdgeMotion(const KinematicTree& tree, const ConfigurationSpace& spac
 EdgeMotion::~EdgeMotion() = default;
 
 void EdgeMotion::set(const Configuration& from, const Configuration& to) {
-  Impl& m = *impl_;
-  ++m.stamp;
-  m.t = 0;
-  m.ambiguous = m.space.ambiguous(from, to) || !standardFloatingPoint();
-  m.still = true;
-  for (const std::size_t moving : m.movingPlaces) {
-    Impl::Place& place = m.places[moving];
-    place.joint.set(from, to);
-    if (place.joint.still())
-      place.X = place.joint.at(0);
-    else
-      m.still = false;
-    m.ambiguous = m.ambiguous || place.joint.ambiguous();
-  }
-  ++m.edge;
+  impl_->begin(impl_->space.ambiguous(from, to), [&](MovingJoint& joint) { joint.set(from, to); });
+}
+
+void EdgeMotion::set(const CurvePiece& piece) {
+  impl_->begin(false, [&](MovingJoint& joint) { joint.set(piece); });
 }
 
 RelativeMotion EdgeMotion::relativeMotion(std::size_t pair, double t, double h) {
@@ -294,8 +303,10 @@ RelativeMotion EdgeMotion::relativeMotion(std::size_t pair, double t, double h) 
     const MovingJoint& joint = m.places[view.place].joint;
     const double rate = std::abs(joint.rate()) + joint.rateError();
     const bool rests = rate == 0 || h == 0;
-    if (joint.joint() == Frame::Joint::none || (rests && joint.tube() == 0)) continue;
     ScrewMotion screw;
+    screw.deviation = joint.deviation(h);
+    if (joint.joint() == Frame::Joint::none || (rests && screw.deviation == 0 && joint.tube() == 0))
+      continue;
     screw.axis = view.axis;
     screw.point = view.X.t;
     if (branches) {
@@ -313,11 +324,13 @@ RelativeMotion EdgeMotion::relativeMotion(std::size_t pair, double t, double h) 
       w.linear += motion;
     }
     if (joint.joint() == Frame::Joint::rotation) {
-      ScrewMotion ball{ScrewMotion::Kind::spherical, screw.axis, screw.point, 0, screw.tube};
+      ScrewMotion ball = screw;
+      ball.kind = ScrewMotion::Kind::spherical;
+      ball.amount = 0;
       screw.tube = 0;
       if (ball.tube != 0) path.screws.push_back(ball);
     }
-    if (screw.amount != 0 || screw.tube != 0) path.screws.push_back(screw);
+    if (screw.amount != 0 || screw.deviation != 0 || screw.tube != 0) path.screws.push_back(screw);
   }
   w.screws = path.screws;
   w.speed = lengthFromAbove(w.linear);

@@ -5,14 +5,15 @@
 
 #include "collision/motion/certify_motion.h"
 #include "collision/world/scene.h"
+#include "planner/robot/curve.h"
 #include "planner/robot/kinematic_tree.h"
 
 namespace corridor {
 
 /// The relative motions of the frames of a kinematic tree along one edge of its configuration
-/// space, for queries of a `Scene`. A relative motion depends only on the joints between its two
-/// frames. All rounding (interpolation, sine, kinematics) is included: each frame has an error
-/// bound, accumulated along the chain.
+/// space, or along one piece of a curve, for queries of a `Scene`. A relative motion depends only
+/// on the joints between its two frames. All rounding (interpolation, sine, kinematics) is
+/// included: each frame has an error bound, accumulated along the chain.
 ///
 /// Poses are computed on demand, at most once per time interval. Use one object per thread. Call
 /// `set` for every edge; after the first edge it doesn't allocate.
@@ -31,6 +32,10 @@ class EdgeMotion final : public MotionSource {
 
   /// Sets the edge. @pre finite, of the space's size; quaternions not zero.
   void set(const Configuration& from, const Configuration& to);
+  /// Sets a piece of a curve, whose parameter τ takes the place of t. The piece's `error` is added
+  /// to the tube. Intervals must be within [0, 1], so the method of a query must be
+  /// `EdgeMethod::directional`. @pre finite, of the space's size; quaternions not zero.
+  void set(const CurvePiece& piece);
 
   RelativeMotion relativeMotion(std::size_t pair, double t, double h) override;
   bool ambiguous() const override;

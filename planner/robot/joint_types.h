@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -8,6 +10,9 @@
 #include "planner/robot/robot_model.h"
 
 namespace corridor {
+
+/// In place of the index of a link, joint or group: there is none.
+inline constexpr std::size_t kNoIndex = SIZE_MAX;
 
 /// Convert between joint types and their names in URDF. `jointType` returns nullopt for an unknown
 /// name.

@@ -122,22 +122,138 @@ MovingJoint::MovingJoint(const Frame& frame, const LongPose& fixed, Coordinate::
   tube_ = tube_ > 0 ? roundedUp(tube_) : 0;
 }
 
-Transform MovingJoint::at(double t) const {
+Transform MovingJoint::at(double t) {
+  const bool curved = curve_.cols() > 0;
+  if (curved) evaluateCurve(t);
   Transform X{matrixAtZero_, from_};
   if (joint_ == Frame::Joint::revolute || joint_ == Frame::Joint::rotation) {
-    const double phi = angle_ + t * rate_;
+    const double phi = curved ? angle_ : angle_ + t * rate_;
     // 1 − cos φ cancels for small φ, but only its absolute error matters.
     X.m += std::sin(phi) * sine_ + (1 - std::cos(phi)) * versine_;
-  } else {
+  } else if (!curved) {
     X.t += t * delta_;
   }
   return X;
 }
 
 void MovingJoint::set(const Configuration& from, const Configuration& to) {
+  curve_.resize(3, 0);
+  curveError_ = 0;
   if (joint_ == Frame::Joint::translation) setShift(from, to);
-  if (joint_ == Frame::Joint::rotation) setRotation(from, to);
+  if (joint_ == Frame::Joint::rotation)
+    setRotation(Eigen::Quaterniond(from.data() + variable_),
+                Eigen::Quaterniond(to.data() + variable_));
   if (joint_ == Frame::Joint::revolute || joint_ == Frame::Joint::prismatic) setValue(from, to);
+  largestRate_ = rate_ == 0 ? 0 : std::abs(rate_) + rateError_;
+}
+
+// A piece of degree n, with u the unit roundoff. V bounds the joint's value: each coefficient of a
+// value, or the length of the vector of the largest coordinates. The coefficients c_i of the value
+// m·q + o are rounded by 2uV.
+//
+// Evaluation by de Casteljau. A step (1 − t)a + tb rounds by at most 4uV: 1 − t, two products and
+// the sum, each u times terms whose sum is at most V. After n steps, with the coefficients: (4n +
+// 2)uV. For vectors this holds for each coordinate, and so for the length.
+//
+// Derivatives are differences of values after n − 1, n − 2 steps:
+// - n(b_1 − b_0): both are off by (4n − 2)uV, and the difference and the product round by 2u of a
+//   term of at most 2nV. Together below 8n²uV + 4nuV; the code uses 12n²uV.
+// - n(n − 1)(b_2 − 2b_1 + b_0): four times (4n − 6)uV, and four roundings of at most 4V: below
+//   n²(16n + 16)uV; the code uses 36n³uV.
+// On [0, 1], |q'| ≤ n·max|Δc|, |q''| ≤ n(n − 1)·max|Δ²c| and |q'''| ≤ n(n − 1)(n − 2)·max|Δ³c|,
+// because a polynomial is in the convex hull of its coefficients. A difference of order k of the
+// rounded coefficients is off by 2^k·2uV, and its own roundings add k·2^k·uV. For k ≤ 3 both are
+// below 8·2^k·uV.
+//
+// Deviation. By Taylor's formula, |q(t + s) − q(t) − s q'(t)| ≤ ½s² max|q''|, and on the interval
+// |q''| ≤ |q''(t)| + h·max|q'''|.
+void MovingJoint::set(const CurvePiece& piece) {
+  curve_.resize(3, 0);
+  curveError_ = 0;
+  if (joint_ == Frame::Joint::none) return;
+  const auto& d = piece.coefficients;
+  if (joint_ == Frame::Joint::rotation) {
+    setRotation(Eigen::Quaterniond(Eigen::Vector4d(d.col(0).segment<4>(variable_))),
+                Eigen::Quaterniond(Eigen::Vector4d(d.rightCols<1>().col(0).segment<4>(variable_))));
+    largestRate_ = rate_ == 0 ? 0 : std::abs(rate_) + rateError_;
+    curveError_ = piece.error[variable_] > 0 ? roundedUp(piece.error[variable_]) : 0;
+    return;
+  }
+  ambiguous_ = false;
+  curve_.setZero(3, d.cols());
+  const bool translates = joint_ == Frame::Joint::translation;
+  double V = 0;
+  if (translates) {
+    curve_.topRows(count_) = d.middleRows(variable_, count_);
+    curveError_ = piece.error.segment(variable_, count_).norm();
+    V = roundedUp(curve_.cwiseAbs().rowwise().maxCoeff().norm());
+  } else {
+    curve_.row(0) = (multiplier_ * d.row(variable_)).array() + offset_;
+    curveError_ = std::abs(multiplier_) * piece.error[variable_];
+    V = roundedUp(std::abs(multiplier_) * d.row(variable_).cwiseAbs().maxCoeff() +
+                  std::abs(offset_));
+  }
+  curveError_ = curveError_ > 0 ? roundedUp(curveError_) : 0;
+  setCurveBounds(V);
+  const double valueError = (4 * piece.degree() + 2) * kUnit * V;
+  if (joint_ == Frame::Joint::revolute) {
+    rotationError_ = roundedUp(kTurnError + fixedError_ + valueError);
+  } else {
+    // The products and sums round by less than in `setValue` and `setShift`.
+    shiftError_ = roundedUp(fixedShiftError_ + valueError + 32 * kUnit * V +
+                            4 * kUnit * fixedLength_ + 3 * V * fixedError_);
+    length_ = roundedUp(fixedLength_ + 2 * V);
+  }
+  evaluateCurve(0);
+}
+
+void MovingJoint::setCurveBounds(double V) {
+  const double n = static_cast<double>(curve_.cols() - 1);
+  double largest[4] = {};  // of the differences of each order
+  auto difference = curve_;
+  for (Eigen::Index order = 1; order < std::min<Eigen::Index>(4, curve_.cols()); ++order) {
+    const Eigen::Index count = curve_.cols() - order;
+    for (Eigen::Index i = 0; i < count; ++i)
+      difference.col(i) = (difference.col(i + 1) - difference.col(i)).eval();
+    largest[order] = difference.leftCols(count).colwise().norm().maxCoeff();
+  }
+  rateError_ = largestRate_ = largestSecond_ = largestThird_ = 0;
+  if (largest[1] == 0) return;  // the joint rests
+  const auto bound = [&](double factor, int order) {
+    return factor > 0 ? roundedUp(factor * (largest[order] + 8 * (1 << order) * kUnit * V)) : 0;
+  };
+  rateError_ = roundedUp(12 * n * n * kUnit * V);
+  largestRate_ = roundedUp(bound(n, 1) + rateError_);
+  largestSecond_ = bound(n * (n - 1), 2);
+  largestThird_ = bound(n * (n - 1) * (n - 2), 3);
+}
+
+void MovingJoint::evaluateCurve(double t) {
+  const auto n = static_cast<int>(curve_.cols()) - 1;
+  auto b = curve_;
+  Vec3 second = Vec3::Zero();
+  for (int left = n; left > 1; --left) {
+    if (left == 2) second = n * (n - 1) * ((b.col(2) - b.col(1)) - (b.col(1) - b.col(0)));
+    for (int i = 0; i < left; ++i) b.col(i) = ((1 - t) * b.col(i) + t * b.col(i + 1)).eval();
+  }
+  const Vec3 rate = n * (b.col(1) - b.col(0));
+  const Vec3 value = (1 - t) * b.col(0) + t * b.col(1);
+  if (joint_ == Frame::Joint::translation) {
+    from_ = shift_ + fixed_ * value;
+    rate_ = still() || rate.cwiseAbs().maxCoeff() < kLeastMotion ? 0 : rate.norm();
+    axis_ = rate_ > 0 ? Vec3(rate / rate_) : Vec3::UnitX();
+  } else {
+    angle_ = value[0];
+    rate_ = still() ? 0 : rate[0];
+    if (joint_ == Frame::Joint::prismatic) from_ = shift_ + value[0] * slideAxis_;
+  }
+  // `rateError_` is 12n²uV.
+  second_ = n < 2 ? 0 : roundedUp(second.norm() + 3 * n * rateError_);
+}
+
+double MovingJoint::curveDeviation(double h) const {
+  const double second = std::min(largestSecond_, second_ + h * largestThird_);
+  return second > 0 && h > 0 ? roundedUp(0.5 * h * h * second) : 0;
 }
 
 void MovingJoint::setValue(const Configuration& from, const Configuration& to) {
@@ -200,8 +316,7 @@ void MovingJoint::setShift(const Configuration& from, const Configuration& to) {
   length_ = roundedUp(fixedLength_ + S);
 }
 
-void MovingJoint::setRotation(const Configuration& from, const Configuration& to) {
-  const Eigen::Quaterniond a(from.data() + variable_), b(to.data() + variable_);
+void MovingJoint::setRotation(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) {
   const Eigen::Quaterniond q0 = unitQuaternion(a), q1 = unitQuaternion(b);
   const bool equal = a.coeffs() == b.coeffs() || a.coeffs() == -b.coeffs();
   Eigen::Quaterniond turn = q1 * q0.conjugate();

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "collision/core/transform.h"
+#include "planner/robot/curve.h"
 #include "planner/robot/kinematic_tree.h"
 
 namespace corridor {
@@ -25,10 +26,10 @@ struct LongPose {
   LongPose then(const Frame& frame) const;
 };
 
-/// The pose X(t) = fixed · joint(t) of a frame along an edge, relative to the nearest ancestor that
-/// EdgeMotion keeps as a frame. (`fixed` includes the constant poses of all frames between.)
-/// Everything that is constant on the edge is computed once per edge. One rounding bound holds for
-/// the whole edge.
+/// The pose X(t) = fixed · joint(t) of a frame along an edge or a piece of a curve, relative to the
+/// nearest ancestor that EdgeMotion keeps as a frame. (`fixed` includes the constant poses of all
+/// frames between.) Everything that is constant on the edge is computed once per edge. One rounding
+/// bound holds for the whole edge. Below, "edge" also stands for a piece of a curve.
 class MovingJoint {
  public:
   /// Makes the pose `fixed`, followed by the joint of the frame. `fixed` is constant, and includes
@@ -41,20 +42,30 @@ class MovingJoint {
   explicit MovingJoint(const LongPose& fixed);
 
   void set(const Configuration& from, const Configuration& to);
+  void set(const CurvePiece& piece);
 
-  Transform at(double t) const;
+  /// Returns the pose at t. On a piece of a curve, also sets `rate`, `axis` and `deviation` for t.
+  Transform at(double t);
 
   Frame::Joint joint() const { return joint_; }  ///< `none`: a constant pose
-  double tube() const { return tube_; }          ///< metres or radians
+  /// Metres or radians. On a piece of a curve, the tube includes the piece's `error`.
+  double tube() const { return tube_ + curveError_; }
 
   // Properties of the current edge:
   /// True if the edge defines no motion of the joint: a rotation by half a turn has no unique
   /// direction, or a joint that mimics a circle would jump at ±π.
   bool ambiguous() const { return ambiguous_; }
-  bool still() const { return rate_ == 0; }
+  bool still() const { return largestRate_ == 0; }
   const Vec3& axis() const { return axis_; }  ///< unit vector, in the frame itself
-  /// Signed speed of the joint per unit of t, about or along the axis; rad or m.
+  /// Signed speed of the joint per unit of t, about or along the axis; rad or m. On a piece of a
+  /// curve, that at the t of the last call of `at`.
   double rate() const { return rate_; }
+  /// Upper bound of |rate| + rateError on the whole edge.
+  double largestRate() const { return largestRate_; }
+  /// Returns an upper bound of the joint's deviation, in [t − h, t + h], from the uniform motion
+  /// with `rate`, for the t of the last call of `at`; rad or m. 0 on an edge. @pre the interval is
+  /// within [0, 1].
+  double deviation(double h) const { return curve_.cols() == 0 ? 0 : curveDeviation(h); }
   /// Upper bounds, valid on the whole edge. `rateError`: the error of the vector rate·axis; the
   /// direction of `axis` may be off by another 32u. `rotationError`: the error of the matrix of
   /// `at`, as an operator norm. `shiftError`: the error of the vector of `at`, metres. `length`:
@@ -67,7 +78,11 @@ class MovingJoint {
  private:
   void setValue(const Configuration& from, const Configuration& to);
   void setShift(const Configuration& from, const Configuration& to);
-  void setRotation(const Configuration& from, const Configuration& to);
+  void setRotation(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b);
+  /// @param V an upper bound of the joint's value, m or rad.
+  void setCurveBounds(double V);
+  void evaluateCurve(double t);
+  double curveDeviation(double h) const;
 
   // Constant. The matrix of a revolute joint is fixed·(1 + sin φ·K + (1 − cos φ)·K²), K = axis×.
   Frame::Joint joint_ = Frame::Joint::none;
@@ -85,9 +100,17 @@ class MovingJoint {
   double angle_ = 0;  // at t = 0
   Vec3 from_, delta_ = Vec3::Zero();
   Vec3 axis_ = Vec3::UnitX();
-  double rate_ = 0, rateError_ = 0;
+  double rate_ = 0, rateError_ = 0, largestRate_ = 0;
   double rotationError_ = 0, shiftError_ = 0, length_ = 0;
   bool ambiguous_ = false;
+
+  // Set for each piece of a curve, except for rotations. Bernstein coefficients of the joint's
+  // value (revolute, prismatic: first row only) or of its vector (translation). Empty: an edge.
+  Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, CurvePiece::kLargestDegree + 1>
+      curve_;
+  double curveError_ = 0;                        // the piece's `error` of this joint, rad or m
+  double largestSecond_ = 0, largestThird_ = 0;  // upper bounds of |q''| and |q'''|
+  double second_ = 0;                            // upper bound of |q''| at the last t
 };
 
 }  // namespace corridor

@@ -32,6 +32,9 @@ struct JointModel {
   /// Inclusive limits, rad or m. Revolute and prismatic joints only.
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
+  /// The largest speed by the URDF, rad/s or m/s. Infinite if the URDF gives none, or 0, and for
+  /// planar and floating joints, whose speed is not one number.
+  double velocity = std::numeric_limits<double>::infinity();
   std::optional<Mimic> mimic;
   int line = 0;  ///< in the URDF file
 };

@@ -13,8 +13,6 @@ namespace {
 using Element = XmlFile::Element;
 using Joints = std::set<std::size_t>;  // indices, so in the model's order
 
-constexpr std::size_t none = SIZE_MAX;
-
 struct Group {
   Element* element = nullptr;
   Joints joints;
@@ -27,7 +25,7 @@ struct Group {
 class GroupReader {
  public:
   GroupReader(XmlFile& file, SrdfNames& names, RobotModel& model)
-      : file_(file), names_(names), model_(model), parentJoint_(model.links.size(), none) {
+      : file_(file), names_(names), model_(model), parentJoint_(model.links.size(), kNoIndex) {
     for (std::size_t j = 0; j < model.joints.size(); ++j) parentJoint_[model.joints[j].child] = j;
   }
 
@@ -83,7 +81,7 @@ class GroupReader {
     });
     forEach(*group.element, "link", [&](Element& element) {
       const auto link = names_.findLink(element, "name", owner, group.missing);
-      if (link && parentJoint_[*link] != none) group.joints.insert(parentJoint_[*link]);
+      if (link && parentJoint_[*link] != kNoIndex) group.joints.insert(parentJoint_[*link]);
     });
     forEach(*group.element, "chain", [&](Element& element) { addChain(element, owner, group); });
     forEach(*group.element, "group", [&](Element& element) {
@@ -110,7 +108,8 @@ class GroupReader {
 
   Joints jointsAbove(std::size_t link) const {
     Joints above;
-    for (std::size_t j = parentJoint_[link]; j != none; j = parentJoint_[model_.joints[j].parent])
+    for (std::size_t j = parentJoint_[link]; j != kNoIndex;
+         j = parentJoint_[model_.joints[j].parent])
       above.insert(j);
     return above;
   }
@@ -127,7 +126,7 @@ class GroupReader {
 
   /// Marks the group as unusable if it contains itself.
   void checkCircle(std::size_t root) {
-    std::vector<std::size_t> above(groups_.size(), none), open{root};
+    std::vector<std::size_t> above(groups_.size(), kNoIndex), open{root};
     for (std::size_t k = 0; k < open.size(); ++k)
       for (const std::size_t inner : groups_[open[k]].subgroups) {
         if (inner == root) {
@@ -137,7 +136,7 @@ class GroupReader {
                            " contains itself: " + circleText(root, open[k], above));
           return;
         }
-        if (above[inner] != none) continue;
+        if (above[inner] != kNoIndex) continue;
         above[inner] = open[k];
         open.push_back(inner);
       }

@@ -205,6 +205,10 @@ class UrdfBuilder {
       joint.lower = limit.lower.value_or(0);  // 0 as in urdfdom
       joint.upper = limit.upper.value_or(0);
     }
+    // urdfdom requires the attribute, so files that don't know the velocity have 0.
+    if (joint.type != JointType::fixed && !isPoseJoint(joint.type) && outline.limit &&
+        outline.limit->velocity.value_or(0) > 0)
+      joint.velocity = *outline.limit->velocity;
   }
 
   /// Metres. Meshes and origins with larger lengths are probably in millimetres.

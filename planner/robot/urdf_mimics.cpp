@@ -11,15 +11,13 @@
 namespace corridor {
 namespace {
 
-constexpr std::size_t none = SIZE_MAX;
-
-struct Range {
+struct JointRange {
   double lower = 0, upper = 0;
   std::string text() const { return "[" + shortest(lower) + ", " + shortest(upper) + "]"; }
 };
 
 /// Returns the joint's own range. A limit that is not given is 0, as in urdfdom.
-Range rangeOf(const UrdfJoint& joint) {
+JointRange rangeOf(const UrdfJoint& joint) {
   if (!joint.limit) return {};
   return {joint.limit->lower.value_or(0), joint.limit->upper.value_or(0)};
 }
@@ -34,8 +32,8 @@ class Mimics {
       : joints_(outline.joints),
         file_(file),
         notes_(notes),
-        leader_(joints_.size(), none),
-        walk_(joints_.size(), none),
+        leader_(joints_.size(), kNoIndex),
+        walk_(joints_.size(), kNoIndex),
         rules_(joints_.size()) {
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       indices_[joints_[j].name] = j;
@@ -47,7 +45,7 @@ class Mimics {
     for (std::size_t j = 0; j < joints_.size(); ++j) findLeader(j);
     for (std::size_t j = 0; j < joints_.size(); ++j) resolve(j);
     for (std::size_t j = 0; j < joints_.size(); ++j) {
-      if (leader_[j] == none) checkRange(joints_[j]);
+      if (leader_[j] == kNoIndex) checkRange(joints_[j]);
       if (rules_[j]) noteFollower(joints_[j], *rules_[j]);
     }
     return std::move(rules_);
@@ -100,11 +98,12 @@ class Mimics {
   void resolve(std::size_t start) {
     std::vector<std::size_t> chain;
     std::size_t j = start;
-    for (; leader_[j] != none && !rules_[j] && walk_[j] == none; j = leader_[j]) {
+    for (; leader_[j] != kNoIndex && !rules_[j] && walk_[j] == kNoIndex; j = leader_[j]) {
       walk_[j] = start;
       chain.push_back(j);
     }
-    if (leader_[j] != none && !rules_[j]) {  // a circle; it was reported if an earlier walk met it
+    if (leader_[j] != kNoIndex &&
+        !rules_[j]) {  // a circle; it was reported if an earlier walk met it
       if (walk_[j] == start && !chain.empty()) faultCircle(j);
       return;
     }
@@ -163,8 +162,10 @@ class Mimics {
                                          : ""));
       return;
     }
-    const auto& [lower, upper, line] = *joint.limit;
-    const Range range = rangeOf(joint);
+    const auto& lower = joint.limit->lower;
+    const auto& upper = joint.limit->upper;
+    const int line = joint.limit->line;
+    const JointRange range = rangeOf(joint);
     // A joint of several turns has limits of at most 30 rad; degrees are at most a few hundred.
     constexpr double mostRadians = 30, mostDegrees = 1000;
     const double largest = std::max(std::abs(range.lower), std::abs(range.upper));
@@ -203,7 +204,7 @@ class Mimics {
     if (!hasRange(follower) || !follower.limit) return;
     if (!follower.limit->lower && !follower.limit->upper) return;
     const UrdfJoint& leader = joints_[rule.joint];
-    const Range own = rangeOf(follower);
+    const JointRange own = rangeOf(follower);
     const std::string text = owned("joint", follower.name) + ": its limits, " + own.text() +
                              ", are ignored: it mimics " + quotedWord(leader.name) + ", which ";
     const bool stands = rule.multiplier == 0;
@@ -211,10 +212,10 @@ class Mimics {
       return notes_.push_back(
           {file_.at(follower.mimic->line, text + "is continuous, without limits"),
            NoteWeight::motion});
-    const Range limits = rangeOf(leader);
+    const JointRange limits = rangeOf(leader);
     const double a = stands ? rule.offset : rule.multiplier * limits.lower + rule.offset;
     const double b = stands ? rule.offset : rule.multiplier * limits.upper + rule.offset;
-    const Range range{std::min(a, b), std::max(a, b)};
+    const JointRange range{std::min(a, b), std::max(a, b)};
     // The slack allows for rounding: ranges that differ only by two roundings at each end agree.
     const double slack =
         0x1p-50 * (std::abs(rule.offset) + std::abs(own.lower) + std::abs(own.upper));

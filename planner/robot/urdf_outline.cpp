@@ -156,7 +156,7 @@ void checkAxis(XmlFile& file, Element& joint, std::optional<JointType> type,
 }
 
 /// Reads <limit>. If the element, effort or velocity is missing, adds it, because urdfdom requires
-/// it; Corridor does not use effort and velocity. resolveMimics() checks the range.
+/// it; Corridor does not use effort. resolveMimics() checks the range.
 std::optional<UrdfLimit> readLimit(XmlFile& file, Element& joint, std::optional<JointType> type,
                                    const std::string& owner, std::vector<Note>& notes) {
   const bool ranged = type == JointType::revolute || type == JointType::prismatic;
@@ -177,9 +177,10 @@ std::optional<UrdfLimit> readLimit(XmlFile& file, Element& joint, std::optional<
   };
   limit.lower = read("lower");
   limit.upper = read("upper");
+  limit.velocity = read("velocity");
   std::vector<std::string> missing;
   for (const char* name : {"effort", "velocity"})
-    if (!read(name)) {
+    if (!(name == std::string_view("velocity") ? limit.velocity : read(name))) {
       missing.push_back(name);
       element->SetAttribute(name, "0");
     }

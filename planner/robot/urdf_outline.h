@@ -27,6 +27,7 @@ struct UrdfLink {
 
 struct UrdfLimit {
   std::optional<double> lower, upper;  ///< NaN: a fault was reported
+  std::optional<double> velocity;      ///< rad/s or m/s; NaN: a fault was reported
   int line = 0;
 };
 

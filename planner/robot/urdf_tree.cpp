@@ -2,12 +2,11 @@
 #include <unordered_map>
 
 #include "collision/core/spelling.h"
+#include "planner/robot/joint_types.h"
 #include "planner/robot/urdf_outline.h"
 
 namespace corridor {
 namespace {
-
-constexpr std::size_t none = SIZE_MAX;
 
 class Tree {
  public:
@@ -16,7 +15,7 @@ class Tree {
         links_(outline.links),
         joints_(outline.joints),
         file_(file),
-        parentJoint_(links_.size(), none),
+        parentJoint_(links_.size(), kNoIndex),
         children_(links_.size()) {
     for (std::size_t i = 0; i < links_.size(); ++i) linkIndex_[links_[i].name] = i;
   }
@@ -50,7 +49,7 @@ class Tree {
       return false;
     }
     const std::size_t child = linkIndex_.at(joint.child);
-    if (const std::size_t first = parentJoint_[child]; first != none) {
+    if (const std::size_t first = parentJoint_[child]; first != kNoIndex) {
       file_.fault(joint.line, owner + ": its child " + quotedWord(joint.child) +
                                   " is already the child of joint " +
                                   quotedWord(joints_[first].name) + " on line " +
@@ -71,14 +70,15 @@ class Tree {
   }
 
   std::size_t parentOf(std::size_t link) const {
-    return parentJoint_[link] == none ? none : linkIndex_.at(joints_[parentJoint_[link]].parent);
+    return parentJoint_[link] == kNoIndex ? kNoIndex
+                                          : linkIndex_.at(joints_[parentJoint_[link]].parent);
   }
 
   void checkShape() {
-    std::size_t root = none;
+    std::size_t root = kNoIndex;
     for (std::size_t link = 0; link < links_.size(); ++link) {
-      if (parentJoint_[link] != none) continue;
-      if (root == none)
+      if (parentJoint_[link] != kNoIndex) continue;
+      if (root == kNoIndex)
         root = link;
       else
         file_.fault(links_[link].line, owned("link", links_[link].name) +
@@ -92,9 +92,9 @@ class Tree {
     std::vector<int> walk(links_.size(), 0);
     for (std::size_t start = 0; start < links_.size(); ++start) {
       std::size_t link = start;
-      for (; link != none && walk[link] == 0; link = parentOf(link))
+      for (; link != kNoIndex && walk[link] == 0; link = parentOf(link))
         walk[link] = static_cast<int>(start) + 1;
-      if (link != none && walk[link] == static_cast<int>(start) + 1) faultCircle(link);
+      if (link != kNoIndex && walk[link] == static_cast<int>(start) + 1) faultCircle(link);
     }
   }
 
@@ -117,7 +117,7 @@ class Tree {
       open.insert(open.end(), children_[link].rbegin(), children_[link].rend());
     };
     for (std::size_t link = 0; link < links_.size(); ++link)
-      if (parentJoint_[link] == none) push(link);
+      if (parentJoint_[link] == kNoIndex) push(link);
     while (!open.empty()) {
       const std::size_t j = open.back();
       open.pop_back();

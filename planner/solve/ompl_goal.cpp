@@ -23,7 +23,7 @@ namespace {
 constexpr double kShrink = 0x1p-40;
 /// The maximum number of random states that are tried per wanted sample. Around most goals, nearly
 /// all states are free.
-constexpr std::size_t kTries = 20;
+constexpr std::size_t kTriesPerGoal = 20;
 
 double uniform(std::mt19937_64& random, double low, double high) {
   // std::uniform_real_distribution gives different numbers with different standard libraries.
@@ -116,7 +116,7 @@ std::vector<Configuration> sampleGoals(const Problem& problem, const Checker& ch
   }
   if (!problem.task.goalRegion) return found;
   std::mt19937_64 random(problem.settings.seed);
-  for (std::size_t tries = 0; tries < kTries * count && found.size() < count; ++tries) {
+  for (std::size_t tries = 0; tries < kTriesPerGoal * count && found.size() < count; ++tries) {
     Configuration q = randomNear(problem, goals[tries % goals.size()], random);
     if (inGoal(problem, goals, q, -kShrink) && checker.isProvedFree(q))
       found.push_back(std::move(q));

@@ -17,7 +17,7 @@ namespace {
 constexpr double kFirstTry = 0.9;
 /// Each further try is for this share of the one before.
 constexpr double kNextTry = 0.8;
-constexpr int kTries = 10;
+constexpr int kMostTries = 10;
 
 /// Returns the clearance proved for a whole path: the largest of a few that every edge keeps, or 0
 /// if that is not more than `least`.
@@ -25,7 +25,7 @@ double provedClearance(const Checker& checker, const Path& path, double most, do
   double tried = roundedDownTo2Digits(most);
   // The edges before this one keep what is tried. A path of one state has one edge, of no length.
   std::size_t edge = path.size() > 1 ? 1 : 0;
-  for (int n = 0; n < kTries && tried > least; ++n) {
+  for (int n = 0; n < kMostTries && tried > least; ++n) {
     const PairMargins margins(std::vector(checker.scene().motionPairs().size(), tried));
     while (edge < path.size() &&
            checker.certifyEdge(path[edge > 0 ? edge - 1 : 0], path[edge], margins).verdict ==

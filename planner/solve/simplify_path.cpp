@@ -14,18 +14,18 @@ namespace corridor {
 namespace {
 
 // Measured on paths of two arms (mbm) and of the own problems: with these values, a third of the
-// time of OMPL's simplifyMax gives paths that are 3 % shorter. A third of kLeastGain takes 1.4
+// time of OMPL's simplifyMax gives paths that are 3 % shorter. A third of kLeastGainOfCut takes 1.4
 // times as many edge tests, and gives paths that are 0.3 % shorter.
 
 /// The least gain of a shortcut that is tried, as a share of the path's length.
-constexpr double kLeastGain = 1e-3;
+constexpr double kLeastGainOfCut = 1e-3;
 /// Rounds end when a round gains less than this share of the path's length, or after kRounds.
 constexpr double kLeastGainOfRound = 5e-3;
 constexpr int kRounds = 3;
 /// Shortcuts over parts of the path have at least 2^-kLevels of its length.
 constexpr int kLevels = 4;
 /// The maximum number of times that a shortcut across a corner is halved.
-constexpr int kHalvings = 5;
+constexpr int kHalvingsOfCut = 5;
 /// A place on an edge counts as the edge's end if it is nearer to this end than this share of the
 /// edge. Any small value works: it only prevents edges of nearly no length.
 constexpr double kSnap = 1e-9;
@@ -56,9 +56,9 @@ class PathShortener {
 };
 
 /// The corners of a path, for shortcuts across single corners. The states are a linked list.
-class Corners {
+class CornersOfPath {
  public:
-  Corners(const ConfigurationSpace& space, const Path& path);
+  CornersOfPath(const ConfigurationSpace& space, const Path& path);
 
   /// Cuts corners where this gains at least `leastGain` and the new edge is free.
   void cut(double leastGain, const EdgeTest& isFree) { take(leastGain, false, isFree); }
@@ -101,14 +101,14 @@ class Corners {
   std::vector<State> states_;  // removed states remain, without neighbours
 };
 
-Corners::Corners(const ConfigurationSpace& space, const Path& path) : space_(space) {
+CornersOfPath::CornersOfPath(const ConfigurationSpace& space, const Path& path) : space_(space) {
   for (const Configuration& q : path) {
     states_.push_back({q});
     if (states_.size() > 1) join(states_.size() - 2, states_.size() - 1);
   }
 }
 
-void Corners::join(std::size_t before, std::size_t after) {
+void CornersOfPath::join(std::size_t before, std::size_t after) {
   states_[before].after = after;
   states_[after].before = before;
   ++states_[before].changes;
@@ -118,7 +118,7 @@ void Corners::join(std::size_t before, std::size_t after) {
 /// Returns the two places of a cut at a corner, and what it gains.
 /// @param whole the cut ends at both neighbours. Otherwise it ends at the nearer neighbour, or
 /// after a half, a quarter, … of the way there.
-Corners::Places Corners::placesOf(std::size_t state, int halvings, bool whole) const {
+CornersOfPath::Places CornersOfPath::placesOf(std::size_t state, int halvings, bool whole) const {
   const Configuration& q = states_[state].q;
   const Configuration& before = states_[states_[state].before].q;
   const Configuration& after = states_[states_[state].after].q;
@@ -140,7 +140,7 @@ Corners::Places Corners::placesOf(std::size_t state, int halvings, bool whole) c
 
 /// Takes the cuts that gain at least `leastGain`, those of the largest gain first.
 /// @param whole see `placesOf`.
-void Corners::take(double leastGain, bool whole, const EdgeTest& isFree) {
+void CornersOfPath::take(double leastGain, bool whole, const EdgeTest& isFree) {
   std::priority_queue<Cut> cuts;
   const auto add = [&](std::size_t state, int halved) {
     if (!isCorner(state)) return;
@@ -156,7 +156,7 @@ void Corners::take(double leastGain, bool whole, const EdgeTest& isFree) {
     std::size_t before = states_[best.state].before, after = states_[best.state].after;
     if (!isFree(places.before ? *places.before : states_[before].q,
                 places.after ? *places.after : states_[after].q)) {
-      if (!whole && best.halvings < kHalvings) add(best.state, best.halvings + 1);
+      if (!whole && best.halvings < kHalvingsOfCut) add(best.state, best.halvings + 1);
       continue;
     }
     states_[best.state].before = states_[best.state].after = kNone;
@@ -176,7 +176,7 @@ void Corners::take(double leastGain, bool whole, const EdgeTest& isFree) {
   }
 }
 
-Path Corners::path() const {
+Path CornersOfPath::path() const {
   Path path{states_.front().q};
   for (std::size_t i = states_.front().after; i != kNone; i = states_[i].after)
     path.push_back(states_[i].q);
@@ -236,7 +236,7 @@ bool PathShortener::shortcut(double from, double to) {
                           : space_.interpolate(path_[edge], path_[edge + 1], t)};
   };
   Place a = placeAt(from), b = placeAt(to);
-  if (a.edge == b.edge || to - from - distance(a.q, b.q) < kLeastGain * lengthTo_.back() ||
+  if (a.edge == b.edge || to - from - distance(a.q, b.q) < kLeastGainOfCut * lengthTo_.back() ||
       !testEdge(a.q, b.q))
     return false;
   Path path(path_.begin(), path_.begin() + static_cast<std::ptrdiff_t>(a.edge) + 1);
@@ -266,7 +266,7 @@ std::vector<Path> PathShortener::run(const Path& path) {
     return testEdge(a, b);
   };
   const auto removeStates = [&] {
-    Corners corners(space_, path_);
+    CornersOfPath corners(space_, path_);
     corners.remove(isFree);
     setPath(corners.path());
   };
@@ -280,8 +280,8 @@ std::vector<Path> PathShortener::run(const Path& path) {
   for (int round = 0; round < kRounds && path_.size() > 2; ++round) {
     const double before = lengthTo_.back();
     shortcutParts();
-    Corners corners(space_, path_);
-    corners.cut(kLeastGain * lengthTo_.back(), isFree);
+    CornersOfPath corners(space_, path_);
+    corners.cut(kLeastGainOfCut * lengthTo_.back(), isFree);
     setPath(corners.path());
     add();
     if (lengthTo_.back() > before * (1 - kLeastGainOfRound)) break;

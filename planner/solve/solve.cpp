@@ -406,6 +406,12 @@ void Solve::finish() {
     report_.why = discrete() ? "a path was found, but it doesn't join start and goal"
                              : "a path was found, but no version of it could be certified as a "
                                "whole, from start to goal";
+  if (report_.outcome == SolveOutcome::solved && options_.trajectory) {
+    const double before = clock_.seconds();
+    report_.trajectory = makeTrajectory(problem_, checker_, report_.path, *options_.trajectory,
+                                        [this] { return interrupted(); });
+    report_.trajectoryTime = clock_.seconds() - before;
+  }
 }
 
 void checkSettings(const Problem& problem) {

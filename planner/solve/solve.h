@@ -11,6 +11,7 @@
 #include "collision/core/error.h"
 #include "planner/problem/problem.h"
 #include "planner/solve/finish_path.h"
+#include "planner/solve/make_trajectory.h"
 #include "planner/solve/prove_clearance.h"
 
 namespace corridor {
@@ -41,6 +42,8 @@ struct SolveOptions {
   /// Whether the tests of edges are still those of the `Checker` after `adaptChecking`. The final
   /// certification then relies on what they proved.
   bool adaptedTestsAreProofs = false;
+  /// If set, a trajectory along the path is made, too.
+  std::optional<TrajectoryOptions> trajectory;
 };
 
 enum class SolveOutcome {
@@ -70,6 +73,7 @@ struct SolveReport {
   double time = 0, planningTime = 0;  ///< seconds of the whole solve, and until the planner ended
   double setUpTime = 0;               ///< seconds until the planner began
   double certificationTime = 0;       ///< seconds of the final certification
+  double trajectoryTime = 0;          ///< seconds in which the trajectory was made and proved
   double processorTime = 0;           ///< processor time of the whole solve, all threads
   double searchProcessorTime = 0;     ///< the part of processorTime in planner and simplifier
   /// Counts of all queries: states, edges, undecided, and N_v, N_p of the cost model.
@@ -77,6 +81,7 @@ struct SolveReport {
   PathLength length;
   /// Unset if no clearance is preferred (keep_clearance.h).
   std::optional<PathClearance> clearance;
+  std::optional<MadeTrajectory> trajectory;  ///< set if solved and `SolveOptions::trajectory`
   std::size_t rawStates = 0;   ///< states of the planner's own path, before simplifying
   PathLength rawLength;        ///< length of the planner's own path
   int version = 0;             ///< index of the simplified version returned; 0: the planner's own

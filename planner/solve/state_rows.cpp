@@ -42,7 +42,7 @@ std::optional<std::string> rowFault(const std::vector<double>& row,
 namespace {
 
 /// Returns the words of a line: without a comment, separated by blanks or commas.
-std::vector<std::string> wordsOf(std::string line) {
+std::vector<std::string> wordsOfLine(std::string line) {
   line.resize(std::min(line.size(), line.find('#')));
   std::replace(line.begin(), line.end(), ',', ' ');
   std::istringstream words(line);
@@ -103,12 +103,12 @@ std::vector<Row> readRows(const std::filesystem::path& file, const Configuration
     if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // byte-order mark
     // numpy.savetxt writes its header as a comment.
     if (allowHeader && isFirst && line.starts_with('#')) {
-      std::vector<std::string> words = wordsOf(line.substr(1)), sorted = names;
+      std::vector<std::string> words = wordsOfLine(line.substr(1)), sorted = names;
       std::sort(words.begin(), words.end());
       std::sort(sorted.begin(), sorted.end());
       if (words == sorted) line.erase(0, 1);
     }
-    const std::vector<std::string> words = wordsOf(line);
+    const std::vector<std::string> words = wordsOfLine(line);
     if (words.empty()) continue;
     // Names may look like numbers (a joint "1"). A line that consists of numbers only is a state.
     double number0 = 0;

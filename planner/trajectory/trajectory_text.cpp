@@ -9,7 +9,7 @@
 namespace corridor {
 namespace {
 
-constexpr double kNanoseconds = 1e9;
+constexpr double kPerSecond = 1e9;
 
 std::string joined(const Configuration& values, const char* separator) {
   std::string text;
@@ -44,7 +44,7 @@ std::vector<Eigen::Index> withVelocities(const ConfigurationSpace& space) {
 }  // namespace
 
 double nearestNanosecond(double seconds) {
-  return std::round(seconds * kNanoseconds) / kNanoseconds;
+  return std::round(seconds * kPerSecond) / kPerSecond;
 }
 
 std::string csvText(const TrajectoryRows& rows, const ConfigurationSpace& space) {
@@ -80,11 +80,11 @@ std::string messageText(const TrajectoryRows& rows, const ConfigurationSpace& sp
   for (std::size_t i = 0; i < names.size(); ++i) text += (i ? ", " : "") + quoted(names[i]);
   text += "]\npoints:\n";
   for (const TrajectoryRow& row : rows.rows) {
-    if (!(row.time >= 0 && row.time < 0x1p53 / kNanoseconds) ||
+    if (!(row.time >= 0 && row.time < 0x1p53 / kPerSecond) ||
         nearestNanosecond(row.time) != row.time)
       throw std::invalid_argument("the time " + shortest(row.time) +
                                   " s is not a whole number of nanoseconds");
-    const auto total = static_cast<std::uint64_t>(std::round(row.time * kNanoseconds));
+    const auto total = static_cast<std::uint64_t>(std::round(row.time * kPerSecond));
     text += "- positions: [" + joined(row.positions, ", ") + "]\n";
     if (rows.hasVelocities) text += "  velocities: [" + joined(row.velocities, ", ") + "]\n";
     if (rows.hasAccelerations)

@@ -1,7 +1,9 @@
 #include "planner/verify/curve_joins.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 #include <boost/multiprecision/cpp_int.hpp>
 
@@ -13,16 +15,22 @@ namespace {
 using Rational = boost::multiprecision::cpp_rational;
 using RealQuaternion = Eigen::Matrix<Real, 4, 1>;
 
+/// Conversions by way of long double keep denormals in every mode of the vector unit. (Comparisons
+/// of doubles don't, even if they are written in long double: compilers narrow them.)
+Rational exact(Real value) {
+  return Rational(value);
+}
+
 bool numbersJoin(double a, double b, double errorA, double errorB) {
-  if (Real(a) == Real(b)) return true;  // in long double, denormals count whatever the mode
-  return abs(Rational(a) - Rational(b)) <= Rational(errorA) + Rational(errorB);
+  if (std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b)) return true;
+  return abs(exact(a) - exact(b)) <= exact(errorA) + exact(errorB);
 }
 
 /// Returns whether two quaternions are multiples of each other.
 bool sameRotation(const Eigen::Vector4d& p, const Eigen::Vector4d& q) {
   for (Eigen::Index i = 0; i < 4; ++i)
     for (Eigen::Index j = i + 1; j < 4; ++j)
-      if (Rational(p[i]) * Rational(q[j]) != Rational(p[j]) * Rational(q[i])) return false;
+      if (exact(p[i]) * exact(q[j]) != exact(p[j]) * exact(q[i])) return false;
   return true;
 }
 

@@ -49,6 +49,7 @@ std::string_view @short@(std::string_view name) {
 
 }  // namespace @namespace@
 ]])
-  set_source_files_properties(${source} PROPERTIES OBJECT_DEPENDS "${files}")
+  set_source_files_properties(${source} PROPERTIES OBJECT_DEPENDS "${files}"
+                              SKIP_UNITY_BUILD_INCLUSION ON)  # united, it would not depend on the files
   target_sources(${target} PRIVATE ${source})
 endfunction()

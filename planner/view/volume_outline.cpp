@@ -96,7 +96,10 @@ ConvexPart outline(const Hull& hull) {
 }
 
 ConvexPart outline(const Shell& shell) {
-  const Mat3 toAxis = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), shell.axis).matrix();
+  Mat3 toAxis;  // a rotation that takes the z axis to the shell's axis
+  toAxis.col(0) = shell.axis.unitOrthogonal();
+  toAxis.col(1) = shell.axis.cross(toAxis.col(0));
+  toAxis.col(2) = shell.axis;
   std::vector<Vec3> points;
   for (const Vec3& n : directions(shell.hasCone() ? std::atan(shell.slope) : std::numbers::pi))
     for (const double radius : {shell.inner, shell.outer})

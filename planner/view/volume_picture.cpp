@@ -26,7 +26,7 @@ namespace {
 using view::Camera;
 using view::Face;
 
-constexpr double kWidth = 640, kBorder = 12;  // sizes of the picture, pixels
+constexpr double kPictureWidth = 640, kPictureBorder = 12;  // sizes of the picture, pixels
 /// Limits of the SVG text, bytes: the mesh, and all volumes together.
 constexpr std::size_t kMeshLimit = 50'000, kVolumesLimit = 40'000;
 /// Two faces of a volume that enclose a larger angle are separated by a line.
@@ -192,7 +192,7 @@ VolumePicture volumePicture(const TriangleMesh& mesh, const TreeNames& trees, st
   for (int k = 0; k < 3; ++k)
     for (const double side : {-least, least})
       points.emplace_back(0.5 * (low + high) + side * Vec3::Unit(k));
-  camera.fit(points, kWidth, kBorder);
+  camera.fit(points, kPictureWidth, kPictureBorder);
   std::vector<Face> faces;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     cut(makeFace(camera, {mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)}, 'w'), faces);

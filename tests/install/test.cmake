@@ -48,7 +48,7 @@ if(NOT COMPILER MATCHES "clang")  # clang defines no macro for these
   list(APPEND refused -funsafe-math-optimizations -freciprocal-math)
 endif()
 foreach(option ${refused})
-  execute_process(COMMAND ${COMPILER} -std=c++20 ${option} -fsyntax-only -I "${prefix}/include/corridor"
+  execute_process(COMMAND ${COMPILER} -std=c++20 ${option} -fsyntax-only -Wfatal-errors -I "${prefix}/include/corridor"
     -I /usr/include/eigen3 "${CMAKE_CURRENT_LIST_DIR}/main.cpp" RESULT_VARIABLE status ERROR_VARIABLE err)
   if(status EQUAL 0 OR NOT err MATCHES "bounds do not hold under -ffast-math")
     message(FATAL_ERROR "main.cpp under ${option}: ${status}\n${err}")

@@ -10,7 +10,8 @@
 
 namespace corridor::test {
 
-/// A kinematic chain of revolute and prismatic joints from a to b, with joint values linear in t.
+/// A kinematic chain of revolute and prismatic joints from a to b. Joint values are linear or
+/// quadratic in t.
 /// Poses are products of exponentials in long double. The poses are the reference for the positions
 /// of points; rounded to double, they are a MotionSource.
 class ChainMotion final : public MotionSource {
@@ -21,6 +22,14 @@ class ChainMotion final : public MotionSource {
     bool slides = false;
     Vec3 axis = Vec3::UnitZ(), point = Vec3::Zero();  ///< at joint value 0; |axis| may be any but 0
     double from = 0, to = 0;
+    double bend = 0;  ///< the value is from + t(to − from) + bend·t(1 − t)
+
+    long double value(long double t) const {
+      return from + t * (static_cast<long double>(to) - from) + bend * t * (1 - t);
+    }
+    long double rate(long double t) const {
+      return static_cast<long double>(to) - from + bend * (1 - 2 * t);
+    }
   };
   struct Pose {
     Mat3L R = Mat3L::Identity();
@@ -35,7 +44,7 @@ class ChainMotion final : public MotionSource {
     Pose X;
     for (std::size_t j = 0; j < count; ++j) {
       const Joint& joint = joints_[j];
-      const long double value = joint.from + t * (static_cast<long double>(joint.to) - joint.from);
+      const long double value = joint.value(t);
       const Vec3L axis = joint.axis.cast<long double>().normalized(),
                   point = joint.point.cast<long double>();
       if (joint.slides) {
@@ -60,7 +69,7 @@ class ChainMotion final : public MotionSource {
       const Pose before = pose(t, j);
       const Vec3L axis = before.R * joint.axis.cast<long double>().normalized(),
                   point = before * joint.point.cast<long double>();
-      const long double half = h * (static_cast<long double>(joint.to) - joint.from);
+      const long double half = h * joint.rate(t);
       if (joint.slides) {
         linear += half * axis;
       } else {
@@ -68,9 +77,12 @@ class ChainMotion final : public MotionSource {
         angular += half * axis;
       }
       size += point.norm() + std::abs(half) * (1 + (X.t - point).norm());
-      screws_.push_back({joint.slides ? ScrewMotion::Kind::prismatic : ScrewMotion::Kind::revolute,
-                         axis.cast<double>(), point.cast<double>(),
-                         roundedUp(static_cast<double>(std::abs(half))), 0});
+      screws_.push_back(
+          {.kind = joint.slides ? ScrewMotion::Kind::prismatic : ScrewMotion::Kind::revolute,
+           .axis = axis.cast<double>(),
+           .point = point.cast<double>(),
+           .amount = roundedUp(static_cast<double>(std::abs(half))),
+           .deviation = joint.bend == 0 ? 0 : roundedUp(std::abs(joint.bend) * h * h)});
     }
     RelativeMotion w;
     w.X_AB = {X.R.cast<double>(), X.t.cast<double>()};

@@ -14,27 +14,27 @@ namespace {
 // two corners 2^-1074 apart and the third one some metres away: its two long sides differ only by
 // 2^-1074.
 namespace mp = boost::multiprecision;
-using Integer = mp::number<mp::cpp_int::backend_type, mp::et_off>;
-using P = std::array<Integer, 3>;
+using WholeNumber = mp::number<mp::cpp_int::backend_type, mp::et_off>;
+using P = std::array<WholeNumber, 3>;
 
 /// A squared distance: over / under, with under > 0.
-struct Fraction {
-  Integer over, under = 1;
+struct Quotient {
+  WholeNumber over, under = 1;
 };
-bool operator<(const Fraction& a, const Fraction& b) {
+bool operator<(const Quotient& a, const Quotient& b) {
   return a.over * b.under < b.over * a.under;
 }
 
 P minus(const P& a, const P& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
-Integer dot(const P& a, const P& b) {
+WholeNumber dot(const P& a, const P& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 P cross(const P& a, const P& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
-Integer square(const P& d) {
+WholeNumber square(const P& d) {
   return dot(d, d);
 }
 
@@ -66,54 +66,54 @@ class Grid {
     return q;
   }
   /// Returns the square root, from some 75 bits.
-  double distance(const Fraction& squared) const {
-    const auto bits = [](const Integer& x) { return x == 0 ? 0 : static_cast<int>(msb(x)); };
+  double distance(const Quotient& squared) const {
+    const auto bits = [](const WholeNumber& x) { return x == 0 ? 0 : static_cast<int>(msb(x)); };
     const int shift = (150 + bits(squared.under) - bits(squared.over)) / 2;
-    const Integer over = shift < 0 ? squared.over >> -2 * shift : squared.over << 2 * shift;
-    const Integer root = sqrt(Integer(over / squared.under));
+    const WholeNumber over = shift < 0 ? squared.over >> -2 * shift : squared.over << 2 * shift;
+    const WholeNumber root = sqrt(WholeNumber(over / squared.under));
     return std::ldexp(root.convert_to<double>(), 2 * unit_ - shift);
   }
 
  private:
-  Integer integer(double x) const {
+  WholeNumber integer(double x) const {
     int exponent = 0;
     const auto bits = static_cast<long long>(std::ldexp(std::frexp(x, &exponent), 53));
     const int shift = exponent - 53 - unit_;  // below zero: only zeros are lost
-    return shift < 0 ? Integer(bits >> -shift) : Integer(bits) << shift;
+    return shift < 0 ? WholeNumber(bits >> -shift) : WholeNumber(bits) << shift;
   }
   int unit_ = 0;  // at most 0: `mapped` also needs 1 as an integer
 };
 
-Fraction toSegment(const P& p, const P& a, const P& b) {
+Quotient toSegment(const P& p, const P& a, const P& b) {
   const P d = minus(b, a), w = minus(p, a);
-  const Integer along = dot(w, d), length = square(d);
+  const WholeNumber along = dot(w, d), length = square(d);
   if (along <= 0) return {square(w)};
   if (along >= length) return {square(minus(p, b))};
   return {square(cross(w, d)), length};
 }
 
-Fraction toTriangle(const P& p, const std::array<P, 3>& t) {
-  const Fraction sides =
+Quotient toTriangle(const P& p, const std::array<P, 3>& t) {
+  const Quotient sides =
       std::min({toSegment(p, t[0], t[1]), toSegment(p, t[1], t[2]), toSegment(p, t[2], t[0])});
   const P n = cross(minus(t[1], t[0]), minus(t[2], t[0]));
-  const Integer area = square(n);
+  const WholeNumber area = square(n);
   if (area == 0) return sides;
   for (int i = 0; i < 3; ++i)
     if (dot(cross(minus(t[(i + 1) % 3], t[i]), minus(p, t[i])), n) < 0) return sides;
-  const Integer height = dot(n, minus(p, t[0]));
+  const WholeNumber height = dot(n, minus(p, t[0]));
   return std::min(sides, {height * height, area});
 }
 
 /// Returns the lesser of `best` and the squared distance of two edges if their closest points are
 /// inner points. `toTriangle` handles the edges' ends.
-Fraction edges(const P& p, const P& p1, const P& q, const P& q1, const Fraction& best) {
+Quotient edges(const P& p, const P& p1, const P& q, const P& q1, const Quotient& best) {
   const P d = minus(p1, p), e = minus(q1, q), r = minus(q, p), n = cross(d, e);
-  const Integer area = square(n);
+  const WholeNumber area = square(n);
   if (area == 0) return best;
   // r + t e - s d along n: s = (r x e) n / n^2, t = (r x d) n / n^2.
-  const Integer s = dot(cross(r, e), n), t = dot(cross(r, d), n);
+  const WholeNumber s = dot(cross(r, e), n), t = dot(cross(r, d), n);
   if (s < 0 || s > area || t < 0 || t > area) return best;
-  const Integer height = dot(r, n);
+  const WholeNumber height = dot(r, n);
   return std::min(best, {height * height, area});
 }
 
@@ -128,7 +128,7 @@ double referenceDistance(const Triangle& a, const Transform& X_WA, const Triangl
   grid.cover(X_WB);
   std::array<P, 3> s, t;
   for (int i = 0; i < 3; ++i) s[i] = grid.mapped(X_WA, a[i]), t[i] = grid.mapped(X_WB, b[i]);
-  Fraction best = toTriangle(s[0], t);
+  Quotient best = toTriangle(s[0], t);
   for (int i = 0; i < 3; ++i) {
     best = std::min({best, toTriangle(s[i], t), toTriangle(t[i], s)});
     for (int k = 0; k < 3; ++k) best = edges(s[i], s[(i + 1) % 3], t[k], t[(k + 1) % 3], best);

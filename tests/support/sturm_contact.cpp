@@ -17,9 +17,9 @@ constexpr int kBracketBits = 60;
 
 /// Doubles as integers in units of one power of two, the largest in which all of them and 1 are
 /// integers.
-class Grid {
+class IntegerGrid {
  public:
-  Grid(std::initializer_list<double> values) {
+  IntegerGrid(std::initializer_list<double> values) {
     for (const double x : values) include(x);
   }
   void include(double x) {
@@ -73,7 +73,7 @@ struct PolynomialQuaternion {
   int exponent;
 
   PolynomialQuaternion(const Eigen::Quaterniond& q, const Vec3& m) {
-    Grid grid{q.w(), q.x(), q.y(), q.z()};
+    IntegerGrid grid{q.w(), q.x(), q.y(), q.z()};
     grid.include(m);
     const Integer one = grid(1), qw = grid(q.w()), qx = grid(q.x()), qy = grid(q.y()),
                   qz = grid(q.z()), mx = grid(m.x()), my = grid(m.y()), mz = grid(m.z());
@@ -93,7 +93,7 @@ struct PolynomialPose {
   Polynomial W;
   int exponent;
 
-  PolynomialPose(const RationalMotion& motion, const Grid& points) {
+  PolynomialPose(const RationalMotion& motion, const IntegerGrid& points) {
     const PolynomialQuaternion q(motion.from().q, motion.m());
     const Polynomial &w = q.w, &x = q.x, &y = q.y, &z = q.z, two = constant(2);
     M = {Vector{w * w + x * x - y * y - z * z, two * (x * y - w * z), two * (x * z + w * y)},
@@ -112,7 +112,7 @@ struct PolynomialPose {
 class Pair {
  public:
   Pair(const Triangle& fixed, const Triangle& moving, const RationalMotion& motion) {
-    Grid points{};
+    IntegerGrid points{};
     for (int i = 0; i < 3; ++i) {
       points.include(fixed[i]);
       points.include(moving[i]);
@@ -259,7 +259,7 @@ long double RationalMotion::time(long double s) const {
 }
 
 RationalMotion::Scaled RationalMotion::at(double s) const {
-  Grid points{}, parameters{s};
+  IntegerGrid points{}, parameters{s};
   points.include(from_.p);
   points.include(to_.p);
   const PolynomialPose pose(*this, points);

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/collision/convex/long_double_sets.h"
 #include "tests/collision/convex/touching_pairs.h"
 #include "tests/support/support.h"
 
@@ -66,7 +67,7 @@ TEST(ConvexContact, RightOutsideTheBandNeverFalselyFree) {
   std::cout << cases << " cases; decided with more digits than double: " << moreDigits << "\n";
 }
 
-using Vec3L = Eigen::Matrix<long double, 3, 1>;
+using test::Vec3L;
 
 /// Returns the distance of a point from a solid in its own frame, by closed forms; 0 inside.
 long double distanceFrom(const Primitive& primitive, const Vec3L& q) {

@@ -18,9 +18,9 @@
 namespace corridor {
 namespace {
 
-class Random {
+class RandomPolygons {
  public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
+  explicit RandomPolygons(std::uint64_t seed) : engine_(seed) {}
   std::uint64_t below(std::uint64_t n) { return engine_() % n; }
   double real() { return std::uniform_real_distribution(-1.0, 1.0)(engine_); }
 
@@ -51,7 +51,7 @@ std::vector<Vec2> vertices(const ConvexPolygon& polygon) {
 }
 
 TEST(ConvexPolygon, HullsAreExact) {
-  Random random(test::testSeed(41));
+  RandomPolygons random(test::testSeed(41));
   for (int n = 0; n < 300; ++n) {
     const auto polygon = random.polygon(3 + random.below(30), n % 4, {random.real(), 0});
     if (!polygon) continue;
@@ -67,7 +67,7 @@ TEST(ConvexPolygon, HullsAreExact) {
 }
 
 TEST(ConvexPolygon, ExtremeVertices) {
-  Random random(test::testSeed(42));
+  RandomPolygons random(test::testSeed(42));
   for (int n = 0; n < 2000; ++n) {
     const auto polygon = random.polygon(3 + random.below(n % 9 ? 12 : 300), n % 4, {0.1, 0.2});
     if (!polygon) continue;
@@ -91,7 +91,7 @@ TEST(ConvexPolygon, ExtremeVertices) {
 
 /// Against the rational simplex method, and the witness of each answer.
 TEST(PolygonIntersection, AgreesWithRationalSimplex) {
-  Random random(test::testSeed(43));
+  RandomPolygons random(test::testSeed(43));
   const int pairs = test::isStressRun() ? 100'000 : 1500 / test::kSlowdown;
   int meeting = 0, exact = 0;
   for (int n = 0; n < pairs; ++n) {
@@ -147,7 +147,7 @@ bool partsMeet(const ConvexPolygon& p, const ConvexPolygon& q, const PolygonPrun
 /// The correctness invariant: after each step, what is left of P meets what is left of Q if and
 /// only if P meets Q. Each step prunes half of a chain.
 TEST(PolygonIntersection, EachPruningKeepsTheAnswer) {
-  Random random(test::testSeed(44));
+  RandomPolygons random(test::testSeed(44));
   const int pairs = test::isStressRun() ? 3000 : 200 / test::kSlowdown;
   std::size_t steps = 0;
   for (int n = 0; n < pairs; ++n) {
@@ -175,7 +175,7 @@ TEST(PolygonIntersection, EachPruningKeepsTheAnswer) {
 
 /// The number of steps grows like the logarithm, also for polygons that nearly touch.
 TEST(PolygonIntersection, TakesLogarithmicallyManySteps) {
-  Random random(test::testSeed(45));
+  RandomPolygons random(test::testSeed(45));
   for (const std::size_t n : {10u, 1000u, 100'000u / test::kSlowdown}) {
     std::vector<Vec2> points;
     for (std::size_t i = 0; i < n; ++i) {
@@ -199,7 +199,7 @@ TEST(PolygonIntersection, TakesLogarithmicallyManySteps) {
 
 /// A vertex on a slanted edge, up to rounding: doubles cannot decide whether it is inside.
 TEST(PolygonIntersection, VerticesNearEdges) {
-  Random random(test::testSeed(46));
+  RandomPolygons random(test::testSeed(46));
   int meeting = 0;
   const int pairs = 400 / test::kSlowdown + 10;
   for (int n = 0; n < pairs; ++n) {

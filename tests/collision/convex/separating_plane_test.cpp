@@ -34,7 +34,7 @@ Points<D> chosen(const Points<D>& points, const std::vector<std::size_t>& indice
 
 /// Compares the relation with the oracle's, and tests the witness of each answer.
 template <int D>
-void compare(int count, std::uint64_t seed) {
+void compareSets(int count, std::uint64_t seed) {
   test::HullPairs<D> pairs(seed);
   std::array<int, 3> seen{};
   int exact = 0;
@@ -79,15 +79,15 @@ void compare(int count, std::uint64_t seed) {
   for (const int each : seen) EXPECT_GT(each, count / 20);
 }
 
-int cases() {
+int numberOfSets() {
   return test::isStressRun() ? 100'000 : 3000 / test::kSlowdown;
 }
 
 TEST(SeparatingPlane, AgreesWithRationalSimplexInSpace) {
-  compare<3>(cases(), test::testSeed(5));
+  compareSets<3>(numberOfSets(), test::testSeed(5));
 }
 TEST(SeparatingPlane, AgreesWithRationalSimplexInThePlane) {
-  compare<2>(cases(), test::testSeed(6));
+  compareSets<2>(numberOfSets(), test::testSeed(6));
 }
 
 TEST(SeparatingPlane, OneUlpDecides) {

@@ -16,7 +16,7 @@ using test::exactly;
 using test::Fraction;
 using test::Point2;
 using Kind = PolygonFault::Kind;
-using Points = test::Polygons::Points;
+using PolygonPoints = test::Polygons::Points;
 
 /// The boundary of polygons as a sum of segments without points of `corners` inside, each with its
 /// direction: opposite segments cancel.
@@ -62,7 +62,7 @@ bool isStrictlyConvex(const std::vector<Point2>& p) {
 
 /// The boundaries of the convex pieces add up to that of the polygon. So at each point off the
 /// boundaries, the number of pieces around it is the winding number of the polygon: 1 or 0.
-void expectTiling(const Points& points, const std::string& name) {
+void expectTiling(const PolygonPoints& points, const std::string& name) {
   const std::vector<Point2> corners = exactly(points);
   const Fraction area = test::twiceArea(corners);
   Fraction sum = 0;
@@ -83,7 +83,7 @@ TEST(SimplePolygon, AgreesWithRationals) {
   const int count = test::isStressRun() ? 20'000 : 400 / test::kSlowdown;
   int simple = 0, pieces = 0;
   for (int n = 0; n < count; ++n) {
-    const Points p = random.varied(
+    const PolygonPoints p = random.varied(
         random.polygon(3 + random.below(n % 10 ? 12 : 60), n % test::Polygons::kinds));
     const std::string name = "polygon " + std::to_string(n);
     const std::vector<Point2> e = exactly(p);
@@ -112,13 +112,13 @@ TEST(SimplePolygon, PiecesContainWhatThePolygonContains) {
   test::Polygons random(test::testSeed(52));
   int inside = 0, tested = 0;
   for (int n = 0; n < 300 / test::kSlowdown; ++n) {
-    const Points p = random.polygon(3 + random.below(25), n % test::Polygons::kinds);
+    const PolygonPoints p = random.polygon(3 + random.below(25), n % test::Polygons::kinds);
     if (checkSimple(p)) continue;
     const std::vector<Point2> corners = exactly(p);
     std::vector<std::vector<Point2>> pieces;
     for (const auto& piece : convexPieces(p)) pieces.push_back(cornersOf(corners, piece));
     for (int k = 0; k < 20; ++k) {
-      // Corners, middles of chords, and points near corners.
+      // PolygonPoints, middles of chords, and points near corners.
       const Eigen::Vector2d &a = p[random.below(p.size())], &b = p[random.below(p.size())];
       const Eigen::Vector2d q = k % 3 == 0 ? a
                                 : k % 3 == 1
@@ -137,18 +137,18 @@ TEST(SimplePolygon, PiecesContainWhatThePolygonContains) {
 }
 
 TEST(SimplePolygon, NumbersOfPieces) {
-  const auto count = [](const Points& p) { return convexPieces(p).size(); };
+  const auto count = [](const PolygonPoints& p) { return convexPieces(p).size(); };
   EXPECT_EQ(count({{0, 0}, {1, 0}, {1, 1}, {0, 1}}), 1u);
   EXPECT_EQ(count({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}), 2u) << "an L";
   EXPECT_EQ(count({{0, 0}, {0.5, 0}, {1, 0}, {1, 1}, {0, 1}}), 1u) << "a point on an edge";
-  Points circle;
+  PolygonPoints circle;
   for (int i = 0; i < 100; ++i) circle.emplace_back(std::cos(0.06 * i), std::sin(0.06 * i));
   EXPECT_EQ(count(circle), 1u);
   EXPECT_EQ(convexPieces(circle).front().size(), 100u);
 }
 
 TEST(SimplePolygon, Faults) {
-  const auto fault = [](const Points& p) {
+  const auto fault = [](const PolygonPoints& p) {
     const auto found = checkSimple(p);
     return found ? std::tuple(static_cast<int>(found->kind), found->first, found->second)
                  : std::tuple(-1, std::size_t{0}, std::size_t{0});
@@ -171,11 +171,11 @@ TEST(SimplePolygon, Faults) {
 
 /// A corner on an edge, from each side, in each direction of the plane and of the boundary.
 TEST(SimplePolygon, CornersThatTouchEdges) {
-  const Points touching{{0, 0}, {4, 1}, {4, 3}, {2, 0.5}, {0, 2}};
+  const PolygonPoints touching{{0, 0}, {4, 1}, {4, 3}, {2, 0.5}, {0, 2}};
   for (int n = 0; n < 80; ++n) {
-    Points p = touching, apart = touching;
+    PolygonPoints p = touching, apart = touching;
     apart[3].y() += 0x1p-40;
-    for (Points* each : {&p, &apart}) {
+    for (PolygonPoints* each : {&p, &apart}) {
       for (Vec2& v : *each) {
         if (n & 1) v.x() = -v.x();
         if (n & 2) v.y() = -v.y();
@@ -192,7 +192,7 @@ TEST(SimplePolygon, CornersThatTouchEdges) {
 
 /// 10^5 points: a comb whose teeth are long and slanted, so that the boxes of all edges overlap.
 TEST(SimplePolygon, LargePolygons) {
-  Points comb{{-1e5, -1e5}};
+  PolygonPoints comb{{-1e5, -1e5}};
   for (int k = 0; k < 50'000 / test::kSlowdown; ++k) {
     comb.emplace_back(2 * k, -2 * k);
     comb.emplace_back(100'000 + 2 * k + 1, 100'000 - 2 * k - 1);

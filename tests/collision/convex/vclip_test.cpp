@@ -34,7 +34,7 @@ std::vector<Vec3L> cornersOf(const PolytopeFeatures& shape, const Feature& featu
 }
 
 /// The promised error of a distance.
-long double allowed(long double distance, double size) {
+long double allowedError(long double distance, double size) {
   return 1e-12L * distance + 4 * kUnit * size;
 }
 
@@ -86,7 +86,7 @@ TEST(VClip, AgreesWithAllPairsOfFeatures) {
     ++apart;
     const double size = 2 * sizeOf(pointsA, pointsB) + 8;
     const long double distance = test::betweenPolytopes(a, X_WA, b, X_WB);
-    ASSERT_LE(std::abs(found.distance.distance - distance), allowed(distance, size)) << n;
+    ASSERT_LE(std::abs(found.distance.distance - distance), allowedError(distance, size)) << n;
     ASSERT_LE(found.distance.lower - distance, 1e-17L * size) << n;
     ASSERT_NEAR((found.distance.p_WB - found.distance.p_WA).norm(), found.distance.distance,
                 8 * kUnit * size + 1e-12 * found.distance.distance);
@@ -129,7 +129,7 @@ TEST(VClip, EveryStartReachesTheClosestPair) {
       for (const Feature& second : features(fb)) {
         FeaturePair pair{false, first, second, {}};
         const ClosestFeatures found = closestFeatures(fa, X_WA, fb, X_WB, pair);
-        ASSERT_LE(std::abs(found.distance.distance - distance), allowed(distance, 20));
+        ASSERT_LE(std::abs(found.distance.distance - distance), allowedError(distance, 20));
         ASSERT_TRUE(found.closest);
         ASSERT_NEAR(static_cast<double>(test::betweenFeatures(cornersOf(fa, pair.a, X_WA),
                                                               cornersOf(fb, pair.b, X_WB))),
@@ -169,7 +169,7 @@ TEST(VClip, WarmIsColdOnMotions) {
                             found = closestFeatures(fa, {}, fb, X, warm);
       ASSERT_EQ(found.distance.distance == 0, first.distance.distance == 0) << n << " " << step;
       ASSERT_LE(std::abs(found.distance.distance - first.distance.distance),
-                2 * allowed(first.distance.distance, 20));
+                2 * allowedError(first.distance.distance, 20));
       ASSERT_EQ(convexHullsTouch({a, {}}, {b, X}), found.distance.distance == 0);
       ++queries;
       if (found.distance.distance == 0) {

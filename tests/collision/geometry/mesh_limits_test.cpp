@@ -37,7 +37,7 @@ std::string ply(const std::string& format, const std::string& elements) {
 }
 
 const std::string xyz = "property char x\nproperty char y\nproperty char z\n";
-const std::string corners = "property list uchar uchar vertex_indices\n";
+const std::string kCornersOfFace = "property list uchar uchar vertex_indices\n";
 
 TEST_F(MeshLimits, PlyCounts) {
   for (const char* const format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
@@ -45,17 +45,17 @@ TEST_F(MeshLimits, PlyCounts) {
     const auto fault = [&](const std::string& elements, const std::string& complaintText) {
       expect("a.ply", ply(format, elements) + std::string(100, '1'), complaintText);
     };
-    fault("element vertex 4000000000\n" + xyz + "element face 1\n" + corners,
+    fault("element vertex 4000000000\n" + xyz + "element face 1\n" + kCornersOfFace,
           std::string(": has 4000000000 vertices") + coarser);
-    fault("element vertex 1\n" + xyz + "element face 1000000000\n" + corners,
+    fault("element vertex 1\n" + xyz + "element face 1000000000\n" + kCornersOfFace,
           std::string(": has 1000000000 faces") + coarser);
-    fault("element vertex 90000000\n" + xyz + "element face 1\n" + corners,
+    fault("element vertex 90000000\n" + xyz + "element face 1\n" + kCornersOfFace,
           ": the header promises 90000000 of element \"vertex\", at least " +
               std::string(format[0] == 'a' ? "6" : "3") + " bytes each, but 10" +
               (format[0] == 'a' ? "1" : "0") + " bytes are left: the file is cut short");
     // An element without properties takes no bytes, so a large count of such elements is no fault.
     fault("element dust 9000000000000000000\nelement vertex 9\n" + xyz + "element face 99\n" +
-              corners,
+              kCornersOfFace,
           format[0] == 'a' ? ":11: vertex 1 of 9: the file ends here: it is cut short"
                            : ": the header promises 99 of element \"face\", at least 1 bytes "
                              "each, but 73 bytes are left: the file is cut short");
@@ -71,7 +71,7 @@ TEST_F(MeshLimits, PlyLists) {
          ": face 1 of 1 (byte 180): the file ends here: it is cut short");
   expect("a.ply", ply("ascii", points + list) + "0 0 0\n1000000000000000000 0 0 0\n",
          ":12: face 1 of 1: the file ends here: it is cut short");
-  const std::string unread = "element face 1\n" + corners + "property list uint int more\n";
+  const std::string unread = "element face 1\n" + kCornersOfFace + "property list uint int more\n";
   expect("a.ply", ply("ascii", points + unread) + "0 0 0\n3 0 0 0 1000000000000000000 5\n",
          ":13: face 1 of 1: the file ends here: it is cut short");
 }

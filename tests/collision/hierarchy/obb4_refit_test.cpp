@@ -71,7 +71,7 @@ TriangleMesh moved(TriangleMesh mesh, const Deformation& by) {
 }
 
 /// Returns a wavy sheet of 2n² triangles that share vertices.
-TriangleMesh sheet(std::uint32_t n) {
+TriangleMesh bentSheet(std::uint32_t n) {
   return test::sheet(n, [n](std::uint32_t i, std::uint32_t k) {
     return Vec3(2.0 * i / n - 1, 2.0 * k / n - 1, 0.3 * std::sin(7.0 * i / n));
   });
@@ -95,7 +95,7 @@ void expectTreeOf(const TriangleMesh& mesh, const Obb4Tree& tree) {
 }
 
 /// Expects that two trees are the same bit for bit.
-void expectSame(const Obb4Tree& a, const Obb4Tree& b) {
+void expectSameBytes(const Obb4Tree& a, const Obb4Tree& b) {
   ASSERT_EQ(a.nodes().size(), b.nodes().size());
   ASSERT_EQ(a.triangleCount(), b.triangleCount());
   const std::size_t bytes = a.nodes().size() * sizeof(Obb4Tree::Node);
@@ -111,7 +111,7 @@ void expectSame(const Obb4Tree& a, const Obb4Tree& b) {
 
 TEST(Obb4Refit, ContainsTheMovedTrianglesInRationals) {
   std::mt19937_64 random(test::testSeed(31));
-  for (const TriangleMesh& mesh : {test::soup(random, 60, 0.3), sheet(6)}) {
+  for (const TriangleMesh& mesh : {test::soup(random, 60, 0.3), bentSheet(6)}) {
     Obb4Tree tree(mesh);
     for (const Deformation& by : deformations(random)) {
       SCOPED_TRACE(by.name);
@@ -153,7 +153,7 @@ TEST(Obb4Refit, BoxesAreAsSmallAsTheirAxesAllow) {
     const Obb4Tree built(mesh, fit);
     Obb4Tree tree = built;
     tree.refit(mesh);
-    expectSame(tree, built);
+    expectSameBytes(tree, built);
     for (const Deformation& by : deformations(random)) tree.refit(moved(mesh, by));
     tree.refit(mesh);
     EXPECT_EQ(tree.origin(), built.origin());
@@ -169,7 +169,7 @@ TEST(Obb4Refit, BoxesAreAsSmallAsTheirAxesAllow) {
 }
 
 TEST(Obb4Refit, TheSameForAnyInstructionSet) {
-  const TriangleMesh mesh = sheet(40);
+  const TriangleMesh mesh = bentSheet(40);
   std::mt19937_64 random(test::testSeed(34));
   const TriangleMesh target = moved(mesh, deformations(random)[1]);
   Obb4Tree best(mesh);
@@ -180,7 +180,7 @@ TEST(Obb4Refit, TheSameForAnyInstructionSet) {
     hwy::SetSupportedTargetsForTest(simd);
     tree.refit(target);
     hwy::SetSupportedTargetsForTest(0);
-    expectSame(best, tree);
+    expectSameBytes(best, tree);
   }
 }
 
@@ -188,7 +188,7 @@ TEST(Obb4Refit, TheSameForAnyInstructionSet) {
 /// context and the last pair of triangles are those of earlier frames.
 TEST(Obb4Refit, QueriesGiveTheAnswersOfNewTrees) {
   std::mt19937_64 random(test::testSeed(35));
-  const TriangleMesh first = test::soup(random, 80, 0.1), second = sheet(7);
+  const TriangleMesh first = test::soup(random, 80, 0.1), second = bentSheet(7);
   Obb4Tree a(first), b(second);
   QueryContext context;
   LastPair last;
@@ -232,7 +232,7 @@ TEST(Obb4Refit, QueriesGiveTheAnswersOfNewTrees) {
 
 /// The moved mesh may number its vertices in another way.
 TEST(Obb4Refit, OnlyTheTrianglesCount) {
-  const TriangleMesh mesh = sheet(5);
+  const TriangleMesh mesh = bentSheet(5);
   TriangleMesh apart;  // each triangle has vertices of its own, and one vertex is unused
   apart.vertices.emplace_back(1e6, 0, 0);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
@@ -240,12 +240,12 @@ TEST(Obb4Refit, OnlyTheTrianglesCount) {
   Obb4Tree tree(mesh);
   const Obb4Tree before = tree;
   tree.refit(apart);
-  expectSame(tree, before);
+  expectSameBytes(tree, before);
   EXPECT_EQ(tree.check(), std::nullopt);
 }
 
 TEST(Obb4Refit, RefusesAnotherMeshAndStaysAsItWas) {
-  const TriangleMesh mesh = sheet(3);
+  const TriangleMesh mesh = bentSheet(3);
   Obb4Tree tree(mesh);
   const Obb4Tree before = tree;
   TriangleMesh fewer = mesh, broken = mesh, wrong = mesh;
@@ -261,7 +261,7 @@ TEST(Obb4Refit, RefusesAnotherMeshAndStaysAsItWas) {
   }
   EXPECT_THROW(tree.refit(broken), std::invalid_argument);
   EXPECT_THROW(tree.refit(wrong), std::invalid_argument);
-  expectSame(tree, before);
+  expectSameBytes(tree, before);
   Obb4Tree ball(placed(Sphere{1}, {}));
   EXPECT_THROW(ball.refit(mesh), std::invalid_argument);
 }

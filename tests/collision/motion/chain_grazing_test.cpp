@@ -34,6 +34,7 @@ struct ChainGrazing {
       joint.axis = vector(), joint.point = 2 * vector();
       joint.to = real(-3, 3);
       joint.from = joint.to + real() * (n % 3 ? 1.5 : 5);
+      if (n % 7 < 3) joint.bend = real(-2, 2);
       joints.push_back(joint);
     }
     if (n % 5 == 0) joints[1].axis = joints[0].axis;
@@ -134,6 +135,7 @@ TEST(CertifyMotion, RandomChainsAgainstSamples) {
       const double from = real(-3, 3);
       const double length = n % 10 == 0 ? 9 : std::pow(10.0, real(-2, 0));
       joints.push_back({real() > 0.5, vector(), 2 * vector(), from, from + length * real()});
+      if (n % 4 == 3) joints.back().bend = length * real(-2, 2);
     }
     ChainMotion motion(joints);
     const Body bodyA("", a), bodyB("", b);

@@ -68,12 +68,15 @@ TEST_P(Obb4MotionBounds, AreThoseOfTheSpheres) {
     const double size = std::pow(10.0, real(-4, 0.5));
     for (int j = 0; j <= n % 5; ++j) {
       const double kind = real(0, 1);
-      ScrewMotion screw{kind < 0.5   ? Kind::revolute
-                        : kind < 0.9 ? Kind::prismatic
-                                     : Kind::spherical,
-                        vector().normalized(), 3 * vector(), size * real(0, 1),
-                        n % 3 ? 0 : size * real(0, 0.1)};
+      ScrewMotion screw{.kind = kind < 0.5   ? Kind::revolute
+                                : kind < 0.9 ? Kind::prismatic
+                                             : Kind::spherical,
+                        .axis = vector().normalized(),
+                        .point = 3 * vector(),
+                        .amount = size * real(0, 1),
+                        .tube = n % 3 ? 0 : size * real(0, 0.1)};
       if (screw.kind == Kind::spherical || real() > 0.6) screw.amount = 0;
+      if (screw.kind != Kind::spherical && n % 4 == 3) screw.deviation = size * real(0, 0.1);
       if (screw.kind == Kind::prismatic) w.linear += screw.amount * screw.axis;
       if (screw.kind == Kind::revolute) {
         w.linear += screw.amount * screw.axis.cross(w.X_AB.t - screw.point);
@@ -87,7 +90,7 @@ TEST_P(Obb4MotionBounds, AreThoseOfTheSpheres) {
     const double unitA = std::ldexp(1.0, n % 9 - 4), margin = n % 4 ? 0 : real(0, 0.1),
                  tolerance = size * real(0, 1);
     double turned = w.angle;
-    for (const ScrewMotion& screw : screws) turned += screw.amount + screw.tube;
+    for (const ScrewMotion& screw : screws) turned += screw.amount + screw.deviation + screw.tube;
     const double rounding = 16 * kUnit * (w.X_AB.t.cwiseAbs().sum() + 12 * tree.reach() + w.speed) *
                             (1 + turned) * (1 + turned);
     std::vector<Obb4MotionBound> bounds;

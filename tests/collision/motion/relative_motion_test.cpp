@@ -30,10 +30,12 @@ struct Trial {
   struct Joint {
     ScrewMotion::Kind kind;
     Vec3 axis, point;
-    double amount;  // signed
-    double tube;    // ≥ 0
-    double strays;  // deviation from the nominal motion, in [−1, 1], as a share of the tube
-    Vec3 about;     // pivot rotations: the axis of the perturbation
+    double amount;         // signed
+    double tube;           // ≥ 0
+    double strays;         // perturbation of the motion, in [−1, 1], as a share of the tube
+    double deviation = 0;  // ≥ 0
+    double deviates = 0;   // deviation from uniform motion, in [−1, 1], as a share of `deviation`
+    Vec3 about;            // pivot rotations: the axis of the perturbation
   };
   std::vector<Joint> joints;
   Vec3 center, origin, offset, direction;  // offset: at most of unit length
@@ -52,7 +54,12 @@ Ratios ratios(const Trial& trial) {
   w.X_AB.t = trial.origin;
   for (const Trial::Joint& joint : trial.joints) {
     const Vec3 axis = joint.axis.normalized();
-    screws.push_back({joint.kind, axis, joint.point, std::abs(joint.amount), joint.tube});
+    screws.push_back({.kind = joint.kind,
+                      .axis = axis,
+                      .point = joint.point,
+                      .amount = std::abs(joint.amount),
+                      .tube = joint.tube,
+                      .deviation = joint.deviation});
     if (joint.kind == ScrewMotion::Kind::prismatic) w.linear += joint.amount * axis;
     if (joint.kind != ScrewMotion::Kind::revolute) continue;
     w.linear += joint.amount * axis.cross(trial.origin - joint.point);
@@ -71,10 +78,11 @@ Ratios ratios(const Trial& trial) {
       const Vec3L axis = joint.axis.cast<long double>().normalized(),
                   point = joint.point.cast<long double>();
       const long double stray = share * joint.strays * joint.tube;
+      const long double value = s * joint.amount + s * s * joint.deviates * joint.deviation + stray;
       if (joint.kind == ScrewMotion::Kind::prismatic) {
-        p += axis * (s * joint.amount + stray);
+        p += axis * value;
       } else if (joint.kind == ScrewMotion::Kind::revolute) {
-        p = point + ChainMotion::turn(axis, s * joint.amount + stray) * (p - point);
+        p = point + ChainMotion::turn(axis, value) * (p - point);
       } else {
         p = point +
             ChainMotion::turn(joint.about.cast<long double>().normalized(), stray) * (p - point);
@@ -128,6 +136,8 @@ Trial start(Random& random, int n) {
     if (joint.kind == ScrewMotion::Kind::spherical || real(random) > 0.7) joint.amount = 0;
     joint.tube = n % 2 ? 0 : real(random, 0, 0.1) * size;
     joint.strays = real(random);
+    if (n % 5 == 2 && joint.kind != ScrewMotion::Kind::spherical)
+      joint.deviation = real(random, 0, 0.3) * size, joint.deviates = real(random);
     trial.joints.push_back(joint);
   }
   trial.center = 2 * vector(random), trial.origin = vector(random);
@@ -144,6 +154,8 @@ Trial perturbed(Random& random, Trial trial, double step) {
     if (some()) joint.amount *= 1 + step * real(random);
     if (some()) joint.tube *= 1 + step * real(random);
     if (some()) joint.strays = std::clamp(joint.strays + step * real(random), -1.0, 1.0);
+    if (some()) joint.deviation *= 1 + step * real(random);
+    if (some()) joint.deviates = std::clamp(joint.deviates + step * real(random), -1.0, 1.0);
     if (some()) joint.about += step * vector(random);
   }
   if (some()) trial.center += step * vector(random);
@@ -275,6 +287,20 @@ TEST(MotionBounds, Tubes) {
   EXPECT_NEAR(bound.pad, 0.01 * 3 + 0.02 * 4 + 0.1, 1e-14);
   EXPECT_NEAR(bound.isotropic, 0.5 + 0.5 * (0.01 + 0.02), 1e-14);
   EXPECT_NEAR(bound.secondOrder, 0.5 * (0.01 + 0.02), 1e-14);
+}
+
+/// Deviations from uniform motion add to the second order, with the arms as far as the joints after
+/// them may reach. They never add to `pad`.
+TEST(MotionBounds, Deviations) {
+  using Kind = ScrewMotion::Kind;
+  const ScrewMotion screws[] = {{Kind::revolute, Vec3::UnitZ(), Vec3(4, 0, 0), 0, 0, 0.02},
+                                {Kind::prismatic, Vec3::UnitX(), Vec3::Zero(), 0.5, 0, 0.1}};
+  const MotionBound bound =
+      motionBound(relativeMotionOf(screws, Vec3(0.5, 0, 0), Vec3::Zero()), Vec3(0, 0, 0), 0);
+  const double deviated = 0.1 + 0.02 * (4 + 0.6);
+  EXPECT_LT(bound.pad, 1e-12);
+  EXPECT_NEAR(bound.secondOrder, deviated, 1e-13);
+  EXPECT_NEAR(bound.isotropic, std::min(0.6 + 4 * chord(0.02), 0.5 + deviated), 1e-13);
 }
 
 }  // namespace

@@ -27,6 +27,9 @@ TEST_P(Fits, SharedWorkloads) {
   int poses = 0;
   for (const std::string& name : test::workloadNames(*data / "collision")) {
     const test::Workload w = test::loadWorkload(*data / "collision", name);
+    // Building trees by hulls would take 20 times longer than the queries at these few poses.
+    const bool longBuild = w.poses.size() < 100 && w.a.triangles.size() > 2'000;
+    if (GetParam() == ObbFit::hull && longBuild && !test::isStressRun()) continue;
     const ObbTree a(w.a, {GetParam()}), b(w.b, {GetParam()});
     int wrong = 0;
     for (std::size_t i = 0; i < w.poses.size(); i += test::kSlowdown) {

@@ -15,18 +15,18 @@ namespace {
 
 using test::add;
 using test::box;
-using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+using OwnPairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
-Pairs found(const TriangleMesh& mesh) {
+OwnPairs found(const TriangleMesh& mesh) {
   QueryContext context;
-  Pairs pairs;
+  OwnPairs pairs;
   for (const PrimitivePair& p : selfIntersections(mesh, context)) pairs.emplace_back(p.a, p.b);
   return pairs;
 }
 
 TEST(SelfIntersections, NoneOfSoundMeshes) {
-  EXPECT_EQ(found({}), Pairs());
-  EXPECT_EQ(found(box(Vec3(0, 0, 0), Vec3(1, 2, 3))), Pairs())
+  EXPECT_EQ(found({}), OwnPairs());
+  EXPECT_EQ(found(box(Vec3(0, 0, 0), Vec3(1, 2, 3))), OwnPairs())
       << "no triangle is reported with itself";
   std::mt19937_64 random(test::testSeed(63));
   TriangleMesh hills;  // one height per place: it can't intersect itself
@@ -38,7 +38,7 @@ TEST(SelfIntersections, NoneOfSoundMeshes) {
       hills.triangles.push_back({i, i + 1, i + 21});
       hills.triangles.push_back({i, i + 21, i + 20});
     }
-  EXPECT_EQ(found(hills), Pairs());
+  EXPECT_EQ(found(hills), OwnPairs());
 }
 
 TEST(SelfIntersections, OfTwoPartsThatCross) {
@@ -46,14 +46,14 @@ TEST(SelfIntersections, OfTwoPartsThatCross) {
   add(mesh, Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0));
   add(mesh, Vec3(1, 1, -1), Vec3(1, 1, 1), Vec3(9, 9, 0));
   add(mesh, Vec3(0, 0, 5), Vec3(4, 0, 5), Vec3(0, 4, 5));
-  EXPECT_EQ(found(mesh), Pairs({{0, 1}}));
+  EXPECT_EQ(found(mesh), OwnPairs({{0, 1}}));
 }
 
 TEST(SelfIntersections, ACornerInTheMiddleOfAnEdge) {
   TriangleMesh mesh;
   add(mesh, Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0));
   add(mesh, Vec3(2, 0, 0), Vec3(4, -1, 0), Vec3(0, -1, 0));
-  EXPECT_EQ(found(mesh), Pairs({{0, 1}}));
+  EXPECT_EQ(found(mesh), OwnPairs({{0, 1}}));
 }
 
 TEST(SelfIntersections, BeyondOneSharedCorner) {
@@ -94,7 +94,7 @@ TEST(SelfIntersections, SmallBesideALargeMesh) {
   add(mesh, Vec3(2e-4, 2e-4, -1e-3), Vec3(2e-4, 2e-4, 1e-3), Vec3(1e-3, 1e-3, 0));
   add(mesh, Vec3(2000, 0, 0), Vec3(2000, 1, 0), Vec3(2000, 0, 1));
   EXPECT_EQ(inspectMesh(mesh).degenerateTriangles, 2u) << "for people";
-  EXPECT_EQ(found(mesh), Pairs({{0, 1}}));
+  EXPECT_EQ(found(mesh), OwnPairs({{0, 1}}));
 }
 
 TEST(SelfIntersections, CollinearTrianglesAreIgnored) {
@@ -102,7 +102,7 @@ TEST(SelfIntersections, CollinearTrianglesAreIgnored) {
   add(mesh, Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0));
   add(mesh, Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(2, 0, 0));
   add(mesh, Vec3(1, 1, 1), Vec3(1, 1, -1), Vec3(1, 1, -1));
-  EXPECT_EQ(found(mesh), Pairs());
+  EXPECT_EQ(found(mesh), OwnPairs());
 }
 
 /// Returns a triangle without the part near its shared corner or edge, which is cut off at 2^-12 of
@@ -140,7 +140,7 @@ TEST(SelfIntersections, RandomMeshesAgainstRationals) {
                                 static_cast<std::uint32_t>(random() % 9),
                                 static_cast<std::uint32_t>(random() % 9)});
     const auto qualities = triangleQualities(mesh);
-    Pairs expected;
+    OwnPairs expected;
     for (std::uint32_t s = 0; s < 12; ++s)
       for (std::uint32_t t = s + 1; t < 12; ++t) {
         if (qualities[s] == TriangleQuality::degenerate ||

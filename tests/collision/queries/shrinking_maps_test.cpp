@@ -20,12 +20,12 @@ constexpr double kShrink = 1e-4;
 
 /// Triangles around a tiny mesh at the origin. Their distances from the tiny mesh differ by less
 /// than the amount by which the map shrinks lengths.
-struct Shell {
+struct CurvedShell {
   TriangleMesh around, speck;
   Transform X_WA, X_WB;
   double distance;
 
-  explicit Shell(std::mt19937_64& random) {
+  explicit CurvedShell(std::mt19937_64& random) {
     std::uniform_real_distribution<double> real(-1, 1);
     const auto any = [&] {
       const double x = real(random), y = real(random), z = real(random);
@@ -61,7 +61,7 @@ struct Shell {
 };
 
 template <class Tree>
-void expectRight(const Shell& shell, const Tree& a, const Tree& b) {
+void expectRight(const CurvedShell& shell, const Tree& a, const Tree& b) {
   QueryContext context;
   const double d = shell.distance;
   EXPECT_NEAR(corridor::distance(Posed(a, shell.X_WA), Posed(b, shell.X_WB), {}, context).distance,
@@ -77,7 +77,7 @@ TYPED_TEST_SUITE(ShrinkingMaps, test::Volumes, test::VolumeNames);
 TYPED_TEST(ShrinkingMaps, DistancesAreThoseInTheWorld) {
   std::mt19937_64 random(test::testSeed(20261125));
   for (int n = 0; n < 20; ++n) {
-    const Shell shell(random);
+    const CurvedShell shell(random);
     expectRight(shell, VolumeTree<TypeParam>(shell.around), VolumeTree<TypeParam>(shell.speck));
   }
 }
@@ -85,7 +85,7 @@ TYPED_TEST(ShrinkingMaps, DistancesAreThoseInTheWorld) {
 TEST(ShrinkingMapsOf, WideTrees) {
   std::mt19937_64 random(test::testSeed(20261126));
   for (int n = 0; n < 20; ++n) {
-    const Shell shell(random);
+    const CurvedShell shell(random);
     expectRight(shell, Obb4Tree(shell.around), Obb4Tree(shell.speck));
   }
 }

@@ -128,13 +128,13 @@ Boxes nearTouching(std::mt19937_64& random, int n) {
   return boxes;
 }
 
-VolumeBounds boundsOf(const Obb& box) {
+VolumeBounds boundsOfBox(const Obb& box) {
   return {box.axisDefect(), box.centerReach(), roundedUp(box.centerReach() + box.radius())};
 }
 
 /// Returns the smallest gap at which the header promises separation.
 double clearGap(const Boxes& x) {
-  const VolumeBounds a = boundsOf(x.a), b = boundsOf(x.b);
+  const VolumeBounds a = boundsOfBox(x.a), b = boundsOfBox(x.b);
   const BoxPairMargins m =
       boxPairMargins(a.axisDefect, a.centerReach, b.axisDefect, b.centerReach, x.X_AB);
   return 4 * m.absolute + 32 * m.relative * x.scale;
@@ -144,7 +144,7 @@ template <class Overlap>
 class ObbOverlaps : public testing::Test {
  protected:
   static PairTest<Obb, Overlap> of(const Boxes& x, double error = 0) {
-    return {boundsOf(x.a), boundsOf(x.b), x.X_AB, error};
+    return {boundsOfBox(x.a), boundsOfBox(x.b), x.X_AB, error};
   }
 };
 using Overlaps = testing::Types<StandardOverlap, Gjk, LinearProgram, EdgeFace>;
@@ -166,7 +166,7 @@ TYPED_TEST(ObbOverlaps, SeparateBoxesThatAreClearlyApart) {
   int clear = 0, missed = 0;
   for (int n = 0; n < rounds; ++n) {
     const Boxes x = nearTouching(random, n);
-    const PairTest<Obb> standard(boundsOf(x.a), boundsOf(x.b), x.X_AB, 0);
+    const PairTest<Obb> standard(boundsOfBox(x.a), boundsOfBox(x.b), x.X_AB, 0);
     if (!standard.separated(x.a, x.b, clearGap(x))) continue;
     ++clear;
     missed += !TestFixture::of(x).separated(x.a, x.b, 0);
@@ -259,7 +259,7 @@ TEST(ObbOverlapsAgainstRationals, AgreeUpToTheMargin) {
     const Boxes x = nearTouching(random, n);
     const Truth truth(x.a, x.b, x.X_AB);
     (truth.touch ? touching : apart) += 1;
-    const VolumeBounds a = boundsOf(x.a), b = boundsOf(x.b);
+    const VolumeBounds a = boundsOfBox(x.a), b = boundsOfBox(x.b);
     const double margin = clearGap(x);
     const auto look = [&](int which, const auto& test, double gap) {
       const bool separated = test.separated(x.a, x.b, 0);

@@ -15,7 +15,7 @@
 namespace corridor {
 namespace {
 
-Body cube(double half) {
+Body solidCube(double half) {
   return {"cube", test::box(Vec3::Constant(-half), Vec3::Constant(half))};
 }
 Transform at(const Vec3& t) {
@@ -24,7 +24,7 @@ Transform at(const Vec3& t) {
 
 TEST(BodyDepth, BodiesThatAreApartHaveNone) {
   QueryContext context;
-  const DepthBounds d = depthBounds(cube(1), cube(1), at({2.001, 0, 0}), {}, context);
+  const DepthBounds d = depthBounds(solidCube(1), solidCube(1), at({2.001, 0, 0}), {}, context);
   EXPECT_EQ(d.lower, 0);
   EXPECT_EQ(d.upper, 0);
   EXPECT_FALSE(d.deepest);
@@ -35,7 +35,7 @@ TEST(BodyDepth, CubesAlongTheirAxes) {
   QueryContext context;
   for (const double sign : {-1.0, 1.0}) {
     const Transform X_AB = at({1.7 * sign, 0.2, 0.1});
-    const DepthBounds best = depthBounds(cube(1), cube(1), X_AB, {}, context);
+    const DepthBounds best = depthBounds(solidCube(1), solidCube(1), X_AB, {}, context);
     EXPECT_NEAR(best.upper, 0.3, 1e-4);
     EXPECT_GE(best.upper, 0.3 * (1 - 1e-15));
     EXPECT_NEAR((best.direction_A - Vec3(sign, 0, 0)).norm(), 0, 1e-9);
@@ -43,7 +43,7 @@ TEST(BodyDepth, CubesAlongTheirAxes) {
     EXPECT_TRUE(best.deepest);
     DepthOptions options;
     options.directions = {Vec3(0, 5, 0)};
-    const DepthBounds up = depthBounds(cube(1), cube(1), X_AB, options, context);
+    const DepthBounds up = depthBounds(solidCube(1), solidCube(1), X_AB, options, context);
     EXPECT_NEAR(up.upper, 1.8, 1e-4);
     EXPECT_EQ(up.direction_A, Vec3(0, 1, 0));
     EXPECT_EQ(up.lower, best.lower);
@@ -55,7 +55,7 @@ TEST(BodyDepth, TinyAndHugeCubes) {
   QueryContext context;
   for (const double h : {0x1p-1000, 1e-290, 1e-170, 0x1p-500, 1e-100, 1e100, 1e200, 0x1p1000})
     for (const Vec3& t : {Vec3(1.7, 0.2, 0.1), Vec3(-1.9, 0, 0)}) {
-      const Body a = cube(h), b = cube(h);
+      const Body a = solidCube(h), b = solidCube(h);
       DepthOptions along;
       along.directions = {Vec3(1, 0, 0)};
       for (const DepthOptions& options : {DepthOptions{}, along}) {
@@ -73,7 +73,7 @@ TEST(BodyDepth, MapsThatAreNearlyRotations) {
   QueryContext context;
   Transform X_AB = at({1.7, 0.2, 0.1});
   X_AB.m(0, 0) += 1e-7;  // the face at x = 0.7 moves by 1e-7
-  const DepthBounds d = depthBounds(cube(1), cube(1), X_AB, {}, context);
+  const DepthBounds d = depthBounds(solidCube(1), solidCube(1), X_AB, {}, context);
   EXPECT_GE(d.upper, (0.3 + 1e-7) * (1 - 1e-12));
   EXPECT_NEAR(d.upper, 0.3 + 1e-7, 1e-4);
 }
@@ -151,7 +151,7 @@ TEST(BodyDepth, BoundsHoldForRandomTranslations) {
 
 TEST(BodyDepth, BadArguments) {
   QueryContext context;
-  const Body a = cube(1);
+  const Body a = solidCube(1);
   DepthOptions zero, infinite, coarse;
   zero.directions = {Vec3::Zero()};
   infinite.directions = {Vec3(HUGE_VAL, 0, 0)};

@@ -25,7 +25,7 @@ using corridor::Mat3;
 using corridor::Vec3;
 using corridor::test::ProgramTest;
 
-const std::string kStill = "1 0 0 0 1 0 0 0 1 ";  // the identity
+const std::string kIdentity = "1 0 0 0 1 0 0 0 1 ";  // the identity
 const std::string kHeader =
     "motion,verdict,t0,t1,gap,triangle_a,triangle_b,bv_tests,triangle_tests,splits";
 
@@ -74,9 +74,9 @@ TEST_F(QueryMotions, ClosedForms) {
   // The first motion goes down through the floor at t = 1/3, the second passes above it. The third
   // keeps the tip at 0.5 m and rotates the needle by 180° − asin 0.6 about x: its upper end swings
   // down into the floor.
-  const Result result =
-      query("# from, to\n" + kStill + "0 0 1 " + kStill + "0 0 -2\n" + kStill + "-1 0 1e-3, " +
-            kStill + "1 0 1e-3\n" + kStill + "0 0 0.5 1 0 0 0 -0.8 -0.6 0 0.6 -0.8 0 0 0.5\n");
+  const Result result = query("# from, to\n" + kIdentity + "0 0 1 " + kIdentity + "0 0 -2\n" +
+                              kIdentity + "-1 0 1e-3, " + kIdentity + "1 0 1e-3\n" + kIdentity +
+                              "0 0 0.5 1 0 0 0 -0.8 -0.6 0 0.6 -0.8 0 0 0.5\n");
   ASSERT_EQ(result.status, 0) << result.err;
   const std::vector<Row> rows = rowsOf(result.out);
   ASSERT_EQ(rows.size(), 3u);
@@ -105,9 +105,9 @@ TEST_F(QueryMotions, ClosedForms) {
 TEST_F(QueryMotions, EveryMethodFindsTheFirstContact) {
   // The first motion goes down through the floor at t = 1/3, the second passes above it.
   for (const std::string edges : {"certified", "adaptive", "advancement"}) {
-    const Result result =
-        query(kStill + "0 0 1 " + kStill + "0 0 -2\n" + kStill + "-1 0 0.1 " + kStill + "1 0 0.1\n",
-              "--edges " + edges);
+    const Result result = query(kIdentity + "0 0 1 " + kIdentity + "0 0 -2\n" + kIdentity +
+                                    "-1 0 0.1 " + kIdentity + "1 0 0.1\n",
+                                "--edges " + edges);
     ASSERT_EQ(result.status, 0) << result.err;
     EXPECT_THAT(result.err, testing::HasSubstr("edges=" + edges + "\n"));
     const std::vector<Row> rows = rowsOf(result.out);
@@ -121,8 +121,8 @@ TEST_F(QueryMotions, EveryMethodFindsTheFirstContact) {
 }
 
 TEST_F(QueryMotions, EveryVolumeFindsTheFirstContact) {
-  const std::string motions =
-      kStill + "0 0 1 " + kStill + "0 0 -2\n" + kStill + "-1 0 0.1 " + kStill + "1 0 0.1\n";
+  const std::string motions = kIdentity + "0 0 1 " + kIdentity + "0 0 -2\n" + kIdentity +
+                              "-1 0 0.1 " + kIdentity + "1 0 0.1\n";
   std::set<std::string> tests;
   for (const std::string trees : {"obb",
                                   "obb-binary",
@@ -165,7 +165,8 @@ TEST_F(QueryMotions, EveryVolumeFindsTheFirstContact) {
 /// triangles.
 TEST_F(QueryMotions, HalfTurnsAreUndecided) {
   for (const std::string edges : {"certified", "adaptive", "advancement"}) {
-    const Result result = query(kStill + "0 0 1 -1 0 0 0 -1 0 0 0 1 0 0 1\n", "--edges " + edges);
+    const Result result =
+        query(kIdentity + "0 0 1 -1 0 0 0 -1 0 0 0 1 0 0 1\n", "--edges " + edges);
     EXPECT_EQ(result.status, 0) << result.err;
     EXPECT_EQ(result.out, kHeader + "\n0,undecided,0,-1,0,-1,-1,0,0,0\n") << edges;
   }
@@ -234,7 +235,7 @@ TEST_F(QueryMotions, FreeHoldsForBothMapsOfTheFile) {
 }
 
 TEST_F(QueryMotions, ClearanceBelowTheToleranceIsUndecided) {
-  const std::string along = kStill + "-1 0 1e-3 " + kStill + "1 0 1e-3\n";
+  const std::string along = kIdentity + "-1 0 1e-3 " + kIdentity + "1 0 1e-3\n";
   const auto verdict = [&](const std::string& more) {
     return rowsOf(query(along, more).out).at(0).at("verdict");
   };
@@ -251,13 +252,13 @@ TEST_F(QueryMotions, BadInputIsOneLineAndExit2) {
     EXPECT_EQ(result.out, "");
   };
   fault(
-      kStill + "0 0 0",
+      kIdentity + "0 0 0",
       "a motion has 24 numbers (its first pose, r00 r01 r02 r10 r11 r12 r20 r21 r22 tx ty tz, and "
       "its last), not 12");
-  fault(kStill + "0 0 0 " + kStill + "0 0 inf", "a finite number is needed, not \"inf\"");
-  fault(kStill + "0 0 0 1 0 0 0 1 0 0 0 -1 0 0 0",
+  fault(kIdentity + "0 0 0 " + kIdentity + "0 0 inf", "a finite number is needed, not \"inf\"");
+  fault(kIdentity + "0 0 0 1 0 0 0 1 0 0 0 -1 0 0 0",
         "last pose: the matrix mirrors (determinant -1); a rotation is needed");
-  write("motions.txt", kStill + "0 0 1 " + kStill + "0 0 2\n");
+  write("motions.txt", kIdentity + "0 0 1 " + kIdentity + "0 0 2\n");
   const auto option = [&](const std::string& more, const std::string& message) {
     expectFault("query a.obj b.obj --motions motions.txt " + more, message);
   };

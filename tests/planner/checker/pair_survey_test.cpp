@@ -19,14 +19,14 @@ namespace {
 
 using Verdict = NeverInContactResult::Verdict;
 
-std::string ball(const std::string& name, const std::string& at, double radius) {
+std::string ballAt(const std::string& name, const std::string& at, double radius) {
   return "<link name='" + name + "'><collision><origin xyz='" + at +
          "'/><geometry><sphere radius='" + std::to_string(radius) +
          "'/></geometry></collision></link>";
 }
 
-std::string joint(const std::string& type, const std::string& parent, const std::string& child,
-                  const std::string& at, double limit = 0) {
+std::string jointAt(const std::string& type, const std::string& parent, const std::string& child,
+                    const std::string& at, double limit = 0) {
   return "<joint name='to " + child + "' type='" + type + "'><parent link='" + parent +
          "'/><child link='" + child + "'/><origin xyz='" + at + "'/><axis xyz='0 0 1'/>" +
          (limit == 0 ? ""
@@ -44,11 +44,11 @@ Model armsWith(const std::vector<double>& gaps) {
   for (std::size_t i = 0; i < gaps.size(); ++i) {
     const std::string n = std::to_string(i);
     const double radius = std::cos(2.5 / 2) - gaps[i] / 2;
-    text += ball("base" + n, "0 0 0", radius) + "<link name='upper" + n + "'/>" +
-            ball("hand" + n, "1 0 0", radius) +
-            joint("fixed", "root", "base" + n, "0 " + std::to_string(10 * i) + " 0") +
-            joint("revolute", "base" + n, "upper" + n, "0 0 0", 0.5) +
-            joint("revolute", "upper" + n, "hand" + n, "1 0 0", 2.5);
+    text += ballAt("base" + n, "0 0 0", radius) + "<link name='upper" + n + "'/>" +
+            ballAt("hand" + n, "1 0 0", radius) +
+            jointAt("fixed", "root", "base" + n, "0 " + std::to_string(10 * i) + " 0") +
+            jointAt("revolute", "base" + n, "upper" + n, "0 0 0", 0.5) +
+            jointAt("revolute", "upper" + n, "hand" + n, "1 0 0", 2.5);
   }
   const std::filesystem::path folder = test::newFolder();
   std::ofstream(folder / "arms.urdf") << "<robot name='arms'>" << text << "</robot>";

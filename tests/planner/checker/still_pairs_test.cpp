@@ -18,13 +18,13 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-std::string ball(const std::string& name, double radius) {
+std::string ballLink(const std::string& name, double radius) {
   return "<link name='" + name + "'><collision><geometry><sphere radius='" +
          std::to_string(radius) + "'/></geometry></collision></link>";
 }
 
-std::string joint(const std::string& type, const std::string& parent, const std::string& child,
-                  const std::string& at) {
+std::string jointBetween(const std::string& type, const std::string& parent,
+                         const std::string& child, const std::string& at) {
   return "<joint name='to_" + child + "' type='" + type + "'><parent link='" + parent +
          "'/><child link='" + child + "'/><origin xyz='" + at + "'/><axis xyz='0 1 0'/>" +
          "<limit lower='-1' upper='1' effort='1' velocity='1'/></joint>";
@@ -36,11 +36,12 @@ class StillPairs : public testing::Test {
  protected:
   StillPairs() : folder_(test::newFolder()) {
     std::ofstream(folder_ / "arm.urdf")
-        << "<robot name='arm'>" << ball("base", 0.1) << ball("plate", 0.05) << ball("arm", 0.1)
-        << ball("finger", 0.05) << ball("thumb", 0.05)
-        << joint("fixed", "base", "plate", "0.12 0 0") << joint("revolute", "base", "arm", "0 0 1")
-        << joint("prismatic", "arm", "finger", "0.5 0 0")
-        << joint("prismatic", "arm", "thumb", "0.5 0 0.02") << "</robot>";
+        << "<robot name='arm'>" << ballLink("base", 0.1) << ballLink("plate", 0.05)
+        << ballLink("arm", 0.1) << ballLink("finger", 0.05) << ballLink("thumb", 0.05)
+        << jointBetween("fixed", "base", "plate", "0.12 0 0")
+        << jointBetween("revolute", "base", "arm", "0 0 1")
+        << jointBetween("prismatic", "arm", "finger", "0.5 0 0")
+        << jointBetween("prismatic", "arm", "thumb", "0.5 0 0.02") << "</robot>";
   }
   ~StillPairs() override { std::filesystem::remove_all(folder_); }
 

@@ -10,7 +10,7 @@ namespace {
 using testing::Contains;
 using testing::ElementsAre;
 using testing::IsEmpty;
-constexpr double degree = std::numbers::pi / 180;
+constexpr double kDegree = std::numbers::pi / 180;
 
 class ArmProblem : public ArmTest {};
 
@@ -90,7 +90,7 @@ TEST_F(ArmProblem, OverAPlanarJointLinksAreNotAdjacent) {
 TEST_F(ArmProblem, FramesStandWhereTheJointsPutThem) {
   const Problem p = read(armHead + "base: {at: [1, 2, 3], rpy_deg: [0, 0, 90]}\nstart: ready\n" +
                          "goal: {pan: 1, lift: 0.3}\n");
-  const auto frames = framePoses(p.model.tree, numbers({0, 90 * degree}));
+  const auto frames = framePoses(p.model.tree, numbers({0, 90 * kDegree}));
   const auto& robot = p.model.robots.at(0);
   EXPECT_LT((frames[robot.linkFrames[0]].t - Vec3(1, 2, 3)).norm(), 1e-15);
   for (std::size_t l = 0; l < robot.description.links.size(); ++l) {
@@ -114,8 +114,8 @@ TEST_F(ArmProblem, AllMovingJointsWithoutAGroup) {
                          "start: {pan_deg: 30, lift: 0, slide: 0.02}\ngoal: {pan: 0, "
                          "lift_deg: 90, slide: 0.05}\ntube: {joints: 0.001}\n");
   EXPECT_THAT(namesOf(p), ElementsAre("pan", "lift", "slide"));
-  EXPECT_EQ(p.task.start, numbers({30 * degree, 0, 0.02}));
-  EXPECT_EQ(p.task.goals.at(0), numbers({0, 90 * degree, 0.05}));
+  EXPECT_EQ(p.task.start, numbers({30 * kDegree, 0, 0.02}));
+  EXPECT_EQ(p.task.goals.at(0), numbers({0, 90 * kDegree, 0.05}));
   EXPECT_EQ(p.model.space.coordinates()[1].weight, 2);
   EXPECT_EQ(p.model.space.coordinates()[0].weight, 1);
   EXPECT_FALSE(p.model.space.coordinates()[2].angular);
@@ -131,7 +131,7 @@ TEST_F(ArmProblem, JointListKeepsItsOrderAndHoldIsHeld) {
   const Problem p = read(armHead + "start: home\ngoal: {from: home, pan_deg: 10}\n");
   EXPECT_THAT(namesOf(p), ElementsAre("slide", "pan"));
   EXPECT_EQ(p.task.start, numbers({0.02, 1}));
-  EXPECT_EQ(p.task.goals.at(0), numbers({0.02, 10 * degree}));
+  EXPECT_EQ(p.task.goals.at(0), numbers({0.02, 10 * kDegree}));
   EXPECT_EQ(skipped(p, "finger", "thumb"), "robot.yaml: allow");
   EXPECT_THAT(textsOf(p.source.notes),
               Contains("start: lift is held at 1.5707963267948966, but is 0 in state home"));
@@ -193,9 +193,9 @@ TEST_F(ArmProblem, TubeOfSingleJoints) {
     return read(ends + "tube: {" + text + "}\n").task.tube;
   };
   EXPECT_EQ(tube("joints: 0.001, slides: 0.0005, lift: 0.002"), numbers({0.001, 0.002, 0.0005}));
-  EXPECT_EQ(tube("joints: 0.001, lift_deg: 90, slide: 0.25"), numbers({0.001, 90 * degree, 0.25}));
-  EXPECT_EQ(tube("joints_deg: 90, slides: 0.5"), numbers({90 * degree, 90 * degree, 0.5}));
-  EXPECT_EQ(tube("joints_deg: 90, slide: 0.5"), numbers({90 * degree, 90 * degree, 0.5}));
+  EXPECT_EQ(tube("joints: 0.001, lift_deg: 90, slide: 0.25"), numbers({0.001, 90 * kDegree, 0.25}));
+  EXPECT_EQ(tube("joints_deg: 90, slides: 0.5"), numbers({90 * kDegree, 90 * kDegree, 0.5}));
+  EXPECT_EQ(tube("joints_deg: 90, slide: 0.5"), numbers({90 * kDegree, 90 * kDegree, 0.5}));
   const auto complaint = [&](const std::string& text) {
     return complaintOf(ends + "tube: {" + text + "}\n");
   };
@@ -255,7 +255,7 @@ TEST_F(ArmProblem, ValuesARoundingBeyondTheirLimitAreClampedAndReported) {
   const Problem d =
       read(armHead + "start: {pan_deg: -180, lift: 0}\ngoal: {pan_deg: 270, lift: 0}\n");
   EXPECT_EQ(d.task.start[0], std::numbers::pi);
-  EXPECT_EQ(d.task.goals.at(0)[0], -90 * degree);
+  EXPECT_EQ(d.task.goals.at(0)[0], -90 * kDegree);
   EXPECT_THAT(textsOf(d.source.notes),
               Contains("goal.pan_deg: 270 is read as -90, the same angle up to full turns"));
 }
@@ -266,7 +266,7 @@ TEST_F(ArmProblem, SeveralGoalsAndARegion) {
                    "2}}\n");
   EXPECT_THAT(p.task.goals, ElementsAre(numbers({0, 0.5}), numbers({1, 0})));
   ASSERT_TRUE(p.task.goalRegion);
-  EXPECT_DOUBLE_EQ(p.task.goalRegion->joint, 2 * degree);
+  EXPECT_DOUBLE_EQ(p.task.goalRegion->joint, 2 * kDegree);
   p = read(armHead + "start: ready\ngoal: [ready, {pan: 1, lift: 0}]\n");
   EXPECT_EQ(p.task.goals.size(), 2u);
   EXPECT_FALSE(p.task.goalRegion);
@@ -282,7 +282,7 @@ TEST_F(ArmProblem, BoundsNarrowLimits) {
   const auto& pan = p.model.space.coordinates()[0];
   EXPECT_EQ(pan.kind, Coordinate::Kind::line) << "with bounds, it doesn't go round";
   EXPECT_EQ(pan.upper, 2);
-  EXPECT_EQ(p.model.space.coordinates()[1].lower, -90 * degree);
+  EXPECT_EQ(p.model.space.coordinates()[1].lower, -90 * kDegree);
 }
 
 TEST_F(ArmProblem, AllowListsMayUseTheRobotsName) {

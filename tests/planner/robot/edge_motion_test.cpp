@@ -22,7 +22,7 @@ using test::RandomTrees;
 using test::Real;
 using test::ReferenceKinematics;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// A random time interval with exact doubles, as `certifyMotion` uses them.
 std::pair<double, double> interval(RandomTrees& random) {

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <vector>
 
+#include "planner/robot/curve.h"
 #include "planner/robot/kinematic_tree.h"
 
 namespace corridor::test {
@@ -43,14 +44,21 @@ inline Vec3L exactly(const Transform& X, const Vec3& p) {
   return X.m.cast<Real>() * p.cast<Real>() + X.t.cast<Real>();
 }
 
-/// An independent implementation of the edge and of forward kinematics, in long double. Its
-/// formulas differ from those of the tested code: quaternions joint by joint, slerp as a sum
+/// An independent implementation of edges, pieces of curves and forward kinematics, in long double.
+/// Its formulas differ from those of the tested code: quaternions joint by joint, slerp as a sum
 /// weighted by sines, derivatives by the product rule.
 class ReferenceKinematics {
  public:
   ReferenceKinematics(const KinematicTree& tree, const ConfigurationSpace& space,
                       const Configuration& from, const Configuration& to)
       : tree_(tree), space_(space), from_(from), to_(to) {}
+  ReferenceKinematics(const KinematicTree& tree, const ConfigurationSpace& space,
+                      const CurvePiece& piece)
+      : tree_(tree),
+        space_(space),
+        piece_(&piece),
+        from_(piece.coefficients.col(0)),
+        to_(piece.coefficients.col(piece.degree())) {}
 
   std::vector<MovingPose> poses(Real t) const {
     std::vector<MovingPose> all(tree_.frames.size());
@@ -86,11 +94,26 @@ class ReferenceKinematics {
   /// Value and derivative of a number of the configuration.
   std::pair<Real, Real> number(std::size_t i, Real t) const {
     const auto k = static_cast<Eigen::Index>(i);
+    if (piece_) return {bernstein(k, piece_->degree(), 0, t), rateOf(k, t)};
     const Real q0 = from_[k];
     Real delta = static_cast<Real>(to_[k]) - q0;
     if (coordinate(i).kind == Coordinate::Kind::circle)
       delta = std::remainder(delta, 2 * std::numbers::pi_v<Real>);
     return {q0 + t * delta, delta};
+  }
+  /// Returns Σ C(n, i) t^i (1 − t)^(n−i) d_(i+first).
+  Real bernstein(Eigen::Index row, int n, int first, Real t) const {
+    Real sum = 0, binomial = 1;
+    for (int i = 0; i <= n; ++i) {
+      sum += binomial * std::pow(t, static_cast<Real>(i)) *
+             std::pow(1 - t, static_cast<Real>(n - i)) * piece_->coefficients(row, first + i);
+      binomial = binomial * (n - i) / (i + 1);
+    }
+    return sum;
+  }
+  Real rateOf(Eigen::Index row, Real t) const {
+    const int n = piece_->degree();
+    return n * (bernstein(row, n - 1, 1, t) - bernstein(row, n - 1, 0, t));
   }
   MovingPose joint(const Frame& frame, Real t) const {
     MovingPose X;
@@ -142,7 +165,8 @@ class ReferenceKinematics {
 
   const KinematicTree& tree_;
   const ConfigurationSpace& space_;
-  const Configuration &from_, &to_;
+  const CurvePiece* piece_ = nullptr;  // not owned; null: an edge
+  Configuration from_, to_;
 };
 
 }  // namespace corridor::test

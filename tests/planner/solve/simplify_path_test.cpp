@@ -71,7 +71,7 @@ struct World {
   }
 };
 
-bool never() {
+bool doNotStop() {
   return false;
 }
 
@@ -96,7 +96,8 @@ Path detour() {
 
 TEST(SimplifyPath, FreeWorldTakesOneEdgeTest) {
   World world;
-  const std::vector<Path> versions = simplifiedVersions(plane(), detour(), world.edgeTest(), never);
+  const std::vector<Path> versions =
+      simplifiedVersions(plane(), detour(), world.edgeTest(), doNotStop);
   EXPECT_EQ(versions.front(), detour());
   EXPECT_EQ(versions.back(), (Path{at(-3, 0), at(3, 0)}));
   EXPECT_EQ(world.tested.size(), 1U);
@@ -105,14 +106,15 @@ TEST(SimplifyPath, FreeWorldTakesOneEdgeTest) {
 TEST(SimplifyPath, ShortPathsTakeNoEdgeTest) {
   for (const Path& path : {Path{at(1, 2)}, Path{at(1, 2), at(3, 4)}, Path{at(1, 2), at(1, 2)}}) {
     World world;
-    EXPECT_EQ(simplifiedVersions(plane(), path, world.edgeTest(), never), std::vector<Path>{path});
+    EXPECT_EQ(simplifiedVersions(plane(), path, world.edgeTest(), doNotStop),
+              std::vector<Path>{path});
     EXPECT_EQ(world.tested.size(), 0U);
   }
 }
 
 TEST(SimplifyPath, ComesNearTheShortestPathAroundADisc) {
   World world{{{at(0, 0), 1}}, {}};
-  const Path path = simplifiedVersions(plane(), detour(), world.edgeTest(), never).back();
+  const Path path = simplifiedVersions(plane(), detour(), world.edgeTest(), doNotStop).back();
   // Two tangents, and the arc between them.
   const double shortest = 2 * std::sqrt(8.0) + pi - 2 * std::acos(1.0 / 3);
   EXPECT_GE(length(path), shortest);
@@ -163,7 +165,7 @@ TEST(SimplifyPath, KeepsItsPromisesAmongRandomDiscs) {
     const Path path = randomWalk(world, random);
     if (path.empty()) continue;
     ++paths;
-    const std::vector<Path> versions = simplifiedVersions(space, path, world.edgeTest(), never);
+    const std::vector<Path> versions = simplifiedVersions(space, path, world.edgeTest(), doNotStop);
     EXPECT_EQ(versions.front(), path);
     const std::set<std::pair<std::vector<double>, std::vector<double>>> different(
         world.tested.begin(), world.tested.end());
@@ -179,7 +181,7 @@ TEST(SimplifyPath, KeepsItsPromisesAmongRandomDiscs) {
     }
     shorter += length(versions.back()) < length(path) * 0.9 ? 1 : 0;
     const std::size_t tests = std::exchange(world.tested, {}).size();
-    EXPECT_EQ(simplifiedVersions(space, path, world.edgeTest(), never), versions);
+    EXPECT_EQ(simplifiedVersions(space, path, world.edgeTest(), doNotStop), versions);
     EXPECT_EQ(world.tested.size(), tests);
     // No state can be left out.
     for (std::size_t s = 2; s < versions.back().size(); ++s)
@@ -240,7 +242,7 @@ TEST(SimplifyPath, KeepsItsPromisesOnCirclesAndRotations) {
     }
     if (i % 5 == 0) path.push_back(path.front());  // a closed path, if its last edge is free
     if (!isFree(path[path.size() - 2], path.back())) path.pop_back();
-    const std::vector<Path> versions = simplifiedVersions(space, path, isFree, never);
+    const std::vector<Path> versions = simplifiedVersions(space, path, isFree, doNotStop);
     for (std::size_t v = 1; v < versions.size(); ++v) {
       EXPECT_EQ(versions[v].front(), path.front());
       EXPECT_EQ(versions[v].back(), path.back());

@@ -114,7 +114,7 @@ TEST(CurvePieces, HermitePiecesAreWithinTheirError) {
   std::uniform_real_distribution<double> unit(0, 1);
   const ConfigurationSpace space = lineSpace();
   double worst[3] = {}, controller[3] = {}, duration[2] = {};
-  for (int i = 0; i < 1000; ++i) {
+  for (int i = 0; i < 400; ++i) {
     const Hermite h = randomCase(random);
     const CurvePoint from{one(h.p0), one(h.v0), one(h.a0)}, to{one(h.p1), one(h.v1), one(h.a1)};
     const CurvePiece linear = linearPiece(space, one(h.p0), one(h.p1));

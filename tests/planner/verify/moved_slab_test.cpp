@@ -35,8 +35,8 @@ Real radiusOf(const ConvexSet& set) {
   return radius + set.radius;
 }
 
-/// Two bodies on an arm, in a time interval of an edge with a tube, and the slab between them along
-/// `n`.
+/// Two bodies on an arm, in a time interval of an edge or a piece with a tube, and the slab between
+/// them along `n`.
 struct Case {
   const Arm& arm;
   KinematicChain chainA, chainB;
@@ -48,7 +48,8 @@ struct Case {
   Placement atA;  // at the middle
   RealVec n;      // unit, in a's frame at the middle
 
-  Case(const Arm& onArm, bool fork, std::mt19937_64& random, double size, int kinds)
+  /// @param degree that of a polynomial piece; 0: an edge.
+  Case(const Arm& onArm, bool fork, std::mt19937_64& random, double size, int kinds, int degree = 0)
       : arm(onArm),
         chainA(chainOf(arm.tree, fork ? 3 : 0, fork ? arm.side : 0)),
         chainB(chainOf(arm.tree, fork ? 3 : 0, arm.tip)),
@@ -63,16 +64,30 @@ struct Case {
     const Configuration other = arm.random(random);
     to += size * (other - from);
     for (double& stray : tube) stray = 0.3 * size * uniform(random);
-    curve.emplace(arm.tree, arm.space.coordinates(), from, to);
-    middle = static_cast<Real>(0.5 + 0.2 * uniform(random));
-    half = static_cast<Real>(0.3 * uniform(random));
+    if (degree == 0) {
+      curve.emplace(arm.tree, arm.space.coordinates(), from, to);
+      middle = static_cast<Real>(0.5 + 0.2 * uniform(random));
+      half = static_cast<Real>(0.3 * uniform(random));
+    } else {
+      CurvePiece piece{Eigen::MatrixXd(from.size(), degree + 1), Configuration::Zero(from.size())};
+      for (int k = 0; k <= degree; ++k) {
+        piece.coefficients.col(k) = from + (to - from) * k / degree;
+        if (k > 0 && k < degree) piece.coefficients.col(k) += size * arm.random(random);
+      }
+      curve.emplace(arm.tree, arm.space.coordinates(), piece);
+      const int depth = std::uniform_int_distribution<int>(0, 4)(random);
+      half = std::ldexp(0.5L, -depth);
+      middle = half * static_cast<Real>(
+                          2 * std::uniform_int_distribution<int>(0, (1 << depth) - 1)(random) + 1);
+    }
     const FrameState stateA = curve->at(chainA, middle), stateB = curve->at(chainB, middle);
     atA = stateA.at;
     motion.half = half;
     motion.a = motionSeenFrom(atA, stateA, curve->perturbationAt(chainA, middle, tube));
     motion.b = motionSeenFrom(atA, stateB, curve->perturbationAt(chainB, middle, tube));
     for (const auto& [chain, set] : {std::pair{&chainA, &a}, std::pair{&chainB, &b}}) {
-      const Reach reach = curve->reach(*chain, radiusOf(*set), tube);
+      const Reach reach =
+          curve->reach(*chain, radiusOf(*set), tube, curve->segmentOf(middle, half));
       motion.motionBound += reach.speed * half;
       motion.tube += reach.tube;
       motion.secondOrder +=
@@ -145,7 +160,7 @@ TEST(MovedSlab, BoundsAllCurvesOfTheTube) {
   for (int i = 0; i < cases; ++i) {
     const Arm arm(random);
     const double size = i % 3 == 0 ? 1 : i % 3 == 1 ? 0.1 : 0.001;
-    const Case one(arm, i % 2 == 1, random, size, i / 2);
+    const Case one(arm, i % 2 == 1, random, size, i / 2, i % 4 < 2 ? 0 : 1 + i / 4 % 9);
     const Real bound = one.firstOrder() - one.motion.secondOrder, least = one.leastWidth(random);
     EXPECT_GE(least, bound - 1e-13L) << i;
     fullest = std::max(fullest, (one.still() - least) / (one.still() - bound));

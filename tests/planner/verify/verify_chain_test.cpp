@@ -11,7 +11,7 @@ namespace {
 
 using test::boxMesh;
 
-constexpr double kPi = std::numbers::pi;
+constexpr double kHalfTurn = std::numbers::pi;
 
 ConvexPart boxPart(const Vec3& lower, const Vec3& upper) {
   return {boxMesh(lower, upper).vertices, 0, false};
@@ -95,7 +95,7 @@ TEST(VerifyChain, EitherBodyOfAPairMayMove) {
     Chain branches(2, post);
     branches.tree.frames[2].parent = 0;
     branches.problem.pairs = {movingFirst ? VerifyPair{1, 2} : VerifyPair{2, 1}};
-    const double up = kPi / 2;
+    const double up = kHalfTurn / 2;
     EXPECT_EQ(verifyPath(branches.problem, {joints({up, 2.5}), joints({-up, 2.5})}).verdict,
               PathVerdict::refuted);
     EXPECT_EQ(verifyPath(branches.problem, {joints({up, 1.5}), joints({-up, 1.5})}).verdict,
@@ -123,7 +123,7 @@ TEST(VerifyChain, TheRimOfADiscMoves) {
 TEST(VerifyChain, LinksAgainstEachOtherWhileAllMoves) {
   Chain chain(3, {{Vec3(50, 0, 0)}, 0.1, false});
   // The rods form an equilateral triangle: rod 3 would end at the start of rod 1.
-  const double corner = 2 * kPi / 3;
+  const double corner = 2 * kHalfTurn / 3;
   PathReport report = verifyPath(chain.problem, {joints({-1, 0, 0}), joints({2, corner, corner})});
   EXPECT_EQ(report.verdict, PathVerdict::refuted);
   EXPECT_EQ(report.findings.at(0).a, "rod1");
@@ -200,13 +200,13 @@ TEST(VerifyChain, JointsOfOneVariableHaveOnePerturbation) {
   chain.tree.frames[2].multiplier = -1;
   chain.problem.tube = joints({0.01, 0});
   chain.problem.pairs = {{0, 2}};
-  const std::vector<Configuration> path = {joints({kPi / 2 - 0.01, 0}),
-                                           joints({kPi / 2 + 0.01, 0})};
+  const std::vector<Configuration> path = {joints({kHalfTurn / 2 - 0.01, 0}),
+                                           joints({kHalfTurn / 2 + 0.01, 0})};
   EXPECT_EQ(verifyPath(chain.problem, path).verdict, PathVerdict::proved);
   chain.tree.frames[2].variable = 1;
   chain.problem.tube = joints({0.01, 0.01});
-  const std::vector<Configuration> same = {joints({kPi / 2 - 0.01, kPi / 2 - 0.01}),
-                                           joints({kPi / 2 + 0.01, kPi / 2 + 0.01})};
+  const std::vector<Configuration> same = {joints({kHalfTurn / 2 - 0.01, kHalfTurn / 2 - 0.01}),
+                                           joints({kHalfTurn / 2 + 0.01, kHalfTurn / 2 + 0.01})};
   EXPECT_EQ(verifyPath(chain.problem, same).verdict, PathVerdict::undecided);
 }
 

@@ -16,8 +16,8 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr EdgeMethod kMethods[] = {EdgeMethod::directional, EdgeMethod::adaptive,
-                                   EdgeMethod::advancement};
+constexpr EdgeMethod kEdgeMethods[] = {EdgeMethod::directional, EdgeMethod::adaptive,
+                                       EdgeMethod::advancement};
 
 /// If the bodies come closer than the margin, a certificate must be refused, whatever clearance it
 /// claims. (`checkCertificate` proves only the distance margin + (clearance − margin)/2.) At least
@@ -114,7 +114,7 @@ TEST(Certificates, HalfTurnsAreNotProved) {
     Question question;
     question.options.tolerance = 1e-7;
     question.rigidMotion = dice.oneIn(2);
-    question.method = kMethods[dice.index(3)];
+    question.method = kEdgeMethods[dice.index(3)];
     const Graze graze(dice, edge, {1, 0, false});
     if (!graze.usable()) continue;
     Truth truth;
@@ -165,7 +165,7 @@ TEST(Certificates, NothingIsFreeInsideASolid) {
     MotionOptions options;
     options.tolerance = 1e-7;
     QueryContext context;
-    for (const EdgeMethod method : kMethods)
+    for (const EdgeMethod method : kEdgeMethods)
       free += scene.certify(motion, options, context, method).verdict == MotionVerdict::free;
     MotionCertificate forged;
     forged.free.push_back({0, 0, 1, 0.1});
@@ -216,7 +216,7 @@ TEST(Certificates, MimicsOverTheSeamOfACircle) {
     Question question;
     question.options.tolerance = 1e-5;
     question.options.workLimit = 200'000;
-    question.method = kMethods[dice.index(3)];
+    question.method = kEdgeMethods[dice.index(3)];
     Truth truth;
     const Shape rest = graze.rest(dice.power(-6, -2) * (seam ? -1 : dice.sign()), truth);
     if (seam && !truth.violates) continue;

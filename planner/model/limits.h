@@ -1,0 +1,87 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planner/robot/configuration_space.h"
+
+namespace corridor {
+
+struct Model;
+
+/// A limit of the speed of a link in the world.
+struct LinkSpeed {
+  std::string link;       ///< for messages: "hand", "left/hand"
+  std::size_t frame = 0;  ///< in Model::tree
+  double speed = 0;       ///< m/s, for each of `points`
+  /// The frame's origin, and the corners of a box around the link's shapes, in the frame's
+  /// coordinates, m. No point of a convex hull is faster than the fastest corner, so these limit
+  /// every point of the link.
+  std::vector<Eigen::Vector3d> points;
+};
+
+/// The limits of a motion over time, for each number of a Configuration. Values are > 0; infinity
+/// means that there is no limit.
+/// - A single joint has its limits at its number: rad/s, rad/s², rad/s³, or m/s and so on if it is
+///   prismatic. Joints that mimic it may have reduced them.
+/// - The position of a planar or floating joint has limits of the length of the vector (ṗ, p̈, p⃛),
+///   at the first of its numbers (x); those of its other numbers are infinite. So a diagonal motion
+///   is as fast as one along an axis.
+/// - The rotation of a floating joint has limits of its angular velocity |ω| and angular
+///   acceleration |ω̇|, at the first of its four numbers. The yaw of a planar joint is like a single
+///   joint.
+struct JointLimits {
+  Configuration velocity, acceleration, jerk;
+  std::vector<LinkSpeed> links;
+  /// Decisions that a user of a time law may want to know, such as accelerations that are assumed.
+  std::vector<std::string> notes;
+};
+
+/// Limits that a user gives. A value that is unset is not given.
+struct LimitValues {
+  std::optional<double> velocity, acceleration, jerk;
+};
+
+/// All limits that a user gives for a problem, before they are applied to its model.
+struct LimitSpec {
+  LimitValues joints;    ///< for each single joint that has no limit of its own
+  LimitValues slides;    ///< for prismatic joints, in place of `joints`; m/s, m/s², m/s³
+  LimitValues position;  ///< for the position of each planar and floating joint; m/s, m/s², m/s³
+  LimitValues rotation;  ///< for the rotation of these joints; rad/s, rad/s², rad/s³
+  /// For single joints, by name ("elbow", "left/elbow"). They replace the URDF's velocity and all
+  /// other values. The name may be that of a joint that mimics another one.
+  std::map<std::string, LimitValues> named;
+  std::map<std::string, double> links;  ///< m/s, by the name of a link ("hand", "left/hand")
+  double velocityScale = 1, accelerationScale = 1;  ///< in (0, 1]; jerk is not scaled
+};
+
+/// Acceleration of every joint without a given one: 1 rad/s² or 1 m/s². URDF has no limit of
+/// acceleration, and a time law without one would be meaningless.
+inline constexpr double kAssumedAcceleration = 1;
+
+/// Applies limits to a model. For each number, the velocity is the named one, or else the smaller
+/// one of the URDF's and that of `joints` (`slides`). The acceleration and the jerk are the named
+/// one, or else that of `joints` (`slides`). An acceleration that nothing gives is
+/// kAssumedAcceleration, with a note. A joint that mimics another one limits it only if it is
+/// named: a limit L of the follower limits the leader by L/|multiplier|.
+/// @pre names in `spec` are those of the model (`jointsWithLimits`, links).
+JointLimits limitsOf(const Model& model, const LimitSpec& spec = {});
+
+/// A single joint that limits can be named for.
+struct LimitedJoint {
+  std::string name;        ///< "elbow", "left/elbow"
+  std::string plain;       ///< the URDF's name: "elbow"
+  std::size_t number = 0;  ///< index of the number in a Configuration that it moves with
+  double multiplier = 1;   ///< of a mimic; else 1
+  bool isMimic = false;
+  bool isPrismatic = false;
+  double velocity = 0;  ///< by the URDF; infinite if it gives none
+};
+/// Returns the single joints that move with a planned coordinate, including those that mimic one.
+std::vector<LimitedJoint> jointsWithLimits(const Model& model);
+
+}  // namespace corridor

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "planner/model/limits.h"
+#include "planner/model/model.h"
+#include "planner/problem/yaml_reader.h"
+
+namespace corridor {
+
+/// Reads the `limits` of a problem, and the file of MoveIt that they name.
+/// @param isComplete whether `model` has all robots. Otherwise the robots have faults, and names of
+/// joints and links are not checked.
+/// @param files gets the file that `limits.file` names.
+LimitSpec readLimits(const YamlMap& problem, const std::filesystem::path& folder,
+                     const Model& model, bool isComplete,
+                     std::vector<std::filesystem::path>& files);
+
+/// Reads a joint_limits.yaml of MoveIt into `spec`: the limits of joints, by their plain names, and
+/// the default scaling factors. Deceleration limits narrow those of acceleration. Adds notes on
+/// joints that do not move in the model, and on limits of positions, which are not used.
+void readMoveitLimits(const std::filesystem::path& file, const Model& model, bool isComplete,
+                      LimitSpec& spec, FaultList& faults, std::vector<Note>& notes);
+
+}  // namespace corridor

@@ -1,0 +1,98 @@
+#include <algorithm>
+#include <set>
+
+#include "collision/core/read_file.h"
+#include "collision/core/spelling.h"
+#include "planner/problem/limits_yaml.h"
+
+namespace corridor {
+namespace {
+
+const MapKeys kFile{{"joint_limits", "default_velocity_scaling_factor",
+                     "default_acceleration_scaling_factor", "robot_description_planning"},
+                    {}};
+const MapKeys kJoint{
+    {"has_velocity_limits", "max_velocity", "min_velocity", "has_acceleration_limits",
+     "max_acceleration", "min_acceleration", "has_deceleration_limits", "max_deceleration",
+     "has_jerk_limits", "max_jerk", "min_jerk", "has_position_limits", "min_position",
+     "max_position", "has_effort_limits", "max_effort", "angle_wraparound"},
+    {}};
+
+/// Returns `max_WHAT` if `has_WHAT_limits` is true.
+std::optional<double> readLimit(const YamlMap& joint, const std::string& what) {
+  const std::string flag = "has_" + what + "_limits", key = "max_" + what;
+  const auto has = joint.boolean(flag);
+  if (!joint.find(flag)) {
+    if (joint.find(key))
+      joint.fault(key, "MoveIt uses it only with " + flag + ": true; add true or false");
+    return std::nullopt;
+  }
+  if (!has.value_or(false)) return std::nullopt;  // MoveIt's files have max_…: 0 then
+  joint.require(key, "the limit, such as " + key + ": 2");
+  return joint.number(key, Range::Positive);
+}
+
+void readScale(const YamlMap& map, const char* key, double& scale) {
+  const auto value = map.number(key, Range::Positive);
+  if (value && *value > 1)
+    map.fault(key, "at most 1 is needed: it is a share of the limits");
+  else if (value)
+    scale = *value;
+}
+
+void readFile(const YamlMap& map, const Model& model, bool isComplete, LimitSpec& spec,
+              std::vector<Note>& notes) {
+  const std::string& file = map.source().file;
+  readScale(map, "default_velocity_scaling_factor", spec.velocityScale);
+  readScale(map, "default_acceleration_scaling_factor", spec.accelerationScale);
+  const YamlValue* value =
+      map.require("joint_limits", "{JOINT: {has_velocity_limits: true, max_velocity: 2}}");
+  if (!value) return;
+  const std::vector<LimitedJoint> joints = jointsWithLimits(model);
+  std::vector<std::string> unused, positions;
+  const YamlMap limits(*value, map.pathOf("joint_limits"), nullptr, map.source());
+  for (const YamlValue::Entry* entry : limits.entries()) {
+    const YamlMap own(entry->value, limits.pathOf(entry->key), &kJoint, map.source());
+    LimitValues values;
+    values.velocity = readLimit(own, "velocity");
+    values.acceleration = readLimit(own, "acceleration");
+    if (const auto slowing = readLimit(own, "deceleration"))
+      values.acceleration = std::min(values.acceleration.value_or(*slowing), *slowing);
+    values.jerk = readLimit(own, "jerk");
+    if (own.boolean("has_position_limits").value_or(false)) positions.push_back(entry->key);
+    bool used = false;
+    for (const LimitedJoint& joint : joints) {
+      if (joint.plain != entry->key) continue;
+      spec.named[joint.name] = values;
+      used = true;
+    }
+    if (!used) unused.push_back(entry->key);
+  }
+  if (!isComplete) return;
+  if (!unused.empty() && unused.size() == limits.entries().size())
+    return limits.fault("", "no joint of this file is planned for: " + joinedFirst(unused));
+  if (!unused.empty())
+    notes.push_back({file + ": limits of " + joinedFirst(unused) + " are not used: not planned for",
+                     NoteWeight::detail});
+  if (!positions.empty())
+    notes.push_back({file + ": limits of the position of " + joinedFirst(positions) +
+                         " are not used; write bounds",
+                     NoteWeight::motion});
+}
+
+}  // namespace
+
+void readMoveitLimits(const std::filesystem::path& file, const Model& model, bool isComplete,
+                      LimitSpec& spec, FaultList& faults, std::vector<Note>& notes) {
+  const YamlValue document =
+      parseYaml(file.string(), readTextFile(file, "limits of joints (MoveIt's joint_limits.yaml)"));
+  YamlSource source{file.string(), faults, {}};
+  const YamlMap map(document, "", &kFile, source);
+  if (const YamlValue* inner = map.find("robot_description_planning"))  // as in launch files
+    readFile(YamlMap(*inner, "robot_description_planning", &kFile, source), model, isComplete, spec,
+             notes);
+  else
+    readFile(map, model, isComplete, spec, notes);
+}
+
+}  // namespace corridor

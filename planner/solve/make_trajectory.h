@@ -1,0 +1,69 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "planner/checker/checker.h"
+#include "planner/problem/problem.h"
+#include "planner/solve/finish_path.h"
+#include "planner/trajectory/limits_proof.h"
+#include "planner/trajectory/trajectory_curve.h"
+
+namespace corridor {
+
+/// The files that a trajectory is written to.
+enum class TrajectoryFileKind {
+  csv,     ///< rows of numbers
+  message  ///< a JointTrajectory of ROS 2, as YAML
+};
+
+struct TrajectoryOptions {
+  TrajectoryFileKind kind = TrajectoryFileKind::csv;
+  /// The largest distance of the file's curve from the smoothed path, in each number; rad or m.
+  double deviation = 1e-4;
+  /// The largest distance of a rounded corner from the path; unset: as far as it is proved free.
+  std::optional<double> cornerDeviation;
+  std::optional<double> rate;  ///< rows per second; unset: rows where they are needed
+};
+
+/// A trajectory along a path, as it is written to a file, and the proof of that file.
+struct MadeTrajectory {
+  /// The content of the file; "" with a fault.
+  std::string text;
+  Between between = Between::cubic;  ///< what a controller does between the rows
+  Curve curve;                       ///< what the text means
+  double duration = 0;               ///< seconds
+  std::size_t rows = 0;
+  std::size_t corners = 0, rounded = 0;  ///< corners of the path, and those without a stop
+  std::size_t curveTests = 0;            ///< curves that were tested to round corners
+  LimitRatios ratios;                    ///< proved shares of the limits, for the file's curve
+  double stretch = 1;                    ///< how much the law was slowed down (Emission::stretch)
+  /// `free`: the checker proved every piece of `curve`. Otherwise the answer for the first piece
+  /// that it could not prove.
+  MotionResult proof;
+  std::size_t failedPiece = 0;  ///< without a proof: index into curve.pieces
+  std::string fault;            ///< why there is no trajectory, one line; or ""
+
+  bool proved() const { return fault.empty() && proof.verdict == MotionVerdict::free; }
+  /// Whether the file's curve keeps all limits at every instant.
+  bool keepsLimits() const;
+};
+
+/// Makes a trajectory along a path, in these steps:
+/// 1. Corners are rounded by curves that the checker proves (smooth_path.h).
+/// 2. A time law passes along the result in the shortest time that the problem's limits allow
+///    (time_law.h). If a limit of jerk is given, the law keeps it.
+/// 3. Rows are made of it (emit.h), and written as text.
+/// 4. The text is read again. The checker proves each piece of the curve that it means, and its
+///    limits are proved (limits_proof.h). If a piece can't be proved, steps 3 and 4 are repeated up
+///    to three times, each time with a quarter of the deviation.
+///
+/// The result depends on the arguments only, unless `stop` returns true: then no further corner is
+/// rounded.
+/// @pre the path's edges are free.
+MadeTrajectory makeTrajectory(
+    const Problem& problem, const Checker& checker, const Path& path,
+    const TrajectoryOptions& options = {},
+    const std::function<bool()>& stop = [] { return false; });
+
+}  // namespace corridor

@@ -1,0 +1,295 @@
+#include "planner/solve/smooth_path.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "planner/robot/angles.h"
+
+namespace corridor {
+namespace {
+
+/// A try that fails is halved this often. The smallest curve of a corner takes 1/64 of the edge.
+constexpr int kHalvings = 5;
+/// A curve takes at most this share of an edge at the beginning or end of the path, because a robot
+/// that starts from rest needs a part of the edge to gain speed.
+constexpr double kShareOfFirstEdge = 0.9;
+
+/// Directions that differ by at most this share are the same: a state between them is no corner.
+/// Rounding of inserted states causes some 10^-15 of an edge's length; the path without the state
+/// is proved like every other curve.
+constexpr double kStraight = 1e-9;
+
+/// A curve from a place on one edge to a place on a later one. Places are lengths from the edge's
+/// begin.
+struct Blend {
+  std::size_t first = 0, last = 0;  // edges
+  double from = 0, to = 0;          // places on them
+  CurvePiece piece;
+};
+
+class Smoother {
+ public:
+  Smoother(const ConfigurationSpace& space, const Path& path, const CurveTest& isFree,
+           const SmoothOptions& options, const std::function<bool()>& stop)
+      : space_(space), isFree_(isFree), options_(options), stop_(stop) {
+    const auto size = static_cast<Eigen::Index>(space.size());
+    if (options_.velocity.size() == 0) options_.velocity = Configuration::Ones(size);
+    if (options_.acceleration.size() == 0) options_.acceleration = Configuration::Ones(size);
+    unwrap(path);
+  }
+
+  SmoothPath run() {
+    for (std::size_t k = 1; k < states_.size() - 1; ++k) roundCorner(k, 0.5);
+    for (std::size_t k = 1; k < states_.size() - 1; ++k) roundCorner(k, 1);
+    for (bool merged = true; merged;) {
+      merged = false;
+      for (std::size_t i = 0; i + 1 < blends_.size(); ++i) merged = merge(i) || merged;
+    }
+    return assemble();
+  }
+
+ private:
+  /// Copies the states that differ from the one before. Circles continue beyond ±π.
+  void unwrap(const Path& path) {
+    states_.push_back(path.front());
+    for (std::size_t k = 1; k < path.size(); ++k) {
+      Configuration next = path[k];
+      for (const Coordinate& c : space_.coordinates()) {
+        const auto i = static_cast<Eigen::Index>(c.first);
+        if (c.kind == Coordinate::Kind::circle)
+          next[i] = states_.back()[i] + circleTurn(path[k - 1][i], path[k][i]).angle;
+      }
+      const double length = lengthOf(next - states_.back());
+      const bool turns = rotates(states_.back(), next);
+      if (length == 0 && !turns) continue;
+      if (!edges_.empty() && !turns && !edges_.back().rotates && continues(next, length)) {
+        states_.back() = next;
+        edges_.back().length = lengthOf(next - states_[states_.size() - 2]);
+        continue;
+      }
+      edges_.push_back({length, turns});
+      states_.push_back(next);
+    }
+  }
+
+  /// Returns whether the edge to a state continues the last edge in a straight line.
+  bool continues(const Configuration& next, double length) const {
+    const Configuration u = direction(edges_.size() - 1);
+    return lengthOf((next - states_.back()) / length - u) <= kStraight;
+  }
+
+  bool rotates(const Configuration& a, const Configuration& b) const {
+    for (const Coordinate& c : space_.coordinates()) {
+      const auto i = static_cast<Eigen::Index>(c.first);
+      if (c.kind == Coordinate::Kind::rotation && a.segment<4>(i) != b.segment<4>(i)) return true;
+    }
+    return false;
+  }
+
+  /// Returns the time in which the fastest joint passes through a difference at its largest
+  /// velocity. Rotations are left out.
+  double lengthOf(const Configuration& difference) const {
+    double length = 0;
+    for (const Coordinate& c : space_.coordinates()) {
+      const auto i = static_cast<Eigen::Index>(c.first);
+      if (c.kind != Coordinate::Kind::rotation && options_.velocity[i] > 0)
+        length = std::max(length, std::abs(difference[i]) / options_.velocity[i]);
+    }
+    return length;
+  }
+
+  Configuration at(std::size_t edge, double place) const {
+    const double share = place / edges_[edge].length;
+    return states_[edge] + share * (states_[edge + 1] - states_[edge]);
+  }
+  Configuration direction(std::size_t edge) const {
+    return (states_[edge + 1] - states_[edge]) / edges_[edge].length;
+  }
+  bool isFirstOrLast(std::size_t edge) const { return edge == 0 || edge + 1 == edges_.size(); }
+
+  /// Returns the curve of degree 5 between two places, with these distances of its coefficients.
+  /// Three coefficients at each end are equally spaced on the edge, so the second derivative is 0.
+  Blend blendOf(std::size_t first, double from, std::size_t last, double to, double spacing) const {
+    Blend blend{first, last, from, to, {}};
+    auto& c = blend.piece.coefficients;
+    c.resize(states_[0].size(), 6);
+    const Configuration u = direction(first), v = direction(last);
+    const Configuration a = at(first, from), b = at(last, to);
+    c << a, a + spacing * u, a + 2 * spacing * u, b - 2 * spacing * v, b - spacing * v, b;
+    for (const Coordinate& coordinate : space_.coordinates()) {  // a rotation rests here
+      if (coordinate.kind != Coordinate::Kind::rotation) continue;
+      const auto i = static_cast<Eigen::Index>(coordinate.first);
+      c.middleRows<4>(i) = states_[first].segment<4>(i).replicate(1, 6);
+    }
+    blend.piece.error = Configuration::Zero(states_[0].size());
+    return blend;
+  }
+
+  bool isProved(const Blend& blend) {
+    if (stop_()) return false;
+    for (const Coordinate& c : space_.coordinates()) {
+      if (c.kind != Coordinate::Kind::line) continue;
+      const auto row = blend.piece.coefficients.row(static_cast<Eigen::Index>(c.first));
+      if (row.minCoeff() < c.lower || row.maxCoeff() > c.upper) return false;
+    }
+    ++result_.tests;
+    return isFree_(blend.piece);
+  }
+
+  /// Returns the range of places on an edge that no curve takes, except for the curve `own`.
+  std::pair<double, double> freeRange(std::size_t edge, const Blend* own) const {
+    double from = 0, to = edges_[edge].length;
+    for (const Blend& blend : blends_) {
+      if (&blend == own) continue;
+      if (blend.last == edge) from = std::max(from, blend.to);
+      if (blend.first == edge) to = std::min(to, blend.from);
+    }
+    if (edge == 0) from = std::max(from, (1 - kShareOfFirstEdge) * edges_[edge].length);
+    if (edge + 1 == edges_.size()) to = std::min(to, kShareOfFirstEdge * edges_[edge].length);
+    return {from, to};
+  }
+
+  /// Rounds the corner at state k by the largest curve that is proved. The curve takes at most
+  /// `share` of what is free of each edge; all of it where no other corner needs the edge.
+  void roundCorner(std::size_t k, double share) {
+    if (edges_[k - 1].rotates || edges_[k].rotates) return;
+    const auto known = std::find_if(blends_.begin(), blends_.end(), [&](const Blend& b) {
+      return b.first == k - 1 && b.last == k;
+    });
+    Blend* const own = known == blends_.end() ? nullptr : &*known;
+    const double before = edges_[k - 1].length - freeRange(k - 1, own).first;
+    const double after = freeRange(k, own).second;
+    const double shareBefore = isFirstOrLast(k - 1) ? 1 : share;
+    const double shareAfter = isFirstOrLast(k) ? 1 : share;
+    double most = std::min(shareBefore * before, shareAfter * after);
+    // The middle of the curve is the farthest: 7/64 of the difference of its ends' directions.
+    const double bend = (direction(k) - direction(k - 1)).cwiseAbs().maxCoeff();
+    if (bend > 0) most = std::min(most, options_.deviation / (7.0 / 64 * bend));
+    const double least = own ? own->to : 0;
+    double proved = 0;
+    for (int i = 0; i <= kHalvings && proved == 0; ++i) {
+      const double reach = most / (1 << i);
+      if (!(reach > 1.05 * least)) break;
+      if (tryCorner(k, reach)) proved = reach;
+      // Between the length that is proved and twice this length, which is not.
+      if (proved > 0 && i > 0) tryCorner(k, 1.5 * reach);
+    }
+  }
+
+  bool tryCorner(std::size_t k, double reach) {
+    Blend blend = blendOf(k - 1, edges_[k - 1].length - reach, k, reach, reach / 2);
+    if (!isProved(blend)) return false;
+    const auto place =
+        std::lower_bound(blends_.begin(), blends_.end(), k - 1,
+                         [](const Blend& b, std::size_t first) { return b.first < first; });
+    if (place != blends_.end() && place->first == k - 1 && place->last == k)
+      *place = std::move(blend);
+    else
+      blends_.insert(place, std::move(blend));
+    return true;
+  }
+
+  /// Returns a lower bound, up to the sampling, of the time along a piece: velocities and
+  /// centripetal accelerations are within their limits at eight places.
+  double timeOf(const CurvePiece& piece) const {
+    const auto& c = piece.coefficients;
+    const int n = piece.degree();
+    constexpr int kSamples = 8;
+    double time = 0;
+    for (int k = 0; k < kSamples; ++k) {
+      const double t = (k + 0.5) / kSamples;
+      Eigen::MatrixXd b = c;
+      Configuration second = Configuration::Zero(c.rows());
+      for (int left = n; left > 1; --left) {
+        if (left == 2) second = n * (n - 1) * (b.col(2) - 2 * b.col(1) + b.col(0));
+        for (int i = 0; i < left; ++i) b.col(i) = ((1 - t) * b.col(i) + t * b.col(i + 1)).eval();
+      }
+      const Configuration first = n * (b.col(1) - b.col(0));
+      const double slowest = lengthOf(first);  // 1/ṡ by velocity
+      double bent = 0;
+      for (const Coordinate& coordinate : space_.coordinates()) {
+        const auto i = static_cast<Eigen::Index>(coordinate.first);
+        if (coordinate.kind != Coordinate::Kind::rotation && options_.acceleration[i] > 0)
+          bent = std::max(bent, std::abs(second[i]) / options_.acceleration[i]);
+      }
+      time += std::max(slowest, std::sqrt(bent)) / kSamples;
+    }
+    return time;
+  }
+
+  /// Replaces curve i, curve i + 1 and the edge between them by one curve, if this saves time.
+  bool merge(std::size_t i) {
+    const Blend &a = blends_[i], &b = blends_[i + 1];
+    if (a.last != b.first || options_.deviation < HUGE_VAL) return false;
+    const auto [from, unused] = freeRange(a.first, &a);
+    const double to = freeRange(b.last, &b).second;
+    for (const double share : {1.0, 0.5, 0.0}) {  // of what is left of the outer edges
+      const double begin = a.from + share * (from - a.from), end = b.to + share * (to - b.to);
+      const double gap = lengthOf(at(b.last, end) - at(a.first, begin));
+      const Blend whole = blendOf(a.first, begin, b.last, end, gap / 5);
+      const double before =
+          (a.from - begin) + timeOf(a.piece) + (b.from - a.to) + timeOf(b.piece) + (end - b.to);
+      if (!(timeOf(whole.piece) < 0.99 * before) || !isProved(whole)) continue;
+      blends_[i] = whole;
+      blends_.erase(blends_.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+      return true;
+    }
+    return false;
+  }
+
+  CurvePiece line(const Configuration& a, const Configuration& b) const {
+    CurvePiece piece;
+    piece.coefficients.resize(a.size(), 2);
+    piece.coefficients << a, b;
+    piece.error = Configuration::Zero(a.size());
+    return piece;
+  }
+
+  SmoothPath assemble() {
+    result_.corners = states_.size() > 2 ? states_.size() - 2 : 0;
+    Configuration here = states_[0];
+    auto next = blends_.begin();
+    for (std::size_t edge = 0; edge < edges_.size();) {
+      if (next != blends_.end() && next->first == edge) {
+        const Configuration begin = next->piece.coefficients.col(0);
+        if (begin != here) result_.pieces.push_back(line(here, begin));
+        result_.pieces.push_back(next->piece);
+        result_.rounded += next->last - next->first;
+        here = next->piece.coefficients.rightCols<1>();
+        edge = next->last;
+        ++next;
+      } else {
+        const Configuration& end = states_[edge + 1];
+        if (end != here) result_.pieces.push_back(line(here, end));
+        here = end;
+        ++edge;
+      }
+    }
+    if (result_.pieces.empty()) result_.pieces.push_back(line(here, here));
+    return std::move(result_);
+  }
+
+  struct Edge {
+    double length = 0;     // lengthOf the edge
+    bool rotates = false;  // a rotation moves on it
+  };
+
+  const ConfigurationSpace& space_;
+  const CurveTest& isFree_;
+  SmoothOptions options_;
+  const std::function<bool()>& stop_;
+  std::vector<Configuration> states_;
+  std::vector<Edge> edges_;
+  std::vector<Blend> blends_;  // in the order of the path
+  SmoothPath result_;
+};
+
+}  // namespace
+
+SmoothPath smoothedPath(const ConfigurationSpace& space, const Path& path, const CurveTest& isFree,
+                        const SmoothOptions& options, const std::function<bool()>& stop) {
+  return Smoother(space, path, isFree, options, stop).run();
+}
+
+}  // namespace corridor

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include "planner/robot/curve.h"
+#include "planner/solve/finish_path.h"
+
+namespace corridor {
+
+/// Decides whether a piece is proved free of contact.
+using CurveTest = std::function<bool(const CurvePiece&)>;
+
+/// How a path is smoothed.
+struct SmoothOptions {
+  /// The largest distance of a rounded corner from the path, in each number; rad or m.
+  double deviation = std::numeric_limits<double>::infinity();
+  /// For each number, its largest velocity (rad/s or m/s; the scale of lengths along the path).
+  /// Only their ratios matter. Empty: all are 1.
+  Configuration velocity = {};
+  /// For each number, its largest acceleration, with which the time along a corner is estimated.
+  /// Empty: all are 1.
+  Configuration acceleration = {};
+};
+
+/// The result of smoothing, and its cost.
+struct SmoothPath {
+  std::vector<CurvePiece> pieces;  ///< lines and rounded corners, from the first state to the last
+  std::size_t corners = 0;         ///< corners of the path
+  std::size_t rounded = 0;         ///< those that became part of a proved curve
+  std::size_t tests = 0;           ///< number of pieces that were tested
+};
+
+/// Rounds the corners of a path, so that a robot need not stop at them.
+///
+/// A corner is replaced by a curve of degree 5 from the edge before it to the edge after it. The
+/// curve joins both edges with a continuous tangent and a second derivative of 0. Therefore the
+/// whole result is C² for a suitable speed along it, except at corners that could not be rounded.
+/// Each curve is used only if `isFree` proves it.
+///
+/// 1. Each corner gets the largest curve that is proved. The first try takes half of the shorter
+///    edge; a try that fails is halved.
+/// 2. Corners take what their neighbours left of the edges.
+/// 3. Two adjacent curves, with the edge between them, are replaced by one curve if it is proved
+///    and the estimated time is shorter.
+///
+/// A coordinate that is a rotation keeps its slerp on each edge. A corner where such a coordinate
+/// moves on either edge is not rounded: a robot stops there.
+/// A circle's values are unwrapped: they are literal, and continue beyond ±π.
+///
+/// The result depends on the arguments only, as long as `stop` returns false. If `stop` returns
+/// true, no further curve is tested.
+/// @param path at least one state. Its edges are free.
+/// @pre no edge is `ambiguous`.
+SmoothPath smoothedPath(
+    const ConfigurationSpace& space, const Path& path, const CurveTest& isFree,
+    const SmoothOptions& options = {}, const std::function<bool()>& stop = [] { return false; });
+
+}  // namespace corridor

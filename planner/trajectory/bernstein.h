@@ -1,0 +1,49 @@
+#pragma once
+
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+
+/// Polynomials in Bernstein form on [0, 1], in plain double arithmetic: no rounding is bounded
+/// here.
+namespace corridor::bernstein {
+
+/// Σ_i B_i(t)·c[i], with the Bernstein polynomials of this degree.
+struct Polynomial {
+  static constexpr int kLargestDegree = 32;
+  int degree = 0;
+  std::array<double, kLargestDegree + 1> c{};
+
+  double largest() const {  ///< max |c_i|, a bound of the absolute value on [0, 1]
+    double most = 0;
+    for (int i = 0; i <= degree; ++i) most = std::fmax(most, std::abs(c[i]));
+    return most;
+  }
+};
+
+/// Sets weights[i] = B_i(t) for i = 0 … degree.
+inline void basis(int degree, double t, double* weights) {
+  weights[0] = 1;
+  for (int n = 1; n <= degree; ++n) {
+    double carried = 0;
+    for (int i = 0; i < n; ++i) {
+      const double w = weights[i];
+      weights[i] = carried + (1 - t) * w;
+      carried = t * w;
+    }
+    weights[n] = carried;
+  }
+}
+
+/// Returns the polynomial on [from, to], as a polynomial on [0, 1] (de Casteljau, twice).
+Polynomial restricted(Polynomial p, double from, double to);
+/// Returns the same polynomial with a higher degree.
+Polynomial elevated(const Polynomial& p, int degree);
+Polynomial product(const Polynomial& a, const Polynomial& b);
+/// Returns outer(inner(t)). @pre the product of the degrees is at most kLargestDegree.
+Polynomial composed(const Polynomial& outer, const Polynomial& inner);
+/// Returns a − b.
+Polynomial difference(const Polynomial& a, const Polynomial& b);
+
+}  // namespace corridor::bernstein

@@ -1,0 +1,271 @@
+#include "planner/trajectory/emit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "collision/core/shortest.h"
+#include "planner/trajectory/limit_bands.h"
+#include "planner/trajectory/row_deviation.h"
+#include "planner/trajectory/row_polynomials.h"
+#include "planner/trajectory/smooth_law.h"
+
+namespace corridor {
+namespace {
+
+/// An interval between rows is halved if it uses a limit by more than this factor.
+constexpr double kExcess = 1.0005;
+/// Halvings of one segment of the law.
+constexpr int kHalvings = 10;
+constexpr std::size_t kMostRows = 1'000'000;
+
+/// Chooses the rows of a law.
+class Rows {
+ public:
+  Rows(const std::vector<LawSegment>& segments, const std::vector<double>& stops,
+       const PathView& view, const JointLimits& limits, const EmitOptions& options)
+      : segments_(segments),
+        view_(view),
+        limits_(limits),
+        options_(options),
+        clock_(segments, view) {
+    addRequired(stops);
+  }
+
+  void make() {
+    rows.push_back(clock_.row({0, 0}));
+    for (std::size_t i = 0; i + 1 < required_.size(); ++i)
+      fill(required_[i], required_[i + 1], kHalvings);
+    extra = rows.size() - required_.size();
+  }
+
+  std::vector<TimedRow> rows;
+  double deviation = 0;
+  std::size_t extra = 0;
+
+ private:
+  /// The rows that must be there: start and end, stops, ends of pieces if rotations move, and the
+  /// regular ones.
+  void addRequired(const std::vector<double>& stops) {
+    std::vector<LawTime> all;
+    const double end = clock_.timeOf(clock_.end());
+    std::size_t stop = 0;
+    for (std::size_t k = 0; k < segments_.size(); ++k) {
+      const bool isStop = stop < stops.size() && segments_[k].time >= stops[stop];
+      if (isStop) ++stop;
+      const bool isPiece = k > 0 && segments_[k].piece != segments_[k - 1].piece;
+      if (k == 0 || isStop || (isPiece && !view_.rotations().empty())) all.push_back({k, 0});
+    }
+    if (options_.rate) {
+      const double period = 1 / *options_.rate;
+      for (double i = 1; i * period < end; ++i) all.push_back(clock_.at(i * period));
+    }
+    std::stable_sort(all.begin(), all.end(), [&](const LawTime& a, const LawTime& b) {
+      return clock_.timeOf(a) < clock_.timeOf(b);
+    });
+    // Rows that are nearer than this are one: stops that a period meets up to rounding.
+    const double least = 1e-9 * end;
+    for (const LawTime& t : all)
+      if (required_.empty() || clock_.timeOf(t) > clock_.timeOf(required_.back()) + least)
+        required_.push_back(t);
+      else if (t.since == 0)
+        required_.back() = t;  // the begin of a segment is exact
+    while (required_.size() > 1 && clock_.timeOf(required_.back()) > end - least)
+      required_.pop_back();
+    required_.push_back(clock_.end());
+  }
+
+  /// Adds the rows after `from` up to `to`.
+  void fill(const LawTime& from, const LawTime& to, int halvings) {
+    const TimedRow first = rows.back(), last = clock_.row(to);
+    const double distance = rowDeviation(segments_, view_, from, to, first, last, options_.degree);
+    const bool isNear = distance <= options_.deviation;
+    // A switch inside one segment can't be: there, only the deviation is a reason to halve.
+    const bool oneSegment =
+        to.segment == from.segment || (to.segment == from.segment + 1 && to.since == 0);
+    const bool fine =
+        isNear && (usesLittle(first, last) || (oneSegment && halvings < kHalvings - 2));
+    if (fine || halvings == 0 || rows.size() >= kMostRows) {
+      rows.push_back(last);
+      deviation = std::max(deviation, distance);
+      return;
+    }
+    const LawTime middle = between(from, to, oneSegment);
+    const int left = oneSegment ? halvings - 1 : halvings;
+    fill(from, middle, left);
+    fill(middle, to, left);
+  }
+
+  /// Returns a time in the middle: the begin of a segment, or the middle of one segment.
+  LawTime between(const LawTime& from, const LawTime& to, bool oneSegment) const {
+    if (oneSegment) {
+      const double end = to.segment == from.segment ? to.since : segments_[from.segment].duration;
+      return {from.segment, (from.since + end) / 2};
+    }
+    const std::size_t last = to.since == 0 ? to.segment - 1 : to.segment;
+    return {from.segment + (last - from.segment + 1) / 2, 0};
+  }
+
+  /// Whether the curve of two rows exceeds no limit by more than the factor kExcess.
+  bool usesLittle(const TimedRow& first, const TimedRow& last) const {
+    const auto size = static_cast<Eigen::Index>(view_.space().size());
+    Configuration most[2][6];
+    for (auto& kind : most)
+      for (Configuration& values : kind) values = Configuration::Zero(size);
+    int degrees[2] = {0, 0};
+    for (Eigen::Index n = 0; n < size; ++n) {
+      const RowPolynomials p = rowPolynomials(first, last, options_.degree, n);
+      int kind = 0;
+      for (const BoundedPolynomial* polynomial : {&p.acceleration, &p.jerk}) {
+        degrees[kind] = polynomial->degree;
+        for (int i = 0; i <= polynomial->degree; ++i) most[kind][i][n] = polynomial->c[i];
+        ++kind;
+      }
+    }
+    int kind = 0;
+    for (const Configuration* limit : {&limits_.acceleration, &limits_.jerk}) {
+      for (int i = 0; i <= degrees[kind]; ++i) {
+        for (const Eigen::Index r : view_.rotations()) most[kind][i].segment<4>(r).setZero();
+        if (sharesOf(most[kind][i], *limit, view_.space()).maxCoeff() > kExcess) return false;
+      }
+      ++kind;
+    }
+    return true;
+  }
+
+  const std::vector<LawSegment>& segments_;
+  const PathView& view_;
+  const JointLimits& limits_;
+  const EmitOptions& options_;
+  LawClock clock_;
+  std::vector<LawTime> required_;
+};
+
+/// Makes each run last a whole number of periods, by slowing it down.
+void alignRuns(TimeLaw& law, double period) {
+  std::vector<LawSegment> result;
+  std::vector<double> ends = law.stopTimes, stops;
+  ends.push_back(law.duration);
+  double begin = 0, newBegin = 0;
+  std::size_t k = 0;
+  for (const double end : ends) {
+    const double length = end - begin;
+    // 1e-9: a run that is longer than whole periods by rounding only keeps its number of periods.
+    const double wanted = std::max(1.0, std::ceil(length / period - 1e-9)) * period;
+    std::vector<LawSegment> run;
+    for (; k < law.segments.size() && law.segments[k].time < end - 1e-12 * law.duration; ++k) {
+      run.push_back(law.segments[k]);
+      run.back().time -= begin;
+    }
+    slowDown(run, std::max(1.0, wanted / length));
+    for (LawSegment& segment : run) {
+      segment.time += newBegin;
+      result.push_back(segment);
+    }
+    begin = end;
+    newBegin = result.back().time + result.back().duration;
+    stops.push_back(newBegin);
+  }
+  law.segments = std::move(result);
+  law.duration = newBegin;
+  stops.pop_back();
+  law.stopTimes = std::move(stops);
+}
+
+/// Returns the factor for all times with which the limits hold.
+double neededFactor(const LimitRatios& ratios) {
+  return std::max({ratios.velocity.share, ratios.link.share, std::sqrt(ratios.acceleration.share),
+                   std::cbrt(ratios.jerk.share)});
+}
+
+void slowDown(std::vector<TimedRow>& rows, double factor) {
+  for (TimedRow& row : rows) {
+    row.time *= factor;
+    row.velocity /= factor;
+    row.acceleration /= factor * factor;
+  }
+}
+
+std::string faultOfOptions(const EmitOptions& options) {
+  if (options.degree != 3 && options.degree != 5)
+    return "the degree must be 3 or 5, not " + std::to_string(options.degree);
+  if (!(options.deviation > 0)) return "the deviation must be positive";
+  if (options.rate && !(*options.rate > 0 && std::isfinite(*options.rate)))
+    return "the rate must be positive";
+  return "";
+}
+
+}  // namespace
+
+Emission emitRows(const TimeLaw& given, const std::vector<CurvePiece>& path,
+                  const ConfigurationSpace& space, const JointLimits& limits,
+                  const KinematicTree& tree, const EmitOptions& options) {
+  Emission result;
+  const auto fail = [&](const std::string& why) {
+    result.rows.clear();
+    result.fault = "trajectory: " + why;
+    return result;
+  };
+  if (const std::string why = faultOfOptions(options); !why.empty()) return fail(why);
+  const PathView view(path, space);
+  if (given.segments.empty()) {
+    if (path.empty()) return fail("the path is empty");
+    const auto size = static_cast<Eigen::Index>(space.size());
+    result.rows = {{0, view.value(0, 0), Configuration::Zero(size), Configuration::Zero(size)}};
+    return result;
+  }
+  const bool atRest = given.options.startRate == 0 && given.options.endRate == 0;
+  TimeLaw law = given;
+  JointLimits smaller = limits;
+  if (options.rate && atRest) alignRuns(law, 1 / *options.rate);
+  if (options.rate && law.duration * *options.rate > static_cast<double>(kMostRows))
+    return fail("more than 10^6 rows; use a smaller rate");
+  // Each attempt brings the largest share nearer to 1; two or three are needed.
+  for (int attempt = 0; attempt < 8; ++attempt) {
+    Rows rows(law.segments, law.stopTimes, view, limits, options);
+    rows.make();
+    if (rows.deviation > options.deviation)
+      return fail("rows within " + shortest(options.deviation) +
+                  " of the path were not found, but " + "within " + shortest(rows.deviation) +
+                  "; allow a larger deviation");
+    result.rows = std::move(rows.rows);
+    result.deviation = rows.deviation;
+    result.extraRows = options.rate ? rows.extra : 0;
+    // Times are rounded when they are multiplied, so one more round may be needed.
+    for (int round = 0; round < 4; ++round) {
+      result.ratios = proveLimits(result.rows, options.degree, space, limits, tree);
+      const double factor = neededFactor(result.ratios);
+      if (factor <= 1) {
+        result.duration = result.rows.back().time;
+        return result;
+      }
+      if (!std::isfinite(factor)) break;
+      if (!atRest || options.rate) break;  // a uniform stretch would change rates, or periods
+      result.stretch *= factor * (1 + 1e-9);
+      slowDown(result.rows, factor * (1 + 1e-9));
+    }
+    const double factor = neededFactor(result.ratios);
+    if (!std::isfinite(factor)) break;
+    if (atRest) {  // with a rate: slow the law down, and choose rows again
+      slowDown(law.segments, factor * (1 + 1e-9));
+      for (double& stop : law.stopTimes) stop *= factor * (1 + 1e-9);
+      law.duration *= factor * (1 + 1e-9);
+      result.stretch *= factor * (1 + 1e-9);
+      alignRuns(law, 1 / *options.rate);
+      continue;
+    }
+    smaller.velocity /= std::max(1.0, result.ratios.velocity.share) * (1 + 1e-6);
+    smaller.acceleration /= std::max(1.0, result.ratios.acceleration.share) * (1 + 1e-6);
+    for (LinkSpeed& link : smaller.links)
+      link.speed /= std::max(1.0, result.ratios.link.share) * (1 + 1e-6);
+    law = timeLaw(path, space, smaller, tree, given.options);
+    if (!law.fault.empty())
+      return fail("the rates at the ends are too near to the limits for rows that keep them; " +
+                  law.fault);
+  }
+  return fail("rows that keep the limits were not found: the largest shares are " +
+              shortest(result.ratios.velocity.share) + " of a velocity, " +
+              shortest(result.ratios.acceleration.share) + " of an acceleration, " +
+              shortest(result.ratios.jerk.share) + " of a jerk");
+}
+
+}  // namespace corridor

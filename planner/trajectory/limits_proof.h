@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "planner/model/limits.h"
+#include "planner/robot/configuration_space.h"
+#include "planner/robot/kinematic_tree.h"
+
+namespace corridor {
+
+/// A row of a trajectory. A rotation has its angular velocity and acceleration (rad/s, rad/s²; in
+/// the coordinates of the frame before the joint) in the first three of its four numbers.
+struct TimedRow {
+  double time = 0;  ///< seconds
+  Configuration position, velocity, acceleration;
+};
+
+/// The largest share of a limit, over all numbers.
+struct LimitShare {
+  double share = 0;        ///< 1: the limit is reached
+  std::size_t number = 0;  ///< of a Configuration; for link speeds: index into JointLimits::links
+  double time = 0;         ///< seconds: the begin of the interval between rows
+};
+
+/// Upper bounds, valid at every instant.
+struct LimitRatios {
+  LimitShare velocity, acceleration, jerk, link;
+  /// The largest distance by which a line leaves [lower, upper]; m or rad; share 0: none does.
+  LimitShare position;
+};
+
+/// Returns upper bounds of the share of each limit that the curve of the rows uses at any instant.
+/// The curve between two rows, in real arithmetic on the stored doubles, is
+/// - degree 1: linear in the positions (only position and velocity are bounded; the acceleration of
+///   such a curve has no bound, and its share is infinite if it is limited and rows have a bend);
+/// - degree 3: the cubic Hermite polynomial of positions and velocities;
+/// - degree 5: the quintic Hermite polynomial of positions, velocities and accelerations.
+/// Its derivatives are Bernstein polynomials. Their coefficients bound them (for positions of
+/// planar and floating joints: the lengths of the coefficient vectors). An interval is halved until
+/// the bound is at most 1, or is within 0.01 % of a value that is attained. All roundings of the
+/// coefficients are included (limits_proof.cpp). The cubic's jerk is not bounded: its acceleration
+/// jumps at rows.
+/// - Rotations are slerps of constant rate between rows (curve.h), so their velocity jumps at rows.
+///   Bounded: the rate; and the change of rate from one interval to the next, divided by the mean
+///   of the two durations, in place of an acceleration.
+/// - Speeds of links: the largest speed of the points of LinkSpeed, from the Jacobian in the middle
+///   of an interval and a bound of the points' acceleration, halved as above.
+/// @pre at least one row; ascending times; finite numbers.
+LimitRatios proveLimits(const std::vector<TimedRow>& rows, int degree,
+                        const ConfigurationSpace& space, const JointLimits& limits,
+                        const KinematicTree& tree);
+
+}  // namespace corridor

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "planner/robot/configuration_space.h"
+#include "planner/robot/curve.h"
+
+namespace corridor {
+
+/// Values and derivatives of a path of pieces, by the parameter τ of each piece. Keeps references:
+/// path and space must outlive it.
+class PathView {
+ public:
+  PathView(const std::vector<CurvePiece>& path, const ConfigurationSpace& space);
+
+  const std::vector<CurvePiece>& path() const { return path_; }
+  const ConfigurationSpace& space() const { return space_; }
+  /// Returns the configuration. Rotations are normalised.
+  Configuration value(std::size_t piece, double tau) const;
+  /// Computes dq/dτ and d²q/dτ². A rotation has its rotation vector per τ (in the coordinates of
+  /// the frame before the joint; constant in a piece) in the first three of its four numbers.
+  void derivatives(std::size_t piece, double tau, Configuration& first,
+                   Configuration& second) const;
+  /// Returns d³q/dτ³.
+  Configuration thirdDerivative(std::size_t piece, double tau) const;
+  /// Returns a bound of the length of dq/dτ in a piece; 0 if the piece has no length.
+  double speedBound(std::size_t piece) const;
+  /// Returns whether the piece is a straight line at a constant rate.
+  bool isStraight(std::size_t piece) const;
+  /// Indices of the first numbers of rotations.
+  const std::vector<Eigen::Index>& rotations() const { return rotations_; }
+  /// Returns the rotation vector (radians) from the start to the end of a piece, for rotation r.
+  Eigen::Vector3d turn(std::size_t piece, std::size_t r) const {
+    return turns_[piece * rotations_.size() + r];
+  }
+
+ private:
+  const std::vector<CurvePiece>& path_;
+  const ConfigurationSpace& space_;
+  std::vector<Eigen::Index> rotations_;
+  std::vector<Eigen::Vector3d> turns_;
+};
+
+/// Returns the rotation vector from quaternion a to b (x, y, z, w; any norms) along the shorter
+/// arc, in the coordinates of the frame in which a and b are given.
+Eigen::Vector3d rotationVector(const Eigen::Vector4d& a, const Eigen::Vector4d& b);
+
+}  // namespace corridor

@@ -1,0 +1,162 @@
+#include "planner/trajectory/reachability.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace corridor {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+struct Interval {
+  double lower = 0, upper = 0;
+};
+
+/// A line of the boundary in the plane (x, u): u = value − slope·x.
+struct Line {
+  double value = 0, slope = 0;
+  double at(double x) const { return value - slope * x; }
+};
+
+/// The pairs (x, u) that the limits of one interval allow. For each x, u is in [lowest line,
+/// highest line]: upper lines are u ≤ inv − slope·x, lower lines u ≥ −inv − slope·x.
+class Cell {
+ public:
+  /// Sets the limits at both ends of interval i.
+  void set(const LimitGrid& grid, std::size_t i) {
+    lines_.clear();
+    width_ = grid.s[i + 1] - grid.s[i];
+    cap_ = grid.xMax[i];
+    for (std::size_t k = 0; k < grid.bands; ++k) {
+      const std::size_t left = i * grid.bands + k, right = left + grid.bands;
+      add(grid.a[left], grid.b[left]);
+      add(grid.a[right] + 2 * width_ * grid.b[right], grid.b[right]);  // x at the right end: x+2Δu
+    }
+  }
+  double cap() const { return cap_; }
+  double width() const { return width_; }
+
+  /// Returns the highest of the lower lines and the lowest of the upper lines, at x, if the next x
+  /// must be in `next`.
+  void bounds(double x, const Interval& next, Line& low, Line& high) const {
+    const double half = 0.5 / width_;  // the next x: lower ≤ x + 2Δu ≤ upper
+    high = {next.upper * half, half};
+    low = {next.lower * half, half};
+    double most = high.at(x), least = low.at(x);
+    for (const Line& line : lines_) {
+      const double middle = -line.slope * x;
+      if (middle + line.value < most) {
+        most = middle + line.value;
+        high = line;
+      }
+      if (middle - line.value > least) {
+        least = middle - line.value;
+        low = {-line.value, line.slope};
+      }
+    }
+  }
+
+  /// Returns the x from which `next` can be reached; lower > upper if there is none. The set of
+  /// pairs is convex, so the width of u is a concave function of x, and Newton's method from
+  /// outside never steps over its roots. It ends at one, since the function is piecewise linear.
+  Interval reachableFrom(const Interval& next) const {
+    double top = cap_;
+    if (!std::isfinite(top)) {  // u ≥ −value − slope·x of any line, and x + 2Δu ≤ upper
+      top = 4 * next.upper;
+      for (const Line& line : lines_) top = std::max(top, 4 * line.value * width_);
+      if (!std::isfinite(top)) return {0, kInfinity};
+    }
+    const double upper = root(top, next, true);
+    if (!(upper >= 0)) return {1, 0};
+    const double lower = root(0, next, false);
+    return lower <= upper ? Interval{lower, upper} : Interval{upper, upper};
+  }
+
+ private:
+  void add(double a, double b) {
+    const double size = std::abs(a), slope = a < 0 ? -b : b;
+    // A band without u bounds x alone. The threshold only avoids overflows: beyond it, the band
+    // allows u of 1e200.
+    if (size < 1e-200)
+      cap_ = std::min(cap_, std::abs(b) > 0 ? 1 / std::abs(b) : kInfinity);
+    else
+      lines_.push_back({1 / size, slope / size});
+  }
+
+  /// Returns the first x, from `x` downwards (or upwards) at which some u is allowed; NaN: none.
+  double root(double x, const Interval& next, bool downwards) const {
+    for (std::size_t step = 0; step < 4 * lines_.size() + 8; ++step) {
+      Line low, high;
+      bounds(x, next, low, high);
+      const double gap = high.at(x) - low.at(x);
+      const double size = std::abs(high.value) + std::abs(low.value) +
+                          (std::abs(high.slope) + std::abs(low.slope)) * x;
+      if (gap >= -0x1p-40 * size) return x;  // 2^-40: far above the rounding of the lines' values
+      const double slope = low.slope - high.slope;  // of the gap
+      if (downwards ? slope >= 0 : slope <= 0) return NAN;
+      const double to = x - gap / slope;
+      if (!(downwards ? to < x : to > x)) return x;
+      if (to < 0) return downwards ? (x > 0 && gap >= -0x1p-30 * size ? 0 : NAN) : NAN;
+      x = to;
+    }
+    return x;
+  }
+
+  std::vector<Line> lines_;
+  double width_ = 0, cap_ = 0;
+};
+
+}  // namespace
+
+Profile fastestProfile(const LimitGrid& grid, double start, double end) {
+  const std::size_t n = grid.size();
+  Profile profile;
+  profile.x.assign(n, 0);
+  profile.u.assign(n - 1, 0);
+  const auto fail = [&](Profile::Failure failure, std::size_t node, const Interval& set) {
+    profile.failure = failure;
+    profile.node = node;
+    profile.lower = set.lower;
+    profile.upper = set.upper;
+    return profile;
+  };
+  std::vector<Interval> sets(n);
+  const double last = grid.xMax[n - 1];
+  sets[n - 1] = std::isfinite(end) ? Interval{end, end} : Interval{0, last};
+  // Rates that are given may be at the limit itself, up to their rounding.
+  if (std::isfinite(end) && end > last * (1 + 0x1p-40))
+    return fail(Profile::Failure::end, n - 1, {0, last});
+  Cell cell;
+  for (std::size_t i = n - 1; i-- > 0;) {
+    if (grid.s[i + 1] == grid.s[i]) {
+      sets[i] = {sets[i + 1].lower, std::min(sets[i + 1].upper, grid.xMax[i])};
+    } else {
+      cell.set(grid, i);
+      sets[i] = cell.reachableFrom(sets[i + 1]);
+    }
+    if (!(sets[i].lower <= sets[i].upper)) return fail(Profile::Failure::end, i, sets[i + 1]);
+  }
+  double x = std::isfinite(start) ? start : sets[0].upper;
+  if (!(x >= sets[0].lower * (1 - 0x1p-40) && x <= sets[0].upper * (1 + 0x1p-40)))
+    return fail(Profile::Failure::start, 0, sets[0]);
+  profile.x[0] = x;
+  for (std::size_t i = 0; i + 1 < n; ++i) {
+    if (grid.s[i + 1] > grid.s[i]) {
+      cell.set(grid, i);
+      Line low, high;
+      cell.bounds(x, sets[i + 1], low, high);
+      const double u = std::max(high.at(x), low.at(x));
+      const double to = std::clamp(x + 2 * cell.width() * u, sets[i + 1].lower, sets[i + 1].upper);
+      profile.u[i] = (to - x) / (2 * cell.width());
+      if (!(x + to > 0)) return fail(Profile::Failure::stuck, i, sets[i + 1]);
+      x = to;
+    } else {
+      x = std::clamp(x, sets[i + 1].lower, sets[i + 1].upper);
+    }
+    profile.x[i + 1] = x;
+  }
+  return profile;
+}
+
+}  // namespace corridor

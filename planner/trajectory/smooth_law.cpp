@@ -1,0 +1,213 @@
+#include "planner/trajectory/smooth_law.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/trajectory/link_speed.h"
+
+namespace corridor {
+namespace {
+
+/// A law of s over time, with constant s̈ between knots.
+struct PathMotion {
+  std::vector<double> time, s, rate;  // at the knots
+  std::vector<double> acceleration;   // of each interval; one less
+};
+
+PathMotion motionOf(const PathRun& run, const std::vector<LawSegment>& segments) {
+  PathMotion motion;
+  double begin = 0;  // s at the start of the part
+  std::size_t part = 0;
+  for (const LawSegment& segment : segments) {
+    while (run.parts[part].piece != segment.piece) begin += run.parts[part++].length;
+    const double length = run.parts[part].length;
+    motion.time.push_back(segment.time);
+    motion.s.push_back(begin + segment.tau * length);
+    motion.rate.push_back(segment.rate * length);
+    motion.acceleration.push_back(segment.acceleration * length);
+  }
+  motion.time.push_back(segments.back().time + segments.back().duration);
+  motion.s.push_back(begin + run.parts[part].length);
+  motion.rate.push_back(0);
+  return motion;
+}
+
+/// Walks through a PathMotion at ascending times. Before the first knot and after the last one, s
+/// is constant.
+class Walk {
+ public:
+  explicit Walk(const PathMotion& motion) : motion_(motion) {}
+  void to(double time) {
+    while (next_ < motion_.time.size() && motion_.time[next_] <= time) ++next_;
+    if (next_ == 0) {
+      s = motion_.s.front();
+      rate = acceleration = 0;
+    } else if (next_ == motion_.time.size()) {
+      s = motion_.s.back();
+      rate = acceleration = 0;
+    } else {
+      const std::size_t k = next_ - 1;
+      const double d = time - motion_.time[k];
+      acceleration = motion_.acceleration[k];  // just after `time`
+      rate = motion_.rate[k] + d * acceleration;
+      s = motion_.s[k] + d * (motion_.rate[k] + d / 2 * acceleration);
+    }
+  }
+  double s = 0, rate = 0, acceleration = 0;
+
+ private:
+  const PathMotion& motion_;
+  std::size_t next_ = 0;
+};
+
+/// Returns the times at which s̈ of the averaged motion has a bend.
+std::vector<double> knotsOf(const PathMotion& motion, double window) {
+  std::vector<double> knots;
+  for (const double t : motion.time) knots.push_back(t), knots.push_back(t + window);
+  std::sort(knots.begin(), knots.end());
+  // Knots that are closer than this make segments without influence.
+  const double least = 1e-7 * knots.back();
+  std::vector<double> apart{knots.front()};
+  for (const double t : knots)
+    if (t > apart.back() + least) apart.push_back(t);
+  apart.back() = knots.back();
+  return apart;
+}
+
+/// Returns the smallest d in [0, most] at which the cubic reaches `target`. @pre it is ascending.
+double timeOf(const LawSegment& cubic, double target, double most) {
+  double low = 0, high = most;
+  for (int step = 0; step < 60; ++step) {
+    const double d = (low + high) / 2;
+    const double value =
+        cubic.tau + d * (cubic.rate + d / 2 * (cubic.acceleration + d / 3 * cubic.jerk));
+    (value < target ? low : high) = d;
+  }
+  return (low + high) / 2;
+}
+
+/// Returns the averaged motion, as segments of the pieces.
+std::vector<LawSegment> averaged(const PathRun& run, const PathMotion& motion, double window) {
+  std::vector<LawSegment> result;
+  Walk now(motion), then(motion);
+  const std::vector<double> knots = knotsOf(motion, window);
+  std::size_t part = 0;
+  double begin = 0, s = 0;
+  for (std::size_t k = 0; k + 1 < knots.size(); ++k) {
+    now.to(knots[k]);
+    then.to(knots[k] - window);
+    LawSegment cubic{knots[k],
+                     knots[k + 1] - knots[k],
+                     0,
+                     s,
+                     (now.s - then.s) / window,
+                     (now.rate - then.rate) / window,
+                     (now.acceleration - then.acceleration) / window};
+    const auto advance = [&](double d) {
+      cubic.tau += d * (cubic.rate + d / 2 * (cubic.acceleration + d / 3 * cubic.jerk));
+      cubic.rate += d * (cubic.acceleration + d / 2 * cubic.jerk);
+      cubic.acceleration += d * cubic.jerk;
+      cubic.time += d;
+      cubic.duration -= d;
+    };
+    const auto push = [&](double d) {
+      const double length = run.parts[part].length;
+      if (d > 0)
+        result.push_back({cubic.time, d, run.parts[part].piece,
+                          std::clamp((cubic.tau - begin) / length, 0.0, 1.0),
+                          std::max(0.0, cubic.rate) / length, cubic.acceleration / length,
+                          cubic.jerk / length});
+    };
+    for (;;) {
+      const double end = begin + run.parts[part].length, d = cubic.duration;
+      const double s1 =
+          cubic.tau + d * (cubic.rate + d / 2 * (cubic.acceleration + d / 3 * cubic.jerk));
+      if (part + 1 == run.parts.size() || s1 < end) break;
+      const double split = timeOf(cubic, end, d);
+      push(split);
+      advance(split);
+      cubic.tau = end;
+      begin = end;
+      ++part;
+    }
+    push(cubic.duration);
+    advance(cubic.duration);
+    s = cubic.tau;
+  }
+  return result;
+}
+
+/// Returns the smallest factor for all times with which the limits hold at the ends and the middle
+/// of each segment.
+double neededFactor(const PathView& view, const JointLimits& limits, const KinematicTree& tree,
+                    const std::vector<LawSegment>& segments) {
+  double factor = 0;
+  Configuration first, second, third;
+  for (const LawSegment& segment : segments) {
+    for (int k = 0; k <= 2; ++k) {
+      const double d = k * segment.duration / 2;
+      const double rate = segment.rate + d * (segment.acceleration + d / 2 * segment.jerk);
+      const double acceleration = segment.acceleration + d * segment.jerk;
+      const double tau = std::clamp(
+          segment.tau + d * (segment.rate + d / 2 * (segment.acceleration + d / 3 * segment.jerk)),
+          0.0, 1.0);
+      view.derivatives(segment.piece, tau, first, second);
+      third = view.thirdDerivative(segment.piece, tau);
+      const auto most = [&](const Configuration& values, const Configuration& limit) {
+        return sharesOf(values, limit, view.space()).maxCoeff();
+      };
+      factor = std::max(factor, most(first * rate, limits.velocity));
+      factor = std::max(factor, std::sqrt(most(second * (rate * rate) + first * acceleration,
+                                               limits.acceleration)));
+      factor = std::max(
+          factor, std::cbrt(most(third * (rate * rate * rate) + second * (3 * rate * acceleration) +
+                                     first * segment.jerk,
+                                 limits.jerk)));
+      if (!limits.links.empty())
+        for (const double share :
+             linkSpeedShares(tree, limits.links, view.value(segment.piece, tau), first * rate))
+          factor = std::max(factor, share);
+    }
+  }
+  return factor;
+}
+
+}  // namespace
+
+void slowDown(std::vector<LawSegment>& segments, double factor) {
+  for (LawSegment& segment : segments) {
+    segment.time *= factor;
+    segment.duration *= factor;
+    segment.rate /= factor;
+    segment.acceleration /= factor * factor;
+    segment.jerk /= factor * factor * factor;
+  }
+}
+
+std::vector<LawSegment> smoothLaw(const PathView& view, const PathRun& run,
+                                  const JointLimits& limits, const KinematicTree& tree,
+                                  const std::vector<LawSegment>& segments) {
+  if (segments.empty()) return segments;
+  const PathMotion motion = motionOf(run, segments);
+  const double duration = motion.time.back();
+  std::vector<LawSegment> best;
+  double shortest = INFINITY, window = 0;
+  const auto attempt = [&](double w) {
+    std::vector<LawSegment> law = averaged(run, motion, w);
+    const double factor = neededFactor(view, limits, tree, law), total = factor * (duration + w);
+    if (!(total < shortest)) return;
+    slowDown(law, factor);
+    best = std::move(law);
+    shortest = total;
+    window = w;
+  };
+  for (int k = -9; k <= 4; ++k) attempt(std::ldexp(duration, k));
+  for (double step = std::sqrt(2.0); step > 1.05; step = std::sqrt(step)) {
+    const double centre = window;
+    attempt(centre * step);
+    attempt(centre / step);
+  }
+  return best;
+}
+
+}  // namespace corridor

@@ -1,0 +1,203 @@
+// Pieces of curves that graze an obstacle by construction, and random ones against samples.
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+
+#include <gtest/gtest.h>
+
+#include "collision/queries/interference.h"
+#include "planner/robot/edge_motion.h"
+#include "tests/planner/robot/random_trees.h"
+#include "tests/planner/robot/reference_kinematics.h"
+#include "tests/support/meshes.h"
+#include "tests/support/support.h"
+
+namespace corridor {
+namespace {
+
+using test::add;
+using test::MovingPose;
+using test::RandomTrees;
+using test::Real;
+using test::ReferenceKinematics;
+
+/// A random piece for the tree. Each row is smooth enough that some pieces pass a place only once.
+CurvePiece randomPiece(RandomTrees& random, int degree, double size) {
+  random.makeEdge(size);
+  CurvePiece piece;
+  const auto numbers = static_cast<Eigen::Index>(random.space.size());
+  piece.coefficients.resize(numbers, degree + 1);
+  piece.error = Configuration::Zero(numbers);
+  for (Eigen::Index row = 0; row < numbers; ++row)
+    for (int i = 0; i <= degree; ++i)
+      piece.coefficients(row, i) = random.from[row] + size * random.real();
+  for (const Coordinate& c : random.space.coordinates()) {
+    if (c.kind != Coordinate::Kind::rotation) continue;
+    const auto first = static_cast<Eigen::Index>(c.first);
+    piece.coefficients.col(0).segment<4>(first) = random.from.segment<4>(first);
+    piece.coefficients.col(degree).segment<4>(first) = random.to.segment<4>(first);
+  }
+  return piece;
+}
+
+/// A piece on which a corner of b passes over a face of a, or a corner of a under a face of b. At
+/// the time t* they are `gap` apart along the face's normal, which is orthogonal to the velocity
+/// there. At all other times b is higher. So the verdict is known without an oracle.
+struct CurveGrazing {
+  CurvePiece piece;
+  Scene::FramePair frames{0, 0};
+  TriangleMesh a, b;
+  bool known = false;
+
+  CurveGrazing(RandomTrees& random, int n, double gap) {
+    random.makeTree(1 + random.index(5));
+    piece = randomPiece(random, 2 + n % 8, n % 3 ? 0.5 : 2);
+    frames.b = random.tree.frames.size() - 1;
+    const ReferenceKinematics reference(random.tree, random.space, piece);
+    const double at = n % 5 ? random.real(0.05, 0.95) : n % 2;
+    const MovingPose there = reference.relative(0, frames.b, at);
+    const Vec3 p = random.vector(0.5);
+    const test::Vec3L x = there.at(p), v = there.velocity(p);
+    if (v.norm() < 1e-6L) return;
+    const test::Vec3L away = random.direction().cast<Real>();
+    test::Vec3L up =
+        n % 5 ? test::Vec3L(away - v * (v.dot(away) / v.squaredNorm()))
+              : test::Vec3L(n % 2 ? -v : v);  // approaches at the end, leaves at the start
+    up.normalize();
+    const test::Vec3L later =
+        reference.relative(0, frames.b, at + (at < 0.5 ? 0.01L : -0.01L)).at(p);
+    if (n % 5 && up.dot(later - x) < 0) up = -up;
+    const test::Vec3L side = up.unitOrthogonal(), other = up.cross(side);
+    const auto around = [&](int i, double r) {
+      return test::Vec3L(r * (std::cos(2.1L * i) * side + std::sin(2.1L * i) * other));
+    };
+    test::Vec3L low[3], high[3];
+    for (int i = 0; i < 3; ++i) low[i] = around(i, random.real(0.3, 1));
+    high[0] = test::Vec3L::Zero();
+    high[1] = around(0, 0.2) + 0.3L * up, high[2] = around(1, 0.3) + 0.2L * up;
+    if (n % 2) {  // a's corner under b's face
+      for (int i = 0; i < 3; ++i) high[i] = around(i, random.real(0.1, 0.4));
+      low[0] = test::Vec3L::Zero(), low[1] = around(0, 0.2) - 0.3L * up,
+      low[2] = around(1, 0.3) - 0.2L * up;
+    }
+    const auto world = [&](const test::Vec3L& y) { return Vec3((x + y).cast<double>()); };
+    const auto body = [&](const test::Vec3L& y) {
+      return Vec3((there.m.transpose() * (x + y + gap * up - there.t)).cast<double>());
+    };
+    add(a, world(low[0]), world(low[1]), world(low[2]));
+    add(b, body(high[0]), body(high[1]), body(high[2]));
+    const auto lowest = [&](Real t) {
+      const MovingPose X = reference.relative(0, frames.b, t);
+      Real least = 1e300L;
+      for (const Vec3& q : b.vertices) least = std::min(least, up.dot(X.at(q) - x));
+      return least;
+    };
+    const Real least = lowest(at);
+    known = true;
+    const auto check = [&](Real t) {
+      if (t >= 0 && t <= 1) known = known && lowest(t) >= least - 1e-16L;
+    };
+    for (int i = 0; i <= 200 && known; ++i) check(i / 200.0L);
+    for (int k = 2; k < 9 && known; ++k)
+      check(at + std::pow(10.0L, -k)), check(at - std::pow(10.0L, -k));
+  }
+};
+
+TEST(CurveMotion, CurvesThatGrazeByConstruction) {
+  RandomTrees random(test::testSeed(51));
+  const int count = (test::isStressRun() ? 20'000 : 600) / test::kSlowdown;
+  int apart = 0, together = 0, notFree = 0, notFound = 0;
+  QueryContext context;
+  for (int n = 0; apart + together < count; ++n) {
+    const double amount = std::pow(10.0, -2 - n % 11);
+    const double gap = n / 11 % 2 ? amount : -amount;
+    const CurveGrazing g(random, n, gap);
+    if (!g.known) continue;
+    (gap > 0 ? apart : together)++;
+    EdgeMotion motion(random.tree, random.space, {&g.frames, 1}, random.noTube());
+    motion.set(g.piece);
+    MotionOptions options;
+    options.tolerance = 1e-7;
+    options.earliest = n % 2;
+    const Body a("", g.a), b("", g.b);
+    const MotionPair pair{&a, &b};
+    const MotionResult r = certifyMotion(motion, {&pair, 1}, options, context);
+    if (gap < 0) {
+      ASSERT_NE(r.verdict, MotionVerdict::free) << n << ", depth " << amount;
+      notFound += r.verdict != MotionVerdict::contact && amount > 1e-6;
+    } else {
+      ASSERT_NE(r.verdict, MotionVerdict::contact) << n << ", gap " << amount;
+      notFree += r.verdict != MotionVerdict::free && amount > 2e-7;
+    }
+  }
+  EXPECT_EQ(notFree, 0);
+  EXPECT_EQ(notFound, 0);
+  EXPECT_GT(apart, count / 4);
+  EXPECT_GT(together, count / 4);
+  std::cout << apart << " apart, " << together << " together; "
+            << context.counters.boxTests / (apart + together) << " box tests per piece\n";
+}
+
+/// Random pieces of all degrees: if the verdict is `free`, no sampled pose touches. Reversal and
+/// elevation of the degree do not change a verdict.
+TEST(CurveMotion, RandomPiecesAgainstSamples) {
+  RandomTrees random(test::testSeed(52));
+  const int count = (test::isStressRun() ? 100'000 : 3'000) / test::kSlowdown;
+  int verdicts[3] = {};
+  QueryContext context;
+  for (int n = 0; n < count; ++n) {
+    random.makeTree(1 + random.index(6));
+    const int degree = 1 + n % 8;
+    const CurvePiece piece = randomPiece(random, degree, std::pow(10.0, random.real(-2, 0.3)));
+    const Scene::FramePair frames{0, random.tree.frames.size() - 1};
+    EdgeMotion motion(random.tree, random.space, {&frames, 1}, random.noTube());
+    const ReferenceKinematics reference(random.tree, random.space, piece);
+    const Vec3 center = reference.relative(0, frames.b, 0.5L).t.cast<double>();
+    TriangleMesh meshA, meshB;
+    for (int i = 0; i < 20; ++i) {
+      const Vec3 c = center + random.vector(1.5), d = random.vector(0.3);
+      add(meshA, c, c + random.vector(0.4), c + random.vector(0.4));
+      add(meshB, d, d + random.vector(0.2), d + random.vector(0.2));
+    }
+    const Body a("", meshA), b("", meshB);
+    const MotionPair pair{&a, &b};
+    MotionOptions options;
+    options.tolerance = 1e-7;
+    const auto verdictOf = [&](const CurvePiece& curve) {
+      motion.set(curve);
+      return certifyMotion(motion, {&pair, 1}, options, context);
+    };
+    const MotionResult r = verdictOf(piece);
+    ++verdicts[static_cast<int>(r.verdict)];
+    const auto touches = [&](Real t) {
+      const MovingPose X = reference.relative(0, frames.b, t);
+      return interference(Posed(a.binaryTree()),
+                          Posed(b.binaryTree(), {X.m.cast<double>(), X.t.cast<double>()}), context);
+    };
+    CurvePiece reversed = piece, elevated = piece;
+    reversed.coefficients = piece.coefficients.rowwise().reverse();
+    elevated.coefficients.resize(piece.coefficients.rows(), degree + 2);
+    for (int i = 0; i <= degree + 1; ++i) {
+      const double share = static_cast<double>(i) / (degree + 1);
+      elevated.coefficients.col(i) = share * piece.coefficients.col(std::max(i - 1, 0)) +
+                                     (1 - share) * piece.coefficients.col(std::min(i, degree));
+    }
+    if (r.verdict != MotionVerdict::undecided) {
+      ASSERT_EQ(verdictOf(reversed).verdict, r.verdict) << n;
+      ASSERT_EQ(verdictOf(elevated).verdict, r.verdict) << n;
+    }
+    if (r.verdict == MotionVerdict::contact) {
+      ASSERT_TRUE(touches(r.contactTime)) << n;
+    }
+    if (r.verdict != MotionVerdict::free) continue;
+    for (int i = 0; i <= 100; ++i) ASSERT_FALSE(touches(i / 100.0L)) << n << " at " << i;
+  }
+  std::cout << verdicts[0] << " free, " << verdicts[1] << " contact, " << verdicts[2]
+            << " undecided\n";
+  EXPECT_GT(verdicts[0], count / 10);
+  EXPECT_GT(verdicts[1], count / 10);
+  EXPECT_LE(verdicts[2], 1 + count / 1000);
+}
+
+}  // namespace
+}  // namespace corridor

@@ -1,0 +1,199 @@
+// Tests of smoothing in the plane, whose curves have closed forms.
+#include "planner/solve/smooth_path.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/support.h"
+
+namespace corridor {
+namespace {
+
+ConfigurationSpace lines(int count, double limit = 100) {
+  ConfigurationSpace space;
+  CoordinateGroup group;
+  for (int i = 0; i < count; ++i) {
+    Coordinate line;
+    line.name = "q" + std::to_string(i);
+    line.lower = -limit;
+    line.upper = limit;
+    group.coordinates.push_back(space.add(line));
+  }
+  space.addGroup(group);
+  return space;
+}
+
+Configuration at(double x, double y) {
+  Configuration q(2);
+  q << x, y;
+  return q;
+}
+
+const CurveTest kAllFree = [](const CurvePiece&) { return true; };
+
+Configuration derivative(const CurvePiece& piece, int order, double tau) {
+  Eigen::MatrixXd b = piece.coefficients;
+  int n = piece.degree();
+  double factor = 1;
+  for (; order > 0; --order, --n) {
+    if (n == 0) return Configuration::Zero(b.rows());
+    factor *= n;
+    for (int i = 0; i < n; ++i) b.col(i) = (b.col(i + 1) - b.col(i)).eval();
+  }
+  for (int left = n; left > 0; --left)
+    for (int i = 0; i < left; ++i) b.col(i) = ((1 - tau) * b.col(i) + tau * b.col(i + 1)).eval();
+  return factor * b.col(0);
+}
+
+/// Pieces join: same place and direction, and no second derivative on either side.
+void expectSmooth(const std::vector<CurvePiece>& pieces) {
+  for (std::size_t k = 0; k + 1 < pieces.size(); ++k) {
+    const CurvePiece &a = pieces[k], &b = pieces[k + 1];
+    ASSERT_EQ(Configuration(a.coefficients.rightCols<1>()), Configuration(b.coefficients.col(0)));
+    const Configuration u = derivative(a, 1, 1), v = derivative(b, 1, 0);
+    EXPECT_NEAR(u.normalized().dot(v.normalized()), 1, 1e-12) << k;
+    EXPECT_LT(derivative(a, 2, 1).norm(), 1e-9) << k;
+    EXPECT_LT(derivative(b, 2, 0).norm(), 1e-9) << k;
+  }
+}
+
+TEST(SmoothPath, RoundsTheCornersOfAFreePath) {
+  const ConfigurationSpace space = lines(2);
+  const Path path = {at(0, 0), at(1, 0), at(1, 1), at(3, 2)};
+  const SmoothPath smooth = smoothedPath(space, path, kAllFree);
+  EXPECT_EQ(smooth.corners, 2u);
+  EXPECT_EQ(smooth.rounded, 2u);
+  EXPECT_EQ(Configuration(smooth.pieces.front().coefficients.col(0)), path.front());
+  EXPECT_EQ(Configuration(smooth.pieces.back().coefficients.rightCols<1>()), path.back());
+  expectSmooth(smooth.pieces);
+}
+
+TEST(SmoothPath, KeepsTheDeviation) {
+  const ConfigurationSpace space = lines(2);
+  const Path path = {at(0, 0), at(1, 0), at(1, 1), at(3, 1)};
+  for (const double most : {1e-3, 1e-2, 0.05}) {
+    SmoothOptions options;
+    options.deviation = most;
+    const SmoothPath smooth = smoothedPath(space, path, kAllFree, options);
+    EXPECT_EQ(smooth.rounded, 2u);
+    expectSmooth(smooth.pieces);
+    double farthest = 0;
+    for (const CurvePiece& piece : smooth.pieces)
+      for (int i = 0; i <= 100; ++i) {
+        const Configuration q = configurationAt(space, piece, i / 100.0);
+        double nearest = HUGE_VAL;  // largest coordinate of the difference from the path
+        for (std::size_t k = 0; k + 1 < path.size(); ++k)
+          for (int j = 0; j <= 2000; ++j)
+            nearest = std::min(
+                nearest,
+                (path[k] + j / 2000.0 * (path[k + 1] - path[k]) - q).cwiseAbs().maxCoeff());
+        farthest = std::max(farthest, nearest);
+      }
+    EXPECT_LE(farthest, most + 5e-4);  // samples of the path are up to 1e-3 apart
+    EXPECT_GT(farthest, 0.3 * most);
+  }
+}
+
+/// The corner of a disc's forbidden region: curves that cut the corner too far are refused.
+TEST(SmoothPath, UsesOnlyCurvesThatAreProved) {
+  const ConfigurationSpace space = lines(2);
+  std::mt19937_64 random(test::testSeed(61));
+  const auto real = [&] { return std::uniform_real_distribution(-1.0, 1.0)(random); };
+  std::size_t rounded = 0, corners = 0;
+  for (int n = 0; n < 300; ++n) {
+    Path path = {at(0, 0)};
+    for (int k = 0; k < 6; ++k) path.push_back(path.back() + at(1 + 0.5 * real(), 2 * real()));
+    const double radius = 0.02 + 0.1 * std::abs(real());
+    std::vector<Configuration> centres;  // discs inside the corners, which the path just passes
+    for (std::size_t k = 1; k + 1 < path.size(); ++k) {
+      const Configuration u = (path[k] - path[k - 1]).normalized(),
+                          v = (path[k + 1] - path[k]).normalized();
+      const Configuration inside = (v - u).normalized();
+      const double half = std::acos(std::clamp(-u.dot(v), -1.0, 1.0)) / 2;
+      centres.push_back(path[k] + (radius * 1.2 / std::sin(half)) * inside);
+    }
+    const auto isFreeAt = [&](const Configuration& q) {
+      return std::all_of(centres.begin(), centres.end(),
+                         [&](const Configuration& c) { return (q - c).norm() > radius; });
+    };
+    const CurveTest isFree = [&](const CurvePiece& piece) {
+      for (int i = 0; i <= 300; ++i)
+        if (!isFreeAt(configurationAt(space, piece, i / 300.0))) return false;
+      return true;
+    };
+    const SmoothPath smooth = smoothedPath(space, path, isFree);
+    rounded += smooth.rounded, corners += smooth.corners;
+    std::size_t curves = 0;
+    for (const CurvePiece& piece : smooth.pieces) {
+      if (piece.degree() == 1) continue;
+      ++curves;
+      ASSERT_TRUE(isFree(piece)) << n;
+    }
+    ASSERT_LE(curves, smooth.rounded);
+    // Without a test that is passed, nothing changes.
+    const SmoothPath polyline = smoothedPath(space, path, [](const CurvePiece&) { return false; });
+    ASSERT_EQ(polyline.rounded, 0u);
+    ASSERT_EQ(polyline.pieces.size(), path.size() - 1);
+  }
+  EXPECT_GT(rounded, corners * 9 / 10);
+}
+
+TEST(SmoothPath, StaysWithinTheBounds) {
+  const ConfigurationSpace space = lines(2, 1);
+  const Path path = {at(-1, -1), at(1, -1), at(1, 1), at(-1, 1), at(-1, -0.5)};
+  const SmoothPath smooth = smoothedPath(space, path, kAllFree);
+  for (const CurvePiece& piece : smooth.pieces) {
+    EXPECT_LE(piece.coefficients.maxCoeff(), 1);
+    EXPECT_GE(piece.coefficients.minCoeff(), -1);
+  }
+  EXPECT_EQ(smooth.rounded, 3u);
+}
+
+TEST(SmoothPath, CirclesContinueBeyondPi) {
+  ConfigurationSpace space;
+  Coordinate yaw;
+  yaw.kind = Coordinate::Kind::circle;
+  yaw.name = "yaw";
+  space.addGroup({CoordinateGroup::Kind::joints, "", {space.add(yaw)}});
+  const auto q = [](double x) { return Configuration::Constant(1, x); };
+  const SmoothPath smooth = smoothedPath(space, {q(2), q(3), q(-2.5), q(-1)}, kAllFree);
+  const double end = smooth.pieces.back().coefficients(0, smooth.pieces.back().degree());
+  EXPECT_NEAR(end, 2 * M_PI - 1, 1e-14);
+  for (const CurvePiece& piece : smooth.pieces)
+    EXPECT_GE(piece.coefficients(0, piece.degree()), piece.coefficients(0, 0));
+}
+
+/// A robot rests where a rotation changes its axis, so such corners stay.
+TEST(SmoothPath, CornersOfRotationsStay) {
+  ConfigurationSpace space = lines(1);
+  Coordinate rotation;
+  rotation.kind = Coordinate::Kind::rotation;
+  rotation.name = "rotation";
+  space.addGroup({CoordinateGroup::Kind::joints, "", {space.add(rotation)}});
+  const auto q = [](double x, double angle) {
+    Configuration state(5);
+    state << x, 0, 0, std::sin(angle / 2), std::cos(angle / 2);
+    return state;
+  };
+  const SmoothPath smooth =
+      smoothedPath(space, {q(0, 0), q(1, 0.5), q(2, 0), q(3, 0), q(2.5, 0), q(3, 0)}, kAllFree);
+  EXPECT_EQ(smooth.corners, 4u);
+  EXPECT_EQ(smooth.rounded, 2u);
+}
+
+TEST(SmoothPath, PathsWithoutCorners) {
+  const ConfigurationSpace space = lines(2);
+  EXPECT_EQ(smoothedPath(space, {at(1, 2)}, kAllFree).pieces.size(), 1u);
+  EXPECT_EQ(smoothedPath(space, {at(1, 2), at(1, 2)}, kAllFree).pieces.size(), 1u);
+  const SmoothPath edge = smoothedPath(space, {at(1, 2), at(1, 2), at(3, 2)}, kAllFree);
+  ASSERT_EQ(edge.pieces.size(), 1u);
+  EXPECT_EQ(edge.corners, 0u);
+  EXPECT_EQ(edge.tests, 0u);
+}
+
+}  // namespace
+}  // namespace corridor
