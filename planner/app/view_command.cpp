@@ -100,13 +100,6 @@ int viewVolumes(const ViewArguments& a) {
   return kDone;
 }
 
-/// Returns what lies between the rows of a trajectory, if `--between` says so.
-std::optional<Between> betweenNamed(const std::optional<std::string>& name) {
-  for (const Between between : {Between::linear, Between::cubic, Between::quintic})
-    if (name == nameOf(between)) return between;
-  return std::nullopt;
-}
-
 /// Reads and verifies a solution or a trajectory, as `corridor verify` does.
 ViewedPath viewedPath(const Problem& problem, const ViewArguments& a) {
   const std::filesystem::path file = *a.trajectory;
@@ -131,6 +124,8 @@ ViewedPath viewedPath(const Problem& problem, const ViewArguments& a) {
   path.report = verifyTrajectory(problem, rows, betweenNamed(a.between));
   path.curve = curveOf(rows, space, *path.report.between);
   for (const TrajectoryRow& row : rows.rows) path.solution.path.push_back(row.positions);
+  path.velocityLimits = problem.task.limits.velocity;
+  path.accelerationLimits = problem.task.limits.acceleration;
   return path;
 }
 
@@ -162,6 +157,9 @@ int viewCommand(const ViewArguments& a) {
   if (a.trajectory) {
     path = viewedPath(problem, a);
     addAll(path->report.notes, problem.source.notes);
+    if (!path->report.times.empty())  // plots show limits, some of which may be assumed
+      for (const std::string& note : problem.task.limits.notes)
+        problem.source.notes.push_back({note});
   }
   const std::string page = viewPage(problem, path, from);
   const ResultPrinter out(a.quiet);
