@@ -214,7 +214,7 @@ class Player {
       const at = this.now() + (time - (last ?? time)) / 1000 * Number(byId('speed').value) / duration;
       last = time;
       this.seek(Math.min(1, at));
-      if (at >= 1) this.pause(); else this.playing = requestAnimationFrame(frame);
+      if (at >= 1) this.pause(); else if (this.playing) this.playing = requestAnimationFrame(frame);
     };
     this.playing = requestAnimationFrame(frame);
     this.icon();
