@@ -116,10 +116,12 @@ Solved solveOne(const std::string& file, const SolveArguments& a,
       writeSolution(makeSolution(problem, report, digest), *a.output);
     if (report.trajectory && report.trajectory->proved())
       writeWhole(*a.trajectory, report.trajectory->text);
+    std::optional<double> seconds;
+    if (report.trajectory && report.trajectory->proved()) seconds = report.trajectory->duration;
     if (a.picture == "-")
-      std::cout << svgPicture(problem, report.path, from);
+      std::cout << svgPicture(problem, report.path, from, seconds);
     else if (a.picture)
-      writeWhole(*a.picture, svgPicture(problem, report.path, from));
+      writeWhole(*a.picture, svgPicture(problem, report.path, from, seconds));
   }
   return {std::move(problem), std::move(report), reading.count(), tries};
 }

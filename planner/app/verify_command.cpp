@@ -168,12 +168,6 @@ void print(const VerifyReport& r, const Problem& problem, const VerifyArguments&
   out.line("distance queries", grouped(r.pathReport.distanceQueries));
 }
 
-std::optional<Between> betweenNamed(const std::optional<std::string>& name) {
-  for (const Between between : {Between::linear, Between::cubic, Between::quintic})
-    if (name == nameOf(between)) return between;
-  return std::nullopt;
-}
-
 /// Reads and verifies the solution or trajectory. Adds the notes on a trajectory to the problem's.
 Verified verify(Problem& problem, const VerifyArguments& a) {
   const auto verifySolutionOf = [&](const Solution& solution) {

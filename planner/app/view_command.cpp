@@ -28,7 +28,8 @@ namespace {
 
 struct ViewArguments {
   std::string problem;
-  std::optional<std::string> solution;
+  std::optional<std::string> trajectory;  ///< or a solution
+  std::optional<std::string> between;     ///< as in `VerifyArguments`
   std::optional<std::string> output, image, size, from;
   std::optional<std::string> volume;   ///< of a mesh: the volumes to draw
   std::optional<std::uint64_t> level;  ///< with `volume` only
@@ -65,7 +66,8 @@ int viewVolumes(const ViewArguments& a) {
     if (given)
       throw InputError(Fault{option, 0, "can't be used with --volume, which draws a mesh"});
   };
-  ofProblem("SOLUTION", a.solution.has_value());
+  ofProblem("TRAJECTORY", a.trajectory.has_value());
+  ofProblem("--between", a.between.has_value());
   ofProblem("--ignore-digest", a.ignoreDigest);
   ofProblem("--image", a.image.has_value());
   ofProblem("--size", a.size.has_value());
@@ -111,6 +113,35 @@ void refuseMesh(const std::string& file) {
                            "bounding volumes of a mesh"});
 }
 
+/// Reads and verifies a solution or a trajectory, as `corridor verify` does.
+ViewedPath viewedPath(const Problem& problem, const ViewArguments& a) {
+  const std::filesystem::path file = *a.trajectory;
+  const ConfigurationSpace& space = problem.model.space;
+  ViewedPath path;
+  const auto addSolution = [&](Solution solution) {
+    if (a.between)
+      throw InputError(Fault{"--between", 0,
+                             *a.trajectory +
+                                 " is a solution, whose edges are linear; --between is for "
+                                 "trajectories"});
+    path.solution = std::move(solution);
+    path.report =
+        verifyWithWarning(problem, path.solution, a.problem, *a.trajectory, a.ignoreDigest).report;
+    return path;
+  };
+  if (file.extension() == ".path") return addSolution(readSolution(file, space));
+  const std::string text = readMotionText(file, "a solution or a trajectory");
+  if (trajectoryFormatOf(text) == TrajectoryFormat::solution)
+    return addSolution(solutionOf(file, text, space));
+  const TrajectoryRows rows = readTrajectory(*a.trajectory, text, problem.model);
+  path.report = verifyTrajectory(problem, rows, betweenNamed(a.between));
+  path.curve = curveOf(rows, space, *path.report.between);
+  for (const TrajectoryRow& row : rows.rows) path.solution.path.push_back(row.positions);
+  path.velocityLimits = problem.task.limits.velocity;
+  path.accelerationLimits = problem.task.limits.acceleration;
+  return path;
+}
+
 int viewCommand(const ViewArguments& a) {
   if (a.volume) return viewVolumes(a);
   if (a.level) throw InputError(Fault{"--level", 0, "needs --volume, which is not given"});
@@ -126,7 +157,7 @@ int viewCommand(const ViewArguments& a) {
       a.image ? std::optional(requireBrowser("--image")) : std::nullopt;
 
   refuseMesh(a.problem);
-  const Problem problem = readProblemOf(a.problem);
+  Problem problem = readProblemOf(a.problem);
   std::optional<std::string> pageFile = a.output;
   if (!a.output && !a.image) {
     pageFile = pageName(problem);
@@ -134,14 +165,15 @@ int viewCommand(const ViewArguments& a) {
   }
   for (const auto& [file, option] : {std::pair(pageFile, "--output"), {a.image, "--image"}}) {
     requireNotAnInput(file, option, problem.source.files, "the problem");
-    if (a.solution) requireNotAnInput(file, option, {*a.solution}, "the solution");
+    if (a.trajectory) requireNotAnInput(file, option, {*a.trajectory}, "the path");
   }
   std::optional<ViewedPath> path;
-  if (a.solution) {
-    path.emplace();
-    path->solution = readSolution(*a.solution, problem.model.space);
-    path->report =
-        verifyWithWarning(problem, path->solution, a.problem, *a.solution, a.ignoreDigest).report;
+  if (a.trajectory) {
+    path = viewedPath(problem, a);
+    addAll(path->report.notes, problem.source.notes);
+    if (!path->report.times.empty())  // plots show limits, some of which may be assumed
+      for (const std::string& note : problem.task.limits.notes)
+        problem.source.notes.push_back({note});
   }
   const std::string page = viewPage(problem, path, from);
   const ResultPrinter out(a.quiet);
@@ -169,11 +201,18 @@ void addView(CLI::App& program, int& status) {
   const auto arguments = std::make_shared<ViewArguments>();  // the callback keeps it
   ViewArguments& a = *arguments;
   CLI::App* command = program.add_subcommand(
-      "view", "Show a problem and a path in 3D, as a page for any browser or as a picture");
+      "view",
+      "Show a problem and a path or trajectory in 3D, as a page for any browser or as a picture");
   command->add_option("PROBLEM", a.problem, "the problem, as for solve")->required();
-  command->add_option("SOLUTION", a.solution,
-                      "a solution file, or an OMPL.app .path file; without it, only start and goal "
-                      "are shown");
+  command->add_option("TRAJECTORY", a.trajectory,
+                      "a solution file (-: standard input), rows of joint values (CSV) with or "
+                      "without times, a JointTrajectory of ROS or MoveIt (YAML, JSON), or an "
+                      "OMPL.app .path file; without it, only start and goal are shown");
+  command
+      ->add_option("--between", a.between,
+                   "what a trajectory does between its rows, as for verify: linear, cubic or "
+                   "quintic")
+      ->check(isOneOf({"linear", "cubic", "quintic"}));
   addIgnoreDigest(*command, a.ignoreDigest);
   const char* results = "Results";
   command
@@ -212,10 +251,11 @@ void addView(CLI::App& program, int& status) {
           "problems/two_arms arms.yaml -o arms.html\n"
           "         corridor view robots/piano/piano.obj --volume obb-binary --level 4 -o "
           "boxes.svg\n"
-          "The page plays the path. It can show the OBB trees, the closest pair of bodies with its "
-          "distance along the path, the pairs that are never tested and why, and the contact where "
-          "`corridor verify` refutes the path. The path is verified again for the page; the "
-          "verdict does not change the exit status.\n") +
+          "The page plays the path, or a trajectory at its true speed, with plots of its joints. "
+          "It can show the OBB trees, the closest pair of bodies with its distance along the path, "
+          "the pairs that are never tested and why, and the contact where `corridor verify` "
+          "refutes the path. The path is verified again for the page; the verdict does not change "
+          "the exit status.\n") +
       kExitStatus);
   command->callback([arguments, &status] { status = viewCommand(*arguments); });
 }

@@ -60,31 +60,46 @@ double turnBetween(const std::vector<Transform>& from, const std::vector<Transfo
   return largest;
 }
 
-/// Returns the values of t of an edge's samples: even steps, and the times of its findings.
-std::vector<double> timesOf(std::size_t edge, double steps,
-                            const std::vector<PathFinding>& findings) {
-  std::vector<double> times;
+/// Returns the values of t of an edge's samples: even steps, and those of its findings.
+std::vector<double> parametersOf(std::size_t edge, double steps,
+                                 const std::vector<PathFinding>& findings) {
+  std::vector<double> all;
   const auto count = static_cast<int>(std::max(1.0, std::ceil(steps)));
-  for (int k = 0; k <= count; ++k) times.push_back(static_cast<double>(k) / count);
+  for (int k = 0; k <= count; ++k) all.push_back(static_cast<double>(k) / count);
   for (const PathFinding& finding : findings)
     if (static_cast<std::size_t>(finding.edge) == edge)
-      times.push_back(std::clamp(finding.t, 0.0, 1.0));
-  std::sort(times.begin(), times.end());
-  times.erase(std::unique(times.begin(), times.end()), times.end());
-  return times;
+      all.push_back(std::clamp(finding.t, 0.0, 1.0));
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+/// Makes the places of the samples the shares of the duration.
+void placeByTime(const std::vector<double>& times, std::vector<PathSample>& samples) {
+  for (PathSample& s : samples) {
+    const double begin = times[s.edge], end = times[s.edge + 1];
+    const double time = s.t < 1 ? std::min(begin + s.t * (end - begin), end) : end;
+    s.at = (time - times.front()) / (times.back() - times.front());
+  }
+}
+
+/// Makes the places of the samples, which are sums of distances, the shares of the whole distance.
+/// If nothing moves, the samples are evenly spaced.
+void placeByDistance(std::vector<PathSample>& samples) {
+  const double length = samples.back().at;
+  for (std::size_t i = 1; i < samples.size(); ++i)
+    samples[i].at = length > 0 ? samples[i].at / length
+                               : static_cast<double>(i) / static_cast<double>(samples.size() - 1);
 }
 
 }  // namespace
 
-PathSamples samplePath(const Problem& problem, const Path& path,
-                       const std::vector<PathFinding>& findings) {
+PathSamples samplePath(const Problem& problem, std::size_t edges, const ConfigurationOnEdge& at,
+                       const std::vector<double>& times, const std::vector<PathFinding>& findings) {
   const Travel travel(problem);
   const auto poses = [&](std::size_t edge, double t) {
-    if (edge + 1 >= path.size()) return framePoses(problem.model.tree, path[edge]);
-    return framePoses(problem.model.tree,
-                      problem.model.space.interpolate(path[edge], path[edge + 1], t));
+    return framePoses(problem.model.tree, at(edge, t));
   };
-  const std::size_t edges = path.size() - 1;
   std::vector<double> ways(edges), turns(edges);
   double way = 0;
   for (std::size_t edge = 0; edge < edges; ++edge) {
@@ -109,7 +124,7 @@ PathSamples samplePath(const Problem& problem, const Path& path,
   result.states.push_back(0);
   for (std::size_t edge = 0; edge < edges; ++edge) {
     const double fewer = std::min(1.0, kMostSamples / sum);
-    for (const double t : timesOf(edge, fewer * steps[edge], findings)) {
+    for (const double t : parametersOf(edge, fewer * steps[edge], findings)) {
       if (t == 0) continue;  // this is the last sample of the previous edge
       PathSample sample{edge, t, 0, poses(edge, t)};
       const PathSample& before = result.samples.back();
@@ -118,22 +133,29 @@ PathSamples samplePath(const Problem& problem, const Path& path,
     }
     result.states.push_back(result.samples.size() - 1);
   }
-  // If nothing moves, the samples are evenly spaced.
-  const double length = result.samples.back().at;
-  for (std::size_t i = 1; i < result.samples.size(); ++i)
-    result.samples[i].at =
-        length > 0 ? result.samples[i].at / length
-                   : static_cast<double>(i) / static_cast<double>(result.samples.size() - 1);
+  if (times.empty())
+    placeByDistance(result.samples);
+  else
+    placeByTime(times, result.samples);
   for (const PathFinding& finding : findings) {
     const auto edge = std::min(static_cast<std::size_t>(finding.edge), edges);
-    std::size_t at = result.states[edge];
+    std::size_t sample = result.states[edge];
     if (finding.t > 0 && edge < edges) {
-      ++at;
-      while (at < result.states[edge + 1] && result.samples[at].t < finding.t) ++at;
+      ++sample;
+      while (sample < result.states[edge + 1] && result.samples[sample].t < finding.t) ++sample;
     }
-    result.findings.push_back(at);
+    result.findings.push_back(sample);
   }
   return result;
+}
+
+PathSamples samplePath(const Problem& problem, const Path& path,
+                       const std::vector<PathFinding>& findings) {
+  const auto at = [&](std::size_t edge, double t) {
+    return path.size() == 1 ? path[0]
+                            : problem.model.space.interpolate(path[edge], path[edge + 1], t);
+  };
+  return samplePath(problem, path.size() - 1, at, {}, findings);
 }
 
 }  // namespace corridor::view

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "planner/problem/problem.h"
@@ -13,9 +14,10 @@ namespace corridor::view {
 struct PathSample {
   std::size_t edge = 0;  ///< index: the edge from state `edge` to the next
   double t = 0;          ///< time on the edge, in [0, 1]
-  /// The place on the whole path, in [0, 1]. It grows in proportion to how far the bodies move, so
-  /// that playing at an even rate looks even. How far they move between two samples is the largest
-  /// distance that a corner of the bodies' bounds moves.
+  /// The place on the whole path, in [0, 1]. If the path has no times, it grows in proportion to
+  /// how far the bodies move, so that playing at an even rate looks even. How far they move between
+  /// two samples is the largest distance that a corner of the bodies' bounds moves. With times, it
+  /// is the share of the duration.
   double at = 0;
   std::vector<Transform> X_WF;
 };
@@ -28,10 +30,19 @@ struct PathSamples {
   std::vector<std::size_t> findings;  ///< index of the sample of each finding
 };
 
-/// Samples a path. From one sample to the next no body rotates by more than about 2°, nor moves
-/// farther than a 400th of the path. Steps are larger if there would be more than about 1500
-/// samples. All states and findings are samples.
-/// @pre the path is in the problem's space and not empty; the findings are of that path.
+/// Returns the configuration on an edge at t in [0, 1].
+using ConfigurationOnEdge = std::function<Configuration(std::size_t edge, double t)>;
+
+/// Samples a path, or a curve whose pieces are the edges. From one sample to the next no body
+/// rotates by more than about 2°, nor moves farther than a 400th of the path. Steps are larger if
+/// there would be more than about 1500 samples. All states and findings are samples.
+/// @param edges their number. 0: the path is a single state, `at(0, 0)`.
+/// @param times in seconds, of all states; empty: the path has no times.
+/// @pre the findings are of that path.
+PathSamples samplePath(const Problem& problem, std::size_t edges, const ConfigurationOnEdge& at,
+                       const std::vector<double>& times, const std::vector<PathFinding>& findings);
+/// The same for a path of edges without times. @pre the path is in the problem's space and not
+/// empty.
 PathSamples samplePath(const Problem& problem, const Path& path,
                        const std::vector<PathFinding>& findings);
 

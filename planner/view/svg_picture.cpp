@@ -194,6 +194,16 @@ std::string polyline(const Camera& camera, const Problem& problem, const Path& p
          "\" fill=\"none\" stroke=\"#1f4e9e\" stroke-width=\"2\"/>\n";
 }
 
+/// Returns an SVG text with the duration, in the lower left corner.
+std::string caption(const Camera& camera, double seconds) {
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "<text x=\"%.0f\" y=\"%.0f\" font-family=\"sans-serif\" font-size=\"20\" "
+                "fill=\"#1f2730\">duration %.4g s</text>\n",
+                kBorder, camera.height() - kBorder, seconds);
+  return text;
+}
+
 /// Returns whether the problem is a single planar body, which is drawn as seen from above.
 bool isPlan(const Problem& problem) {
   return problem.model.space.groups().size() == 1 &&
@@ -203,7 +213,8 @@ bool isPlan(const Problem& problem) {
 }  // namespace
 
 std::string svgPicture(const Problem& problem, const Path& path,
-                       const std::optional<ViewDirection>& from) {
+                       const std::optional<ViewDirection>& from,
+                       const std::optional<double>& seconds) {
   constexpr double degree = std::numbers::pi / 180;
   const bool plan = !from && isPlan(problem);
   const auto [azimuth, elevation] = from.value_or(plan ? ViewDirection{-90 * degree, 90 * degree}
@@ -280,6 +291,7 @@ std::string svgPicture(const Problem& problem, const Path& path,
   svg += "<g opacity=\".2\">\n" + drawVisible(camera, glass, kWorldLimit / 4) + "</g>\n";
   for (const std::size_t frame : view::tipFrames(problem.model))
     svg += polyline(camera, problem, path, frame);
+  if (seconds) svg += caption(camera, *seconds);
   return svg + "</svg>\n";
 }
 

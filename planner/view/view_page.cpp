@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <map>
 #include <numeric>
 
@@ -12,6 +13,7 @@
 #include "planner/checker/problem_goal.h"
 #include "planner/model/reach.h"
 #include "planner/view/closest_pairs.h"
+#include "planner/view/curve_plots.h"
 #include "planner/view/display_scene.h"
 #include "planner/view/page_buffers.h"
 #include "planner/view/page_files.h"
@@ -166,8 +168,9 @@ class PageData {
     const VerifyReport& r = path_->report;
     const PathLength length = lengthOf(problem_.model.space, s.path);
     bool lengths = false, angles = false;
+    const bool straight = !r.between || *r.between == Between::linear;
     for (const Coordinate& c : problem_.model.space.coordinates())
-      (c.kind == Coordinate::Kind::line && !c.angular ? lengths : angles) = true;
+      (isLength(c) ? lengths : angles) = straight;
     ordered_json& solution = json_["solution"] = {
         {"planner", s.planner},
         {"certified", s.certified},
@@ -179,6 +182,7 @@ class PageData {
         {"other_files", r.digest == DigestState::differs},
         {"margin_m", r.margin}};
     if (!s.digest.empty()) solution["seed"] = s.seed;
+    if (r.between) solution["between"] = nameOf(*r.between);
     ordered_json& verdict = json_["verdict"] = {{"verdict", verdictName(r)},
                                                 {"edges", r.pathReport.edges},
                                                 {"edges_proved", r.pathReport.edgesProved},
@@ -189,7 +193,7 @@ class PageData {
       verdict["clearance_m"] = r.pathReport.provenClearance;
       verdict["distance_met_m"] = r.pathReport.smallestDistanceMet;
     }
-    for (const PathFinding& f : r.pathReport.findings)
+    for (const PathFinding& f : r.pathReport.findings) {
       verdict["findings"].push_back({{"verdict", nameOf(f.verdict)},
                                      {"reason", f.reason},
                                      {"edge", f.edge},
@@ -198,6 +202,14 @@ class PageData {
                                      {"b", bodyNamed(f.b)},
                                      {"point", jsonOf(Vec3(f.point - scene_.origin))},
                                      {"gap_m", f.gap}});
+      if (r.times.empty()) continue;
+      const auto k = static_cast<std::size_t>(f.edge);
+      verdict["findings"].back()["time_s"] = r.times[k] + f.t * (r.times[k + 1] - r.times[k]);
+    }
+  }
+
+  static bool isLength(const Coordinate& c) {
+    return c.kind == Coordinate::Kind::line && !c.angular;
   }
 
   ordered_json bodyNamed(const std::string& name) const {
@@ -208,7 +220,15 @@ class PageData {
 
   void addPath() {
     const std::vector<PathFinding>& findings = path_->report.pathReport.findings;
-    const PathSamples samples = samplePath(problem_, path_->solution.path, findings);
+    const ConfigurationSpace& space = problem_.model.space;
+    const PathSamples samples =
+        path_->curve ? samplePath(
+                           problem_, path_->curve->pieces.size(),
+                           [&](std::size_t edge, double t) {
+                             return configurationAt(space, path_->curve->pieces[edge], t);
+                           },
+                           path_->report.times, findings)
+                     : samplePath(problem_, path_->solution.path, findings);
     std::vector<float> at, t, poses;
     std::vector<std::uint32_t> edges;
     for (const PathSample& sample : samples.samples) {
@@ -227,7 +247,40 @@ class PageData {
                      {"states", samples.states},
                      {"findings", samples.findings},
                      {"trace", trace}};
+    if (const std::vector<double>& times = path_->report.times; !times.empty()) {
+      json_["path"]["times"] = {times.front(), times.back()};
+      addPlots();
+    }
     addDistances(samples);
+  }
+
+  /// Adds positions, velocities and accelerations over the time.
+  void addPlots() {
+    const ConfigurationSpace& space = problem_.model.space;
+    const CurvePlots plots = curvePlots(space, *path_->curve);
+    const double begin = plots.times.front(), duration = plots.times.back() - begin;
+    std::vector<float> at;
+    for (const double time : plots.times)
+      at.push_back(static_cast<float>((time - begin) / duration));
+    const auto array = [&](const std::vector<double>& values) {
+      return jsonOf(buffers_.add(std::vector<float>(values.begin(), values.end())));
+    };
+    const auto ifFinite = [](double x) {
+      return std::isfinite(x) ? ordered_json(x) : ordered_json();
+    };
+    ordered_json joints = ordered_json::array();
+    for (const CurvePlots::Number& n : plots.numbers) {
+      const Coordinate& c = space.coordinates()[n.coordinate];
+      const bool isBounded = c.kind == Coordinate::Kind::line && std::isfinite(c.upper - c.lower);
+      joints.push_back(
+          {{"name", c.name},
+           {"unit", isLength(c) ? "m" : "rad"},
+           {"bounds", isBounded ? ordered_json{c.lower, c.upper} : ordered_json()},
+           {"velocity", ifFinite(limitOf(space, n.coordinate, path_->velocityLimits))},
+           {"acceleration", ifFinite(limitOf(space, n.coordinate, path_->accelerationLimits))},
+           {"values", {array(n.position), array(n.velocity), array(n.acceleration)}}});
+    }
+    json_["plots"] = {{"at", jsonOf(buffers_.add(at))}, {"joints", joints}};
   }
 
   /// Adds the closest pair at evenly chosen samples, at all findings, and at all states unless
@@ -273,7 +326,7 @@ class PageData {
 
 /// The page's own scripts. They share one scope, so each must come after the scripts that it uses.
 constexpr std::array kScripts = {"data.js",   "shapes.js", "stage.js", "robots.js", "glass.js",
-                                 "extras.js", "chart.js",  "panel.js", "main.js"};
+                                 "extras.js", "chart.js",  "plots.js", "panel.js",  "main.js"};
 
 }  // namespace
 }  // namespace view

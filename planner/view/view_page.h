@@ -8,15 +8,22 @@
 
 namespace corridor {
 
-/// A path to be shown by a page, and the verifier's report on it.
+/// A path or a trajectory to be shown by a page, and the verifier's report on it.
 struct ViewedPath {
-  Solution solution;
+  Solution solution;  ///< a trajectory: only `path`, its rows
   VerifyReport report;
+  /// A trajectory: the curve through its rows, as curveOf returns it. It is played at its true
+  /// speed if `report` has its times.
+  std::optional<Curve> curve;
+  /// Limits for the plots of a trajectory, for each number: m/s, rad/s; m/s², rad/s². Infinite, or
+  /// empty: none. The position of a planar or floating joint has the limit of the vector's length,
+  /// at the first of its numbers.
+  Configuration velocityLimits, accelerationLimits;
 };
 
-/// Returns an HTML page that shows a problem as a 3D scene, and plays a path of it. The page is one
-/// file that loads nothing else (README.md describes what it shows and the layout of its data). The
-/// same arguments give the same bytes.
+/// Returns an HTML page that shows a problem as a 3D scene, and plays a path or trajectory of it.
+/// The page is one file that loads nothing else (README.md describes what it shows and the layout
+/// of its data). The same arguments give the same bytes.
 /// @param from the first direction of view; unset: from above at an angle, or from the top for
 /// planar problems.
 /// @pre the path is in the problem's space and not empty.

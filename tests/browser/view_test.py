@@ -152,6 +152,65 @@ def refuted(browser, path):
         browser.check_page()
 
 
+def trajectory(browser, path):
+    """A trajectory plays at its true speed. One cursor is in all plots and in the table."""
+    for file, text in {
+            "robot.yaml": "format: corridor-robot-1\nname: cube\nrigid: SE2\nshapes: [{box: [1, 1, 1]}]\n",
+            "problem.yaml": "format: corridor-problem-1\nrobot: robot.yaml\nworld: {wall: {box: [0.1, 1, 1]}}\n"
+                            "start: {at: [-3, 0]}\ngoal: {at: [3, 0]}\nbounds: {at: [[-4, -4], [4, 4]]}\n",
+            "path.csv": "time,x,y,yaw\n1,-3,0,0\n21,-1,2,0\n41,3,0,1\n", "through.csv": "time,x,y,yaw\n1,-3,0,0\n5,3,0,0\n"}.items():
+        with open(os.path.join(path, file), "w", encoding="utf-8") as out:
+            out.write(text)
+    page = os.path.join(path, "page.html")
+    corridor("view", os.path.join(path, "problem.yaml"), os.path.join(path, "path.csv"), "-o", page)
+    cells = "[...document.querySelectorAll('#joints td')].map((cell) => cell.textContent)"
+    for size in SIZES:
+        shown(browser, page, size)
+        browser.check_page()
+        assert "Duration40 s" in browser.js("document.getElementById('facts').textContent")
+        assert browser.find("#plots").is_displayed() == (size == "desktop")
+        if size == "phone":
+            browser.click("#plots-toggle")
+            browser.check_page()
+        assert browser.js("document.querySelectorAll('#plots svg').length") == 4
+        assert browser.js("document.querySelectorAll('#plots figure:first-child polyline').length") == 3
+        browser.js("corridorView.seek(0.25)")
+        assert browser.find("#place").text == "11.000 s, edge 0"
+        assert browser.js(cells) == ["-2.000", "0.100", "0.000", "1.000", "0.100", "0.000", "0.000", "0.000", "0.000"]
+        places = browser.js("corridorView.plots.charts.map((chart) => chart.cursor.getAttribute('x1') === String(chart.x(0.25)))")
+        assert places == [True] * 4, places
+        browser.click("#plots svg")  # at its centre, which is not that of the axes
+        assert abs(browser.js("corridorView.motion.at") - 0.4) < 0.02
+        assert browser.js("document.querySelector('#slider').getAttribute('aria-valuetext')") == browser.find("#place").text
+    # The true speed: w seconds later by the clock of the frames, the place is w seconds later.
+    for speed in (0.25, 1, 2):
+        browser.driver.execute_script("document.getElementById('speed').value = arguments[0];", str(speed))
+        played = browser.driver.execute_async_script("""
+            const done = arguments[0], {player, seek} = corridorView, played = [], request = window.requestAnimationFrame;
+            let now = 0;
+            window.requestAnimationFrame = (callback) => request((time) => { now = time; callback(time); });
+            player.seek = (at) => {
+              seek(at);
+              if (played.push([now, at]) < 3) return;
+              Object.assign(window, {requestAnimationFrame: request});
+              player.seek = seek;
+              player.pause();
+              done(played);
+            };
+            seek(0);
+            player.play();""")
+        (begin, first), _, (end, last) = played
+        assert end > begin and abs((last - first) * 40 - speed * (end - begin) / 1000) < 1e-9, (speed, played)
+    corridor("view", os.path.join(path, "problem.yaml"), os.path.join(path, "through.csv"), "-o", page)
+    shown(browser, page, "desktop")
+    time = browser.js("data.verdict.findings[0].time_s")
+    assert 1 < time < 5 and f"at {time:.3f} s, edge 0" in browser.find("#findings small").text
+    browser.click("#findings button")
+    assert abs(1 + 4 * browser.js("corridorView.motion.at") - time) < 1e-6
+    assert pictured(browser, page, (600, 400)).startswith("refuted")
+    assert "duration 4 s" in browser.find("#legend").text
+
+
 def hostile_names(browser, path):
     name = "<img src=x onerror=alert(1)></script>'\""
     for file, text in {
@@ -271,4 +330,4 @@ def not_shown_as_proved(browser, path):
         assert pictured(browser, page, (600, 400)) == verdict
 
 
-main([not_shown_as_proved, two_arms, hook_maze, without_solution, refuted, hostile_names, without_webgl, picture, picture_shows_the_verdict])
+main([not_shown_as_proved, two_arms, hook_maze, trajectory, without_solution, refuted, hostile_names, without_webgl, picture, picture_shows_the_verdict])

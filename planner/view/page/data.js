@@ -44,6 +44,7 @@ function metres(x) {
   return `${digits(x * factor)} ${unit}`;
 }
 const digits = (x) => String(Number(x.toPrecision(4)));
+const seconds = (x) => `${x.toFixed(3)} s`;
 const counted = (n, noun) => `${n.toLocaleString('en')} ${noun}${n === 1 ? '' : 's'}`;
 
 /** Returns the index of the last of the ascending `values` that is at most `x`, or 0. */

@@ -1,6 +1,6 @@
 'use strict';
 
-const kDuration = 9;  // seconds to play a path
+const kDuration = 9;  // seconds to play a path that has no times
 const kShadowTriangles = 150000;
 
 function webglWorks() {
@@ -64,7 +64,7 @@ function start() {
 
   const closest = path && data.distances ? new ClosestPair(scene) : null;
   const contact = new Contact(scene), trees = new Trees();
-  let chart = null, treeLevel = -1;
+  let chart = null, plots = null, treeLevel = -1;
   stage.beforeDraw.push(() => contact.place(stage));
   if (closest) stage.beforeDraw.push(() => closest.root.visible && closest.place(motion.at, stage));
   stage.beforeDraw.push(() => motion.placeTrace(stage));
@@ -75,6 +75,7 @@ function start() {
     byId('slider').value = at;
     Panel.place(at, closest);
     if (chart) chart.goTo(at);
+    if (plots) plots.goTo(at);
     if (!keepFinding && contact.finding) showFinding(-1, false);
     stage.renderer.shadowMap.needsUpdate = true;
     stage.draw();
@@ -98,6 +99,8 @@ function start() {
     byId('bar').hidden = image;
     player.ticks();
     Panel.findings(showFinding);
+    byId('speed').hidden = byId('plots-toggle').hidden = !path.times;
+    if (path.times) plots = new Plots(closest, seek);
   } else {
     byId('ghosts-row').hidden = byId('trace-row').hidden = true;
   }
@@ -113,7 +116,7 @@ function start() {
   byId('closest').addEventListener('change', (event) => {
     byId('closest-body').hidden = !event.target.checked;
     closest.root.visible = event.target.checked;
-    chart = chart || new Chart(byId('chart'), closest, data.solution.margin_m, seek);
+    chart = chart || new DistanceChart(byId('chart'), closest, seek);
     chart.goTo(motion.at);
     stage.draw();
   });
@@ -146,7 +149,7 @@ function start() {
     clearTimeout(looking);
     if (obstacles.mode === 'auto' && triangles <= 1e5 && !image) looking = setTimeout(() => glass('auto'), 250);
   };
-  window.corridorView = {stage, motion, obstacles, closest, trees, contact, player, seek, showFinding};
+  window.corridorView = {stage, motion, obstacles, closest, trees, contact, player, plots, seek, showFinding};
   if (image) console.info('corridor: the picture is drawn');
 }
 
@@ -172,7 +175,7 @@ function interest(robotPoints, robotBox, obstacles) {
   return [points, bounds];
 }
 
-/** Plays the path, and handles slider, button and keys. */
+/** Plays the path, with times at their true speed or a multiple of it, and handles slider, button and keys. */
 class Player {
   constructor(seek, now) {
     Object.assign(this, {seek, now, playing: 0});
@@ -184,7 +187,7 @@ class Player {
 
   key(event) {
     const typed = event.target.tagName === 'BUTTON' || event.target.tagName === 'SUMMARY' || event.target.tagName === 'A';
-    const other = event.target.tagName === 'INPUT' && event.target.id !== 'slider';
+    const other = event.target.tagName === 'SELECT' || event.target.tagName === 'INPUT' && event.target.id !== 'slider';
     if (event.ctrlKey || event.altKey || event.metaKey || other) return;
     const states = path.states.map((i) => path.at[i]), at = this.now(), tiny = 1e-6;
     const to = {
@@ -203,14 +206,15 @@ class Player {
   }
   toggle() { if (this.playing) this.pause(); else this.play(); }
   play() {
-    const from = this.now() >= 1 ? 0 : this.now();
-    let began = null;
+    if (this.now() >= 1) this.seek(0);
+    const duration = path.times ? path.times[1] - path.times[0] : kDuration;
+    let last = null;
     const frame = (time) => {
       if (!this.playing) return;
-      began = began ?? time;
-      const at = from + (time - began) / 1000 / kDuration;
+      const at = this.now() + (time - (last ?? time)) / 1000 * Number(byId('speed').value) / duration;
+      last = time;
       this.seek(Math.min(1, at));
-      if (at >= 1) this.pause(); else this.playing = requestAnimationFrame(frame);
+      if (at >= 1) this.pause(); else if (this.playing) this.playing = requestAnimationFrame(frame);
     };
     this.playing = requestAnimationFrame(frame);
     this.icon();

@@ -17,8 +17,10 @@ const Panel = {
       if (s.planner) facts.push(['Planner', s.planner + (s.seed === undefined ? '' : `, seed ${s.seed}`)]);
       if (s.checker) facts.push(['Certified', s.certified ? 'yes' : `no (${s.checker})`]);
       const length = [s.length_m === null ? '' : metres(s.length_m), s.rotation_rad === null ? '' : `${digits(s.rotation_rad)} rad`];
-      facts.push(['Path length', length.filter(Boolean).join(', ') + (s.length_of ? ` (${s.length_of})` : '')]);
-      facts.push(['States', s.states.toLocaleString('en')]);
+      if (path.times) facts.push(['Duration', `${digits(path.times[1] - path.times[0])} s`]);
+      if (length.some(Boolean)) facts.push(['Path length', length.filter(Boolean).join(', ') + (s.length_of ? ` (${s.length_of})` : '')]);
+      if (s.between) facts.push(['Between rows', s.between]);
+      facts.push([s.between ? 'Rows' : 'States', s.states.toLocaleString('en')]);
       if (v.verdict !== 'other problem') facts.push(['Edges proved', `${v.edges_proved.toLocaleString('en')} of ${v.edges.toLocaleString('en')}`]);
       if (v.clearance_m !== undefined && v.clearance_m !== null) facts.push(['Clearance', `at least ${metres(v.clearance_m)}`]);
     }
@@ -44,7 +46,7 @@ const Panel = {
     v.findings.forEach((f, index) => {
       const pair = f.a === null ? '' : `${this.bodyName(f.a)} and ${this.bodyName(f.b)}`;
       const text = make('div', pair ? `${pair}: ${f.reason}` : f.reason,
-        make('small', `${f.verdict === 'undecided' ? 'undecided, ' : ''}edge ${f.edge}, t = ${digits(f.t)}${f.gap_m > 0 ? `, ${metres(f.gap_m)} apart` : ''}`));
+        make('small', `${f.verdict === 'undecided' ? 'undecided, ' : ''}${f.time_s === undefined ? `edge ${f.edge}, t = ${digits(f.t)}` : `at ${seconds(f.time_s)}, edge ${f.edge}`}${f.gap_m > 0 ? `, ${metres(f.gap_m)} apart` : ''}`));
       const button = make('button', 'Show');
       button.setAttribute('aria-pressed', 'false');
       button.addEventListener('click', () => show(button.getAttribute('aria-pressed') === 'true' ? -1 : index));
@@ -115,6 +117,7 @@ const Panel = {
     if (path && !image) names.forEach((text, i) => legend.append(item('', palette.robots[i % palette.robots.length], text)));
     legend.append(item('scale', '', `grid ${metres(stage.step)}`));
     if (!path || !image) return;
+    if (path.times) legend.append(make('span', `duration ${digits(path.times[1] - path.times[0])} s`));
     // Pictures have no panel: their legend states the verdict, with the mark of the ring in the scene.
     const finding = data.verdict.findings[this.mainFinding()], said = make('span', this.verdictText());
     said.className = `verdict ${this.verdictClass()}`;
@@ -122,11 +125,13 @@ const Panel = {
     legend.append(said);
   },
 
+  /** Shows the place on the path, or the time of a trajectory, and the closest pair there. */
   place(at, closest) {
     const i = lastNotAbove(path.at, at), k = Math.min(i + 1, path.at.length - 1);
     const u = path.at[k] > path.at[i] ? (at - path.at[i]) / (path.at[k] - path.at[i]) : 0;
     const from = path.edge[k] === path.edge[i] && i > 0 ? path.t[i] : 0, t = k > i ? from + u * (path.t[k] - from) : path.t[i];
-    byId('place').textContent = path.states.length > 1 ? `edge ${path.edge[k]}, t = ${t.toFixed(3)}` : 'a single state';
+    byId('place').textContent = path.times ? `${seconds(timeAt(at))}, edge ${path.edge[k]}` : path.states.length > 1 ? `edge ${path.edge[k]}, t = ${t.toFixed(3)}` : 'a single state';
+    byId('slider').setAttribute('aria-valuetext', byId('place').textContent);
     if (!closest) return;
     const n = closest.indexAt(at), d = closest.metres[n];
     byId('closest-text').replaceChildren(make('b', d > 0 ? metres(d) : 'contact'),

@@ -31,7 +31,10 @@ function placeObstacle(object, body) {
 const path = data.path && {
   at: data.array(data.path.at), t: data.array(data.path.t), edge: data.array(data.path.edge), poses: data.array(data.path.poses),
   states: data.path.states, findings: data.path.findings, trace: data.path.trace,
+  times: data.path.times,  // of the ends, seconds; undefined: the path has no times
 };
+/** Returns the time of the place `at`, seconds. */
+const timeAt = (at) => path.times[0] + at * (path.times[1] - path.times[0]);
 const frameCount = data.array(data.start).length / kPose;
 /** For each frame, whether it never moves on the path (without a path: between start and goals), like an arm's base. */
 const isStill = Array.from({length: frameCount}, (_, frame) => {

@@ -71,6 +71,31 @@ TEST_F(ViewCommand, ReportsAPathOfChangedFilesOnThePage) {
   EXPECT_THAT(read("page.html"), HasSubstr("\"verdict\":\"refuted\""));
 }
 
+/// A file that `corridor verify` takes as a trajectory is played at its true speed.
+TEST_F(ViewCommand, PlaysATrajectory) {
+  const std::string header = "time,x,y,z,qx,qy,qz,qw\n";
+  write("through.csv", header + "0.5,-2.5,-2,0,0,0,0,1\n3,3,-2,0,0,0,0,1\n");
+  const Result result = run("view " + plate + " through.csv -o page.html");
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("verdict: refuted\n"));
+  const std::string page = read("page.html");
+  EXPECT_THAT(page, HasSubstr("\"times\":[0.5,3.0]"));
+  EXPECT_THAT(page, HasSubstr("\"time_s\":"));
+  EXPECT_THAT(page, HasSubstr("\"between\":\"linear\""));
+  EXPECT_THAT(page, HasSubstr("the trajectory does not begin at the problem's start"));
+  write("states.csv", "x,y,z,qx,qy,qz,qw\n-3,-2,0,0,0,0,1\n3,-2,0,0,0,0,1\n");
+  EXPECT_EQ(run("view " + plate + " states.csv -o page.html").status, 0);
+  EXPECT_THAT(read("page.html"), testing::Not(HasSubstr("\"times\":")));
+  expectFault("view " + plate + " path.yaml --between linear",
+              "--between: path.yaml is a solution, whose edges are linear; --between is for "
+              "trajectories");
+  expectFault("view " + plate + " through.csv --between cubic",
+              "through.csv: --between cubic needs times and velocities, which the file does not "
+              "have; by default, linear is used");
+  expectFault("view robots/none.obj --volume aabb --between linear",
+              "--between: can't be used with --volume, which draws a mesh");
+}
+
 TEST_F(ViewCommand, Faults) {
   expectFault("view none.yaml", "none.yaml: no such file");
   const Result missing = run("view " + plate + " none.yaml -o page.html");
@@ -96,7 +121,7 @@ TEST_F(ViewCommand, Faults) {
   std::filesystem::copy_file(folder_ / "path.yaml", folder_ / "path");
   std::filesystem::create_symlink(plate + "/problem.yaml", folder_ / "problem.png");
   expectFault("view " + plate + " path -o path",
-              "--output: path belongs to the solution and would be overwritten; name another file");
+              "--output: path belongs to the path and would be overwritten; name another file");
   expectFault(
       "view " + plate + " path --image problem.png",
       "--image: problem.png belongs to the problem and would be overwritten; name another file");

@@ -95,5 +95,12 @@ TEST_F(SvgPicture, DirectionOfView) {
   EXPECT_NE(picture(problem), picture(problem, viewDirection("front", "--from")));
 }
 
+TEST_F(SvgPicture, TheCaptionStatesTheDuration) {
+  const Problem problem = read(armHead + armStates);
+  const Path path{problem.task.start, problem.task.goals.at(0)};
+  EXPECT_THAT(svgPicture(problem, path, {}, 2.5), HasSubstr(">duration 2.5 s</text>"));
+  EXPECT_THAT(svgPicture(problem, path), Not(HasSubstr("<text")));
+}
+
 }  // namespace
 }  // namespace corridor

@@ -1,0 +1,78 @@
+#include "planner/view/curve_plots.h"
+
+#include <algorithm>
+#include <limits>
+#include <span>
+
+#include "planner/verify/bernstein.h"
+
+namespace corridor::view {
+namespace {
+
+using verify::Bernstein;
+
+constexpr std::size_t kPlotSteps = 800;  // of all pieces together, unless a piece would have none
+constexpr std::size_t kMostPieceSteps = 40;  // of one piece
+
+Bernstein polynomialOf(const CurvePiece& piece, const Coordinate& coordinate) {
+  const Eigen::VectorXd c = piece.coefficients.row(static_cast<Eigen::Index>(coordinate.first));
+  return Bernstein(std::span(c.data(), static_cast<std::size_t>(c.size())));
+}
+
+}  // namespace
+
+Configuration configurationAt(const ConfigurationSpace& space, const CurvePiece& piece, double t) {
+  Configuration q = space.interpolate(piece.coefficients.leftCols<1>(),
+                                      piece.coefficients.rightCols<1>(), t);  // for the rotations
+  for (const Coordinate& c : space.coordinates())
+    if (c.kind != Coordinate::Kind::rotation)
+      q[static_cast<Eigen::Index>(c.first)] = static_cast<double>(polynomialOf(piece, c).at(t));
+  return q;
+}
+
+CurvePlots curvePlots(const ConfigurationSpace& space, const Curve& curve) {
+  CurvePlots plots;
+  for (std::size_t k = 0; k < space.coordinates().size(); ++k)
+    if (space.coordinates()[k].kind != Coordinate::Kind::rotation)
+      plots.numbers.push_back({k, {}, {}, {}});
+  const std::size_t most =
+      std::clamp<std::size_t>(kPlotSteps / curve.pieces.size(), 1, kMostPieceSteps);
+  for (std::size_t p = 0; p < curve.pieces.size(); ++p) {
+    const CurvePiece& piece = curve.pieces[p];
+    const double begin = curve.knots[p], end = curve.knots[p + 1];
+    const long double duration = static_cast<long double>(end) - begin;
+    const std::size_t steps = piece.degree() == 1 ? 1 : most;
+    const auto parameter = [&](std::size_t i) {
+      return static_cast<double>(i) / static_cast<double>(steps);
+    };
+    for (std::size_t i = 0; i <= steps; ++i)
+      plots.times.push_back(i == steps ? end : begin + parameter(i) * (end - begin));
+    for (CurvePlots::Number& number : plots.numbers) {
+      const Bernstein position = polynomialOf(piece, space.coordinates()[number.coordinate]);
+      const Bernstein velocity = derivativeOf(position, duration);
+      const Bernstein acceleration = derivativeOf(velocity, duration);
+      for (std::size_t i = 0; i <= steps; ++i) {
+        number.position.push_back(static_cast<double>(position.at(parameter(i))));
+        number.velocity.push_back(static_cast<double>(velocity.at(parameter(i))));
+        number.acceleration.push_back(static_cast<double>(acceleration.at(parameter(i))));
+      }
+    }
+  }
+  return plots;
+}
+
+double limitOf(const ConfigurationSpace& space, std::size_t coordinate,
+               const Configuration& limits) {
+  if (limits.size() == 0) return std::numeric_limits<double>::infinity();
+  std::size_t k = coordinate;
+  for (const CoordinateGroup& group : space.groups()) {
+    if (group.kind == CoordinateGroup::Kind::joints) continue;
+    // The last one is the yaw or the rotation.
+    const auto last = group.coordinates.end() - 1;
+    if (std::find(group.coordinates.begin(), last, coordinate) != last)
+      k = group.coordinates.front();
+  }
+  return limits[static_cast<Eigen::Index>(space.coordinates()[k].first)];
+}
+
+}  // namespace corridor::view

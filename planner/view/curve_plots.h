@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "planner/robot/curve.h"
+
+namespace corridor::view {
+
+/// Returns the configuration at the parameter t of a piece, in [0, 1]. Angles are literal.
+Configuration configurationAt(const ConfigurationSpace& space, const CurvePiece& piece, double t);
+
+/// The numbers of a trajectory over its time: what plots of it show.
+struct CurvePlots {
+  struct Number {
+    std::size_t coordinate = 0;                            ///< in the space
+    std::vector<double> position, velocity, acceleration;  ///< at `times`; m or rad, s
+  };
+  /// Seconds, ascending. A knot between two pieces occurs twice: first with the values of the piece
+  /// before it, then with those of the piece after it. Velocities and accelerations may jump there.
+  std::vector<double> times;
+  std::vector<Number> numbers;  ///< one for each line and circle; none for rotations
+};
+
+/// Evaluates a curve at the ends of each piece, and at up to 39 times between them.
+CurvePlots curvePlots(const ConfigurationSpace& space, const Curve& curve);
+
+/// Returns the limit of a line or circle: the element of `limits` for its number or, for the
+/// position of a planar or floating joint, that of the position's first number, which limits the
+/// length of the vector. Infinite if `limits` is empty.
+double limitOf(const ConfigurationSpace& space, std::size_t coordinate,
+               const Configuration& limits);
+
+}  // namespace corridor::view
