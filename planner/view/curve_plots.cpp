@@ -21,15 +21,6 @@ Bernstein polynomialOf(const CurvePiece& piece, const Coordinate& coordinate) {
 
 }  // namespace
 
-Configuration configurationAt(const ConfigurationSpace& space, const CurvePiece& piece, double t) {
-  Configuration q = space.interpolate(piece.coefficients.leftCols<1>(),
-                                      piece.coefficients.rightCols<1>(), t);  // for the rotations
-  for (const Coordinate& c : space.coordinates())
-    if (c.kind != Coordinate::Kind::rotation)
-      q[static_cast<Eigen::Index>(c.first)] = static_cast<double>(polynomialOf(piece, c).at(t));
-  return q;
-}
-
 CurvePlots curvePlots(const ConfigurationSpace& space, const Curve& curve) {
   CurvePlots plots;
   for (std::size_t k = 0; k < space.coordinates().size(); ++k)

@@ -7,9 +7,6 @@
 
 namespace corridor::view {
 
-/// Returns the configuration at the parameter t of a piece, in [0, 1]. Angles are literal.
-Configuration configurationAt(const ConfigurationSpace& space, const CurvePiece& piece, double t);
-
 /// The numbers of a trajectory over its time: what plots of it show.
 struct CurvePlots {
   struct Number {
