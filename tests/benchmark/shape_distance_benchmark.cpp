@@ -28,24 +28,24 @@
 namespace corridor {
 namespace {
 
-using test::Feature;
 using test::Shape;
+using test::ShapeFeature;
 
 constexpr const char* kNames[] = {"box", "sphere", "capsule", "cylinder", "convex"};
 constexpr int kBatch = 100, kRounds = 15;
 
 /// Returns a shape that is nowhere thinner than 5 cm. The convex polytope is an octahedron, with
 /// its top as the feature.
-Feature featureOf(test::Touching& make, Shape shape) {
+ShapeFeature featureOf(test::Touching& make, Shape shape) {
   if (shape != Shape::convex)
     while (true) {
-      Feature f = make.feature(shape);
+      ShapeFeature f = make.feature(shape);
       const auto& p = f.part.points;
       const double length = p.size() > 1 ? (p[1] - p[0]).norm() : 1;
       const double thin = p.size() == 8 ? 2 * p[7].minCoeff() : std::min(f.part.radius, length);
       if (thin >= 0.05) return f;
     }
-  Feature f;
+  ShapeFeature f;
   for (int i = 0; i < 3; ++i)
     for (const double side : {-1.0, 1.0})
       f.part.points.push_back(side * make.real(0.1, 0.7) * Vec3::Unit(i));
@@ -54,7 +54,7 @@ Feature featureOf(test::Touching& make, Shape shape) {
 }
 
 struct Case {
-  Feature a, b;
+  ShapeFeature a, b;
   Transform X_WA, X_WB;
 };
 

@@ -12,8 +12,8 @@
 namespace corridor {
 namespace {
 
-using test::Feature;
 using test::Shape;
+using test::ShapeFeature;
 using test::Touching;
 
 /// All pairs of shapes and features, at gaps and depths that are fractions of the largest
@@ -28,7 +28,7 @@ TEST(ConvexContact, RightOutsideTheBandNeverFalselyFree) {
       // Two triangles have an exact predicate.
       if (sa == Shape::triangle && sb == Shape::triangle) continue;
       for (int n = 0; n < 600; ++n) {
-        const Feature a = make.feature(sa), b = make.feature(sb);
+        const ShapeFeature a = make.feature(sa), b = make.feature(sb);
         const Vec3 normal = n % 5 == 0 ? Vec3(Vec3::Unit(n / 5 % 3)) : make.vector().normalized();
         const Vec3 x = make.vector() * (n % 4 == 0 ? 1e6 : 1);
         const Transform X_WA = make.pose(a, x, normal), touching = make.pose(b, x, -normal);

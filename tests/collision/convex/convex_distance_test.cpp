@@ -15,8 +15,8 @@
 namespace corridor {
 namespace {
 
-using test::Feature;
 using test::Shape;
+using test::ShapeFeature;
 using test::Touching;
 using test::Vec3L;
 
@@ -89,12 +89,12 @@ TEST(ConvexDistance, KnownGaps) {
       double worst = 0;
       int apart = 0;
       for (int n = 0; n < 400 / test::kSlowdown; ++n) {
-        const Feature fa = make.feature(sa), fb = make.feature(sb);
+        const ShapeFeature fa = make.feature(sa), fb = make.feature(sb);
         const Vec3 normal = n % 5 == 0 ? Vec3(Vec3::Unit(n / 5 % 3)) : make.vector().normalized();
         const Vec3 x = make.vector() * (n % 4 == 0 ? 1e3 : 1);
         const double scale = n % 7 == 0 ? 1e-6 : n % 7 == 1 ? 1e6 : 1;
-        Feature ga = fa, gb = fb;
-        for (Feature* f : {&ga, &gb}) {
+        ShapeFeature ga = fa, gb = fb;
+        for (ShapeFeature* f : {&ga, &gb}) {
           for (Vec3& p : f->part.points) p *= scale;
           f->part.radius *= scale;
           f->x *= scale;
@@ -369,8 +369,8 @@ TEST(ConvexDistance, WitnessPointOfBarelyOverlappingSets) {
   Touching make(test::testSeed(35));
   int touching = 0;
   for (int n = 0; n < 4'000 / test::kSlowdown; ++n) {
-    const Feature fa = make.feature(Shape::cylinder),
-                  fb = make.feature(n % 2 ? Shape::cylinder : Shape::box);
+    const ShapeFeature fa = make.feature(Shape::cylinder),
+                       fb = make.feature(n % 2 ? Shape::cylinder : Shape::box);
     const Vec3 normal = make.vector().normalized();
     const PosedPart a{fa.part, make.pose(fa, Vec3::Zero(), normal)};
     PosedPart b{fb.part, make.pose(fb, Vec3::Zero(), -normal)};
@@ -389,7 +389,7 @@ TEST(ConvexDistance, WitnessPointOfBarelyOverlappingSets) {
 TEST(ConvexDistance, AsCloseAsRequested) {
   Touching make(test::testSeed(34));
   for (int n = 0; n < 2'000 / test::kSlowdown; ++n) {
-    const Feature fa = make.feature(Shape::cylinder), fb = make.feature(test::kShapes[n % 6]);
+    const ShapeFeature fa = make.feature(Shape::cylinder), fb = make.feature(test::kShapes[n % 6]);
     const Vec3 normal = make.vector().normalized();
     const PosedPart a{fa.part, make.pose(fa, Vec3::Zero(), normal)};
     PosedPart b{fb.part, make.pose(fb, Vec3::Zero(), -normal)};

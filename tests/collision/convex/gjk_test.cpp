@@ -11,8 +11,8 @@
 namespace corridor {
 namespace {
 
-using test::Feature;
 using test::Shape;
+using test::ShapeFeature;
 using test::Touching;
 
 /// Prints two figures of a search, and limits them: the number of rounds, and the difference
@@ -27,7 +27,7 @@ TEST(Gjk, WorstErrors) {
       double inDouble = 0, inDoubleDouble = 0;
       int roundsInDouble = 0, roundsInDoubleDouble = 0;
       for (int n = 0; n < 2'000; ++n) {
-        const Feature a = make.feature(sa), b = make.feature(sb);
+        const ShapeFeature a = make.feature(sa), b = make.feature(sb);
         const Vec3 normal = n % 5 == 0 ? Vec3(Vec3::Unit(n / 5 % 3)) : make.vector().normalized();
         const Transform X_WA = make.pose(a, Vec3::Zero(), normal);
         Transform X_WB = make.pose(b, Vec3::Zero(), -normal);
@@ -65,7 +65,7 @@ TEST(Gjk, BarelyOverlappingSetsEnd) {
   for (const Shape sa : test::kShapes)
     for (const Shape sb : test::kShapes)
       for (int n = 0; n < 1'000 / test::kSlowdown; ++n) {
-        const Feature a = make.feature(sa), b = make.feature(sb);
+        const ShapeFeature a = make.feature(sa), b = make.feature(sb);
         const Vec3 normal = make.vector().normalized();
         const Transform X_WA = make.pose(a, Vec3::Zero(), normal);
         Transform X_WB = make.pose(b, Vec3::Zero(), -normal);

@@ -12,12 +12,12 @@
 namespace corridor {
 namespace {
 
-using test::Feature;
 using test::Shape;
+using test::ShapeFeature;
 using test::Touching;
 
 /// Returns the shape enlarged by a power of two, which rounds nothing.
-Feature scaled(Feature f, double scale) {
+ShapeFeature scaled(ShapeFeature f, double scale) {
   for (Vec3& p : f.part.points) p *= scale;
   f.part.radius *= scale;
   f.x *= scale;
@@ -34,7 +34,7 @@ TEST(QuickContact, AgreesWithTheConstructionAndTheFullSearch) {
     for (const Shape sb : test::kShapes)
       for (int n = 0; n < 250; ++n) {
         const double scale = std::ldexp(1.0, n % 3 == 0 ? make.pick(60) - 30 : 0);
-        const Feature a = scaled(make.feature(sa), scale), b = scaled(make.feature(sb), scale);
+        const ShapeFeature a = scaled(make.feature(sa), scale), b = scaled(make.feature(sb), scale);
         const Vec3 normal = n % 5 == 0 ? Vec3(Vec3::Unit(n / 5 % 3)) : make.vector().normalized();
         const Vec3 x = make.vector() * (scale * (n % 4 == 0 ? 1e6 : 1));
         const Transform X_WA = make.pose(a, x, normal), touching = make.pose(b, x, -normal);
@@ -73,7 +73,7 @@ TEST(QuickContact, DecidesAllButContactsOfAThousandth) {
   for (const Shape sa : test::kShapes)
     for (const Shape sb : test::kShapes)
       for (int n = 0; n < 200; ++n) {
-        const Feature a = make.feature(sa), b = make.feature(sb);
+        const ShapeFeature a = make.feature(sa), b = make.feature(sb);
         const Vec3 normal = make.vector().normalized(), x = make.vector();
         const Transform X_WA = make.pose(a, x, normal);
         Transform X_WB = make.pose(b, x, -normal);

@@ -13,7 +13,7 @@ namespace corridor::test {
 
 /// A solid or a triangle with a point x on its surface and an outward normal m at x, all in the
 /// frame of the shape. −m points into the shape, except at the face of a triangle.
-struct Feature {
+struct ShapeFeature {
   ConvexPart part;  ///< a triangle is the hull of its corners
   bool isTriangle = false, flat = false;
   Vec3 x = Vec3::Zero(), m = Vec3::UnitZ();
@@ -41,8 +41,8 @@ class Touching {
 
   /// Returns a random solid of a shape, with a random point of a face, edge, corner or curved
   /// surface.
-  Feature feature(Shape shape) {
-    Feature f;
+  ShapeFeature feature(Shape shape) {
+    ShapeFeature f;
     const double turn = real(0, 6.3);
     const Vec3 radial(std::cos(turn), std::sin(turn), 0), z = Vec3::UnitZ();
     switch (shape) {
@@ -130,7 +130,7 @@ class Touching {
   }
 
   /// Returns a pose that maps the feature's point to `where`, and its normal to n.
-  Transform pose(const Feature& f, const Vec3& where, const Vec3& n) {
+  Transform pose(const ShapeFeature& f, const Vec3& where, const Vec3& n) {
     Transform X;
     X.m = turning(f.m, n);
     const Eigen::Matrix<long double, 3, 1> moved =

@@ -101,9 +101,9 @@ TEST(FlushToZero, ContactsOfTinyPrimitivesAreNotMissed) {
       for (int n = 0; n < 50; ++n) {
         // Two triangles that are pushed into each other may pass through.
         if (sa == test::Shape::triangle && sb == test::Shape::triangle) continue;
-        test::Feature a = make.feature(sa), b = make.feature(sb);
+        test::ShapeFeature a = make.feature(sa), b = make.feature(sb);
         const double scale = std::ldexp(1.0, n % 2 ? -make.pick(90) : -make.pick(1050));
-        for (test::Feature* f : {&a, &b}) {
+        for (test::ShapeFeature* f : {&a, &b}) {
           for (Vec3& p : f->part.points) p *= scale;
           f->part.radius *= scale;
           f->x *= scale;
@@ -182,7 +182,7 @@ TEST(FlushToZero, GrazingEdgesAreRight) {
     // Every tenth case is so small that squares, or even lengths, become 0. For these cases `free`
     // is not required.
     const double size = std::pow(10.0, n % 10 ? 6 - n % 13 : -100 - n % 210);
-    const auto feature = static_cast<test::Grazing::Feature>(n % test::Grazing::features);
+    const auto feature = static_cast<test::Grazing::ShapeFeature>(n % test::Grazing::features);
     const test::Grazing g(random, feature, n % 5 == 0, gap, size);
     if (!g.known) continue;
     ++known;

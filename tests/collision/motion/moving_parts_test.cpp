@@ -12,8 +12,8 @@
 namespace corridor {
 namespace {
 
-using test::Feature;
 using test::Shape;
+using test::ShapeFeature;
 using test::Touching;
 
 /// A relative motion: b's origin moves on a straight line and b rotates about it, both at constant
@@ -41,9 +41,9 @@ struct LineAndTurn {
   }
 };
 
-MovingPairAnswer decide(const Feature& a, const Feature& b, const RelativeMotion& relative,
-                        double margin) {
-  const auto triangle = [](const Feature& f) {
+MovingPairAnswer decide(const ShapeFeature& a, const ShapeFeature& b,
+                        const RelativeMotion& relative, double margin) {
+  const auto triangle = [](const ShapeFeature& f) {
     return Triangle{f.part.points[0], f.part.points[1], f.part.points[2]};
   };
   if (a.isTriangle) return decideMovingParts(triangle(a), b.part, relative, margin);
@@ -53,8 +53,8 @@ MovingPairAnswer decide(const Feature& a, const Feature& b, const RelativeMotion
 
 enum class Verdict { free, contact, undecided };
 
-Verdict certify(const Feature& a, const Feature& b, const LineAndTurn& motion, double t, double h,
-                double tolerance, double margin, std::uint64_t& decided) {
+Verdict certify(const ShapeFeature& a, const ShapeFeature& b, const LineAndTurn& motion, double t,
+                double h, double tolerance, double margin, std::uint64_t& decided) {
   ++decided;
   const MovingPairAnswer answer = decide(a, b, motion.relativeMotion(t, h), margin);
   if (answer.separated) return Verdict::free;
@@ -68,7 +68,7 @@ Verdict certify(const Feature& a, const Feature& b, const LineAndTurn& motion, d
 using Vec3L = Eigen::Matrix<long double, 3, 1>;
 
 /// Returns the least height of b along n, in long double, by its closed form.
-long double lowest(const Feature& b, const LineAndTurn& motion, long double t, const Vec3& n) {
+long double lowest(const ShapeFeature& b, const LineAndTurn& motion, long double t, const Vec3& n) {
   const Eigen::Matrix<long double, 3, 3> R =
       Eigen::AngleAxis<long double>(t * motion.angle, motion.axis.cast<long double>().normalized())
           .toRotationMatrix() *
@@ -93,7 +93,7 @@ TEST(MovingParts, GrazingByConstruction) {
   for (int n = 0; apart + together < count; ++n) {
     const Shape sa = test::kShapes[make.pick(6)], sb = test::kShapes[make.pick(6)];
     if (sa == Shape::triangle && sb == Shape::triangle) continue;
-    const Feature a = make.feature(sa), b = make.feature(sb);
+    const ShapeFeature a = make.feature(sa), b = make.feature(sb);
     const double amount = std::pow(10.0, -2 - n % 12);
     const double gap = n / 12 % 2 ? amount : -amount;
     if (gap < -0.4e-7) continue;                                // some parts are that thin
@@ -141,8 +141,8 @@ TEST(MovingParts, GrazingByConstruction) {
 }
 
 TEST(MovingParts, SlidesOnceAndKeepsMargins) {
-  const Feature table{placed(Box{Vec3(4, 4, 1)}, {}), false, false, {}, {}};
-  const Feature can{placed(Cylinder{0.5, 1}, {}), false, false, {}, {}};
+  const ShapeFeature table{placed(Box{Vec3(4, 4, 1)}, {}), false, false, {}, {}};
+  const ShapeFeature can{placed(Cylinder{0.5, 1}, {}), false, false, {}, {}};
   LineAndTurn motion;
   motion.start = {Mat3::Identity(), Vec3(-1, 0, 1.01)};
   motion.delta = Vec3(2, 0, 0);
