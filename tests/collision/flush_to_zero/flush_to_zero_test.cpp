@@ -182,7 +182,7 @@ TEST(FlushToZero, GrazingEdgesAreRight) {
     // Every tenth case is so small that squares, or even lengths, become 0. For these cases `free`
     // is not required.
     const double size = std::pow(10.0, n % 10 ? 6 - n % 13 : -100 - n % 210);
-    const auto feature = static_cast<test::Grazing::ShapeFeature>(n % test::Grazing::features);
+    const auto feature = static_cast<test::Grazing::Feature>(n % test::Grazing::features);
     const test::Grazing g(random, feature, n % 5 == 0, gap, size);
     if (!g.known) continue;
     ++known;

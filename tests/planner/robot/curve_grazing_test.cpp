@@ -22,7 +22,7 @@ using test::Real;
 using test::ReferenceKinematics;
 
 /// A random piece for the tree. Each row is smooth enough that some pieces pass a place only once.
-CurvePiece randomPiece(RandomTrees& random, int degree, double size) {
+CurvePiece smoothPiece(RandomTrees& random, int degree, double size) {
   random.makeEdge(size);
   CurvePiece piece;
   const auto numbers = static_cast<Eigen::Index>(random.space.size());
@@ -51,7 +51,7 @@ struct CurveGrazing {
 
   CurveGrazing(RandomTrees& random, int n, double gap) {
     random.makeTree(1 + random.index(5));
-    piece = randomPiece(random, 2 + n % 8, n % 3 ? 0.5 : 2);
+    piece = smoothPiece(random, 2 + n % 8, n % 3 ? 0.5 : 2);
     frames.b = random.tree.frames.size() - 1;
     const ReferenceKinematics reference(random.tree, random.space, piece);
     const double at = n % 5 ? random.real(0.05, 0.95) : n % 2;
@@ -148,7 +148,7 @@ TEST(CurveMotion, RandomPiecesAgainstSamples) {
   for (int n = 0; n < count; ++n) {
     random.makeTree(1 + random.index(6));
     const int degree = 1 + n % 8;
-    const CurvePiece piece = randomPiece(random, degree, std::pow(10.0, random.real(-2, 0.3)));
+    const CurvePiece piece = smoothPiece(random, degree, std::pow(10.0, random.real(-2, 0.3)));
     const Scene::FramePair frames{0, random.tree.frames.size() - 1};
     EdgeMotion motion(random.tree, random.space, {&frames, 1}, random.noTube());
     const ReferenceKinematics reference(random.tree, random.space, piece);

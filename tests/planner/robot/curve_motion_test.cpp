@@ -50,7 +50,7 @@ CurvePiece randomPiece(RandomTrees& random, int degree, double size) {
   return piece;
 }
 
-std::pair<double, double> interval(RandomTrees& random) {
+std::pair<double, double> dyadicInterval(RandomTrees& random) {
   const double h = std::ldexp(0.5, -static_cast<int>(random.index(12)));
   return {h + 2 * h * std::floor(random.real(0, 0.5 / h)), h};
 }
@@ -74,7 +74,7 @@ TEST(CurveMotion, PosesAndTwistsAreWithinTheirStatedError) {
     EdgeMotion motion(random.tree, random.space, pair, random.noTube());
     motion.set(piece);
     const ReferenceKinematics reference(random.tree, random.space, piece);
-    const auto [t, h] = interval(random);
+    const auto [t, h] = dyadicInterval(random);
     const MovingPose real = reference.relative(pair[0].a, pair[0].b, t);
     for (const double half : {0.0, h}) {
       const RelativeMotion w = motion.relativeMotion(0, t, half);
@@ -106,7 +106,7 @@ TEST(CurveMotion, MotionBoundsHold) {
     EdgeMotion motion(random.tree, random.space, pair, random.noTube());
     motion.set(piece);
     const ReferenceKinematics reference(random.tree, random.space, piece);
-    const auto [t, h] = interval(random);
+    const auto [t, h] = dyadicInterval(random);
     const RelativeMotion w = motion.relativeMotion(0, t, h);
     const Vec3 p = random.vector();
     const Vec3 y = w.X_AB.m * p;
@@ -194,7 +194,7 @@ TEST(CurveMotion, StraightPiecesAreEdges) {
     if (edge.ambiguous()) continue;
     const CurvePiece piece = curveOfPath(random.space, {random.from, random.to}).pieces[0];
     curve.set(piece);
-    const auto [t, h] = interval(random);
+    const auto [t, h] = dyadicInterval(random);
     const RelativeMotion v = edge.relativeMotion(0, t, h), w = curve.relativeMotion(0, t, h);
     const double most = 1e-12 * (1 + v.X_AB.t.norm());
     ASSERT_LE((v.X_AB.m - w.X_AB.m).norm(), 1e-13) << n;

@@ -27,7 +27,7 @@ ConfigurationSpace lines(int count, double limit = 100) {
   return space;
 }
 
-Configuration at(double x, double y) {
+Configuration place(double x, double y) {
   Configuration q(2);
   q << x, y;
   return q;
@@ -63,7 +63,7 @@ void expectSmooth(const std::vector<CurvePiece>& pieces) {
 
 TEST(SmoothPath, RoundsTheCornersOfAFreePath) {
   const ConfigurationSpace space = lines(2);
-  const Path path = {at(0, 0), at(1, 0), at(1, 1), at(3, 2)};
+  const Path path = {place(0, 0), place(1, 0), place(1, 1), place(3, 2)};
   const SmoothPath smooth = smoothedPath(space, path, kAllFree);
   EXPECT_EQ(smooth.corners, 2u);
   EXPECT_EQ(smooth.rounded, 2u);
@@ -74,7 +74,7 @@ TEST(SmoothPath, RoundsTheCornersOfAFreePath) {
 
 TEST(SmoothPath, KeepsTheDeviation) {
   const ConfigurationSpace space = lines(2);
-  const Path path = {at(0, 0), at(1, 0), at(1, 1), at(3, 1)};
+  const Path path = {place(0, 0), place(1, 0), place(1, 1), place(3, 1)};
   for (const double most : {1e-3, 1e-2, 0.05}) {
     SmoothOptions options;
     options.deviation = most;
@@ -105,8 +105,8 @@ TEST(SmoothPath, UsesOnlyCurvesThatAreProved) {
   const auto real = [&] { return std::uniform_real_distribution(-1.0, 1.0)(random); };
   std::size_t rounded = 0, corners = 0;
   for (int n = 0; n < 300; ++n) {
-    Path path = {at(0, 0)};
-    for (int k = 0; k < 6; ++k) path.push_back(path.back() + at(1 + 0.5 * real(), 2 * real()));
+    Path path = {place(0, 0)};
+    for (int k = 0; k < 6; ++k) path.push_back(path.back() + place(1 + 0.5 * real(), 2 * real()));
     const double radius = 0.02 + 0.1 * std::abs(real());
     std::vector<Configuration> centres;  // discs inside the corners, which the path just passes
     for (std::size_t k = 1; k + 1 < path.size(); ++k) {
@@ -144,7 +144,7 @@ TEST(SmoothPath, UsesOnlyCurvesThatAreProved) {
 
 TEST(SmoothPath, StaysWithinTheBounds) {
   const ConfigurationSpace space = lines(2, 1);
-  const Path path = {at(-1, -1), at(1, -1), at(1, 1), at(-1, 1), at(-1, -0.5)};
+  const Path path = {place(-1, -1), place(1, -1), place(1, 1), place(-1, 1), place(-1, -0.5)};
   const SmoothPath smooth = smoothedPath(space, path, kAllFree);
   for (const CurvePiece& piece : smooth.pieces) {
     EXPECT_LE(piece.coefficients.maxCoeff(), 1);
@@ -187,9 +187,9 @@ TEST(SmoothPath, CornersOfRotationsStay) {
 
 TEST(SmoothPath, PathsWithoutCorners) {
   const ConfigurationSpace space = lines(2);
-  EXPECT_EQ(smoothedPath(space, {at(1, 2)}, kAllFree).pieces.size(), 1u);
-  EXPECT_EQ(smoothedPath(space, {at(1, 2), at(1, 2)}, kAllFree).pieces.size(), 1u);
-  const SmoothPath edge = smoothedPath(space, {at(1, 2), at(1, 2), at(3, 2)}, kAllFree);
+  EXPECT_EQ(smoothedPath(space, {place(1, 2)}, kAllFree).pieces.size(), 1u);
+  EXPECT_EQ(smoothedPath(space, {place(1, 2), place(1, 2)}, kAllFree).pieces.size(), 1u);
+  const SmoothPath edge = smoothedPath(space, {place(1, 2), place(1, 2), place(3, 2)}, kAllFree);
   ASSERT_EQ(edge.pieces.size(), 1u);
   EXPECT_EQ(edge.corners, 0u);
   EXPECT_EQ(edge.tests, 0u);

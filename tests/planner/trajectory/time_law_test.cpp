@@ -11,12 +11,12 @@
 namespace corridor::test {
 namespace {
 
-const KinematicTree kNoTree;
+const KinematicTree kEmptyTree;
 
 double durationOf(const std::vector<CurvePiece>& path, const JointLimits& limits,
                   const TimeLawOptions& options = {}) {
   const TimeLaw law = timeLaw(path, jointSpace(static_cast<std::size_t>(limits.velocity.size())),
-                              limits, kNoTree, options);
+                              limits, kEmptyTree, options);
   EXPECT_EQ(law.fault, "");
   return law.duration;
 }
@@ -89,8 +89,8 @@ TEST(TimeLaw, ArcIsLimitedByCentripetalAcceleration) {
     return path;
   };
   const JointLimits limits = uniformLimits(3, 100, a);
-  const TimeLaw longer = timeLaw(arcs(80), space, limits, kNoTree),
-                shorter = timeLaw(arcs(16), space, limits, kNoTree);
+  const TimeLaw longer = timeLaw(arcs(80), space, limits, kEmptyTree),
+                shorter = timeLaw(arcs(16), space, limits, kEmptyTree);
   ASSERT_EQ(longer.fault + shorter.fault, "");
   // The difference of both is 64 arcs at the steady speed. The polygon costs up to 0.5 %.
   const double ideal = 64 * step * r / std::sqrt(a * r);
@@ -100,7 +100,7 @@ TEST(TimeLaw, ArcIsLimitedByCentripetalAcceleration) {
 
 TEST(TimeLaw, StopsAtCorners) {
   const std::vector<CurvePiece> corner{piece({{0, 1}, {0, 0}}), piece({{1, 1}, {0, 2}})};
-  const TimeLaw law = timeLaw(corner, jointSpace(2), uniformLimits(2, 50, 2), kNoTree);
+  const TimeLaw law = timeLaw(corner, jointSpace(2), uniformLimits(2, 50, 2), kEmptyTree);
   EXPECT_NEAR(law.duration, 2 * std::sqrt(0.5) + 2 * std::sqrt(1.0), 1e-12);
   ASSERT_EQ(law.stopTimes.size(), 1);
   EXPECT_NEAR(law.stopTimes[0], 2 * std::sqrt(0.5), 1e-12);
@@ -152,7 +152,7 @@ TEST(TimeLaw, ScalesDoNotMatter) {
 TEST(TimeLaw, Faults) {
   const auto faultOf = [](const std::vector<CurvePiece>& path, const JointLimits& limits,
                           const TimeLawOptions& options = {}) {
-    return timeLaw(path, jointSpace(1), limits, kNoTree, options).fault;
+    return timeLaw(path, jointSpace(1), limits, kEmptyTree, options).fault;
   };
   const std::vector<CurvePiece> line{piece({{0, 1}})};
   EXPECT_EQ(faultOf(line, uniformLimits(1, 0, 1)),
