@@ -1,6 +1,7 @@
 #include "planner/app/limits_output.h"
 
 #include <cmath>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -13,9 +14,10 @@ std::string limitsText(const Problem& problem, const LimitRatios& ratios) {
   std::string text = keepsLimits(ratios) ? "kept at every instant" : "exceeded";
   const std::vector<std::string> numbers = problem.model.space.numberNames();
   const auto add = [&](const char* what, const LimitShare& share, const std::string& name) {
-    // Rounded up, so that a limit that is exceeded never shows as 100 %.
-    text += std::string("; ") + what + " " + rounded(std::ceil(1e3 * share.share) / 10) + " % (" +
-            name + ")";
+    // Rounded up, so that a limit that is exceeded never shows as 100 %. The factor takes back what
+    // `keepsLimits` allows.
+    text += std::string("; ") + what + " " +
+            rounded(std::ceil(1e3 * share.share * (1 - 0x1p-39)) / 10) + " % (" + name + ")";
   };
   if (ratios.velocity.share > 0) add("velocity", ratios.velocity, numbers[ratios.velocity.number]);
   if (ratios.acceleration.share > 0)
@@ -23,7 +25,10 @@ std::string limitsText(const Problem& problem, const LimitRatios& ratios) {
   if (ratios.jerk.share > 0) add("jerk", ratios.jerk, numbers[ratios.jerk.number]);
   if (ratios.link.share > 0)
     add("speed of links", ratios.link, problem.task.limits.links[ratios.link.number].link);
-  if (ratios.position.share > 0)
+  for (const auto& [what, share] :
+       {std::pair("acceleration", ratios.acceleration), {"jerk", ratios.jerk}})
+    if (!share.tested) text += std::string("; ") + what + " not tested: it jumps at the rows";
+  if (ratios.position.share > 0x1p-40)
     text += "; position beyond the bounds by " + rounded(ratios.position.share) + " (" +
             numbers[ratios.position.number] + ")";
   return text;
@@ -31,10 +36,14 @@ std::string limitsText(const Problem& problem, const LimitRatios& ratios) {
 
 void addLimits(nlohmann::ordered_json& json, const LimitRatios& ratios) {
   json["limits"] = keepsLimits(ratios) ? "kept" : "exceeded";
-  json["velocity_share"] = numberJson(ratios.velocity.share);
-  json["acceleration_share"] = numberJson(ratios.acceleration.share);
-  json["jerk_share"] = numberJson(ratios.jerk.share);
-  json["link_speed_share"] = numberJson(ratios.link.share);
+  const auto add = [&](const char* key, const LimitShare& share) {
+    json[key] = share.tested ? numberJson(share.share) : nlohmann::ordered_json();
+  };
+  add("velocity_share", ratios.velocity);
+  add("acceleration_share", ratios.acceleration);
+  add("jerk_share", ratios.jerk);
+  add("link_speed_share", ratios.link);
+  json["beyond_bounds"] = numberJson(ratios.position.share);
 }
 
 }  // namespace corridor::app

@@ -210,6 +210,13 @@ MotionResult Checker::certify(const Configuration& from, const Configuration& to
 }
 
 MotionResult Checker::certifyCurve(const CurvePiece& piece, bool earliest) const {
+  const auto size = static_cast<Eigen::Index>(space().size());
+  if (piece.coefficients.rows() != size || piece.error.size() != size || piece.degree() < 1 ||
+      piece.degree() > CurvePiece::kLargestDegree || !piece.error.allFinite() ||
+      (piece.error.array() < 0).any())
+    throw std::invalid_argument(
+        "certifyCurve: a piece has one row and one error of 0 or more for each number of a "
+        "configuration, and a degree from 1 to 9");
   if (!standardFloatingPoint()) return refused();
   MotionOptions options = options_;
   options.earliest = earliest;

@@ -90,7 +90,10 @@ class Checker {
                            const PairMargins& more, bool earliest = false) const;
   /// Decides whether a piece of a curve is free, for the tube widened by the piece's `error`. Times
   /// in the result are values of τ. The method is always `EdgeMethod::directional`. Doesn't test
-  /// the bounds. @pre finite, of the space's size, of a degree from 1 to 9.
+  /// the bounds. @pre the coefficients are finite.
+  /// @throws std::invalid_argument if the piece has another number of rows than a configuration has
+  /// numbers, a degree that is not from 1 to 9, or an `error` that is negative, not finite, or of
+  /// another size.
   MotionResult certifyCurve(const CurvePiece& piece, bool earliest = false) const;
   /// Tests exactly whether a tested pair is in contact at the rounded poses of the frames. Margin,
   /// padding, tolerance and tube are ignored. @pre finite.

@@ -230,6 +230,7 @@ void MovingJoint::setCurveBounds(double V) {
 
 void MovingJoint::evaluateCurve(double t) {
   const auto n = static_cast<int>(curve_.cols()) - 1;
+  evaluatedAt_ = t;
   auto b = curve_;
   Vec3 second = Vec3::Zero();
   for (int left = n; left > 1; --left) {
@@ -253,6 +254,8 @@ void MovingJoint::evaluateCurve(double t) {
 
 double MovingJoint::curveDeviation(double h) const {
   const double second = std::min(largestSecond_, second_ + h * largestThird_);
+  if (evaluatedAt_ - h < 0 || evaluatedAt_ + h > 1)
+    return second > 0 ? std::numeric_limits<double>::infinity() : 0;
   return second > 0 && h > 0 ? roundedUp(0.5 * h * h * second) : 0;
 }
 

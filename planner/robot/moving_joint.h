@@ -63,8 +63,8 @@ class MovingJoint {
   /// Upper bound of |rate| + rateError on the whole edge.
   double largestRate() const { return largestRate_; }
   /// Returns an upper bound of the joint's deviation, in [t − h, t + h], from the uniform motion
-  /// with `rate`, for the t of the last call of `at`; rad or m. 0 on an edge. @pre the interval is
-  /// within [0, 1].
+  /// with `rate`, for the t of the last call of `at`; rad or m. 0 on an edge. Infinite, so that
+  /// nothing is proved, if the interval is not within [0, 1].
   double deviation(double h) const { return curve_.cols() == 0 ? 0 : curveDeviation(h); }
   /// Upper bounds, valid on the whole edge. `rateError`: the error of the vector rate·axis; the
   /// direction of `axis` may be off by another 32u. `rotationError`: the error of the matrix of
@@ -111,6 +111,7 @@ class MovingJoint {
   double curveError_ = 0;                        // the piece's `error` of this joint, rad or m
   double largestSecond_ = 0, largestThird_ = 0;  // upper bounds of |q''| and |q'''|
   double second_ = 0;                            // upper bound of |q''| at the last t
+  double evaluatedAt_ = 0;                       // the last t
 };
 
 }  // namespace corridor

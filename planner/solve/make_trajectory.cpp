@@ -11,10 +11,6 @@
 namespace corridor {
 namespace {
 
-/// The times of a message are whole nanoseconds. Rounding the ends of an interval of 1 ms changes a
-/// velocity by 10^-6 of itself, and an acceleration by twice this share. So the law of a message
-/// gets this much less of each limit.
-constexpr double kShareForRounding = 1e-5;
 constexpr int kDeviations = 4;
 
 /// Returns the limits of each number by itself. A planar or floating joint has its limits at its
@@ -76,6 +72,40 @@ void prove(const Checker& checker, MadeTrajectory& made) {
   }
 }
 
+/// Makes the law, the rows and the text, and proves them. `limits` are those of the law.
+void makeText(const Problem& problem, const Checker& checker, const std::vector<CurvePiece>& path,
+              const JointLimits& limits, const TrajectoryOptions& options, double deviation,
+              MadeTrajectory& made) {
+  const ConfigurationSpace& space = problem.model.space;
+  const KinematicTree& tree = problem.model.tree;
+  TimeLawOptions lawOptions;
+  lawOptions.smooth = made.between == Between::quintic;
+  const TimeLaw law = timeLaw(path, space, limits, tree, lawOptions);
+  made.fault = law.fault;
+  if (!made.fault.empty()) return;
+  EmitOptions emit;
+  emit.degree = made.between == Between::quintic ? 5 : 3;
+  emit.rate = options.rate;
+  emit.deviation = deviation;
+  const Emission emission = emitRows(law, path, space, limits, tree, emit);
+  made.fault = emission.fault;
+  if (!made.fault.empty()) return;
+  made.duration = emission.duration;
+  made.stretch = emission.stretch;
+  made.text = textOf(emission.rows, space, made.between, options.kind);
+  try {
+    const TrajectoryRows read = readTrajectory("the trajectory", made.text, problem.model);
+    made.rows = read.rows.size();
+    made.duration = read.rows.back().time - read.rows.front().time;
+    made.curve = curveOf(read, space, made.between);
+    made.ratios = limitsOfRows(read, made.between, space, problem.task.limits, tree);
+  } catch (const InputError& error) {  // rows of a message that are less than 1 ns apart
+    made.fault = error.what();
+    return;
+  }
+  prove(checker, made);
+}
+
 }  // namespace
 
 MadeTrajectory makeTrajectory(const Problem& problem, const Checker& checker, const Path& path,
@@ -94,30 +124,19 @@ MadeTrajectory makeTrajectory(const Problem& problem, const Checker& checker, co
 
   const bool limitsJerk = limits.jerk.array().isFinite().any();
   made.between = limitsJerk ? Between::quintic : Between::cubic;
-  const bool rounds = options.kind == TrajectoryFileKind::message;
-  const JointLimits kept = rounds ? reduced(limits, 1 - kShareForRounding) : limits;
-  TimeLawOptions lawOptions;
-  lawOptions.smooth = limitsJerk;
-  const TimeLaw law = timeLaw(smooth.pieces, space, kept, problem.model.tree, lawOptions);
-  made.fault = law.fault;
-  EmitOptions emit;
-  emit.degree = limitsJerk ? 5 : 3;
-  emit.rate = options.rate;
-  emit.deviation = options.deviation;
-  for (int i = 0; i < kDeviations && made.fault.empty(); ++i, emit.deviation /= 4) {
-    const Emission emission = emitRows(law, smooth.pieces, space, kept, problem.model.tree, emit);
-    made.fault = emission.fault;
-    if (!made.fault.empty()) break;
-    made.duration = emission.duration;
-    made.stretch = emission.stretch;
-    made.text = textOf(emission.rows, space, made.between, options.kind);
-    const TrajectoryRows read = readTrajectory("the trajectory", made.text, problem.model);
-    made.rows = read.rows.size();
-    made.curve = curveOf(read, space, made.between);
-    made.ratios = limitsOfRows(read, made.between, space, limits, problem.model.tree);
-    prove(checker, made);
-    if (made.proved()) break;
+  if (lengthOf(space, path).metres == 0 && lengthOf(space, path).radians == 0)
+    made.fault = "the path does not move";
+  double deviation = options.deviation, share = 1;
+  std::optional<MadeTrajectory> proved;
+  for (int i = 0; i < kDeviations && made.fault.empty(); ++i) {
+    makeText(problem, checker, smooth.pieces, reduced(limits, share), options, deviation, made);
+    if (made.proved() && keepsLimits(made.ratios)) return made;
+    if (made.proved()) proved = made;
+    deviation /= 4;
+    // The rounding of times is all that can make a message exceed limits that its rows keep.
+    if (options.kind == TrajectoryFileKind::message) share -= i == 0 ? 1e-4 : 0.01;
   }
+  if (proved) return *proved;
   if (!made.fault.empty()) made.text.clear();
   return made;
 }

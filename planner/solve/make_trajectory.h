@@ -43,7 +43,11 @@ struct MadeTrajectory {
   std::size_t failedPiece = 0;  ///< without a proof: index into curve.pieces
   std::string fault;            ///< why there is no trajectory, one line; or ""
 
-  bool proved() const { return fault.empty() && proof.verdict == MotionVerdict::free; }
+  /// Whether the file's curve is proved free and stays within the bounds of all joints.
+  bool proved() const {
+    return fault.empty() && proof.verdict == MotionVerdict::free &&
+           ratios.position.share <= 0x1p-40;
+  }
 };
 
 /// Makes a trajectory along a path, in these steps:
@@ -52,8 +56,14 @@ struct MadeTrajectory {
 ///    (time_law.h). If a limit of jerk is given, the law keeps it.
 /// 3. Rows are made of it (emit.h), and written as text.
 /// 4. The text is read again. The checker proves each piece of the curve that it means, and its
-///    limits are proved (limits_proof.h). If a piece can't be proved, steps 3 and 4 are repeated up
-///    to three times, each time with a quarter of the deviation.
+///    limits are proved (rows_limits.h). If a piece can't be proved, or limits are exceeded, steps
+///    2 to 4 are repeated up to three times, each time with a quarter of the deviation and, for
+///    messages, with smaller limits. The last result that is proved is returned, even if it exceeds
+///    a limit (`keepsLimits`).
+///
+/// Limits of a message may be exceeded because its times are whole nanoseconds: that changes the
+/// acceleration of a cubic by 6|v|·1e-9/T², and the jerk of a quintic by 60|v|·1e-9/T³, where T is
+/// the time between two rows. So dense rows of a message can't keep tight limits of jerk.
 ///
 /// The result depends on the arguments only, unless `stop` returns true: then no further corner is
 /// rounded.

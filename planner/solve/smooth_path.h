@@ -37,7 +37,8 @@ struct SmoothPath {
 /// A corner is replaced by a curve of degree 5 from the edge before it to the edge after it. The
 /// curve joins both edges with a continuous tangent and a second derivative of 0. Therefore the
 /// whole result is C² for a suitable speed along it, except at corners that could not be rounded.
-/// Each curve is used only if `isFree` proves it.
+/// Each curve is used only if `isFree` proves it. Lines are parts of the path's edges, up to
+/// rounding; they are not tested here.
 ///
 /// 1. Each corner gets the largest curve that is proved. The first try takes half of the shorter
 ///    edge; a try that fails is halved.

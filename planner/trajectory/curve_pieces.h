@@ -20,17 +20,20 @@
 /// | piece | n | f | n·f | bound |
 /// |---|---|---|---|---|
 /// | linear | 4: difference, quotient, product, sum | 2 | 8 | 2^-49·M = 16u·M |
-/// | cubic | 22: product with T 2, sum 3, quotient by T³ 3, t³ 2, product 1, sum 3; T 8 | 6 (p0: 1
-/// + 3 + 2) | 132 | 2^-45·M = 256u·M | | quintic | 41: products with T² 3, sum 5, quotient by 2T⁵
-/// 6, t⁵ 4, product 1, sum 5; T² 16; 1 | 32 (p0: 1 + 10 + 15 + 6) | 1312 | 2^-42·M = 2048u·M |
+/// | cubic | 22 | 6 (p0: 1 + 3 + 2) | 132 | 2^-45·M = 256u·M |
+/// | quintic | 41 | 32 (p0: 1 + 10 + 15 + 6) | 1312 | 2^-42·M = 2048u·M |
+///
+/// Roundings of the cubic: product with T 2, sum 3, quotient by T³ 3, t³ 2, product 1, sum 3, T 8.
+/// Roundings of the quintic: products with T² 3, sum 5, quotient by 2T⁵ 6, t⁵ 4, product 1, sum 5,
+/// T² 16, and one more.
 ///
 /// The bounds have room for the terms of second order, and for the rounding of the Bernstein
 /// coefficients, which are computed in long double and rounded once: at most 2u·M.
 ///
 /// A controller that takes the duration from times in doubles knows it less exactly: to δ seconds.
 /// Its curve then has T + δ in the terms v·T and a·T². The polynomials that these are multiplied by
-/// are below 1 on [0, 1]. So it deviates by at most δ·(|v0| + |v1|) + 3·δ·T·(|a0| + |a1|) for δ ≤
-/// T: the functions below add this for their `durationError`.
+/// are below 1 on [0, 1]. So it deviates by at most δ·(|v0| + |v1|) + (2T + δ)·δ·(|a0| + |a1|): the
+/// functions below add this for their `durationError`.
 namespace corridor {
 
 /// What a trajectory says about one time. m, rad, s. Empty vectors: unknown.
@@ -66,9 +69,10 @@ CurvePiece powerPiece(const Eigen::MatrixXd& coefficients, double duration);
 /// The coefficients are values of the polar form (de Boor's recursion), the same as those by knot
 /// insertion. The space must have no rotation.
 ///
-/// The error bound is 2^-47·max |control point|, for each number. It covers evaluation by de Boor's
-/// recursion in doubles: 9 levels of convex combinations of 5 roundings each, which is 45u. The
-/// conversion does the same in long double, and rounds once.
+/// The error bound is 2^-46·max |control point| = 128u·max, for each number. It covers evaluation
+/// by de Boor's recursion in doubles: 9 levels of at most 8u·max each (the weight α is off by 3u,
+/// which moves a combination by up to 6u·max; 1 − α, the products and the sum take 2u·max more).
+/// The conversion does the same in long double, and rounds once.
 /// @param points one column for each control point.
 /// @param knots ascending; points.cols() + degree + 1 of them. The curve covers [knots[degree],
 /// knots[points.cols()]].

@@ -69,8 +69,9 @@ class Rows {
     std::stable_sort(all.begin(), all.end(), [&](const LawTime& a, const LawTime& b) {
       return clock_.timeOf(a) < clock_.timeOf(b);
     });
-    // Rows that are nearer than this are one: stops that a period meets up to rounding.
-    const double least = 1e-9 * end;
+    // Rows that are nearer than this are one: stops that a period meets up to rounding. With a
+    // rate, rows that are very near each other would have derivatives that rounding spoils.
+    const double least = std::max(1e-9 * end, options_.rate ? 1e-3 / *options_.rate : 0);
     for (const LawTime& t : all)
       if (required_.empty() || clock_.timeOf(t) > clock_.timeOf(required_.back()) + least)
         required_.push_back(t);

@@ -23,8 +23,8 @@ struct EmitOptions {
 struct Emission {
   std::vector<TimedRow> rows;  ///< ascending times, from 0
   double duration = 0;         ///< seconds
-  /// A bound of the distance of the rows' curve from the path, in each number, at every instant;
-  /// rad and m. For rotations: the angle.
+  /// A bound of the distance of the rows' curve from the path, in each number, at every instant, up
+  /// to rounding; rad and m. For rotations: the angle.
   double deviation = 0;
   /// The largest share of each limit that is used at any instant, proved; at most 1.
   LimitRatios ratios;

@@ -40,8 +40,9 @@ struct Vectors {
   }
   double bound() const {
     double most = 0;
-    for (int i = 0; i <= degree; ++i) most = std::max(most, length(i));
-    return most + error;
+    for (int i = 0; i <= degree; ++i)
+      if (!(length(i) <= most)) most = length(i);  // keeps a NaN
+    return std::isnan(most) ? kUnbounded : most + error;
   }
   double attained() const { return std::max(length(0), length(degree)) - error; }
   /// Splits at 1/2 by de Casteljau's algorithm; this becomes the first half. Each of `degree`
@@ -63,25 +64,28 @@ struct Vectors {
 
 /// Returns a bound of the largest length on [0, 1]. Parts whose bound is at most `known` are not
 /// improved.
-double largestLength(Vectors part, double known, int halvings = kBoundHalvings) {
+/// @param limit a bound just above it is improved further, unless it is exceeded.
+double largestLength(Vectors part, double known, double limit, int halvings = kBoundHalvings) {
   const double bound = part.bound();
-  if (bound <= known || halvings == 0 || part.degree == 0) return bound;
-  const double enough = std::max(known, part.attained() * (1 + kTight));
-  if (bound <= enough) return bound;
+  if (bound <= known || halvings == 0 || part.degree == 0 || !std::isfinite(bound)) return bound;
+  const double attained = part.attained(), enough = std::max(known, attained * (1 + kTight));
+  const bool isNearLimit = bound > limit && attained <= limit && known <= limit;
+  if (bound <= enough && !isNearLimit) return bound;
+  const double least = isNearLimit ? std::max(known, attained) : enough;
   const Vectors second = part.split();
-  const double first = largestLength(part, enough, halvings - 1);
-  return std::max(first, largestLength(second, std::max(enough, first), halvings - 1));
+  const double first = largestLength(part, least, limit, halvings - 1);
+  return std::max(first, largestLength(second, std::max(least, first), limit, halvings - 1));
 }
 
 void raise(LimitShare& most, double share, std::size_t number, double time) {
-  if (share > most.share) most = {share, number, time};
+  if (!(share <= most.share)) most = {std::isnan(share) ? kUnbounded : share, number, time};
 }
 
 /// Raises `most` by the share of a limit that polynomials use.
 void raiseBy(const Vectors& vectors, double limit, Eigen::Index number, double time,
              LimitShare& most) {
   if (std::isinf(limit)) return;
-  const double length = largestLength(vectors, most.share * limit);
+  const double length = largestLength(vectors, most.share * limit, limit);
   // 2^-51: the quotient and the product above.
   const double share = length == 0 ? 0 : length / limit * (1 + 0x1p-51);
   raise(most, share, static_cast<std::size_t>(number), time);
@@ -119,9 +123,9 @@ double excessOf(const RowPolynomials& p, double lower, double upper) {
       // The difference and the sum round once each. At a row itself (rise 0), the sign is exact.
       const double slack =
           rise == 0 ? 0 : p.rise.error[i] + 0x1p-51 * (std::abs(gap) + std::abs(rise));
+      error = std::max(error, slack);
       // gap ≤ 0 and a rise that is surely not positive: the coefficient is within the limit.
       if (gap <= 0 && rise + p.rise.error[i] <= 0) continue;
-      error = std::max(error, slack);
       any = any || g[i] + slack > 0;
     }
     if (any) most = std::max(most, largestValue(g, p.rise.degree, error, 12));
@@ -277,11 +281,13 @@ class Prover {
     }
     const LinkSpeed& link = limits_.links[l];
     const double attained = linkSpeedShares(tree_, {link}, q, v).front();
+    const double largestAngle = q.cwiseAbs().maxCoeff();
     // The speed changes by at most half of the time times the acceleration. 2^-40 of the largest
-    // speed is far above the rounding of kinematics: some u in each of up to 100 frames.
-    const double bound =
-        attained + ((b - a) / 2 * duration * bounds.acceleration + 0x1p-40 * bounds.speed) /
-                       link.speed * (1 + 0x1p-40);
+    // speed is far above the rounding of kinematics, some u in each of up to 100 frames, except for
+    // that of large angles: 2u of each angle turns all points after it.
+    const double bound = attained + ((b - a) / 2 * duration * bounds.acceleration +
+                                     (0x1p-40 + 0x1p-45 * largestAngle) * bounds.speed) /
+                                        link.speed * (1 + 0x1p-40);
     if (bound <= std::max({1.0, ratios_.link.share, attained * 1.005}) || halvings == 0)
       return bound;
     const double first = linkShare(i, l, curves, bounds, a, middle, halvings - 1);

@@ -21,6 +21,8 @@ struct LimitShare {
   double share = 0;        ///< 1: the limit is reached
   std::size_t number = 0;  ///< of a Configuration; for link speeds: index into JointLimits::links
   double time = 0;         ///< seconds: the begin of the interval between rows
+  /// False if the limit is given, but the rows don't determine what it limits (rows_limits.h).
+  bool tested = true;
 };
 
 /// Upper bounds, valid at every instant.

@@ -6,7 +6,7 @@ namespace corridor {
 namespace {
 
 /// A sum with the sum of the absolute values of its terms. A coefficient here has at most 8 terms,
-/// each of which takes at most 7 roundings: the difference of two positions and of two times (one
+/// each of which takes at most 9 roundings: the difference of two positions and of two times (one
 /// each, the latter up to three times), and products and quotients. With 7 additions, its error is
 /// at most 16·2^-53·size, up to second order. kRounding is twice that.
 struct Sum {

@@ -1,6 +1,9 @@
 #include "planner/trajectory/rows_limits.h"
 
 #include <algorithm>
+#include <limits>
+
+#include "collision/core/floating_point.h"
 
 namespace corridor {
 
@@ -14,15 +17,22 @@ LimitRatios limitsOfRows(const TrajectoryRows& rows, Between between,
                      rows.hasAccelerations ? row.accelerations : none});
   const int degree = between == Between::linear ? 1 : between == Between::cubic ? 3 : 5;
   LimitRatios ratios = proveLimits(timed, degree, space, limits, tree);
-  if (between == Between::linear) ratios.acceleration = {};
-  if (between != Between::quintic) ratios.jerk = {};
+  const auto leaveOut = [](LimitShare& share, const Configuration& limit) {
+    share = {};
+    share.tested = !limit.array().isFinite().any();
+  };
+  if (between == Between::linear) leaveOut(ratios.acceleration, limits.acceleration);
+  if (between != Between::quintic) leaveOut(ratios.jerk, limits.jerk);
+  if (standardFloatingPoint()) return ratios;
+  for (LimitShare* share : {&ratios.velocity, &ratios.acceleration, &ratios.jerk, &ratios.link})
+    if (share->share > 0) share->share = std::numeric_limits<double>::infinity();
   return ratios;
 }
 
 bool keepsLimits(const LimitRatios& ratios) {
   return std::max({ratios.velocity.share, ratios.acceleration.share, ratios.jerk.share,
-                   ratios.link.share}) <= 1 &&
-         ratios.position.share <= 0;
+                   ratios.link.share}) <= 1 + 0x1p-40 &&
+         ratios.position.share <= 0x1p-40;
 }
 
 }  // namespace corridor

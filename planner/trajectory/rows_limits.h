@@ -7,14 +7,18 @@ namespace corridor {
 
 /// Proves the limits of the curve that the rows of a file mean, as `proveLimits` does for rows of a
 /// law. Linear rows have limits of velocity only: their velocity jumps at rows. Cubic rows have
-/// limits of velocity and acceleration, and quintic rows of jerk, too. Shares that are not bounded
-/// are 0.
+/// limits of velocity and acceleration, and quintic rows of jerk, too. Shares of other limits that
+/// are given are 0 and not `tested`. If the processor's floating-point mode makes the bounds
+/// invalid (collision/core/floating_point.h), shares of what moves are infinite.
 /// @pre the rows have times, and what `between` needs.
 LimitRatios limitsOfRows(const TrajectoryRows& rows, Between between,
                          const ConfigurationSpace& space, const JointLimits& limits,
                          const KinematicTree& tree);
 
-/// Returns whether no limit is exceeded at any instant.
+/// Returns whether no limit that was tested is exceeded at any instant. Shares are upper bounds,
+/// whose own rounding is below 2^-44 of them. So a share of up to 1 + 2^-40 counts as kept:
+/// otherwise a motion exactly at a limit would exceed it. For the same reason, positions may be up
+/// to 2^-40 m or rad beyond the bounds, less than the default tube.
 bool keepsLimits(const LimitRatios& ratios);
 
 }  // namespace corridor

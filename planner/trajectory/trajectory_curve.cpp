@@ -100,7 +100,15 @@ std::vector<OutsideBounds> outsideBounds(const ConfigurationSpace& space,
     const auto row = static_cast<Eigen::Index>(c.first);
     for (std::size_t p = 0; p < pieces.size(); ++p) {
       const Eigen::VectorXd values = pieces[p].coefficients.row(row);
-      const Real slack = pieces[p].error[row];
+      const auto last = values.size() - 1;
+      const auto isOutside = [&](double value) { return value < c.lower || value > c.upper; };
+      if (isOutside(values[0]) || isOutside(values[last])) {
+        const double t = isOutside(values[0]) ? 0 : 1;
+        all.push_back({k, p, t, t == 0 ? values[0] : values[last]});
+        break;
+      }
+      const Real slack =
+          std::min<Real>(pieces[p].error[row], 0x1p-42L * Real(values.cwiseAbs().maxCoeff()));
       const verify::RangeAnswer answer =
           verify::rangeOf(verify::Bernstein(std::span(values.data(), std::size_t(values.size()))),
                           c.lower - slack, c.upper + slack);

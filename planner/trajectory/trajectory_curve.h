@@ -43,8 +43,9 @@ struct OutsideBounds {
 
 /// Proves that the line coordinates of a curve stay within their bounds everywhere, not only at its
 /// rows. For each coordinate of which this can't be proved, returns a place in the first piece that
-/// leaves the bounds (verify/polynomial_range.h). A value beyond a bound by at most the piece's
-/// error is not outside.
+/// leaves the bounds (verify/polynomial_range.h). The rows themselves are compared exactly. Between
+/// them, a value is not outside if it is beyond a bound by at most the rounding of the piece's
+/// coefficients, which is below 2^-42 of them.
 std::vector<OutsideBounds> outsideBounds(const ConfigurationSpace& space,
                                          std::span<const CurvePiece> pieces);
 

@@ -31,8 +31,9 @@ struct RangeAnswer {
 /// beyond the limit by more than Bernstein::error. There, no value can be shown to exceed the
 /// limit.
 ///
-/// A piece that starts or ends exactly on a limit is decided exactly: its first and last
-/// coefficient are its values, and they have no error.
+/// A piece that starts or ends exactly on a limit, and turns inwards there, is usually decided: its
+/// first and last coefficient are its values. If sums of its coefficients are rounded, `undecided`
+/// is possible there, too.
 /// @pre all coefficients are finite; lower ≤ upper.
 RangeAnswer rangeOf(const Bernstein& polynomial, Real lower, Real upper);
 
