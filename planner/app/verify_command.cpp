@@ -219,7 +219,7 @@ void addVerify(CLI::App& program, int& status) {
   command->add_option("PROBLEM", a.problem, "the problem, as for solve")->required();
   command
       ->add_option(
-          "TRAJECTORY", a.solution,
+          "FILE", a.solution,
           "a solution file (-: standard input), rows of joint values (CSV) with or without "
           "times, a JointTrajectory of ROS or MoveIt (YAML, JSON), or an OMPL.app .path "
           "file")
@@ -243,8 +243,8 @@ void addVerify(CLI::App& program, int& status) {
   command->footer(
       std::string("A trajectory makes no claim to solve the problem: if it does not begin at the "
                   "start or end in the goal, a note says so.\n"
-                  "Examples: corridor verify problems/piano piano.solution.yaml\n"
-                  "          corridor verify mine/problem.yaml recorded.csv --between linear\n") +
+                  "Example: corridor verify problems/piano piano.solution.yaml\n"
+                  "         corridor verify mine/problem.yaml recorded.csv --between linear\n") +
       kExitStatus);
   command->callback([arguments, &status] { status = verifyCommand(*arguments); });
 }
