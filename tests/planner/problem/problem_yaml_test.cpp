@@ -42,6 +42,7 @@ checker: {edges: discrete, resolution: 0.02, tolerance: 1e-5, volume: obb-binary
 allow: [[wedge, stone]]
 prefer: {clearance: 0, detour: 0.25}
 padding: {bodies: {wedge: 0.01, stone: 0.002}, pairs: [[rock, wedge, 0.03]]}
+limits: {position: {velocity: 0.5, acceleration: 2}, rotation: {velocity: 3}, velocity_scale: 0.5}
 seed: 18446744073709551615
 )";
 
@@ -73,6 +74,9 @@ TEST_F(ProblemYaml, EveryKeyIsRead) {
   EXPECT_EQ(p.task.padding.bodies, (std::map<std::size_t, double>{{0, 0.01}, {2, 0.002}}));
   EXPECT_EQ(p.task.padding.pairs.size(), 1u);
   EXPECT_EQ(p.task.padding.of(0, 1, false), 0.03);
+  EXPECT_EQ(p.task.limits.velocity[0], 0.25);
+  EXPECT_EQ(p.task.limits.acceleration[0], 2);
+  EXPECT_EQ(p.task.limits.velocity[3], 1.5);
   EXPECT_EQ(p.settings.prefer.clearance, 0);
   EXPECT_EQ(p.settings.prefer.detour, 0.25);
   EXPECT_EQ(pairCount(p.model), 2);
