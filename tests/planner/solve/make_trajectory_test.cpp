@@ -60,7 +60,7 @@ TEST_F(MakeTrajectory, StopsOnlyWhereNoCurveIsProved) {
   const Problem problem = problemWith();
   const MadeTrajectory made = makeTrajectory(problem, Checker(problem), overThePost());
   TrajectoryOptions tight;
-  tight.cornerDeviation = 1e-6;
+  tight.cornerDeviation = 0.02;
   const MadeTrajectory slow = makeTrajectory(problem, Checker(problem), overThePost(), tight);
   EXPECT_TRUE(slow.proved());
   EXPECT_GT(slow.duration, 1.05 * made.duration);
