@@ -253,7 +253,11 @@ class Smoother {
     for (std::size_t edge = 0; edge < edges_.size();) {
       if (next != blends_.end() && next->first == edge) {
         const Configuration begin = next->piece.coefficients.col(0);
-        if (begin != here) result_.pieces.push_back(line(here, begin));
+        // Two curves that share an edge meet up to rounding: a line of an ulp has no direction.
+        if (lengthOf(begin - here) <= kStraight * edges_[edge].length)
+          next->piece.coefficients.col(0) = here;
+        else
+          result_.pieces.push_back(line(here, begin));
         result_.pieces.push_back(next->piece);
         result_.rounded += next->last - next->first;
         here = next->piece.coefficients.rightCols<1>();

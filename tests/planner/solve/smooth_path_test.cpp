@@ -98,6 +98,31 @@ TEST(SmoothPath, KeepsTheDeviation) {
   }
 }
 
+/// Curves of adjacent corners that meet on an edge have no line of an ulp between them.
+TEST(SmoothPath, HasNoLinesOfAnUlp) {
+  const ConfigurationSpace space = lines(2);
+  std::mt19937_64 random(test::testSeed(62));
+  const auto real = [&] { return std::uniform_real_distribution(-1.0, 1.0)(random); };
+  int meetings = 0;
+  for (int n = 0; n < 200; ++n) {
+    Path path = {place(0, 0)};
+    for (int k = 0; k < 6; ++k) path.push_back(path.back() + place(1 + 0.5 * real(), 2 * real()));
+    // Curves over more than one corner are refused, so that all edges stay.
+    const CurveTest isCorner = [&](const CurvePiece& piece) {
+      return piece.coefficients.col(2) == piece.coefficients.col(3) ||
+             (piece.coefficients.col(2) - piece.coefficients.col(3)).norm() < 1e-12;
+    };
+    const SmoothPath smooth = smoothedPath(space, path, isCorner);
+    for (std::size_t k = 0; k < smooth.pieces.size(); ++k) {
+      const auto& c = smooth.pieces[k].coefficients;
+      ASSERT_GT((c.rightCols<1>() - c.col(0)).norm(), 1e-9) << n << ", piece " << k;
+      meetings += k > 0 && smooth.pieces[k].degree() == 5 && smooth.pieces[k - 1].degree() == 5;
+    }
+    expectSmooth(smooth.pieces);
+  }
+  EXPECT_GT(meetings, 100);
+}
+
 /// The corner of a disc's forbidden region: curves that cut the corner too far are refused.
 TEST(SmoothPath, UsesOnlyCurvesThatAreProved) {
   const ConfigurationSpace space = lines(2);
