@@ -147,6 +147,8 @@ void print(const Solved& result, const std::string& problem, const SolveArgument
   out.line("certified", r.certified ? "yes" : "no (" + r.checker + ")",
            r.certified ? Tone::good : Tone::bad);
   if (r.trajectory) printTrajectory(out, p, *r.trajectory);
+  if (r.trajectory && r.clearance)
+    out.line("note", "the clearance is the path's; corridor verify reports the trajectory's");
   if (a.output) out.line("solution", *a.output);
   if (r.trajectory && r.trajectory->proved()) out.line("trajectory file", *a.trajectory);
   if (a.picture) out.line("picture", *a.picture);

@@ -18,7 +18,8 @@ const MapKeys kJoint{
      "max_position", "has_effort_limits", "max_effort", "angle_wraparound"},
     {}};
 
-/// Returns `max_WHAT` if `has_WHAT_limits` is true.
+/// Returns `max_WHAT` if `has_WHAT_limits` is true. Decelerations may be negative, as Pilz's
+/// planner of MoveIt requires; the absolute value is returned.
 std::optional<double> readLimit(const YamlMap& joint, const std::string& what) {
   const std::string flag = "has_" + what + "_limits", key = "max_" + what;
   const auto has = joint.boolean(flag);
@@ -29,7 +30,14 @@ std::optional<double> readLimit(const YamlMap& joint, const std::string& what) {
   }
   if (!has.value_or(false)) return std::nullopt;  // MoveIt's files have max_…: 0 then
   joint.require(key, "the limit, such as " + key + ": 2");
-  return joint.number(key, Range::Positive);
+  if (what != "deceleration") return joint.number(key, Range::Positive);
+  const auto value = joint.number(key, Range::Any);
+  if (!value) return std::nullopt;
+  if (*value == 0) {
+    joint.fault(key, "must not be 0");
+    return std::nullopt;
+  }
+  return std::abs(*value);
 }
 
 void readDefaultScale(const YamlMap& map, const char* key, double& scale) {

@@ -313,6 +313,9 @@ VerifyReport verifyTrajectory(const Problem& problem, TrajectoryRows rows,
   PathProblem plain = plainProblem(problem);
   // As for a path of many states.
   plain.workLimit = std::max<std::uint64_t>(plain.workLimit, 2000 * curve.knots.size());
+  // A curve outside the bounds is refuted already, and may be of any length: its times may have
+  // another unit, for instance. Contacts that are found quickly are reported, too.
+  if (!report.violations.empty()) plain.workLimit = 10'000;
   report.pathReport = verifyCurve(plain, curve.pieces);
   report.verdict = report.violations.empty() ? report.pathReport.verdict : PathVerdict::refuted;
   return report;

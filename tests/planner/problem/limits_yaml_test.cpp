@@ -84,7 +84,7 @@ TEST_F(LimitsTest, MoveitFile) {
       "default_velocity_scaling_factor: 0.1\ndefault_acceleration_scaling_factor: 0.5\n"
       "joint_limits:\n"
       "  pan: {has_velocity_limits: true, max_velocity: 2.5, has_acceleration_limits: true, "
-      "max_acceleration: 3, has_deceleration_limits: true, max_deceleration: 2}\n"
+      "max_acceleration: 3, has_deceleration_limits: true, max_deceleration: -2}\n"
       "  lift: {has_velocity_limits: false, max_velocity: 0, has_jerk_limits: true, max_jerk: 7}\n"
       "  other: {has_velocity_limits: true, max_velocity: 1}\n");
   const LimitSpec spec = specOf("  file: joint_limits.yaml\n  velocity_scale: 0.2\n");
