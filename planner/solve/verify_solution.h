@@ -36,12 +36,12 @@ struct VerifyReport {
   bool reachesGoal = true;  ///< the last state is in the goal
   double margin = 0;        ///< metres
   Configuration tube;       ///< the tube of the proof, as Task::tube
-  /// Of a trajectory: what lies between two rows; empty for a solution.
+  /// What lies between two rows of a trajectory; empty for a solution.
   std::optional<Between> between;
-  /// Of a trajectory with times: the time of each row, seconds. An edge of `pathReport` is the
-  /// curve from one row to the next.
+  /// The time of each row of a trajectory, seconds; empty if it has no times. An edge of
+  /// `pathReport` is the curve from one row to the next.
   std::vector<double> times;
-  /// Of a trajectory with times: the proved shares of the problem's limits over time. The verdict
+  /// The proved shares of the problem's limits over time, if a trajectory has times. The verdict
   /// does not depend on them.
   std::optional<LimitRatios> limits;
   std::vector<Note> notes;  ///< of a trajectory: on its file, its start and its end

@@ -91,7 +91,7 @@ void raiseBy(const Vectors& vectors, double limit, Eigen::Index number, double t
   raise(most, share, static_cast<std::size_t>(number), time);
 }
 
-/// Returns a bound of the largest value of g on [0, 1]; values below 0 are not told apart.
+/// Returns a bound of the largest value of g on [0, 1]; returns 0 if it is below 0.
 double largestValue(std::array<double, 6> g, int degree, double error, int halvings) {
   const double bound = *std::max_element(g.begin(), g.begin() + degree + 1) + error;
   const double attained = std::max({g[0], g[static_cast<std::size_t>(degree)], 0.0});
