@@ -17,7 +17,8 @@ std::string limitsText(const Problem& problem, const LimitRatios& ratios) {
     // Rounded up, so that a limit that is exceeded never shows as 100 %. The factor takes back what
     // `keepsLimits` allows.
     text += std::string("; ") + what + " " +
-            rounded(std::ceil(1e3 * share.share * (1 - 0x1p-39)) / 10) + " % (" + name + ")";
+            rounded(std::ceil(1e3 * share.share * (1 - 2 * kLimitSlack)) / 10) + " % (" + name +
+            ")";
   };
   if (ratios.velocity.share > 0) add("velocity", ratios.velocity, numbers[ratios.velocity.number]);
   if (ratios.acceleration.share > 0)
@@ -28,7 +29,7 @@ std::string limitsText(const Problem& problem, const LimitRatios& ratios) {
   for (const auto& [what, share] :
        {std::pair("acceleration", ratios.acceleration), {"jerk", ratios.jerk}})
     if (!share.tested) text += std::string("; ") + what + " not tested: it jumps at the rows";
-  if (ratios.position.share > 0x1p-40)
+  if (ratios.position.share > kLimitSlack)
     text += "; position beyond the bounds by " + rounded(ratios.position.share) + " (" +
             numbers[ratios.position.number] + ")";
   return text;

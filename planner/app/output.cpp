@@ -174,12 +174,6 @@ Verified verifyWithWarning(const Problem& problem, const Solution& solution,
   return verified;
 }
 
-std::optional<Between> betweenNamed(const std::optional<std::string>& name) {
-  for (const Between between : {Between::linear, Between::cubic, Between::quintic})
-    if (name == nameOf(between)) return between;
-  return std::nullopt;
-}
-
 std::vector<std::string> condensed(const std::vector<std::string>& notes, const std::string& rest) {
   // Leaves out what is in quotes, and numbers. Digits after a letter belong to a name.
   const auto kindOf = [](const std::string& note) {

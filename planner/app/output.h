@@ -68,10 +68,6 @@ Verified verifyWithWarning(const Problem& problem, const Solution& solution,
                            const std::string& problemFile, const std::string& solutionFile,
                            bool ignoreDigest);
 
-/// Returns what lies between the rows of a trajectory by the option `--between`; nullopt: it is not
-/// given.
-std::optional<Between> betweenNamed(const std::optional<std::string>& name);
-
 /// Tests that a file can be written: its folder exists, and files can be made in it. Commands call
 /// this before they spend time on the file's contents.
 /// @throws InputError that names the option, if it can't be written.

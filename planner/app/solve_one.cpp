@@ -13,6 +13,7 @@
 #include "planner/solve/keep_clearance.h"
 #include "planner/solve/solution.h"
 #include "planner/solve/whole_file.h"
+#include "planner/trajectory/trajectory_text.h"
 #include "planner/view/svg_picture.h"
 
 namespace corridor::app {
@@ -82,12 +83,11 @@ Solved solveOne(const std::string& file, const SolveArguments& a,
   requireNotAnInput(a.output, "--output", problem.source.files, "the problem");
   requireNotAnInput(a.picture, "--picture", problem.source.files, "the problem");
   requireNotAnInput(a.trajectory, "--trajectory", problem.source.files, "the problem");
-  if (a.trajectory && trajectoryKindOf(*a.trajectory) == TrajectoryFileKind::message)
-    for (const Coordinate& c : problem.model.space.coordinates())
-      if (c.kind == Coordinate::Kind::rotation)
-        throw InputError(Fault{"--trajectory", 0,
-                               "a JointTrajectory can't hold the rotation of a floating base; a "
-                               "name that ends in .csv is needed"});
+  if (a.trajectory && trajectoryKindOf(*a.trajectory) == TrajectoryFileKind::message &&
+      hasRotation(problem.model.space))
+    throw InputError(Fault{"--trajectory", 0,
+                           "a JointTrajectory can't hold the rotation of a floating base; a name "
+                           "that ends in .csv is needed"});
   SolveOptions options;
   options.valueOrigins = applyArguments(a, problem);
   options.interrupted = &interrupted;

@@ -9,6 +9,7 @@
 
 #include "planner/app/commands.h"
 #include "planner/app/limits_output.h"
+#include "planner/app/motion_file.h"
 #include "planner/app/options.h"
 #include "planner/app/output.h"
 #include "planner/checker/problem_goal.h"
@@ -170,23 +171,14 @@ void print(const VerifyReport& r, const Problem& problem, const VerifyArguments&
 
 /// Reads and verifies the solution or trajectory. Adds the notes on a trajectory to the problem's.
 Verified verify(Problem& problem, const VerifyArguments& a) {
-  const auto verifySolutionOf = [&](const Solution& solution) {
-    if (a.between)
-      throw InputError(Fault{"--between", 0,
-                             a.solution +
-                                 " is a solution, whose edges are linear; --between is for "
-                                 "trajectories"});
-    return verifyWithWarning(problem, solution, a.problem, a.solution, a.ignoreDigest);
-  };
-  const std::filesystem::path file = a.solution;
-  if (file.extension() == ".path") return verifySolutionOf(readSolution(file, problem.model.space));
-  const std::string text = readMotionText(file, "a solution or a trajectory");
-  if (trajectoryFormatOf(text) == TrajectoryFormat::solution)
-    return verifySolutionOf(solutionOf(file, text, problem.model.space));
-  Verified verified{verifyTrajectory(problem, readTrajectory(a.solution, text, problem.model),
-                                     betweenNamed(a.between)),
-                    {}};
+  MotionFile motion = readMotion(problem, a.solution, a.between);
+  if (motion.solution)
+    return verifyWithWarning(problem, *motion.solution, a.problem, a.solution, a.ignoreDigest);
+  Verified verified{verifyTrajectory(problem, std::move(*motion.trajectory), motion.between), {}};
   addAll(verified.report.notes, problem.source.notes);
+  if (verified.report.limits)  // some of the limits may be assumed
+    for (const std::string& note : problem.task.limits.notes)
+      problem.source.notes.push_back({note});
   return verified;
 }
 

@@ -15,6 +15,7 @@
 #include "collision/geometry/mesh_file.h"
 #include "planner/app/commands.h"
 #include "planner/app/interrupt.h"
+#include "planner/app/motion_file.h"
 #include "planner/app/options.h"
 #include "planner/app/output.h"
 #include "planner/problem/problem.h"
@@ -115,27 +116,17 @@ void refuseMesh(const std::string& file) {
 
 /// Reads and verifies a solution or a trajectory, as `corridor verify` does.
 ViewedPath viewedPath(const Problem& problem, const ViewArguments& a) {
-  const std::filesystem::path file = *a.trajectory;
-  const ConfigurationSpace& space = problem.model.space;
+  const MotionFile motion = readMotion(problem, *a.trajectory, a.between);
   ViewedPath path;
-  const auto addSolution = [&](Solution solution) {
-    if (a.between)
-      throw InputError(Fault{"--between", 0,
-                             *a.trajectory +
-                                 " is a solution, whose edges are linear; --between is for "
-                                 "trajectories"});
-    path.solution = std::move(solution);
+  if (motion.solution) {
+    path.solution = *motion.solution;
     path.report =
         verifyWithWarning(problem, path.solution, a.problem, *a.trajectory, a.ignoreDigest).report;
     return path;
-  };
-  if (file.extension() == ".path") return addSolution(readSolution(file, space));
-  const std::string text = readMotionText(file, "a solution or a trajectory");
-  if (trajectoryFormatOf(text) == TrajectoryFormat::solution)
-    return addSolution(solutionOf(file, text, space));
-  const TrajectoryRows rows = readTrajectory(*a.trajectory, text, problem.model);
-  path.report = verifyTrajectory(problem, rows, betweenNamed(a.between));
-  path.curve = curveOf(rows, space, *path.report.between);
+  }
+  const TrajectoryRows& rows = *motion.trajectory;
+  path.report = verifyTrajectory(problem, rows, motion.between);
+  path.curve = curveOf(rows, problem.model.space, *path.report.between);
   for (const TrajectoryRow& row : rows.rows) path.solution.path.push_back(row.positions);
   path.velocityLimits = problem.task.limits.velocity;
   path.accelerationLimits = problem.task.limits.acceleration;

@@ -80,6 +80,8 @@ void readLinkSpeeds(const YamlMap& limits, const Model& model, LimitSpec& spec) 
   }
 }
 
+}  // namespace
+
 void readScale(const YamlMap& limits, const char* key, double& scale) {
   const auto value = limits.number(key, Range::Positive);
   if (value && *value > 1)
@@ -87,8 +89,6 @@ void readScale(const YamlMap& limits, const char* key, double& scale) {
   else if (value)
     scale = *value;
 }
-
-}  // namespace
 
 LimitSpec readLimits(const YamlMap& problem, const std::filesystem::path& folder,
                      const Model& model, bool isComplete,

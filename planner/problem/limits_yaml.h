@@ -17,6 +17,9 @@ LimitSpec readLimits(const YamlMap& problem, const std::filesystem::path& folder
                      const Model& model, bool isComplete,
                      std::vector<std::filesystem::path>& files);
 
+/// Reads a factor of limits, above 0 and at most 1, if the map has the key.
+void readScale(const YamlMap& map, const char* key, double& scale);
+
 /// Reads a joint_limits.yaml of MoveIt into `spec`: the limits of joints, by their plain names, and
 /// the default scaling factors. Deceleration limits narrow those of acceleration. Adds notes on
 /// joints that do not move in the model, and on limits of positions, which are not used.

@@ -40,19 +40,11 @@ std::optional<double> readLimit(const YamlMap& joint, const std::string& what) {
   return std::abs(*value);
 }
 
-void readDefaultScale(const YamlMap& map, const char* key, double& scale) {
-  const auto value = map.number(key, Range::Positive);
-  if (value && *value > 1)
-    map.fault(key, "at most 1 is needed: it is a share of the limits");
-  else if (value)
-    scale = *value;
-}
-
 void readFile(const YamlMap& map, const Model& model, bool isComplete, LimitSpec& spec,
               std::vector<Note>& notes) {
   const std::string& file = map.source().file;
-  readDefaultScale(map, "default_velocity_scaling_factor", spec.velocityScale);
-  readDefaultScale(map, "default_acceleration_scaling_factor", spec.accelerationScale);
+  readScale(map, "default_velocity_scaling_factor", spec.velocityScale);
+  readScale(map, "default_acceleration_scaling_factor", spec.accelerationScale);
   const YamlValue* value =
       map.require("joint_limits", "{JOINT: {has_velocity_limits: true, max_velocity: 2}}");
   if (!value) return;

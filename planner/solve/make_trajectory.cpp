@@ -5,6 +5,7 @@
 
 #include "planner/solve/smooth_path.h"
 #include "planner/trajectory/emit.h"
+#include "planner/trajectory/limit_bands.h"
 #include "planner/trajectory/time_law.h"
 #include "planner/trajectory/trajectory_text.h"
 
@@ -13,18 +14,11 @@ namespace {
 
 constexpr int kDeviations = 4;
 
-/// Returns the limits of each number by itself. A planar or floating joint has its limits at its
-/// first number, x.
+/// Returns the limits of each number by itself. A position of a planar or floating joint has its
+/// limits at its first number, x.
 Configuration eachNumber(const ConfigurationSpace& space, Configuration limits) {
-  for (const CoordinateGroup& group : space.groups()) {
-    if (group.kind == CoordinateGroup::Kind::joints) continue;
-    const auto first = static_cast<Eigen::Index>(space.coordinates()[group.coordinates[0]].first);
-    for (const std::size_t c : group.coordinates) {
-      const Coordinate& coordinate = space.coordinates()[c];
-      if (coordinate.kind == Coordinate::Kind::line)
-        limits[static_cast<Eigen::Index>(coordinate.first)] = limits[first];
-    }
-  }
+  for (const PositionGroup& group : positionGroups(space))
+    limits.segment(group.first, group.count).setConstant(limits[group.first]);
   return limits;
 }
 
@@ -90,7 +84,6 @@ void makeText(const Problem& problem, const Checker& checker, const std::vector<
   const Emission emission = emitRows(law, path, space, limits, tree, emit);
   made.fault = emission.fault;
   if (!made.fault.empty()) return;
-  made.duration = emission.duration;
   made.stretch = emission.stretch;
   made.text = textOf(emission.rows, space, made.between, options.kind);
   try {
@@ -124,8 +117,8 @@ MadeTrajectory makeTrajectory(const Problem& problem, const Checker& checker, co
 
   const bool limitsJerk = limits.jerk.array().isFinite().any();
   made.between = limitsJerk ? Between::quintic : Between::cubic;
-  if (lengthOf(space, path).metres == 0 && lengthOf(space, path).radians == 0)
-    made.fault = "the path does not move";
+  const PathLength length = lengthOf(space, path);
+  if (length.metres == 0 && length.radians == 0) made.fault = "the path does not move";
   double deviation = options.deviation, share = 1;
   std::optional<MadeTrajectory> proved;
   for (int i = 0; i < kDeviations && made.fault.empty(); ++i) {

@@ -46,7 +46,7 @@ struct MadeTrajectory {
   /// Whether the file's curve is proved free and stays within the bounds of all joints.
   bool proved() const {
     return fault.empty() && proof.verdict == MotionVerdict::free &&
-           ratios.position.share <= 0x1p-40;
+           ratios.position.share <= kLimitSlack;
   }
 };
 

@@ -4,7 +4,8 @@
 #include <cmath>
 #include <optional>
 
-#include "planner/robot/angles.h"
+#include "planner/trajectory/curve_pieces.h"
+#include "planner/trajectory/path_view.h"
 
 namespace corridor {
 namespace {
@@ -53,13 +54,9 @@ class Smoother {
   /// Copies the states that differ from the one before. Circles continue beyond ±π.
   void unwrap(const Path& path) {
     states_.push_back(path.front());
-    for (std::size_t k = 1; k < path.size(); ++k) {
-      Configuration next = path[k];
-      for (const Coordinate& c : space_.coordinates()) {
-        const auto i = static_cast<Eigen::Index>(c.first);
-        if (c.kind == Coordinate::Kind::circle)
-          next[i] = states_.back()[i] + circleTurn(path[k - 1][i], path[k][i]).angle;
-      }
+    if (path.size() == 1) return;
+    for (const CurvePiece& edge : curveOfPath(space_, path).pieces) {
+      const Configuration next = edge.coefficients.col(1);
       const double length = lengthOf(next - states_.back());
       const bool turns = rotates(states_.back(), next);
       if (length == 0 && !turns) continue;
@@ -193,19 +190,13 @@ class Smoother {
   /// Returns a lower bound, up to the sampling, of the time along a piece: velocities and
   /// centripetal accelerations are within their limits at eight places.
   double timeOf(const CurvePiece& piece) const {
-    const auto& c = piece.coefficients;
-    const int n = piece.degree();
+    const std::vector<CurvePiece> path{piece};
+    const PathView view(path, space_);
     constexpr int kSamples = 8;
     double time = 0;
+    Configuration first, second;
     for (int k = 0; k < kSamples; ++k) {
-      const double t = (k + 0.5) / kSamples;
-      Eigen::MatrixXd b = c;
-      Configuration second = Configuration::Zero(c.rows());
-      for (int left = n; left > 1; --left) {
-        if (left == 2) second = n * (n - 1) * (b.col(2) - 2 * b.col(1) + b.col(0));
-        for (int i = 0; i < left; ++i) b.col(i) = ((1 - t) * b.col(i) + t * b.col(i + 1)).eval();
-      }
-      const Configuration first = n * (b.col(1) - b.col(0));
+      view.derivatives(0, (k + 0.5) / kSamples, first, second);
       const double slowest = lengthOf(first);  // 1/ṡ by velocity
       double bent = 0;
       for (const Coordinate& coordinate : space_.coordinates()) {
@@ -238,14 +229,6 @@ class Smoother {
     return false;
   }
 
-  CurvePiece line(const Configuration& a, const Configuration& b) const {
-    CurvePiece piece;
-    piece.coefficients.resize(a.size(), 2);
-    piece.coefficients << a, b;
-    piece.error = Configuration::Zero(a.size());
-    return piece;
-  }
-
   SmoothPath assemble() {
     result_.corners = states_.size() > 2 ? states_.size() - 2 : 0;
     Configuration here = states_[0];
@@ -257,7 +240,7 @@ class Smoother {
         if (lengthOf(begin - here) <= kStraight * edges_[edge].length)
           next->piece.coefficients.col(0) = here;
         else
-          result_.pieces.push_back(line(here, begin));
+          result_.pieces.push_back(linearPiece(space_, here, begin));
         result_.pieces.push_back(next->piece);
         result_.rounded += next->last - next->first;
         here = next->piece.coefficients.rightCols<1>();
@@ -265,12 +248,12 @@ class Smoother {
         ++next;
       } else {
         const Configuration& end = states_[edge + 1];
-        if (end != here) result_.pieces.push_back(line(here, end));
+        if (end != here) result_.pieces.push_back(linearPiece(space_, here, end));
         here = end;
         ++edge;
       }
     }
-    if (result_.pieces.empty()) result_.pieces.push_back(line(here, here));
+    if (result_.pieces.empty()) result_.pieces.push_back(linearPiece(space_, here, here));
     return std::move(result_);
   }
 

@@ -7,6 +7,7 @@
 
 #include "collision/core/shortest.h"
 #include "planner/problem/format_key.h"
+#include "planner/problem/text_words.h"
 #include "planner/problem/yaml_reader.h"
 #include "planner/solve/state_rows.h"
 #include "planner/solve/whole_file.h"
@@ -21,16 +22,6 @@ std::string digits(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.17g", value);
   return text;
-}
-
-/// Returns the text in double quotes, escaped for YAML.
-std::string yamlText(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') quoted += '\\';
-    quoted += c;
-  }
-  return quoted + "\"";
 }
 
 std::string listed(const std::vector<std::string>& words, const char* separator) {

@@ -6,6 +6,7 @@
 
 #include "collision/core/read_file.h"
 #include "collision/core/spelling.h"
+#include "planner/problem/text_words.h"
 #include "planner/problem/yaml_reader.h"
 
 namespace corridor {
@@ -40,20 +41,6 @@ std::optional<std::string> rowFault(const std::vector<double>& row,
 }
 
 namespace {
-
-/// Returns the words of a line: without a comment, separated by blanks or commas.
-std::vector<std::string> wordsOfLine(std::string line) {
-  line.resize(std::min(line.size(), line.find('#')));
-  std::replace(line.begin(), line.end(), ',', ' ');
-  std::istringstream words(line);
-  std::vector<std::string> all;
-  for (std::string word; words >> word;) {
-    if (word.size() > 2 && word.front() == '"' && word.back() == '"')
-      word = word.substr(1, word.size() - 2);
-    all.push_back(word);
-  }
-  return all;
-}
 
 /// Returns, for each column of a header, the index of the number that it names. Adds a fault for a
 /// name that is unknown or repeated, and for names that are missing.

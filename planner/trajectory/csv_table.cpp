@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "collision/core/spelling.h"
+#include "planner/problem/text_words.h"
 #include "planner/problem/yaml_reader.h"
 #include "planner/trajectory/trajectory_table.h"
 
@@ -62,20 +63,6 @@ bool isKnown(const std::string& name, const JointNames& names) {
          !names.ambiguous(column.joint).empty();
 }
 
-/// Returns the words of a line: without a comment, separated by blanks or commas.
-std::vector<std::string> wordsOf(std::string line) {
-  line.resize(std::min(line.size(), line.find('#')));
-  std::replace(line.begin(), line.end(), ',', ' ');
-  std::istringstream words(line);
-  std::vector<std::string> all;
-  for (std::string word; words >> word;) {
-    if (word.size() > 2 && word.front() == '"' && word.back() == '"')
-      word = word.substr(1, word.size() - 2);
-    all.push_back(word);
-  }
-  return all;
-}
-
 bool isNumber(const std::string& word) {
   double value = 0;
   return parseNumber(word, Range::Any, value).empty();
@@ -103,13 +90,13 @@ class CsvReader {
       if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // byte-order mark
       // numpy.savetxt writes its header as a comment.
       if (isFirst && line.starts_with('#')) {
-        const std::vector<std::string> words = wordsOf(line.substr(1));
+        const std::vector<std::string> words = wordsOfLine(line.substr(1));
         if (!words.empty() && std::all_of(words.begin(), words.end(), [&](const std::string& word) {
               return isKnown(word, names_);
             }))
           line.erase(0, 1);
       }
-      const std::vector<std::string> words = wordsOf(line);
+      const std::vector<std::string> words = wordsOfLine(line);
       if (words.empty()) continue;
       if (std::exchange(isFirst, false)) {
         if (isHeader(words, names_)) {

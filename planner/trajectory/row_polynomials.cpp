@@ -6,9 +6,9 @@ namespace corridor {
 namespace {
 
 /// A sum with the sum of the absolute values of its terms. A coefficient here has at most 8 terms,
-/// each of which takes at most 9 roundings: the difference of two positions and of two times (one
-/// each, the latter up to three times), and products and quotients. With 7 additions, its error is
-/// at most 16·2^-53·size, up to second order. kRounding is twice that.
+/// each of which takes at most 10 roundings: the difference of two positions and of two times (one
+/// each, the latter up to three times), and products and quotients. With at most 7 additions on its
+/// way, its error is at most 17·2^-53·size, up to second order. kRounding is 32·2^-53.
 struct Sum {
   double value = 0, size = 0;
   Sum operator+(const Sum& o) const { return {value + o.value, size + o.size}; }

@@ -31,8 +31,8 @@ LimitRatios limitsOfRows(const TrajectoryRows& rows, Between between,
 
 bool keepsLimits(const LimitRatios& ratios) {
   return std::max({ratios.velocity.share, ratios.acceleration.share, ratios.jerk.share,
-                   ratios.link.share}) <= 1 + 0x1p-40 &&
-         ratios.position.share <= 0x1p-40;
+                   ratios.link.share}) <= 1 + kLimitSlack &&
+         ratios.position.share <= kLimitSlack;
 }
 
 }  // namespace corridor

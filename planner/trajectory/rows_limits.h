@@ -15,10 +15,14 @@ LimitRatios limitsOfRows(const TrajectoryRows& rows, Between between,
                          const ConfigurationSpace& space, const JointLimits& limits,
                          const KinematicTree& tree);
 
+/// What `keepsLimits` allows for rounding: a share of a limit, and metres or radians beyond a
+/// bound.
+inline constexpr double kLimitSlack = 0x1p-40;
+
 /// Returns whether no limit that was tested is exceeded at any instant. Shares are upper bounds,
-/// whose own rounding is below 2^-44 of them. So a share of up to 1 + 2^-40 counts as kept:
+/// whose own rounding is below 2^-44 of them. So a share of up to 1 + kLimitSlack counts as kept:
 /// otherwise a motion exactly at a limit would exceed it. For the same reason, positions may be up
-/// to 2^-40 m or rad beyond the bounds, less than the default tube.
+/// to kLimitSlack beyond the bounds, less than the default tube.
 bool keepsLimits(const LimitRatios& ratios);
 
 }  // namespace corridor

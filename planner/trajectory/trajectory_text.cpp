@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "collision/core/shortest.h"
+#include "planner/problem/text_words.h"
 
 namespace corridor {
 namespace {
@@ -17,22 +18,6 @@ std::string joined(const Configuration& values, const char* separator) {
   return text;
 }
 
-/// Returns the text in double quotes, escaped for YAML.
-std::string quoted(const std::string& text) {
-  std::string all = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') all += '\\';
-    all += c;
-  }
-  return all + "\"";
-}
-
-bool hasRotation(const ConfigurationSpace& space) {
-  for (const Coordinate& c : space.coordinates())
-    if (c.kind == Coordinate::Kind::rotation) return true;
-  return false;
-}
-
 /// Returns the indices of the numbers that have velocities: all except those of rotations.
 std::vector<Eigen::Index> withVelocities(const ConfigurationSpace& space) {
   std::vector<Eigen::Index> all;
@@ -42,6 +27,12 @@ std::vector<Eigen::Index> withVelocities(const ConfigurationSpace& space) {
 }
 
 }  // namespace
+
+bool hasRotation(const ConfigurationSpace& space) {
+  for (const Coordinate& c : space.coordinates())
+    if (c.kind == Coordinate::Kind::rotation) return true;
+  return false;
+}
 
 double nearestNanosecond(double seconds) {
   return std::round(seconds * kPerSecond) / kPerSecond;
@@ -77,7 +68,7 @@ std::string messageText(const TrajectoryRows& rows, const ConfigurationSpace& sp
   if (!rows.timed) throw std::invalid_argument("a JointTrajectory needs times");
   std::string text = "joint_names: [";
   const std::vector<std::string> names = space.numberNames();
-  for (std::size_t i = 0; i < names.size(); ++i) text += (i ? ", " : "") + quoted(names[i]);
+  for (std::size_t i = 0; i < names.size(); ++i) text += (i ? ", " : "") + yamlText(names[i]);
   text += "]\npoints:\n";
   for (const TrajectoryRow& row : rows.rows) {
     if (!(row.time >= 0 && row.time < 0x1p53 / kPerSecond) ||

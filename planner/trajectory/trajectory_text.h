@@ -12,10 +12,13 @@ namespace corridor {
 /// the space's numbers, then NAME_velocity and NAME_acceleration, if the rows have them.
 std::string csvText(const TrajectoryRows& rows, const ConfigurationSpace& space);
 
+/// Returns whether a space has a free rotation, which no JointTrajectory can hold.
+bool hasRotation(const ConfigurationSpace& space);
+
 /// Returns a trajectory_msgs/JointTrajectory of ROS 2 as YAML. Messages count whole nanoseconds, so
 /// the times must be doubles that `nearestNanosecond` returns.
 /// @throws std::invalid_argument for rows without times, another or a negative time, or a space
-/// with rotations, which no such message has.
+/// with rotations.
 std::string messageText(const TrajectoryRows& rows, const ConfigurationSpace& space);
 
 /// Returns the double nearest to the whole number of nanoseconds that is nearest to a time.
