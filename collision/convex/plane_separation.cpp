@@ -63,9 +63,14 @@ PlaneSeparation planeSeparation(const DobkinKirkpatrick& polytope, const HalfSpa
   const double unit = powerOfTwo(halfSpace.normal.cwiseAbs().maxCoeff());
   const HalfSpace<3> scaled{halfSpace.normal / unit, halfSpace.offset / unit};
   const Height in = height(scaled, at(found.innermost)), out = height(scaled, at(found.outermost));
-  found.witness = in.value > -out.value ? found.innermost : found.outermost;
-  const double low = std::max(in.value - in.error, -out.value - out.error),
-               high = std::max(in.value + in.error, -out.value + out.error);
+  const bool inner = found.side == 0 ? in.value > -out.value : found.side > 0;
+  found.witness = inner ? found.innermost : found.outermost;
+  // Heights that overflow bound nothing.
+  const auto least = [](double value, double error) {
+    return std::isfinite(value) && std::isfinite(error) ? value - error : -HUGE_VAL;
+  };
+  const double low = std::max(least(in.value, in.error), least(-out.value, out.error)),
+               high = std::max(-least(-in.value, in.error), -least(out.value, out.error));
   // The length is off by 3u, the quotients by 1u, and so are the sums above.
   const double length = scaled.normal.norm();
   const auto down = [](double x) { return x > 0 ? roundedDown(x) : -roundedUp(-x); };

@@ -15,12 +15,14 @@ struct PlaneSeparation {
   int side = 0;
   /// Vertices that are farthest inside, and farthest outside: exact.
   std::uint32_t innermost = 0, outermost = 0;
-  /// The one of them that is the witness: the vertex closest to the plane; or, if the polytope
-  /// meets the plane, the vertex that the shortest translation off the plane brings onto it.
+  /// The one of them that is the witness: the vertex closest to the plane, exactly; or, if the
+  /// polytope meets the plane, the vertex that the shortest translation off the plane brings onto
+  /// it, up to rounding.
   std::uint32_t witness = 0;
   /// Bounds of the separation, which include all rounding: the distance from the plane if `side` is
   /// not 0, else minus the least depth, which is how far the polytope must move along the normal,
   /// or against it, until it only touches the plane. lower ≥ 0 if `side` is not 0, else upper ≤ 0.
+  /// A bound is infinite if heights overflow.
   double lower = 0, upper = 0;
 };
 

@@ -4,6 +4,8 @@
 /// edges of a and b, T the coordinates of `between` along a's edges. τ is the largest cosine of two
 /// edges of one box. S = `size` of both sets; every length here is below S, and |T| + Σa + Σb < 4S.
 ///
+/// * Directions of edges have length 1 up to 8u. This needs squares of lengths far above underflow:
+///   `Edges::usable`. (With flush-to-zero a square may lose all components below 2^-1022.)
 /// * Exact boxes A' and B' exist whose edge directions differ from the computed ones by 3τ + 8u. So
 ///   all entries of R, and of T/S, are off by less than 3τ_A + 3τ_B + 30u.
 /// * If an edge of A' and one of B' are parallel up to 2^-46, B' is turned until they are parallel.
@@ -25,7 +27,8 @@ struct Edges {
   explicit Edges(const QuickSet& set) {
     for (std::size_t k = 0; k < 3; ++k) {
       unit[k] = set.M * set.edge[k];
-      const double length = unit[k].norm();
+      const double square = unit[k].squaredNorm(), length = std::sqrt(square);
+      usable = usable && square > 0x1p-900;  // also false for NaN
       half[k] = 0.5 * length;
       unit[k] *= 1 / length;
     }
@@ -34,6 +37,7 @@ struct Edges {
   }
   std::array<Vec3, 3> unit;
   double half[3], tilt;
+  bool usable = true;
 };
 
 /// Returns whether n proves that the boxes are apart, by more than `slack` if |n| = 1.
@@ -54,6 +58,7 @@ std::optional<bool> quickBoxes(const QuickSet& setA, const QuickSet& setB) {
   if (centresApart(setA, setB, between, 0x1p-44 * size + errors)) return false;
 
   const Edges a(setA), b(setB);
+  if (!a.usable || !b.usable) return std::nullopt;
   const double tilt = 64 * (a.tilt + b.tilt);
   const double clear = (0x1p-42 + tilt) * size + errors, margin = (0x1p-38 + tilt) * size + errors;
   bool deep = true;

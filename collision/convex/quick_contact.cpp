@@ -28,12 +28,13 @@
 /// 16uS. With |w| ≤ S a determinant is off by at most (18e + 40uS)S² < 328uS³
 /// (predicates/orientation.cpp); `inside` is 512uS³.
 ///
-/// Contact within the band. Let c be the largest coordinate involved, so |p| ≤ √3·c, S < 17c and
-/// |w| < 4c. `upper` is a convex combination of differences w. A coordinate of an image is off by
-/// 4.1u(√3 + 1)c, so w is off by 43uc, the combination by 8u|w| more: 75uc together. `toPoint`
-/// finds a point of the solid up to 2√3(r + 6uρ) < 100uc for a box (r < 2^-50·2c), and 40uc for a
-/// cylinder. The maps may shrink each sphere by 3·2^-48·c = 96uc (`keepsBall`), and `near` allows
-/// 2^-51·S < 70uc. The sum is below 75 + 100 + 192 + 70 < 512 = 2^-44/u: the band.
+/// Contact within the band. Let c be the largest coordinate involved. Both maps are nearly rigid, F
+/// ≈ √3, else `near` decides nothing: S would be far above c. So |p| ≤ √3·c, S < 17c and |w| < 4c.
+/// `upper` is a convex combination of differences w. A coordinate of an image is off by 4.1u(√3 +
+/// 1)c, so w is off by 43uc, the combination by 8u|w| more: 75uc together. `toPoint` finds a point
+/// of the solid up to 2√3(r + 6uρ) < 100uc for a box (r < 2^-50·2c), and 40uc for a cylinder. The
+/// maps may shrink each sphere by 3·2^-48·c = 96uc (`keepsBall`), and `near` allows 2^-51·S < 70uc.
+/// The sum is below 75 + 100 + 192 + 70 < 512 = 2^-44/u: the band.
 ///
 /// Underflow. S is within 2^±100. A product that underflows is off by 2^-1022, and later factors
 /// are below 2^400. The smallest slack, 40uSN with N > 2^-60·S, is far larger.
@@ -132,6 +133,7 @@ class Query {
   /// Returns true if the cores are close enough for the sets to touch. @param upper the length of a
   /// vector from a point of core a to a point of core b
   bool near(const Vec3& upper) const {
+    if (!a_.isNearlyRigid || !b_.isNearlyRigid) return false;
     const double limit = radii_ + 0x1p-51 * size_;
     return upper.squaredNorm() <= limit * limit && a_.posed.keepsBall() && b_.posed.keepsBall();
   }

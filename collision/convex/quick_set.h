@@ -37,7 +37,8 @@ struct QuickSet {
         t(set.pose().t),
         ball(set.set().ball),
         flatEnds(set.set().disc > 0) {
-    const double map = 0.28868 * (M.squaredNorm() + 3);
+    const double square = M.squaredNorm(), map = 0.28868 * (square + 3);
+    isNearlyRigid = std::abs(square - 3) <= 0x1p-10;
     Vec3 reach;  // no coordinate of a point is larger, except for 8 times the residual
     if (count == 8 && findEdges()) {
       box = true;
@@ -88,6 +89,7 @@ struct QuickSet {
   const Vec3& t;
   double ball;
   bool flatEnds, box = false;
+  bool isNearlyRigid = false;  ///< F is √3 up to 2^-11, so `size` is not far above the coordinates
   Vec3 middle;
   std::array<Vec3, 3> edge;
   double residual = 0;  ///< largest difference of parallel edges, per coordinate

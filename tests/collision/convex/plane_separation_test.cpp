@@ -141,5 +141,30 @@ TEST(PlaneSeparation, OneUlpDecides) {
   EXPECT_THROW(sideOfPlane(cube, {n, std::nan("")}), std::invalid_argument);
 }
 
+/// Heights that overflow bound nothing, but the side is exact.
+TEST(PlaneSeparation, OverflowGivesInfiniteBounds) {
+  const double e = 1e308;
+  const std::vector<Vec3> points = {{e, e, e}, {1.1 * e, e, e}, {e, 1.1 * e, e}, {e, e, 1.1 * e}};
+  const Polytope polytope(points);
+  const PlaneSeparation found = planeSeparation(DobkinKirkpatrick(polytope), {Vec3::Ones(), 0});
+  EXPECT_EQ(found.side, 1);
+  EXPECT_GE(found.lower, 0);
+  EXPECT_EQ(found.upper, HUGE_VAL);
+}
+
+/// Rounded heights of all vertices are 0, so only exact heights find the closest vertex.
+TEST(PlaneSeparation, TheWitnessIsTheClosestVertex) {
+  const std::vector<Vec3> points = {
+      {0x1.64c7aec5603cdp+0, 0x1.6e854e2033adcp-2, 0x1.6c7f55d3164d5p-8},
+      {0x1.64c7aec5603cep+0, 0x1.228b16adf80a7p-2, 0x1.227feba13fc46p-9},
+      {0x1.64c7aec5603cep+0, 0x1.0892e9f6420fap-2, 0x1.4763903f2b162p-9},
+      {0x1.64c7aec5603cep+0, 0x1.2dff2f083e315p-2, 0x1.073458ac5ff48p-7}};
+  const Polytope polytope(points);
+  const PlaneSeparation found = planeSeparation(
+      DobkinKirkpatrick(polytope), {Vec3(1.5, 0x1p-51, 0x1p-51), 0x1.0b95c314082dap+1});
+  ASSERT_EQ(found.side, 1);
+  EXPECT_EQ(found.witness, found.innermost);
+}
+
 }  // namespace
 }  // namespace corridor

@@ -1,7 +1,9 @@
 #include "collision/convex/quick_contact.h"
 
 #include <algorithm>
+#include <array>
 #include <iostream>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -83,6 +85,53 @@ TEST(QuickContact, DecidesAllButContactsOfAThousandth) {
       }
   EXPECT_GT(decided, 0.95 * cases) << cases;
   std::cout << decided << " of " << cases << "\n";
+}
+
+/// A cache skips the quick step, and never changes a verdict: under maps that scale, mirror or
+/// flatten, too. At scales far from 1, `size` is far above the coordinates.
+TEST(QuickContact, AgreesWithTheFullSearchUnderMapsThatAreNotRigid) {
+  Touching make(test::testSeed(34));
+  int different = 0, contacts = 0, cases = 0;
+  for (const Shape sa : test::kShapes)
+    for (const Shape sb : test::kShapes)
+      for (int n = 0; n < 200; ++n) {
+        const double f = std::ldexp(1.0, (n % 2 ? 1 : -1) * std::array{1, 10, 40, 60}[n / 2 % 4]);
+        const ShapeFeature a = make.feature(sa), b = make.feature(sb);
+        const Vec3 normal = make.vector().normalized(), x = make.vector();
+        Transform X_WA = make.pose(a, x, normal), X_WB = make.pose(b, x, -normal);
+        X_WB.t += normal * std::ldexp(n % 5 == 0 ? -0.1 : 1.0, -make.pick(48));
+        for (Transform* X : {&X_WA, &X_WB}) X->m *= f, X->t *= f;
+        if (n % 3 == 0) X_WA.m.col(n / 3 % 3) *= n % 2 ? -1 : 0x1p-200;
+        const PosedSet setA(a.set(), X_WA), setB(b.set(), X_WB);
+        ConvexCache cache;
+        const bool full = convexSetsTouch(setA, setB, &cache);
+        ++cases;
+        contacts += full;
+        different += full != convexSetsTouch(setA, setB);
+      }
+  EXPECT_EQ(different, 0);
+  EXPECT_GT(contacts, cases / 50);
+  EXPECT_LT(contacts, cases * 9 / 10);
+  // Two triangles, 2^-41 of the largest image coordinate apart.
+  const Transform larger{1000 * Mat3::Identity(), Vec3::Zero()};
+  const Triangle low{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
+  Triangle high = low;
+  for (Vec3& p : high) p.z() = 3.8e-13;
+  const ConvexSet lowSet(low), highSet(high);
+  EXPECT_FALSE(convexSetsTouch({lowSet, larger}, {highSet, larger}));
+}
+
+/// The square of the plate's thickness underflows, so its direction can't be normalised.
+TEST(QuickContact, PlatesOfAnyThicknessAreNotMissed) {
+  const ConvexPart cube = placed(Box{{1, 1, 1}}, {});
+  const Transform turned{Eigen::AngleAxisd(std::numbers::pi / 4, Vec3::UnitZ()).matrix(),
+                         Vec3(0.7, 0, 0)};
+  for (int k = 0; k > -1070; --k) {
+    const double thin = std::ldexp(0.9, k);
+    EXPECT_TRUE(convexSetsTouch({placed(Box{{thin, 0.2, 0.2}}, {}), {}}, {cube, turned})) << k;
+    const Transform flat{Vec3(thin, 1, 1).asDiagonal().toDenseMatrix(), Vec3::Zero()};
+    EXPECT_TRUE(convexSetsTouch({placed(Box{{1, 0.2, 0.2}}, {}), flat}, {cube, turned})) << k;
+  }
 }
 
 using Int = std::int64_t;

@@ -122,6 +122,16 @@ TEST(FlushToZero, ContactsOfTinyPrimitivesAreNotMissed) {
   EXPECT_GT(apart, 800);
 }
 
+/// The square of the plate's thickness is flushed to zero, as a whole or in part.
+TEST(FlushToZero, ContactsOfThinPlatesAreNotMissed) {
+  const ConvexPart cube = placed(Box{{1, 1, 1}}, {});
+  const Transform turned{Eigen::AngleAxisd(0.785398, Vec3::UnitZ()).matrix(), Vec3(0.7, 0, 0)};
+  for (int k = 0; k > -1000; --k) {
+    const ConvexPart plate = placed(Box{{std::ldexp(0.9, k), 0.2, 0.2}}, {});
+    EXPECT_TRUE(convexSetsTouch({plate, {}}, {cube, turned})) << k;
+  }
+}
+
 TEST(FlushToZero, TinyLinearProgramsAreExact) {
   std::mt19937_64 random(test::testSeed(9));
   for (int n = 0; n < 500; ++n) {
