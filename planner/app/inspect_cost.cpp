@@ -125,17 +125,21 @@ std::vector<std::size_t> measuredPoses(const std::vector<std::size_t>& kept) {
 void printTable(const std::vector<CostRow>& rows) {
   const auto line = [](const std::string& first, const std::vector<std::string>& cells) {
     std::cout << std::left << std::setw(10) << first << std::right;
-    for (const std::string& cell : cells) std::cout << std::setw(14) << cell;
+    for (const std::string& cell : cells) std::cout << ' ' << std::setw(14) << cell;
     std::cout << '\n';
   };
   line("volume", {"N_v", "N_p", "call ns", "C_v ns", "C_p ns", "traversal ns", "predicted ns",
                   "measured ns", "ratio", "5 .. 95 %", "bytes", "build ms"});
   const auto cost = [](const std::optional<double>& ns) { return ns ? rounded(*ns) : "-"; };
+  // A prediction from fitted costs may be negative.
+  const auto whole = [](double ns) {
+    return (ns < 0 ? "-" : "") + grouped(std::llround(std::abs(ns)));
+  };
   for (const CostRow& r : rows)
     line(r.volume,
          {rounded(r.boxTests), rounded(r.triangleTests), rounded(r.callNs), cost(r.tests.box),
-          cost(r.tests.triangle), cost(r.traversalNs), grouped(std::llround(r.predictedNs)),
-          grouped(std::llround(r.measuredNs)), twoDecimals(r.predictedNs / r.measuredNs),
+          cost(r.tests.triangle), cost(r.traversalNs), whole(r.predictedNs), whole(r.measuredNs),
+          twoDecimals(r.predictedNs / r.measuredNs),
           twoDecimals(r.low) + " .. " + twoDecimals(r.high), grouped(r.bytes), rounded(r.buildMs)});
 }
 
