@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "collision/core/shortest.h"
 #include "planner/problem/yaml_reader.h"
 
 namespace corridor::app {
@@ -18,6 +19,11 @@ CLI::Validator isOneOf(std::vector<std::string> words) {
                        : notOneOf(text, words);
           },
           list + "}"};
+}
+
+CLI::Validator isWithin(const ClosedRange& range) {
+  return isWithin(range.lower, range.upper,
+                  "a number from " + shortest(range.lower) + " to " + shortest(range.upper));
 }
 
 CLI::Validator isSeconds() {

@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include "collision/core/spelling.h"
+#include "planner/model/settings.h"
 
 /// Options, validators and texts that several commands share.
 namespace corridor::app {
@@ -30,6 +31,7 @@ CLI::Validator isWithin(Number low, Number high, const std::string& needed) {
   };
   return {complaint, ""};
 }
+CLI::Validator isWithin(const ClosedRange& range);
 /// Accepts these words; the error suggests the one that may be meant.
 CLI::Validator isOneOf(std::vector<std::string> words);
 CLI::Validator isSeconds();  ///< a number above 0

@@ -58,6 +58,11 @@ std::map<std::string, std::string> applyArguments(const SolveArguments& a, Probl
   if (a.simplify) problem.settings.simplify = choiceNamed<Simplifier>(*a.simplify).value();
   if (a.noSimplify) problem.settings.simplify = Simplifier::none;
   requireClearance(a, problem);
+  TrajectorySettings& trajectory = problem.settings.trajectory;
+  if (a.smooth) trajectory.smooth = choiceNamed<Smoothing>(*a.smooth).value();
+  if (a.deviation) trajectory.deviation = *a.deviation;
+  if (a.cornerDeviation) trajectory.cornerDeviation = a.cornerDeviation;
+  if (a.rate) trajectory.rate = a.rate;
   return set;
 }
 

@@ -13,7 +13,7 @@ namespace corridor::app {
 /// The arguments of `corridor solve`.
 struct SolveArguments {
   std::vector<std::string> problems;
-  std::optional<std::string> planner, sampler, stop, edges, simplify;
+  std::optional<std::string> planner, sampler, stop, edges, simplify, smooth;
   std::optional<double> time, resolution, margin, clearance;
   std::optional<std::uint64_t> seed;
   std::vector<std::string> set;  ///< key=value

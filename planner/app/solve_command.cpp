@@ -43,10 +43,11 @@ int solveSingle(const std::string& file, const SolveArguments& a,
 
 /// Tests the options of the trajectory. @throws InputError
 void requireTrajectory(const SolveArguments& a, bool several) {
-  const auto need = [&](const std::optional<double>& value, const char* option) {
+  const auto need = [&](const auto& value, const char* option) {
     if (value && !a.trajectory)
       throw InputError(Fault{option, 0, "needs --trajectory, which is not given"});
   };
+  need(a.smooth, "--smooth");
   need(a.rate, "--rate");
   need(a.deviation, "--deviation");
   need(a.cornerDeviation, "--corner-deviation");
@@ -211,21 +212,28 @@ void addSolve(CLI::App& program, int& status) {
                    "problem's limits")
       ->group(motion);
   command
+      ->add_option("--smooth", a.smooth,
+                   "how the path becomes a curve: none (a stop at each corner), corners (only "
+                   "these are rounded), or as a whole with the least time (default), length or "
+                   "acceleration")
+      ->check(isOneOf(wordsFor<Smoothing>()))
+      ->group(motion);
+  command
       ->add_option("--rate", a.rate,
                    "rows per second (default: rows where the time law needs them)")
-      ->check(isWithin<double>(1, 10'000, "a number from 1 to 10000"))
+      ->check(isWithin(TrajectorySettings::kRates))
       ->group(motion);
   command
       ->add_option("--deviation", a.deviation,
                    "the largest distance of the file's curve from the smoothed path, rad or m "
                    "(default 1e-4)")
-      ->check(isWithin<double>(1e-9, 1, "a number from 1e-9 to 1"))
+      ->check(isWithin(TrajectorySettings::kDeviations))
       ->group(motion);
   command
       ->add_option("--corner-deviation", a.cornerDeviation,
-                   "the largest distance of a rounded corner from the path, rad or m (default: "
-                   "as far as the curve is proved)")
-      ->check(isWithin<double>(1e-6, 10, "a number from 1e-6 to 10"))
+                   "the largest distance of the curve from the path, rad or m; corners are "
+                   "rounded only (default: as far as the curve is proved)")
+      ->check(isWithin(TrajectorySettings::kCornerDeviations))
       ->group(motion);
   CLI::Option* const json = command->add_flag("--json", a.json, "print one JSON object");
   json->group(results);

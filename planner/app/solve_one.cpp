@@ -92,13 +92,7 @@ Solved solveOne(const std::string& file, const SolveArguments& a,
   options.valueOrigins = applyArguments(a, problem);
   options.interrupted = &interrupted;
   options.noteStillPairs = true;
-  if (a.trajectory) {
-    options.trajectory.emplace();
-    options.trajectory->kind = trajectoryKindOf(*a.trajectory);
-    options.trajectory->rate = a.rate;
-    options.trajectory->cornerDeviation = a.cornerDeviation;
-    if (a.deviation) options.trajectory->deviation = *a.deviation;
-  }
+  if (a.trajectory) options.trajectory = trajectoryKindOf(*a.trajectory);
   const bool show = !a.quiet && ::isatty(STDERR_FILENO) != 0;
   if (show) {
     options.progress = [&](const SolveProgress& p) {

@@ -33,6 +33,12 @@ const std::vector<std::string>& wordsFor<Simplifier>() {
   return words;
 }
 
+template <>
+const std::vector<std::string>& wordsFor<Smoothing>() {
+  static const std::vector<std::string> words{"none", "corners", "time", "length", "acceleration"};
+  return words;
+}
+
 EdgeMethod methodOf(EdgeCheck check) {
   return edgeMethodNamed(wordOf(check)).value_or(EdgeMethod::directional);
 }

@@ -24,8 +24,13 @@ enum class Objective { length, maxMinClearance, mechanicalWork };
 /// OMPL's `PathSimplifier::simplify`, as a baseline.
 enum class Simplifier { corridor, none, ompl };
 
+/// How the curve of a trajectory is made from a path: without smoothing (the robot stops at every
+/// corner), by rounding its corners only, or as a whole, with the least time, length or
+/// acceleration (solve/curve_measure.h).
+enum class Smoothing { none, corners, time, length, acceleration };
+
 /// Returns the words that users write for the values of a choice, in the order of the enumeration.
-/// @tparam Choice EdgeCheck, ValidSampler, Objective or Simplifier.
+/// @tparam Choice EdgeCheck, ValidSampler, Objective, Simplifier or Smoothing.
 template <class Choice>
 const std::vector<std::string>& wordsFor();
 template <>
@@ -36,6 +41,8 @@ template <>
 const std::vector<std::string>& wordsFor<Objective>();
 template <>
 const std::vector<std::string>& wordsFor<Simplifier>();
+template <>
+const std::vector<std::string>& wordsFor<Smoothing>();
 
 /// Returns the word of a value.
 template <class Choice>
@@ -94,6 +101,26 @@ struct PreferSettings {
   double detour = 0.1;
 };
 
+/// The numbers from `lower` to `upper`.
+struct ClosedRange {
+  double lower, upper;
+  constexpr bool contains(double value) const { return lower <= value && value <= upper; }
+};
+
+/// How a trajectory is made along a path.
+struct TrajectorySettings {
+  /// Legal values.
+  static constexpr ClosedRange kDeviations{1e-9, 1}, kCornerDeviations{1e-6, 10}, kRates{1, 10000};
+
+  Smoothing smooth = Smoothing::time;
+  /// The largest distance of the file's curve from the smoothed path, in each number; rad or m.
+  double deviation = 1e-4;
+  /// The largest distance of the smoothed path from the path, in each number; rad or m. Unset: as
+  /// far as it is proved free. If it is set, only corners are rounded.
+  std::optional<double> cornerDeviation;
+  std::optional<double> rate;  ///< rows per second; unset: rows where they are needed
+};
+
 /// The settings of the search for a path. Every value must be legal; the readers of files check
 /// ranges and words.
 struct Settings {
@@ -104,6 +131,7 @@ struct Settings {
   Simplifier simplify = Simplifier::corridor;
   PreferSettings prefer;
   CheckerSettings checker;
+  TrajectorySettings trajectory;
   std::uint64_t seed = 1;
 };
 

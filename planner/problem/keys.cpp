@@ -40,9 +40,9 @@ void addShape(KeysOfMaps& keys, const std::string& path, const Words& more) {
 KeysOfMaps makeProblemKeys() {
   KeysOfMaps keys{
       {"",
-       {{"format", "robot",   "robots",  "base",     "world",   "allow",  "start",
-         "goal",   "moveit",  "bounds",  "margin",   "padding", "prefer", "tube",
-         "limits", "planner", "sampler", "simplify", "checker", "seed"},
+       {{"format", "robot",   "robots",  "base",     "world",   "allow",      "start",
+         "goal",   "moveit",  "bounds",  "margin",   "padding", "prefer",     "tube",
+         "limits", "planner", "sampler", "simplify", "checker", "trajectory", "seed"},
         {}}},
       {"moveit", {{"scene", "request"}, {}}},
       {"robots.*", {{"file", "base"}, {}}},
@@ -64,6 +64,7 @@ KeysOfMaps makeProblemKeys() {
       {"limits.joints.*", {angleLimitKeys, {}}},
       {"padding", {{"bodies", "pairs"}, {}}},
       {"prefer", {{"clearance", "detour"}, {}}},
+      {"trajectory", {{"smooth", "deviation", "corner_deviation", "rate"}, {}}},
       {"planner", {{"name", "time", "stop", "restart", "params"}, {}}},
       {"checker",
        {{"edges", "resolution", "tolerance", "volume", "fit", "overlap", "build"},
@@ -123,6 +124,7 @@ const std::map<std::string, std::vector<std::string>>& problemChoices() {
       {"world.*.octomap.unknown", {"free", "occupied"}},
       {"planner.stop", {"first", "time"}},
       {"sampler", wordsFor<ValidSampler>()},
+      {"trajectory.smooth", wordsFor<Smoothing>()},
       {"checker.edges", wordsFor<EdgeCheck>()},
       {"checker.volume", volumeNames()},
       {"checker.fit", ofAnyVolume(&VolumeKind::fits)},

@@ -16,6 +16,7 @@
 #include "planner/problem/moveit_scene.h"
 #include "planner/problem/placement.h"
 #include "planner/problem/shape_yaml.h"
+#include "planner/problem/trajectory_yaml.h"
 #include "planner/problem/tube_yaml.h"
 #include "planner/problem/world_yaml.h"
 
@@ -243,6 +244,7 @@ void readYaml(const std::filesystem::path& file, Problem& problem) {
   if (const YamlValue* checker = map.find("checker"))
     readCheckerKeys(YamlMap(*checker, "checker", keysOf("checker"), source),
                     problem.settings.checker);
+  readTrajectoryKeys(map, problem.settings.trajectory);
   readPrefer(map, problem.task.margin, problem.settings);
   problem.settings.seed = map.wholeNumber("seed").value_or(problem.settings.seed);
   if (known) {  // the form of states and bounds depends on the robots

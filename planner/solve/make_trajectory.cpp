@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/solve/shorten_curve.h"
 #include "planner/solve/smooth_path.h"
 #include "planner/trajectory/emit.h"
 #include "planner/trajectory/limit_bands.h"
@@ -23,14 +24,12 @@ Configuration eachNumber(const ConfigurationSpace& space, Configuration limits) 
 }
 
 SmoothOptions smoothOptions(const ConfigurationSpace& space, const JointLimits& limits,
-                            const TrajectoryOptions& options) {
+                            const TrajectorySettings& settings) {
   SmoothOptions smooth;
-  if (options.cornerDeviation) smooth.deviation = *options.cornerDeviation;
+  smooth.goal = settings.smooth;
+  if (settings.cornerDeviation) smooth.deviation = *settings.cornerDeviation;
   smooth.acceleration = eachNumber(space, limits.acceleration);
   smooth.velocity = eachNumber(space, limits.velocity);
-  // Without a limit, the velocity that is reached after 1 s stands for it. It only weighs numbers.
-  for (Eigen::Index i = 0; i < smooth.velocity.size(); ++i)
-    if (!std::isfinite(smooth.velocity[i])) smooth.velocity[i] = smooth.acceleration[i];
   return smooth;
 }
 
@@ -56,6 +55,46 @@ std::string textOf(const std::vector<TimedRow>& timed, const ConfigurationSpace&
   return kind == TrajectoryFileKind::csv ? csvText(rows, space) : messageText(rows, space);
 }
 
+bool limitsJerk(const JointLimits& limits) {
+  return limits.jerk.array().isFinite().any();
+}
+
+TimeLaw lawOf(const Problem& problem, const std::vector<CurvePiece>& path,
+              const JointLimits& limits) {
+  TimeLawOptions options;
+  options.smooth = limitsJerk(limits);
+  return timeLaw(path, problem.model.space, limits, problem.model.tree, options);
+}
+
+/// Makes the curve that the trajectory passes along, and counts its corners and tests.
+std::vector<CurvePiece> smoothCurve(const Problem& problem, const Checker& checker,
+                                    const Path& path, const std::function<bool()>& stop,
+                                    MadeTrajectory& made) {
+  const ConfigurationSpace& space = problem.model.space;
+  const SmoothOptions options =
+      smoothOptions(space, problem.task.limits, problem.settings.trajectory);
+  const CurveTest isFree = [&](const CurvePiece& piece) {
+    return checker.certifyCurve(piece).verdict == MotionVerdict::free;
+  };
+  SmoothPath smooth = smoothedPath(space, path, isFree, options, stop);
+  made.corners = smooth.corners;
+  made.rounded = smooth.rounded;
+  made.curveTests = smooth.tests;
+  if (options.goal == Smoothing::none || options.goal == Smoothing::corners ||
+      std::isfinite(options.deviation))
+    return std::move(smooth.pieces);
+  ShortCurve curve = shortenedCurve(space, smooth.pieces, isFree, options, stop);
+  made.curveTests += curve.tests;
+  // The time that was made smaller is an estimate.
+  if (options.goal == Smoothing::time && curve.replaced > 0) {
+    const double whole = lawOf(problem, curve.pieces, problem.task.limits).duration,
+                 corners = lawOf(problem, smooth.pieces, problem.task.limits).duration;
+    if (!(whole < corners)) return std::move(smooth.pieces);
+  }
+  made.replaced = curve.replaced;
+  return std::move(curve.pieces);
+}
+
 /// Proves the pieces of a curve in order, up to the first one that can't be proved.
 void prove(const Checker& checker, MadeTrajectory& made) {
   made.proof = {};
@@ -68,24 +107,22 @@ void prove(const Checker& checker, MadeTrajectory& made) {
 
 /// Makes the law, the rows and the text, and proves them. `limits` are those of the law.
 void makeText(const Problem& problem, const Checker& checker, const std::vector<CurvePiece>& path,
-              const JointLimits& limits, const TrajectoryOptions& options, double deviation,
+              const JointLimits& limits, TrajectoryFileKind kind, double deviation,
               MadeTrajectory& made) {
   const ConfigurationSpace& space = problem.model.space;
   const KinematicTree& tree = problem.model.tree;
-  TimeLawOptions lawOptions;
-  lawOptions.smooth = made.between == Between::quintic;
-  const TimeLaw law = timeLaw(path, space, limits, tree, lawOptions);
+  const TimeLaw law = lawOf(problem, path, limits);
   made.fault = law.fault;
   if (!made.fault.empty()) return;
   EmitOptions emit;
   emit.degree = made.between == Between::quintic ? 5 : 3;
-  emit.rate = options.rate;
+  emit.rate = problem.settings.trajectory.rate;
   emit.deviation = deviation;
   const Emission emission = emitRows(law, path, space, limits, tree, emit);
   made.fault = emission.fault;
   if (!made.fault.empty()) return;
   made.stretch = emission.stretch;
-  made.text = textOf(emission.rows, space, made.between, options.kind);
+  made.text = textOf(emission.rows, space, made.between, kind);
   try {
     const TrajectoryRows read = readTrajectory("the trajectory", made.text, problem.model);
     made.rows = read.rows.size();
@@ -102,32 +139,23 @@ void makeText(const Problem& problem, const Checker& checker, const std::vector<
 }  // namespace
 
 MadeTrajectory makeTrajectory(const Problem& problem, const Checker& checker, const Path& path,
-                              const TrajectoryOptions& options, const std::function<bool()>& stop) {
-  const ConfigurationSpace& space = problem.model.space;
+                              TrajectoryFileKind kind, const std::function<bool()>& stop) {
   const JointLimits& limits = problem.task.limits;
   MadeTrajectory made;
-  const auto isFree = [&](const CurvePiece& piece) {
-    return checker.certifyCurve(piece).verdict == MotionVerdict::free;
-  };
-  const SmoothPath smooth =
-      smoothedPath(space, path, isFree, smoothOptions(space, limits, options), stop);
-  made.corners = smooth.corners;
-  made.rounded = smooth.rounded;
-  made.curveTests = smooth.tests;
+  const std::vector<CurvePiece> smooth = smoothCurve(problem, checker, path, stop, made);
 
-  const bool limitsJerk = limits.jerk.array().isFinite().any();
-  made.between = limitsJerk ? Between::quintic : Between::cubic;
-  const PathLength length = lengthOf(space, path);
+  made.between = limitsJerk(limits) ? Between::quintic : Between::cubic;
+  const PathLength length = lengthOf(problem.model.space, path);
   if (length.metres == 0 && length.radians == 0) made.fault = "the path does not move";
-  double deviation = options.deviation, share = 1;
+  double deviation = problem.settings.trajectory.deviation, share = 1;
   std::optional<MadeTrajectory> proved;
   for (int i = 0; i < kDeviations && made.fault.empty(); ++i) {
-    makeText(problem, checker, smooth.pieces, reduced(limits, share), options, deviation, made);
+    makeText(problem, checker, smooth, reduced(limits, share), kind, deviation, made);
     if (made.proved() && keepsLimits(made.ratios)) return made;
     if (made.proved()) proved = made;
     deviation /= 4;
     // The rounding of times is all that can make a message exceed limits that its rows keep.
-    if (options.kind == TrajectoryFileKind::message) share -= i == 0 ? 1e-4 : 0.01;
+    if (kind == TrajectoryFileKind::message) share -= i == 0 ? 1e-4 : 0.01;
   }
   if (proved) return *proved;
   if (!made.fault.empty()) made.text.clear();

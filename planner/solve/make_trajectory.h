@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "planner/checker/checker.h"
@@ -16,15 +15,6 @@ enum class TrajectoryFileKind {
   message  ///< a JointTrajectory of ROS 2, as YAML
 };
 
-struct TrajectoryOptions {
-  TrajectoryFileKind kind = TrajectoryFileKind::csv;
-  /// The largest distance of the file's curve from the smoothed path, in each number; rad or m.
-  double deviation = 1e-4;
-  /// The largest distance of a rounded corner from the path; unset: as far as it is proved free.
-  std::optional<double> cornerDeviation;
-  std::optional<double> rate;  ///< rows per second; unset: rows where they are needed
-};
-
 /// A trajectory along a path, as it is written to a file, and the proof of that file.
 struct MadeTrajectory {
   /// The content of the file; "" with a fault.
@@ -34,7 +24,8 @@ struct MadeTrajectory {
   double duration = 0;               ///< seconds
   std::size_t rows = 0;
   std::size_t corners = 0, rounded = 0;  ///< corners of the path, and those without a stop
-  std::size_t curveTests = 0;            ///< curves that were tested to round corners
+  std::size_t replaced = 0;              ///< parts of the curve that were replaced by better ones
+  std::size_t curveTests = 0;            ///< curves that were tested to smooth the path
   LimitRatios ratios;                    ///< limitsOfRows, of the file's curve
   double stretch = 1;                    ///< how much the law was slowed down (Emission::stretch)
   /// `free`: the checker proved every piece of `curve`. Otherwise the answer for the first piece
@@ -50,8 +41,10 @@ struct MadeTrajectory {
   }
 };
 
-/// Makes a trajectory along a path, in these steps:
-/// 1. Corners are rounded by curves that the checker proves (smooth_path.h).
+/// Makes a trajectory along a path, by the problem's TrajectorySettings, in these steps:
+/// 1. Corners are rounded by curves that the checker proves (smooth_path.h). Then parts of the
+///    curve are replaced by better ones that the checker proves (shorten_curve.h). If this was to
+///    save time and the law of the result is not faster, the replacements are dropped.
 /// 2. A time law passes along the result in the shortest time that the problem's limits allow
 ///    (time_law.h). If a limit of jerk is given, the law keeps it.
 /// 3. Rows are made of it (emit.h), and written as text.
@@ -65,12 +58,12 @@ struct MadeTrajectory {
 /// acceleration of a cubic by 6|v|·1e-9/T², and the jerk of a quintic by 60|v|·1e-9/T³, where T is
 /// the time between two rows. So dense rows of a message can't keep tight limits of jerk.
 ///
-/// The result depends on the arguments only, unless `stop` returns true: then no further corner is
-/// rounded.
+/// The result depends on the arguments only, unless `stop` returns true: then the curve stays
+/// as it is.
 /// @pre the path's edges are free.
 MadeTrajectory makeTrajectory(
     const Problem& problem, const Checker& checker, const Path& path,
-    const TrajectoryOptions& options = {},
+    TrajectoryFileKind kind = TrajectoryFileKind::csv,
     const std::function<bool()>& stop = [] { return false; });
 
 }  // namespace corridor

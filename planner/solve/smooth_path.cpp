@@ -4,8 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "planner/solve/curve_measure.h"
 #include "planner/trajectory/curve_pieces.h"
-#include "planner/trajectory/path_view.h"
 
 namespace corridor {
 namespace {
@@ -33,14 +33,17 @@ class Smoother {
  public:
   Smoother(const ConfigurationSpace& space, const Path& path, const CurveTest& isFree,
            const SmoothOptions& options, const std::function<bool()>& stop)
-      : space_(space), isFree_(isFree), options_(options), stop_(stop) {
-    const auto size = static_cast<Eigen::Index>(space.size());
-    if (options_.velocity.size() == 0) options_.velocity = Configuration::Ones(size);
-    if (options_.acceleration.size() == 0) options_.acceleration = Configuration::Ones(size);
+      : space_(space),
+        isFree_(isFree),
+        deviation_(options.deviation),
+        goal_(options.goal),
+        ruler_(space, options.velocity, options.acceleration),
+        stop_(stop) {
     unwrap(path);
   }
 
   SmoothPath run() {
+    if (goal_ == Smoothing::none) return assemble();
     for (std::size_t k = 1; k < states_.size() - 1; ++k) roundCorner(k, 0.5);
     for (std::size_t k = 1; k < states_.size() - 1; ++k) roundCorner(k, 1);
     for (bool merged = true; merged;) {
@@ -57,12 +60,12 @@ class Smoother {
     if (path.size() == 1) return;
     for (const CurvePiece& edge : curveOfPath(space_, path).pieces) {
       const Configuration next = edge.coefficients.col(1);
-      const double length = lengthOf(next - states_.back());
+      const double length = ruler_.timeOf(next - states_.back());
       const bool turns = rotates(states_.back(), next);
       if (length == 0 && !turns) continue;
       if (!edges_.empty() && !turns && !edges_.back().rotates && continues(next, length)) {
         states_.back() = next;
-        edges_.back().length = lengthOf(next - states_[states_.size() - 2]);
+        edges_.back().length = ruler_.timeOf(next - states_[states_.size() - 2]);
         continue;
       }
       edges_.push_back({length, turns});
@@ -73,7 +76,7 @@ class Smoother {
   /// Returns whether the edge to a state continues the last edge in a straight line.
   bool continues(const Configuration& next, double length) const {
     const Configuration u = direction(edges_.size() - 1);
-    return lengthOf((next - states_.back()) / length - u) <= kStraight;
+    return ruler_.timeOf((next - states_.back()) / length - u) <= kStraight;
   }
 
   bool rotates(const Configuration& a, const Configuration& b) const {
@@ -82,18 +85,6 @@ class Smoother {
       if (c.kind == Coordinate::Kind::rotation && a.segment<4>(i) != b.segment<4>(i)) return true;
     }
     return false;
-  }
-
-  /// Returns the time in which the fastest joint passes through a difference at its largest
-  /// velocity. Rotations are left out.
-  double lengthOf(const Configuration& difference) const {
-    double length = 0;
-    for (const Coordinate& c : space_.coordinates()) {
-      const auto i = static_cast<Eigen::Index>(c.first);
-      if (c.kind != Coordinate::Kind::rotation && options_.velocity[i] > 0)
-        length = std::max(length, std::abs(difference[i]) / options_.velocity[i]);
-    }
-    return length;
   }
 
   Configuration at(std::size_t edge, double place) const {
@@ -162,7 +153,7 @@ class Smoother {
     double most = std::min(shareBefore * before, shareAfter * after);
     // The middle of the curve is the farthest: 7/64 of the difference of its ends' directions.
     const double bend = (direction(k) - direction(k - 1)).cwiseAbs().maxCoeff();
-    if (bend > 0) most = std::min(most, options_.deviation / (7.0 / 64 * bend));
+    if (bend > 0) most = std::min(most, deviation_ / (7.0 / 64 * bend));
     const double least = own ? own->to : 0;
     double proved = 0;
     for (int i = 0; i <= kCurveHalvings && proved == 0; ++i) {
@@ -187,41 +178,19 @@ class Smoother {
     return true;
   }
 
-  /// Returns a lower bound, up to the sampling, of the time along a piece: velocities and
-  /// centripetal accelerations are within their limits at eight places.
-  double timeOf(const CurvePiece& piece) const {
-    const std::vector<CurvePiece> path{piece};
-    const PathView view(path, space_);
-    constexpr int kSamples = 8;
-    double time = 0;
-    Configuration first, second;
-    for (int k = 0; k < kSamples; ++k) {
-      view.derivatives(0, (k + 0.5) / kSamples, first, second);
-      const double slowest = lengthOf(first);  // 1/ṡ by velocity
-      double bent = 0;
-      for (const Coordinate& coordinate : space_.coordinates()) {
-        const auto i = static_cast<Eigen::Index>(coordinate.first);
-        if (coordinate.kind != Coordinate::Kind::rotation && options_.acceleration[i] > 0)
-          bent = std::max(bent, std::abs(second[i]) / options_.acceleration[i]);
-      }
-      time += std::max(slowest, std::sqrt(bent)) / kSamples;
-    }
-    return time;
-  }
-
   /// Replaces curve i, curve i + 1 and the edge between them by one curve, if this saves time.
   bool merge(std::size_t i) {
     const Blend &a = blends_[i], &b = blends_[i + 1];
-    if (a.last != b.first || options_.deviation < HUGE_VAL) return false;
+    if (a.last != b.first || deviation_ < HUGE_VAL) return false;
     const auto [from, unused] = freeRange(a.first, &a);
     const double to = freeRange(b.last, &b).second;
     for (const double share : {1.0, 0.5, 0.0}) {  // of what is left of the outer edges
       const double begin = a.from + share * (from - a.from), end = b.to + share * (to - b.to);
-      const double gap = lengthOf(at(b.last, end) - at(a.first, begin));
+      const double gap = ruler_.timeOf(at(b.last, end) - at(a.first, begin));
       const Blend whole = blendOf(a.first, begin, b.last, end, gap / 5);
-      const double before =
-          (a.from - begin) + timeOf(a.piece) + (b.from - a.to) + timeOf(b.piece) + (end - b.to);
-      if (!(timeOf(whole.piece) < 0.99 * before) || !isProved(whole)) continue;
+      const double before = (a.from - begin) + ruler_.of(a.piece).time + (b.from - a.to) +
+                            ruler_.of(b.piece).time + (end - b.to);
+      if (!(ruler_.of(whole.piece).time < 0.99 * before) || !isProved(whole)) continue;
       blends_[i] = whole;
       blends_.erase(blends_.begin() + static_cast<std::ptrdiff_t>(i) + 1);
       return true;
@@ -237,7 +206,7 @@ class Smoother {
       if (next != blends_.end() && next->first == edge) {
         const Configuration begin = next->piece.coefficients.col(0);
         // Two curves that share an edge meet up to rounding: a line of an ulp has no direction.
-        if (lengthOf(begin - here) <= kStraight * edges_[edge].length)
+        if (ruler_.timeOf(begin - here) <= kStraight * edges_[edge].length)
           next->piece.coefficients.col(0) = here;
         else
           result_.pieces.push_back(linearPiece(space_, here, begin));
@@ -258,13 +227,15 @@ class Smoother {
   }
 
   struct Edge {
-    double length = 0;     // lengthOf the edge
+    double length = 0;     // CurveRuler::timeOf the edge
     bool rotates = false;  // a rotation moves on it
   };
 
   const ConfigurationSpace& space_;
   const CurveTest& isFree_;
-  SmoothOptions options_;
+  double deviation_;
+  Smoothing goal_;
+  CurveRuler ruler_;
   const std::function<bool()>& stop_;
   std::vector<Configuration> states_;
   std::vector<Edge> edges_;

@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+#include "planner/model/settings.h"
 #include "planner/robot/curve.h"
 #include "planner/solve/finish_path.h"
 
@@ -16,12 +17,11 @@ using CurveTest = std::function<bool(const CurvePiece&)>;
 struct SmoothOptions {
   /// The largest distance of a rounded corner from the path, in each number; rad or m.
   double deviation = std::numeric_limits<double>::infinity();
-  /// For each number, its largest velocity (rad/s or m/s; the scale of lengths along the path).
-  /// Only their ratios matter. Empty: all are 1.
-  Configuration velocity = {};
-  /// For each number, its largest acceleration, with which the time along a corner is estimated.
-  /// Empty: all are 1.
-  Configuration acceleration = {};
+  /// For each number, its largest velocity and acceleration: the scales of lengths, and the limits
+  /// with which times are estimated (curve_measure.h). Infinity: no limit. Empty: all are 1.
+  Configuration velocity = {}, acceleration = {};
+  /// What smoothing makes small.
+  Smoothing goal = Smoothing::time;
 };
 
 /// The result of smoothing, and its cost.

@@ -43,7 +43,7 @@ struct SolveOptions {
   /// certification then relies on what they proved.
   bool adaptedTestsAreProofs = false;
   /// If set, a trajectory along the path is made, too.
-  std::optional<TrajectoryOptions> trajectory;
+  std::optional<TrajectoryFileKind> trajectory;
 };
 
 enum class SolveOutcome {

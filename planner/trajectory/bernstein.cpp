@@ -56,20 +56,28 @@ Polynomial product(const Polynomial& a, const Polynomial& b) {
   return result;
 }
 
-Polynomial composed(const Polynomial& outer, const Polynomial& inner) {
-  // De Casteljau's algorithm on polynomials: b_i ← (1 − inner)·b_i + inner·b_{i+1}.
-  Polynomial rest = inner;
+Composition::Composition(const Polynomial& inner, int degree) {
+  Polynomial rest = inner, one;
   for (int i = 0; i <= rest.degree; ++i) rest.c[i] = 1 - rest.c[i];
-  std::array<Polynomial, 10> b;
-  assert(outer.degree < static_cast<int>(b.size()));
-  for (int i = 0; i <= outer.degree; ++i) b[i].c[0] = outer.c[i];
-  for (int level = 1; level <= outer.degree; ++level)
-    for (int i = 0; i <= outer.degree - level; ++i) {
-      b[i] = product(rest, b[i]);
-      const Polynomial second = product(inner, b[i + 1]);
-      for (int k = 0; k <= second.degree; ++k) b[i].c[k] += second.c[k];
-    }
-  return b[0];
+  one.c[0] = 1;
+  // basis_[i] = C(degree, i) · inner^i · rest^(degree − i)
+  basis_.push_back(one);
+  for (int i = 1; i <= degree; ++i) basis_.push_back(product(basis_.back(), inner));
+  Polynomial power = one;
+  for (int i = degree; i >= 0; --i) {
+    basis_[i] = product(basis_[i], power);
+    for (int k = 0; k <= basis_[i].degree; ++k) basis_[i].c[k] *= kBinomials.of[degree][i];
+    if (i > 0) power = product(power, rest);
+  }
+}
+
+Polynomial Composition::of(const Polynomial& outer) const {
+  assert(outer.degree + 1 == static_cast<int>(basis_.size()));
+  Polynomial result;
+  result.degree = basis_.front().degree;
+  for (int i = 0; i <= outer.degree; ++i)
+    for (int k = 0; k <= result.degree; ++k) result.c[k] += outer.c[i] * basis_[i].c[k];
+  return result;
 }
 
 Polynomial difference(const Polynomial& a, const Polynomial& b) {

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 /// Polynomials in Bernstein form on [0, 1], in plain double arithmetic: no rounding is bounded
 /// here.
@@ -41,8 +42,17 @@ Polynomial restricted(Polynomial p, double from, double to);
 /// Returns the same polynomial with a higher degree.
 Polynomial elevated(const Polynomial& p, int degree);
 Polynomial product(const Polynomial& a, const Polynomial& b);
-/// Returns outer(inner(t)). @pre the product of the degrees is at most kLargestDegree.
-Polynomial composed(const Polynomial& outer, const Polynomial& inner);
+/// Composes polynomials outer(inner(t)) with the same inner one.
+class Composition {
+ public:
+  /// @param degree that of the outer polynomials. @pre its product with the inner degree is at most
+  /// kLargestDegree.
+  Composition(const Polynomial& inner, int degree);
+  Polynomial of(const Polynomial& outer) const;
+
+ private:
+  std::vector<Polynomial> basis_;  // the Bernstein polynomials of the outer degree, of inner(t)
+};
 /// Returns a − b.
 Polynomial difference(const Polynomial& a, const Polynomial& b);
 

@@ -65,6 +65,7 @@ double rowDeviation(const std::vector<LawSegment>& segments, const PathView& vie
     const double a = std::clamp((segment.time + begin - start) / duration, 0.0, 1.0),
                  b = std::clamp((segment.time + end - start) / duration, 0.0, 1.0);
     const Eigen::MatrixXd& c = view.path()[segment.piece].coefficients;
+    const bernstein::Composition ofTau(tau, static_cast<int>(c.cols()) - 1);
     std::size_t r = 0;
     for (Eigen::Index n = 0; n < c.rows(); ++n) {
       if (r < rotations.size() && rotations[r] == n) {
@@ -88,8 +89,7 @@ double rowDeviation(const std::vector<LawSegment>& segments, const PathView& vie
       outer.degree = static_cast<int>(c.cols()) - 1;
       for (int i = 0; i <= outer.degree; ++i) outer.c[i] = c(n, i);
       const Polynomial curve = bernstein::restricted(rowCurve(first, last, degree, n), a, b);
-      most =
-          std::max(most, bernstein::difference(bernstein::composed(outer, tau), curve).largest());
+      most = std::max(most, bernstein::difference(ofTau.of(outer), curve).largest());
     }
   }
   return most;

@@ -16,7 +16,7 @@ class ProblemFaults : public ProblemTest {
 constexpr const char* topKeys =
     " (known: format, robot, robots, base, world, allow, start, goal, moveit, bounds, margin, "
     "padding, prefer, tube, limits, "
-    "planner, sampler, simplify, checker, seed)";
+    "planner, sampler, simplify, checker, trajectory, seed)";
 
 TEST_F(ProblemFaults, Files) {
   EXPECT_EQ(complaint(folder_ / "nowhere.yaml"), "nowhere.yaml: no such file");
@@ -354,6 +354,19 @@ TEST_F(ProblemFaults, Padding) {
 }
 
 TEST_F(ProblemFaults, Prefer) {
+  EXPECT_EQ(
+      with("trajectory: {smooth: tme}\n"),
+      "problem.yaml:8: trajectory.smooth: one of none, corners, time, length, acceleration is "
+      "needed, not \"tme\" (did you mean \"time\"?)");
+  EXPECT_EQ(with("trajectory: {rate: 0.5}\n"),
+            "problem.yaml:8: trajectory.rate: a number from 1 to 10000 is needed, not 0.5");
+  EXPECT_EQ(with("trajectory: {deviation: 2}\n"),
+            "problem.yaml:8: trajectory.deviation: a number from 1e-09 to 1 is needed, not 2");
+  EXPECT_EQ(with("trajectory: {corner_deviation: -1}\n"),
+            "problem.yaml:8: trajectory.corner_deviation: must be above 0, not -1");
+  EXPECT_EQ(with("trajectory: {speed: 1}\n"),
+            "problem.yaml:8: unknown key \"speed\" in trajectory (known: smooth, deviation, "
+            "corner_deviation, rate)");
   EXPECT_EQ(with("prefer: {clearance: -1}\n"),
             "problem.yaml:8: prefer.clearance: must be 0 or more, not -1");
   EXPECT_EQ(with("prefer: {clearance: .inf}\n"),

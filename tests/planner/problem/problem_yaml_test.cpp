@@ -43,6 +43,7 @@ allow: [[wedge, stone]]
 prefer: {clearance: 0, detour: 0.25}
 padding: {bodies: {wedge: 0.01, stone: 0.002}, pairs: [[rock, wedge, 0.03]]}
 limits: {position: {velocity: 0.5, acceleration: 2}, rotation: {velocity: 3}, velocity_scale: 0.5}
+trajectory: {smooth: length, deviation: 0.001, corner_deviation: 0.02, rate: 250}
 seed: 18446744073709551615
 )";
 
@@ -77,6 +78,10 @@ TEST_F(ProblemYaml, EveryKeyIsRead) {
   EXPECT_EQ(p.task.limits.velocity[0], 0.25);
   EXPECT_EQ(p.task.limits.acceleration[0], 2);
   EXPECT_EQ(p.task.limits.velocity[3], 1.5);
+  EXPECT_EQ(p.settings.trajectory.smooth, Smoothing::length);
+  EXPECT_EQ(p.settings.trajectory.deviation, 0.001);
+  EXPECT_EQ(p.settings.trajectory.cornerDeviation, 0.02);
+  EXPECT_EQ(p.settings.trajectory.rate, 250);
   EXPECT_EQ(p.settings.prefer.clearance, 0);
   EXPECT_EQ(p.settings.prefer.detour, 0.25);
   EXPECT_EQ(pairCount(p.model), 2);

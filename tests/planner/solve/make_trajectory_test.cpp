@@ -37,9 +37,7 @@ TEST_F(MakeTrajectory, IsProvedAsItIsWritten) {
   const Problem problem = problemWith();
   const Checker checker(problem);
   for (const TrajectoryFileKind kind : {TrajectoryFileKind::csv, TrajectoryFileKind::message}) {
-    TrajectoryOptions options;
-    options.kind = kind;
-    const MadeTrajectory made = makeTrajectory(problem, checker, overThePost(), options);
+    const MadeTrajectory made = makeTrajectory(problem, checker, overThePost(), kind);
     EXPECT_EQ(made.fault, "");
     EXPECT_TRUE(made.proved());
     EXPECT_EQ(made.corners, 2u);
@@ -59,9 +57,9 @@ TEST_F(MakeTrajectory, IsProvedAsItIsWritten) {
 TEST_F(MakeTrajectory, StopsOnlyWhereNoCurveIsProved) {
   const Problem problem = problemWith();
   const MadeTrajectory made = makeTrajectory(problem, Checker(problem), overThePost());
-  TrajectoryOptions tight;
-  tight.cornerDeviation = 0.02;
-  const MadeTrajectory slow = makeTrajectory(problem, Checker(problem), overThePost(), tight);
+  Problem tight = problem;
+  tight.settings.trajectory.cornerDeviation = 0.02;
+  const MadeTrajectory slow = makeTrajectory(tight, Checker(tight), overThePost());
   EXPECT_TRUE(slow.proved());
   EXPECT_GT(slow.duration, 1.05 * made.duration);
   const MadeTrajectory stopped =
@@ -71,12 +69,35 @@ TEST_F(MakeTrajectory, StopsOnlyWhereNoCurveIsProved) {
   EXPECT_GE(stopped.duration, slow.duration);
 }
 
+/// Smoothing the whole curve for the time is not slower than rounding its corners, which is not
+/// slower than stopping at them.
+TEST_F(MakeTrajectory, SmoothsAsTheProblemSays) {
+  const auto made = [&](Smoothing smooth) {
+    Problem problem = problemWith();
+    problem.settings.trajectory.smooth = smooth;
+    const MadeTrajectory result = makeTrajectory(problem, Checker(problem), overThePost());
+    EXPECT_TRUE(result.proved()) << wordOf(smooth);
+    EXPECT_EQ(verified(problem, result).verdict, PathVerdict::proved) << wordOf(smooth);
+    return result;
+  };
+  const MadeTrajectory none = made(Smoothing::none), corners = made(Smoothing::corners),
+                       time = made(Smoothing::time);
+  EXPECT_EQ(none.curveTests, 0u);
+  EXPECT_EQ(none.rounded, 0u);
+  EXPECT_EQ(corners.rounded, 2u);
+  EXPECT_EQ(corners.replaced, 0u);
+  EXPECT_GT(time.replaced, 0u);
+  EXPECT_LT(corners.duration, none.duration);
+  EXPECT_LT(time.duration, corners.duration);
+  made(Smoothing::length);
+  made(Smoothing::acceleration);
+}
+
 TEST_F(MakeTrajectory, KeepsJerkRateAndScale) {
-  const Problem problem =
-      problemWith("limits: {position: {velocity: 0.5, acceleration: 1, jerk: 4}}\n");
-  TrajectoryOptions options;
-  options.rate = 50;
-  const MadeTrajectory made = makeTrajectory(problem, Checker(problem), overThePost(), options);
+  const Problem problem = problemWith(
+      "limits: {position: {velocity: 0.5, acceleration: 1, jerk: 4}}\n"
+      "trajectory: {rate: 50}\n");
+  const MadeTrajectory made = makeTrajectory(problem, Checker(problem), overThePost());
   EXPECT_EQ(made.fault, "");
   EXPECT_TRUE(made.proved());
   EXPECT_EQ(made.between, Between::quintic);

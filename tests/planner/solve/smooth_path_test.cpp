@@ -8,46 +8,11 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/planner/solve/plane_curves.h"
 #include "tests/support/support.h"
 
 namespace corridor {
 namespace {
-
-ConfigurationSpace lines(int count, double limit = 100) {
-  ConfigurationSpace space;
-  CoordinateGroup group;
-  for (int i = 0; i < count; ++i) {
-    Coordinate line;
-    line.name = "q" + std::to_string(i);
-    line.lower = -limit;
-    line.upper = limit;
-    group.coordinates.push_back(space.add(line));
-  }
-  space.addGroup(group);
-  return space;
-}
-
-Configuration place(double x, double y) {
-  Configuration q(2);
-  q << x, y;
-  return q;
-}
-
-const CurveTest kAllFree = [](const CurvePiece&) { return true; };
-
-Configuration derivative(const CurvePiece& piece, int order, double tau) {
-  Eigen::MatrixXd b = piece.coefficients;
-  int n = piece.degree();
-  double factor = 1;
-  for (; order > 0; --order, --n) {
-    if (n == 0) return Configuration::Zero(b.rows());
-    factor *= n;
-    for (int i = 0; i < n; ++i) b.col(i) = (b.col(i + 1) - b.col(i)).eval();
-  }
-  for (int left = n; left > 0; --left)
-    for (int i = 0; i < left; ++i) b.col(i) = ((1 - tau) * b.col(i) + tau * b.col(i + 1)).eval();
-  return factor * b.col(0);
-}
 
 /// Pieces join: same place and direction, and no second derivative on either side.
 void expectSmooth(const std::vector<CurvePiece>& pieces) {
