@@ -13,7 +13,7 @@ LAYERS = [
     "collision/hierarchy", "collision/queries", "collision/motion", "collision/world",
     "collision/collision.h",  # only for programs of users: our own files include the headers that they need
     "planner/robot", "planner/model", "planner/problem", "planner/checker", "planner/verify", "planner/trajectory",
-    "planner/solve", "planner/view", "planner/benchmark", "planner/app",
+    "planner/solve", "planner/view", "planner/benchmark", "planner/app", "planner/python",
 ]
 
 # The verifier shares only plain data and the test of the floating-point mode with the checker. So the headers that it

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <optional>
+#include <pybind11/numpy.h>
+#include <vector>
+
+#include "collision/core/rigid_pose.h"
+#include "collision/core/transform.h"
+#include "collision/geometry/triangle_mesh.h"
+#include "planner/robot/configuration_space.h"
+
+/// Conversions between NumPy arrays and the types of the libraries. Arrays of other number types,
+/// and arrays that are not contiguous, are copied. Arrays of the wrong shape, and numbers that are
+/// not finite, raise a ValueError that names the argument.
+namespace corridor::python {
+
+namespace py = pybind11;
+
+/// An array of doubles, in rows.
+using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+/// Throws py::value_error: "NAME: TEXT".
+[[noreturn]] void refuse(const char* name, const std::string& text);
+
+/// Returns the shape of an array as Python writes it: "(10, 7)".
+std::string shapeOf(const py::array& array);
+
+/// Reads one configuration, an array of J numbers.
+Configuration configurationOf(const Array& array, const ConfigurationSpace& space,
+                              const char* name);
+/// Reads configurations: an array of N×J numbers, or of J numbers for one.
+std::vector<Configuration> configurationsOf(const Array& array, const ConfigurationSpace& space,
+                                            const char* name);
+/// Returns an array of N×J numbers.
+Array arrayOf(const std::vector<Configuration>& rows, std::size_t columns);
+
+/// Reads 4×4 matrices of rigid motions or other affine maps: an array of N×4×4 numbers, or of 4×4
+/// for one. The last row must be 0, 0, 0, 1.
+std::vector<Transform> transformsOf(const Array& array, const char* name);
+/// Reads a 4×4 matrix of a rigid motion. Its rotation must be orthonormal within 1e-6, and is made
+/// a quaternion: errors of numbers with seven digits are repaired.
+RigidPose rigidPoseOf(const Array& array, const char* name);
+
+/// Reads points, an array of N×3 numbers.
+std::vector<Vec3> pointsOf(const Array& array, const char* name);
+/// Makes a mesh of vertices (V×3 numbers, metres) and triangles (T×3 indices from 0).
+TriangleMesh meshOf(
+    const Array& vertices,
+    const py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>& triangles);
+
+}  // namespace corridor::python

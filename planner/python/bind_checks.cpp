@@ -1,0 +1,111 @@
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include "planner/python/arrays.h"
+#include "planner/python/bindings.h"
+#include "planner/python/native_problem.h"
+#include "planner/python/parallel.h"
+
+namespace corridor::python {
+namespace {
+
+/// The verdicts of corridor.Verdict.
+enum Code : std::int8_t { kFree = 0, kContact = 1, kUndecided = 2, kOutOfBounds = 3 };
+
+/// Results of many queries, as arrays with one element for each.
+struct Results {
+  explicit Results(std::size_t n)
+      : verdict(static_cast<py::ssize_t>(n)),
+        time(static_cast<py::ssize_t>(n)),
+        gap(static_cast<py::ssize_t>(n)),
+        pairs({n, std::size_t{2}}) {}
+  py::array_t<std::int8_t> verdict;
+  py::array_t<double> time, gap;
+  py::array_t<std::int64_t> pairs;
+};
+
+/// Pointers into the arrays, which threads without Python's lock may use.
+struct Rows {
+  explicit Rows(Results& r)
+      : verdict(r.verdict.mutable_data()),
+        time(r.time.mutable_data()),
+        gap(r.gap.mutable_data()),
+        pairs(r.pairs.mutable_data()) {}
+  void set(std::size_t i, const Checker& checker, bool inBounds, const MotionResult& r) {
+    verdict[i] = !inBounds                             ? kOutOfBounds
+                 : r.verdict == MotionVerdict::free    ? kFree
+                 : r.verdict == MotionVerdict::contact ? kContact
+                                                       : kUndecided;
+    time[i] = r.contactTime >= 0 ? r.contactTime : std::numeric_limits<double>::quiet_NaN();
+    gap[i] = r.gap;
+    pairs[2 * i] = r.pair ? static_cast<std::int64_t>(checker.bodyOf(r.pair->bodyA)) : -1;
+    pairs[2 * i + 1] = r.pair ? static_cast<std::int64_t>(checker.bodyOf(r.pair->bodyB)) : -1;
+  }
+  std::int8_t* verdict;
+  double *time, *gap;
+  std::int64_t* pairs;
+};
+
+py::tuple tupleOf(const Results& r) {
+  return py::make_tuple(r.verdict, r.time, r.gap, r.pairs);
+}
+
+/// Runs work(i) for each row without Python's lock. Ctrl-C ends it.
+template <class Work>
+void run(std::size_t count, std::size_t threads, const Work& work) {
+  bool done = false;
+  {
+    const py::gil_scoped_release unlocked;
+    done = forEachInParallel(count, threads, work, hasPendingSignal);
+  }
+  if (!done) throw py::error_already_set();
+}
+
+py::tuple check(const NativeProblem& problem, const Array& states, std::size_t threads) {
+  const Checker& checker = problem.checker();
+  const std::vector<Configuration> rows = configurationsOf(states, checker.space(), "states");
+  Results results(rows.size());
+  Rows out(results);
+  run(rows.size(), threads, [&](std::size_t i) {
+    out.set(i, checker, checker.inBounds(rows[i]), checker.certifyState(rows[i]));
+  });
+  return tupleOf(results);
+}
+
+Array clearance(const NativeProblem& problem, const Array& states, std::size_t threads) {
+  const Checker& checker = problem.checker();
+  const std::vector<Configuration> rows = configurationsOf(states, checker.space(), "states");
+  Array result(static_cast<py::ssize_t>(rows.size()));
+  double* const out = result.mutable_data();
+  run(rows.size(), threads, [&](std::size_t i) { out[i] = checker.clearance(rows[i]); });
+  return result;
+}
+
+py::tuple certify(const NativeProblem& problem, const Array& from, const Array& to, bool earliest,
+                  std::size_t threads) {
+  const Checker& checker = problem.checker();
+  const std::vector<Configuration> a = configurationsOf(from, checker.space(), "q0"),
+                                   b = configurationsOf(to, checker.space(), "q1");
+  if (a.size() != b.size() && a.size() != 1 && b.size() != 1)
+    refuse("q1", "as many rows as in q0 are needed, " + std::to_string(a.size()) + ", not " +
+                     std::to_string(b.size()));
+  const std::size_t count = a.empty() || b.empty() ? 0 : std::max(a.size(), b.size());
+  Results results(count);
+  Rows out(results);
+  run(count, threads, [&](std::size_t i) {
+    const Configuration &p = a[a.size() == 1 ? 0 : i], &q = b[b.size() == 1 ? 0 : i];
+    out.set(i, checker, checker.inBounds(p) && checker.inBounds(q),
+            checker.certifyEdge(p, q, earliest));
+  });
+  return tupleOf(results);
+}
+
+}  // namespace
+
+void bindChecks(py::module_& module) {
+  module.def("check", &check);
+  module.def("clearance", &clearance);
+  module.def("certify", &certify);
+}
+
+}  // namespace corridor::python

@@ -1,0 +1,258 @@
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include "planner/checker/default_tolerance.h"
+#include "planner/model/model_builder.h"
+#include "planner/model/planned_joints.h"
+#include "planner/problem/assembly.h"
+#include "planner/python/arrays.h"
+#include "planner/python/bindings.h"
+#include "planner/python/native_problem.h"
+
+namespace corridor::python {
+namespace {
+
+using ProblemPointer = std::shared_ptr<NativeProblem>;
+using Indices = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
+
+RigidPose poseOf(const py::object& matrix) {
+  if (matrix.is_none()) return {};
+  return rigidPoseOf(matrix.cast<Array>(), "pose");
+}
+
+/// Makes a shape of a tuple of Python: its kind, its numbers and its pose (corridor/shapes.py).
+PlacedShape shapeFrom(const std::string& name, const py::tuple& shape) {
+  const auto kind = shape[0].cast<std::string>();
+  const RigidPose at = poseOf(shape[shape.size() - 1]);
+  const auto primitive = [&](const Primitive& p) {
+    if (const auto wrong = checkPrimitive(p)) throw py::value_error(name + ": " + *wrong);
+    return shapeOf(name, p, at);
+  };
+  if (kind == "box") {
+    const auto size = pointsOf(shape[1].cast<Array>().reshape({1, -1}), "size");
+    return primitive(Box{size[0]});
+  }
+  if (kind == "sphere") return primitive(Sphere{shape[1].cast<double>()});
+  if (kind == "capsule")
+    return primitive(Capsule{shape[1].cast<double>(), shape[2].cast<double>()});
+  if (kind == "cylinder")
+    return primitive(Cylinder{shape[1].cast<double>(), shape[2].cast<double>()});
+  if (kind == "convex") return primitive(Convex{pointsOf(shape[1].cast<Array>(), "points")});
+  TriangleMesh mesh = kind == "mesh"
+                          ? meshOf(shape[1].cast<Array>(), shape[2].cast<Indices>())
+                          : readMeshFile(shape[1].cast<std::string>(),
+                                         {.metresPerUnit = shape[2].cast<std::optional<double>>()})
+                                .mesh;
+  const Mat3 R = rotationMatrix(at.q);
+  for (Vec3& p : mesh.vertices) p = R * p + at.p;
+  return shapeOf(name, std::move(mesh), shape[3].cast<bool>());
+}
+
+std::vector<PlacedShape> shapesFrom(const std::string& name, const py::list& shapes) {
+  if (shapes.empty()) throw py::value_error(name + ": at least one shape is needed");
+  std::vector<PlacedShape> result;
+  for (std::size_t i = 0; i < shapes.size(); ++i)
+    result.push_back(
+        shapeFrom(shapes.size() == 1 ? name : name + "/" + std::to_string(i + 1), shapes[i]));
+  return result;
+}
+
+Corners cornersOf(const py::object& bounds, const char* name) {
+  const std::vector<Vec3> rows = pointsOf(bounds.cast<Array>(), name);
+  if (rows.size() != 2) refuse(name, "two points are needed: [[x, y, z], [x, y, z]]");
+  return {rows[0], rows[1]};
+}
+
+/// Builds a problem of descriptions of robots and obstacles (corridor/problem.py).
+ProblemPointer build(const py::list& robots, const py::dict& obstacles, const py::list& allowed) {
+  ModelBuilder builder;
+  for (const py::handle each : robots) {
+    const auto robot = each.cast<py::dict>();
+    const auto name = robot["name"].cast<std::string>();
+    if (robot.contains("urdf")) {
+      UrdfOptions options;
+      options.name = name;
+      options.base = poseOf(robot["base"]);
+      options.srdf = robot["srdf"].cast<std::string>();
+      options.joints = robot["joints"].cast<std::vector<std::string>>();
+      builder.addRobot(robot["urdf"].cast<std::string>(), options);
+    } else {
+      builder.addRigidBody(
+          name, robot["planar"].cast<bool>() ? JointType::planar : JointType::floating,
+          shapesFrom(name, robot["shapes"].cast<py::list>()), cornersOf(robot["bounds"], "bounds"));
+    }
+  }
+  for (const auto& [key, shapes] : obstacles) {
+    const auto name = key.cast<std::string>();
+    builder.addObstacle(name, shapesFrom(name, shapes.cast<py::list>()));
+  }
+  for (const py::handle pair : allowed) {
+    const auto [a, b] = pair.cast<std::pair<std::string, std::string>>();
+    builder.allow(a, b);
+  }
+  Problem problem;
+  problem.model = builder.build();
+  problem.source.name = "problem";
+  problem.task.start = Configuration::Zero(static_cast<Eigen::Index>(problem.model.space.size()));
+  finishProblem({}, {}, problem);
+  return std::make_shared<NativeProblem>(std::move(problem));
+}
+
+template <class Choice>
+Choice choiceFrom(const py::handle value, const char* key) {
+  const auto word = value.cast<std::string>();
+  if (const auto choice = choiceNamed<Choice>(word)) return *choice;
+  std::string known;
+  for (const std::string& each : wordsFor<Choice>()) known += (known.empty() ? "" : ", ") + each;
+  refuse(key, "one of " + known + " is needed, not \"" + word + "\"");
+}
+
+double numberFrom(const py::handle value, const char* key, double least) {
+  const auto number = value.cast<double>();
+  if (!(number >= least && std::isfinite(number)))
+    refuse(key, least > 0 ? "a finite number above 0 is needed"
+                          : "a finite number of 0 or more is needed");
+  return number;
+}
+
+/// Applies one edit to a problem. The keys are those of problem files where there are such.
+void apply(const std::string& key, const py::handle value, Problem& problem) {
+  const ConfigurationSpace& space = problem.model.space;
+  constexpr double kPositive = std::numeric_limits<double>::min();
+  const auto inBounds = [&](Configuration q, const char* name) {
+    space.normalise(q);
+    if (!space.inBounds(q)) refuse(name, "the configuration is out of bounds");
+    return q;
+  };
+  if (key == "start") {
+    problem.task.start = inBounds(configurationOf(value.cast<Array>(), space, "start"), "start");
+  } else if (key == "goals") {
+    std::vector<Configuration> goals = configurationsOf(value.cast<Array>(), space, "goals");
+    if (goals.empty()) refuse("goals", "at least one goal is needed");
+    for (Configuration& goal : goals) goal = inBounds(goal, "goals");
+    problem.task.goals = std::move(goals);
+    problem.task.goalRegion.reset();
+    problem.task.goalThreshold.reset();
+  } else if (key == "margin") {
+    setMargin(problem, numberFrom(value, "margin", 0));
+  } else if (key == "tube") {
+    TubeSpec tube;
+    for (const auto& [name, width] : value.cast<py::dict>()) {
+      const auto word = name.cast<std::string>();
+      const double number = numberFrom(width, "tube", 0);
+      if (word == "joints")
+        tube.joints = number;
+      else if (word == "slides")
+        tube.slides = number;
+      else if (word == "position")
+        tube.position = number;
+      else if (word == "rotation")
+        tube.rotation = number;
+      else
+        refuse("tube", "the keys are joints, slides, position and rotation, not \"" + word + "\"");
+    }
+    problem.task.tube = tubeOf(space, tube);
+  } else if (key == "planner") {
+    problem.settings.planner.name = value.cast<std::string>();
+    problem.settings.planner.params.clear();
+  } else if (key == "params") {
+    problem.settings.planner.params = value.cast<std::map<std::string, std::string>>();
+  } else if (key == "time") {
+    problem.settings.planner.time = numberFrom(value, "time", kPositive);
+  } else if (key == "seed") {
+    problem.settings.seed = value.cast<std::uint64_t>();
+  } else if (key == "simplify") {
+    problem.settings.simplify = choiceFrom<Simplifier>(value, "simplify");
+  } else if (key == "edges") {
+    problem.settings.checker.edges = choiceFrom<EdgeCheck>(value, "edges");
+  } else if (key == "smooth") {
+    problem.settings.trajectory.smooth = choiceFrom<Smoothing>(value, "smooth");
+  } else if (key == "clearance") {
+    problem.settings.prefer.clearance = numberFrom(value, "clearance", 0);
+  } else if (key == "tolerance") {
+    problem.settings.checker.tolerance = numberFrom(value, "tolerance", kPositive);
+  } else {
+    throw py::key_error(key);
+  }
+}
+
+ProblemPointer edited(const NativeProblem& from, const py::dict& edits) {
+  Problem problem = from.problem();
+  for (const auto& [key, value] : edits) apply(key.cast<std::string>(), value, problem);
+  if (problem.settings.prefer.clearance.value_or(0) > 0)
+    if (const auto why = whyNoClearance(problem.task.margin, problem.settings))
+      refuse("clearance", *why);
+  return std::make_shared<NativeProblem>(std::move(problem));
+}
+
+}  // namespace
+
+void bindProblem(py::module_& module) {
+  py::class_<NativeProblem, ProblemPointer>(module, "Problem")
+      .def_property_readonly("name", [](const NativeProblem& p) { return p.problem().source.name; })
+      .def_property_readonly(
+          "numbers", [](const NativeProblem& p) { return p.problem().model.space.numberNames(); })
+      .def_property_readonly("bodies",
+                             [](const NativeProblem& p) {
+                               std::vector<std::string> names;
+                               for (const ModelBody& body : p.problem().model.bodies)
+                                 names.push_back(body.name);
+                               return names;
+                             })
+      .def_property_readonly("files",
+                             [](const NativeProblem& p) {
+                               std::vector<std::string> files;
+                               for (const auto& file : p.problem().source.files)
+                                 files.push_back(file.string());
+                               return files;
+                             })
+      .def_property_readonly(
+          "notes", [](const NativeProblem& p) { return textsOf(p.problem().source.notes); })
+      .def_property_readonly("limit_notes",
+                             [](const NativeProblem& p) { return p.problem().task.limits.notes; })
+      .def_property_readonly("start",
+                             [](const NativeProblem& p) {
+                               const Configuration& q = p.problem().task.start;
+                               return Array(q.size(), q.data());
+                             })
+      .def_property_readonly("goals",
+                             [](const NativeProblem& p) {
+                               return arrayOf(p.problem().task.goals,
+                                              p.problem().model.space.size());
+                             })
+      .def_property_readonly(
+          "bounds",
+          [](const NativeProblem& p) {
+            const ConfigurationSpace& space = p.problem().model.space;
+            std::vector<Configuration> rows(
+                2, Configuration::Constant(static_cast<Eigen::Index>(space.size()), 1));
+            rows[0] = -rows[0];
+            for (const Coordinate& c : space.coordinates()) {
+              const auto i = static_cast<Eigen::Index>(c.first);
+              if (c.kind == Coordinate::Kind::line) rows[0][i] = c.lower, rows[1][i] = c.upper;
+              if (c.kind == Coordinate::Kind::circle) rows[0][i] = -M_PI, rows[1][i] = M_PI;
+            }
+            return arrayOf(rows, space.size());
+          })
+      .def_property_readonly("margin",
+                             [](const NativeProblem& p) { return p.problem().task.margin; })
+      .def_property_readonly("tube",
+                             [](const NativeProblem& p) {
+                               const Configuration& q = p.problem().task.tube;
+                               return Array(q.size(), q.data());
+                             })
+      .def_property_readonly(
+          "planner", [](const NativeProblem& p) { return p.problem().settings.planner.name; })
+      .def_property_readonly(
+          "time", [](const NativeProblem& p) { return p.problem().settings.planner.time; })
+      .def_property_readonly("seed",
+                             [](const NativeProblem& p) { return p.problem().settings.seed; })
+      .def("edited", &edited);
+  module.def("read_problem", [](const std::string& file) {
+    const py::gil_scoped_release unlocked;
+    return std::make_shared<NativeProblem>(readProblem(file));
+  });
+  module.def("build_problem", &build);
+}
+
+}  // namespace corridor::python

@@ -1,0 +1,198 @@
+#include <chrono>
+#include <future>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include "planner/problem/digest.h"
+#include "planner/python/arrays.h"
+#include "planner/python/bindings.h"
+#include "planner/python/native_problem.h"
+#include "planner/solve/solution.h"
+#include "planner/solve/solve.h"
+#include "planner/solve/verify_solution.h"
+#include "planner/view/view_page.h"
+
+namespace corridor::python {
+namespace {
+
+const char* nameOf(SolveOutcome outcome) {
+  switch (outcome) {
+    case SolveOutcome::solved:
+      return "solved";
+    case SolveOutcome::notFound:
+      return "not found";
+    case SolveOutcome::approximate:
+      return "approximate";
+    case SolveOutcome::interrupted:
+      return "interrupted";
+  }
+  return "";
+}
+
+/// Solves in a thread of its own. Meanwhile the calling thread runs Python's signal handlers and
+/// the callback, ten times a second.
+SolveReport solveInThread(const Problem& problem, SolveOptions& options,
+                          const py::object& callback) {
+  std::atomic<bool> interrupted = false;
+  std::mutex mutex;
+  SolveProgress latest;
+  options.interrupted = &interrupted;
+  options.progress = [&](const SolveProgress& p) {
+    const std::lock_guard lock(mutex);
+    latest = p;
+  };
+  bool failed = false;  // Python has an exception
+  std::future<SolveReport> report;
+  {
+    const py::gil_scoped_release unlocked;
+    report = std::async(std::launch::async, [&] { return solveProblem(problem, options); });
+    while (report.wait_for(std::chrono::milliseconds(100)) != std::future_status::ready) {
+      if (failed) continue;
+      failed = hasPendingSignal();
+      if (!failed && !callback.is_none()) {
+        SolveProgress now;
+        {
+          const std::lock_guard lock(mutex);
+          now = latest;
+        }
+        const py::gil_scoped_acquire lock;
+        try {
+          callback(now.seconds, now.edges);
+        } catch (py::error_already_set& error) {
+          error.restore();
+          failed = true;
+        }
+      }
+      if (failed) interrupted = true;
+    }
+  }
+  if (failed) throw py::error_already_set();
+  return report.get();
+}
+
+py::dict trajectoryDict(const MadeTrajectory& made) {
+  py::dict d;
+  d["why_none"] = made.fault;
+  if (!made.fault.empty()) return d;
+  d["text"] = made.text;
+  d["duration"] = made.duration;
+  d["proved"] = made.proved();
+  d["keeps_limits"] = keepsLimits(made.ratios);
+  return d;
+}
+
+py::dict solve(const NativeProblem& native, const std::optional<std::string>& trajectory,
+               const py::object& callback) {
+  const Problem& problem = native.problem();
+  SolveOptions options;
+  if (trajectory)
+    options.trajectory =
+        *trajectory == "csv" ? TrajectoryFileKind::csv : TrajectoryFileKind::message;
+  const SolveReport r = solveInThread(problem, options, callback);
+  py::dict d;
+  d["outcome"] = nameOf(r.outcome);
+  d["why"] = r.why;
+  d["path"] = arrayOf(r.path, problem.model.space.size());
+  d["certified"] = r.certified;
+  d["planner"] = r.planner;
+  d["checker"] = r.checker;
+  d["seed"] = r.seed;
+  d["repeats"] = r.repeats;
+  d["seconds"] = r.time;
+  d["planning_seconds"] = r.planningTime;
+  d["certification_seconds"] = r.certificationTime;
+  d["states_tested"] = r.counters.states;
+  d["edges_tested"] = r.counters.edges;
+  d["length_m"] = r.length.metres;
+  d["length_rad"] = r.length.radians;
+  d["clearance_m"] = r.clearance ? py::cast(r.clearance->proved) : py::none();
+  d["warnings"] = [&] {
+    std::vector<std::string> texts;
+    for (const Fault& fault : r.warnings) texts.push_back(fault.str());
+    return texts;
+  }();
+  if (r.outcome == SolveOutcome::solved && !problem.source.files.empty())
+    d["text"] = solutionText(makeSolution(problem, r, digestOf(problem)));
+  if (r.trajectory) d["trajectory"] = trajectoryDict(*r.trajectory);
+  return d;
+}
+
+py::dict reportDict(const VerifyReport& report) {
+  py::dict d;
+  d["verdict"] = verdictName(report);
+  d["clearance_m"] = report.pathReport.provenClearance;
+  d["edges"] = report.pathReport.edges;
+  d["edges_proved"] = report.pathReport.edgesProved;
+  d["violations"] = report.violations;
+  d["reaches_goal"] = report.reachesGoal;
+  d["notes"] = textsOf(report.notes);
+  py::list findings;
+  for (const PathFinding& f : report.pathReport.findings) {
+    py::dict finding;
+    finding["edge"] = f.edge;
+    finding["t"] = f.t;
+    finding["verdict"] = corridor::nameOf(f.verdict);
+    finding["gap_m"] = f.gap;
+    finding["reason"] = f.reason;
+    if (!f.a.empty()) finding["bodies"] = py::make_tuple(f.a, f.b);
+    findings.append(std::move(finding));
+  }
+  d["findings"] = findings;
+  return d;
+}
+
+/// Returns a path as the solution of a problem, without a digest: the problem in memory counts, and
+/// not its files.
+Solution solutionFrom(const Problem& problem, const Array& path) {
+  Solution solution;
+  solution.numbers = problem.model.space.numberNames();
+  solution.margin = problem.task.margin;
+  solution.tube = problem.task.tube;
+  solution.path = configurationsOf(path, problem.model.space, "path");
+  if (solution.path.empty()) refuse("path", "at least one state is needed");
+  return solution;
+}
+
+py::dict verifyPathOf(const NativeProblem& native, const Array& path) {
+  const Problem& problem = native.problem();
+  const Solution solution = solutionFrom(problem, path);
+  VerifyReport report;
+  {
+    const py::gil_scoped_release unlocked;
+    report = verifySolution(problem, solution);
+  }
+  return reportDict(report);
+}
+
+/// @param text of a file of rows, or of a message.
+py::dict verifyTrajectoryOf(const NativeProblem& native, const std::string& text) {
+  const Problem& problem = native.problem();
+  VerifyReport report;
+  {
+    const py::gil_scoped_release unlocked;
+    report = verifyTrajectory(problem, readTrajectory("trajectory", text, problem.model));
+  }
+  py::dict d = reportDict(report);
+  if (report.limits) d["keeps_limits"] = keepsLimits(*report.limits);
+  return d;
+}
+
+std::string page(const NativeProblem& native, const std::optional<Array>& states) {
+  const Problem& problem = native.problem();
+  std::optional<ViewedPath> path;
+  if (states) path.emplace().solution = solutionFrom(problem, *states);
+  const py::gil_scoped_release unlocked;
+  if (path) path->report = verifySolution(problem, path->solution);
+  return viewPage(problem, path);
+}
+
+}  // namespace
+
+void bindSolve(py::module_& module) {
+  module.def("solve", &solve);
+  module.def("verify_path", &verifyPathOf);
+  module.def("verify_trajectory", &verifyTrajectoryOf);
+  module.def("page", &page);
+}
+
+}  // namespace corridor::python

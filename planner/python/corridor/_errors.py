@@ -1,0 +1,26 @@
+"""Exceptions of the package."""
+
+from typing import NamedTuple
+
+
+class Fault(NamedTuple):
+    """One fault in a file: its place, what is wrong, and what would be right."""
+
+    file: str
+    line: int
+    text: str
+
+
+class InputError(ValueError):
+    """Bad input: a file, or a problem that can't be planned.
+
+    `faults` lists all of them. The text of the exception has one line for each.
+    """
+
+    def __init__(self, text, faults=()):
+        super().__init__(text, faults)
+        self.text = text
+        self.faults = [Fault(*fault) for fault in faults]
+
+    def __str__(self):
+        return self.text

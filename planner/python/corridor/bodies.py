@@ -1,0 +1,109 @@
+"""Collision queries of two bodies. Poses are 4×4 matrices, or N×4×4 for N queries at once."""
+
+from __future__ import annotations
+
+import os
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _native
+from .problem import Verdict
+from .shapes import _array, _size
+
+_ORIGIN = np.eye(4)
+
+
+class Body:
+    """A mesh or a convex solid. Its trees are built when a query first needs them."""
+
+    def __init__(self, native: Any):
+        self._native = native
+
+    @staticmethod
+    def mesh(vertices: ArrayLike, triangles: ArrayLike, solid: bool = False) -> Body:
+        """A mesh of vertices (V×3, metres) and triangles (T×3 indices from 0)."""
+        return Body(_native.mesh_body(_array("vertices", vertices), np.array(triangles), solid))
+
+    @staticmethod
+    def file(file: str | os.PathLike, metres_per_unit: float | None = None, solid: bool = False) -> Body:
+        """A mesh file: OBJ, STL, PLY, OFF, Collada, glTF and more."""
+        return Body(_native.file_body(os.fspath(file), metres_per_unit, solid))
+
+    @staticmethod
+    def box(size: ArrayLike) -> Body:
+        """A box with full edge lengths (3,), centred at the origin."""
+        return Body(_native.box_body(_size(size)))
+
+    @staticmethod
+    def sphere(radius: float) -> Body:
+        """A sphere about the origin."""
+        return Body(_native.sphere_body(radius))
+
+    @staticmethod
+    def capsule(radius: float, length: float) -> Body:
+        """A capsule along z; `length` is the distance of the centres of its end spheres."""
+        return Body(_native.capsule_body(radius, length))
+
+    @staticmethod
+    def cylinder(radius: float, length: float) -> Body:
+        """A cylinder along z with its full length."""
+        return Body(_native.cylinder_body(radius, length))
+
+    @staticmethod
+    def convex(points: ArrayLike) -> Body:
+        """The convex hull of points (N×3)."""
+        return Body(_native.convex_body(_array("points", points)))
+
+
+class Distances(NamedTuple):
+    distance: NDArray  #: N metres; 0 if and only if the bodies touch
+    on_a: NDArray  #: N×3, the closest point of a, world coordinates
+    on_b: NDArray  #: N×3, that of b
+
+
+class Contacts(NamedTuple):
+    pairs: NDArray  #: N×2, the triangles of a and b that touch
+    segments: NDArray  #: N×2×3, the ends of the segment that they share, world coordinates
+
+
+class FirstContact(NamedTuple):
+    verdict: Verdict
+    free_until: float  #: the motion is proved free on [0, free_until]
+    time: float  #: of the contact, or of the undecided time; −1 if there is none
+
+
+def touch(
+    a: Body, b: Body, pose_a: ArrayLike = _ORIGIN, pose_b: ArrayLike = _ORIGIN, threads: int = 0
+) -> NDArray[np.bool_]:
+    """Whether the bodies touch: N bool. Exact for meshes; touching is contact."""
+    return _native.touch(a._native, b._native, _array("pose_a", pose_a), _array("pose_b", pose_b), threads)
+
+
+def closer_than(
+    a: Body, b: Body, distance: float, pose_a: ArrayLike = _ORIGIN, pose_b: ArrayLike = _ORIGIN, threads: int = 0
+) -> NDArray[np.bool_]:
+    """Whether the bodies are at most `distance` metres apart: N bool. False is a proof."""
+    return _native.closer_than(a._native, b._native, distance, _array("pose_a", pose_a), _array("pose_b", pose_b), threads)
+
+
+def distance(
+    a: Body, b: Body, pose_a: ArrayLike = _ORIGIN, pose_b: ArrayLike = _ORIGIN, threads: int = 0
+) -> Distances:
+    """The distances of the bodies and their closest points."""
+    return Distances(*_native.distance(a._native, b._native, _array("pose_a", pose_a), _array("pose_b", pose_b), threads))
+
+
+def contacts(a: Body, b: Body, pose_a: ArrayLike = _ORIGIN, pose_b: ArrayLike = _ORIGIN) -> Contacts:
+    """All pairs of triangles of two meshes that touch, for one pair of poses."""
+    return Contacts(*_native.contacts(a._native, b._native, _array("pose_a", pose_a), _array("pose_b", pose_b)))
+
+
+def first_contact(a: Body, b: Body, start: ArrayLike, end: ArrayLike, tolerance: float = 0.0) -> FirstContact:
+    """Moves a from pose `start` to pose `end`, along a line and by slerp, while b rests at the origin.
+
+    tolerance: metres; 0: a default for the sizes of the bodies.
+    """
+    verdict, until, time = _native.first_contact(a._native, b._native, _array("start", start), _array("end", end), tolerance)
+    return FirstContact(Verdict(verdict), until, time)

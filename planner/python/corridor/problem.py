@@ -1,0 +1,363 @@
+"""Planning problems, checks of states and edges, and solutions."""
+
+from __future__ import annotations
+
+import concurrent.futures
+import enum
+import html
+import multiprocessing
+import os
+import tempfile
+import threading
+import webbrowser
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _native
+from .shapes import Shape, _array
+
+_solving = threading.Lock()  # OMPL has one generator of random numbers per process
+
+_EDITS = (
+    "start", "goals", "margin", "tube", "planner", "params", "time", "seed", "simplify", "edges", "clearance",
+    "tolerance", "smooth",
+)  # fmt: skip
+
+
+class Verdict(enum.IntEnum):
+    """The answer for a state or an edge."""
+
+    FREE = 0  #: proved: all pairs keep the margin, with tube and rounding
+    CONTACT = 1  #: a pair touches, or is within the margin
+    UNDECIDED = 2  #: neither is proved; usually the clearance is below twice the tolerance
+    OUT_OF_BOUNDS = 3  #: a joint or a position is out of bounds
+
+
+class Results:
+    """Answers for N states or edges, as arrays.
+
+    verdict: N int8, values of Verdict.
+    time: N float, the time in [0, 1] of the contact, or of the undecided state, on the edge; NaN if there is none.
+    gap: N float, metres, the distance of an undecided pair beyond the margin.
+    pairs: N×2 int64, indices into `bodies`; −1 if there is no pair.
+    """
+
+    def __init__(self, bodies: list[str], verdict: NDArray, time: NDArray, gap: NDArray, pairs: NDArray):
+        self.bodies, self.verdict, self.time, self.gap, self.pairs = bodies, verdict, time, gap, pairs
+
+    @property
+    def free(self) -> NDArray[np.bool_]:
+        """N bool: whether each row is proved free."""
+        return self.verdict == Verdict.FREE
+
+    def pair(self, i: int) -> tuple[str, str] | None:
+        """Returns the names of the two bodies of row i."""
+        a, b = self.pairs[i]
+        return None if a < 0 else (self.bodies[a], self.bodies[b])
+
+    def __len__(self) -> int:
+        return len(self.verdict)
+
+    def __bool__(self) -> bool:
+        """Returns whether all rows are free."""
+        return bool(self.free.all())
+
+    def __repr__(self) -> str:
+        counts = ", ".join(f"{int((self.verdict == v).sum())} {v.name.lower().replace('_', ' ')}" for v in Verdict)
+        return f"<Results: {counts}>"
+
+
+def urdf(
+    file: str | os.PathLike, srdf: str | os.PathLike | None = None, joints: Sequence[str] = (),
+    base: ArrayLike | None = None, name: str = "",
+) -> dict[str, Any]:  # fmt: skip
+    """Describes a robot by a URDF file.
+
+    srdf: a file with pairs of links that may touch. joints: the names of those that are planned for; default: all
+    that can move. base: 4×4, the pose of the root link. name: needed if there are several robots.
+    """
+    return {
+        "urdf": os.path.abspath(file),
+        "srdf": "" if srdf is None else os.path.abspath(srdf),
+        "joints": list(joints),
+        "base": None if base is None else _array("base", base),
+        "name": name,
+    }
+
+
+def rigid_body(
+    shapes: Shape | Iterable[Shape], bounds: ArrayLike, planar: bool = False, name: str = "body"
+) -> dict[str, Any]:
+    """Describes a rigid body that moves in space, or in the plane (`planar`).
+
+    bounds: [[x, y, z], [x, y, z]], the lower and the upper corner of its position, m.
+    """
+    return {"shapes": _list(shapes), "bounds": _array("bounds", bounds), "planar": planar, "name": name}
+
+
+def _list(shapes: Shape | Iterable[Shape]) -> list[Shape]:
+    return [shapes] if isinstance(shapes, Shape) else list(shapes)
+
+
+class Problem:
+    """A planning problem. It never changes: `edited` returns another one. It can be pickled.
+
+    A configuration is an array of J numbers, whose names are `numbers`: radians, metres, and quaternions
+    (qx, qy, qz, qw) of floating bodies.
+    """
+
+    def __init__(
+        self, robots: dict | Sequence[dict], obstacles: Mapping[str, Shape | Iterable[Shape]] | None = None,
+        allow: Iterable[tuple[str, str]] = (), **edits: Any,
+    ):  # fmt: skip
+        """Builds a problem.
+
+        robots: one, or a list, of `urdf` or `rigid_body`. obstacles: shapes by name, in world coordinates.
+        allow: pairs of names of bodies that may touch. edits: as for `edited`.
+        """
+        robots = [robots] if isinstance(robots, dict) else list(robots)
+        named = {name: _list(shapes) for name, shapes in (obstacles or {}).items()}
+        self._set(("built", robots, named, [tuple(pair) for pair in allow]), edits)
+
+    @classmethod
+    def read(cls, file: str | os.PathLike) -> Problem:
+        """Reads a problem.yaml, a folder that holds one, an OMPL.app .cfg, or SET.json#INDEX.
+
+        Raises InputError with all faults.
+        """
+        self = cls.__new__(cls)
+        self._set(("file", os.path.abspath(os.fspath(file))), {})
+        return self
+
+    def _set(self, recipe: tuple, edits: dict) -> None:
+        self._recipe = recipe
+        base = _native.read_problem(recipe[1]) if recipe[0] == "file" else _native.build_problem(*recipe[1:])
+        self._edit(base, {}, edits)
+
+    def _edit(self, base: Any, before: dict, edits: dict) -> None:
+        for key in edits:
+            if key not in _EDITS:
+                raise TypeError(f"a problem has no {key!r} that can be edited; there are {', '.join(_EDITS)}")
+        edits = {k: _array(k, v) if k in ("start", "goals") else v for k, v in edits.items()}
+        self._edits = {**before, **edits}
+        self._native = base.edited(edits) if edits else base
+
+    def edited(self, **edits: Any) -> Problem:
+        """Returns the problem with other values.
+
+        start (J,); goals (J,), or (G, J) for any of G goals; margin, m; tube, {"joints": rad or m, "slides": m,
+        "position": m, "rotation": rad}; planner, OMPL's name; params, a dict of texts; time, s; seed; simplify ("true",
+        "false", "ompl"); edges ("certified", "discrete", ...); clearance, m; tolerance, m; smooth ("time", "length",
+        "acceleration", "corners", "none").
+        Raises ValueError if a value is illegal or contradicts another one.
+        """
+        other = object.__new__(type(self))
+        other._recipe = self._recipe
+        other._edit(self._native, self._edits, edits)
+        return other
+
+    def __reduce__(self):
+        return _restored, (self._recipe, self._edits)
+
+    @property
+    def name(self) -> str:
+        return self._native.name
+
+    @property
+    def numbers(self) -> list[str]:
+        """The names of the J numbers of a configuration."""
+        return self._native.numbers
+
+    @property
+    def bodies(self) -> list[str]:
+        """The names of links and obstacles."""
+        return self._native.bodies
+
+    @property
+    def notes(self) -> list[str]:
+        """Decisions of the reader that a user may want to know."""
+        return self._native.notes
+
+    @property
+    def start(self) -> NDArray[np.float64]:
+        return self._native.start
+
+    @property
+    def goals(self) -> NDArray[np.float64]:
+        """G×J: a path may end at any of them."""
+        return self._native.goals
+
+    @property
+    def bounds(self) -> NDArray[np.float64]:
+        """2×J: the smallest and the largest value of each number."""
+        return self._native.bounds
+
+    @property
+    def margin(self) -> float:
+        """The distance that all tested pairs must keep, m."""
+        return self._native.margin
+
+    @property
+    def tube(self) -> NDArray[np.float64]:
+        """(J,): the deviation from a path that proofs cover."""
+        return self._native.tube
+
+    @property
+    def planner(self) -> str:
+        return self._native.planner
+
+    @property
+    def time(self) -> float:
+        """The time limit of a solve, s."""
+        return self._native.time
+
+    @property
+    def seed(self) -> int:
+        return self._native.seed
+
+    def check(self, states: ArrayLike, threads: int = 0) -> Results:
+        """Decides whether states, (J,) or (N, J), are proved free. threads: 0 means all cores."""
+        return Results(self.bodies, *_native.check(self._native, _array("states", states), threads))
+
+    def certify(self, q0: ArrayLike, q1: ArrayLike, earliest: bool = False, threads: int = 0) -> Results:
+        """Decides whether edges are proved free, from each row of q0 to that of q1, (J,) or (N, J).
+
+        Circles and rotations go the shorter way. With `earliest`, `time` is that of the first contact.
+        """
+        return Results(
+            self.bodies, *_native.certify(self._native, _array("q0", q0), _array("q1", q1), earliest, threads)
+        )
+
+    def clearance(self, states: ArrayLike, threads: int = 0) -> NDArray[np.float64]:
+        """Returns the smallest distance of tested pairs at each state, minus the margin, (N,), m."""
+        return _native.clearance(self._native, _array("states", states), threads)
+
+    def page(self) -> str:
+        """Returns an HTML page that shows the scene in 3D."""
+        return _native.page(self._native, None)
+
+    def _repr_html_(self) -> str:
+        return _frame(self.page())
+
+
+def _restored(recipe: tuple, edits: dict) -> Problem:
+    problem = object.__new__(Problem)
+    problem._set(recipe, edits)
+    return problem
+
+
+def _frame(page: str) -> str:
+    return f'<iframe srcdoc="{html.escape(page)}" style="width: 100%; height: 600px; border: 0"></iframe>'
+
+
+@dataclass(repr=False)
+class Solution:
+    """The result of `solve`. It can be pickled. It is true if the problem is solved."""
+
+    problem: Problem
+    outcome: str  #: "solved", "not found", "approximate"
+    why: str  #: why it is not solved, one line
+    path: NDArray[np.float64]  #: N×J states; empty unless solved
+    certified: bool  #: every edge of `path` is proved
+    figures: dict[str, Any] = field(default_factory=dict)  #: times, lengths and counts of the solve
+    trajectory: dict[str, Any] | None = None  #: text, duration, proved and keeps_limits; or why_none
+    _text: str = ""
+
+    def __bool__(self) -> bool:
+        return self.outcome == "solved"
+
+    def __repr__(self) -> str:
+        states = f", {len(self.path)} states, {'certified' if self.certified else 'not certified'}" if self else ""
+        return f"<Solution: {self.outcome}{states}{'; ' + self.why if self.why else ''}>"
+
+    def _require_path(self) -> None:
+        if not self:
+            raise ValueError(f"there is no path: {self.why or self.outcome}")
+
+    def verify(self) -> dict[str, Any]:
+        """Verifies the path by the independent verifier. Returns `verdict`, `findings`, `clearance_m`, ..."""
+        self._require_path()
+        return _native.verify_path(self.problem._native, self.path)
+
+    def verify_trajectory(self) -> dict[str, Any]:
+        """Verifies the trajectory as it is written."""
+        if not self.trajectory or not self.trajectory.get("text"):
+            raise ValueError('there is no trajectory; pass trajectory="csv" to solve')
+        return _native.verify_trajectory(self.problem._native, self.trajectory["text"])
+
+    def save(self, file: str | os.PathLike) -> None:
+        """Writes a solution file, which `corridor verify` reads. Only for problems that were read from files."""
+        self._require_path()
+        if not self._text:
+            raise ValueError("a solution file names its problem's file, and this problem was built in Python")
+        with open(file, "w", encoding="utf-8") as out:
+            out.write(self._text)
+
+    def page(self) -> str:
+        """Returns an HTML page that plays the path in 3D. It loads nothing else."""
+        self._require_path()
+        return _native.page(self.problem._native, self.path)
+
+    def view(self, file: str | os.PathLike | None = None) -> str:
+        """Writes the page to a file, or opens it in a browser. Returns the name of the file."""
+        page, opens = self.page(), file is None
+        if file is None:
+            handle, file = tempfile.mkstemp(suffix=".html")
+            os.close(handle)
+        with open(file, "w", encoding="utf-8") as out:
+            out.write(page)
+        if opens:
+            webbrowser.open("file://" + os.path.abspath(file))
+        return os.fspath(file)
+
+    def _repr_html_(self) -> str:
+        return _frame(self.page()) if self else f"<p>{html.escape(repr(self))}</p>"
+
+
+def solve(
+    problem: Problem, planner: str | None = None, time: float | None = None, seed: int | None = None,
+    trajectory: str | None = None, progress: Callable[[float, int], None] | None = None,
+) -> Solution:  # fmt: skip
+    """Solves a problem, and proves every edge of the path.
+
+    trajectory: "csv" or "message" (a JointTrajectory of ROS 2 as YAML) makes a trajectory, too.
+    progress: called ten times a second with the seconds and the number of edges tested. Ctrl-C ends the solve.
+    The same problem and seed give the same path, with most planners. A process solves one problem at a time: a second
+    call waits. `solve_many` uses several processes.
+    """
+    edits = {k: v for k, v in {"planner": planner, "time": time, "seed": seed}.items() if v is not None}
+    if edits:
+        problem = problem.edited(**edits)
+    if trajectory not in (None, "csv", "message"):
+        raise ValueError(f'trajectory: "csv" or "message" is needed, not {trajectory!r}')
+    if problem._recipe[0] == "built":
+        for key in ("start", "goals"):
+            if key not in problem._edits:
+                raise ValueError(f"{key}: the problem has none; set it by problem.edited({key}=...)")
+    with _solving:
+        result = _native.solve(problem._native, trajectory, progress)
+    take = result.pop
+    return Solution(
+        problem, take("outcome"), take("why"), take("path"), take("certified"), trajectory=take("trajectory", None),
+        _text=take("text", ""), figures=result,
+    )  # fmt: skip
+
+
+def _solve_one(arguments: tuple[Problem, dict]) -> Solution:
+    problem, options = arguments
+    return solve(problem, **options)
+
+
+def solve_many(problems: Iterable[Problem], processes: int | None = None, **options: Any) -> Iterator[Solution]:
+    """Solves several problems, and yields their solutions in the same order.
+
+    processes: default, as many as there are cores. options: those of `solve`, except progress.
+    As with all processes of Python, a script calls it under `if __name__ == "__main__":`.
+    """
+    context = multiprocessing.get_context("spawn")
+    with concurrent.futures.ProcessPoolExecutor(processes or os.cpu_count(), mp_context=context) as pool:
+        yield from pool.map(_solve_one, [(problem, options) for problem in problems])

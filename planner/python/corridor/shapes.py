@@ -1,0 +1,73 @@
+"""Shapes of obstacles and rigid bodies. Lengths are metres; `pose` is a 4×4 matrix, by default the origin."""
+
+from __future__ import annotations
+
+import os
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+
+class Shape(tuple):
+    """A shape: its kind, its numbers, and its pose. The functions of this module make it."""
+
+    __slots__ = ()
+
+
+def _array(name: str, value: Any) -> NDArray[np.float64]:
+    try:
+        return np.array(value, dtype=float)
+    except (TypeError, ValueError) as error:
+        raise ValueError(f"{name}: an array of numbers is needed: {error}") from None
+
+
+def _shape(kind: str, *numbers: Any, pose: ArrayLike | None) -> Shape:
+    return Shape((kind, *numbers, None if pose is None else _array("pose", pose)))
+
+
+def _size(size: ArrayLike) -> NDArray[np.float64]:
+    array = _array("size", size)
+    if array.shape != (3,):
+        raise ValueError(f"size: three numbers are needed, not an array of shape {array.shape}")
+    return array.reshape(1, 3)
+
+
+def box(size: ArrayLike, pose: ArrayLike | None = None) -> Shape:
+    """A solid box with the full edge lengths `size`, (3,), centred at the pose."""
+    return _shape("box", _size(size), pose=pose)
+
+
+def sphere(radius: float, pose: ArrayLike | None = None) -> Shape:
+    """A solid sphere."""
+    return _shape("sphere", float(radius), pose=pose)
+
+
+def capsule(radius: float, length: float, pose: ArrayLike | None = None) -> Shape:
+    """A solid capsule along z; `length` is the distance of the centres of its end spheres."""
+    return _shape("capsule", float(radius), float(length), pose=pose)
+
+
+def cylinder(radius: float, length: float, pose: ArrayLike | None = None) -> Shape:
+    """A solid cylinder along z; `length` is its full length."""
+    return _shape("cylinder", float(radius), float(length), pose=pose)
+
+
+def convex(points: ArrayLike, pose: ArrayLike | None = None) -> Shape:
+    """The solid convex hull of points, (N, 3)."""
+    return _shape("convex", _array("points", points), pose=pose)
+
+
+def mesh(vertices: ArrayLike, triangles: ArrayLike, solid: bool = False, pose: ArrayLike | None = None) -> Shape:
+    """A mesh of vertices, (V, 3), and triangles, (T, 3) indices from 0.
+
+    It is a surface. With `solid`, everything inside belongs to it, and it must be watertight.
+    """
+    return _shape("mesh", _array("vertices", vertices), np.array(triangles), bool(solid), pose=pose)
+
+
+def mesh_file(
+    file: str | os.PathLike, metres_per_unit: float | None = None, solid: bool = False, pose: ArrayLike | None = None
+) -> Shape:
+    """A mesh file: OBJ, STL, PLY, OFF, Collada, glTF and more. metres_per_unit: default, the unit of the file."""
+    return _shape("file", os.path.abspath(file), metres_per_unit, bool(solid), pose=pose)

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace corridor::python {
+
+/// Calls work(i) for each i below `count`, on several threads.
+/// @param threads 0: as many as the machine has.
+/// @param stop is asked now and then by the calling thread, which does not work; true: ends soon.
+/// @returns false if it was stopped. @throws what `work` throws first.
+template <class Work, class Stop>
+bool forEachInParallel(std::size_t count, std::size_t threads, const Work& work, const Stop& stop) {
+  if (threads == 0) threads = std::max(1U, std::thread::hardware_concurrency());
+  constexpr std::size_t kChunk = 16;  // items that a thread takes at once
+  std::atomic<std::size_t> next = 0, running = 0;
+  std::atomic<bool> stopped = false;
+  std::exception_ptr failure;
+  std::mutex mutex;
+  const auto run = [&] {
+    try {
+      for (std::size_t begin; !stopped && (begin = next.fetch_add(kChunk)) < count;)
+        for (std::size_t i = begin; i < std::min(count, begin + kChunk); ++i) work(i);
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      if (!failure) failure = std::current_exception();
+      stopped = true;
+    }
+  };
+  threads = std::min(threads, (count + kChunk - 1) / kChunk);
+  if (threads <= 1 && count <= kChunk) {
+    run();  // short: not worth a thread
+  } else {
+    std::vector<std::jthread> workers;
+    running = threads;
+    for (std::size_t k = 0; k < threads; ++k)
+      workers.emplace_back([&] {
+        run();
+        --running;
+        running.notify_one();
+      });
+    while (running > 0) {
+      if (!stopped && stop()) stopped = true;
+      if (running > 0) std::this_thread::sleep_for(std::chrono::milliseconds(stopped ? 1 : 2));
+    }
+  }
+  if (failure) std::rethrow_exception(failure);
+  return !stopped;
+}
+
+}  // namespace corridor::python

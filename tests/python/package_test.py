@@ -1,0 +1,356 @@
+"""Tests of the Python package. The environment has PYTHONPATH and CORRIDOR_SOURCE_DIR."""
+
+import gc
+import math
+import os
+import pathlib
+import pickle
+import resource
+import signal
+import tempfile
+import threading
+import time
+import unittest
+
+import corridor
+import numpy as np
+from corridor import Body, Verdict, shapes
+
+SOURCE = pathlib.Path(os.environ["CORRIDOR_SOURCE_DIR"])
+ARM = SOURCE / "problems/arm_at_shelf"
+
+
+def at(x, y=0.0, z=0.0):
+    pose = np.eye(4)
+    pose[:3, 3] = x, y, z
+    return pose
+
+
+def cube_in_room(**edits):
+    """A cube of 0.2 m, and a wall that it must go around."""
+    edits = {"start": [-1, 0, 0, 0, 0, 0, 1], "goals": [1, 0, 0, 0, 0, 0, 1], **edits}
+    return corridor.Problem(
+        corridor.rigid_body(shapes.box([0.2, 0.2, 0.2]), [[-2, -2, -2], [2, 2, 2]], name="cube"),
+        {"wall": shapes.box([0.1, 2, 2])},
+        **edits,
+    )
+
+
+class Checks(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.problem = corridor.read_problem(ARM)
+        lower, upper = cls.problem.bounds
+        cls.states = np.random.default_rng(7).uniform(lower, upper, (2000, len(lower)))
+
+    def test_threads_change_nothing(self):
+        one = self.problem.check(self.states, threads=1)
+        for threads in 0, 2, 5:
+            several = self.problem.check(self.states, threads=threads)
+            np.testing.assert_array_equal(one.verdict, several.verdict)
+        self.assertGreater((one.verdict == Verdict.CONTACT).sum(), 20)
+        self.assertGreater(one.free.sum(), 20)
+        self.assertEqual(len(one), 2000)
+        self.assertFalse(one)
+
+    def test_clearance_agrees_with_verdicts(self):
+        verdicts = self.problem.check(self.states)
+        clearance = self.problem.clearance(self.states)
+        self.assertTrue((clearance[verdicts.free] > 0).all())
+        self.assertTrue((clearance[verdicts.verdict == Verdict.CONTACT] <= 1e-6).all())
+
+    def test_pairs_have_names(self):
+        results = self.problem.check(self.states)
+        i = int(np.argmax(results.verdict == Verdict.CONTACT))
+        a, b = results.pair(i)
+        self.assertIn(a, self.problem.bodies)
+        self.assertIn(b, self.problem.bodies)
+        self.assertIsNone(results.pair(int(np.argmax(results.free))))
+
+    def test_edges(self):
+        q0, q1 = self.states[:300], self.states[300:600]
+        results = self.problem.certify(q0, q1, earliest=True)
+        back = self.problem.certify(q1, q0)
+        np.testing.assert_array_equal(results.free, back.free)
+        contacts = results.verdict == Verdict.CONTACT
+        self.assertGreater(contacts.sum(), 20)
+        self.assertTrue(((results.time[contacts] >= 0) & (results.time[contacts] <= 1)).all())
+        self.assertTrue(np.isnan(results.time[results.free]).all())
+        # One row serves for all rows of the other array.
+        fan = self.problem.certify(self.problem.start, q1)
+        self.assertEqual(len(fan), 300)
+        # An edge that is free has free states.
+        for i in np.flatnonzero(results.free)[:20]:
+            t = np.linspace(0, 1, 50)[:, None]
+            self.assertTrue(self.problem.check((1 - t) * q0[i] + t * q1[i]))
+
+    def test_arrays_of_other_layouts_are_copied(self):
+        expected = self.problem.check(self.states).verdict
+        for other in (
+            np.asfortranarray(self.states),
+            np.repeat(self.states, 2, axis=1)[:, ::2],
+            self.states.tolist(),
+        ):
+            np.testing.assert_array_equal(self.problem.check(other).verdict, expected)
+        self.assertEqual(len(self.problem.check(self.states.astype(np.float32))), 2000)
+
+    def test_out_of_bounds(self):
+        lower, upper = self.problem.bounds
+        bounded = int(np.argmin(upper - lower))
+        state = self.problem.start
+        state[bounded] = upper[bounded] + 0.1
+        self.assertEqual(self.problem.check(state).verdict[0], Verdict.OUT_OF_BOUNDS)
+
+    def test_bad_arrays(self):
+        for states, text in (
+            (np.zeros(3), r"states: an array of shape \(7,\) or \(N, 7\) is needed, not \(3,\)"),
+            (np.zeros((2, 2, 7)), r"states: .* not \(2, 2, 7\)"),
+            (np.full(7, math.nan), "states: the numbers must be finite"),
+            ([["a"] * 7], "states: an array of numbers is needed"),
+        ):
+            with self.assertRaisesRegex(ValueError, text):
+                self.problem.check(states)
+        with self.assertRaisesRegex(ValueError, "q1: as many rows as in q0 are needed, 3, not 2"):
+            self.problem.certify(self.states[:3], self.states[:2])
+        self.assertEqual(len(self.problem.check(np.zeros((0, 7)))), 0)
+
+
+class Problems(unittest.TestCase):
+    def test_file_that_is_missing(self):
+        with self.assertRaises(corridor.InputError) as caught:
+            corridor.read_problem("nowhere.yaml")
+        [fault] = caught.exception.faults
+        self.assertEqual(fault.text, "no such file")
+        self.assertTrue(fault.file.endswith("nowhere.yaml"))
+        self.assertIsInstance(caught.exception, ValueError)
+
+    def test_all_faults_of_a_file(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder, "problem.yaml")
+            file.write_text("format: corridor-problem-1\nrobt: x.yaml\nseed: -1\n")
+            with self.assertRaises(corridor.InputError) as caught:
+                corridor.read_problem(file)
+        faults = caught.exception.faults
+        self.assertGreaterEqual(len(faults), 2)
+        self.assertIn(2, [fault.line for fault in faults])
+
+    def test_edits(self):
+        problem = corridor.read_problem(ARM)
+        other = problem.edited(margin=0.01, seed=5, time=3, planner="RRT", tube={"joints": 0.001})
+        self.assertEqual((other.margin, other.seed, other.time, other.planner), (0.01, 5, 3, "RRT"))
+        self.assertEqual(other.tube[0], 0.001)
+        self.assertEqual(problem.margin, 0)
+        self.assertEqual(other.edited(seed=6).margin, 0.01)
+
+    def test_contradictory_edits(self):
+        problem = corridor.read_problem(ARM)
+        for edits, error, text in (
+            ({"start": problem.start + 100}, ValueError, "start: the configuration is out of bounds"),
+            ({"goals": np.zeros((0, 7))}, ValueError, "goals: at least one goal is needed"),
+            ({"margin": -1}, ValueError, "margin: a finite number of 0 or more is needed"),
+            ({"time": 0}, ValueError, "time: a finite number above 0 is needed"),
+            ({"tube": {"elbow": 1}}, ValueError, "tube: the keys are joints, slides, position and rotation"),
+            ({"simplify": "yes"}, ValueError, 'simplify: one of true, false, ompl is needed, not "yes"'),
+            ({"margin": 0.1, "clearance": 0.1}, ValueError, "clearance: can't be used with a margin"),
+            ({"colour": 1}, TypeError, "a problem has no 'colour' that can be edited"),
+        ):
+            with self.assertRaisesRegex(error, text):
+                problem.edited(**edits)
+
+    def test_problem_built_of_arrays(self):
+        vertices = [[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)]
+        triangles = [
+            [0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1],
+            [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3],
+        ]  # fmt: skip
+        problem = corridor.Problem(
+            corridor.rigid_body(shapes.sphere(0.1), [[-3, -3, -3], [3, 3, 3]], name="ball"),
+            {"cube": shapes.mesh(vertices, triangles, solid=True), "post": shapes.cylinder(0.1, 2, at(-1, -1))},
+        )
+        self.assertEqual(problem.bodies, ["ball", "cube", "post"])
+        points = np.array([[-0.11, 0.5, 0.5], [-0.09, 0.5, 0.5], [0.5, 0.5, 0.5], [-1, -0.85, 0], [-1, -0.75, 0]])
+        states = np.hstack([points, np.tile([0.0, 0, 0, 1], (5, 1))])
+        np.testing.assert_array_equal(problem.check(states).free, [True, False, False, False, True])
+
+    def test_urdf_with_obstacle(self):
+        problem = corridor.Problem(
+            corridor.urdf(SOURCE / "robots/arm6/arm6.urdf"), {"post": shapes.cylinder(0.05, 2, at(0.5, 0, 1))}
+        )
+        self.assertEqual(len(problem.numbers), 6)
+        self.assertTrue(problem.check([-1, 1, 1, 0, 0, 0]))
+
+    def test_bad_parts(self):
+        body = corridor.rigid_body(shapes.sphere(0.1), [[-1, -1, -1], [1, 1, 1]])
+        with self.assertRaisesRegex(ValueError, "triangles: index 9 of row 0 is not below the number of vertices, 3"):
+            corridor.Problem(body, {"m": shapes.mesh(np.eye(3), [[0, 1, 9]])})
+        with self.assertRaisesRegex(ValueError, "size: three numbers are needed"):
+            shapes.box(2)
+        with self.assertRaisesRegex(ValueError, "pose: the upper left 3×3 matrix must be a rotation"):
+            corridor.Problem(body, {"b": shapes.box([1, 1, 1], np.diag([2, 1, 1, 1]))})
+        with self.assertRaisesRegex(ValueError, "m: "):
+            corridor.Problem(body, {"m": shapes.sphere(-1)})
+        with self.assertRaisesRegex(ValueError, "start: the problem has none"):
+            corridor.solve(corridor.Problem(body, {"b": shapes.sphere(0.1)}, goals=[1, 0, 0, 0, 0, 0, 1]))
+
+    def test_pickle(self):
+        for problem in corridor.read_problem(ARM).edited(seed=9), cube_in_room(seed=9):
+            copy = pickle.loads(pickle.dumps(problem))
+            self.assertEqual(copy.bodies, problem.bodies)
+            self.assertEqual(copy.seed, 9)
+            np.testing.assert_array_equal(copy.goals, problem.goals)
+
+
+class Solve(unittest.TestCase):
+    def test_solution(self):
+        calls = []
+        solution = corridor.solve(cube_in_room(), time=20, progress=lambda *a: calls.append(a))
+        self.assertTrue(solution)
+        self.assertTrue(solution.certified)
+        self.assertEqual(solution.verify()["verdict"], "proved")
+        np.testing.assert_array_equal(solution.path[0], solution.problem.start)
+        self.assertIn("<!DOCTYPE html>", solution.page()[:200])
+        self.assertIn("iframe", solution._repr_html_())
+        copy = pickle.loads(pickle.dumps(solution))
+        np.testing.assert_array_equal(copy.path, solution.path)
+        with self.assertRaisesRegex(ValueError, "this problem was built in Python"):
+            solution.save("x.yaml")
+
+    def test_repeats(self):
+        problem = cube_in_room(seed=3)
+        paths = [corridor.solve(problem).path for _ in range(2)]
+        np.testing.assert_array_equal(*paths)
+        self.assertFalse(np.array_equal(paths[0], corridor.solve(problem, seed=4).path))
+
+    def test_solves_at_the_same_time_wait_for_each_other(self):
+        problem = cube_in_room(seed=3)
+        expected = corridor.solve(problem).path
+        results = [None] * 3
+
+        def run(i):
+            results[i] = corridor.solve(problem).path
+
+        threads = [threading.Thread(target=run, args=(i,)) for i in range(3)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        for path in results:
+            np.testing.assert_array_equal(path, expected)
+
+    def test_trajectory_and_file(self):
+        solution = corridor.solve(corridor.read_problem(ARM), trajectory="csv")
+        self.assertTrue(solution.trajectory["proved"])
+        report = solution.verify_trajectory()
+        self.assertEqual(report["verdict"], "proved")
+        self.assertTrue(report["keeps_limits"])
+        with tempfile.TemporaryDirectory() as folder:
+            solution.save(pathlib.Path(folder, "s.yaml"))
+            self.assertIn("corridor-solution-1", pathlib.Path(folder, "s.yaml").read_text())
+            page = solution.view(pathlib.Path(folder, "s.html"))
+            self.assertGreater(os.path.getsize(page), 10_000)
+
+    def test_path_that_touches_is_refuted(self):
+        solution = corridor.solve(cube_in_room())
+        solution.path = np.array([solution.path[0], solution.path[-1]])  # through the wall
+        report = solution.verify()
+        self.assertEqual(report["verdict"], "refuted")
+        self.assertEqual(set(report["findings"][0]["bodies"]), {"cube", "wall"})
+
+    def test_no_path(self):
+        closed = corridor.Problem(
+            corridor.rigid_body(shapes.box([0.2, 0.2, 0.2]), [[-2, -1, -1], [2, 1, 1]]),
+            {"wall": shapes.box([0.1, 4, 4])},
+            start=[-1, 0, 0, 0, 0, 0, 1],
+            goals=[1, 0, 0, 0, 0, 0, 1],
+        )
+        solution = corridor.solve(closed, time=0.3)
+        self.assertFalse(solution)
+        self.assertEqual(solution.path.shape, (0, 7))
+        with self.assertRaisesRegex(ValueError, "there is no path"):
+            solution.verify()
+
+    def test_unknown_planner_and_start_in_contact(self):
+        with self.assertRaisesRegex(corridor.InputError, 'unknown planner "RTT"'):
+            corridor.solve(cube_in_room(), planner="RTT")
+        with self.assertRaises(corridor.InputError):
+            corridor.solve(cube_in_room(start=[0, 0, 0, 0, 0, 0, 1]))
+
+    def test_interrupt(self):
+        closed = cube_in_room(planner="RRTstar", time=60)
+        threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+        begin = time.monotonic()
+        with self.assertRaises(KeyboardInterrupt):
+            corridor.solve(closed)
+        self.assertLess(time.monotonic() - begin, 30)
+
+    def test_callback_that_raises_ends_the_solve(self):
+        def fail(seconds, edges):
+            raise RuntimeError("enough")
+
+        with self.assertRaisesRegex(RuntimeError, "enough"):
+            corridor.solve(cube_in_room(planner="RRTstar", time=60), progress=fail)
+
+    def test_many(self):
+        problems = [cube_in_room(seed=seed) for seed in (1, 2, 3)]
+        many = list(corridor.solve_many(problems, processes=2))
+        for problem, solution in zip(problems, many):
+            np.testing.assert_array_equal(solution.path, corridor.solve(problem).path)
+
+
+class Queries(unittest.TestCase):
+    def test_box_and_sphere(self):
+        box, ball = Body.box([1, 1, 1]), Body.sphere(0.5)
+        x = np.linspace(0, 3, 31)
+        poses = np.array([at(v) for v in x])
+        d = corridor.distance(box, ball, pose_b=poses)
+        np.testing.assert_allclose(d.distance, np.maximum(x - 1, 0), atol=1e-12)
+        away = x > 1.05
+        np.testing.assert_allclose(d.on_a[away], np.tile([0.5, 0, 0], (away.sum(), 1)), atol=1e-9)
+        np.testing.assert_array_equal(corridor.touch(box, ball, pose_b=poses), x <= 1 + 1e-12)
+        np.testing.assert_array_equal(corridor.closer_than(box, ball, 0.55, pose_b=poses), x < 1.55)
+
+    def test_first_contact(self):
+        result = corridor.first_contact(Body.sphere(0.5), Body.box([1, 1, 1]), at(3), at(-1))
+        self.assertEqual(result.verdict, Verdict.CONTACT)
+        self.assertAlmostEqual(result.time, 0.5, places=5)
+        self.assertLessEqual(result.free_until, 0.5)
+        self.assertEqual(
+            corridor.first_contact(Body.sphere(0.5), Body.box([1, 1, 1]), at(3), at(3, 9)).verdict, Verdict.FREE
+        )
+
+    def test_contacts(self):
+        square = [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]]
+        floor = Body.mesh(square, [[0, 1, 2], [0, 2, 3]])
+        wall = Body.mesh(np.array(square)[:, [0, 2, 1]], [[0, 1, 2]])
+        result = corridor.contacts(floor, wall)
+        self.assertEqual(result.segments.shape[1:], (2, 3))
+        self.assertGreaterEqual(len(result.pairs), 1)
+        np.testing.assert_allclose(result.segments[:, :, 1:], 0, atol=1e-12)
+
+    def test_bad_poses(self):
+        a = Body.sphere(1)
+        with self.assertRaisesRegex(ValueError, r"pose_b: an array of shape \(4, 4\) or \(N, 4, 4\) is needed"):
+            corridor.touch(a, a, pose_b=np.eye(3))
+        with self.assertRaisesRegex(ValueError, "pose_a: the last row of a 4×4 matrix must be 0, 0, 0, 1"):
+            corridor.touch(a, a, np.ones((4, 4)))
+        with self.assertRaisesRegex(ValueError, "pose_b: as many poses as in pose_a are needed, 3, not 2"):
+            corridor.touch(a, a, np.tile(np.eye(4), (3, 1, 1)), np.tile(np.eye(4), (2, 1, 1)))
+        with self.assertRaisesRegex(ValueError, "distance: a finite number of 0 or more is needed"):
+            corridor.closer_than(a, a, -1)
+
+    def test_memory_does_not_grow(self):
+        a, b = Body.box([1, 1, 1]), Body.sphere(0.5)
+        poses = np.tile(at(2), (1000, 1, 1))
+
+        def run(times):
+            for _ in range(times):
+                corridor.distance(a, b, pose_b=poses)
+            gc.collect()
+            return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+
+        before = run(20)
+        self.assertLess(run(200) - before, 20_000)  # kB; the results of 200,000 queries take 11,000
+
+
+if __name__ == "__main__":
+    unittest.main()
