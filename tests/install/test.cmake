@@ -104,6 +104,41 @@ if(NOT status EQUAL 2 OR NOT err MATCHES "none.urdf")
 endif()
 run("${prefix}/bin/corridor" inspect "${WORK}/cube.dae")
 
+# A rigid body in an OMPL program, and a trajectory that is made elsewhere: one that goes around the post, and one that
+# goes through it.
+run(${CMAKE_COMMAND} -S "${CMAKE_CURRENT_LIST_DIR}/own_programs" -B "${WORK}/own" -G "${GENERATOR}"
+    "-DCMAKE_BUILD_TYPE=${CONFIG}" "-DCMAKE_PREFIX_PATH=${prefix}" "-DCMAKE_CXX_COMPILER=${COMPILER}"
+    "-DCMAKE_CXX_FLAGS=${FLAGS}")
+run(${CMAKE_COMMAND} --build "${WORK}/own" --config "${CONFIG}")
+run("${WORK}/own/rigid" "${WORK}/cube.obj")
+if(NOT out MATCHES "(^|\n)certified\n$")
+  message(FATAL_ERROR "the program with a rigid body says:\n${out}${err}")
+endif()
+set(names "time,pan,lift,elbow,wrist1,wrist2,wrist3")
+file(WRITE "${WORK}/still.csv" "${names}\n0,-1,1,1,0,0,0\n1,-0.9,1,1,0,0,0\n")
+file(WRITE "${WORK}/through.csv" "${names}\n0,-1,1,1,0,0,0\n2,1,1,1,0,0,0\n")
+run("${WORK}/own/trajectory" "${source}/robots/arm6/arm6.urdf" "${WORK}/still.csv")
+if(NOT out STREQUAL "free\n")
+  message(FATAL_ERROR "the program with a trajectory says:\n${out}${err}")
+endif()
+execute_process(COMMAND "${WORK}/own/trajectory" "${source}/robots/arm6/arm6.urdf" "${WORK}/through.csv"
+                RESULT_VARIABLE status OUTPUT_VARIABLE out ERROR_VARIABLE err)
+if(NOT status EQUAL 1 OR NOT out MATCHES "^contact at [01]\\.[0-9]+\n$")
+  message(FATAL_ERROR "the program with a trajectory through the post: ${status}\n${out}${err}")
+endif()
+
+# The Python package, if it was built: it finds the installed helper, too.
+file(GLOB package "${prefix}/lib/python3*/dist-packages")
+if(package AND NOT FLAGS MATCHES "sanitize")
+  file(WRITE "${WORK}/use.py" "import corridor
+print(corridor.touch(corridor.Body.file('${WORK}/cube.dae'), corridor.Body.sphere(1))[0])
+")
+  run(${CMAKE_COMMAND} -E env "PYTHONPATH=${package}" /usr/bin/python3 "${WORK}/use.py")
+  if(NOT out STREQUAL "True\n")
+    message(FATAL_ERROR "the installed Python package says:\n${out}${err}")
+  endif()
+endif()
+
 run("${build}/two_meshes" "${WORK}/cube.obj" "${WORK}/cube.dae")
 set(number " *[-0-9.e]+")  # Eigen aligns numbers with blanks
 if(NOT out MATCHES "^triangles [0-9]+ and [0-9]+ touch
