@@ -35,7 +35,6 @@ MadeTrajectory makeSpline(bool inserts, const Problem& problem, const Checker& c
   if (hasRotation(space))
     return noTrajectory("a spline of quaternions is no rotation: there is none of a free body");
   const std::vector<Configuration> states = statesOfLines(lines);
-  if (states.size() < 2) return noTrajectory("the path does not move");
   const auto touches = [&](const Configuration& q) { return checker.interference(q).has_value(); };
   const std::vector<CurvePiece> pieces =
       inserts ? insertedSpline(space, states, touches).pieces : naturalSpline(states);
@@ -81,8 +80,9 @@ std::optional<TrajectoryMaker> trajectoryMakerNamed(const std::string& name) {
 MadeTrajectory makeBy(TrajectoryMaker maker, const Problem& problem, const Checker& checker,
                       const Path& path) {
   if (maker == TrajectoryMaker::blends) return makeTrajectory(problem, checker, path);
-  if (path.size() < 2) return noTrajectory("the path does not move");
-  const std::vector<CurvePiece> lines = curveOfPath(problem.model.space, path).pieces;
+  std::vector<CurvePiece> lines;
+  if (path.size() > 1) lines = curveOfPath(problem.model.space, path).pieces;
+  if (statesOfLines(lines).size() < 2) return noTrajectory("the path does not move");
   if (maker == TrajectoryMaker::stop) return trajectoryAlong(problem, checker, lines);
   return makeSpline(maker == TrajectoryMaker::inserted, problem, checker, lines);
 }
@@ -93,7 +93,8 @@ double optimumAlong(const Problem& problem, const Path& path) {
   options.cornerAngle = kEveryCorner;
   const TimeLaw law = timeLaw(curveOfPath(problem.model.space, path).pieces, problem.model.space,
                               problem.task.limits, problem.model.tree, options);
-  return law.fault.empty() ? law.duration : std::numeric_limits<double>::quiet_NaN();
+  return law.fault.empty() && law.duration > 0 ? law.duration
+                                               : std::numeric_limits<double>::quiet_NaN();
 }
 
 TrajectoryRun runTrajectory(TrajectoryMaker maker, const Problem& problem, const Checker& checker,
