@@ -99,8 +99,8 @@ TEST_F(TrajectoryRuns, JerkVelocityAndBounds) {
   }
   // A spline that leaves the bounds is refuted, although nothing is there.
   Problem narrow = read(
-      "format: corridor-problem-1\nrobot: square.yaml\nstart: {at: [0, 0.11]}\ngoal: {at: [1, "
-      "1.11]}\nbounds: {at: [[-3, 0.1], [5, 5]]}\n");
+      "format: corridor-problem-1\nrobot: square.yaml\nworld: {far: {sphere: 0.1, at: [4, 4, 0]}}\n"
+      "start: {at: [0, 0.11]}\ngoal: {at: [1, 1.11]}\nbounds: {at: [[-3, 0.1], [5, 5]]}\n");
   const TrajectoryRun run = runOf(TrajectoryMaker::spline, narrow);
   EXPECT_EQ(run.verdict, "refuted");
   EXPECT_THAT(run.finding, HasSubstr("y = "));
@@ -111,7 +111,8 @@ TEST_F(TrajectoryRuns, NoSplineOfRotations) {
   write("cube.yaml",
         "format: corridor-robot-1\nname: cube\nrigid: SE3\nshapes: [{box: [0.2, 0.2, 0.2]}]\n");
   const Problem problem = read(
-      "format: corridor-problem-1\nrobot: cube.yaml\nstart: {at: [0, 0, 0]}\ngoal: {at: [1, 0, "
+      "format: corridor-problem-1\nrobot: cube.yaml\nworld: {far: {sphere: 0.1, at: [4, 4, "
+      "0]}}\nstart: {at: [0, 0, 0]}\ngoal: {at: [1, 0, "
       "0], rpy_deg: [0, 0, 90]}\nbounds: {at: [[-3, -3, -3], [5, 5, 5]]}\n");
   const Path path{problem.task.start, problem.task.goals[0]};
   const Checker checker(problem);
@@ -222,8 +223,10 @@ TEST_F(TrajectoryFigures, SummaryAndTotals) {
   EXPECT_EQ(score.refutedShare.from, shareInterval(2, 3).from);
   // Without trajectories, nothing is added.
   campaign_.trajectories = {};
-  EXPECT_EQ(csvOf({summaryRow(campaign_, cell_)}), csvOf({pathSummaryRow(campaign_, cell_)}));
-  EXPECT_THAT(csvOf({runRow(campaign_, cell_, cell_.runs[0])}), Not(HasSubstr("stop")));
+  EXPECT_EQ(csvOf(std::vector<Row>{summaryRow(campaign_, cell_)}),
+            csvOf(std::vector<Row>{pathSummaryRow(campaign_, cell_)}));
+  EXPECT_THAT(csvOf(std::vector<Row>{runRow(campaign_, cell_, cell_.runs[0])}),
+              Not(HasSubstr("stop")));
 }
 
 /// Runs are stored as text. Those without trajectories are stored as before there were any.
