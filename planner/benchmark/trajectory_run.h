@@ -32,8 +32,8 @@ MadeTrajectory makeBy(TrajectoryMaker maker, const Problem& problem, const Check
                       const Path& path);
 
 /// Returns the duration of the fastest law along a path, in seconds, if the robot need not stop at
-/// corners: no motion along these edges is faster. Usually no robot can execute it, since its
-/// velocity jumps at corners. NaN if there is no law.
+/// corners, and jerk is not limited: no motion along these edges is faster. Usually no robot can
+/// execute it, since its velocity jumps at corners. NaN if there is no law.
 double optimumAlong(const Problem& problem, const Path& path);
 
 /// What one maker made along the path of a run. Units: seconds, radians, metres.

@@ -201,7 +201,8 @@ class HallWithTrajectories : public CampaignWithTrajectories {
           "  floor: {box: [4, 0.1, 1], at: [-1, -0.05, 0]}\n"
           "  ceiling: {box: [3.7, 2, 1], at: [-1.15, 1.3, 0]}\n"
           "  end: {box: [0.1, 3, 1], at: [-3.05, 1, 0]}\n"
-          "start: {at: [-2, 0.15]}\ngoal: {at: [1.5, 1.5]}\nbounds: {at: [[-3, -0.5], [2.5, 2.5]]}\n");
+          "start: {at: [-2, 0.15]}\ngoal: {at: [1.5, 1.5]}\nbounds: {at: [[-3, -0.5], [2.5, "
+          "2.5]]}\n");
   }
   void write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name) << text;
