@@ -27,11 +27,19 @@ Eigen::MatrixXd secondDerivatives(const std::vector<Configuration>& q,
   return m;
 }
 
+/// Returns an upper bound of the speed |dq/dτ| on a piece: a Bernstein polynomial is within the
+/// hull of its coefficients, which are degree·(c_{i+1} − c_i) for the derivative.
+double largestSpeed(const CurvePiece& piece) {
+  const int degree = piece.degree();
+  const Eigen::MatrixXd& c = piece.coefficients;
+  return degree * (c.rightCols(degree) - c.leftCols(degree)).colwise().norm().maxCoeff();
+}
+
 /// Returns the first piece with a sample that touches, or the number of pieces.
 std::size_t firstTouching(const ConfigurationSpace& space, const std::vector<CurvePiece>& pieces,
                           const std::function<bool(const Configuration&)>& touches, double step) {
   for (std::size_t k = 0; k < pieces.size(); ++k) {
-    const double samples = std::max(1.0, std::ceil(polygonLength(pieces[k]) / step));
+    const double samples = std::max(1.0, std::ceil(largestSpeed(pieces[k]) / step));
     for (double i = 0; i <= samples; ++i)
       if (touches(configurationAt(space, pieces[k], i / samples))) return k;
   }
@@ -39,11 +47,6 @@ std::size_t firstTouching(const ConfigurationSpace& space, const std::vector<Cur
 }
 
 }  // namespace
-
-double polygonLength(const CurvePiece& piece) {
-  const Eigen::MatrixXd& c = piece.coefficients;
-  return (c.rightCols(piece.degree()) - c.leftCols(piece.degree())).colwise().norm().sum();
-}
 
 std::vector<Configuration> statesOfLines(const std::vector<CurvePiece>& lines) {
   std::vector<Configuration> states;

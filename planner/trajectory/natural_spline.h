@@ -37,8 +37,4 @@ InsertedSpline insertedSpline(const ConfigurationSpace& space, std::vector<Confi
                               const std::function<bool(const Configuration&)>& touches,
                               double step = 0.05, std::size_t most = 20);
 
-/// Returns an upper bound of the length of a piece, in the norm of all numbers: that of its control
-/// polygon.
-double polygonLength(const CurvePiece& piece);
-
 }  // namespace corridor

@@ -24,7 +24,6 @@
 #include "planner/robot/kinematic_tree.h"
 #include "planner/solve/solve.h"
 #include "planner/trajectory/curve_pieces.h"
-#include "planner/trajectory/natural_spline.h"
 #include "tests/benchmark/arguments.h"
 
 namespace corridor::bench {
@@ -35,6 +34,15 @@ double secondsOf(const Call& call) {
   const auto before = std::chrono::steady_clock::now();
   call();
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
+}
+
+/// Returns an upper bound of the length of a piece: that of its control polygon.
+double lengthOf(const CurvePiece& piece) {
+  return (piece.coefficients.rightCols(piece.degree()) -
+          piece.coefficients.leftCols(piece.degree()))
+      .colwise()
+      .norm()
+      .sum();
 }
 
 /// Returns the cost of proving bulging cubic pieces over that of their chords, the path's edges; 0
@@ -115,7 +123,7 @@ void compare(const std::string& name, const Problem& problem, std::uint64_t seed
     };
     const auto sample = [&] {
       for (const CurvePiece& piece : made.curve.pieces) {
-        const int samples = std::max(1, static_cast<int>(std::ceil(polygonLength(piece) / 0.01)));
+        const int samples = std::max(1, static_cast<int>(std::ceil(lengthOf(piece) / 0.01)));
         for (int i = 0; i < samples; ++i)
           scene.touches(framePoses(
               own.model.tree, configurationAt(space, piece, static_cast<double>(i) / samples)));
