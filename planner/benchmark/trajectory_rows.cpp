@@ -42,13 +42,6 @@ const TrajectoryRun* trajectoryOf(const BenchmarkRun& run, std::size_t set, std:
   return &run.trajectories[set].makers[maker];
 }
 
-double meanRatio(const std::vector<double>& ratios) {
-  if (ratios.empty()) return kNoNumber;
-  double sum = 0;
-  for (const double ratio : ratios) sum += std::log(ratio);
-  return std::exp(sum / static_cast<double>(ratios.size()));
-}
-
 /// Returns how much of the cost of stopping a trajectory saves; NaN if stopping costs nothing.
 double savedBy(const CampaignTrajectories& trajectories, const BenchmarkRun& run, std::size_t set,
                double duration) {
@@ -142,7 +135,7 @@ TrajectoryScore scoreOf(const CampaignTrajectories& trajectories,
   score.makeTime = medianOf(makeTimes);
   score.verifyTime = medianOf(verifyTimes);
   score.rows = medianOf(rows);
-  score.overOptimum = meanRatio(ratios);
+  score.overOptimum = medianOf(ratios);
   score.saved = medianOf(saved);
   return score;
 }

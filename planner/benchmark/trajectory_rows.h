@@ -21,7 +21,7 @@ struct TrajectoryScore {
   // Medians, in seconds. NaN without trajectories, as all numbers below.
   double duration = 0, makeTime = 0, verifyTime = 0;
   double rows = 0;  ///< median
-  /// Duration divided by `optimumAlong`: the geometric mean.
+  /// Duration divided by `optimumAlong`: the median.
   double overOptimum = 0;
   /// The share of what stopping costs that is saved, (stop − T) / (stop − optimum): the median over
   /// the paths on which stopping costs more than a thousandth. NaN without the maker `stop`.

@@ -14,7 +14,7 @@ namespace corridor {
 
 /// How the curve of a trajectory is made along a path.
 enum class TrajectoryMaker {
-  blends,   ///< corners are rounded by curves that are proved (`corridor solve --trajectory`)
+  blends,   ///< ours, with proved curves at corners (`makeTrajectory`)
   stop,     ///< the path's edges: the robot rests at each state where the direction changes
   spline,   ///< the natural cubic spline through the states (natural_spline.h)
   inserted  ///< the spline after states were inserted wherever samples of it touch something

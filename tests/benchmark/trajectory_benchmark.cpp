@@ -91,7 +91,7 @@ void compare(const std::string& name, const Problem& problem, std::uint64_t seed
     return;
   }
   ++tally.problems;
-  const ConfigurationSpace& space = own.model.space;
+  [[maybe_unused]] const ConfigurationSpace& space = own.model.space;
   const Checker checker(own);
   const MadeTrajectory made = makeTrajectory(own, checker, report.path);  // builds the trees
   const auto run = [&](TrajectoryMaker maker) {
