@@ -25,6 +25,7 @@
 #include "planner/benchmark/report.h"
 #include "planner/benchmark/rows.h"
 #include "planner/benchmark/run_campaign.h"
+#include "planner/benchmark/trajectory_rows.h"
 #include "planner/benchmark/write_reports.h"
 #include "planner/problem/keys.h"
 #include "planner/problem/nothing_tested.h"
@@ -35,9 +36,10 @@ namespace {
 
 struct BenchmarkArguments {
   std::vector<std::string> files;  ///< a campaign, or problems
-  /// The options --variants and --planners, which are illegal with a campaign. Each string is a
-  /// comma-separated list; empty: the defaults.
+  /// The options --variants, --planners and --trajectories, which are illegal with a campaign. Each
+  /// string is a comma-separated list; empty: the defaults.
   std::vector<std::string> variants, planners;
+  std::vector<std::string> trajectories;  ///< --trajectories: as those; empty: none
   std::optional<std::uint64_t> runs, seed;
   std::optional<double> time;    ///< limit of a run, seconds
   std::optional<double> memory;  ///< limit of a run, MB
@@ -107,7 +109,14 @@ Campaign campaignOfProblems(const BenchmarkArguments& a) {
     if (const auto unknown = unknownPlanner(name)) faults.add("--planners", 0, *unknown);
     campaign.planners.push_back({name, name, {}});
   }
+  const std::vector<std::string> makers = wordsOf("--trajectories", a.trajectories);
+  faults.collect(
+      [&] { campaign.trajectories.makers = trajectoryMakersNamed(makers, "--trajectories"); });
   faults.throwIfAny();
+  if (!makers.empty()) {
+    campaign.trajectories.limits = {ownLimits(campaign.problems)};
+    addOwnNotes(campaign.problems, campaign.notes);
+  }
   identifyProblems(campaign);
   return campaign;
 }
@@ -121,6 +130,8 @@ Campaign campaignOf(const BenchmarkArguments& a) {
     if (a.files.size() > 1) refuse(*file, "is a campaign, which names its problems itself");
     if (!a.variants.empty()) refuse("--variants", "a campaign names its checkers itself");
     if (!a.planners.empty()) refuse("--planners", "a campaign names its planners itself");
+    if (!a.trajectories.empty())
+      refuse("--trajectories", "a campaign names its trajectories itself");
   }
   Campaign campaign = file != a.files.end() ? readCampaign(*file) : campaignOfProblems(a);
   campaign.runs = a.runs.value_or(campaign.runs);
@@ -133,6 +144,15 @@ Campaign campaignOf(const BenchmarkArguments& a) {
 bool anyRun(const std::vector<CampaignCell>& cells) {
   return std::any_of(cells.begin(), cells.end(),
                      [](const CampaignCell& cell) { return !cell.runs.empty(); });
+}
+
+/// Prints a row per cell, and then, if there are trajectories, a row per variant, set of limits and
+/// maker.
+void printTables(const Campaign& campaign, const std::vector<CampaignCell>& cells) {
+  std::cout << tableOf(pathSummaryRows(campaign, cells));
+  if (campaign.trajectories.makers.empty()) return;
+  std::cout << "\nTrajectories along the paths of all problems:\n"
+            << tableOf(trajectoryRows(campaign, cells));
 }
 
 int benchmarkCommand(const BenchmarkArguments& a) {
@@ -199,7 +219,7 @@ int benchmarkCommand(const BenchmarkArguments& a) {
   if (a.json)
     std::cout << campaignJson(campaign, result) << '\n';
   else if (any)
-    std::cout << tableOf(summaryRows(campaign, result.cells));
+    printTables(campaign, result.cells);
   if (unwritten) std::rethrow_exception(unwritten);
   return result.interrupted ? interruptedStatus() : kDone;
 }
@@ -225,6 +245,15 @@ void addBenchmark(CLI::App& program, int& status) {
   command
       ->add_option("--planners", a.planners,
                    "comma separated, by OMPL's names (default: each problem's own planner)")
+      ->allow_extra_args(false)
+      ->group(compared);
+  command
+      ->add_option(
+          "--trajectories", a.trajectories,
+          "comma separated makers of trajectories along each path, which are timed, "
+          "verified and compared: blends (corners rounded by proved curves), stop (rest at "
+          "corners), spline (cubic, through the states), inserted (the spline, with states "
+          "inserted where samples touch)")
       ->allow_extra_args(false)
       ->group(compared);
   const char* runs = "Runs (replaces settings of the campaign or the problems)";

@@ -12,6 +12,7 @@
 #include "collision/core/spelling.h"
 #include "planner/app/output.h"
 #include "planner/benchmark/rows.h"
+#include "planner/benchmark/trajectory_rows.h"
 
 namespace corridor::app {
 namespace {
@@ -135,6 +136,11 @@ std::string campaignJson(const Campaign& campaign, const CampaignResult& result)
     for (const BenchmarkRun& run : cell.runs)
       of["rows"].push_back(jsonOf(runRow(campaign, cell, run)));
     j["results"].push_back(std::move(of));
+  }
+  if (!campaign.trajectories.makers.empty()) {
+    j["trajectories"] = ordered_json::array();
+    for (const Row& row : trajectoryRows(campaign, result.cells))
+      j["trajectories"].push_back(jsonOf(row));
   }
   return j.dump(2, ' ', false, kReplace);
 }

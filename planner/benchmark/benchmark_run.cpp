@@ -31,6 +31,10 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BenchmarkRun, seed, failure, result, why, sol
                                    verificationTime, states, edges, counters, rawStates, pathStates,
                                    rawLength, length, ompl)
 
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(TrajectoryRun, fault, duration, rows, velocity, acceleration,
+                                   jerk, link, beyondBounds, verdict, finding, makeTime, verifyTime)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LimitedTrajectories, optimum, makers)
+
 namespace {
 
 /// Seconds beyond twice a planner's time limit, for work that doesn't check the clock: set-up, and
@@ -159,11 +163,16 @@ std::string firstFinding(const VerifyReport& report) {
 }  // namespace
 
 std::string text(const BenchmarkRun& run) {
-  return nlohmann::json(run).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  nlohmann::json json = run;
+  if (!run.trajectories.empty()) json["trajectories"] = run.trajectories;
+  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 BenchmarkRun readRun(const std::string& text) {
-  return nlohmann::json::parse(text).get<BenchmarkRun>();
+  const auto json = nlohmann::json::parse(text);
+  auto run = json.get<BenchmarkRun>();
+  if (json.contains("trajectories")) json["trajectories"].get_to(run.trajectories);
+  return run;
 }
 
 void checkRun(const Problem& planned, const std::map<std::string, std::string>& valueOrigins) {
@@ -232,10 +241,50 @@ void verifyRun(const Problem& problem, const Path& path, BenchmarkRun& run) {
   }
 }
 
+void runTrajectories(const Problem& problem, const RunTrajectories& trajectories, const Path& path,
+                     BenchmarkRun& run, const std::function<void()>& done) {
+  Problem limited = problem;
+  const Checker checker(limited);
+  for (std::size_t k = 0; k + 1 < path.size(); ++k)
+    checker.certifyEdge(path[k], path[k + 1], false);  // builds the trees
+  for (const JointLimits& limits : trajectories.limits) {
+    limited.task.limits = limits;
+    const double optimum = optimumAlong(limited, path);
+    run.trajectories.push_back({std::isfinite(optimum) ? optimum : 0, {}});
+    for (const TrajectoryMaker maker : trajectories.makers) {
+      run.trajectories.back().makers.push_back(runTrajectory(maker, limited, checker, path));
+      done();
+    }
+  }
+}
+
+namespace {
+
+/// Seconds that the parent waits for the messages of a run: the path, its verdict, and each
+/// trajectory.
+std::vector<double> patienceOf(const Problem& planned, const BenchmarkLimits& limits,
+                               const RunTrajectories& trajectories) {
+  std::vector<double> patience{2 * planned.settings.planner.time + kPatience};
+  patience.resize(2 + trajectories.limits.size() * trajectories.makers.size(), limits.patience);
+  return patience;
+}
+
+/// Adds the trajectories that the process did not get to, with the reason.
+void addMissing(std::size_t limitSets, std::size_t makers, const std::string& why,
+                BenchmarkRun& run) {
+  run.trajectories.resize(limitSets);
+  for (LimitedTrajectories& set : run.trajectories)
+    while (set.makers.size() < makers) set.makers.emplace_back().fault = why;
+}
+
+}  // namespace
+
 RunProcess::RunProcess(const Problem* problem, const Problem& planned, const std::string& digest,
                        const std::optional<BenchmarkCompetitor>& competitor,
-                       const BenchmarkLimits& limits)
+                       const BenchmarkLimits& limits, const RunTrajectories& trajectories)
     : seed_(planned.settings.seed),
+      limitSets_(trajectories.limits.size()),
+      makers_(trajectories.makers.size()),
       process_(
           [&](const auto& send) {
             Path path;
@@ -245,10 +294,17 @@ RunProcess::RunProcess(const Problem* problem, const Problem& planned, const std
             send(text(run));
             if (run.solved && problem) verifyRun(*problem, path, run);
             send(text(run));
+            std::size_t missing = trajectories.limits.size() * trajectories.makers.size();
+            if (run.solved && problem && missing > 0)
+              runTrajectories(*problem, trajectories, path, run, [&] {
+                send(text(run));
+                --missing;
+              });
+            for (; missing > 0; --missing) send(text(run));
           },
           // At limits.memory OMPL stops a planner, if the planner checks its termination condition.
           // The larger limit here covers everything else.
-          {{2 * planned.settings.planner.time + kPatience, limits.patience},
+          {patienceOf(planned, limits, trajectories),
            static_cast<std::size_t>(1.5 * limits.memory * 1024 * 1024)}) {}
 
 BenchmarkRun RunProcess::run() const {
@@ -259,10 +315,14 @@ BenchmarkRun RunProcess::run() const {
   if (end.messages.empty()) {
     run.result = "failed";
     run.failure = end.failure;
-  } else if (!end.failure.empty() && run.solved) {  // the process ended while verifying
+  } else if (!end.failure.empty() && run.solved && end.messages.size() == 1) {
     run.verdict = "undecided";
     run.failure = "the verifier failed: " + end.failure;
+  } else if (!end.failure.empty() && run.solved) {
+    run.failure = "a trajectory failed: " + end.failure;
   }
+  if (run.solved && makers_ > 0)
+    addMissing(limitSets_, makers_, run.failure.empty() ? "" : "not made: " + run.failure, run);
   return run;
 }
 

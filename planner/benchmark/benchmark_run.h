@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -8,6 +9,7 @@
 
 #include "collision/core/counters.h"
 #include "planner/benchmark/child_process.h"
+#include "planner/benchmark/trajectory_run.h"
 #include "planner/benchmark/variant.h"
 #include "planner/solve/finish_path.h"
 
@@ -61,12 +63,21 @@ struct BenchmarkRun {
   /// Numbers of states of the planner's path and of the returned path.
   std::size_t rawStates = 0, pathStates = 0;
   PathLength rawLength, length;
+  /// For each set of limits of the campaign; empty if the run is not solved, or the campaign makes
+  /// no trajectories.
+  std::vector<LimitedTrajectories> trajectories;
   OmplRecord ompl;
+};
+
+/// The trajectories that are made along the path of a run.
+struct RunTrajectories {
+  std::vector<TrajectoryMaker> makers;  ///< empty: no trajectories
+  std::vector<JointLimits> limits;      ///< the sets of limits, for the run's problem
 };
 
 struct BenchmarkLimits {
   double memory = 4096;   ///< MB per run, in addition to what reading the problems took
-  double patience = 600;  ///< seconds for verifying one path
+  double patience = 600;  ///< seconds for verifying one path, or for one trajectory
 };
 
 /// Writes a run as one line of JSON, and reads it back.
@@ -94,21 +105,29 @@ BenchmarkRun runUnderOmpl(const Problem& planned, const std::string& digest,
 /// alike.
 void verifyRun(const Problem& problem, const Path& path, BenchmarkRun& run);
 
+/// Makes trajectories along a path, and verifies them. Calls `done` after each.
+/// @param problem as for verifyRun. Its checker proves the trajectories: those of all variants are
+/// made alike.
+void runTrajectories(const Problem& problem, const RunTrajectories& trajectories, const Path& path,
+                     BenchmarkRun& run, const std::function<void()>& done);
+
 /// Makes and verifies a run in a process of its own: a crash, an endless loop or a lack of memory
 /// is then a failure of this run only. Planning is stopped after twice planner.time plus a minute.
 /// @pre the caller has one thread.
 class RunProcess {
  public:
   /// Starts the process. @param problem the problem as its file has it, for verifying the path;
-  /// null: the path is not verified.
+  /// null: the path is not verified. @pre without a problem there are no trajectories.
   RunProcess(const Problem* problem, const Problem& planned, const std::string& digest,
-             const std::optional<BenchmarkCompetitor>& competitor, const BenchmarkLimits& limits);
+             const std::optional<BenchmarkCompetitor>& competitor, const BenchmarkLimits& limits,
+             const RunTrajectories& trajectories = {});
   ChildProcess& process() { return process_; }
   /// @pre the process is over.
   BenchmarkRun run() const;
 
  private:
   std::uint64_t seed_;
+  std::size_t limitSets_, makers_;
   ChildProcess process_;
 };
 

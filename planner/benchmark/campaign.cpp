@@ -132,6 +132,15 @@ Problem plannedProblem(const Campaign& campaign, const CampaignCell& cell, std::
   return problem;
 }
 
+RunTrajectories trajectoriesOf(const Campaign& campaign, const CampaignCell& cell) {
+  RunTrajectories trajectories;
+  trajectories.makers = campaign.trajectories.makers;
+  if (trajectories.makers.empty()) return trajectories;
+  for (const CampaignLimits& limits : campaign.trajectories.limits)
+    trajectories.limits.push_back(limits.ofProblem[cell.problem]);
+  return trajectories;
+}
+
 void checkCampaign(const Campaign& campaign) {
   std::vector<Fault> faults;
   Names variants(faults), planners(faults);
@@ -142,6 +151,9 @@ void checkCampaign(const Campaign& campaign) {
   if (campaign.problems.empty()) faults.push_back({"", 0, "a problem is needed"});
   if (campaign.variants.empty())
     faults.push_back({placeOf(campaign, "variants"), 0, "a variant is needed"});
+  if (!campaign.trajectories.makers.empty() && !campaign.verify)
+    faults.push_back({placeOf(campaign, "trajectories"), 0,
+                      "their verdicts are the verifier's; leave out verify: false"});
   if (campaign.runs == 0)
     faults.push_back({placeOf(campaign, "runs"), 0, "1 or more are needed, not 0"});
   const std::uint64_t cells = campaign.problems.size() * campaign.variants.size() *

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "planner/benchmark/benchmark_run.h"
+#include "planner/benchmark/campaign_trajectories.h"
 
 namespace corridor {
 
@@ -38,6 +39,7 @@ struct Campaign {
   std::optional<Simplifier> simplify;     ///< unset: the problem's own setting
   /// Whether every path is verified. If not, nothing reports which paths are in collision.
   bool verify = true;
+  CampaignTrajectories trajectories;  ///< made along each returned path; need `verify`
   BenchmarkLimits limits;
   /// For error messages: the places where variants, planners and runs are set ("--planners",
   /// "lecture.yaml:4: planners").
@@ -69,6 +71,9 @@ struct CampaignResult {
 
 /// Returns the problem for one run of a cell: with variant, planner, time and seed set.
 Problem plannedProblem(const Campaign& campaign, const CampaignCell& cell, std::uint64_t seed);
+
+/// Returns the trajectories that are made along the path of each run of a cell.
+RunTrajectories trajectoriesOf(const Campaign& campaign, const CampaignCell& cell);
 
 /// Checks the whole campaign before the first run: names, parameters, and whether starts and goals
 /// are free for every variant. @throws InputError with all faults.

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "collision/core/error.h"
+#include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
 #include "planner/benchmark/build_commit.h"
 #include "planner/benchmark/csv_text.h"
@@ -55,6 +56,18 @@ struct ColumnName {
     std::replace(name.begin(), name.end(), ' ', '_');
   }
 };
+
+/// Returns all limits as a text of numbers.
+std::string limitsText(const JointLimits& limits) {
+  std::string text;
+  for (const Configuration* each : {&limits.velocity, &limits.acceleration, &limits.jerk}) {
+    for (const double value : *each) text += shortest(value) + " ";
+    text += "| ";
+  }
+  for (const LinkSpeed& link : limits.links) text += link.link + ": " + shortest(link.speed) + " ";
+  text.pop_back();
+  return text;
+}
 
 /// Reports whether OMPL's script stores a value as NULL.
 bool isNull(const std::string& value) {
@@ -268,6 +281,8 @@ class CampaignDatabase::Tables {
       if (!a.contains(key) || a[key] != value)
         return key + " was " + (a.contains(key) ? a[key].dump() : "not set") + " and is now " +
                value.dump();
+    for (const auto& [key, value] : a.items())
+      if (!b.contains(key)) return key + " was " + value.dump() + " and is now not set";
     return was;
   }
 
@@ -410,15 +425,23 @@ std::string specOf(const Campaign& campaign, const CampaignCell& cell) {
   // In earlier versions `true` was another simplifier. Runs of the two must not be mixed.
   const bool isOwn = planned.settings.simplify == Simplifier::corridor;
   const std::string simplify = isOwn ? "corridor" : wordOf(planned.settings.simplify);
-  return nlohmann::ordered_json{{"problem", campaign.digests[cell.problem]},
-                                {"checker", checker},
-                                {"planner", planned.settings.planner.name},
-                                {"params", planned.settings.planner.params},
-                                {"time", planned.settings.planner.time},
-                                {"memory_mb", campaign.limits.memory},
-                                {"simplify", simplify},
-                                {"verify", campaign.verify}}
-      .dump();
+  nlohmann::ordered_json spec{{"problem", campaign.digests[cell.problem]},
+                              {"checker", checker},
+                              {"planner", planned.settings.planner.name},
+                              {"params", planned.settings.planner.params},
+                              {"time", planned.settings.planner.time},
+                              {"memory_mb", campaign.limits.memory},
+                              {"simplify", simplify},
+                              {"verify", campaign.verify}};
+  // Campaigns without trajectories have the same settings as before there were any.
+  if (!campaign.trajectories.makers.empty()) {
+    for (const TrajectoryMaker maker : campaign.trajectories.makers)
+      spec["trajectories"].push_back(nameOf(maker));
+    for (const CampaignLimits& limits : campaign.trajectories.limits)
+      spec["limits over time"].push_back(
+          {{"name", limits.name}, {"values", limitsText(limits.ofProblem[cell.problem])}});
+  }
+  return spec.dump();
 }
 
 }  // namespace corridor

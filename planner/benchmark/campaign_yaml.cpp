@@ -111,9 +111,11 @@ class CampaignReader {
     readLimits(map);
     campaign_.simplify = readSimplifier(map);
     campaign_.verify = map.boolean("verify").value_or(true);
+    campaign_.trajectories =
+        readTrajectories(map, path_.parent_path(), campaign_.problems, campaign_.notes);
     faults_.throwIfAny();
     identifyProblems(campaign_);
-    for (const char* key : {"planners", "runs"}) place(key, key);
+    for (const char* key : {"planners", "runs", "trajectories"}) place(key, key);
     place("variants", "checkers");
     return std::move(campaign_);
   }
@@ -333,15 +335,17 @@ const std::map<std::string, MapKeys>& campaignKeys() {
   static const std::map<std::string, MapKeys> keys = [] {
     std::vector<std::string> checker = problemKeys().at("checker").legal;
     checker.push_back("peer");
-    return std::map<std::string, MapKeys>{
+    std::map<std::string, MapKeys> all{
         {"",
          {{"format", "problems", "planners", "checkers", "runs", "seed", "limits", "simplify",
-           "verify"},
+           "verify", "trajectories"},
           {}}},
         {"planners[]", {{"name", "label", "params", "simplify"}, {}}},
         {"checkers.*", {checker, {}}},
         {"limits", {{"time", "memory_mb"}, {}}},
     };
+    addTrajectoryKeys(all);
+    return all;
   }();
   return keys;
 }

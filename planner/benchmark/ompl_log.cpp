@@ -11,6 +11,7 @@
 
 #include "collision/core/shortest.h"
 #include "planner/benchmark/rows.h"
+#include "planner/benchmark/trajectory_rows.h"
 #include "planner/problem/yaml_reader.h"
 
 namespace corridor {
@@ -84,6 +85,13 @@ std::map<std::string, std::string> omplProperties(const Campaign& campaign,
   for (const char* verdict : {"proved", "refuted", "undecided"})
     if (!run.verdict.empty())
       properties[verdict + std::string(" BOOLEAN")] = run.verdict == verdict ? "1" : "0";
+  const CampaignTrajectories& all = campaign.trajectories;
+  for (std::size_t set = 0; set < run.trajectories.size(); ++set)
+    for (std::size_t maker = 0; maker < run.trajectories[set].makers.size(); ++maker)
+      if (const std::string& is = run.trajectories[set].makers[maker].verdict; !is.empty())
+        for (const char* verdict : {"proved", "refuted", "undecided"})
+          properties[trajectoryPrefix(all, set, maker) + verdict + " BOOLEAN"] =
+              is == verdict ? "1" : "0";
   if (run.result == "failed") {
     properties["status ENUM"] = std::to_string(ob::PlannerStatus::CRASH);
     properties["solved BOOLEAN"] = "0";

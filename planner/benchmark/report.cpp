@@ -87,6 +87,7 @@ class Report {
                                     {"clearance", clearance},
                                     {"costs", costTable(campaign_, scores_)},
                                     {"cost", figure(predictedCost(campaign_, cells_, scores_))},
+                                    {"trajectories", trajectories()},
                                     {"cells", cellTables()},
                                     {"how", measuredTable(campaign_, cells_, sessions_)}});
     writeWhole(files_[0], page);
@@ -122,6 +123,11 @@ class Report {
     return judged == 0 ? text + "."
                        : text + "; " + std::to_string(refuted) + " of " + std::to_string(judged) +
                              " verified paths are refuted.";
+  }
+  std::string trajectories() const {
+    if (campaign_.trajectories.makers.empty()) return "";
+    return view::filled(reportFile("trajectories.html"),
+                        {{"table", trajectoryTable(campaign_, cells_)}});
   }
   std::string notes() const {
     std::vector<std::string> notes = campaign_.notes;

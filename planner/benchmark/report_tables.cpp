@@ -9,6 +9,7 @@
 #include "planner/benchmark/build_commit.h"
 #include "planner/benchmark/ompl_log.h"
 #include "planner/benchmark/plot.h"
+#include "planner/benchmark/trajectory_rows.h"
 #include "planner/view/page_text.h"
 
 namespace corridor {
@@ -183,6 +184,31 @@ std::string costTable(const Campaign& campaign, const std::vector<VariantScore>&
                  s.cost->model.triangleKnown ? threeDigits(s.cost->model.triangle) : "–",
                  threeDigits(s.cost->ratioP5), threeDigits(s.cost->ratioMedian),
                  threeDigits(s.cost->ratioP95)});
+  return table.html();
+}
+
+std::string trajectoryTable(const Campaign& campaign, const std::vector<CampaignCell>& cells) {
+  Table table({"variant", "limits", "trajectory", "refuted", "share refuted", "of proved paths",
+               "limits kept", "duration", "saved", "rows", "velocity", "acceleration", "jerk",
+               "make and prove, ms", "verify, ms"});
+  const auto share = [](double value) { return std::isnan(value) ? "–" : percent(value); };
+  const CampaignTrajectories& all = campaign.trajectories;
+  for (std::size_t v = 0; v < campaign.variants.size(); ++v)
+    for (std::size_t set = 0; set < all.limits.size(); ++set)
+      for (std::size_t maker = 0; maker < all.makers.size(); ++maker) {
+        const TrajectoryScore s = scoreOf(campaign, cells, v, set, maker);
+        const double refutedShare =
+            s.made ? static_cast<double>(s.refuted) / static_cast<double>(s.made) : NAN;
+        const std::string name = all.limits[set].name;
+        table.row({variantHtml(campaign, v),
+                   name.empty() ? "each problem’s own" : escapedHtml(name),
+                   nameOf(all.makers[maker]), refuted(s.refuted, s.made),
+                   s.made ? percent(refutedShare) + interval(s.refutedShare, percent) : "–",
+                   refuted(s.refutedOfProved, s.provedPaths), count(s.withinLimits, s.made),
+                   threeDigits(s.overOptimum), share(s.saved), threeDigits(s.rows),
+                   share(s.velocity), share(s.acceleration), share(s.jerk),
+                   threeDigits(1e3 * s.makeTime), threeDigits(1e3 * s.verifyTime)});
+      }
   return table.html();
 }
 

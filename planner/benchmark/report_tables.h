@@ -14,6 +14,8 @@ std::string rankingTable(const Campaign& campaign, const std::vector<CampaignCel
                          const std::vector<VariantScore>& scores);
 /// One row per variant whose tests are counted: C_v, C_p, and how well they predict.
 std::string costTable(const Campaign& campaign, const std::vector<VariantScore>& scores);
+/// One row per variant, set of limits and maker of trajectories.
+std::string trajectoryTable(const Campaign& campaign, const std::vector<CampaignCell>& cells);
 /// For a problem, one row per planner and variant.
 std::string cellTable(const Campaign& campaign, const std::vector<CampaignCell>& cells,
                       std::size_t problem);

@@ -10,6 +10,7 @@
 #include "collision/core/shortest.h"
 #include "planner/benchmark/csv_text.h"
 #include "planner/benchmark/statistics.h"
+#include "planner/benchmark/trajectory_rows.h"
 #include "planner/problem/yaml_reader.h"
 
 namespace corridor {
@@ -102,6 +103,7 @@ Row runRow(const Campaign& campaign, const CampaignCell& cell, const BenchmarkRu
   ofPath("path_states", std::uint64_t{run.pathStates});
   ofPath("length_m", run.length.metres);
   ofPath("rotation_rad", run.length.radians);
+  addTrajectories(campaign, run, row);
   row.emplace_back("why", textOrNothing(run.why));
   row.emplace_back("finding", textOrNothing(run.finding));
   row.emplace_back("failure", textOrNothing(run.failure));
@@ -109,6 +111,12 @@ Row runRow(const Campaign& campaign, const CampaignCell& cell, const BenchmarkRu
 }
 
 Row summaryRow(const Campaign& campaign, const CampaignCell& cell) {
+  Row row = pathSummaryRow(campaign, cell);
+  addTrajectories(campaign, cell, row);
+  return row;
+}
+
+Row pathSummaryRow(const Campaign& campaign, const CampaignCell& cell) {
   Row row = namesOf(campaign, cell);
   const auto number = [&](const char* name, const std::function<bool(const BenchmarkRun&)>& is) {
     row.emplace_back(
@@ -167,6 +175,12 @@ std::vector<Row> runRows(const Campaign& campaign, const std::vector<CampaignCel
   std::vector<Row> rows;
   for (const CampaignCell& cell : cells)
     for (const BenchmarkRun& run : cell.runs) rows.push_back(runRow(campaign, cell, run));
+  return rows;
+}
+
+std::vector<Row> pathSummaryRows(const Campaign& campaign, const std::vector<CampaignCell>& cells) {
+  std::vector<Row> rows;
+  for (const CampaignCell& cell : cells) rows.push_back(pathSummaryRow(campaign, cell));
   return rows;
 }
 

@@ -21,10 +21,12 @@ using Row = std::vector<std::pair<std::string, RowValue>>;
 Row runRow(const Campaign& campaign, const CampaignCell& cell, const BenchmarkRun& run);
 
 /// Returns the row of all runs of a cell: counts of their results, and medians over the solved
-/// runs.
+/// runs. `pathSummaryRow` has the columns of paths only, `summaryRow` those of trajectories, too.
+Row pathSummaryRow(const Campaign& campaign, const CampaignCell& cell);
 Row summaryRow(const Campaign& campaign, const CampaignCell& cell);
 
 std::vector<Row> runRows(const Campaign& campaign, const std::vector<CampaignCell>& cells);
+std::vector<Row> pathSummaryRows(const Campaign& campaign, const std::vector<CampaignCell>& cells);
 std::vector<Row> summaryRows(const Campaign& campaign, const std::vector<CampaignCell>& cells);
 
 /// Returns CSV: a line of names, then a line per row. Numbers read back as the same doubles; yes is

@@ -92,7 +92,8 @@ CampaignResult runCampaign(const Campaign& campaign, const CampaignOptions& opti
         {task, Clock::now(),
          RunProcess(campaign.verify ? &campaign.problems[cell.problem] : nullptr,
                     plannedProblem(campaign, cell, task.seed), campaign.digests[cell.problem],
-                    campaign.variants[cell.variant].competitor, campaign.limits)});
+                    campaign.variants[cell.variant].competitor, campaign.limits,
+                    trajectoriesOf(campaign, cell))});
   };
   const auto end = [&](Running& one) {
     durations.add(one.task.cell, std::chrono::duration<double>(Clock::now() - one.since).count());

@@ -93,10 +93,15 @@ void readScale(const YamlMap& limits, const char* key, double& scale) {
 LimitSpec readLimits(const YamlMap& problem, const std::filesystem::path& folder,
                      const Model& model, bool isComplete,
                      std::vector<std::filesystem::path>& files) {
-  LimitSpec spec;
   const YamlValue* value = problem.find("limits");
-  if (!value) return spec;
+  if (!value) return {};
   const YamlMap map(*value, "limits", &problemKeys().at("limits"), problem.source());
+  return readLimitMap(map, folder, model, isComplete, files);
+}
+
+LimitSpec readLimitMap(const YamlMap& map, const std::filesystem::path& folder, const Model& model,
+                       bool isComplete, std::vector<std::filesystem::path>& files) {
+  LimitSpec spec;
   if (const auto name = map.text("file")) {
     const std::filesystem::path file = folder / *name;
     if (const std::string why = whyNotOrdinaryFile(file); !why.empty()) {
@@ -105,7 +110,7 @@ LimitSpec readLimits(const YamlMap& problem, const std::filesystem::path& folder
       addFile(files, file);
       FaultList& faults = map.source().faults;
       faults.collect(
-          [&] { readMoveitLimits(file, model, isComplete, spec, faults, problem.source().notes); });
+          [&] { readMoveitLimits(file, model, isComplete, spec, faults, map.source().notes); });
     }
   }
   readScale(map, "velocity_scale", spec.velocityScale);

@@ -17,6 +17,11 @@ LimitSpec readLimits(const YamlMap& problem, const std::filesystem::path& folder
                      const Model& model, bool isComplete,
                      std::vector<std::filesystem::path>& files);
 
+/// Reads the same from the map of the limits itself. A problem file has it under the key `limits`.
+LimitSpec readLimitMap(const YamlMap& limits, const std::filesystem::path& folder,
+                       const Model& model, bool isComplete,
+                       std::vector<std::filesystem::path>& files);
+
 /// Reads a factor of limits, above 0 and at most 1, if the map has the key.
 void readScale(const YamlMap& map, const char* key, double& scale);
 

@@ -13,8 +13,6 @@
 namespace corridor {
 namespace {
 
-constexpr int kDeviations = 4;
-
 /// Returns the limits of each number by itself. A position of a planar or floating joint has its
 /// limits at its first number, x.
 Configuration eachNumber(const ConfigurationSpace& space, Configuration limits) {
@@ -136,21 +134,16 @@ void makeText(const Problem& problem, const Checker& checker, const std::vector<
   prove(checker, made);
 }
 
-}  // namespace
-
-MadeTrajectory makeTrajectory(const Problem& problem, const Checker& checker, const Path& path,
-                              TrajectoryFileKind kind, const std::function<bool()>& stop) {
+/// Makes texts along a curve until one is proved, and keeps the limits. Completes `made`.
+MadeTrajectory provedAlong(const Problem& problem, const Checker& checker,
+                           const std::vector<CurvePiece>& curve, TrajectoryFileKind kind,
+                           int attempts, MadeTrajectory made) {
   const JointLimits& limits = problem.task.limits;
-  MadeTrajectory made;
-  const std::vector<CurvePiece> smooth = smoothCurve(problem, checker, path, stop, made);
-
   made.between = limitsJerk(limits) ? Between::quintic : Between::cubic;
-  const PathLength length = lengthOf(problem.model.space, path);
-  if (length.metres == 0 && length.radians == 0) made.fault = "the path does not move";
   double deviation = problem.settings.trajectory.deviation, share = 1;
   std::optional<MadeTrajectory> proved;
-  for (int i = 0; i < kDeviations && made.fault.empty(); ++i) {
-    makeText(problem, checker, smooth, reduced(limits, share), kind, deviation, made);
+  for (int i = 0; i < attempts && made.fault.empty(); ++i) {
+    makeText(problem, checker, curve, reduced(limits, share), kind, deviation, made);
     if (made.proved() && keepsLimits(made.ratios)) return made;
     if (made.proved()) proved = made;
     deviation /= 4;
@@ -160,6 +153,23 @@ MadeTrajectory makeTrajectory(const Problem& problem, const Checker& checker, co
   if (proved) return *proved;
   if (!made.fault.empty()) made.text.clear();
   return made;
+}
+
+}  // namespace
+
+MadeTrajectory makeTrajectory(const Problem& problem, const Checker& checker, const Path& path,
+                              TrajectoryFileKind kind, const std::function<bool()>& stop) {
+  MadeTrajectory made;
+  const std::vector<CurvePiece> smooth = smoothCurve(problem, checker, path, stop, made);
+  const PathLength length = lengthOf(problem.model.space, path);
+  if (length.metres == 0 && length.radians == 0) made.fault = "the path does not move";
+  return provedAlong(problem, checker, smooth, kind, kTrajectoryAttempts, std::move(made));
+}
+
+MadeTrajectory trajectoryAlong(const Problem& problem, const Checker& checker,
+                               const std::vector<CurvePiece>& curve, TrajectoryFileKind kind,
+                               int attempts) {
+  return provedAlong(problem, checker, curve, kind, attempts, {});
 }
 
 }  // namespace corridor

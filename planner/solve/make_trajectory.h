@@ -41,6 +41,9 @@ struct MadeTrajectory {
   }
 };
 
+/// How often a trajectory is made at most, each time with a smaller deviation.
+inline constexpr int kTrajectoryAttempts = 4;
+
 /// Makes a trajectory along a path, by the problem's TrajectorySettings, in these steps:
 /// 1. Corners are rounded by curves that the checker proves (smooth_path.h). Then parts of the
 ///    curve are replaced by better ones that the checker proves (shorten_curve.h). If this was to
@@ -60,10 +63,19 @@ struct MadeTrajectory {
 ///
 /// The result depends on the arguments only, unless `stop` returns true: then the curve stays
 /// as it is.
-/// @pre the path's edges are free.
+/// @param path its edges should be free: if one is not, the result is not proved.
 MadeTrajectory makeTrajectory(
     const Problem& problem, const Checker& checker, const Path& path,
     TrajectoryFileKind kind = TrajectoryFileKind::csv,
     const std::function<bool()>& stop = [] { return false; });
+
+/// Makes a trajectory along a curve: steps 2 to 4 of `makeTrajectory`, for curves from elsewhere.
+/// The members `corners`, `rounded`, `replaced` and `curveTests` of the result are 0.
+/// @param attempts how often steps 2 to 4 are done at most. 1: with the deviation of the settings
+/// only.
+MadeTrajectory trajectoryAlong(const Problem& problem, const Checker& checker,
+                               const std::vector<CurvePiece>& curve,
+                               TrajectoryFileKind kind = TrajectoryFileKind::csv,
+                               int attempts = kTrajectoryAttempts);
 
 }  // namespace corridor

@@ -155,6 +155,32 @@ TEST_F(CampaignCommand, AcceptsAnyNames) {
   EXPECT_EQ(read("problem/runs.csv").find('\x1b'), std::string::npos);
 }
 
+/// Trajectories have a table of their own, the columns of summary.csv and a list in the JSON.
+TEST_F(CampaignCommand, TrajectoriesOfProblems) {
+  const std::string options = "benchmark hall.yaml --variants certified --runs 1 ";
+  const Result table = run(options + "--trajectories stop,spline -o results");
+  ASSERT_EQ(table.status, 0) << table.err;
+  EXPECT_THAT(table.err, HasSubstr("trajectories: limits: no acceleration is given for"));
+  const auto at = table.out.find("\nTrajectories along the paths of all problems:\nvariant ");
+  ASSERT_NE(at, std::string::npos) << table.out;
+  EXPECT_EQ(table.out.substr(0, at).find("spline"), std::string::npos);
+  const std::vector<std::string> rows = lines(table.out.substr(at + 1));
+  ASSERT_EQ(rows.size(), 4u) << table.out;
+  EXPECT_THAT(rows[2], StartsWith("certified  stop "));
+  EXPECT_THAT(rows[3], StartsWith("certified  spline "));
+  EXPECT_THAT(read("results/summary.csv"), HasSubstr(",stop_made,stop_proved,stop_refuted,"));
+  EXPECT_THAT(read("results/runs.csv"), HasSubstr(",optimum_s,stop_verdict,stop_duration_s,"));
+  EXPECT_EQ(run(options + "--trajectories stop,spline -o results --resume").out, table.out);
+  const Result json = run(options + "--trajectories blends --json");
+  ASSERT_EQ(json.status, 0) << json.err;
+  const auto report = nlohmann::json::parse(json.out);
+  ASSERT_EQ(report["trajectories"].size(), 1u);
+  EXPECT_EQ(report["trajectories"][0]["trajectory"], "blends");
+  EXPECT_EQ(report["trajectories"][0]["proved"], 1);
+  EXPECT_EQ(report["results"][0]["blends_proved"], 1);
+  EXPECT_EQ(report["results"][0]["rows"][0]["blends_verdict"], "proved");
+}
+
 TEST_F(CampaignCommand, OptionsOverrideTheFile) {
   const Result result =
       run("benchmark campaign.yaml --runs 2 --seed 5 --time 30 --memory 2000 --jobs 2 --json");
@@ -174,6 +200,11 @@ TEST_F(CampaignCommand, BadInputIsOneLine) {
               "--variants: a campaign names its checkers itself");
   expectFault("benchmark campaign.yaml --planners RRT",
               "--planners: a campaign names its planners itself");
+  expectFault("benchmark campaign.yaml --trajectories stop",
+              "--trajectories: a campaign names its trajectories itself");
+  expectFault("benchmark hall.yaml --trajectories stop,splin",
+              "--trajectories: there is no maker of trajectories \"splin\" (did you mean "
+              "\"spline\"?); there are: blends, stop, spline, inserted");
   expectFault("benchmark campaign.yaml --resume",
               "--resume: needs -o with the folder of the campaign");
   ASSERT_EQ(run("benchmark campaign.yaml --runs 1 -o results").status, 0);

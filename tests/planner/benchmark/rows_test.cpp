@@ -14,7 +14,7 @@ TEST(Rows, CsvHasAllDigitsAndQuotesWhatNeedsIt) {
       {{"name", std::string("a, \"b\"")}, {"x", 0.1 + 0.2}, {"n", std::uint64_t{7}}, {"yes", true}},
       {{"name", std::string("c")}, {"x", {}}, {"n", std::uint64_t{0}}, {"yes", false}}};
   EXPECT_EQ(csvOf(rows), "name,x,n,yes\n\"a, \"\"b\"\"\",0.30000000000000004,7,1\nc,,0,0\n");
-  EXPECT_EQ(csvOf({}), "");
+  EXPECT_EQ(csvOf(std::vector<Row>()), "");
 }
 
 TEST(Rows, TableIsAlignedAndOmitsZeroFailures) {

@@ -1,0 +1,126 @@
+#include "planner/benchmark/trajectory_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "collision/core/shortest.h"
+#include "planner/solve/solve_steps.h"
+#include "planner/solve/verify_solution.h"
+#include "planner/trajectory/curve_pieces.h"
+#include "planner/trajectory/natural_spline.h"
+#include "planner/trajectory/time_law.h"
+#include "planner/trajectory/trajectory_file.h"
+
+namespace corridor {
+namespace {
+
+/// The angle of a corner that no law stops at: larger than every angle.
+constexpr double kEveryCorner = 4;
+
+MadeTrajectory noTrajectory(std::string why) {
+  MadeTrajectory none;
+  none.fault = std::move(why);
+  return none;
+}
+
+bool hasRotation(const ConfigurationSpace& space) {
+  return std::any_of(space.coordinates().begin(), space.coordinates().end(),
+                     [](const Coordinate& c) { return c.kind == Coordinate::Kind::rotation; });
+}
+
+MadeTrajectory makeSpline(bool inserts, const Problem& problem, const Checker& checker,
+                          const std::vector<CurvePiece>& lines) {
+  const ConfigurationSpace& space = problem.model.space;
+  if (hasRotation(space))
+    return noTrajectory("a spline of quaternions is no rotation: there is none of a free body");
+  const std::vector<Configuration> states = statesOfLines(lines);
+  const auto touches = [&](const Configuration& q) { return checker.interference(q).has_value(); };
+  const std::vector<CurvePiece> pieces =
+      inserts ? insertedSpline(space, states, touches).pieces : naturalSpline(states);
+  return trajectoryAlong(problem, checker, pieces, {}, 1);
+}
+
+/// Returns a share, or −1 if there is no such limit, or it was not tested. An infinite share, which
+/// JSON lacks, becomes the largest double.
+double shareOf(const LimitShare& share, bool limited) {
+  if (!limited || !share.tested) return -1;
+  return std::min(share.share, std::numeric_limits<double>::max());
+}
+
+std::string findingOf(const VerifyReport& report) {
+  if (!report.violations.empty()) return report.violations.front();
+  if (report.pathReport.findings.empty()) return "";
+  const PathFinding& f = report.pathReport.findings.front();
+  const auto k = static_cast<std::size_t>(f.edge);
+  const double from = report.times[k], to = report.times[k + 1];
+  return "at " + shortest(from + f.t * (to - from)) + " s: " + f.reason +
+         (f.a.empty() ? "" : ": " + f.a + " and " + f.b) +
+         (f.gap > 0 ? ", " + shortest(f.gap) + " m apart" : "");
+}
+
+}  // namespace
+
+const std::vector<std::string>& trajectoryMakerNames() {
+  static const std::vector<std::string> names{"blends", "stop", "spline", "inserted"};
+  return names;
+}
+
+const char* nameOf(TrajectoryMaker maker) {
+  return trajectoryMakerNames()[static_cast<std::size_t>(maker)].c_str();
+}
+
+std::optional<TrajectoryMaker> trajectoryMakerNamed(const std::string& name) {
+  const auto& names = trajectoryMakerNames();
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) return std::nullopt;
+  return static_cast<TrajectoryMaker>(found - names.begin());
+}
+
+MadeTrajectory makeBy(TrajectoryMaker maker, const Problem& problem, const Checker& checker,
+                      const Path& path) {
+  if (maker == TrajectoryMaker::blends) return makeTrajectory(problem, checker, path);
+  std::vector<CurvePiece> lines;
+  if (path.size() > 1) lines = curveOfPath(problem.model.space, path).pieces;
+  if (statesOfLines(lines).size() < 2) return noTrajectory("the path does not move");
+  if (maker == TrajectoryMaker::stop) return trajectoryAlong(problem, checker, lines);
+  return makeSpline(maker == TrajectoryMaker::inserted, problem, checker, lines);
+}
+
+double optimumAlong(const Problem& problem, const Path& path) {
+  if (path.size() < 2) return std::numeric_limits<double>::quiet_NaN();
+  TimeLawOptions options;
+  options.cornerAngle = kEveryCorner;
+  const TimeLaw law = timeLaw(curveOfPath(problem.model.space, path).pieces, problem.model.space,
+                              problem.task.limits, problem.model.tree, options);
+  return law.fault.empty() && law.duration > 0 ? law.duration
+                                               : std::numeric_limits<double>::quiet_NaN();
+}
+
+TrajectoryRun runTrajectory(TrajectoryMaker maker, const Problem& problem, const Checker& checker,
+                            const Path& path) {
+  TrajectoryRun run;
+  const SolveClock making;
+  const MadeTrajectory made = makeBy(maker, problem, checker, path);
+  run.makeTime = making.seconds();
+  run.fault = made.fault;
+  if (!run.fault.empty()) return run;
+  run.duration = made.duration;
+  run.rows = made.rows;
+  const JointLimits& limits = problem.task.limits;
+  const auto given = [](const Configuration& of) { return of.array().isFinite().any(); };
+  run.velocity = shareOf(made.ratios.velocity, given(limits.velocity));
+  run.acceleration = shareOf(made.ratios.acceleration, given(limits.acceleration));
+  run.jerk = shareOf(made.ratios.jerk, given(limits.jerk));
+  run.link = shareOf(made.ratios.link, !limits.links.empty());
+  run.beyondBounds = made.ratios.position.share;
+  const SolveClock verifying;
+  const VerifyReport report = verifyTrajectory(
+      problem, readTrajectory("the trajectory", made.text, problem.model), made.between);
+  run.verifyTime = verifying.seconds();
+  run.verdict = verdictName(report);
+  if (report.verdict != PathVerdict::proved) run.finding = findingOf(report);
+  return run;
+}
+
+}  // namespace corridor
