@@ -23,7 +23,7 @@ TEST(Audit, States) {
 
 TEST(Audit, Curves) {
   Audit audit(12, {.curves = true});
-  audit.run(countOf(5'000, 400'000));
+  audit.run(countOf(1'500, 400'000));
   audit.report("curves");
   audit.expectDecided();
 }
@@ -37,7 +37,7 @@ TEST(Audit, DepthsOfRounding) {
     audit.report(states ? "depths of rounding, states" : "depths of rounding, edges");
   }
   Audit curves(13, {.curves = true, .fine = true, .verify = 20});
-  curves.run(countOf(3'000, 100'000));
+  curves.run(countOf(1'000, 100'000));
   curves.report("depths of rounding, curves");
 }
 
