@@ -9,7 +9,7 @@ namespace corridor {
 namespace {
 
 const MapKeys kFile{{"joint_limits", "default_velocity_scaling_factor",
-                     "default_acceleration_scaling_factor", "robot_description_planning"},
+                     "default_acceleration_scaling_factor", "cartesian_limits"},
                     {}};
 const MapKeys kJoint{
     {"has_velocity_limits", "max_velocity", "min_velocity", "has_acceleration_limits",
@@ -43,6 +43,9 @@ std::optional<double> readLimit(const YamlMap& joint, const std::string& what) {
 void readFile(const YamlMap& map, const Model& model, bool isComplete, LimitSpec& spec,
               std::vector<Note>& notes) {
   const std::string& file = map.source().file;
+  if (isComplete && map.find("cartesian_limits"))
+    notes.push_back(
+        {file + ": cartesian_limits are not used; write link_speed", NoteWeight::motion});
   readScale(map, "default_velocity_scaling_factor", spec.velocityScale);
   readScale(map, "default_acceleration_scaling_factor", spec.accelerationScale);
   const YamlValue* value =
@@ -81,6 +84,25 @@ void readFile(const YamlMap& map, const Model& model, bool isComplete, LimitSpec
                      NoteWeight::motion});
 }
 
+const YamlValue* valueIn(const YamlValue& map, std::string_view key) {
+  for (const YamlValue::Entry& entry : map.entries)
+    if (entry.key == key) return &entry.value;
+  return nullptr;
+}
+
+/// Returns the parameters of a file for ROS 2 (`/**: {ros__parameters: …}`): those of the first
+/// node that has limits, or else of the first node. Other documents are returned as they are.
+const YamlValue& parametersOf(const YamlValue& document) {
+  const YamlValue* first = nullptr;
+  for (const YamlValue::Entry& node : document.entries) {
+    const YamlValue* const own = valueIn(node.value, "ros__parameters");
+    if (!own) continue;
+    if (valueIn(*own, "robot_description_planning") || valueIn(*own, "joint_limits")) return *own;
+    if (!first) first = own;
+  }
+  return first ? *first : document;
+}
+
 }  // namespace
 
 void readMoveitLimits(const std::filesystem::path& file, const Model& model, bool isComplete,
@@ -88,12 +110,13 @@ void readMoveitLimits(const std::filesystem::path& file, const Model& model, boo
   const YamlValue document =
       parseYaml(file.string(), readTextFile(file, "limits of joints (MoveIt's joint_limits.yaml)"));
   YamlSource source{file.string(), faults, {}};
-  const YamlMap map(document, "", &kFile, source);
-  if (const YamlValue* inner = map.find("robot_description_planning"))  // as in launch files
-    readFile(YamlMap(*inner, "robot_description_planning", &kFile, source), model, isComplete, spec,
-             notes);
-  else
-    readFile(map, model, isComplete, spec, notes);
+  // Files of parameters and for launch files have the limits under this key, and other keys beside
+  // it.
+  const YamlValue& parameters = parametersOf(document);
+  const YamlValue* const inner = valueIn(parameters, "robot_description_planning");
+  readFile(YamlMap(inner ? *inner : parameters, inner ? "robot_description_planning" : "", &kFile,
+                   source),
+           model, isComplete, spec, notes);
 }
 
 }  // namespace corridor

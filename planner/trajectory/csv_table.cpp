@@ -6,6 +6,7 @@
 #include "collision/core/spelling.h"
 #include "planner/problem/text_words.h"
 #include "planner/problem/yaml_reader.h"
+#include "planner/trajectory/row_faults.h"
 #include "planner/trajectory/trajectory_table.h"
 
 namespace corridor {
@@ -80,7 +81,7 @@ bool isHeader(const std::vector<std::string>& words, const JointNames& names) {
 class CsvReader {
  public:
   CsvReader(const std::string& file, const JointNames& names)
-      : names_(names), file_(file), faults_(file) {}
+      : names_(names), file_(file), faults_(file), rowFaults_(file) {}
 
   TrajectoryTable read(const std::string& text) {
     std::istringstream lines(text);
@@ -99,14 +100,19 @@ class CsvReader {
       const std::vector<std::string> words = wordsOfLine(line);
       if (words.empty()) continue;
       if (std::exchange(isFirst, false)) {
+        if (line.find(';') < line.find('#'))
+          throw InputError(Fault{file_, number,
+                                 "\";\" separates the numbers; separate them by commas or blanks, "
+                                 "and write decimal points, not commas"});
         if (isHeader(words, names_)) {
           readHeader(words, number);
           continue;
         }
         for (const std::string& name : names_.numbers()) add({Quantity::position, name});
       }
-      readRow(words, number);
+      rowFaults_.row([&](FaultList& faults) { readRow(words, number, faults); });
     }
+    rowFaults_.addTo(faults_);
     if (table_.rows.empty() && faults_.size() == 0) faults_.add(file_, 0, "has no row of numbers");
     faults_.throwIfAny();
     return std::move(table_);
@@ -146,18 +152,18 @@ class CsvReader {
       table_.notes.push_back({file_ + ": not used: " + joinedFirst(ignored), NoteWeight::detail});
   }
 
-  void readRow(const std::vector<std::string>& words, int line) {
+  void readRow(const std::vector<std::string>& words, int line, FaultList& faults) {
     if (words.size() != columns_.size()) {
       const std::string has = counted(words.size());
-      faults_.add(file_, line,
-                  table_.namesLine == 0
-                      ? "a row has " + counted(columns_.size()) + " (" +
-                            joinedFirst(table_.positions) + "), not " +
-                            std::to_string(words.size()) +
-                            "; if there are times or velocities, the first line must name the "
-                            "columns"
-                      : "the row has " + has + ", but the header names " +
-                            std::to_string(columns_.size()) + " columns");
+      faults.add(file_, line,
+                 table_.namesLine == 0
+                     ? "a row has " + counted(columns_.size()) + " (" +
+                           joinedFirst(table_.positions) + "), not " +
+                           std::to_string(words.size()) +
+                           "; if there are times or velocities, the first line must name the "
+                           "columns"
+                     : "the row has " + has + ", but the header names " +
+                           std::to_string(columns_.size()) + " columns");
       return;
     }
     TrajectoryTable::Row row;
@@ -169,7 +175,7 @@ class CsvReader {
       if (const std::string wrong = parseNumber(words[i], Range::Any, value); !wrong.empty()) {
         const std::string column =
             quantity == Quantity::time ? "time" : quotedWord(columns_[i].joint);
-        faults_.add(file_, line, column + ": " + wrong);
+        faults.add(file_, line, column + ": " + wrong);
         return;
       }
       if (quantity == Quantity::time) row.time = value;
@@ -187,6 +193,7 @@ class CsvReader {
   const JointNames& names_;
   std::string file_;
   FaultList faults_;
+  RowFaults rowFaults_;
   TrajectoryTable table_;
   std::vector<Column> columns_;
 };

@@ -4,6 +4,7 @@
 
 #include "planner/problem/yaml_reader.h"
 #include "planner/problem/yaml_value.h"
+#include "planner/trajectory/row_faults.h"
 #include "planner/trajectory/trajectory_table.h"
 
 namespace corridor {
@@ -107,23 +108,23 @@ std::optional<std::vector<double>> readList(const YamlMap& point, const char* ke
 
 class PointReader {
  public:
-  PointReader(std::vector<std::string> names, YamlSource& source) : source_(source) {
+  PointReader(std::vector<std::string> names, const std::string& file) : file_(file) {
     table_.isMessage = true;
     table_.positions = std::move(names);
   }
 
-  void read(const YamlValue& value, std::size_t index) {
+  void read(const YamlValue& value, std::size_t index, FaultList& faultsOfRow) {
     const std::string path = "points[" + std::to_string(index) + "]";
-    const YamlMap point(value, path, &kPoint, source_);
+    YamlSource source{file_, faultsOfRow, {}};
+    const YamlMap point(value, path, &kPoint, source);
     TrajectoryTable::Row row;
     row.line = value.line;
-    const std::size_t faults = source_.faults.size();
     const std::size_t count = table_.positions.size();
     auto positions = readList(point, "positions", count);
     auto velocities = readList(point, "velocities", count);
     auto accelerations = readList(point, "accelerations", count);
     row.time = readTime(point);
-    if (source_.faults.size() > faults || value.kind != YamlValue::Kind::Map) return;
+    if (faultsOfRow.size() > 0 || value.kind != YamlValue::Kind::Map) return;
     if (positions->empty()) return point.fault("positions", "are missing");
     row.positions = std::move(*positions);
     row.velocities = std::move(*velocities);
@@ -140,9 +141,8 @@ class PointReader {
                                     [](const auto& row) { return row.time == 0.0; });
     if (atOnce && table_.rows.size() > 1 && table_.velocities.empty()) {
       for (TrajectoryTable::Row& row : table_.rows) row.time.reset();
-      table_.notes.push_back({source_.file +
-                                  ": time_from_start is 0 at all points: the points are a path "
-                                  "without times",
+      table_.notes.push_back({file_ + ": time_from_start is 0 at all points: the points are a path "
+                                      "without times",
                               NoteWeight::motion});
     }
     return std::move(table_);
@@ -165,7 +165,7 @@ class PointReader {
            differs("time_from_start", row.time.has_value(), first.time.has_value());
   }
 
-  YamlSource& source_;
+  std::string file_;
   TrajectoryTable table_;
 };
 
@@ -194,8 +194,11 @@ TrajectoryTable readMessageTable(const std::string& file, const std::string& tex
   if (words && words->empty()) map.fault("joint_names", "has no name");
   if (points && points->items.empty()) map.fault("points", "has no point");
   faults.throwIfAny();
-  PointReader reader(*words, source);
-  for (std::size_t i = 0; i < points->items.size(); ++i) reader.read(points->items[i], i);
+  PointReader reader(*words, file);
+  RowFaults rowFaults(file);
+  for (std::size_t i = 0; i < points->items.size(); ++i)
+    rowFaults.row([&](FaultList& own) { reader.read(points->items[i], i, own); });
+  rowFaults.addTo(faults);
   faults.throwIfAny();
   TrajectoryTable table = reader.take();
   table.namesLine = names->line;

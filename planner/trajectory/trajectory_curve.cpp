@@ -8,6 +8,7 @@
 #include "collision/core/fault_list.h"
 #include "collision/core/shortest.h"
 #include "planner/trajectory/curve_pieces.h"
+#include "planner/trajectory/row_faults.h"
 #include "planner/verify/polynomial_range.h"
 
 namespace corridor {
@@ -64,7 +65,7 @@ Between betweenOf(TrajectoryRows& rows, std::optional<Between> wanted) {
 }
 
 Curve curveOf(const TrajectoryRows& rows, const ConfigurationSpace& space, Between between) {
-  FaultList faults(rows.file);
+  RowFaults rowFaults(rows.file);
   Curve curve;
   const auto timeOf = [&](std::size_t k) {
     return rows.timed ? rows.rows[k].time : static_cast<double>(k);
@@ -72,7 +73,6 @@ Curve curveOf(const TrajectoryRows& rows, const ConfigurationSpace& space, Betwe
   curve.knots.push_back(timeOf(0));
   for (std::size_t k = 1; k < rows.rows.size(); ++k) {
     const TrajectoryRow &from = rows.rows[k - 1], &to = rows.rows[k];
-    checkTurns(rows, k, space, faults);
     const Real duration = Real(timeOf(k)) - Real(timeOf(k - 1));
     const Real off = kTimeRounding * std::max(std::abs(timeOf(k)), std::abs(timeOf(k - 1)));
     const CurvePoint begin{from.positions, from.velocities, from.accelerations},
@@ -82,11 +82,16 @@ Curve curveOf(const TrajectoryRows& rows, const ConfigurationSpace& space, Betwe
         : between == Between::cubic ? cubicPiece(space, begin, end, duration, off)
                                     : quinticPiece(space, begin, end, duration, off));
     const CurvePiece& piece = curve.pieces.back();
-    if (!piece.coefficients.allFinite() || !piece.error.allFinite())
-      faults.add(rows.file, to.line,
-                 "the values of this row and the row before are too large to compute with");
+    rowFaults.row([&](FaultList& faults) {
+      checkTurns(rows, k, space, faults);
+      if (!piece.coefficients.allFinite() || !piece.error.allFinite())
+        faults.add(rows.file, to.line,
+                   "the values of this row and the row before are too large to compute with");
+    });
     curve.knots.push_back(timeOf(k));
   }
+  FaultList faults(rows.file);
+  rowFaults.addTo(faults);
   faults.throwIfAny();
   return curve;
 }

@@ -9,6 +9,7 @@
 #include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
 #include "planner/problem/urdf_robot.h"
+#include "planner/trajectory/row_faults.h"
 #include "planner/trajectory/trajectory_table.h"
 
 namespace corridor {
@@ -59,8 +60,12 @@ class RowMaker {
     result.isMessage = table.isMessage;
     result.notes = std::move(table.notes);
     checkFields(result, table.namesLine);
+    RowFaults rowFaults(file_);
     for (const TrajectoryTable::Row& row : table.rows)
-      addRow(row, positions, velocities, accelerations, result);
+      rowFaults.row([&](FaultList& faults) {
+        addRow(row, positions, velocities, accelerations, result, faults);
+      });
+    rowFaults.addTo(faults_);
     checkOthers(positions, table, result);
     if (table.rows.size() < 2)
       faults_.add(file_, table.rows.front().line,
@@ -141,7 +146,7 @@ class RowMaker {
   }
 
   void addRow(const TrajectoryTable::Row& row, const Columns& positions, const Columns& velocities,
-              const Columns& accelerations, TrajectoryRows& result) {
+              const Columns& accelerations, TrajectoryRows& result, FaultList& faults) const {
     TrajectoryRow made;
     made.line = row.line;
     made.time = row.time.value_or(0);
@@ -149,11 +154,11 @@ class RowMaker {
     if (!velocities.empty()) made.velocities = numbersOf(row.velocities, velocities);
     if (!accelerations.empty()) made.accelerations = numbersOf(row.accelerations, accelerations);
     if (!model_.space.isFinite(made.positions))
-      faults_.add(file_, row.line, "a quaternion of zeros is no rotation");
+      faults.add(file_, row.line, "a quaternion of zeros is no rotation");
     if (result.timed && !result.rows.empty() && !(made.time > result.rows.back().time))
-      faults_.add(file_, row.line,
-                  "the time " + shortest(made.time) + " s is not after that of the row before, " +
-                      shortest(result.rows.back().time) + " s; times must ascend");
+      faults.add(file_, row.line,
+                 "the time " + shortest(made.time) + " s is not after that of the row before, " +
+                     shortest(result.rows.back().time) + " s; times must ascend");
     result.rows.push_back(std::move(made));
   }
 

@@ -59,7 +59,7 @@ std::string readMotionText(const std::filesystem::path& file, const std::string&
 /// rule.
 /// @param file the name for messages.
 /// @param text a text of the format `rows` or `message`.
-/// @throws InputError with all faults.
+/// @throws InputError with all faults, but of the rows only with those of the first faulty one.
 TrajectoryRows readTrajectory(const std::string& file, const std::string& text, const Model& model);
 
 }  // namespace corridor

@@ -63,10 +63,12 @@ struct TrajectoryTable {
   std::vector<Note> notes;
 };
 
-/// Reads rows of numbers, with or without a header. @throws InputError with all faults.
+// Both readers throw an InputError with all faults, but of the rows only with those of the first
+// faulty one (row_faults.h).
+/// Reads rows of numbers, with or without a header.
 TrajectoryTable readCsvTable(const std::string& file, const std::string& text,
                              const JointNames& names);
-/// Reads a JointTrajectory of ROS. @throws InputError with all faults.
+/// Reads a JointTrajectory of ROS.
 TrajectoryTable readMessageTable(const std::string& file, const std::string& text);
 
 }  // namespace corridor

@@ -9,6 +9,8 @@ namespace corridor::verify {
 namespace {
 
 constexpr Real kInfinity = std::numeric_limits<Real>::infinity();
+/// The largest turn of a slab's direction in half of an interval, rad.
+constexpr Real kMostTurn = 0.125L;
 /// The largest number of pairs of leaf primitives that are proved one by one in a time interval,
 /// each by its own slab. With more pairs it costs less to halve the interval.
 constexpr std::size_t kMostSlabs = 400;
@@ -32,21 +34,29 @@ BodyMotion motionSeenFrom(const Placement& at, const FrameState& state, Perturba
   return motion;
 }
 
-MovedSlab::MovedSlab(const BodyMotion& a, const BodyMotion& b, Real half,
-                     const RealVec& direction) {
+MovedSlab::MovedSlab(const BodyMotion& a, const BodyMotion& b, Real half, const RealVec& direction,
+                     const RealVec& turn, Real displacement) {
   const Real length = direction.norm();
   if (!(length > 0)) return;
-  normal_ = direction / length;
-  a_ = sideOf(a, half, normal_);
-  b_ = sideOf(b, half, -normal_);
+  const RealVec normal = direction / length, rate = turn.cross(normal);
+  const Real turned = half * rate.norm();
+  if (!(turned <= kMostTurn)) return;
+  normal_ = normal;
+  lost_ = turned * displacement;
+  shorter_ = turned * turned / 2;
+  a_ = sideOf(a, half, normal_, rate);
+  b_ = sideOf(b, half, -normal_, -rate);
 }
 
-MovedSlab::Side MovedSlab::sideOf(const BodyMotion& motion, Real half, const RealVec& along) const {
+/// @param rate the change of `along` per unit of t.
+MovedSlab::Side MovedSlab::sideOf(const BodyMotion& motion, Real half, const RealVec& along,
+                                  const RealVec& rate) const {
   // n·(linear + angular × x) = n·linear + (n × angular)·x.
   const auto seen = [&](const RealVec& linear, const RealVec& angular) {
     return Affine{along.cross(angular), along.dot(linear)};
   };
-  const Affine velocity = seen(motion.linear, motion.angular);
+  Affine velocity = seen(motion.linear, motion.angular);
+  velocity.slope += rate;
   Side side;
   side.back = {along - half * velocity.slope, -half * velocity.constant};
   side.forth = {along + half * velocity.slope, half * velocity.constant};
@@ -97,16 +107,20 @@ MovedSlab::Support MovedSlab::supportOf(const Side& side, const CentredBox& box)
           side.forth.at(box.centre) + within(side.forth.slope) + perturbation};
 }
 
+/// @param radii of both swept spheres, added.
+Real MovedSlab::widthOf(const Support& a, const Support& b, Real radii) const {
+  const Real along = std::min(-a.back - b.back, -a.forth - b.forth) - lost_;
+  return along - shorter_ * std::max<Real>(0, along + radii);
+}
+
 Real MovedSlab::width(const ConvexSet& a, const ConvexSet& b) const {
   if (normal_.isZero(0)) return -kInfinity;
-  const Support ofA = supportOf(a_, a), ofB = supportOf(b_, b);
-  return std::min(-ofA.back - ofB.back, -ofA.forth - ofB.forth);
+  return widthOf(supportOf(a_, a), supportOf(b_, b), a.ball() + b.ball());
 }
 
 Real MovedSlab::width(const CentredBox& a, const CentredBox& b) const {
   if (normal_.isZero(0)) return -kInfinity;
-  const Support ofA = supportOf(a_, a), ofB = supportOf(b_, b);
-  return std::min(-ofA.back - ofB.back, -ofA.forth - ofB.forth);
+  return widthOf(supportOf(a_, a), supportOf(b_, b), 0);
 }
 
 Real boundBySlabs(BodyDistance& placed, const BodyGap& measured, const PairMotion& motion,
@@ -114,19 +128,24 @@ Real boundBySlabs(BodyDistance& placed, const BodyGap& measured, const PairMotio
   const Real lost = motion.secondOrder + motion.rounding;
   // In any direction, motion, tube and rounding reduce a distance by at most this much.
   const Real most = motion.motionBound + motion.tube + motion.rounding;
-  const auto slabAlong = [&](const RealVec& direction) {
-    return MovedSlab(motion.a, motion.b, motion.half, direction);
+  const auto slabAlong = [&](const RealVec& direction, const RealVec& turn) {
+    return MovedSlab(motion.a, motion.b, motion.half, direction, turn,
+                     motion.motionBound + motion.tube);
   };
-  const MovedSlab general = slabAlong(measured.onB - measured.onA);
+  const RealVec fixed = RealVec::Zero();
+  const MovedSlab general = slabAlong(measured.onB - measured.onA, fixed);
   // Every direction gives a true bound, so several are tried: the direction between the closest
   // points of the bodies; the direction between the closest points of the two leaf primitives; and
-  // the triangles' normals, for triangles that face each other at an angle.
+  // the triangles' normals, for triangles that face each other at an angle. Directions may turn
+  // with either body.
   const auto boundOf = [&](PiecePair pieces) {
     const ConvexSet a = placed.setA(pieces.a), b = placed.setB(pieces.b);
     Real best = general.width(a, b) - lost;
     if (best >= sought.wanted) return best;
     const auto attempt = [&](const RealVec& n) {
-      if (best < sought.wanted) best = std::max(best, slabAlong(n).width(a, b) - lost);
+      for (const RealVec* turn : {&fixed, &motion.a.angular, &motion.b.angular})
+        if (best < sought.wanted && (turn == &fixed || !turn->isZero(0)))
+          best = std::max(best, slabAlong(n, *turn).width(a, b) - lost);
     };
     const TriangleGap gap = placed.gap(pieces);
     best = std::max(best, gap.lower - most);

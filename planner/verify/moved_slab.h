@@ -22,7 +22,7 @@ BodyMotion motionSeenFrom(const Placement& at, const FrameState& state, Perturba
 /// The width of the slab between two moving bodies along a direction n, to first order of the
 /// motion. The width is a lower bound of their distance in the whole interval and tube, except for
 /// second-order terms, which Reach bounds. The direction n is fixed in the coordinates in which the
-/// bodies move.
+/// bodies move, or it turns with a face.
 ///
 /// Points. At a time s from the middle, |s| ≤ half, a core point x (without its swept sphere) is at
 ///   x + s·v(x) + Σ c_j T_j(x) + Σ w_k × (x − p_k),
@@ -48,12 +48,27 @@ BodyMotion motionSeenFrom(const Placement& at, const FrameState& state, Perturba
 /// box has the points x + d, |d_i| ≤ e_i: d·g ≤ Σ e_i |g_i|, and |n × d| ≤ |e|. With several terms,
 /// these bounds may not be attained.
 ///
+/// A direction that turns. A face that turns about its closest point stays beside the other body.
+/// Its far corners cross every slab of a fixed direction, unless the interval is as short as gap /
+/// (length of the face · rate). So the direction may be n(s) = n + s·m, with m = turn × n. For the
+/// core points x of A and y of B,
+///   n(s)·(y(s) − x(s)) = n·(y − x) + s·(n·(v(y) − v(x)) + m·(y − x)) + s²·m·(v(y) − v(x)),
+/// except for the terms that Reach bounds. The term m·(y − x) is affine, and is added to the
+/// velocities. The last term and the tube along s·m are at most half·|m|·displacement. Let W be the
+/// width without swept spheres of radii r, minus these terms. The distance is at least W/|n(s)| −
+/// r, and 1/|n(s)| ≥ 1 − (half·|m|)²/2, because m is perpendicular to n. A slab with half·|m| > 1/8
+/// has the width −infinity, so that m adds less than lengths to what is rounded.
+///
 /// The width is rounded by about 2^-58 of lengths that Reach::size includes. PairMotion::rounding
 /// (2^-49 of Reach::size) covers this.
 class MovedSlab {
  public:
   /// @param direction from a to b, of any length; with 0 the width is −infinity.
-  MovedSlab(const BodyMotion& a, const BodyMotion& b, Real half, const RealVec& direction);
+  /// @param turn the angular velocity of the direction, per unit of t.
+  /// @param displacement upper bound of the displacements of a point of A and one of B within the
+  /// interval and the tube, added; needed only if the direction turns.
+  MovedSlab(const BodyMotion& a, const BodyMotion& b, Real half, const RealVec& direction,
+            const RealVec& turn = RealVec::Zero(), Real displacement = 0);
   Real width(const ConvexSet& a, const ConvexSet& b) const;
   Real width(const CentredBox& a, const CentredBox& b) const;
 
@@ -71,12 +86,15 @@ class MovedSlab {
   struct Support {
     Real back, forth;
   };
-  Side sideOf(const BodyMotion& motion, Real half, const RealVec& along) const;
+  Side sideOf(const BodyMotion& motion, Real half, const RealVec& along, const RealVec& rate) const;
+  Real widthOf(const Support& a, const Support& b, Real radii) const;
   Real perturbationOf(const Side& side, const RealVec& x) const;
   Support supportOf(const Side& side, const ConvexSet& set) const;
   Support supportOf(const Side& side, const CentredBox& box) const;
 
   RealVec normal_ = RealVec::Zero();  // unit or zero
+  Real lost_ = 0;                     // by the last term and the tube along s·m
+  Real shorter_ = 0;                  // 1 − 1/|n(s)| at most
   Side a_, b_;
 };
 

@@ -98,6 +98,62 @@ TEST_F(LimitsTest, MoveitFile) {
   EXPECT_THAT(notes_[0].text, testing::HasSubstr("limits of other are not used: not planned for"));
 }
 
+/// The forms in which people have MoveIt's file: the plain one, that of launch files, and
+/// parameters of ROS 2.
+TEST_F(LimitsTest, EveryFormOfMoveitsFile) {
+  const std::string limits =
+      "default_velocity_scaling_factor: 0.1\n"
+      "default_acceleration_scaling_factor: 0.1\n"
+      "# Specific joint properties can be changed with the keys [max_position, …]\n"
+      "joint_limits:\n"
+      "  pan:\n"
+      "    has_velocity_limits: true\n"
+      "    max_velocity: 2.1750\n"
+      "    has_acceleration_limits: false\n"
+      "    max_acceleration: 0\n"
+      "  lift:\n"
+      "    has_velocity_limits: false\n"
+      "    max_velocity: 0.0\n"
+      "    has_acceleration_limits: true\n"
+      "    max_acceleration: 3.75\n"
+      "    has_position_limits: false\n";
+  const auto indented = [](const std::string& text) {
+    std::string all;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) all += "  " + line + "\n";
+    return all;
+  };
+  const std::string planning = "robot_description_planning:\n" + indented(limits),
+                    parameters = "  ros__parameters:\n";
+  for (const std::string& text :
+       {limits, planning, "robot_description_semantic: none\n" + planning,
+        "/**:\n" + parameters + indented(indented(planning)),
+        "/**:\n" + parameters + indented(indented(limits)),
+        "/move_group:\n" + parameters + "    use_sim_time: true\n" + indented(indented(planning)),
+        "/joint_states:\n" + parameters + "    rate: 50\n/move_group:\n" + parameters +
+            indented(indented(planning))}) {
+    write("joint_limits.yaml", text);
+    SCOPED_TRACE(text);
+    const LimitSpec spec = specOf("  file: joint_limits.yaml\n");
+    EXPECT_EQ(spec.velocityScale, 0.1);
+    EXPECT_EQ(spec.accelerationScale, 0.1);
+    EXPECT_EQ(spec.named.at("pan").velocity, 2.175);
+    EXPECT_FALSE(spec.named.at("pan").acceleration);
+    EXPECT_FALSE(spec.named.at("lift").velocity);
+    EXPECT_EQ(spec.named.at("lift").acceleration, 3.75);
+    EXPECT_TRUE(notes_.empty());
+  }
+  // Limits of Pilz's planner may stand in the same file.
+  write("joint_limits.yaml", limits + "cartesian_limits: {max_trans_vel: 1, max_rot_vel: 1.57}\n");
+  specOf("  file: joint_limits.yaml\n");
+  ASSERT_EQ(notes_.size(), 1u);
+  EXPECT_THAT(notes_[0].text,
+              testing::HasSubstr("cartesian_limits are not used; write link_speed"));
+  EXPECT_THAT(complaintOfFile("/**:\n" + parameters + "    joint_limit: {}\n"),
+              testing::HasSubstr("joint_limits.yaml:3: unknown key \"joint_limit\" (did you mean "
+                                 "\"joint_limits\"?)"));
+}
+
 TEST_F(LimitsTest, LinkSpeedLimitsTheBoxOfTheLink) {
   const JointLimits limits = limitsOf(model_, specOf("  link_speed: {finger: 0.25}\n"));
   ASSERT_EQ(limits.links.size(), 1);

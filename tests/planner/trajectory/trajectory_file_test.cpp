@@ -154,6 +154,7 @@ TEST_F(TrajectoryFile, FormatsAreRecognisedByTheirContent) {
 }
 
 TEST_F(TrajectoryFile, EveryFaultOfRowsIsOneLineWithItsPlace) {
+  EXPECT_EQ(complaint(""), "t.csv: has no row of numbers");
   EXPECT_EQ(complaint("# nothing\n"), "t.csv: has no row of numbers");
   EXPECT_EQ(complaint("time pan lift\n"), "t.csv: has no row of numbers");
   EXPECT_EQ(complaint("0 0\n"),
@@ -198,6 +199,39 @@ TEST_F(TrajectoryFile, EveryFaultOfRowsIsOneLineWithItsPlace) {
   EXPECT_EQ(complaint("pan lift slide\n0 0 0.04\n1 1 0.04\n"),
             "t.csv:2: \"slide\" is held at 0.02 in the problem, but is 0.04 here: the proof would "
             "be about another robot; in the robot's file, write hold: {slide: 0.04}");
+}
+
+/// A fault that all rows have gives one line.
+TEST_F(TrajectoryFile, FaultsOfManyRowsAreOneLine) {
+  const auto rows = [](const std::string& row, int count) {
+    std::string all;
+    for (int i = 0; i < count; ++i) all += row + "\n";
+    return all;
+  };
+  const std::string semicolon =
+      "\";\" separates the numbers; separate them by commas or blanks, and write decimal points, "
+      "not commas";
+  EXPECT_EQ(complaint("time;pan;lift\n" + rows("0,5;1;2", 30)), "t.csv:1: " + semicolon);
+  EXPECT_EQ(complaint("# made by hand; do not edit\n" + rows("0;1", 30)), "t.csv:2: " + semicolon);
+  EXPECT_EQ(complaint(rows("0 1 2", 30)),
+            "t.csv:1: a row has 2 numbers (pan, lift), not 3; if there are times or velocities, "
+            "the first line must name the columns (29 more rows have faults)");
+  EXPECT_EQ(complaint("time pan lift\n" + rows("0 1", 2)),
+            "t.csv:2: the row has 2 numbers, but the header names 3 columns (1 more row has "
+            "faults)");
+  EXPECT_EQ(complaint("pan lift\n" + rows("0 ok", 30)),
+            "t.csv:2: \"lift\": a number is needed, not \"ok\" (29 more rows have faults)");
+  EXPECT_EQ(complaint("time pan lift\n" + rows("0 0 0", 30)),
+            "t.csv:3: the time 0 s is not after that of the row before, 0 s; times must ascend (28 "
+            "more rows have faults)");
+  const std::string names = "joint_names: [pan, lift]\npoints:\n";
+  EXPECT_EQ(complaint(names + rows("- {positions: [0, 0, 0], time_from_start: 1}", 30)),
+            "t.csv:3: points[0].positions: a list of 2 numbers is needed, not a list of 3 (29 more "
+            "rows have faults)");
+  EXPECT_EQ(complaint(names + rows("- {positions: [0, 0], time_from_start: 1}", 3) +
+                      rows("- {positions: [0, 0]}", 30)),
+            "t.csv:6: points[3].time_from_start: are missing here, but the first point has them; "
+            "give them for all points or for none (29 more rows have faults)");
 }
 
 TEST_F(TrajectoryFile, EveryFaultOfMessagesIsOneLineWithItsPlace) {

@@ -45,8 +45,9 @@ struct Case {
   Real middle, half;
   std::optional<EdgeCurve> curve;
   PairMotion motion;
-  Placement atA;  // at the middle
-  RealVec n;      // unit, in a's frame at the middle
+  Placement atA;                   // at the middle
+  RealVec n;                       // unit, in a's frame at the middle
+  RealVec spin = RealVec::Zero();  // angular velocity of n
 
   /// @param degree that of a polynomial piece; 0: an edge.
   Case(const Arm& onArm, bool fork, std::mt19937_64& random, double size, int kinds, int degree = 0)
@@ -102,7 +103,10 @@ struct Case {
     const RealMat back = atA.rotation.transpose();
     return moved(b, {back * at.rotation, back * (at.position - atA.position)});
   }
-  Real firstOrder() const { return MovedSlab(motion.a, motion.b, half, n).width(a, placedB()); }
+  Real firstOrder() const {
+    return MovedSlab(motion.a, motion.b, half, n, spin, motion.motionBound + motion.tube)
+        .width(a, placedB());
+  }
   Real still() const { return gapAlong(a, placedB(), n); }
 
   /// Returns the width along n, at the time middle + s, of a perturbed curve. `share`, in [−1, 1]
@@ -123,7 +127,7 @@ struct Case {
       q.segment<4>(3) = (by * rotation).coeffs();
     }
     const EdgeCurve stray(arm.tree, arm.space.coordinates(), q, q);
-    const RealVec along = atA.rotation * n;
+    const RealVec along = atA.rotation * (n + s * spin.cross(n)).normalized();
     return gapAlong(moved(a, stray.at(chainA, 0).at), moved(b, stray.at(chainB, 0).at), along);
   }
 
@@ -166,6 +170,45 @@ TEST(MovedSlab, BoundsAllCurvesOfTheTube) {
     fullest = std::max(fullest, (one.still() - least) / (one.still() - bound));
   }
   EXPECT_GT(fullest, 0.999L);
+}
+
+/// The same for directions that turn: with a body, or in any way.
+TEST(MovedSlab, DirectionsMayTurn) {
+  std::mt19937_64 random(test::testSeed(11));
+  const int cases = test::isStressRun() ? 3000 : 200;
+  int bounded = 0;
+  for (int i = 0; i < cases; ++i) {
+    const Arm arm(random);
+    const double size = i % 3 == 0 ? 0.2 : i % 3 == 1 ? 0.05 : 0.001;
+    Case one(arm, i % 2 == 1, random, size, i / 2, i % 4 < 2 ? 0 : 1 + i / 4 % 9);
+    const Real rate = one.motion.b.angular.norm();
+    one.spin = i % 5 < 2   ? one.motion.b.angular
+               : i % 5 < 4 ? RealVec(randomVec(random, 1).cast<Real>() * rate)
+                           : one.motion.a.angular;
+    const Real bound = one.firstOrder() - one.motion.secondOrder;
+    bounded += std::isfinite(bound);
+    EXPECT_GE(one.leastWidth(random), bound - 1e-13L) << i;
+  }
+  EXPECT_GT(bounded, cases / 2);
+}
+
+/// A bar turns about the centre of a ball, at a constant distance. Its ends cross every slab of a
+/// fixed direction.
+TEST(MovedSlab, ABarThatTurnsAboutABall) {
+  const ConvexSet bar{{RealVec(-1, 0.5L, 0), RealVec(1, 0.5L, 0)}, 0.1L, false, RealVec::Zero()},
+      ball{{RealVec::Zero()}, 0.375L, false, RealVec::Zero()};
+  const BodyMotion turning{RealVec::Zero(), RealVec(0, 0, 1), {}};
+  const Real half = 0.01L, gap = 0.025L, across = half * std::sqrt(1.25L);
+  const auto width = [&](const RealVec& turn) {
+    return MovedSlab({}, turning, half, RealVec::UnitY(), turn, across).width(ball, bar);
+  };
+  EXPECT_NEAR(static_cast<double>(width(RealVec::Zero())), double(gap - half), 1e-15);
+  // half·|m|·displacement, and (half·|m|)²/2 of the distance of the cores
+  const Real lost = half * across, shorter = half * half / 2;
+  EXPECT_NEAR(static_cast<double>(width(turning.angular)),
+              double(gap - lost - shorter * (0.5L - lost)), 1e-15);
+  EXPECT_EQ(MovedSlab({}, turning, 0.2L, RealVec::UnitY(), turning.angular, 1).width(ball, bar),
+            -kInfinity);
 }
 
 // If motion and tube are small, the first-order term dominates, and some curve attains the bound.

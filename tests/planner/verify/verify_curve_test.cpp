@@ -25,8 +25,7 @@ struct Grazing {
   PathProblem problem;
   bool againstSide;  ///< the rod against the side branch; else against the ball at rest
 
-  /// @param point the rod is a ball. A rod that turns about its closest point costs a number of
-  /// intervals in proportion to 1/gap: each of its slabs has a fixed direction. A ball costs few.
+  /// @param point the rod is a ball.
   Grazing(std::mt19937_64& random, bool side_, bool point = false)
       : arm(random),
         p(test::randomVec(random, 0.2)),
@@ -406,6 +405,37 @@ TEST(VerifyCurve, ALargeErrorRefutesNothing) {
   tubed.problem.tube = Configuration::Constant(1, 0.05);
   EXPECT_EQ(tubed.verify({Slide::piece({0, 1.6, 0}, 0.02)}).verdict, PathVerdict::proved);
   EXPECT_EQ(tubed.verify({Slide::piece({0, 1.6, 0}, 0.03)}).verdict, PathVerdict::undecided);
+}
+
+/// A bar turns about a ball, at a constant gap. The number of intervals grows as 1/√gap only,
+/// because directions of slabs turn with the bar.
+TEST(VerifyCurve, ABarThatTurnsAboutABall) {
+  KinematicTree tree;
+  ConfigurationSpace space;
+  space.add(Coordinate{});
+  Frame turn;
+  turn.joint = Frame::Joint::revolute;
+  turn.variable = 0;
+  tree.add(turn);
+  const ConvexPart bar{{Vec3(-1, 0.5, 0), Vec3(1, 0.5, 0)}, 0.125, false};
+  PathProblem problem;
+  problem.tree = &tree;
+  problem.space = &space;
+  problem.tolerance = 1e-13;
+  problem.tube = Configuration::Zero(1);
+  problem.pairs = {{0, 1}};
+  for (const double gap : {1e-3, 1e-5, 1e-7}) {
+    const ConvexPart ball{{Vec3::Zero()}, 0.375 - gap, false};
+    problem.bodies = {{"ball", nullptr, {&ball, 1}, false, 0},
+                      {"bar", nullptr, {&bar, 1}, false, 1}};
+    for (const CurvePiece& piece : {Slide::piece({0, 0.5}), Slide::piece({0, 0.25, 0.5})}) {
+      const PathReport report = verifyCurve(problem, {&piece, 1});
+      EXPECT_EQ(report.verdict, PathVerdict::proved) << gap;
+      EXPECT_LE(report.provenClearance, gap * (1 + 1e-9));
+      // About 4,000 refine the proved clearance.
+      EXPECT_LE(static_cast<double>(report.distanceQueries), 5000 + 10 / std::sqrt(gap)) << gap;
+    }
+  }
 }
 
 /// A circle turns literally: the curve from 3 to 3 + 2π/3 differs from that from 3 to 3 − 4π/3.

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/stress/audit/pieces.h"
 #include "tests/support/support.h"
 
 namespace corridor::audit {
@@ -33,11 +34,14 @@ constexpr int kGaps = 6;
 /// For the methods that use distances the work grows faster, so these methods get larger
 /// tolerances. In some cases gap and tolerance are so small that only rounding decides between free
 /// and contact.
-double chooseProof(Dice& dice, const Graze& graze, double sign, bool fine, Question& question) {
+/// @param curve the bodies move along a piece of a curve, which only one method certifies.
+double chooseProof(Dice& dice, const Graze& graze, double sign, bool fine, bool curve,
+                   Question& question) {
   MotionOptions& o = question.options;
   const double size = graze.size();
   o.trees = dice.of(std::span<const TreeKind>(kTrees));
-  question.method = fine ? EdgeMethod::directional : dice.of(std::span<const EdgeMethod>(kMethods));
+  question.method =
+      fine || curve ? EdgeMethod::directional : dice.of(std::span<const EdgeMethod>(kMethods));
   const bool certified = question.method == EdgeMethod::directional;
   o.tolerance =
       std::max(4 * graze.rounding(), size * (certified ? dice.power(-7, -5) : dice.power(-4, -3)));
@@ -104,10 +108,11 @@ void Audit::make(long number) {
   double size = 1;
   Edge edge = randomEdge(dice, family, options_.states, size);
   size *= dice.power(-1, 0.3);
+  if (options_.curves) bendEdge(dice, edge, size);
   Question question;
   question.mode = options_.mode;
   question.inTube = dice.oneIn(6);
-  question.rigidMotion = isRigidBody(edge) && dice.oneIn(2);
+  question.rigidMotion = !edge.piece && isRigidBody(edge) && dice.oneIn(2);
   MotionOptions& o = question.options;
   if (dice.oneIn(4)) o.margin = size * dice.power(-4, -0.5);
   if (dice.oneIn(8)) o.clearanceSlack = size * dice.power(-8, -1);
@@ -120,8 +125,8 @@ void Audit::make(long number) {
   ++usable_;
   const std::string row = question.inTube ? "tube: worst corner" : nameOf(family);
   for (int k = 0; k < kGaps; ++k) {
-    const double gap =
-        chooseProof(dice, graze, question.inTube || k % 2 ? -1 : 1, options_.fine, question);
+    const double gap = chooseProof(dice, graze, question.inTube || k % 2 ? -1 : 1, options_.fine,
+                                   options_.curves, question);
     Truth truth;
     const Shape rest = graze.rest(gap, truth);
     const std::string name = nameOf(family) + ", CORRIDOR_SEED=" + std::to_string(seed_) +
@@ -137,7 +142,8 @@ void Audit::make(long number) {
 }
 
 /// Sets the tube's half width of each coordinate. All lengths get the same value, and all angles
-/// get the same value. Some are then set to 0; in half of the cases all except one.
+/// get the same value. Some are then set to 0; in half of the cases all except one. Pieces of
+/// curves get an error as well, or instead.
 void Audit::setTube(Dice& dice, Edge& edge, double size, bool rigid) const {
   const double position = size * dice.power(-9, -1), rotation = dice.power(-9, -1.5);
   const auto& coordinates = edge.space.coordinates();
@@ -145,13 +151,12 @@ void Audit::setTube(Dice& dice, Edge& edge, double size, bool rigid) const {
   const std::size_t only = one ? dice.index(coordinates.size()) : 0;
   for (std::size_t i = 0; i < coordinates.size(); ++i) {
     const Coordinate& c = coordinates[i];
-    const bool turns =
-        std::any_of(edge.tree.frames.begin(), edge.tree.frames.end(), [&](const Frame& frame) {
-          return frame.joint == Frame::Joint::revolute && frame.variable == c.first;
-        });
     double& tube = edge.tube[static_cast<Eigen::Index>(c.first)];
-    tube = turns || c.kind != Coordinate::Kind::line ? rotation : position;
+    tube = isAngle(edge, c) ? rotation : position;
     if (one ? i != only : !rigid && dice.oneIn(3)) tube = 0;
+    if (!edge.piece || dice.oneIn(3)) continue;
+    edge.piece->error[static_cast<Eigen::Index>(c.first)] = tube * (dice.oneIn(2) ? 1 : 0.1);
+    if (dice.oneIn(2)) tube = 0;
   }
 }
 

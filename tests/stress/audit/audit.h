@@ -14,6 +14,7 @@ class Audit {
  public:
   struct Options {
     bool states = false;     ///< make states: edges of zero length
+    bool curves = false;     ///< make pieces of curves instead of edges
     bool fine = false;       ///< only gaps and tolerances of the size of rounding errors
     std::size_t verify = 6;  ///< one of this many cases is verified; the checker runs on all
     std::optional<Family> family = {};  ///< only this family; unset: all in turn

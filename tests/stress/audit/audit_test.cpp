@@ -21,6 +21,13 @@ TEST(Audit, States) {
   audit.expectDecided();
 }
 
+TEST(Audit, Curves) {
+  Audit audit(12, {.curves = true});
+  audit.run(countOf(1'500, 400'000));
+  audit.report("curves");
+  audit.expectDecided();
+}
+
 /// Bodies penetrate by no more than the rounding of poses: an error bound that is too small would
 /// prove them free.
 TEST(Audit, DepthsOfRounding) {
@@ -29,6 +36,9 @@ TEST(Audit, DepthsOfRounding) {
     audit.run(countOf(6'000, 200'000));
     audit.report(states ? "depths of rounding, states" : "depths of rounding, edges");
   }
+  Audit curves(13, {.curves = true, .fine = true, .verify = 20});
+  curves.run(countOf(1'000, 100'000));
+  curves.report("depths of rounding, curves");
 }
 
 /// Angles of continuous joints up to 10^25 rad, in `from`, in `to`, or in both. If rounding decides

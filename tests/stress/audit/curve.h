@@ -1,29 +1,62 @@
 #pragma once
 
+#include <algorithm>
+#include <optional>
 #include <vector>
 
+#include "planner/robot/curve.h"
 #include "planner/robot/kinematic_tree.h"
 #include "tests/stress/audit/quad.h"
 
 namespace corridor::audit {
 
-/// An edge as plain data, and the two frames that carry the bodies.
+/// An edge or a piece of a curve as plain data, and the two frames that carry the bodies.
 struct Edge {
   KinematicTree tree;
   ConfigurationSpace space;
   Configuration from, to;
   Configuration tube;                 ///< as `EdgeMotion` takes it; mostly zero
   std::size_t first = 0, second = 0;  ///< frames
+  /// If set, the bodies move along this piece. `from` and `to` are then its ends.
+  std::optional<CurvePiece> piece = {};
+
+  /// Returns how far each number of a proved curve may be from this one, exactly.
+  Quad strayOf(std::size_t number) const {
+    const auto i = static_cast<Eigen::Index>(number);
+    return piece ? Quad(tube[i]) + Quad(piece->error[i]) : Quad(tube[i]);
+  }
+};
+
+/// A polynomial in Bernstein form on [0, 1].
+template <class S>
+struct Polynomial {
+  int degree = 0;
+  std::array<S, CurvePiece::kLargestDegree + 1> d{};  ///< coefficients
+
+  /// Evaluates by Horner's scheme in t and 1 − t.
+  S at(S t) const {
+    if (degree == 0) return d[0];
+    const S u = 1 - t;
+    S sum = d[0] * u, power = 1, binomial = 1;
+    for (int i = 1; i < degree; ++i) {
+      power = power * t;
+      binomial = binomial * S(degree - i + 1) / S(i);
+      sum = (sum + power * binomial * d[static_cast<std::size_t>(i)]) * u;
+    }
+    return sum + power * t * d[static_cast<std::size_t>(degree)];
+  }
 };
 
 /// A perturbation of a curve: the amount that is added to each number of its configurations. For a
 /// rotation the first three numbers are a rotation vector, which is applied after the rotation.
 using Perturbation = std::vector<Quad>;
 
-/// The motion of one frame as seen from another along an edge. It follows the definition of an
-/// edge:
-/// - lines: linear in t;
-/// - circles: linear in t, the shorter way round, of the exact difference modulo 2π;
+/// The motion of one frame as seen from another along an edge or a piece. It follows the definition
+/// of an edge, or of a CurvePiece:
+/// - lines: linear in t; in a piece, the polynomial in Bernstein form;
+/// - circles: linear in t, the shorter way round, of the exact difference modulo 2π; in a piece,
+/// the
+///   polynomial, literally;
 /// - rotations: slerp of the normalised quaternions along the shorter arc;
 /// - a joint's value: multiplier·q + offset.
 template <class S>
@@ -39,14 +72,23 @@ class Curve {
   Pose<S> at(S t) const;
 
   /// Return bounds of |x'| and |x''| for points x of the watched frame within `radius` of its
-  /// origin. With Ω the sum of all rotations, V of all translations, and R of all lengths (`radius`
-  /// included), these are ΩR + V and Ω²R + 2ΩV.
+  /// origin. With Ω the sum of the largest rates of all rotations, V of all translations, A and B
+  /// of their largest accelerations, and R of all lengths (`radius` included), these are ΩR + V and
+  /// Ω²R + 2ΩV + AR + B. On an edge, A and B are 0.
   double speed(double radius) const { return turned_ * (length_ + radius) + slid_; }
-  double bend(double radius) const { return turned_ * (speed(radius) + slid_); }
-  double turned() const { return turned_; }    ///< Ω, rad
-  double length() const { return length_; }    ///< m; bounds the chain's length at every t
+  double bend(double radius) const {
+    return turned_ * (speed(radius) + slid_) + turnBend_ * (length_ + radius) + slideBend_;
+  }
+  double turned() const { return turned_; }        ///< Ω, rad
+  double turnBend() const { return turnBend_; }    ///< A, rad
+  double slideBend() const { return slideBend_; }  ///< B, m
+  double length() const { return length_; }        ///< m; bounds the chain's length at every t
+  /// Returns n times the largest coefficient, summed over all rotations, rad. One rounding error of
+  /// the number type, times this angle, bounds the rounding of the sums of a polynomial.
+  double terms() const { return terms_; }
   double largest() const { return largest_; }  ///< the largest stored value of a joint, rad or m
-  /// Returns whether only one joint rotates. Then all accelerations are orthogonal to its axis.
+  /// Returns whether only one joint rotates. Then all accelerations, except B, are orthogonal to
+  /// its axis.
   bool hasOneRotation() const { return turning_ == 1; }
   /// Returns the unit axis of the first joint that rotates, at t, in the watcher's frame.
   Vec<S> axisAt(S t) const;
@@ -62,17 +104,22 @@ class Curve {
     bool inverted = false;
     Pose<S> fixed;
     Vec<S> axis;           // axis of a rotation, or direction of a translation
-    S value = 0, way = 0;  // its value at t = 0, and the change over the edge
-    Vec<S> shift, shiftWay;
+    S value = 0;           // its value at t = 0
+    Polynomial<S> change;  // from that value
+    bool turns = false;    // a rotation that is not constant
+    Vec<S> shift;
+    std::array<Polynomial<S>, 3> shiftChange;
     std::array<S, 4> q0{}, q1{};
     S omega = 0, sineOfOmega = 0;
     Mat<S> stray;  // perturbation of a rotation: multiplied from the left
   };
   Pose<S> poseOf(const Element& e, S t) const;
   void add(const Edge& edge, std::size_t frame, bool inverted, const Perturbation& stray);
+  void addRotation(const Edge& edge, std::size_t number, const Vec<Quad>& aside, Element& e);
 
   std::vector<Element> elements_;  // from the frame `watcher` to the frame `watched`
-  double turned_ = 0, slid_ = 0, length_ = 0, largest_ = 0;
+  double turned_ = 0, slid_ = 0, turnBend_ = 0, slideBend_ = 0;
+  double length_ = 0, largest_ = 0, terms_ = 0;
   int turning_ = 0;
 };
 
@@ -84,20 +131,30 @@ template <class Other>
 Curve<S>::Curve(const Curve<Other>& o)
     : turned_(o.turned_),
       slid_(o.slid_),
+      turnBend_(o.turnBend_),
+      slideBend_(o.slideBend_),
       length_(o.length_),
       largest_(o.largest_),
+      terms_(o.terms_),
       turning_(o.turning_) {
   const auto mat = [](const Mat<Other>& m) {
     Mat<S> n;
     for (std::size_t i = 0; i < 3; ++i) n.row[i] = Vec<S>(m.row[i]);
     return n;
   };
+  const auto polynomial = [](const Polynomial<Other>& p) {
+    Polynomial<S> n;
+    n.degree = p.degree;
+    std::transform(p.d.begin(), p.d.end(), n.d.begin(), [](const Other& x) { return S(x); });
+    return n;
+  };
   for (const auto& e : o.elements_) {
     Element n;
     n.joint = e.joint, n.inverted = e.inverted;
     n.fixed = {mat(e.fixed.R), Vec<S>(e.fixed.p)};
-    n.axis = Vec<S>(e.axis), n.value = S(e.value), n.way = S(e.way);
-    n.shift = Vec<S>(e.shift), n.shiftWay = Vec<S>(e.shiftWay);
+    n.axis = Vec<S>(e.axis), n.value = S(e.value), n.change = polynomial(e.change);
+    n.turns = e.turns, n.shift = Vec<S>(e.shift);
+    for (std::size_t i = 0; i < 3; ++i) n.shiftChange[i] = polynomial(e.shiftChange[i]);
     for (std::size_t i = 0; i < 4; ++i) n.q0[i] = S(e.q0[i]), n.q1[i] = S(e.q1[i]);
     n.omega = S(e.omega), n.sineOfOmega = S(e.sineOfOmega);
     n.stray = mat(e.stray);
@@ -112,15 +169,15 @@ Pose<S> Curve<S>::poseOf(const Element& e, S t) const {
     case Frame::Joint::none:
       break;
     case Frame::Joint::revolute: {
-      const S phi = e.value + t * e.way;
+      const S phi = e.value + e.change.at(t);
       joint.R = turnAbout(e.axis, sine(phi), cosine(phi));
       break;
     }
     case Frame::Joint::prismatic:
-      joint.p = e.axis * (e.value + t * e.way);
+      joint.p = e.axis * (e.value + e.change.at(t));
       break;
     case Frame::Joint::translation:
-      joint.p = e.shift + e.shiftWay * t;
+      for (std::size_t i = 0; i < 3; ++i) joint.p[i] = e.shift[i] + e.shiftChange[i].at(t);
       break;
     case Frame::Joint::rotation: {
       const bool turns = e.sineOfOmega > 0;
@@ -147,7 +204,7 @@ Vec<S> Curve<S>::axisAt(S t) const {
   Pose<S> X;
   for (const Element& e : elements_) {
     const Pose<S> own = poseOf(e, t);
-    if (e.joint == Frame::Joint::revolute && e.way != 0)
+    if (e.joint == Frame::Joint::revolute && e.turns)
       return e.inverted ? X.R * e.axis : (X * e.fixed).R * e.axis;
     if (e.joint == Frame::Joint::rotation && e.omega > 0) {
       // The vector part of q1·q0⁻¹, in the frame after `fixed`: w0 v1 − w1 v0 − v1 × v0.

@@ -84,14 +84,16 @@ Graze::Look<S> Graze::look(const Curve<S>& curve, const Shape& rest, S t) const 
 /// - height of a point along a fixed direction: f'' ≤ bend;
 /// - distance |y| of two points, or of a point from a line: f'' ≤ bend + |y'|²/|y|;
 /// - distance n·y of two lines: n = u/|u|, u the cross product of their unit vectors, |u'| ≤ Ω,
-///   |u''| ≤ Ω². With s = |u|, it follows that |n'| ≤ Ω/s and |n''| ≤ Ω²/s + 3Ω²/s².
+///   |u''| ≤ Ω² + A. With s = |u|, it follows that |n'| ≤ Ω/s and |n''| ≤ (Ω² + A)/s + 3Ω²/s².
 template <class S>
 S Graze::boundOf(const Curve<S>& curve, const Look<S>& a, const Look<S>& b) const {
   const S w = b.t - a.t;
   const double reach = std::max(tip_.reach, base_.reach);
   const S bend = curve.bend(reach);
   S flatBend = bend;
-  if (curve.hasOneRotation()) flatBend = bend * length(cross(Vec<S>(normal_), curve.axisAt(a.t)));
+  if (curve.hasOneRotation())
+    flatBend = (bend - curve.slideBend()) * length(cross(Vec<S>(normal_), curve.axisAt(a.t))) +
+               curve.slideBend();
   S bound = std::min(a.flat, b.flat) - flatBend * w * w / 8;
   if (base_.feature == Feature::face) return bound;
   const S turned = curve.turned(), speed = curve.speed(reach);
@@ -104,7 +106,7 @@ S Graze::boundOf(const Curve<S>& curve, const Look<S>& a, const Look<S>& b) cons
     const S s = std::min(a.sine, b.sine) - turned * w;
     if (s < S(0.1L)) return bound;
     const S y = std::max(magnitude(a.features), magnitude(b.features)) + radii + speed * w;
-    second += 2 * turned / s * speed + 4 * turned * turned / (s * s) * y;
+    second += 2 * turned / s * speed + (4 * turned * turned / (s * s) + curve.turnBend() / s) * y;
   } else {
     const S y = std::min(a.features, b.features) + radii - speed * w;
     if (y <= 0) return bound;
@@ -117,12 +119,13 @@ void Graze::proveHeights() {
   const double scale = curve_->length() + std::max(tip_.reach, base_.reach);
   const Look<Quad> first = look(*curve_, base_, Quad(0));
   if (curve_->speed(1) == 0) {
-    lowest_ = static_cast<double>(std::max(first.flat, first.along)) - 1e-30 * scale;
+    lowest_ = static_cast<double>(std::max(first.flat, first.along)) - error128_;
     return;
   }
   // First prove, in long double, the intervals in which the bodies are apart by more than rounding.
   const Curve<long double> rough(*curve_);
-  const long double error = 0x1p-57L * scale * static_cast<long double>(rough.joints() + 2);
+  const long double error =
+      scale * (0x1p-57L * static_cast<long double>(rough.joints() + 2) + 0x1p-62L * rough.terms());
   using Rough = Look<long double>;
   struct Part {
     Rough a, b;
@@ -187,7 +190,7 @@ void Graze::proveHeights() {
       parts128.push_back({part.a, middle});
     }
   }
-  lowest_ = static_cast<double>(least) - 1e-30 * scale;
+  lowest_ = static_cast<double>(least) - error128_;
 }
 
 /// Chooses the plane's normal at the meeting point, in the rest's frame, so that the tip meets the
@@ -239,7 +242,7 @@ void Graze::perturbToWorstCorner(const Edge& edge) {
     return dot(normal_, moved.at(time_) * touch_ - at);
   };
   for (const Coordinate& c : edge.space.coordinates()) {
-    const Quad most = edge.tube[static_cast<Eigen::Index>(c.first)];
+    const Quad most = edge.strayOf(c.first);
     if (most == 0) continue;
     if (c.kind != Coordinate::Kind::rotation) {
       const Quad up = rise(c.first);
@@ -283,7 +286,7 @@ Graze::Graze(Dice& dice, const Edge& edge, const Wish& wish)
     if (dice.oneIn(2)) {  // normal along the effect of one number of the tube
       std::vector<std::size_t> strays;
       for (const Coordinate& c : edge.space.coordinates())
-        if (edge.tube[static_cast<Eigen::Index>(c.first)] > 0) strays.push_back(c.first);
+        if (edge.strayOf(c.first) > 0) strays.push_back(c.first);
       if (strays.empty()) return;
       Perturbation one(static_cast<std::size_t>(edge.tube.size()), 0);
       one[strays[dice.index(strays.size())]] = 1e-12;
@@ -321,6 +324,7 @@ Graze::Graze(Dice& dice, const Edge& edge, const Wish& wish)
   rounding_ = lengths * (static_cast<double>(nominal_->joints() + 2) * 0x1p-43 +
                          0x1p-48 * nominal_->largest());
   ulp_ = 0x1p-53 * lengths;
+  error128_ = 1e-30 * (nominal_->length() + reach) * (1 + nominal_->terms());
   usable_ = true;
   if (!inTube_) proveHeights();
 }
@@ -332,8 +336,7 @@ Shape Graze::rest(double gap, Truth& truth) const {
   const double share = shape.feature == Feature::face || gap < 0 ? 1 : 0.5;
   truth.apart = lowest_ + share * gap - (error + baseError_);
   const auto distance = distanceAtMost(shape);
-  const double scale = curve_->length() + std::max(tip_.reach, shape.reach);
-  truth.violates = (distance && *distance < keep_ * (1 - Quad(0x1p-90)) - 1e-28L * Quad(scale)) ||
+  truth.violates = (distance && *distance < keep_ * (1 - Quad(0x1p-90)) - 100 * Quad(error128_)) ||
                    crosses(shape);
   return shape;
 }
@@ -374,7 +377,8 @@ std::optional<Quad> Graze::distanceAtMost(const Shape& rest) const {
 bool Graze::crosses(const Shape& rest) const {
   const Pose<Quad> X = curve_->at(time_);
   const std::array<Vec<Quad>, 3> tip{X * tip_.core[0], X * tip_.core[1], X * tip_.core[2]};
-  const double scale = curve_->length() + std::max(tip_.reach, rest.reach);
+  const double scale =
+      (curve_->length() + std::max(tip_.reach, rest.reach)) * (1 + curve_->terms());
   const Vec<Quad> inner = (tip[0] + tip[1] + tip[2]) * (Quad(1) / 3);
   if (rest.feature == Feature::face) return crossesTriangle(tip[0], inner, rest.core, scale);
   if (rest.feature == Feature::edge && tip_.feature == Feature::edge)

@@ -84,7 +84,7 @@ class Graze {
 
   bool usable_ = false, passesAlong_ = false;
   std::size_t tipFrame_ = 0, restFrame_ = 0;
-  double size_, keep_, time_ = 0, rounding_ = 0, ulp_ = 0;
+  double size_, keep_, time_ = 0, rounding_ = 0, ulp_ = 0, error128_ = 0;
   bool inTube_;
   std::optional<Curve<Quad>> curve_;
   std::optional<Curve<Quad>> nominal_;

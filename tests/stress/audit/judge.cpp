@@ -31,6 +31,13 @@ RigidMotion rigidMotionOf(const Edge& edge) {
 
 }  // namespace
 
+void setMotion(EdgeMotion& motion, const Edge& edge) {
+  if (edge.piece)
+    motion.set(*edge.piece);
+  else
+    motion.set(edge.from, edge.to);
+}
+
 Body Case::body(bool tip) const {
   const Shape& shape = tip ? graze.tip() : rest;
   const char* which = tip ? "tip" : "rest";
@@ -90,7 +97,7 @@ std::optional<MotionResult> askChecker(const Case& c) {
   const Scene scene = c.scene();
   EdgeMotion motion(c.edge.tree, c.edge.space, scene.framePairs(), c.edge.tube);
   return guarded([&] {
-    motion.set(c.edge.from, c.edge.to);
+    setMotion(motion, c.edge);
     return scene.certify(motion, c.question.options, context, c.question.method);
   });
 }
@@ -99,10 +106,13 @@ std::optional<PathReport> askVerifier(const Case& c) {
   const PathProblem problem = c.problem();
   std::vector<Configuration> states{c.edge.from};
   if (c.edge.from != c.edge.to) states.push_back(c.edge.to);
+  const auto ask = [&] {
+    return c.edge.piece ? verifyCurve(problem, {&*c.edge.piece, 1}) : verifyPath(problem, states);
+  };
   const Surroundings surroundings(c.question.mode);
-  if (c.question.mode == Mode::usual) return verifyPath(problem, states);
+  if (c.question.mode == Mode::usual) return ask();
   try {
-    return verifyPath(problem, states);
+    return ask();
   } catch (const std::exception&) {
     return std::nullopt;
   }
@@ -111,7 +121,7 @@ std::optional<PathReport> askVerifier(const Case& c) {
 Certificate certifiedAnswer(const Case& c) {
   const Scene scene = c.scene();
   EdgeMotion motion(c.edge.tree, c.edge.space, scene.framePairs(), c.edge.tube);
-  motion.set(c.edge.from, c.edge.to);
+  setMotion(motion, c.edge);
   QueryContext context;
   MotionCertificate certificate;
   Certificate answer{scene.certify(motion, c.question.options, context, certificate)};
@@ -124,7 +134,7 @@ Certificate certifiedAnswer(const Case& c) {
 bool acceptsForged(const Case& c, double clearance, int intervals) {
   const Scene scene = c.scene();
   EdgeMotion motion(c.edge.tree, c.edge.space, scene.framePairs(), c.edge.tube);
-  motion.set(c.edge.from, c.edge.to);
+  setMotion(motion, c.edge);
   QueryContext context;
   MotionCertificate certificate;
   for (int i = 0; i < intervals; ++i)
@@ -138,7 +148,7 @@ double leftToHalfTurn(const Edge& edge) {
   Quad least = pi;
   for (const Coordinate& c : edge.space.coordinates()) {
     const auto i = static_cast<Eigen::Index>(c.first);
-    if (c.kind == Coordinate::Kind::circle)
+    if (c.kind == Coordinate::Kind::circle && !edge.piece)
       least = std::min(least, pi - magnitude(circleDifference(edge.from[i], edge.to[i])) -
                                   Quad(0x1p-49) * (std::abs(edge.from[i]) + std::abs(edge.to[i])));
     if (c.kind != Coordinate::Kind::rotation) continue;
@@ -234,6 +244,14 @@ std::string describe(const Case& c) {
   vec(c.edge.to);
   text << "\ntube ";
   vec(c.edge.tube);
+  if (c.edge.piece) {
+    for (const auto& row : c.edge.piece->coefficients.rowwise()) {
+      text << "\ncoefficients ";
+      vec(row);
+    }
+    text << "\nerror ";
+    vec(c.edge.piece->error);
+  }
   for (const bool tip : {true, false}) {
     const Shape& shape = tip ? c.graze.tip() : c.rest;
     text << (tip ? "\ntip on frame " : "\nrest on frame ")

@@ -9,6 +9,7 @@
 #include "collision/motion/check_certificate.h"
 #include "collision/motion/edge_method.h"
 #include "collision/world/scene.h"
+#include "planner/robot/edge_motion.h"
 #include "planner/verify/verify_path.h"
 #include "tests/stress/audit/families.h"
 #include "tests/stress/audit/graze.h"
@@ -42,6 +43,9 @@ struct Case {
   /// larger.
   double undecidedBelow() const;
 };
+
+/// Sets the edge or the piece.
+void setMotion(EdgeMotion& motion, const Edge& edge);
 
 /// Return the answers of the checker and of the verifier; nullopt if they refuse by an exception,
 /// which is allowed only in an unusual floating-point mode.
