@@ -3,10 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/trajectory/jerk_law.h"
 #include "planner/trajectory/link_speed.h"
 
 namespace corridor {
 namespace {
+
+/// The shortest window, as a share of the run's duration.
+constexpr double kShortestWindow = 0x1p-9;
+/// If the averaged law takes this much longer than the law without limits of jerk, a better one is
+/// searched for.
+constexpr double kMuchLonger = 1.01;
 
 /// A law of s over time, with constant s̈ between knots.
 struct PathMotion {
@@ -141,35 +148,37 @@ std::vector<LawSegment> averaged(const PathRun& run, const PathMotion& motion, d
 /// of each segment.
 double neededFactor(const PathView& view, const JointLimits& limits, const KinematicTree& tree,
                     const std::vector<LawSegment>& segments) {
-  double factor = 0;
-  Configuration first, second, third;
+  const std::vector<LimitedNumbers> numbers = limitedNumbers(view.space());
+  double velocity = 0, acceleration = 0, jerk = 0;  // the largest shares
+  Configuration first, second;
   for (const LawSegment& segment : segments) {
     for (int k = 0; k <= 2; ++k) {
       const double d = k * segment.duration / 2;
       const double rate = segment.rate + d * (segment.acceleration + d / 2 * segment.jerk);
-      const double acceleration = segment.acceleration + d * segment.jerk;
+      const double change = segment.acceleration + d * segment.jerk;
       const double tau = std::clamp(
           segment.tau + d * (segment.rate + d / 2 * (segment.acceleration + d / 3 * segment.jerk)),
           0.0, 1.0);
       view.derivatives(segment.piece, tau, first, second);
-      third = view.thirdDerivative(segment.piece, tau);
-      const auto most = [&](const Configuration& values, const Configuration& limit) {
-        return sharesOf(values, limit, view.space()).maxCoeff();
-      };
-      factor = std::max(factor, most(first * rate, limits.velocity));
-      factor = std::max(factor, std::sqrt(most(second * (rate * rate) + first * acceleration,
-                                               limits.acceleration)));
-      factor = std::max(
-          factor, std::cbrt(most(third * (rate * rate * rate) + second * (3 * rate * acceleration) +
-                                     first * segment.jerk,
-                                 limits.jerk)));
-      if (!limits.links.empty())
+      const Configuration third = view.thirdDerivative(segment.piece, tau);
+      for (const LimitedNumbers& n : numbers) {
+        const auto most = [&](double& share, const auto& vector, const Configuration& limit) {
+          const double length = vector.segment(n.first, n.count).norm();
+          if (length > 0) share = std::max(share, length / limit[n.first]);
+        };
+        most(velocity, first * rate, limits.velocity);
+        most(acceleration, second * (rate * rate) + first * change, limits.acceleration);
+        most(jerk,
+             third * (rate * rate * rate) + second * (3 * rate * change) + first * segment.jerk,
+             limits.jerk);
+      }
+      if (!limits.links.empty() && k < 2)  // the end is the begin of the next one, or at rest
         for (const double share :
              linkSpeedShares(tree, limits.links, view.value(segment.piece, tau), first * rate))
-          factor = std::max(factor, share);
+          velocity = std::max(velocity, share);
     }
   }
-  return factor;
+  return std::max({velocity, std::sqrt(acceleration), std::cbrt(jerk)});
 }
 
 }  // namespace
@@ -191,22 +200,24 @@ std::vector<LawSegment> smoothLaw(const PathView& view, const PathRun& run,
   const PathMotion motion = motionOf(run, segments);
   const double duration = motion.time.back();
   std::vector<LawSegment> best;
-  double shortest = INFINITY, window = 0;
-  const auto attempt = [&](double w) {
-    std::vector<LawSegment> law = averaged(run, motion, w);
-    const double factor = neededFactor(view, limits, tree, law), total = factor * (duration + w);
+  double shortest = INFINITY;
+  const auto attempt = [&](std::vector<LawSegment> law) {
+    const double factor = neededFactor(view, limits, tree, law),
+                 total = factor * (law.back().time + law.back().duration);
     if (!(total < shortest)) return;
     slowDown(law, factor);
     best = std::move(law);
     shortest = total;
-    window = w;
   };
-  for (int k = -9; k <= 4; ++k) attempt(std::ldexp(duration, k));
-  for (double step = std::sqrt(2.0); step > 1.05; step = std::sqrt(step)) {
-    const double centre = window;
-    attempt(centre * step);
-    attempt(centre / step);
-  }
+  attempt(averaged(run, motion, kShortestWindow * duration));
+  double ramp = 0;  // the longest time in which a number reaches its acceleration
+  for (const LimitedNumbers& n : limitedNumbers(view.space()))
+    if (std::isfinite(limits.acceleration[n.first]))
+      ramp = std::max(ramp, limits.acceleration[n.first] / limits.jerk[n.first]);
+  if (ramp > kShortestWindow * duration) attempt(averaged(run, motion, std::min(ramp, duration)));
+  if (shortest > kMuchLonger * duration && limits.jerk.array().isFinite().any())
+    if (std::vector<LawSegment> law = jerkLimitedLaw(view, run, limits, tree, best); !law.empty())
+      attempt(std::move(law));
   return best;
 }
 
