@@ -90,7 +90,6 @@ std::vector<LawSegment> jerkLimitedLaw(const PathView& view, const PathRun& run,
   double ramp = INFINITY;  // the shortest time in which a number reaches its acceleration
   for (const LimitedNumbers& n : limitedNumbers(view.space()))
     ramp = std::min(ramp, limits.acceleration[n.first] / limits.jerk[n.first]);
-  ramp /= kIntervalsOfRamp;
   const auto segments = [&] {
     return segmentsBetween(run, spline.begins(), spline.parts(), spline.states());
   };
@@ -98,13 +97,14 @@ std::vector<LawSegment> jerkLimitedLaw(const PathView& view, const PathRun& run,
   if (!spline.slowToLimits()) return {};
   spline.shorten(kWeights[0]);
   spline.shorten(kWeights[1]);
-  const double count = std::clamp(spline.duration() / ramp, kFewIntervals, kMostIntervals);
+  const double count = std::clamp(kIntervalsOfRamp * spline.duration() / ramp, kFewIntervals, kMostIntervals);
   spline.set(statesOf(run, spline.begins(), segments(), count));
   if (!spline.slowToLimits()) return {};
+  const double shortest = std::min(ramp / kIntervalsOfRamp, spline.duration() / kMostIntervals / 2);
   for (const double weight : kWeights) {
     spline.shorten(weight);
     if (weight < kWeights[2]) continue;
-    for (int k = 0; k < kHalvings && spline.refine(ramp); ++k) {
+    for (int k = 0; k < kHalvings && spline.refine(shortest); ++k) {
       if (!spline.slowToLimits()) return {};
       spline.shorten(weight);
     }

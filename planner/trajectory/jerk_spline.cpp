@@ -21,9 +21,11 @@ constexpr int kMostSteps = 20;
 constexpr double kExcess = 1.002;
 /// An interval is halved if y varies by a larger factor.
 constexpr double kMostVariation = 1.5;
-/// Above this share of its limit, the jerk is near it: with the barrier, a share of 1 is not
-/// reached.
-constexpr double kNearLimit = 0.8;
+/// Two intervals are halved if the jerk jumps between them by more than this share of its limit.
+constexpr double kJump = 0.5;
+/// An interval is halved if the jerk varies by more than this share: it can be at its limit at one
+/// place only.
+constexpr double kJerkVariation = 0.15;
 
 /// A symmetric matrix with two diagonals beside the main one: (i, i), (i, i + 1), (i, i + 2).
 using Band = std::vector<std::array<double, 3>>;
@@ -77,7 +79,7 @@ void JerkSpline::set(const std::vector<PathState>& states) {
   for (const PathState& state : states) {
     const double sigma = map_.parameterOf(state.s);
     if (!knots_.empty() && !(sigma > knots_.back() + 1e-12 * map_.end())) continue;
-    const double s1 = map_.at(sigma, sigma)[1];
+    const double s1 = map_.at(sigma)[1];
     knots_.push_back(sigma);
     y.push_back(s1 > 0 ? (state.rate / s1) * (state.rate / s1) : 0);
   }
@@ -87,7 +89,7 @@ void JerkSpline::set(const std::vector<PathState>& states) {
   y.back() = y[y.size() - 2];
   std::size_t part = 0;
   for (std::size_t i = 0; i + 1 < knots_.size(); ++i) {
-    const double middle = (knots_[i] + knots_[i + 1]) / 2, s = map_.at(middle, middle)[0];
+    const double middle = (knots_[i] + knots_[i + 1]) / 2, s = map_.at(middle)[0];
     while (part + 1 < run_.parts.size() && s > begins_[part + 1]) ++part;
     parts_.push_back(part);
   }
@@ -127,7 +129,7 @@ std::vector<PathState> JerkSpline::states() const {
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     const Triple b = bernstein(c_, i);
     const auto [y, u, w] = valueAt(b, widthOf(i), 0);
-    const auto [s, s1, s2, s3] = map_.at(knots_[i], knots_[i]);
+    const auto [s, s1, s2, s3] = map_.at(knots_[i]);
     result.push_back({time, s, s1 * std::sqrt(y), s2 * y + s1 * u});
     time += timeOf(b, widthOf(i));
   }
@@ -137,9 +139,8 @@ std::vector<PathState> JerkSpline::states() const {
 
 double JerkSpline::rowsAt(std::size_t i, double t, Row* rows) const {
   const PathRun::Part& part = run_.parts[parts_[i]];
-  const double middle = knots_[i] + widthOf(i) / 2,
-               sigma = t == 1 ? knots_[i + 1] : knots_[i] + t * widthOf(i);
-  const auto [s, s1, s2, s3] = map_.at(sigma, middle);
+  const double sigma = t == 1 ? knots_[i + 1] : knots_[i] + t * widthOf(i);
+  const auto [s, s1, s2, s3] = map_.at(sigma);
   const double tau = std::clamp((s - begins_[parts_[i]]) / part.length, 0.0, 1.0),
                t1 = s1 / part.length, t2 = s2 / part.length, t3 = s3 / part.length;
   Configuration q1, q2;
@@ -196,30 +197,39 @@ double JerkSpline::excessAt(std::size_t i, double t) const {
   return excess;
 }
 
-double JerkSpline::jerkShare(std::size_t i, const Triple& b) const {
+double JerkSpline::jerkChange(std::size_t a, std::size_t b) const {
   double most = 0;
-  for (std::size_t p = 0; p < kPlaces.size(); ++p) {
-    const auto [y, u, w] = valueAt(b, widthOf(i), kPlaces[p]);
-    const Row* row = rows_.data() + (i * kPlaces.size() + p) * rowCount_;
-    for (const LimitedNumbers& n : numbers_) {
-      double squares = 0;
-      for (Eigen::Index m = 0; m < n.count; ++m, ++row) squares += std::pow(row->jerk(y, u, w), 2);
-      most = std::max(most, y * squares);
-    }
+  std::array<const Row*, 2> rows;
+  std::array<Value, 2> values;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const std::size_t place = k == 0 ? a : b, i = place / kPlaces.size();
+    rows[k] = rows_.data() + place * rowCount_;
+    values[k] = valueAt(bernstein(c_, i), widthOf(i), kPlaces[place % kPlaces.size()]);
   }
-  return std::sqrt(most);
+  for (std::size_t m = 0; m < rowCount_; ++m) {
+    std::array<double, 2> jerk{};
+    for (std::size_t k = 0; k < 2; ++k)
+      jerk[k] = std::sqrt(values[k].y) * rows[k][m].jerk(values[k].y, values[k].u, values[k].w);
+    most = std::max(most, std::abs(jerk[1] - jerk[0]));
+  }
+  return most;
 }
 
-bool JerkSpline::refine(double ramp) {
+bool JerkSpline::refine(double shortest) {
   std::vector<double> knots{knots_[0]}, c{c_[0]};
   std::vector<std::size_t> parts;
+  bool jumped = false;
   for (std::size_t i = 0; i < parts_.size(); ++i) {
+    const std::size_t place = i * kPlaces.size();
+    const bool jumps = i + 1 < parts_.size() && jerkChange(place + 1, place + 4) > kJump;
+    const bool varies = jumps || jumped || jerkChange(place, place + 2) > kJerkVariation;
+    jumped = jumps;
     const Triple b = bernstein(c_, i);
     const double h = widthOf(i);
     const auto [least, most] = std::minmax({b[0], b[1], b[2]});
     const bool halve =
         h > 1e-9 * map_.end() &&
-        (most > kMostVariation * least || (timeOf(b, h) > ramp && jerkShare(i, b) > kNearLimit) ||
+        (most > kMostVariation * least || (varies && timeOf(b, h) > shortest) ||
          std::max(excessAt(i, 0.25), excessAt(i, 0.75)) > kExcess);
     parts.push_back(parts_[i]);
     if (halve) {  // the same spline: the coefficient of an interval is its second Bernstein one

@@ -33,7 +33,7 @@ class JerkSpline {
   /// Halves intervals: those that exceed a limit at a fourth of their width, those in which y
   /// varies much, and those that take longer than `ramp` seconds with the jerk near its limit. The
   /// law may exceed limits in the middle of the new intervals. @returns whether any was halved.
-  bool refine(double ramp);
+  bool refine(double shortest);
 
   double duration() const { return durationOf(c_); }
   /// Returns the law at the knots.
@@ -76,7 +76,8 @@ class JerkSpline {
   /// The largest factor by which a velocity, acceleration or jerk is exceeded (as a factor of
   /// time).
   double excessAt(std::size_t interval, double t) const;
-  double jerkShare(std::size_t interval, const Triple& b) const;
+  /// The largest difference of a jerk between two places, as a share of its limit.
+  double jerkChange(std::size_t a, std::size_t b) const;
   /// −Σ log of the gaps to the limits; infinity if a limit is reached.
   double barrier(const std::vector<double>& c) const;
   Local barrierAt(std::size_t place, const Value& value) const;

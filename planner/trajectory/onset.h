@@ -10,15 +10,14 @@ namespace corridor {
 /// and at `end() − width()`.
 class Onset {
  public:
-  explicit Onset(double length) : length_(length), width_(length / 4) {}
-  double width() const { return width_; }
+  explicit Onset(double length) : length_(length), width_(length / 5) {}
   /// σ goes from 0 to this.
-  double end() const { return length_ + width_; }
+  double end() const { return length_ + 0.8 * width_; }
 
-  /// Returns s and its first three derivatives at σ. @param side a σ in the part that is meant.
-  std::array<double, 4> at(double sigma, double side) const {
-    if (side < width_) return rising(sigma);
-    if (side <= length_) return {sigma - width_ / 2, 1, 0, 0};
+  /// Returns s and its first three derivatives at σ.
+  std::array<double, 4> at(double sigma) const {
+    if (sigma < width_) return rising(sigma);
+    if (sigma <= end() - width_) return {sigma - 0.4 * width_, 1, 0, 0};
     const auto [s, s1, s2, s3] = rising(end() - sigma);
     return {length_ - s, s1, -s2, s3};
   }
@@ -26,7 +25,7 @@ class Onset {
   /// Returns the σ of s in [0, length].
   double parameterOf(double s) const {
     if (s > length_ / 2) return end() - parameterOf(length_ - s);
-    if (s >= width_ / 2) return s + width_ / 2;
+    if (s >= 0.6 * width_) return s + 0.4 * width_;
     double low = 0, high = width_;
     for (int step = 0; step < 60; ++step) {
       const double middle = (low + high) / 2;
@@ -36,11 +35,13 @@ class Onset {
   }
 
  private:
-  /// With z = σ/width: s = width·(z³ − z⁴/2). At z = 1, s = width/2, s′ = 1 and s″ = 0.
+  /// With z = σ/width: s = width·(2z³ − 2z⁴ + 0.6z⁵). At z = 1, s = 0.6·width, s′ = 1 and
+  /// s″ = s‴ = 0.
   std::array<double, 4> rising(double sigma) const {
     const double z = sigma / width_;
-    return {width_ * z * z * z * (1 - z / 2), z * z * (3 - 2 * z), 6 * z * (1 - z) / width_,
-            (6 - 12 * z) / (width_ * width_)};
+    return {width_ * z * z * z * (2 - 2 * z + 0.6 * z * z), z * z * (6 - 8 * z + 3 * z * z),
+            12 * z * (1 - z) * (1 - z) / width_,
+            12 * (1 - z) * (1 - 3 * z) / (width_ * width_)};
   }
 
   double length_, width_;

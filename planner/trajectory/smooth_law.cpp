@@ -1,6 +1,7 @@
 #include "planner/trajectory/smooth_law.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "planner/trajectory/jerk_law.h"
@@ -144,6 +145,55 @@ std::vector<LawSegment> averaged(const PathRun& run, const PathMotion& motion, d
   return result;
 }
 
+/// Returns the fastest law of a straight line: constant jerks in seven intervals, or fewer. Empty if
+/// there is no limit of jerk, or if limits vary along the line.
+std::vector<LawSegment> straightLaw(const PathView& view, const PathRun& run,
+                                    const JointLimits& limits) {
+  if (run.parts.size() != 1 || !view.isStraight(run.parts[0].piece) || !limits.links.empty())
+    return {};
+  const std::size_t piece = run.parts[0].piece;
+  double v = INFINITY, a = INFINITY, j = INFINITY;  // of τ, which goes from 0 to 1
+  Configuration first, second;
+  view.derivatives(piece, 0, first, second);
+  for (const LimitedNumbers& n : limitedNumbers(view.space())) {
+    const double way = first.segment(n.first, n.count).norm();
+    if (!(way > 0)) continue;
+    v = std::min(v, limits.velocity[n.first] / way);
+    a = std::min(a, limits.acceleration[n.first] / way);
+    j = std::min(j, limits.jerk[n.first] / way);
+  }
+  if (!std::isfinite(j)) return {};
+  double ramp = 0, steady = 0;  // durations of a constant jerk, and of the largest acceleration
+  const auto setTop = [&](double top) {
+    const bool isShort = top * j < a * a;
+    ramp = isShort ? std::sqrt(top / j) : a / j;
+    steady = isShort ? 0 : top / a - a / j;
+  };
+  setTop(v);
+  double cruise = 1 / v - (2 * ramp + steady);
+  if (!(cruise >= 0)) {  // the top velocity p is lower: p·(2·ramp + steady) = 1
+    cruise = 0;
+    const double whole = a / j;
+    setTop(1 <= 2 * a * whole * whole ? std::pow(0.25 * j, 1.0 / 3)
+                                      : a / 2 * (std::sqrt(whole * whole + 4 / a) - whole));
+  }
+  std::vector<LawSegment> law;
+  LawSegment s{0, 0, piece, 0, 0, 0, 0};
+  const std::array<std::array<double, 2>, 7> phases{
+      {{ramp, j}, {steady, 0}, {ramp, -j}, {cruise, 0}, {ramp, -j}, {steady, 0}, {ramp, j}}};
+  for (const auto& [duration, jerk] : phases) {
+    if (!(duration > 0)) continue;
+    s.duration = duration;
+    s.jerk = jerk;
+    law.push_back(s);
+    s.time += duration;
+    s.tau += duration * (s.rate + duration / 2 * (s.acceleration + duration / 3 * jerk));
+    s.rate = std::max(0.0, s.rate + duration * (s.acceleration + duration / 2 * jerk));
+    s.acceleration += duration * jerk;
+  }
+  return law;
+}
+
 /// Returns the smallest factor for all times with which the limits hold at the ends and the middle
 /// of each segment.
 double neededFactor(const PathView& view, const JointLimits& limits, const KinematicTree& tree,
@@ -197,6 +247,7 @@ std::vector<LawSegment> smoothLaw(const PathView& view, const PathRun& run,
                                   const JointLimits& limits, const KinematicTree& tree,
                                   const std::vector<LawSegment>& segments) {
   if (segments.empty()) return segments;
+  if (std::vector<LawSegment> law = straightLaw(view, run, limits); !law.empty()) return law;
   const PathMotion motion = motionOf(run, segments);
   const double duration = motion.time.back();
   std::vector<LawSegment> best;

@@ -17,6 +17,8 @@ namespace corridor {
 ///    used. This is enough if the limits of jerk are loose.
 /// 2. If the result takes more than 1 % longer than `segments`, because of a limit of jerk,
 ///    jerkLimitedLaw searches for a shorter one.
+/// A straight line with a limit of jerk, and without one of a link's speed, has its optimum instead:
+/// at most seven intervals of constant jerk.
 /// What is left of a limit's excess is removed by multiplying all times by one factor.
 std::vector<LawSegment> smoothLaw(const PathView& view, const PathRun& run,
                                   const JointLimits& limits, const KinematicTree& tree,
