@@ -136,22 +136,17 @@ void makeText(const Problem& problem, const Checker& checker, const std::vector<
   prove(checker, made);
 }
 
-}  // namespace
-
-MadeTrajectory makeTrajectory(const Problem& problem, const Checker& checker, const Path& path,
-                              TrajectoryFileKind kind, const std::function<bool()>& stop) {
-  const JointLimits& limits = problem.task.limits;
-  MadeTrajectory made;
-  const std::vector<CurvePiece> smooth = smoothCurve(problem, checker, path, stop, made);
-
-  made.between = limitsJerk(limits) ? Between::quintic : Between::cubic;
-  const PathLength length = lengthOf(problem.model.space, path);
-  if (length.metres == 0 && length.radians == 0) made.fault = "the path does not move";
+/// Makes a trajectory along a curve; repeats this with smaller deviations, until it is proved and
+/// keeps the limits.
+MadeTrajectory makeAlong(const Problem& problem, const Checker& checker,
+                         const std::vector<CurvePiece>& pieces, TrajectoryFileKind kind,
+                         const MadeTrajectory& begun) {
+  MadeTrajectory made = begun;
   double deviation = problem.settings.trajectory.deviation, share = 1;
   std::optional<MadeTrajectory> proved;
   for (int i = 0; i < kDeviations && made.fault.empty(); ++i) {
-    makeText(problem, checker, smooth, reduced(limits, share), kind, deviation, made);
-    if (made.proved() && keepsLimits(made.ratios)) return made;
+    makeText(problem, checker, pieces, reduced(problem.task.limits, share), kind, deviation, made);
+    if (made.isGood()) return made;
     if (made.proved()) proved = made;
     deviation /= 4;
     // The rounding of times is all that can make a message exceed limits that its rows keep.
@@ -160,6 +155,39 @@ MadeTrajectory makeTrajectory(const Problem& problem, const Checker& checker, co
   if (proved) return *proved;
   if (!made.fault.empty()) made.text.clear();
   return made;
+}
+
+/// Returns a lower bound of the time along lines with a stop at each corner: the law without limits
+/// of jerk and of links, which has a closed form.
+double leastTimeWithStops(const Problem& problem, const std::vector<CurvePiece>& lines) {
+  JointLimits limits = problem.task.limits;
+  limits.jerk.setConstant(HUGE_VAL);
+  limits.links.clear();
+  const TimeLaw law = timeLaw(lines, problem.model.space, limits, problem.model.tree);
+  return law.fault.empty() ? law.duration : 0;
+}
+
+}  // namespace
+
+MadeTrajectory makeTrajectory(const Problem& problem, const Checker& checker, const Path& path,
+                              TrajectoryFileKind kind, const std::function<bool()>& stop) {
+  const ConfigurationSpace& space = problem.model.space;
+  MadeTrajectory begun;
+  const std::vector<CurvePiece> smooth = smoothCurve(problem, checker, path, stop, begun);
+  begun.between = limitsJerk(problem.task.limits) ? Between::quintic : Between::cubic;
+  const PathLength length = lengthOf(space, path);
+  if (length.metres == 0 && length.radians == 0) begun.fault = "the path does not move";
+  MadeTrajectory made = makeAlong(problem, checker, smooth, kind, begun);
+  if (begun.rounded == 0 || !begun.fault.empty()) return made;
+
+  // Corners that are rounded by little may cost more time than stops.
+  const std::vector<CurvePiece> lines =
+      smoothedPath(space, path, [](const CurvePiece&) { return false; }).pieces;
+  if (made.isGood() && made.duration <= leastTimeWithStops(problem, lines)) return made;
+  begun.rounded = begun.replaced = 0;
+  MadeTrajectory stopping = makeAlong(problem, checker, lines, kind, begun);
+  const bool isBetter = stopping.isGood() && (!made.isGood() || stopping.duration < made.duration);
+  return isBetter ? stopping : made;
 }
 
 }  // namespace corridor
