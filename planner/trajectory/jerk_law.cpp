@@ -97,7 +97,8 @@ std::vector<LawSegment> jerkLimitedLaw(const PathView& view, const PathRun& run,
   if (!spline.slowToLimits()) return {};
   spline.shorten(kWeights[0]);
   spline.shorten(kWeights[1]);
-  const double count = std::clamp(kIntervalsOfRamp * spline.duration() / ramp, kFewIntervals, kMostIntervals);
+  const double count =
+      std::clamp(kIntervalsOfRamp * spline.duration() / ramp, kFewIntervals, kMostIntervals);
   spline.set(statesOf(run, spline.begins(), segments(), count));
   if (!spline.slowToLimits()) return {};
   const double shortest = std::min(ramp / kIntervalsOfRamp, spline.duration() / kMostIntervals / 2);

@@ -227,10 +227,9 @@ bool JerkSpline::refine(double shortest) {
     const Triple b = bernstein(c_, i);
     const double h = widthOf(i);
     const auto [least, most] = std::minmax({b[0], b[1], b[2]});
-    const bool halve =
-        h > 1e-9 * map_.end() &&
-        (most > kMostVariation * least || (varies && timeOf(b, h) > shortest) ||
-         std::max(excessAt(i, 0.25), excessAt(i, 0.75)) > kExcess);
+    const bool halve = h > 1e-9 * map_.end() &&
+                       (most > kMostVariation * least || (varies && timeOf(b, h) > shortest) ||
+                        std::max(excessAt(i, 0.25), excessAt(i, 0.75)) > kExcess);
     parts.push_back(parts_[i]);
     if (halve) {  // the same spline: the coefficient of an interval is its second Bernstein one
       parts.push_back(parts_[i]);

@@ -40,8 +40,7 @@ class Onset {
   std::array<double, 4> rising(double sigma) const {
     const double z = sigma / width_;
     return {width_ * z * z * z * (2 - 2 * z + 0.6 * z * z), z * z * (6 - 8 * z + 3 * z * z),
-            12 * z * (1 - z) * (1 - z) / width_,
-            12 * (1 - z) * (1 - 3 * z) / (width_ * width_)};
+            12 * z * (1 - z) * (1 - z) / width_, 12 * (1 - z) * (1 - 3 * z) / (width_ * width_)};
   }
 
   double length_, width_;

@@ -15,7 +15,8 @@ constexpr double kSwitch = 0.01;
 /// An interval is halved if x changes by a larger factor within it.
 constexpr double kSteep = 2;
 constexpr int kRounds = 6;
-constexpr double kShortest = 1e-5;  ///< the shortest interval that is halved, as a share of its piece
+constexpr double kShortest =
+    1e-5;  ///< the shortest interval that is halved, as a share of its piece
 
 struct Node {
   std::size_t part = 0;
@@ -83,7 +84,7 @@ class RunGrid {
     for (std::size_t i = 0; i + 1 < nodes_.size(); ++i) {
       const double width = grid_.s[i + 1] - grid_.s[i];
       if (!(width > kShortest * run_.parts[nodes_[i].part].length)) continue;
-      const double x = (profile.x[i] + profile.x[i + 1]) / 2, u = profile.u[i];
+      const double x = (profile.x[i] + profile.x[i + 1]) / 2;
       const Node middle = nodeAt(nodes_[i].part, (nodes_[i].tau + nodes_[i + 1].tau) / 2);
       marked[i] = steep(profile, i) || jumps(profile, i, x) || exceeds(middle, i, profile);
       any = any || marked[i];
@@ -157,7 +158,8 @@ class RunGrid {
       const double g0 = grid_.a[left] * u + grid_.b[left] * x0, g = a_[k] * u + b_[k] * x,
                    g1 = grid_.a[right] * u + grid_.b[right] * x1;
       if (std::abs(g) > 1 + kGridExcess) return true;
-      // The parabola is g0 + slope·t + bend·t²; its largest or smallest value is at −slope/(2·bend).
+      // The parabola is g0 + slope·t + bend·t²; its largest or smallest value is at
+      // −slope/(2·bend).
       const double slope = 4 * g - 3 * g0 - g1, bend = 2 * (g0 - 2 * g + g1);
       if (slope * bend < 0 && std::abs(slope) < 2 * std::abs(bend) &&
           std::abs(g0 - slope * slope / (4 * bend)) > 1 + kGridExcess)

@@ -10,8 +10,8 @@
 namespace corridor {
 namespace {
 
-/// The shortest window, as a share of the run's duration.
-constexpr double kShortestWindow = 0x1p-9;
+/// Windows that are tried, as shares of the run's duration.
+constexpr double kWindows[] = {0x1p-12, 0x1p-9};
 /// If the averaged law takes this much longer than the law without limits of jerk, a better one is
 /// searched for.
 constexpr double kMuchLonger = 1.01;
@@ -145,8 +145,8 @@ std::vector<LawSegment> averaged(const PathRun& run, const PathMotion& motion, d
   return result;
 }
 
-/// Returns the fastest law of a straight line: constant jerks in seven intervals, or fewer. Empty if
-/// there is no limit of jerk, or if limits vary along the line.
+/// Returns the fastest law of a straight line: constant jerks in seven intervals, or fewer. Empty
+/// if there is no limit of jerk, or if limits vary along the line.
 std::vector<LawSegment> straightLaw(const PathView& view, const PathRun& run,
                                     const JointLimits& limits) {
   if (run.parts.size() != 1 || !view.isStraight(run.parts[0].piece) || !limits.links.empty())
@@ -260,12 +260,12 @@ std::vector<LawSegment> smoothLaw(const PathView& view, const PathRun& run,
     best = std::move(law);
     shortest = total;
   };
-  attempt(averaged(run, motion, kShortestWindow * duration));
+  for (const double share : kWindows) attempt(averaged(run, motion, share * duration));
   double ramp = 0;  // the longest time in which a number reaches its acceleration
   for (const LimitedNumbers& n : limitedNumbers(view.space()))
     if (std::isfinite(limits.acceleration[n.first]))
       ramp = std::max(ramp, limits.acceleration[n.first] / limits.jerk[n.first]);
-  if (ramp > kShortestWindow * duration) attempt(averaged(run, motion, std::min(ramp, duration)));
+  if (ramp > 0) attempt(averaged(run, motion, std::clamp(ramp, kWindows[0] * duration, duration)));
   if (shortest > kMuchLonger * duration && limits.jerk.array().isFinite().any())
     if (std::vector<LawSegment> law = jerkLimitedLaw(view, run, limits, tree, best); !law.empty())
       attempt(std::move(law));
