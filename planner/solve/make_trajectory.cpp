@@ -144,7 +144,7 @@ MadeTrajectory provedAlong(const Problem& problem, const Checker& checker,
   std::optional<MadeTrajectory> proved;
   for (int i = 0; i < attempts && made.fault.empty(); ++i) {
     makeText(problem, checker, curve, reduced(limits, share), kind, deviation, made);
-    if (made.proved() && keepsLimits(made.ratios)) return made;
+    if (made.isGood()) return made;
     if (made.proved()) proved = made;
     deviation /= 4;
     // The rounding of times is all that can make a message exceed limits that its rows keep.
@@ -155,15 +155,37 @@ MadeTrajectory provedAlong(const Problem& problem, const Checker& checker,
   return made;
 }
 
+/// Returns a lower bound of the time along lines with a stop at each corner: the law without limits
+/// of jerk and of links, which has a closed form.
+double leastTimeWithStops(const Problem& problem, const std::vector<CurvePiece>& lines) {
+  JointLimits limits = problem.task.limits;
+  limits.jerk.setConstant(HUGE_VAL);
+  limits.links.clear();
+  const TimeLaw law = timeLaw(lines, problem.model.space, limits, problem.model.tree);
+  return law.fault.empty() ? law.duration : 0;
+}
+
 }  // namespace
 
 MadeTrajectory makeTrajectory(const Problem& problem, const Checker& checker, const Path& path,
                               TrajectoryFileKind kind, const std::function<bool()>& stop) {
-  MadeTrajectory made;
-  const std::vector<CurvePiece> smooth = smoothCurve(problem, checker, path, stop, made);
-  const PathLength length = lengthOf(problem.model.space, path);
-  if (length.metres == 0 && length.radians == 0) made.fault = "the path does not move";
-  return provedAlong(problem, checker, smooth, kind, kTrajectoryAttempts, std::move(made));
+  const ConfigurationSpace& space = problem.model.space;
+  MadeTrajectory begun;
+  const std::vector<CurvePiece> smooth = smoothCurve(problem, checker, path, stop, begun);
+  const PathLength length = lengthOf(space, path);
+  if (length.metres == 0 && length.radians == 0) begun.fault = "the path does not move";
+  MadeTrajectory made = provedAlong(problem, checker, smooth, kind, kTrajectoryAttempts, begun);
+  if (begun.rounded + begun.replaced == 0 || !begun.fault.empty()) return made;
+
+  // Corners that are rounded by little may cost more time than stops.
+  const std::vector<CurvePiece> lines =
+      smoothedPath(space, path, [](const CurvePiece&) { return false; }).pieces;
+  if (made.isGood() && made.duration <= leastTimeWithStops(problem, lines)) return made;
+  begun.rounded = begun.replaced = 0;
+  MadeTrajectory stopping =
+      provedAlong(problem, checker, lines, kind, kTrajectoryAttempts, std::move(begun));
+  const bool isBetter = stopping.isGood() && (!made.isGood() || stopping.duration < made.duration);
+  return isBetter ? stopping : made;
 }
 
 MadeTrajectory trajectoryAlong(const Problem& problem, const Checker& checker,

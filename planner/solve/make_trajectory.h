@@ -39,6 +39,8 @@ struct MadeTrajectory {
     return fault.empty() && proof.verdict == MotionVerdict::free &&
            ratios.position.share <= kLimitSlack;
   }
+  /// Whether it is proved and keeps all limits.
+  bool isGood() const { return proved() && keepsLimits(ratios); }
 };
 
 /// How often a trajectory is made at most, each time with a smaller deviation.
@@ -56,6 +58,8 @@ inline constexpr int kTrajectoryAttempts = 4;
 ///    2 to 4 are repeated up to three times, each time with a quarter of the deviation and, for
 ///    messages, with smaller limits. The last result that is proved is returned, even if it exceeds
 ///    a limit (`keepsLimits`).
+/// 5. If this may be slower than stops at all corners, or is not good (`isGood`), steps 2 to 4 are
+///    done for the path with stops, too, and the faster result is returned.
 ///
 /// Limits of a message may be exceeded because its times are whole nanoseconds: that changes the
 /// acceleration of a cubic by 6|v|·1e-9/T², and the jerk of a quintic by 60|v|·1e-9/T³, where T is

@@ -18,6 +18,22 @@ std::vector<PositionGroup> positionGroups(const ConfigurationSpace& space) {
   return groups;
 }
 
+std::vector<LimitedNumbers> limitedNumbers(const ConfigurationSpace& space) {
+  std::vector<LimitedNumbers> result;
+  const std::vector<PositionGroup> groups = positionGroups(space);
+  for (const Coordinate& c : space.coordinates()) {
+    const auto first = static_cast<Eigen::Index>(c.first);
+    const auto group = std::find_if(groups.begin(), groups.end(), [&](const PositionGroup& g) {
+      return first >= g.first && first < g.first + g.count;
+    });
+    if (group == groups.end())
+      result.push_back({first, c.kind == Coordinate::Kind::rotation ? 3 : 1});
+    else if (first == group->first)
+      result.push_back({first, group->count});
+  }
+  return result;
+}
+
 Configuration sharesOf(const Configuration& values, const Configuration& limits,
                        const ConfigurationSpace& space) {
   Configuration shares = values.cwiseAbs().cwiseQuotient(limits);

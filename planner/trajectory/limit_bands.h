@@ -16,6 +16,13 @@ struct PositionGroup {
 };
 std::vector<PositionGroup> positionGroups(const ConfigurationSpace& space);
 
+/// Numbers of a configuration that have one limit together: a single number, a position or a
+/// rotation (the three numbers of its rotation vector). The limit is that of `first`.
+struct LimitedNumbers {
+  Eigen::Index first = 0, count = 1;
+};
+std::vector<LimitedNumbers> limitedNumbers(const ConfigurationSpace& space);
+
 /// Returns for each number which part of its limit `values` uses. For a position, the length of its
 /// vector counts, and the other numbers have 0; the same holds for rotations.
 Configuration sharesOf(const Configuration& values, const Configuration& limits,

@@ -66,4 +66,10 @@ std::vector<PathRun> runsOf(const PathView& view, double cornerAngle, bool smoot
   return runs;
 }
 
+std::vector<double> beginsOf(const PathRun& run) {
+  std::vector<double> begins{0};
+  for (const PathRun::Part& part : run.parts) begins.push_back(begins.back() + part.length);
+  return begins;
+}
+
 }  // namespace corridor

@@ -24,4 +24,7 @@ struct PathRun {
 /// @param smooth also splits it where the second derivative d²q/ds² jumps.
 std::vector<PathRun> runsOf(const PathView& view, double cornerAngle, bool smooth);
 
+/// Returns s at the start of each part of a run, and at its end.
+std::vector<double> beginsOf(const PathRun& run);
+
 }  // namespace corridor

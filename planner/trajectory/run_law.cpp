@@ -15,7 +15,8 @@ constexpr double kSwitch = 0.01;
 /// An interval is halved if x changes by a larger factor within it.
 constexpr double kSteep = 2;
 constexpr int kRounds = 6;
-constexpr double kShortest = 1e-5;  ///< the shortest interval that is halved, as a share of the run
+constexpr double kShortest =
+    1e-5;  ///< the shortest interval that is halved, as a share of its piece
 
 struct Node {
   std::size_t part = 0;
@@ -82,10 +83,10 @@ class RunGrid {
     bool any = false;
     for (std::size_t i = 0; i + 1 < nodes_.size(); ++i) {
       const double width = grid_.s[i + 1] - grid_.s[i];
-      if (!(width > kShortest * total_)) continue;
-      const double x = (profile.x[i] + profile.x[i + 1]) / 2, u = profile.u[i];
+      if (!(width > kShortest * run_.parts[nodes_[i].part].length)) continue;
+      const double x = (profile.x[i] + profile.x[i + 1]) / 2;
       const Node middle = nodeAt(nodes_[i].part, (nodes_[i].tau + nodes_[i + 1].tau) / 2);
-      marked[i] = steep(profile, i) || jumps(profile, i, x) || exceeds(middle, x, u);
+      marked[i] = steep(profile, i) || jumps(profile, i, x) || exceeds(middle, i, profile);
       any = any || marked[i];
     }
     if (!any) return false;
@@ -144,13 +145,26 @@ class RunGrid {
            (i + 2 < nodes_.size() && isWide(i + 1) && differs(i + 1));
   }
 
-  bool exceeds(const Node& middle, double x, double u) {
+  /// Whether interval i exceeds a limit of velocity in its middle, or one of acceleration at the
+  /// largest value of the parabola through both ends and the middle.
+  bool exceeds(const Node& middle, std::size_t i, const Profile& profile) {
     const PathRun::Part& part = run_.parts[middle.part];
+    const double x0 = profile.x[i], x1 = profile.x[i + 1], x = (x0 + x1) / 2, u = profile.u[i];
     if (x > (1 + 2 * kGridExcess) *
                 bands_.at(part.piece, middle.tau, part.length, a_.data(), b_.data()))
       return true;
-    for (std::size_t k = 0; k < a_.size(); ++k)
-      if (std::abs(a_[k] * u + b_[k] * x) > 1 + kGridExcess) return true;
+    for (std::size_t k = 0; k < a_.size(); ++k) {
+      const std::size_t left = i * grid_.bands + k, right = left + grid_.bands;
+      const double g0 = grid_.a[left] * u + grid_.b[left] * x0, g = a_[k] * u + b_[k] * x,
+                   g1 = grid_.a[right] * u + grid_.b[right] * x1;
+      if (std::abs(g) > 1 + kGridExcess) return true;
+      // The parabola is g0 + slope·t + bend·t²; its largest or smallest value is at
+      // −slope/(2·bend).
+      const double slope = 4 * g - 3 * g0 - g1, bend = 2 * (g0 - 2 * g + g1);
+      if (slope * bend < 0 && std::abs(slope) < 2 * std::abs(bend) &&
+          std::abs(g0 - slope * slope / (4 * bend)) > 1 + kGridExcess)
+        return true;
+    }
     return false;
   }
 

@@ -1,12 +1,20 @@
 #include "planner/trajectory/smooth_law.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "planner/trajectory/jerk_law.h"
 #include "planner/trajectory/link_speed.h"
 
 namespace corridor {
 namespace {
+
+/// Windows that are tried, as shares of the run's duration.
+constexpr double kWindows[] = {0x1p-12, 0x1p-9};
+/// If the averaged law takes this much longer than the law without limits of jerk, a better one is
+/// searched for.
+constexpr double kMuchLonger = 1.01;
 
 /// A law of s over time, with constant s̈ between knots.
 struct PathMotion {
@@ -137,39 +145,90 @@ std::vector<LawSegment> averaged(const PathRun& run, const PathMotion& motion, d
   return result;
 }
 
+/// Returns the fastest law of a straight line: constant jerks in seven intervals, or fewer. Empty
+/// if there is no limit of jerk, or if limits vary along the line.
+std::vector<LawSegment> straightLaw(const PathView& view, const PathRun& run,
+                                    const JointLimits& limits) {
+  if (run.parts.size() != 1 || !view.isStraight(run.parts[0].piece) || !limits.links.empty())
+    return {};
+  const std::size_t piece = run.parts[0].piece;
+  double v = INFINITY, a = INFINITY, j = INFINITY;  // of τ, which goes from 0 to 1
+  Configuration first, second;
+  view.derivatives(piece, 0, first, second);
+  for (const LimitedNumbers& n : limitedNumbers(view.space())) {
+    const double way = first.segment(n.first, n.count).norm();
+    if (!(way > 0)) continue;
+    v = std::min(v, limits.velocity[n.first] / way);
+    a = std::min(a, limits.acceleration[n.first] / way);
+    j = std::min(j, limits.jerk[n.first] / way);
+  }
+  if (!std::isfinite(j)) return {};
+  double ramp = 0, steady = 0;  // durations of a constant jerk, and of the largest acceleration
+  const auto setTop = [&](double top) {
+    const bool isShort = top * j < a * a;
+    ramp = isShort ? std::sqrt(top / j) : a / j;
+    steady = isShort ? 0 : top / a - a / j;
+  };
+  setTop(v);
+  double cruise = 1 / v - (2 * ramp + steady);
+  if (!(cruise >= 0)) {  // the top velocity p is lower: p·(2·ramp + steady) = 1
+    cruise = 0;
+    const double whole = a / j;
+    setTop(1 <= 2 * a * whole * whole ? std::pow(0.25 * j, 1.0 / 3)
+                                      : a / 2 * (std::sqrt(whole * whole + 4 / a) - whole));
+  }
+  std::vector<LawSegment> law;
+  LawSegment s{0, 0, piece, 0, 0, 0, 0};
+  const std::array<std::array<double, 2>, 7> phases{
+      {{ramp, j}, {steady, 0}, {ramp, -j}, {cruise, 0}, {ramp, -j}, {steady, 0}, {ramp, j}}};
+  for (const auto& [duration, jerk] : phases) {
+    if (!(duration > 0)) continue;
+    s.duration = duration;
+    s.jerk = jerk;
+    law.push_back(s);
+    s.time += duration;
+    s.tau += duration * (s.rate + duration / 2 * (s.acceleration + duration / 3 * jerk));
+    s.rate = std::max(0.0, s.rate + duration * (s.acceleration + duration / 2 * jerk));
+    s.acceleration += duration * jerk;
+  }
+  return law;
+}
+
 /// Returns the smallest factor for all times with which the limits hold at the ends and the middle
 /// of each segment.
 double neededFactor(const PathView& view, const JointLimits& limits, const KinematicTree& tree,
                     const std::vector<LawSegment>& segments) {
-  double factor = 0;
-  Configuration first, second, third;
+  const std::vector<LimitedNumbers> numbers = limitedNumbers(view.space());
+  double velocity = 0, acceleration = 0, jerk = 0;  // the largest shares
+  Configuration first, second;
   for (const LawSegment& segment : segments) {
     for (int k = 0; k <= 2; ++k) {
       const double d = k * segment.duration / 2;
       const double rate = segment.rate + d * (segment.acceleration + d / 2 * segment.jerk);
-      const double acceleration = segment.acceleration + d * segment.jerk;
+      const double change = segment.acceleration + d * segment.jerk;
       const double tau = std::clamp(
           segment.tau + d * (segment.rate + d / 2 * (segment.acceleration + d / 3 * segment.jerk)),
           0.0, 1.0);
       view.derivatives(segment.piece, tau, first, second);
-      third = view.thirdDerivative(segment.piece, tau);
-      const auto most = [&](const Configuration& values, const Configuration& limit) {
-        return sharesOf(values, limit, view.space()).maxCoeff();
-      };
-      factor = std::max(factor, most(first * rate, limits.velocity));
-      factor = std::max(factor, std::sqrt(most(second * (rate * rate) + first * acceleration,
-                                               limits.acceleration)));
-      factor = std::max(
-          factor, std::cbrt(most(third * (rate * rate * rate) + second * (3 * rate * acceleration) +
-                                     first * segment.jerk,
-                                 limits.jerk)));
-      if (!limits.links.empty())
+      const Configuration third = view.thirdDerivative(segment.piece, tau);
+      for (const LimitedNumbers& n : numbers) {
+        const auto most = [&](double& share, const auto& vector, const Configuration& limit) {
+          const double length = vector.segment(n.first, n.count).norm();
+          if (length > 0) share = std::max(share, length / limit[n.first]);
+        };
+        most(velocity, first * rate, limits.velocity);
+        most(acceleration, second * (rate * rate) + first * change, limits.acceleration);
+        most(jerk,
+             third * (rate * rate * rate) + second * (3 * rate * change) + first * segment.jerk,
+             limits.jerk);
+      }
+      if (!limits.links.empty() && k < 2)  // the end is the begin of the next one, or at rest
         for (const double share :
              linkSpeedShares(tree, limits.links, view.value(segment.piece, tau), first * rate))
-          factor = std::max(factor, share);
+          velocity = std::max(velocity, share);
     }
   }
-  return factor;
+  return std::max({velocity, std::sqrt(acceleration), std::cbrt(jerk)});
 }
 
 }  // namespace
@@ -188,25 +247,28 @@ std::vector<LawSegment> smoothLaw(const PathView& view, const PathRun& run,
                                   const JointLimits& limits, const KinematicTree& tree,
                                   const std::vector<LawSegment>& segments) {
   if (segments.empty()) return segments;
+  if (std::vector<LawSegment> law = straightLaw(view, run, limits); !law.empty()) return law;
   const PathMotion motion = motionOf(run, segments);
   const double duration = motion.time.back();
   std::vector<LawSegment> best;
-  double shortest = INFINITY, window = 0;
-  const auto attempt = [&](double w) {
-    std::vector<LawSegment> law = averaged(run, motion, w);
-    const double factor = neededFactor(view, limits, tree, law), total = factor * (duration + w);
+  double shortest = INFINITY;
+  const auto attempt = [&](std::vector<LawSegment> law) {
+    const double factor = neededFactor(view, limits, tree, law),
+                 total = factor * (law.back().time + law.back().duration);
     if (!(total < shortest)) return;
     slowDown(law, factor);
     best = std::move(law);
     shortest = total;
-    window = w;
   };
-  for (int k = -9; k <= 4; ++k) attempt(std::ldexp(duration, k));
-  for (double step = std::sqrt(2.0); step > 1.05; step = std::sqrt(step)) {
-    const double centre = window;
-    attempt(centre * step);
-    attempt(centre / step);
-  }
+  for (const double share : kWindows) attempt(averaged(run, motion, share * duration));
+  double ramp = 0;  // the longest time in which a number reaches its acceleration
+  for (const LimitedNumbers& n : limitedNumbers(view.space()))
+    if (std::isfinite(limits.acceleration[n.first]))
+      ramp = std::max(ramp, limits.acceleration[n.first] / limits.jerk[n.first]);
+  if (ramp > 0) attempt(averaged(run, motion, std::clamp(ramp, kWindows[0] * duration, duration)));
+  if (shortest > kMuchLonger * duration && limits.jerk.array().isFinite().any())
+    if (std::vector<LawSegment> law = jerkLimitedLaw(view, run, limits, tree, best); !law.empty())
+      attempt(std::move(law));
   return best;
 }
 

@@ -11,11 +11,15 @@ namespace corridor {
 /// Returns a law of a run with a continuous s̈, which keeps the limits of velocity, acceleration and
 /// jerk at the ends and middles of its segments.
 ///
-/// The law s(t) of `segments`, from rest to rest, is averaged over a window w of time:
-///   ṡ_w(t) = (s(t) − s(t − w))/w,  s̈_w(t) = (ṡ(t) − ṡ(t − w))/w,  s⃛_w(t) = (s̈(t) − s̈(t − w))/w.
-/// It takes w longer. Its s̈ is an average of s̈, so its jerk is at most the jump of s̈ by w. Then all
-/// times are multiplied by the factor with which the limits hold. Of 20 windows, the one with the
-/// shortest time is used.
+/// 1. The law s(t) of `segments`, from rest to rest, is averaged over a window w of time:
+///      ṡ_w(t) = (s(t) − s(t − w))/w,  s̈_w(t) = (ṡ(t) − ṡ(t − w))/w,  s⃛_w(t) = (s̈(t) − s̈(t − w))/w.
+///    It takes w longer. Its jerk is at most the jump of s̈ by w. Of three windows, the best one is
+///    used. This is enough if the limits of jerk are loose.
+/// 2. If the result takes more than 1 % longer than `segments`, because of a limit of jerk,
+///    jerkLimitedLaw searches for a shorter one.
+/// A straight line with a limit of jerk, and without one of a link's speed, has its optimum
+/// instead: at most seven intervals of constant jerk. What is left of a limit's excess is removed
+/// by multiplying all times by one factor.
 std::vector<LawSegment> smoothLaw(const PathView& view, const PathRun& run,
                                   const JointLimits& limits, const KinematicTree& tree,
                                   const std::vector<LawSegment>& segments);

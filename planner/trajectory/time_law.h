@@ -67,7 +67,8 @@ struct TimeLaw {
 ///    interval (the first loop of their algorithm 1, TOPP-RA).
 /// 2. Forward pass: from x_0, the largest u that stays in K_{i+1} (the second loop).
 /// The limits of an interval hold at both of its ends (their interpolation scheme).
-/// Intervals are halved where u jumps, and where the middle exceeds a limit by more than 0.05 %.
+/// Intervals are halved where u jumps, and where a parabola through the ends and the middle exceeds
+/// a limit by more than 0.05 %.
 ///
 /// - The path is split into runs. Between two runs the robot rests: at corners (see `cornerAngle`),
 ///   where a rotation changes its axis, and where the tangent of all numbers is 0. Pieces without
@@ -77,11 +78,10 @@ struct TimeLaw {
 /// - Positions of planar and floating joints have limits of a vector's length. For accelerations, a
 ///   regular polygon of 32 sides inside the circle takes its place, which costs at most 0.5 %.
 /// - A limit of a link's speed bounds ṡ by the Jacobian at the points of the grid.
-/// - `smooth`: the optimal law of each run is averaged over a window of time. This bounds the jerk
-///   of s, keeps the path, and takes a window longer. Where the averaged law exceeds a limit, the
-///   whole run is slowed down by one factor. The window with the shortest time is used, of 20 that
-///   are tried. The result keeps the limits of jerk at points of the grid, but is not time-optimal.
-///   The path must start and end at rest.
+/// - `smooth`: the law of each run gets a continuous s̈ (smooth_law.h). With a limit of jerk, it is
+///   locally the fastest law (jerk_law.h), or, if this takes at most 1 % longer, the average of the
+///   law without that limit. It keeps the limits at points of its grid. The path must start and end
+///   at rest.
 ///
 /// Takes time linear in pieces and numbers.
 /// @param tree is used only for the speeds of links.

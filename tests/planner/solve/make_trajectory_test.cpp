@@ -93,6 +93,23 @@ TEST_F(MakeTrajectory, SmoothsAsTheProblemSays) {
   made(Smoothing::acceleration);
 }
 
+/// Corners that are rounded by a micrometre can't take longer than stops at them.
+TEST_F(MakeTrajectory, TinyCornersAreNotSlowerThanStops) {
+  for (const char* limits : {"", "limits: {position: {jerk: 5}, rotation: {jerk: 5}}\n"}) {
+    const Problem problem = problemWith(limits);
+    const Checker checker(problem);
+    const MadeTrajectory stopped =
+        makeTrajectory(problem, checker, overThePost(), {}, [] { return true; });
+    for (const double deviation : {1e-7, 1e-6, 1e-4}) {
+      Problem tiny = problem;
+      tiny.settings.trajectory.cornerDeviation = deviation;
+      const MadeTrajectory made = makeTrajectory(tiny, checker, overThePost());
+      EXPECT_TRUE(made.isGood()) << limits << deviation;
+      EXPECT_LE(made.duration, stopped.duration) << limits << deviation;
+    }
+  }
+}
+
 TEST_F(MakeTrajectory, KeepsJerkRateAndScale) {
   const Problem problem = problemWith(
       "limits: {position: {velocity: 0.5, acceleration: 1, jerk: 4}}\n"

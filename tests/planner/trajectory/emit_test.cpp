@@ -146,6 +146,21 @@ TEST(EmitRows, StopsAtCornersOfAPolyline) {
   }
 }
 
+TEST(EmitRows, ShortPiecesDoNotSlowDownTheRest) {
+  // A corner of 10^-6 between lines of 1 rad: intervals of its size are 10^-6 of the run.
+  const double s = 1e-6, h = s / 2;
+  const std::vector<CurvePiece> path{piece({{0, 1 - s}, {0, 0}}),
+                                     piece({{1 - s, 1 - h, 1, 1, 1, 1}, {0, 0, 0, 0, h, s}}),
+                                     piece({{1, 1}, {s, 1}})};
+  const JointLimits limits = uniformLimits(2, 1, 2);
+  const TimeLaw law = timeLaw(path, jointSpace(2), limits, kNoTree);
+  EXPECT_TRUE(law.stopTimes.empty());
+  const Emission emission = emitRows(law, path, jointSpace(2), limits, kNoTree);
+  expectKept(emission, 3, limits);
+  EXPECT_LE(emission.stretch, 1.005);
+  EXPECT_LE(emission.duration, 1.001 * 2 * 1.5);  // with a stop at the corner: 3 s
+}
+
 TEST(EmitRows, RotationsKeepTheirRate) {
   ConfigurationSpace space;
   CoordinateGroup group{CoordinateGroup::Kind::floating, "body", {}};
