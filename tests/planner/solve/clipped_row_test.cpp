@@ -163,14 +163,13 @@ void testProblem(Problem problem, std::uint64_t seed, int wanted, ClipCounts& co
   CheckerOptions fine = checkerOptions(problem.task, problem.settings.checker);
   fine.tolerance = 1e-9;  // the least move that touches is found as exactly as this
   const Checker checker(problem.model, fine);
-  TrajectoryOptions options;
-  options.rate = 1;  // a row that is moved by 1 rad is passed at 6 rad/s²
+  problem.settings.trajectory.rate = 1;  // a row that is moved by 1 rad is passed at 6 rad/s²
   const int before = counts.cases;
   for (int attempt = 0; attempt < 100 && counts.cases < before + wanted; ++attempt) {
     const Configuration& from = problem.task.start;
     const Path path{from, randomStep(from, 0.4, random)};
     if (!checker.inBounds(path[1]) || !checker.isProvedFree(path[0], path[1])) continue;
-    const MadeTrajectory made = makeTrajectory(problem, checker, path, options);
+    const MadeTrajectory made = makeTrajectory(problem, checker, path);
     ASSERT_TRUE(made.proved()) << made.fault;
     const TrajectoryRows rows = readTrajectory("made.csv", made.text, problem.model);
     const std::size_t row = rows.rows.size() / 2;
