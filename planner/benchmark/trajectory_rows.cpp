@@ -51,7 +51,8 @@ double savedBy(const CampaignTrajectories& trajectories, const BenchmarkRun& run
   const TrajectoryRun* stopping =
       trajectoryOf(run, set, static_cast<std::size_t>(stop - trajectories.makers.begin()));
   const double optimum = run.trajectories[set].optimum;
-  if (!stopping || !stopping->fault.empty() || !(stopping->duration > 1.001 * optimum))
+  if (!stopping || !stopping->fault.empty() || !(optimum > 0) ||
+      !(stopping->duration > 1.001 * optimum))
     return kNoNumber;
   return (stopping->duration - duration) / (stopping->duration - optimum);
 }

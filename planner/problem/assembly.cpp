@@ -161,4 +161,9 @@ void setMargin(Problem& problem, double margin) {
   testBeyondProofs(problem);
 }
 
+void setTube(Problem& problem, Configuration tube) {
+  problem.task.tube = std::move(tube);
+  testBeyondProofs(problem);
+}
+
 }  // namespace corridor

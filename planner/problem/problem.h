@@ -54,5 +54,7 @@ Problem readProblem(const std::filesystem::path& path);
 /// Replaces the margin of a problem. Pairs of links whose proof of being never in contact does not
 /// cover the new margin are then tested, with a note. @pre metres, finite, 0 or more.
 void setMargin(Problem& problem, double margin);
+/// Replaces the tube of a problem, in the same way. @pre half widths as `tubeOf` returns them.
+void setTube(Problem& problem, Configuration tube);
 
 }  // namespace corridor

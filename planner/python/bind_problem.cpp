@@ -1,7 +1,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include "planner/checker/default_tolerance.h"
+#include "collision/core/shortest.h"
 #include "planner/model/model_builder.h"
 #include "planner/model/planned_joints.h"
 #include "planner/problem/assembly.h"
@@ -115,6 +115,13 @@ double numberFrom(const py::handle value, const char* key, double least) {
   return number;
 }
 
+double numberWithin(const py::handle value, const char* key, const ClosedRange& range) {
+  const auto number = value.cast<double>();
+  if (range.contains(number)) return number;
+  refuse(key, "a number from " + shortest(range.lower) + " to " + shortest(range.upper) +
+                  " is needed, not " + shortest(number));
+}
+
 /// Applies one edit to a problem. The keys are those of problem files where there are such.
 void apply(const std::string& key, const py::handle value, Problem& problem) {
   const ConfigurationSpace& space = problem.model.space;
@@ -151,7 +158,7 @@ void apply(const std::string& key, const py::handle value, Problem& problem) {
       else
         refuse("tube", "the keys are joints, slides, position and rotation, not \"" + word + "\"");
     }
-    problem.task.tube = tubeOf(space, tube);
+    setTube(problem, tubeOf(space, tube));
   } else if (key == "planner") {
     problem.settings.planner.name = value.cast<std::string>();
     problem.settings.planner.params.clear();
@@ -165,6 +172,14 @@ void apply(const std::string& key, const py::handle value, Problem& problem) {
     problem.settings.simplify = choiceFrom<Simplifier>(value, "simplify");
   } else if (key == "edges") {
     problem.settings.checker.edges = choiceFrom<EdgeCheck>(value, "edges");
+  } else if (key == "rate") {
+    problem.settings.trajectory.rate = numberWithin(value, "rate", TrajectorySettings::kRates);
+  } else if (key == "deviation") {
+    problem.settings.trajectory.deviation =
+        numberWithin(value, "deviation", TrajectorySettings::kDeviations);
+  } else if (key == "corner_deviation") {
+    problem.settings.trajectory.cornerDeviation =
+        numberWithin(value, "corner_deviation", TrajectorySettings::kCornerDeviations);
   } else if (key == "smooth") {
     problem.settings.trajectory.smooth = choiceFrom<Smoothing>(value, "smooth");
   } else if (key == "clearance") {
@@ -176,9 +191,18 @@ void apply(const std::string& key, const py::handle value, Problem& problem) {
   }
 }
 
+/// @param edits in the order in which they are applied.
 ProblemPointer edited(const NativeProblem& from, const py::dict& edits) {
   Problem problem = from.problem();
-  for (const auto& [key, value] : edits) apply(key.cast<std::string>(), value, problem);
+  for (const auto& [key, value] : edits) {
+    const auto name = key.cast<std::string>();
+    try {
+      apply(name, value, problem);
+    } catch (const py::cast_error&) {
+      refuse(name.c_str(),
+             "a value of another type is needed, not " + py::repr(value).cast<std::string>());
+    }
+  }
   if (problem.settings.prefer.clearance.value_or(0) > 0)
     if (const auto why = whyNoClearance(problem.task.margin, problem.settings))
       refuse("clearance", *why);

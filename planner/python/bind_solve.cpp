@@ -1,7 +1,10 @@
+#include <atomic>
 #include <chrono>
 #include <future>
+#include <mutex>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
+#include <string>
 
 #include "planner/problem/digest.h"
 #include "planner/python/arrays.h"
@@ -74,7 +77,7 @@ py::dict trajectoryDict(const MadeTrajectory& made) {
   py::dict d;
   d["why_none"] = made.fault;
   if (!made.fault.empty()) return d;
-  d["text"] = made.text;
+  if (made.proved()) d["text"] = made.text;
   d["duration"] = made.duration;
   d["proved"] = made.proved();
   d["keeps_limits"] = keepsLimits(made.ratios);
@@ -88,6 +91,11 @@ py::dict solve(const NativeProblem& native, const std::optional<std::string>& tr
   if (trajectory)
     options.trajectory =
         *trajectory == "csv" ? TrajectoryFileKind::csv : TrajectoryFileKind::message;
+  std::string digest;  // computed before planning, because the files may change while it runs
+  try {
+    if (!problem.source.files.empty()) digest = digestOf(problem);
+  } catch (const InputError&) {  // a file is gone: there is no solution file then
+  }
   const SolveReport r = solveInThread(problem, options, callback);
   py::dict d;
   d["outcome"] = nameOf(r.outcome);
@@ -111,8 +119,8 @@ py::dict solve(const NativeProblem& native, const std::optional<std::string>& tr
     for (const Fault& fault : r.warnings) texts.push_back(fault.str());
     return texts;
   }();
-  if (r.outcome == SolveOutcome::solved && !problem.source.files.empty())
-    d["text"] = solutionText(makeSolution(problem, r, digestOf(problem)));
+  if (r.outcome == SolveOutcome::solved && !digest.empty())
+    d["text"] = solutionText(makeSolution(problem, r, digest));
   if (r.trajectory) d["trajectory"] = trajectoryDict(*r.trajectory);
   return d;
 }

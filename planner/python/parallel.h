@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstddef>
 #include <exception>
 #include <mutex>
 #include <thread>
@@ -17,7 +20,9 @@ template <class Work, class Stop>
 bool forEachInParallel(std::size_t count, std::size_t threads, const Work& work, const Stop& stop) {
   if (threads == 0) threads = std::max(1U, std::thread::hardware_concurrency());
   constexpr std::size_t kChunk = 16;  // items that a thread takes at once
-  std::atomic<std::size_t> next = 0, running = 0;
+  std::atomic<std::size_t> next = 0;
+  std::size_t running = 0;
+  std::condition_variable ended;
   std::atomic<bool> stopped = false;
   std::exception_ptr failure;
   std::mutex mutex;
@@ -40,12 +45,15 @@ bool forEachInParallel(std::size_t count, std::size_t threads, const Work& work,
     for (std::size_t k = 0; k < threads; ++k)
       workers.emplace_back([&] {
         run();
+        const std::lock_guard lock(mutex);
         --running;
-        running.notify_one();
+        ended.notify_one();
       });
-    while (running > 0) {
+    std::unique_lock lock(mutex);
+    while (!ended.wait_for(lock, std::chrono::milliseconds(50), [&] { return running == 0; })) {
+      lock.unlock();
       if (!stopped && stop()) stopped = true;
-      if (running > 0) std::this_thread::sleep_for(std::chrono::milliseconds(stopped ? 1 : 2));
+      lock.lock();
     }
   }
   if (failure) std::rethrow_exception(failure);

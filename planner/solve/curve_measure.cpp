@@ -28,7 +28,7 @@ CurveRuler::CurveRuler(const ConfigurationSpace& space, Configuration velocity,
   fastest_ = Configuration::Ones(size);
   for (Eigen::Index i = 0; i < size; ++i) {
     if (std::isfinite(velocity[i])) continue;
-    velocity[i] = acceleration[i];
+    velocity[i] = std::isfinite(acceleration[i]) ? acceleration[i] : 1;
     fastest_[i] = INFINITY;
   }
   weight_ = velocity.cwiseInverse();

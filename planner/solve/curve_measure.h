@@ -37,7 +37,7 @@ struct CurveMeasure {
 
 /// Measures curves, with the limits of the numbers as their scales, so that radians and metres
 /// compare. The scale of a number is its largest velocity; without one, the velocity after 1 s of
-/// its largest acceleration. Rotations are left out.
+/// its largest acceleration; without both, 1. Rotations are left out.
 class CurveRuler {
  public:
   /// @param velocity, acceleration for each number, > 0; rad/s, m/s and so on. Infinity: no limit.

@@ -85,9 +85,10 @@ std::vector<CurvePiece> smoothCurve(const Problem& problem, const Checker& check
   made.curveTests += curve.tests;
   // The time that was made smaller is an estimate.
   if (options.goal == Smoothing::time && curve.replaced > 0) {
-    const double whole = lawOf(problem, curve.pieces, problem.task.limits).duration,
-                 corners = lawOf(problem, smooth.pieces, problem.task.limits).duration;
-    if (!(whole < corners)) return std::move(smooth.pieces);
+    const TimeLaw whole = lawOf(problem, curve.pieces, problem.task.limits),
+                  corners = lawOf(problem, smooth.pieces, problem.task.limits);
+    const bool isFaster = corners.fault.empty() ? whole.duration < corners.duration : true;
+    if (!whole.fault.empty() || !isFaster) return std::move(smooth.pieces);
   }
   made.replaced = curve.replaced;
   return std::move(curve.pieces);
@@ -184,7 +185,8 @@ MadeTrajectory makeTrajectory(const Problem& problem, const Checker& checker, co
   begun.rounded = begun.replaced = 0;
   MadeTrajectory stopping =
       provedAlong(problem, checker, lines, kind, kTrajectoryAttempts, std::move(begun));
-  const bool isBetter = stopping.isGood() && (!made.isGood() || stopping.duration < made.duration);
+  const bool isBetter = stopping.isGood() ? !made.isGood() || stopping.duration < made.duration
+                                          : stopping.proved() && !made.proved();
   return isBetter ? stopping : made;
 }
 

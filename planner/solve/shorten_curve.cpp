@@ -194,14 +194,14 @@ class Shortener {
                        b = pointAt(to.piece, to.tau);
 
     std::vector<CurvePiece> before, after;  // what stays of the first and the last piece
-    bool stops = false, isStraight = true, isNew = false;
+    bool stops = false, isStraight = true, isChanged = false;
     for (std::size_t k = atJoint ? from.piece - 1 : from.piece; k < to.piece; ++k)
       stops = stops || angles_[k] > 0;
     for (std::size_t k = from.piece; k <= last; ++k) {
       isStraight = isStraight && measured_[k].bend * measured_[k].length <= kAngle2;
-      isNew = isNew || madeIn_[k] + 1 >= pass_;
+      isChanged = isChanged || madeIn_[k] + 1 >= pass_;
     }
-    if (!isNew || (isStraight && !stops)) return;
+    if (!isChanged || (isStraight && !stops)) return;
     if (from.tau > 0) before.push_back(splitAt(pieces()[from.piece], from.tau).first);
     if (to.tau > 0 && !freeEnd) after.push_back(splitAt(pieces()[last], to.tau).second);
 
@@ -215,9 +215,10 @@ class Shortener {
     std::vector<double> angles;
     for (std::size_t k = begin_; k < from.piece; ++k) {
       section.push_back(&measured_[k]);
-      angles.push_back(k + 1 < from.piece ? angles_[k] : 0);
+      angles.push_back(k + 1 < from.piece || from.tau > 0 ? angles_[k] : 0);
     }
     for (const MeasuredPiece& piece : own) section.push_back(&piece), angles.push_back(0);
+    if (!after.empty()) angles.back() = angles_[last];
     for (std::size_t k = last + 1; k < end_; ++k) {
       section.push_back(&measured_[k]);
       angles.push_back(angles_[k]);

@@ -89,7 +89,8 @@ std::vector<LawSegment> jerkLimitedLaw(const PathView& view, const PathRun& run,
   JerkSpline spline(view, run, limits, tree);
   double ramp = INFINITY;  // the shortest time in which a number reaches its acceleration
   for (const LimitedNumbers& n : limitedNumbers(view.space()))
-    ramp = std::min(ramp, limits.acceleration[n.first] / limits.jerk[n.first]);
+    if (std::isfinite(limits.jerk[n.first]))
+      ramp = std::min(ramp, limits.acceleration[n.first] / limits.jerk[n.first]);
   const auto segments = [&] {
     return segmentsBetween(run, spline.begins(), spline.parts(), spline.states());
   };

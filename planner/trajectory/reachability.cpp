@@ -62,9 +62,17 @@ class Cell {
   /// outside never steps over its roots. It ends at one, since the function is piecewise linear.
   Interval reachableFrom(const Interval& next) const {
     double top = cap_;
-    if (!std::isfinite(top)) {  // u ≥ −value − slope·x of any line, and x + 2Δu ≤ upper
-      top = 4 * next.upper;
-      for (const Line& line : lines_) top = std::max(top, 4 * line.value * width_);
+    if (!std::isfinite(top)) {
+      // u ≥ −value − slope·x of any line and x + 2Δu ≤ upper give x·(1 − 2Δ·slope) ≤ upper +
+      // 2Δ·value. The smallest of these bounds is used: a number that hardly moves has a line whose
+      // value is so large that the root would drown in rounding.
+      for (const Line& line : lines_)
+        if (2 * width_ * std::abs(line.slope) <= 0.5)
+          top = std::min(top, 2 * (next.upper + 2 * width_ * line.value));
+      if (!std::isfinite(top)) {
+        top = 4 * next.upper;
+        for (const Line& line : lines_) top = std::max(top, 4 * line.value * width_);
+      }
       if (!std::isfinite(top)) return {0, kInfinity};
     }
     const double upper = root(top, next, true);

@@ -45,8 +45,10 @@ PathMotion motionOf(const PathRun& run, const std::vector<LawSegment>& segments)
 class Walk {
  public:
   explicit Walk(const PathMotion& motion) : motion_(motion) {}
-  void to(double time) {
-    while (next_ < motion_.time.size() && motion_.time[next_] <= time) ++next_;
+  /// Evaluates the motion at a time, in the interval that contains `inside`. (A knot plus and minus
+  /// the window may be off by rounding, so the side of the knot does not follow from the time.)
+  void to(double time, double inside) {
+    while (next_ < motion_.time.size() && motion_.time[next_] <= inside) ++next_;
     if (next_ == 0) {
       s = motion_.s.front();
       rate = acceleration = 0;
@@ -56,7 +58,7 @@ class Walk {
     } else {
       const std::size_t k = next_ - 1;
       const double d = time - motion_.time[k];
-      acceleration = motion_.acceleration[k];  // just after `time`
+      acceleration = motion_.acceleration[k];
       rate = motion_.rate[k] + d * acceleration;
       s = motion_.s[k] + d * (motion_.rate[k] + d / 2 * acceleration);
     }
@@ -102,8 +104,9 @@ std::vector<LawSegment> averaged(const PathRun& run, const PathMotion& motion, d
   std::size_t part = 0;
   double begin = 0, s = 0;
   for (std::size_t k = 0; k + 1 < knots.size(); ++k) {
-    now.to(knots[k]);
-    then.to(knots[k] - window);
+    const double inside = (knots[k] + knots[k + 1]) / 2;
+    now.to(knots[k], inside);
+    then.to(knots[k] - window, inside - window);
     LawSegment cubic{knots[k],
                      knots[k + 1] - knots[k],
                      0,
@@ -266,6 +269,7 @@ std::vector<LawSegment> smoothLaw(const PathView& view, const PathRun& run,
     if (std::isfinite(limits.acceleration[n.first]))
       ramp = std::max(ramp, limits.acceleration[n.first] / limits.jerk[n.first]);
   if (ramp > 0) attempt(averaged(run, motion, std::clamp(ramp, kWindows[0] * duration, duration)));
+  if (best.empty()) return best;
   if (shortest > kMuchLonger * duration && limits.jerk.array().isFinite().any())
     if (std::vector<LawSegment> law = jerkLimitedLaw(view, run, limits, tree, best); !law.empty())
       attempt(std::move(law));

@@ -154,7 +154,10 @@ TimeLaw timeLaw(const std::vector<CurvePiece>& path, const ConfigurationSpace& s
       return fail(faultOf(
           part, part.failure == Profile::Failure::start ? options.startRate : options.endRate,
           part.failure == Profile::Failure::start ? startLength : endLength));
+    const bool moves = !part.segments.empty();
     if (options.smooth) part.segments = smoothLaw(view, run, limits, tree, part.segments);
+    if (moves && part.segments.empty())
+      return fail("the limits are too large or too small for doubles, or there are none");
     if (!isFirst) law.stopTimes.push_back(law.duration);
     const double begin = law.duration;
     for (LawSegment& segment : part.segments) {

@@ -78,10 +78,10 @@ struct TimeLaw {
 /// - Positions of planar and floating joints have limits of a vector's length. For accelerations, a
 ///   regular polygon of 32 sides inside the circle takes its place, which costs at most 0.5 %.
 /// - A limit of a link's speed bounds ṡ by the Jacobian at the points of the grid.
-/// - `smooth`: the law of each run gets a continuous s̈ (smooth_law.h). With a limit of jerk, it is
-///   locally the fastest law (jerk_law.h), or, if this takes at most 1 % longer, the average of the
-///   law without that limit. It keeps the limits at points of its grid. The path must start and end
-///   at rest.
+/// - `smooth`: the law of each run gets a continuous s̈ (smooth_law.h). If the
+///   average of the law takes at most 1 % longer than the law without a limit of jerk, it is used.
+///   Otherwise a search finds a locally fastest law (jerk_law.h). The result keeps the limits at
+///   points of its grid. The path must start and end at rest.
 ///
 /// Takes time linear in pieces and numbers.
 /// @param tree is used only for the speeds of links.

@@ -42,7 +42,7 @@ MovedSlab::MovedSlab(const BodyMotion& a, const BodyMotion& b, Real half, const 
   const Real turned = half * rate.norm();
   if (!(turned <= kMostTurn)) return;
   normal_ = normal;
-  lost_ = turned * displacement;
+  lost_ = turned > 0 ? turned * displacement : 0;  // 0·∞ would be NaN
   shorter_ = turned * turned / 2;
   a_ = sideOf(a, half, normal_, rate);
   b_ = sideOf(b, half, -normal_, -rate);

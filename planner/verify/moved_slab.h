@@ -22,7 +22,7 @@ BodyMotion motionSeenFrom(const Placement& at, const FrameState& state, Perturba
 /// The width of the slab between two moving bodies along a direction n, to first order of the
 /// motion. The width is a lower bound of their distance in the whole interval and tube, except for
 /// second-order terms, which Reach bounds. The direction n is fixed in the coordinates in which the
-/// bodies move, or it turns with a face.
+/// bodies move, or it turns with one of the bodies.
 ///
 /// Points. At a time s from the middle, |s| ≤ half, a core point x (without its swept sphere) is at
 ///   x + s·v(x) + Σ c_j T_j(x) + Σ w_k × (x − p_k),

@@ -136,6 +136,7 @@ class Problems(unittest.TestCase):
 
     def test_edits(self):
         problem = corridor.read_problem(ARM)
+        problem.edited(simplify=False, params={"range": 0.2}, rate=100, deviation=1e-3, corner_deviation=0.01)
         other = problem.edited(margin=0.01, seed=5, time=3, planner="RRT", tube={"joints": 0.001})
         self.assertEqual((other.margin, other.seed, other.time, other.planner), (0.01, 5, 3, "RRT"))
         self.assertEqual(other.tube[0], 0.001)
@@ -150,12 +151,64 @@ class Problems(unittest.TestCase):
             ({"margin": -1}, ValueError, "margin: a finite number of 0 or more is needed"),
             ({"time": 0}, ValueError, "time: a finite number above 0 is needed"),
             ({"tube": {"elbow": 1}}, ValueError, "tube: the keys are joints, slides, position and rotation"),
+            ({"rate": 0}, ValueError, "rate: a number from 1 to 10000 is needed, not 0"),
             ({"simplify": "yes"}, ValueError, 'simplify: one of true, false, ompl is needed, not "yes"'),
             ({"margin": 0.1, "clearance": 0.1}, ValueError, "clearance: can't be used with a margin"),
             ({"colour": 1}, TypeError, "a problem has no 'colour' that can be edited"),
         ):
             with self.assertRaisesRegex(error, text):
                 problem.edited(**edits)
+
+    def test_edits_of_the_wrong_type(self):
+        problem = corridor.read_problem(ARM)
+        for key, value in ("seed", -1), ("margin", "a"), ("planner", 3), ("time", None), ("tube", 0.1):
+            with self.assertRaisesRegex(ValueError, f"{key}: a value of another type is needed"):
+                problem.edited(**{key: value})
+
+    def test_the_order_of_edits_does_not_matter(self):
+        problem = corridor.read_problem(ARM)
+        for edits in (
+            {"params": {"nonsense": "1"}, "planner": "RRTConnect"},
+            {"planner": "RRTConnect", "params": {"nonsense": "1"}},
+        ):
+            with self.assertRaisesRegex(corridor.InputError, "nonsense"):
+                corridor.solve(problem.edited(**edits))
+        # Another planner does not get the parameters of the one before, here and after pickling.
+        other = problem.edited(planner="RRTConnect", params={"range": "0.5"}).edited(planner="PRM")
+        self.assertTrue(corridor.solve(pickle.loads(pickle.dumps(other)), time=20))
+
+    def test_callers_may_change_what_they_passed(self):
+        base = at(0, 0, 0)
+        robot = corridor.urdf(SOURCE / "robots/arm6/arm6.urdf", base=base)
+        problem = corridor.Problem(robot, {"post": shapes.cylinder(0.05, 2, at(0.5, 0, 1))})
+        before = problem.clearance([-1, 1, 1, 0, 0, 0])
+        robot["base"][0, 3] = 0.3
+        np.testing.assert_array_equal(pickle.loads(pickle.dumps(problem)).clearance([-1, 1, 1, 0, 0, 0]), before)
+
+    def test_a_wide_tube_tests_pairs_again(self):
+        # The pair is proved never in contact, up to 0.01 rad beyond the limits.
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            (folder / "arm.urdf").write_text(
+                '<robot name="r"><link name="base"><collision><origin xyz="0 0.6 0"/><geometry><box size="0.2 0.2 0.2"/>'
+                '</geometry></collision></link><link name="arm"><collision><origin xyz="0.5 0 0"/><geometry>'
+                '<box size="0.4 0.05 0.05"/></geometry></collision></link><joint name="turn" type="revolute">'
+                '<parent link="base"/><child link="arm"/><axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="1" '
+                'velocity="1"/></joint></robot>'
+            )
+            (folder / "robot.yaml").write_text(
+                "format: corridor-robot-1\nurdf: arm.urdf\nnever_in_contact: {margin: 0.01, beyond_limits: 0.01, "
+                "pairs: [[arm, base]]}\nallow: []\n"
+            )
+            text = "format: corridor-problem-1\nrobot: robot.yaml\nstart: {turn: -0.9}\ngoal: {turn: 0.98}\n"
+            (folder / "plain.yaml").write_text(text)
+            (folder / "tube.yaml").write_text(text + "tube: {joints: 0.4}\n")
+            plain, tube = (corridor.read_problem(folder / f"{name}.yaml") for name in ("plain", "tube"))
+            edited = plain.edited(tube={"joints": 0.4})
+        state = [0.98]
+        self.assertTrue(plain.check(state))
+        self.assertFalse(tube.check(state))
+        self.assertEqual(edited.check(state).verdict[0], tube.check(state).verdict[0])
 
     def test_problem_built_of_arrays(self):
         vertices = [[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)]
@@ -212,7 +265,7 @@ class Solve(unittest.TestCase):
         self.assertIn("iframe", solution._repr_html_())
         copy = pickle.loads(pickle.dumps(solution))
         np.testing.assert_array_equal(copy.path, solution.path)
-        with self.assertRaisesRegex(ValueError, "this problem was built in Python"):
+        with self.assertRaisesRegex(ValueError, "names the problem's file, and there is none"):
             solution.save("x.yaml")
 
     def test_repeats(self):

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 from .problem import Verdict
-from .shapes import _array, _size
+from .shapes import _array, _indices, _size
 
 _ORIGIN = np.eye(4)
 
@@ -24,7 +24,7 @@ class Body:
     @staticmethod
     def mesh(vertices: ArrayLike, triangles: ArrayLike, solid: bool = False) -> Body:
         """A mesh of vertices (V×3, metres) and triangles (T×3 indices from 0)."""
-        return Body(_native.mesh_body(_array("vertices", vertices), np.array(triangles), solid))
+        return Body(_native.mesh_body(_array("vertices", vertices), _indices(triangles), solid))
 
     @staticmethod
     def file(file: str | os.PathLike, metres_per_unit: float | None = None, solid: bool = False) -> Body:
@@ -71,7 +71,7 @@ class Contacts(NamedTuple):
 class FirstContact(NamedTuple):
     verdict: Verdict
     free_until: float  #: the motion is proved free on [0, free_until]
-    time: float  #: of the contact, or of the undecided time; −1 if there is none
+    time: float  #: the first contact is in (free_until, time]; −1 if there is none
 
 
 def touch(
@@ -105,5 +105,7 @@ def first_contact(a: Body, b: Body, start: ArrayLike, end: ArrayLike, tolerance:
 
     tolerance: metres; 0: a default for the sizes of the bodies.
     """
+    if not tolerance >= 0:
+        raise ValueError("tolerance: a number of 0 or more is needed")
     verdict, until, time = _native.first_contact(a._native, b._native, _array("start", start), _array("end", end), tolerance)
     return FirstContact(Verdict(verdict), until, time)

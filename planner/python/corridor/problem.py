@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import concurrent.futures
+import copy
 import enum
 import html
 import multiprocessing
@@ -21,10 +22,11 @@ from . import _native
 from .shapes import Shape, _array
 
 _solving = threading.Lock()  # OMPL has one generator of random numbers per process
+_this_thread = threading.local()
 
 _EDITS = (
     "start", "goals", "margin", "tube", "planner", "params", "time", "seed", "simplify", "edges", "clearance",
-    "tolerance", "smooth",
+    "tolerance", "smooth", "rate", "deviation", "corner_deviation",
 )  # fmt: skip
 
 
@@ -134,7 +136,7 @@ class Problem:
         return self
 
     def _set(self, recipe: tuple, edits: dict) -> None:
-        self._recipe = recipe
+        self._recipe = recipe = copy.deepcopy(recipe)
         base = _native.read_problem(recipe[1]) if recipe[0] == "file" else _native.build_problem(*recipe[1:])
         self._edit(base, {}, edits)
 
@@ -142,17 +144,22 @@ class Problem:
         for key in edits:
             if key not in _EDITS:
                 raise TypeError(f"a problem has no {key!r} that can be edited; there are {', '.join(_EDITS)}")
-        edits = {k: _array(k, v) if k in ("start", "goals") else v for k, v in edits.items()}
-        self._edits = {**before, **edits}
+        edits = {k: _value(k, v) for k, v in edits.items()}
+        if "planner" in edits:  # parameters belong to a planner
+            before = {k: v for k, v in before.items() if k != "params"}
+        # The order of `_EDITS` is the order in which they are applied: the planner before its parameters.
+        edits = {k: edits[k] for k in _EDITS if k in edits}
+        self._edits = {k: {**before, **edits}[k] for k in _EDITS if k in before or k in edits}
         self._native = base.edited(edits) if edits else base
 
     def edited(self, **edits: Any) -> Problem:
         """Returns the problem with other values.
 
         start (J,); goals (J,), or (G, J) for any of G goals; margin, m; tube, {"joints": rad or m, "slides": m,
-        "position": m, "rotation": rad}; planner, OMPL's name; params, a dict of texts; time, s; seed; simplify ("true",
-        "false", "ompl"); edges ("certified", "discrete", ...); clearance, m; tolerance, m; smooth ("time", "length",
-        "acceleration", "corners", "none").
+        "position": m, "rotation": rad}; planner, OMPL's name; params, the planner's parameters by OMPL's names; time, s;
+        seed; simplify (True, False, "ompl"); edges ("certified", "discrete", ...); clearance, m; tolerance, m. For
+        trajectories: smooth ("time", "length", "acceleration", "corners", "none"); rate, rows per second; deviation
+        and corner_deviation, rad or m.
         Raises ValueError if a value is illegal or contradicts another one.
         """
         other = object.__new__(type(self))
@@ -162,6 +169,9 @@ class Problem:
 
     def __reduce__(self):
         return _restored, (self._recipe, self._edits)
+
+    def __repr__(self) -> str:
+        return f"<Problem: {self.name}, {len(self.numbers)} numbers, {len(self.bodies)} bodies>"
 
     @property
     def name(self) -> str:
@@ -226,7 +236,7 @@ class Problem:
     def certify(self, q0: ArrayLike, q1: ArrayLike, earliest: bool = False, threads: int = 0) -> Results:
         """Decides whether edges are proved free, from each row of q0 to that of q1, (J,) or (N, J).
 
-        Circles and rotations go the shorter way. With `earliest`, `time` is that of the first contact.
+        Circles and rotations go the shorter way. With `earliest`, the first contact is at most `time`, up to the tolerance.
         """
         return Results(
             self.bodies, *_native.certify(self._native, _array("q0", q0), _array("q1", q1), earliest, threads)
@@ -244,6 +254,17 @@ class Problem:
         return _frame(self.page())
 
 
+def _value(key: str, value: Any) -> Any:
+    """Returns a copy of an edit's value, in the form that the native module takes."""
+    if key in ("start", "goals"):
+        return _array(key, value)
+    if key == "simplify" and isinstance(value, bool):
+        return "true" if value else "false"
+    if key == "params" and isinstance(value, Mapping):
+        return {str(name): str(each) for name, each in value.items()}
+    return copy.deepcopy(value)
+
+
 def _restored(recipe: tuple, edits: dict) -> Problem:
     problem = object.__new__(Problem)
     problem._set(recipe, edits)
@@ -254,7 +275,7 @@ def _frame(page: str) -> str:
     return f'<iframe srcdoc="{html.escape(page)}" style="width: 100%; height: 600px; border: 0"></iframe>'
 
 
-@dataclass(repr=False)
+@dataclass(repr=False, eq=False)
 class Solution:
     """The result of `solve`. It can be pickled. It is true if the problem is solved."""
 
@@ -290,10 +311,17 @@ class Solution:
         return _native.verify_trajectory(self.problem._native, self.trajectory["text"])
 
     def save(self, file: str | os.PathLike) -> None:
-        """Writes a solution file, which `corridor verify` reads. Only for problems that were read from files."""
+        """Writes a solution file, which `corridor verify` reads with the problem's file.
+
+        Only for problems that were read from files, which still exist, and whose start, goals, margin and tube were
+        not edited.
+        """
         self._require_path()
+        edited = [k for k in ("start", "goals", "margin", "tube") if k in self.problem._edits]
+        if edited and self._text:
+            raise ValueError(f"a solution file is for the problem's file, and {edited[0]} was edited")
         if not self._text:
-            raise ValueError("a solution file names its problem's file, and this problem was built in Python")
+            raise ValueError("a solution file names the problem's file, and there is none")
         with open(file, "w", encoding="utf-8") as out:
             out.write(self._text)
 
@@ -324,7 +352,7 @@ def solve(
 ) -> Solution:  # fmt: skip
     """Solves a problem, and proves every edge of the path.
 
-    trajectory: "csv" or "message" (a JointTrajectory of ROS 2 as YAML) makes a trajectory, too.
+    trajectory: "csv" (rows of numbers) or "yaml" (a JointTrajectory of ROS 2) makes a trajectory, too.
     progress: called ten times a second with the seconds and the number of edges tested. Ctrl-C ends the solve.
     The same problem and seed give the same path, with most planners. A process solves one problem at a time: a second
     call waits. `solve_many` uses several processes.
@@ -332,19 +360,29 @@ def solve(
     edits = {k: v for k, v in {"planner": planner, "time": time, "seed": seed}.items() if v is not None}
     if edits:
         problem = problem.edited(**edits)
-    if trajectory not in (None, "csv", "message"):
-        raise ValueError(f'trajectory: "csv" or "message" is needed, not {trajectory!r}')
+    if trajectory not in (None, "csv", "yaml"):
+        raise ValueError(f'trajectory: "csv" or "yaml" is needed, not {trajectory!r}')
     if problem._recipe[0] == "built":
         for key in ("start", "goals"):
             if key not in problem._edits:
                 raise ValueError(f"{key}: the problem has none; set it by problem.edited({key}=...)")
-    with _solving:
-        result = _native.solve(problem._native, trajectory, progress)
+    if getattr(_this_thread, "solves", False):
+        raise RuntimeError("solve can't be called by the progress callback of a solve")
+    _this_thread.solves = True
+    try:
+        result = _solve_alone(problem, trajectory, progress)
+    finally:
+        _this_thread.solves = False
     take = result.pop
     return Solution(
         problem, take("outcome"), take("why"), take("path"), take("certified"), trajectory=take("trajectory", None),
         _text=take("text", ""), figures=result,
     )  # fmt: skip
+
+
+def _solve_alone(problem: Problem, trajectory: str | None, progress: Callable | None) -> dict[str, Any]:
+    with _solving:
+        return _native.solve(problem._native, trajectory, progress)
 
 
 def _solve_one(arguments: tuple[Problem, dict]) -> Solution:

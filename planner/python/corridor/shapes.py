@@ -22,6 +22,16 @@ def _array(name: str, value: Any) -> NDArray[np.float64]:
         raise ValueError(f"{name}: an array of numbers is needed: {error}") from None
 
 
+def _indices(triangles: Any) -> NDArray[np.int64]:
+    try:
+        array = np.array(triangles)
+    except ValueError as error:
+        raise ValueError(f"triangles: an array of whole numbers is needed: {error}") from None
+    if not np.issubdtype(array.dtype, np.integer):
+        raise ValueError(f"triangles: an array of whole numbers is needed, not of {array.dtype}")
+    return array.astype(np.int64)
+
+
 def _shape(kind: str, *numbers: Any, pose: ArrayLike | None) -> Shape:
     return Shape((kind, *numbers, None if pose is None else _array("pose", pose)))
 
@@ -63,7 +73,7 @@ def mesh(vertices: ArrayLike, triangles: ArrayLike, solid: bool = False, pose: A
 
     It is a surface. With `solid`, everything inside belongs to it, and it must be watertight.
     """
-    return _shape("mesh", _array("vertices", vertices), np.array(triangles), bool(solid), pose=pose)
+    return _shape("mesh", _array("vertices", vertices), _indices(triangles), bool(solid), pose=pose)
 
 
 def mesh_file(

@@ -2,11 +2,14 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "planner/trajectory/natural_spline.h"
 #include "tests/planner/trajectory/paths.h"
+#include "tests/support/support.h"
 
 namespace corridor::test {
 namespace {
@@ -59,6 +62,39 @@ TEST(TimeLaw, ReparametrisationHardlyMatters) {
   const double fast = durationOf({piece({{0, 2.4}, {0, 1.2}})}, uniformLimits(2, 2, 4));
   EXPECT_NEAR(durationOf({piece({{0, 0.4, 1.2, 2.4}, {0, 0.2, 0.6, 1.2}})}, uniformLimits(2, 2, 4)),
               fast, 5e-3 * fast);
+}
+
+/// A straight piece of degree 5, without a limit of velocity, beside a number that hardly moves.
+TEST(TimeLaw, StraightPiecesNeedNoLimitOfVelocity) {
+  JointLimits limits = uniformLimits(2, HUGE_VAL, 1);
+  EXPECT_NEAR(
+      durationOf({piece({{0, 0.2, 0.4, 0.6, 0.8, 1}, {0, 1e-17, 3e-17, 2e-17, 0, 1e-17}})}, limits),
+      2, 1e-3);
+}
+
+/// A law with a limit of jerk has a continuous s, ṡ and s̈, although its segments are computed from
+/// times that are off by rounding.
+TEST(TimeLaw, SmoothLawsAreContinuous) {
+  std::mt19937_64 random(testSeed(73));
+  const auto number = [&] { return std::uniform_real_distribution(-1.0, 1.0)(random); };
+  JointLimits limits = uniformLimits(3, 0.8, 1);
+  limits.jerk.setConstant(200);
+  for (int n = 0; n < 20; ++n) {
+    std::vector<Configuration> states;
+    for (int k = 0; k < 4; ++k) states.push_back(Eigen::Vector3d(number(), number(), number()));
+    const TimeLaw law =
+        timeLaw(naturalSpline(states), jointSpace(3), limits, kEmptyTree, {.smooth = true});
+    ASSERT_EQ(law.fault, "");
+    for (std::size_t k = 0; k + 1 < law.segments.size(); ++k) {
+      const LawSegment &a = law.segments[k], &b = law.segments[k + 1];
+      const double d = a.duration;
+      const double tau = a.tau + d * (a.rate + d / 2 * (a.acceleration + d / 3 * a.jerk));
+      EXPECT_NEAR(tau, a.piece == b.piece ? b.tau : 1, 1e-9) << n << ", " << k;
+      if (a.piece != b.piece) continue;  // ds/dτ differs
+      EXPECT_NEAR(a.rate + d * (a.acceleration + d / 2 * a.jerk), b.rate, 1e-9) << n << ", " << k;
+      EXPECT_NEAR(a.acceleration + d * a.jerk, b.acceleration, 1e-6) << n << ", " << k;
+    }
+  }
 }
 
 TEST(TimeLaw, ArcIsLimitedByCentripetalAcceleration) {
