@@ -46,9 +46,14 @@ std::string textOf(const std::vector<TimedRow>& timed, const ConfigurationSpace&
   rows.hasVelocities = between != Between::linear;
   rows.hasAccelerations = between == Between::quintic;
   for (const TimedRow& row : timed) {
+    // The times of a message are whole nanoseconds. The position is that of the rounded time, up to
+    // 10^-18 s² times the acceleration. With that of the time itself, rows that are near each other
+    // would have other accelerations.
     const double time =
         kind == TrajectoryFileKind::message ? nearestNanosecond(row.time) : row.time;
-    rows.rows.push_back({0, time, row.position, row.velocity, row.acceleration});
+    const Configuration position = row.position + (time - row.time) * row.velocity;
+    rows.rows.push_back(
+        {0, time, time == row.time ? row.position : position, row.velocity, row.acceleration});
   }
   return kind == TrajectoryFileKind::csv ? csvText(rows, space) : messageText(rows, space);
 }

@@ -61,9 +61,9 @@ inline constexpr int kTrajectoryAttempts = 4;
 /// 5. If this may be slower than stops at all corners, or is not good (`isGood`), steps 2 to 4 are
 ///    done for the path with stops, too, and the faster result is returned.
 ///
-/// Limits of a message may be exceeded because its times are whole nanoseconds: that changes the
-/// acceleration of a cubic by 6|v|·1e-9/T², and the jerk of a quintic by 60|v|·1e-9/T³, where T is
-/// the time between two rows. So dense rows of a message can't keep tight limits of jerk.
+/// The times of a message are whole nanoseconds. Each row has the position of its rounded time.
+/// (That of the time itself would change the acceleration of a cubic by 6|v|·1e-9/T², and the jerk
+/// of a quintic by 60|v|·1e-9/T³, where T is the time between two rows.)
 ///
 /// The result depends on the arguments only, unless `stop` returns true: then the curve stays
 /// as it is.

@@ -69,6 +69,23 @@ TEST_F(MakeTrajectory, StopsOnlyWhereNoCurveIsProved) {
   EXPECT_GE(stopped.duration, slow.duration);
 }
 
+/// The times of a message are whole nanoseconds. Dense rows keep the limits all the same.
+TEST_F(MakeTrajectory, MessagesAreAsGoodAsRows) {
+  for (const char* limits :
+       {"limits: {position: {velocity: 0.5, acceleration: 1, jerk: 40}}\n", ""})
+    for (const double rate : {0.0, 100.0, 1000.0}) {
+      Problem problem = problemWith(limits);
+      if (rate > 0) problem.settings.trajectory.rate = rate;
+      const Checker checker(problem);
+      const MadeTrajectory rows = makeTrajectory(problem, checker, overThePost()),
+                           message = makeTrajectory(problem, checker, overThePost(),
+                                                    TrajectoryFileKind::message);
+      EXPECT_TRUE(rows.isGood()) << limits << rate;
+      EXPECT_TRUE(message.isGood()) << limits << rate;
+      EXPECT_NEAR(message.duration, rows.duration, 1e-3 * rows.duration) << limits << rate;
+    }
+}
+
 /// Smoothing the whole curve for the time is not slower than rounding its corners, which is not
 /// slower than stopping at them.
 TEST_F(MakeTrajectory, SmoothsAsTheProblemSays) {
