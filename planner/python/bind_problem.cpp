@@ -143,6 +143,7 @@ void apply(const std::string& key, const py::handle value, Problem& problem) {
   } else if (key == "margin") {
     setMargin(problem, numberFrom(value, "margin", 0));
   } else if (key == "tube") {
+    if (!py::isinstance<py::dict>(value)) throw py::cast_error();
     TubeSpec tube;
     for (const auto& [name, width] : value.cast<py::dict>()) {
       const auto word = name.cast<std::string>();
