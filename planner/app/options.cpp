@@ -5,7 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "collision/core/shortest.h"
 #include "planner/problem/yaml_reader.h"
 
 namespace corridor::app {
@@ -22,8 +21,7 @@ CLI::Validator isOneOf(std::vector<std::string> words) {
 }
 
 CLI::Validator isWithin(const ClosedRange& range) {
-  return isWithin(range.lower, range.upper,
-                  "a number from " + shortest(range.lower) + " to " + shortest(range.upper));
+  return isWithin(range.lower, range.upper, range.text());
 }
 
 CLI::Validator isSeconds() {

@@ -13,20 +13,6 @@ namespace corridor::app {
 
 using nlohmann::ordered_json;
 
-const char* nameOf(SolveOutcome outcome) {
-  switch (outcome) {
-    case SolveOutcome::solved:
-      return "solved";
-    case SolveOutcome::notFound:
-      return "not found";
-    case SolveOutcome::approximate:
-      return "approximate only";
-    case SolveOutcome::interrupted:
-      return "interrupted";
-  }
-  return "";
-}
-
 bool printsFile(const SolveArguments& a) {
   return a.output == "-" || a.picture == "-";
 }
@@ -80,7 +66,8 @@ void printTrajectory(const ResultPrinter& out, const Problem& p, const MadeTraje
   out.line("trajectory", rounded(made.duration) + " s, " + counted(made.rows, "row") + ", " +
                              nameOf(made.between) + " between rows; " +
                              std::to_string(made.rounded) + " of " +
-                             counted(made.corners, "corner") + " rounded");
+                             counted(made.corners, "corner") + " rounded" +
+                             (made.whyStops.empty() ? "" : ": " + made.whyStops));
   const MotionResult& proof = made.proof;
   out.line("trajectory proved",
            made.proved() ? "yes, as it is written"
@@ -100,8 +87,8 @@ ordered_json trajectoryJson(const Problem& p, const MadeTrajectory& made) {
   ordered_json j = {{"duration_s", made.duration},     {"rows", made.rows},
                     {"between", nameOf(made.between)}, {"proved", made.proved()},
                     {"corners", made.corners},         {"corners_rounded", made.rounded},
-                    {"curve_tests", made.curveTests},  {"stretch", made.stretch},
-                    {"notes", p.task.limits.notes}};
+                    {"why_stops", made.whyStops},      {"curve_tests", made.curveTests},
+                    {"stretch", made.stretch},         {"notes", p.task.limits.notes}};
   addLimits(j, made.ratios);
   return j;
 }

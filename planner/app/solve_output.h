@@ -20,8 +20,6 @@ struct Solved {
   std::uint64_t tries = 1;  ///< number of seeds that were tried
 };
 
-/// Returns "solved", "not found", "approximate only" or "interrupted".
-const char* nameOf(SolveOutcome outcome);
 /// Returns whether the solution or the picture is written to the standard output. Then no report is
 /// printed there.
 bool printsFile(const SolveArguments& a);

@@ -164,8 +164,13 @@ void print(const VerifyReport& r, const Problem& problem, const VerifyArguments&
   if (r.limits)
     out.line("limits over time", limitsText(problem, *r.limits),
              keepsLimits(*r.limits) ? Tone::plain : Tone::bad);
+  std::size_t notExamined = 0;  // edges after the work limit: the first one stands for all
   for (const PathFinding& finding : r.pathReport.findings)
-    out.line("finding", text(finding, r, problem));
+    if (finding.reason != kWorkLimit || ++notExamined == 1)
+      out.line("finding", text(finding, r, problem));
+  if (notExamined > 1)
+    out.line("not examined",
+             counted(notExamined - 1, "more edge") + ", because the work limit was reached");
   out.line("distance queries", grouped(r.pathReport.distanceQueries));
 }
 

@@ -151,15 +151,6 @@ OmplRecord recordOf(const ompl::tools::Benchmark::CompleteExperiment& experiment
   return record;
 }
 
-std::string firstFinding(const VerifyReport& report) {
-  if (!report.violations.empty()) return report.violations.front();
-  if (report.pathReport.findings.empty()) return "";
-  const PathFinding& f = report.pathReport.findings.front();
-  return "edge " + std::to_string(f.edge) + " at t = " + shortest(f.t) + ": " + f.reason +
-         (f.a.empty() ? "" : ": " + f.a + " and " + f.b) +
-         (f.gap > 0 ? ", " + shortest(f.gap) + " m apart" : "");
-}
-
 }  // namespace
 
 std::string text(const BenchmarkRun& run) {

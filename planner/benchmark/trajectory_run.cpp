@@ -11,6 +11,7 @@
 #include "planner/trajectory/natural_spline.h"
 #include "planner/trajectory/time_law.h"
 #include "planner/trajectory/trajectory_file.h"
+#include "planner/trajectory/trajectory_text.h"
 
 namespace corridor {
 namespace {
@@ -22,11 +23,6 @@ MadeTrajectory noTrajectory(std::string why) {
   MadeTrajectory none;
   none.fault = std::move(why);
   return none;
-}
-
-bool hasRotation(const ConfigurationSpace& space) {
-  return std::any_of(space.coordinates().begin(), space.coordinates().end(),
-                     [](const Coordinate& c) { return c.kind == Coordinate::Kind::rotation; });
 }
 
 MadeTrajectory makeSpline(bool inserts, const Problem& problem, const Checker& checker,
@@ -46,17 +42,6 @@ MadeTrajectory makeSpline(bool inserts, const Problem& problem, const Checker& c
 double shareOf(const LimitShare& share, bool limited) {
   if (!limited || !share.tested) return -1;
   return std::min(share.share, std::numeric_limits<double>::max());
-}
-
-std::string findingOf(const VerifyReport& report) {
-  if (!report.violations.empty()) return report.violations.front();
-  if (report.pathReport.findings.empty()) return "";
-  const PathFinding& f = report.pathReport.findings.front();
-  const auto k = static_cast<std::size_t>(f.edge);
-  const double from = report.times[k], to = report.times[k + 1];
-  return "at " + shortest(from + f.t * (to - from)) + " s: " + f.reason +
-         (f.a.empty() ? "" : ": " + f.a + " and " + f.b) +
-         (f.gap > 0 ? ", " + shortest(f.gap) + " m apart" : "");
 }
 
 }  // namespace
@@ -119,7 +104,7 @@ TrajectoryRun runTrajectory(TrajectoryMaker maker, const Problem& problem, const
       problem, readTrajectory("the trajectory", made.text, problem.model), made.between);
   run.verifyTime = verifying.seconds();
   run.verdict = verdictName(report);
-  if (report.verdict != PathVerdict::proved) run.finding = findingOf(report);
+  if (report.verdict != PathVerdict::proved) run.finding = firstFinding(report);
   return run;
 }
 

@@ -1,5 +1,6 @@
 #include "planner/model/settings.h"
 
+#include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
 
 namespace corridor {
@@ -37,6 +38,10 @@ template <>
 const std::vector<std::string>& wordsFor<Smoothing>() {
   static const std::vector<std::string> words{"none", "corners", "time", "length", "acceleration"};
   return words;
+}
+
+std::string ClosedRange::text() const {
+  return "a number from " + shortest(lower) + " to " + shortest(upper);
 }
 
 EdgeMethod methodOf(EdgeCheck check) {

@@ -105,6 +105,8 @@ struct PreferSettings {
 struct ClosedRange {
   double lower, upper;
   constexpr bool contains(double value) const { return lower <= value && value <= upper; }
+  /// Returns "a number from 1 to 10000".
+  std::string text() const;
 };
 
 /// How a trajectory is made along a path.

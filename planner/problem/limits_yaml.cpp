@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "collision/core/read_file.h"
+#include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
 #include "planner/problem/assembly.h"
 #include "planner/problem/keys.h"
@@ -113,8 +114,14 @@ LimitSpec readLimitMap(const YamlMap& map, const std::filesystem::path& folder, 
           [&] { readMoveitLimits(file, model, isComplete, spec, faults, map.source().notes); });
     }
   }
-  readScale(map, "velocity_scale", spec.velocityScale);
-  readScale(map, "acceleration_scale", spec.accelerationScale);
+  for (const auto& [key, scale] : {std::pair("velocity_scale", &spec.velocityScale),
+                                   std::pair("acceleration_scale", &spec.accelerationScale)}) {
+    if (*scale != 1 && !map.find(key))
+      map.source().notes.push_back({"the file's default factor makes " + std::string(key) + " " +
+                                        shortest(*scale) + "; limits: {" + key + ": 1} replaces it",
+                                    NoteWeight::motion});
+    readScale(map, key, *scale);
+  }
   spec.joints = readSection(map, "default", false);
   spec.slides = readSection(map, "slides", true);
   spec.position = readSection(map, "position", true);

@@ -12,8 +12,7 @@ void readTrajectoryKeys(const YamlMap& problem, TrajectorySettings& settings) {
   const auto within = [&](const char* key, const ClosedRange& range) {
     std::optional<double> number = map.number(key, Range::Positive);
     if (!number || range.contains(*number)) return number;
-    map.fault(key, "a number from " + shortest(range.lower) + " to " + shortest(range.upper) +
-                       " is needed, not " + shortest(*number));
+    map.fault(key, range.text() + " is needed, not " + shortest(*number));
     return std::optional<double>();
   };
   if (const auto word = map.choice("smooth", wordsFor<Smoothing>()))

@@ -108,9 +108,7 @@ std::vector<Vec3> pointsOf(const Array& array, const char* name) {
   return points;
 }
 
-TriangleMesh meshOf(
-    const Array& vertices,
-    const py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>& triangles) {
+TriangleMesh meshOf(const Array& vertices, const Indices& triangles) {
   TriangleMesh mesh;
   mesh.vertices = pointsOf(vertices, "vertices");
   if (triangles.ndim() != 2 || triangles.shape(1) != 3)

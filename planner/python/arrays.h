@@ -19,6 +19,9 @@ namespace py = pybind11;
 /// An array of doubles, in rows.
 using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
+/// An array of indices, in rows.
+using Indices = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
+
 /// Throws py::value_error: "NAME: TEXT".
 [[noreturn]] void refuse(const char* name, const std::string& text);
 
@@ -44,8 +47,6 @@ RigidPose rigidPoseOf(const Array& array, const char* name);
 /// Reads points, an array of N×3 numbers.
 std::vector<Vec3> pointsOf(const Array& array, const char* name);
 /// Makes a mesh of vertices (V×3 numbers, metres) and triangles (T×3 indices from 0).
-TriangleMesh meshOf(
-    const Array& vertices,
-    const py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>& triangles);
+TriangleMesh meshOf(const Array& vertices, const Indices& triangles);
 
 }  // namespace corridor::python

@@ -1,18 +1,17 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include "collision/geometry/mesh_file.h"
 #include "collision/world/body_queries.h"
 #include "collision/world/rigid_scene.h"
 #include "planner/python/arrays.h"
 #include "planner/python/bindings.h"
 #include "planner/python/parallel.h"
+#include "planner/python/shapes.h"
 
 namespace corridor::python {
 namespace {
 
 using BodyPointer = std::shared_ptr<Body>;
-using Indices = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
 
 /// The poses of two bodies, one row for each query. One pose serves for all queries.
 struct Poses {
@@ -29,21 +28,13 @@ struct Poses {
   std::size_t count = 0;
 };
 
-/// Runs query(i, context) for each row without Python's lock.
+/// Runs query(i, context) for each row, without Python's lock.
 template <class Query>
 void run(std::size_t count, std::size_t threads, const Query& query) {
-  bool done = false;
-  {
-    const py::gil_scoped_release unlocked;
-    done = forEachInParallel(
-        count, threads,
-        [&](std::size_t i) {
-          thread_local QueryContext context;
-          query(i, context);
-        },
-        hasPendingSignal);
-  }
-  if (!done) throw py::error_already_set();
+  forEachUnlocked(count, threads, [&](std::size_t i) {
+    thread_local QueryContext context;
+    query(i, context);
+  });
 }
 
 py::array_t<bool> touch(const Body& a, const Body& b, const Array& poseA, const Array& poseB,
@@ -132,29 +123,11 @@ py::tuple firstContact(const Body& a, const Body& b, const Array& from, const Ar
 
 void bindBodies(py::module_& module) {
   py::class_<Body, BodyPointer>(module, "Body");
-  module.def("mesh_body", [](const Array& vertices, const Indices& triangles, bool solid) {
-    return std::make_shared<Body>("mesh", meshOf(vertices, triangles), solid);
-  });
-  module.def("file_body", [](const std::string& file, std::optional<double> unit, bool solid) {
-    return std::make_shared<Body>("mesh", readMeshFile(file, {.metresPerUnit = unit}).mesh, solid);
-  });
-  const auto primitive = [](const Primitive& p) {
-    if (const auto wrong = checkPrimitive(p)) throw py::value_error(*wrong);
-    return std::make_shared<Body>(corridor::nameOf(p), placed(p, Transform()));
-  };
-  module.def("box_body", [primitive](const Array& size) {
-    const std::vector<Vec3> row = pointsOf(size, "size");
-    return primitive(Box{row.at(0)});
-  });
-  module.def("sphere_body", [primitive](double radius) { return primitive(Sphere{radius}); });
-  module.def("capsule_body", [primitive](double radius, double length) {
-    return primitive(Capsule{radius, length});
-  });
-  module.def("cylinder_body", [primitive](double radius, double length) {
-    return primitive(Cylinder{radius, length});
-  });
-  module.def("convex_body", [primitive](const Array& points) {
-    return primitive(Convex{pointsOf(points, "points")});
+  module.def("body", [](const py::tuple& shape) {
+    const PlacedShape placed = shapeFrom("body", shape);
+    if (!placed.mesh) return std::make_shared<Body>("body", placed.parts.at(0));
+    const std::shared_ptr<const TriangleMesh> mesh(placed.mesh, &placed.mesh->mesh);
+    return std::make_shared<Body>("body", mesh, placed.solid);
   });
   module.def("touch", &touch);
   module.def("closer_than", &closer);

@@ -50,23 +50,12 @@ py::tuple tupleOf(const Results& r) {
   return py::make_tuple(r.verdict, r.time, r.gap, r.pairs);
 }
 
-/// Runs work(i) for each row without Python's lock. Ctrl-C ends it.
-template <class Work>
-void run(std::size_t count, std::size_t threads, const Work& work) {
-  bool done = false;
-  {
-    const py::gil_scoped_release unlocked;
-    done = forEachInParallel(count, threads, work, hasPendingSignal);
-  }
-  if (!done) throw py::error_already_set();
-}
-
 py::tuple check(const NativeProblem& problem, const Array& states, std::size_t threads) {
   const Checker& checker = problem.checker();
   const std::vector<Configuration> rows = configurationsOf(states, checker.space(), "states");
   Results results(rows.size());
   Rows out(results);
-  run(rows.size(), threads, [&](std::size_t i) {
+  forEachUnlocked(rows.size(), threads, [&](std::size_t i) {
     out.set(i, checker, checker.inBounds(rows[i]), checker.certifyState(rows[i]));
   });
   return tupleOf(results);
@@ -77,7 +66,8 @@ Array clearance(const NativeProblem& problem, const Array& states, std::size_t t
   const std::vector<Configuration> rows = configurationsOf(states, checker.space(), "states");
   Array result(static_cast<py::ssize_t>(rows.size()));
   double* const out = result.mutable_data();
-  run(rows.size(), threads, [&](std::size_t i) { out[i] = checker.clearance(rows[i]); });
+  forEachUnlocked(rows.size(), threads,
+                  [&](std::size_t i) { out[i] = checker.clearance(rows[i]); });
   return result;
 }
 
@@ -92,7 +82,7 @@ py::tuple certify(const NativeProblem& problem, const Array& from, const Array& 
   const std::size_t count = a.empty() || b.empty() ? 0 : std::max(a.size(), b.size());
   Results results(count);
   Rows out(results);
-  run(count, threads, [&](std::size_t i) {
+  forEachUnlocked(count, threads, [&](std::size_t i) {
     const Configuration &p = a[a.size() == 1 ? 0 : i], &q = b[b.size() == 1 ? 0 : i];
     out.set(i, checker, checker.inBounds(p) && checker.inBounds(q),
             checker.certifyEdge(p, q, earliest));

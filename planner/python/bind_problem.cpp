@@ -8,54 +8,12 @@
 #include "planner/python/arrays.h"
 #include "planner/python/bindings.h"
 #include "planner/python/native_problem.h"
+#include "planner/python/shapes.h"
 
 namespace corridor::python {
 namespace {
 
 using ProblemPointer = std::shared_ptr<NativeProblem>;
-using Indices = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
-
-RigidPose poseOf(const py::object& matrix) {
-  if (matrix.is_none()) return {};
-  return rigidPoseOf(matrix.cast<Array>(), "pose");
-}
-
-/// Makes a shape of a tuple of Python: its kind, its numbers and its pose (corridor/shapes.py).
-PlacedShape shapeFrom(const std::string& name, const py::tuple& shape) {
-  const auto kind = shape[0].cast<std::string>();
-  const RigidPose at = poseOf(shape[shape.size() - 1]);
-  const auto primitive = [&](const Primitive& p) {
-    if (const auto wrong = checkPrimitive(p)) throw py::value_error(name + ": " + *wrong);
-    return shapeOf(name, p, at);
-  };
-  if (kind == "box") {
-    const auto size = pointsOf(shape[1].cast<Array>().reshape({1, -1}), "size");
-    return primitive(Box{size[0]});
-  }
-  if (kind == "sphere") return primitive(Sphere{shape[1].cast<double>()});
-  if (kind == "capsule")
-    return primitive(Capsule{shape[1].cast<double>(), shape[2].cast<double>()});
-  if (kind == "cylinder")
-    return primitive(Cylinder{shape[1].cast<double>(), shape[2].cast<double>()});
-  if (kind == "convex") return primitive(Convex{pointsOf(shape[1].cast<Array>(), "points")});
-  TriangleMesh mesh = kind == "mesh"
-                          ? meshOf(shape[1].cast<Array>(), shape[2].cast<Indices>())
-                          : readMeshFile(shape[1].cast<std::string>(),
-                                         {.metresPerUnit = shape[2].cast<std::optional<double>>()})
-                                .mesh;
-  const Mat3 R = rotationMatrix(at.q);
-  for (Vec3& p : mesh.vertices) p = R * p + at.p;
-  return shapeOf(name, std::move(mesh), shape[3].cast<bool>());
-}
-
-std::vector<PlacedShape> shapesFrom(const std::string& name, const py::list& shapes) {
-  if (shapes.empty()) throw py::value_error(name + ": at least one shape is needed");
-  std::vector<PlacedShape> result;
-  for (std::size_t i = 0; i < shapes.size(); ++i)
-    result.push_back(
-        shapeFrom(shapes.size() == 1 ? name : name + "/" + std::to_string(i + 1), shapes[i]));
-  return result;
-}
 
 Corners cornersOf(const py::object& bounds, const char* name) {
   const std::vector<Vec3> rows = pointsOf(bounds.cast<Array>(), name);
@@ -118,8 +76,7 @@ double numberFrom(const py::handle value, const char* key, double least) {
 double numberWithin(const py::handle value, const char* key, const ClosedRange& range) {
   const auto number = value.cast<double>();
   if (range.contains(number)) return number;
-  refuse(key, "a number from " + shortest(range.lower) + " to " + shortest(range.upper) +
-                  " is needed, not " + shortest(number));
+  refuse(key, range.text() + " is needed, not " + shortest(number));
 }
 
 /// Applies one edit to a problem. The keys are those of problem files where there are such.
@@ -207,7 +164,12 @@ ProblemPointer edited(const NativeProblem& from, const py::dict& edits) {
   if (problem.settings.prefer.clearance.value_or(0) > 0)
     if (const auto why = whyNoClearance(problem.task.margin, problem.settings))
       refuse("clearance", *why);
-  return std::make_shared<NativeProblem>(std::move(problem));
+  std::map<std::string, std::string> origins = from.origins();
+  if (edits.contains("planner")) origins["planner.name"] = "planner";
+  if (edits.contains("params"))
+    for (const auto& [key, value] : problem.settings.planner.params)
+      origins["planner.params." + key] = "params";
+  return std::make_shared<NativeProblem>(std::move(problem), std::move(origins));
 }
 
 }  // namespace

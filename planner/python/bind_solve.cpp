@@ -18,20 +18,6 @@
 namespace corridor::python {
 namespace {
 
-const char* nameOf(SolveOutcome outcome) {
-  switch (outcome) {
-    case SolveOutcome::solved:
-      return "solved";
-    case SolveOutcome::notFound:
-      return "not found";
-    case SolveOutcome::approximate:
-      return "approximate";
-    case SolveOutcome::interrupted:
-      return "interrupted";
-  }
-  return "";
-}
-
 /// Solves in a thread of its own. Meanwhile the calling thread runs Python's signal handlers and
 /// the callback, ten times a second.
 SolveReport solveInThread(const Problem& problem, SolveOptions& options,
@@ -88,6 +74,7 @@ py::dict solve(const NativeProblem& native, const std::optional<std::string>& tr
                const py::object& callback) {
   const Problem& problem = native.problem();
   SolveOptions options;
+  options.valueOrigins = native.origins();
   if (trajectory)
     options.trajectory =
         *trajectory == "csv" ? TrajectoryFileKind::csv : TrajectoryFileKind::message;
@@ -139,7 +126,7 @@ py::dict reportDict(const VerifyReport& report) {
     py::dict finding;
     finding["edge"] = f.edge;
     finding["t"] = f.t;
-    finding["verdict"] = corridor::nameOf(f.verdict);
+    finding["verdict"] = nameOf(f.verdict);
     finding["gap_m"] = f.gap;
     finding["reason"] = f.reason;
     if (!f.a.empty()) finding["bodies"] = py::make_tuple(f.a, f.b);

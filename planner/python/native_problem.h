@@ -1,7 +1,10 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <mutex>
+#include <string>
+#include <utility>
 
 #include "planner/checker/checker.h"
 #include "planner/problem/problem.h"
@@ -12,11 +15,14 @@ namespace corridor::python {
 /// make another NativeProblem. Threads may share it.
 class NativeProblem {
  public:
-  explicit NativeProblem(Problem problem) : problem_(std::move(problem)) {}
+  /// @param origins see SolveOptions::valueOrigins.
+  explicit NativeProblem(Problem problem, std::map<std::string, std::string> origins = {})
+      : problem_(std::move(problem)), origins_(std::move(origins)) {}
   NativeProblem(const NativeProblem&) = delete;
   NativeProblem& operator=(const NativeProblem&) = delete;
 
   const Problem& problem() const { return problem_; }
+  const std::map<std::string, std::string>& origins() const { return origins_; }
   /// @throws InputError if a mesh of the problem can't be used.
   const Checker& checker() const {
     const std::lock_guard lock(mutex_);
@@ -26,6 +32,7 @@ class NativeProblem {
 
  private:
   Problem problem_;
+  std::map<std::string, std::string> origins_;
   mutable std::mutex mutex_;
   mutable std::unique_ptr<Checker> checker_;
 };

@@ -10,6 +10,8 @@
 #include <thread>
 #include <vector>
 
+#include "planner/python/bindings.h"
+
 namespace corridor::python {
 
 /// Calls work(i) for each i below `count`, on several threads.
@@ -58,6 +60,17 @@ bool forEachInParallel(std::size_t count, std::size_t threads, const Work& work,
   }
   if (failure) std::rethrow_exception(failure);
   return !stopped;
+}
+
+/// The same, without Python's lock. Ctrl-C ends it, and raises KeyboardInterrupt.
+template <class Work>
+void forEachUnlocked(std::size_t count, std::size_t threads, const Work& work) {
+  bool done = false;
+  {
+    const py::gil_scoped_release unlocked;
+    done = forEachInParallel(count, threads, work, hasPendingSignal);
+  }
+  if (!done) throw py::error_already_set();
 }
 
 }  // namespace corridor::python

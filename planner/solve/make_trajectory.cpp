@@ -69,10 +69,20 @@ TimeLaw lawOf(const Problem& problem, const std::vector<CurvePiece>& path,
   return timeLaw(path, problem.model.space, limits, problem.model.tree, options);
 }
 
+/// A curve, and the law of it within the problem's limits.
+struct LawfulCurve {
+  std::vector<CurvePiece> pieces;
+  TimeLaw law;
+};
+
+LawfulCurve withLaw(const Problem& problem, std::vector<CurvePiece> pieces) {
+  TimeLaw law = lawOf(problem, pieces, problem.task.limits);
+  return {std::move(pieces), std::move(law)};
+}
+
 /// Makes the curve that the trajectory passes along, and counts its corners and tests.
-std::vector<CurvePiece> smoothCurve(const Problem& problem, const Checker& checker,
-                                    const Path& path, const std::function<bool()>& stop,
-                                    MadeTrajectory& made) {
+LawfulCurve smoothCurve(const Problem& problem, const Checker& checker, const Path& path,
+                        const std::function<bool()>& stop, MadeTrajectory& made) {
   const ConfigurationSpace& space = problem.model.space;
   const SmoothOptions options =
       smoothOptions(space, problem.task.limits, problem.settings.trajectory);
@@ -85,18 +95,18 @@ std::vector<CurvePiece> smoothCurve(const Problem& problem, const Checker& check
   made.curveTests = smooth.tests;
   if (options.goal == Smoothing::none || options.goal == Smoothing::corners ||
       std::isfinite(options.deviation))
-    return std::move(smooth.pieces);
+    return withLaw(problem, std::move(smooth.pieces));
   ShortCurve curve = shortenedCurve(space, smooth.pieces, isFree, options, stop);
   made.curveTests += curve.tests;
+  LawfulCurve whole = withLaw(problem, std::move(curve.pieces));
   // The time that was made smaller is an estimate.
   if (options.goal == Smoothing::time && curve.replaced > 0) {
-    const TimeLaw whole = lawOf(problem, curve.pieces, problem.task.limits),
-                  corners = lawOf(problem, smooth.pieces, problem.task.limits);
-    const bool isFaster = corners.fault.empty() ? whole.duration < corners.duration : true;
-    if (!whole.fault.empty() || !isFaster) return std::move(smooth.pieces);
+    LawfulCurve corners = withLaw(problem, std::move(smooth.pieces));
+    const bool isFaster = !corners.law.fault.empty() || whole.law.duration < corners.law.duration;
+    if (!whole.law.fault.empty() || !isFaster) return corners;
   }
   made.replaced = curve.replaced;
-  return std::move(curve.pieces);
+  return whole;
 }
 
 /// Proves the pieces of a curve in order, up to the first one that can't be proved.
@@ -109,20 +119,19 @@ void prove(const Checker& checker, MadeTrajectory& made) {
   }
 }
 
-/// Makes the law, the rows and the text, and proves them. `limits` are those of the law.
-void makeText(const Problem& problem, const Checker& checker, const std::vector<CurvePiece>& path,
+/// Makes the rows and the text, and proves them. `limits` are those of the law.
+void makeText(const Problem& problem, const Checker& checker, const LawfulCurve& curve,
               const JointLimits& limits, TrajectoryFileKind kind, double deviation,
               MadeTrajectory& made) {
   const ConfigurationSpace& space = problem.model.space;
   const KinematicTree& tree = problem.model.tree;
-  const TimeLaw law = lawOf(problem, path, limits);
-  made.fault = law.fault;
+  made.fault = curve.law.fault;
   if (!made.fault.empty()) return;
   EmitOptions emit;
   emit.degree = made.between == Between::quintic ? 5 : 3;
   emit.rate = problem.settings.trajectory.rate;
   emit.deviation = deviation;
-  const Emission emission = emitRows(law, path, space, limits, tree, emit);
+  const Emission emission = emitRows(curve.law, curve.pieces, space, limits, tree, emit);
   made.fault = emission.fault;
   if (!made.fault.empty()) return;
   made.stretch = emission.stretch;
@@ -141,20 +150,23 @@ void makeText(const Problem& problem, const Checker& checker, const std::vector<
 }
 
 /// Makes texts along a curve until one is proved, and keeps the limits. Completes `made`.
-MadeTrajectory provedAlong(const Problem& problem, const Checker& checker,
-                           const std::vector<CurvePiece>& curve, TrajectoryFileKind kind,
-                           int attempts, MadeTrajectory made) {
-  const JointLimits& limits = problem.task.limits;
+MadeTrajectory provedAlong(const Problem& problem, const Checker& checker, LawfulCurve curve,
+                           TrajectoryFileKind kind, int attempts, MadeTrajectory made) {
+  JointLimits limits = problem.task.limits;
   made.between = limitsJerk(limits) ? Between::quintic : Between::cubic;
   double deviation = problem.settings.trajectory.deviation, share = 1;
   std::optional<MadeTrajectory> proved;
   for (int i = 0; i < attempts && made.fault.empty(); ++i) {
-    makeText(problem, checker, curve, reduced(limits, share), kind, deviation, made);
+    makeText(problem, checker, curve, limits, kind, deviation, made);
     if (made.isGood()) return made;
     if (made.proved()) proved = made;
     deviation /= 4;
     // The rounding of times is all that can make a message exceed limits that its rows keep.
-    if (kind == TrajectoryFileKind::message) share -= i == 0 ? 1e-4 : 0.01;
+    if (kind == TrajectoryFileKind::message) {
+      share -= i == 0 ? 1e-4 : 0.01;
+      limits = reduced(problem.task.limits, share);
+      if (i + 1 < attempts) curve.law = lawOf(problem, curve.pieces, limits);
+    }
   }
   if (proved) return *proved;
   if (!made.fault.empty()) made.text.clear();
@@ -177,28 +189,34 @@ MadeTrajectory makeTrajectory(const Problem& problem, const Checker& checker, co
                               TrajectoryFileKind kind, const std::function<bool()>& stop) {
   const ConfigurationSpace& space = problem.model.space;
   MadeTrajectory begun;
-  const std::vector<CurvePiece> smooth = smoothCurve(problem, checker, path, stop, begun);
+  LawfulCurve smooth = smoothCurve(problem, checker, path, stop, begun);
   const PathLength length = lengthOf(space, path);
   if (length.metres == 0 && length.radians == 0) begun.fault = "the path does not move";
-  MadeTrajectory made = provedAlong(problem, checker, smooth, kind, kTrajectoryAttempts, begun);
+  MadeTrajectory made =
+      provedAlong(problem, checker, std::move(smooth), kind, kTrajectoryAttempts, begun);
   if (begun.rounded + begun.replaced == 0 || !begun.fault.empty()) return made;
 
   // Corners that are rounded by little may cost more time than stops.
-  const std::vector<CurvePiece> lines =
+  std::vector<CurvePiece> lines =
       smoothedPath(space, path, [](const CurvePiece&) { return false; }).pieces;
   if (made.isGood() && made.duration <= leastTimeWithStops(problem, lines)) return made;
   begun.rounded = begun.replaced = 0;
-  MadeTrajectory stopping =
-      provedAlong(problem, checker, lines, kind, kTrajectoryAttempts, std::move(begun));
+  MadeTrajectory stopping = provedAlong(problem, checker, withLaw(problem, std::move(lines)), kind,
+                                        kTrajectoryAttempts, std::move(begun));
   const bool isBetter = stopping.isGood() ? !made.isGood() || stopping.duration < made.duration
                                           : stopping.proved() && !made.proved();
-  return isBetter ? stopping : made;
+  if (!isBetter) return made;
+  stopping.whyStops = made.isGood()        ? "stops at the corners are faster"
+                      : made.proved()      ? "the rounded path exceeds limits"
+                      : made.fault.empty() ? "the rounded path is not proved"
+                                           : "the rounded path has no trajectory: " + made.fault;
+  return stopping;
 }
 
 MadeTrajectory trajectoryAlong(const Problem& problem, const Checker& checker,
                                const std::vector<CurvePiece>& curve, TrajectoryFileKind kind,
                                int attempts) {
-  return provedAlong(problem, checker, curve, kind, attempts, {});
+  return provedAlong(problem, checker, withLaw(problem, curve), kind, attempts, {});
 }
 
 }  // namespace corridor

@@ -33,6 +33,8 @@ struct MadeTrajectory {
   MotionResult proof;
   std::size_t failedPiece = 0;  ///< without a proof: index into curve.pieces
   std::string fault;            ///< why there is no trajectory, one line; or ""
+  /// Why the robot stops at all corners although some were rounded, one line; or "".
+  std::string whyStops;
 
   /// Whether the file's curve is proved free and stays within the bounds of all joints.
   bool proved() const {

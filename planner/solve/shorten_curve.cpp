@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "planner/solve/curve_measure.h"
+#include "planner/solve/smooth_pieces.h"
 #include "planner/trajectory/path_view.h"
 
 namespace corridor {
@@ -56,19 +57,21 @@ class Shortener {
         ruler_(space, options.velocity, options.acceleration) {
     result_.pieces = std::move(pieces);
     for (const CurvePiece& piece : result_.pieces) measured_.push_back(ruler_.of(piece));
-    measureAngles();
+    for (std::size_t k = 0; k + 1 < result_.pieces.size(); ++k)
+      angles_.push_back(angleBetween(result_.pieces[k], result_.pieces[k + 1]));
+    angles_.push_back(0);
     madeIn_.assign(result_.pieces.size(), 0);
   }
 
   ShortCurve run() {
     // From the last section to the first one, so that indices of the others stay.
     for (std::size_t end = pieces().size(); end > 0;) {
-      if (rotates(end - 1)) {
+      if (isRotating(end - 1)) {
         --end;
         continue;
       }
       begin_ = end - 1;
-      while (begin_ > 0 && !rotates(begin_ - 1)) --begin_;
+      while (begin_ > 0 && !isRotating(begin_ - 1)) --begin_;
       end_ = end;
       end = begin_;
       shortenSection();
@@ -125,21 +128,16 @@ class Shortener {
     return point;
   }
 
-  bool rotates(std::size_t piece) const {
+  bool isRotating(std::size_t piece) const {
     const auto& c = pieces()[piece].coefficients;
-    for (const Coordinate& coordinate : space_.coordinates()) {
-      const auto i = static_cast<Eigen::Index>(coordinate.first);
-      if (coordinate.kind == Coordinate::Kind::rotation &&
-          c.col(0).segment<4>(i) != c.rightCols<1>().segment<4>(i))
-        return true;
-    }
-    return false;
+    return rotates(space_, c.col(0), c.rightCols<1>());
   }
 
-  void measureAngles() {
-    angles_.assign(pieces().size(), 0);
-    for (std::size_t k = 0; k + 1 < pieces().size(); ++k)
-      angles_[k] = ruler_.angleBetween(pointAt(k, 1).first, pointAt(k + 1, 0).first);
+  /// Returns the angle between the tangents of two pieces that follow each other.
+  double angleBetween(const CurvePiece& a, const CurvePiece& b) const {
+    const auto& c = a.coefficients;
+    return ruler_.angleBetween(c.rightCols<1>() - c.col(c.cols() - 2),
+                               b.coefficients.col(1) - b.coefficients.col(0));
   }
 
   /// Returns the piece of degree 5 between two points, with the speed `speed` at both ends. An end
@@ -164,20 +162,12 @@ class Shortener {
     } else if (freeEnd) {
       for (int i = 1; i < 3; ++i) c.col(5 - i) = c.col(5) + i / 3.0 * (c.col(2) - c.col(5));
     }
-    for (const Coordinate& coordinate : space_.coordinates()) {  // a rotation rests here
-      if (coordinate.kind != Coordinate::Kind::rotation) continue;
-      const auto i = static_cast<Eigen::Index>(coordinate.first);
-      c.middleRows<4>(i) = resting.segment<4>(i).replicate(1, 6);
-    }
+    restRotations(space_, resting, piece);
     return piece;
   }
 
   bool isProved(const CurvePiece& piece) {
-    for (const Coordinate& c : space_.coordinates()) {
-      if (c.kind != Coordinate::Kind::line) continue;
-      const auto row = piece.coefficients.row(static_cast<Eigen::Index>(c.first));
-      if (row.minCoeff() < c.lower || row.maxCoeff() > c.upper) return false;
-    }
+    if (!isWithinBounds(space_, piece)) return false;
     ++result_.tests;
     return isFree_(piece);
   }
@@ -254,11 +244,15 @@ class Shortener {
       all.insert(at, some.begin(), some.end());
     };
     const std::vector<int> now(own.size(), pass_);
+    // Inside, and at what was there before, the tangent is continuous.
+    std::vector<double> joints(own.size(), 0);
+    joints.back() = after.empty() ? 0 : angles_[last];
+    if (atJoint) angles_[from.piece - 1] = 0;
     exchange(madeIn_, now);
+    exchange(angles_, joints);
     exchange(measured_, own);
     exchange(result_.pieces, inserted);
     end_ += inserted.size() - (last + 1 - from.piece);
-    measureAngles();
     ++result_.replaced;
   }
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "planner/solve/curve_measure.h"
+#include "planner/solve/smooth_pieces.h"
 #include "planner/trajectory/curve_pieces.h"
 
 namespace corridor {
@@ -61,7 +62,7 @@ class Smoother {
     for (const CurvePiece& edge : curveOfPath(space_, path).pieces) {
       const Configuration next = edge.coefficients.col(1);
       const double length = ruler_.timeOf(next - states_.back());
-      const bool turns = rotates(states_.back(), next);
+      const bool turns = rotates(space_, states_.back(), next);
       if (length == 0 && !turns) continue;
       if (!edges_.empty() && !turns && !edges_.back().rotates && continues(next, length)) {
         states_.back() = next;
@@ -77,14 +78,6 @@ class Smoother {
   bool continues(const Configuration& next, double length) const {
     const Configuration u = direction(edges_.size() - 1);
     return ruler_.timeOf((next - states_.back()) / length - u) <= kStraight;
-  }
-
-  bool rotates(const Configuration& a, const Configuration& b) const {
-    for (const Coordinate& c : space_.coordinates()) {
-      const auto i = static_cast<Eigen::Index>(c.first);
-      if (c.kind == Coordinate::Kind::rotation && a.segment<4>(i) != b.segment<4>(i)) return true;
-    }
-    return false;
   }
 
   Configuration at(std::size_t edge, double place) const {
@@ -105,22 +98,14 @@ class Smoother {
     const Configuration u = direction(first), v = direction(last);
     const Configuration a = at(first, from), b = at(last, to);
     c << a, a + spacing * u, a + 2 * spacing * u, b - 2 * spacing * v, b - spacing * v, b;
-    for (const Coordinate& coordinate : space_.coordinates()) {  // a rotation rests here
-      if (coordinate.kind != Coordinate::Kind::rotation) continue;
-      const auto i = static_cast<Eigen::Index>(coordinate.first);
-      c.middleRows<4>(i) = states_[first].segment<4>(i).replicate(1, 6);
-    }
+    restRotations(space_, states_[first], blend.piece);
     blend.piece.error = Configuration::Zero(states_[0].size());
     return blend;
   }
 
   bool isProved(const Blend& blend) {
     if (stop_()) return false;
-    for (const Coordinate& c : space_.coordinates()) {
-      if (c.kind != Coordinate::Kind::line) continue;
-      const auto row = blend.piece.coefficients.row(static_cast<Eigen::Index>(c.first));
-      if (row.minCoeff() < c.lower || row.maxCoeff() > c.upper) return false;
-    }
+    if (!isWithinBounds(space_, blend.piece)) return false;
     ++result_.tests;
     return isFree_(blend.piece);
   }

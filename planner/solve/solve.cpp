@@ -419,6 +419,20 @@ void checkSettings(const Problem& problem) {
   Solve(problem, options).setUp();
 }
 
+const char* nameOf(SolveOutcome outcome) {
+  switch (outcome) {
+    case SolveOutcome::solved:
+      return "solved";
+    case SolveOutcome::notFound:
+      return "not found";
+    case SolveOutcome::approximate:
+      return "approximate only";
+    case SolveOutcome::interrupted:
+      return "interrupted";
+  }
+  return "";
+}
+
 SolveReport solveProblem(const Problem& problem, const SolveOptions& options) {
   Solve solve(problem, options);
   solve.setUp();  // before start and goals are tested: wrong names are reported at once

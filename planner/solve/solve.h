@@ -54,6 +54,9 @@ enum class SolveOutcome {
   interrupted,
 };
 
+/// Returns "solved", "not found", "approximate only" or "interrupted".
+const char* nameOf(SolveOutcome outcome);
+
 /// The result of a solve and its costs. Lengths are in metres, times in seconds.
 struct SolveReport {
   SolveOutcome outcome = SolveOutcome::notFound;

@@ -219,6 +219,18 @@ DigestState digestState(const Problem& problem, const Solution& solution) {
 
 }  // namespace
 
+std::string firstFinding(const VerifyReport& report) {
+  if (!report.violations.empty()) return report.violations.front();
+  if (report.pathReport.findings.empty()) return "";
+  const PathFinding& f = report.pathReport.findings.front();
+  std::string place = "edge " + std::to_string(f.edge) + " at t = " + shortest(f.t);
+  if (const auto k = static_cast<std::size_t>(f.edge); k + 1 < report.times.size())
+    place =
+        "at " + shortest(report.times[k] + f.t * (report.times[k + 1] - report.times[k])) + " s";
+  return place + ": " + f.reason + (f.a.empty() ? "" : ": " + f.a + " and " + f.b) +
+         (f.gap > 0 ? ", " + shortest(f.gap) + " m apart" : "");
+}
+
 PathProblem plainProblem(const Model& model, const Task& task,
                          const std::optional<double>& tolerance) {
   PathProblem plain;

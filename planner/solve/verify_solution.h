@@ -51,6 +51,10 @@ const char* nameOf(PathVerdict verdict);
 /// Returns "proved", "refuted", "undecided", or "other problem".
 const char* verdictName(const VerifyReport& report);
 
+/// Returns the first violation or finding in one line, with the edge or the time at which it is; ""
+/// if there is none.
+std::string firstFinding(const VerifyReport& report);
+
 /// Returns the plain data that planner/verify reads: the model's bodies, the pairs that its filter
 /// does not exclude, and the task's margin and tube. The model must outlive the result.
 /// @param tolerance the checker's tolerance, metres; the verifier uses a tenth of it. Unset: the

@@ -139,7 +139,7 @@ bool Verifier::test(const Interval& interval, OpenPair& open) {
   smallest_ = std::min(smallest_, answer.upper);
   if (!answer.verdict && (interval.depth >= kDepth || outOfWork())) {
     answer.verdict = PathVerdict::undecided;
-    if (interval.depth < kDepth) answer.reason = "work limit reached";
+    if (interval.depth < kDepth) answer.reason = kWorkLimit;
   }
   if (!answer.verdict) return true;
   if (*answer.verdict != PathVerdict::proved) {

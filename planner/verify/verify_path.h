@@ -74,6 +74,7 @@ struct PathProblem {
   double wantedClearance = 0;
   Configuration tube;    ///< the proof holds for all curves in the tube (planner/model/task.h)
   double tolerance = 0;  ///< metres, > 0
+  /// The reason of findings that are undecided because of it: kWorkLimit.
   std::uint64_t workLimit = 2'000'000;  ///< distance queries; then the edges left are undecided
 };
 
@@ -94,6 +95,9 @@ enum class PathVerdict {
   /// - The work limit was reached.
   undecided
 };
+
+/// PathFinding::reason of what was not examined because the work limit was reached.
+inline constexpr const char* kWorkLimit = "work limit reached";
 
 /// A fault of an edge: a refutation, or else an undecided place. On the first refuted edge of a
 /// path, it is the first refutation along the edge (`freeUntil`); on other edges, it is the first

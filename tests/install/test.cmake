@@ -38,9 +38,13 @@ foreach(header ${headers})
   endforeach()
 endforeach()
 
-run(${CMAKE_COMMAND} -S "${CMAKE_CURRENT_LIST_DIR}" -B "${build}" -G "${GENERATOR}" "-DCMAKE_BUILD_TYPE=${CONFIG}"
-    "-DCMAKE_PREFIX_PATH=${prefix}" "-DCMAKE_CXX_COMPILER=${COMPILER}" "-DCMAKE_CXX_FLAGS=${FLAGS}")
-run(${CMAKE_COMMAND} --build "${build}" --config "${CONFIG}")
+# Configures and builds a project that finds the installed package.
+function(build_project source build)
+  run(${CMAKE_COMMAND} -S "${source}" -B "${build}" -G "${GENERATOR}" "-DCMAKE_BUILD_TYPE=${CONFIG}"
+      "-DCMAKE_PREFIX_PATH=${prefix}" "-DCMAKE_CXX_COMPILER=${COMPILER}" "-DCMAKE_CXX_FLAGS=${FLAGS}")
+  run(${CMAKE_COMMAND} --build "${build}" --config "${CONFIG}")
+endfunction()
+build_project("${CMAKE_CURRENT_LIST_DIR}" "${build}")
 
 # The headers must refuse compiler options under which no bound holds.
 set(refused -ffast-math -ffinite-math-only)
@@ -90,10 +94,7 @@ file(WRITE "${WORK}/cube.dae" "<?xml version=\"1.0\"?>
 
 # An OMPL program with Corridor's checkers. Then the installed program inspects the Collada file.
 set(source "${CMAKE_CURRENT_LIST_DIR}/../..")
-run(${CMAKE_COMMAND} -S "${CMAKE_CURRENT_LIST_DIR}/ompl_program" -B "${WORK}/ompl" -G "${GENERATOR}"
-    "-DCMAKE_BUILD_TYPE=${CONFIG}" "-DCMAKE_PREFIX_PATH=${prefix}" "-DCMAKE_CXX_COMPILER=${COMPILER}"
-    "-DCMAKE_CXX_FLAGS=${FLAGS}")
-run(${CMAKE_COMMAND} --build "${WORK}/ompl" --config "${CONFIG}")
+build_project("${CMAKE_CURRENT_LIST_DIR}/ompl_program" "${WORK}/ompl")
 run("${WORK}/ompl/plan" "${source}/robots/arm6/arm6.urdf")
 if(NOT out MATCHES "(^|\n)certified\n$")
   message(FATAL_ERROR "the OMPL program says:\n${out}${err}")
@@ -106,10 +107,7 @@ run("${prefix}/bin/corridor" inspect "${WORK}/cube.dae")
 
 # A rigid body in an OMPL program, and a trajectory that is made elsewhere: one that goes around the post, and one that
 # goes through it.
-run(${CMAKE_COMMAND} -S "${CMAKE_CURRENT_LIST_DIR}/own_programs" -B "${WORK}/own" -G "${GENERATOR}"
-    "-DCMAKE_BUILD_TYPE=${CONFIG}" "-DCMAKE_PREFIX_PATH=${prefix}" "-DCMAKE_CXX_COMPILER=${COMPILER}"
-    "-DCMAKE_CXX_FLAGS=${FLAGS}")
-run(${CMAKE_COMMAND} --build "${WORK}/own" --config "${CONFIG}")
+build_project("${CMAKE_CURRENT_LIST_DIR}/own_programs" "${WORK}/own")
 run("${WORK}/own/rigid" "${WORK}/cube.obj")
 if(NOT out MATCHES "(^|\n)certified\n$")
   message(FATAL_ERROR "the program with a rigid body says:\n${out}${err}")
@@ -131,7 +129,7 @@ endif()
 file(GLOB package "${prefix}/lib/python3*/dist-packages")
 if(package AND NOT FLAGS MATCHES "sanitize")
   file(WRITE "${WORK}/use.py" "import corridor
-print(corridor.touch(corridor.Body.file('${WORK}/cube.dae'), corridor.Body.sphere(1))[0])
+print(corridor.touch(corridor.Body(corridor.shapes.mesh_file('${WORK}/cube.dae')), corridor.Body(corridor.shapes.sphere(1)))[0])
 ")
   run(${CMAKE_COMMAND} -E env "PYTHONPATH=${package}" /usr/bin/python3 "${WORK}/use.py")
   if(NOT out STREQUAL "True\n")

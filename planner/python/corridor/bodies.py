@@ -2,59 +2,26 @@
 
 from __future__ import annotations
 
-import os
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 from .problem import Verdict
-from .shapes import _array, _indices, _size
+from .shapes import Shape, _array
 
 _ORIGIN = np.eye(4)
 
 
 class Body:
-    """A mesh or a convex solid. Its trees are built when a query first needs them."""
+    """A body of one shape (`corridor.shapes`): a mesh or a convex solid.
 
-    def __init__(self, native: Any):
-        self._native = native
+    Its trees are built when a query first needs them. Raises ValueError for a solid mesh that is not watertight.
+    """
 
-    @staticmethod
-    def mesh(vertices: ArrayLike, triangles: ArrayLike, solid: bool = False) -> Body:
-        """A mesh of vertices (V×3, metres) and triangles (T×3 indices from 0)."""
-        return Body(_native.mesh_body(_array("vertices", vertices), _indices(triangles), solid))
-
-    @staticmethod
-    def file(file: str | os.PathLike, metres_per_unit: float | None = None, solid: bool = False) -> Body:
-        """A mesh file: OBJ, STL, PLY, OFF, Collada, glTF and more."""
-        return Body(_native.file_body(os.fspath(file), metres_per_unit, solid))
-
-    @staticmethod
-    def box(size: ArrayLike) -> Body:
-        """A box with full edge lengths (3,), centred at the origin."""
-        return Body(_native.box_body(_size(size)))
-
-    @staticmethod
-    def sphere(radius: float) -> Body:
-        """A sphere about the origin."""
-        return Body(_native.sphere_body(radius))
-
-    @staticmethod
-    def capsule(radius: float, length: float) -> Body:
-        """A capsule along z; `length` is the distance of the centres of its end spheres."""
-        return Body(_native.capsule_body(radius, length))
-
-    @staticmethod
-    def cylinder(radius: float, length: float) -> Body:
-        """A cylinder along z with its full length."""
-        return Body(_native.cylinder_body(radius, length))
-
-    @staticmethod
-    def convex(points: ArrayLike) -> Body:
-        """The convex hull of points (N×3)."""
-        return Body(_native.convex_body(_array("points", points)))
+    def __init__(self, shape: Shape):
+        self._native = _native.body(shape)
 
 
 class Distances(NamedTuple):

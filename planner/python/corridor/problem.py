@@ -280,7 +280,7 @@ class Solution:
     """The result of `solve`. It can be pickled. It is true if the problem is solved."""
 
     problem: Problem
-    outcome: str  #: "solved", "not found", "approximate"
+    outcome: str  #: "solved", "not found", "approximate only"
     why: str  #: why it is not solved, one line
     path: NDArray[np.float64]  #: N×J states; empty unless solved
     certified: bool  #: every edge of `path` is proved

@@ -20,13 +20,8 @@ using testing::Not;
 
 /// A square of 0.2 m in the plane goes along a floor whose top is at y = 0, and then up. A spline
 /// through the corner dips below the first edge, into the floor.
-class TrajectoryRuns : public test::ProblemTest {
+class TrajectoryRuns : public test::SquareTest {
  protected:
-  void SetUp() override {
-    ProblemTest::SetUp();
-    write("square.yaml",
-          "format: corridor-robot-1\nname: square\nrigid: SE2\nshapes: [{box: [0.2, 0.2, 0.2]}]\n");
-  }
   Problem problemWith(const std::string& more = "") const {
     return read(
         "format: corridor-problem-1\nrobot: square.yaml\nworld:\n"
@@ -34,7 +29,6 @@ class TrajectoryRuns : public test::ProblemTest {
         "start: {at: [0, 0.11]}\ngoal: {at: [1, 1.11]}\nbounds: {at: [[-3, -3], [5, 5]]}\n" +
         more);
   }
-  static Configuration at(double x, double y) { return test::numbers({x, y, 0}); }
   static Path corner() { return {at(0, 0.11), at(1, 0.11), at(1, 1.11)}; }
   static TrajectoryRun runOf(TrajectoryMaker maker, const Problem& problem) {
     return runTrajectory(maker, problem, Checker(problem), corner());

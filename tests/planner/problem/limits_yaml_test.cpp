@@ -94,8 +94,11 @@ TEST_F(LimitsTest, MoveitFile) {
   EXPECT_EQ(spec.named.at("pan").acceleration, 2);
   EXPECT_FALSE(spec.named.at("lift").velocity.has_value());
   EXPECT_EQ(spec.named.at("lift").jerk, 7);
-  ASSERT_EQ(notes_.size(), 1);
+  ASSERT_EQ(notes_.size(), 2);
   EXPECT_THAT(notes_[0].text, testing::HasSubstr("limits of other are not used: not planned for"));
+  EXPECT_EQ(notes_[1].text,
+            "the file's default factor makes acceleration_scale 0.5; limits: {acceleration_scale: "
+            "1} replaces it");
 }
 
 /// The forms in which people have MoveIt's file: the plain one, that of launch files, and
@@ -141,12 +144,12 @@ TEST_F(LimitsTest, EveryFormOfMoveitsFile) {
     EXPECT_FALSE(spec.named.at("pan").acceleration);
     EXPECT_FALSE(spec.named.at("lift").velocity);
     EXPECT_EQ(spec.named.at("lift").acceleration, 3.75);
-    EXPECT_TRUE(notes_.empty());
+    EXPECT_EQ(notes_.size(), 2u);  // on the two factors
   }
   // Limits of Pilz's planner may stand in the same file.
   write("joint_limits.yaml", limits + "cartesian_limits: {max_trans_vel: 1, max_rot_vel: 1.57}\n");
   specOf("  file: joint_limits.yaml\n");
-  ASSERT_EQ(notes_.size(), 1u);
+  ASSERT_EQ(notes_.size(), 3u);
   EXPECT_THAT(notes_[0].text,
               testing::HasSubstr("cartesian_limits are not used; write link_speed"));
   EXPECT_THAT(complaintOfFile("/**:\n" + parameters + "    joint_limit: {}\n"),

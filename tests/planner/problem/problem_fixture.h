@@ -98,4 +98,15 @@ class ProblemTest : public testing::Test {
   std::filesystem::path folder_ = newFolder();
 };
 
+/// A rigid body in the plane: a square of 0.2 m, square.yaml.
+class SquareTest : public ProblemTest {
+ protected:
+  void SetUp() override {
+    ProblemTest::SetUp();
+    write("square.yaml",
+          "format: corridor-robot-1\nname: square\nrigid: SE2\nshapes: [{box: [0.2, 0.2, 0.2]}]\n");
+  }
+  static Configuration at(double x, double y, double yaw = 0) { return numbers({x, y, yaw}); }
+};
+
 }  // namespace corridor::test

@@ -167,6 +167,17 @@ std::array<CurvePiece, 2> halvesOf(const ConfigurationSpace& space, const CurveP
   return {first, second};
 }
 
+/// Returns two bodies of twenty triangles: one about a point, the other about the origin.
+std::pair<Body, Body> randomSoups(RandomTrees& random, const Vec3& center, double spread) {
+  TriangleMesh meshA, meshB;
+  for (int i = 0; i < 20; ++i) {
+    const Vec3 c = center + random.vector(spread), d = random.vector(0.3);
+    add(meshA, c, c + random.vector(0.4), c + random.vector(0.4));
+    add(meshB, d, d + random.vector(0.2), d + random.vector(0.2));
+  }
+  return {Body("", meshA), Body("", meshB)};
+}
+
 /// A piece that is a line has the verdict of the edge. The circles of the edge go less than half a
 /// turn, and the piece goes the same way.
 TEST(CurveMotion, StraightPiecesHaveTheVerdictOfTheEdge) {
@@ -182,14 +193,8 @@ TEST(CurveMotion, StraightPiecesHaveTheVerdictOfTheEdge) {
     const Scene::FramePair frames{0, random.tree.frames.size() - 1};
     EdgeMotion motion(random.tree, random.space, {&frames, 1}, random.noTube());
     const ReferenceKinematics reference(random.tree, random.space, piece);
-    const Vec3 center = reference.relative(0, frames.b, 0.5L).t.cast<double>();
-    TriangleMesh meshA, meshB;
-    for (int i = 0; i < 20; ++i) {
-      const Vec3 c = center + random.vector(1), d = random.vector(0.3);
-      add(meshA, c, c + random.vector(0.4), c + random.vector(0.4));
-      add(meshB, d, d + random.vector(0.2), d + random.vector(0.2));
-    }
-    const Body a("", meshA), b("", meshB);
+    const auto [a, b] =
+        randomSoups(random, reference.relative(0, frames.b, 0.5L).t.cast<double>(), 1);
     const MotionPair pair{&a, &b};
     MotionOptions options;
     options.tolerance = 1e-7;
@@ -240,14 +245,8 @@ TEST(CurveMotion, RandomPiecesAgainstSamples) {
     const Scene::FramePair frames{0, random.tree.frames.size() - 1};
     EdgeMotion motion(random.tree, random.space, {&frames, 1}, random.noTube());
     const ReferenceKinematics reference(random.tree, random.space, piece);
-    const Vec3 center = reference.relative(0, frames.b, 0.5L).t.cast<double>();
-    TriangleMesh meshA, meshB;
-    for (int i = 0; i < 20; ++i) {
-      const Vec3 c = center + random.vector(1.5), d = random.vector(0.3);
-      add(meshA, c, c + random.vector(0.4), c + random.vector(0.4));
-      add(meshB, d, d + random.vector(0.2), d + random.vector(0.2));
-    }
-    const Body a("", meshA), b("", meshB);
+    const auto [a, b] =
+        randomSoups(random, reference.relative(0, frames.b, 0.5L).t.cast<double>(), 1.5);
     const MotionPair pair{&a, &b};
     MotionOptions options;
     options.tolerance = 1e-7;

@@ -11,13 +11,8 @@ namespace corridor {
 namespace {
 
 /// A square of 0.2 m in the plane, above a floor whose top is at y = 0, with a post to go around.
-class MakeTrajectory : public test::ProblemTest {
+class MakeTrajectory : public test::SquareTest {
  protected:
-  void SetUp() override {
-    ProblemTest::SetUp();
-    write("square.yaml",
-          "format: corridor-robot-1\nname: square\nrigid: SE2\nshapes: [{box: [0.2, 0.2, 0.2]}]\n");
-  }
   Problem problemWith(const std::string& more = "") const {
     return read(
         "format: corridor-problem-1\nrobot: square.yaml\nworld:\n"
@@ -26,7 +21,6 @@ class MakeTrajectory : public test::ProblemTest {
         "start: {at: [0, 0.2]}\ngoal: {at: [2, 0.2]}\nbounds: {at: [[-3, -3], [5, 5]]}\n" +
         more);
   }
-  static Configuration at(double x, double y, double yaw = 0) { return test::numbers({x, y, yaw}); }
   static Path overThePost() { return {at(0, 0.2), at(0.5, 1.3), at(1.5, 1.3), at(2, 0.2)}; }
   static VerifyReport verified(const Problem& problem, const MadeTrajectory& made) {
     return verifyTrajectory(problem, readTrajectory("made", made.text, problem.model));

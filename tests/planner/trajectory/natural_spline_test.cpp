@@ -7,23 +7,13 @@
 #include <gtest/gtest.h>
 
 #include "planner/trajectory/curve_pieces.h"
+#include "tests/planner/trajectory/paths.h"
 
 namespace corridor {
 namespace {
 
 Configuration number(double x) {
   return Configuration::Constant(1, x);
-}
-
-/// Returns a space of `count` lines.
-ConfigurationSpace lineSpace(std::size_t count) {
-  ConfigurationSpace space;
-  CoordinateGroup group;
-  for (std::size_t i = 0; i < count; ++i)
-    group.coordinates.push_back(
-        space.add({Coordinate::Kind::line, "q" + std::to_string(i), 0, -100, 100, true, 1}));
-  space.addGroup(group);
-  return space;
 }
 
 /// Returns the first or second derivative by the parameter of chord lengths, at an end of a piece.
@@ -39,7 +29,7 @@ Configuration derivative(const CurvePiece& piece, double chord, int order, bool 
 TEST(NaturalSpline, ClosedForm) {
   const auto pieces = naturalSpline({number(0), number(1), number(0)});
   ASSERT_EQ(pieces.size(), 2u);
-  const ConfigurationSpace space = lineSpace(1);
+  const ConfigurationSpace space = test::jointSpace(1);
   for (const CurvePiece& piece : pieces)
     EXPECT_NEAR(configurationAt(space, piece, 0.5)[0], 0.6875, 1e-15);
   const auto line = naturalSpline({number(-2), number(4)});
@@ -86,7 +76,7 @@ TEST(NaturalSpline, MeetsTheConditionsThatDefineIt) {
 }
 
 TEST(NaturalSpline, RepeatedStatesAreLeftOut) {
-  const ConfigurationSpace space = lineSpace(1);
+  const ConfigurationSpace space = test::jointSpace(1);
   const std::vector<Configuration> path{number(0), number(1), number(1), number(2)};
   const auto states = statesOfLines(curveOfPath(space, path).pieces);
   ASSERT_EQ(states.size(), 3u);
@@ -102,7 +92,7 @@ class InsertedStates : public testing::Test {
     q << x, y;
     return q;
   }
-  const ConfigurationSpace space_ = lineSpace(2);
+  const ConfigurationSpace space_ = test::jointSpace(2);
   const std::vector<Configuration> states_{at(0, 0), at(1, 0), at(1, 1)};
 };
 

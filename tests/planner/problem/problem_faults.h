@@ -1,0 +1,14 @@
+#pragma once
+
+#include "tests/planner/problem/problem_fixture.h"
+
+namespace corridor::test {
+
+/// Pins the complete text of every message. Users read these: change them with care.
+class ProblemFaults : public ProblemTest {
+ protected:
+  /// Returns the complaint about a spatial problem with these lines added from line 8 on.
+  std::string with(const std::string& lines) const { return complaintOf(head + poses + lines); }
+};
+
+}  // namespace corridor::test
