@@ -7,14 +7,14 @@ namespace {
 
 /// Replaces control characters, which may come from a damaged file, by '?'. Then each fault is one
 /// line, and no text of a file can send commands to the terminal.
-std::vector<Fault> printable(std::vector<Fault> faults) {
+std::vector<Fault> printableFaults(std::vector<Fault> faults) {
   for (Fault& fault : faults)
     for (char& c : fault.text)
       if ((c >= 0 && c < ' ') || c == 0x7f) c = '?';
   return faults;
 }
 
-std::string joined(const std::vector<Fault>& faults) {
+std::string faultsText(const std::vector<Fault>& faults) {
   std::string text;
   for (const Fault& fault : faults) {
     if (!text.empty()) text += '\n';
@@ -32,6 +32,7 @@ std::string Fault::str() const {
 }
 
 InputError::InputError(std::vector<Fault> faults)
-    : std::runtime_error(joined(printable(faults))), faults_(printable(std::move(faults))) {}
+    : std::runtime_error(faultsText(printableFaults(faults))),
+      faults_(printableFaults(std::move(faults))) {}
 
 }  // namespace corridor

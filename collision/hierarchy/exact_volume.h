@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
 
 #include <boost/multiprecision/cpp_int.hpp>
 
@@ -15,6 +16,11 @@
 namespace corridor::exact {
 
 using Rational = boost::multiprecision::cpp_rational;
+
+/// Returns "node 3", for the complaints of tests of trees.
+inline std::string named(const char* what, std::size_t i) {
+  return std::string(what) + " " + std::to_string(i);
+}
 using Row = std::array<Rational, 3>;
 
 inline Row row(const Vec3& p) {

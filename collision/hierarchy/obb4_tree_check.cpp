@@ -26,10 +26,7 @@ std::optional<std::string> complaintOf(const Obb& box) {
   return std::nullopt;
 }
 
-std::string named(const char* what, std::size_t i) {
-  return std::string(what) + " " + std::to_string(i);
-}
-
+using exact::named;
 using Volume = exact::ExactVolume<Obb>;
 
 /// Tests whether the volume, in the tree's frame and unit, contains a triangle. `own` maps a point

@@ -12,11 +12,8 @@ namespace corridor {
 namespace {
 
 using exact::ExactVolume;
+using exact::named;
 using exact::row;
-
-std::string named(const char* what, std::size_t i) {
-  return std::string(what) + " " + std::to_string(i);
-}
 
 template <class Volume>
 bool containsPart(const ExactVolume<Volume>& volume, const ConvexPart& part) {

@@ -16,7 +16,7 @@ namespace {
 constexpr double kLeastHalfWidth = 0x1p-48;
 
 /// A time interval of a pair that is not proved yet.
-struct Interval {
+struct QueuedInterval {
   double t0, t1;
   double need;  ///< metres by which the parent's distance was too small; whole motion: infinite
   std::uint32_t pair;
@@ -38,7 +38,7 @@ class Bisection {
       if (!steps_.staysAway(k, 0.5, 0.5)) push({0, 1, HUGE_VAL, k});
     while (!queue_.empty()) {
       std::pop_heap(queue_.begin(), queue_.end(), Later{earliest_});
-      const Interval w = queue_.back();
+      const QueuedInterval w = queue_.back();
       queue_.pop_back();
       if (block_ && w.t0 >= block_->time - steps_.options().timeTolerance)
         return blocked(std::min(w.t0, block_->time));
@@ -55,18 +55,18 @@ class Bisection {
   /// motion needs the same intervals in any order.
   struct Later {
     bool earliest;
-    bool operator()(const Interval& a, const Interval& b) const {
+    bool operator()(const QueuedInterval& a, const QueuedInterval& b) const {
       return earliest ? a.t0 > b.t0 : a.need < b.need;
     }
   };
-  void push(const Interval& w) {
+  void push(const QueuedInterval& w) {
     queue_.push_back(w);
     std::push_heap(queue_.begin(), queue_.end(), Later{earliest_});
   }
 
   /// Tests an interval. Returns nothing if the interval is proved or halved, otherwise the answer
   /// of the query.
-  std::optional<MotionResult> decide(const Interval& w) {
+  std::optional<MotionResult> decide(const QueuedInterval& w) {
     const double h = (w.t1 - w.t0) / 2, t = w.t0 + h;  // dyadic: exact
     const DistanceSteps::Measurement measured = steps_.measureAt(w.pair, t, h, false);
     if (measured.apart()) return std::nullopt;
@@ -105,7 +105,7 @@ class Bisection {
 
   DistanceSteps& steps_;
   bool earliest_;
-  std::vector<Interval> queue_;  // a heap
+  std::vector<QueuedInterval> queue_;  // a heap
   std::optional<Block> block_;
 };
 

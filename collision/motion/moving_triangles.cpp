@@ -53,7 +53,7 @@ struct MovingCorners {
 /// The gap of the triangles along a direction. `moving` is its least value in the interval.
 /// `middle` is its value at the rounded pose at the middle. `still` is `middle` less rounding and
 /// tube.
-struct Gaps {
+struct TriangleGaps {
   double moving = std::numeric_limits<double>::infinity(), middle = moving, still = moving;
 };
 
@@ -62,8 +62,8 @@ void lower(double& least, double x) {
   if (!(x >= least) && !std::isnan(least)) least = x;
 }
 
-Gaps gapsAlong(const Vec3& n, const Triangle& a, const MovingCorners& b) {
-  Gaps gaps;
+TriangleGaps gapsAlong(const Vec3& n, const Triangle& a, const MovingCorners& b) {
+  TriangleGaps gaps;
   const double highest = std::max({n.dot(a[0]), n.dot(a[1]), n.dot(a[2])});
   for (int i = 0; i < 3; ++i) {
     const MotionBound& bound = b.bound[i];
@@ -145,7 +145,7 @@ MovingPairAnswer decideMovingTriangles(const Triangle& a, const Triangle& b,
   const Vec3 n = unit(closest.b - closest.a);  // NaN if the triangles meet; it separates nothing
 
   MovingPairAnswer answer;
-  Gaps gaps = gapsAlong(n, a, corners);
+  TriangleGaps gaps = gapsAlong(n, a, corners);
   if (gaps.moving > needed) return apart(gaps.moving, needed);
   answer.bound = std::max(
       {corners.bound[0].isotropic, corners.bound[1].isotropic, corners.bound[2].isotropic});
@@ -162,7 +162,7 @@ MovingPairAnswer decideMovingTriangles(const Triangle& a, const Triangle& b,
   // The tilt of n reduces the gap by a quarter or more: try better directions before giving up.
   if (gaps.middle - margin < 0.75 * (distance - margin)) {
     offerFeatureDirections(a, posed, n, [&](const Vec3& m) {
-      const Gaps other = gapsAlong(m, a, corners);
+      const TriangleGaps other = gapsAlong(m, a, corners);
       if (other.moving > gaps.moving) gaps.moving = other.moving;
       if (other.still > gaps.still) gaps.still = other.still;
     });

@@ -14,7 +14,7 @@ namespace {
 
 using Real = DoubleDouble;
 using Point = gjk::Vector<Real>;
-using Corners = std::array<Point, 3>;
+using ScaledCorners = std::array<Point, 3>;
 
 struct Best {
   Point a, b;
@@ -57,7 +57,7 @@ void offerEdges(Best& best, const Point& p, const Point& p1, const Point& q, con
 /// Computes the foot of p in the plane of t; returns whether it lies inside t. Uses cross products,
 /// as `offerEdges` does, and repeats the step once from the point found. Therefore the error for a
 /// sliver is relative to the sliver's height, not to the coordinates.
-bool foot(const Point& p, const Corners& t, Point& found) {
+bool foot(const Point& p, const ScaledCorners& t, Point& found) {
   const Point u = t[1] - t[0], v = t[2] - t[0], n = cross(u, v);
   const Real square = dot(n, n);
   if (!(square > Real(0))) return false;
@@ -74,7 +74,7 @@ bool foot(const Point& p, const Corners& t, Point& found) {
 
 /// Offers q and its foot in t if the foot lies inside t. `swapped`: q belongs to the second
 /// triangle.
-void offerFoot(Best& best, const Point& q, const Corners& t, bool swapped) {
+void offerFoot(Best& best, const Point& q, const ScaledCorners& t, bool swapped) {
   Point found;
   if (!foot(q, t, found)) return;
   swapped ? best.offer(found, q) : best.offer(q, found);
@@ -82,7 +82,7 @@ void offerFoot(Best& best, const Point& q, const Corners& t, bool swapped) {
 
 /// Offers the points where edges of p pass through the face of t. If the triangles cross, edges of
 /// p or of t have such points.
-void offerCrossings(Best& best, const Corners& p, const Corners& t, bool swapped) {
+void offerCrossings(Best& best, const ScaledCorners& p, const ScaledCorners& t, bool swapped) {
   const Point n = cross(t[1] - t[0], t[2] - t[0]);
   Real height[3];
   for (int i = 0; i < 3; ++i) height[i] = dot(n, p[i] - t[0]);
@@ -93,8 +93,8 @@ void offerCrossings(Best& best, const Corners& p, const Corners& t, bool swapped
   }
 }
 
-Corners mapped(const Triangle& t, const Transform& X, double unit) {
-  Corners corners;
+ScaledCorners mapped(const Triangle& t, const Transform& X, double unit) {
+  ScaledCorners corners;
   for (int k = 0; k < 3; ++k) {
     Real c[3];
     for (int i = 0; i < 3; ++i) {
@@ -118,7 +118,7 @@ bool countsAsZero(const Best& best) {
 /// closest points of these features. Returns true if these points are proved to be the closest of
 /// the triangles: the projections of both triangles onto the line through them are as far apart as
 /// the points, up to kZeroDistance.
-bool offerClosestFeatures(Best& best, const Corners& s, const Corners& t) {
+bool offerClosestFeatures(Best& best, const ScaledCorners& s, const ScaledCorners& t) {
   Triangle a, b;
   for (int i = 0; i < 3; ++i) {
     const Point p = s[i] - s[0], q = t[i] - s[0];
@@ -161,7 +161,7 @@ Vec3 rounded(const Point& p, double unit) {
 WitnessPoints witnessPoints(const Triangle& a, const Transform& X_WA, const Triangle& b,
                             const Transform& X_WB) {
   const double unit = powerOfTwo(std::max(largestTerms(a, X_WA), largestTerms(b, X_WB)));
-  const Corners s = mapped(a, X_WA, unit), t = mapped(b, X_WB, unit);
+  const ScaledCorners s = mapped(a, X_WA, unit), t = mapped(b, X_WB, unit);
   Best best;
   const bool proved = offerClosestFeatures(best, s, t);
   if (!proved) {

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kMostPieces = 1'000'000;
 constexpr int kMostDepth = 1000;
-constexpr std::uint32_t kNone = ~std::uint32_t{0};
+constexpr std::uint32_t kNoTriangle = ~std::uint32_t{0};
 
 /// Returns the distance of p from a point of the segment that is closest to p, up to rounding.
 double toSegment(const Vec3& p, const Vec3& a, const Vec3& b) {
@@ -47,7 +47,7 @@ double toBox(const Vec3& p, const BoundingBox& box) {
 /// A part of a face of the hull, and the mesh's triangle that bounds the part that it was cut from.
 struct Piece {
   Triangle corners;
-  std::uint32_t guess = kNone;
+  std::uint32_t guess = kNoTriangle;
   int depth = 0;  ///< the number of cuts
 };
 
@@ -79,7 +79,7 @@ class Search {
     const auto from = [&](std::uint32_t i) {
       return farthest([&](const Vec3& p) { return toTriangle(p, triangles_[i]); });
     };
-    double best = guess == kNone ? std::numeric_limits<double>::infinity() : from(guess);
+    double best = guess == kNoTriangle ? std::numeric_limits<double>::infinity() : from(guess);
     tree_.walk(
         [&](const BoundingBox& box) {
           return farthest([&](const Vec3& p) { return toBox(p, box); });
@@ -187,7 +187,8 @@ HullDeviation hullDeviation(const Polytope& hull, const TriangleMesh& mesh, doub
     }
     if (result.found > limit || piece.depth == kMostDepth || count == kMostPieces) return result;
     // A cut that leaves less than half of the limit on one side makes no progress.
-    if (piece.guess != kNone && cutAlongEdge(piece, search.triangle(piece.guess), limit / 2, open))
+    if (piece.guess != kNoTriangle &&
+        cutAlongEdge(piece, search.triangle(piece.guess), limit / 2, open))
       continue;
     for (const Piece& half : halves(piece)) open.push_back(half);
   }

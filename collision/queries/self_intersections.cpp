@@ -15,13 +15,13 @@ namespace corridor {
 namespace {
 
 /// A triangle's corners, in an order that begins with those that it shares with another triangle.
-struct Corners {
+struct OrderedCorners {
   Triangle t;
   int shared = 0;
 };
 
-Corners sharedFirst(const Triangle& t, const Triangle& other) {
-  Corners c{t};
+OrderedCorners sharedFirst(const Triangle& t, const Triangle& other) {
+  OrderedCorners c{t};
   for (int i = 0; i < 3; ++i)
     if (std::find(other.begin(), other.end(), c.t[i]) != other.end())
       std::swap(c.t[i], c.t[c.shared++]);
@@ -50,7 +50,7 @@ bool onALine(const Triangle& t) {
 
 /// Tests whether two triangles that share one or two corners meet anywhere beyond what they share.
 /// @pre Neither has its corners on a line.
-bool meetBeyond(const Corners& a, const Corners& b, Counters& counters) {
+bool meetBeyond(const OrderedCorners& a, const OrderedCorners& b, Counters& counters) {
   const auto& [s, count] = a;
   const Triangle& t = b.t;
   // Their intersection is convex. If it is more than the one shared corner, it extends from there
@@ -104,8 +104,8 @@ class SelfPairs {
  private:
   bool intersect(std::uint32_t s, std::uint32_t t) {
     if (onALine_[s] || onALine_[t]) return false;
-    const Corners a = sharedFirst(tree_.triangle(s), tree_.triangle(t)),
-                  b = sharedFirst(tree_.triangle(t), tree_.triangle(s));
+    const OrderedCorners a = sharedFirst(tree_.triangle(s), tree_.triangle(t)),
+                         b = sharedFirst(tree_.triangle(t), tree_.triangle(s));
     if (a.shared == 3) return false;
     return a.shared == 0 ? touch(a.t, b.t, counters_) : meetBeyond(a, b, counters_);
   }

@@ -25,7 +25,7 @@ auto onTrees(TreeKind trees, const Posed<Body>& a, const Posed<Body>& b, LastPai
 
 /// A reported distance is off by at most this share of itself plus `errorOf`. The share is twice
 /// the guaranteed 1e-12, to cover the roundings here.
-constexpr double kShare = 2e-12;
+constexpr double kErrorShare = 2e-12;
 /// Returns the absolute error of a reported distance, metres. It covers the guaranteed error of
 /// 4u·S, where S is the largest Σ|m||v| + |t|. If the maps are nearly rigid, S is at most √3(|v| +
 /// |t|) of one of the bodies. It also covers 3·2^-48 of a swept sphere's radius, because the
@@ -55,14 +55,14 @@ double distanceLowerBound(const Posed<Body>& a, const Posed<Body>& b, const Dist
                           const DistanceOptions& options, QueryContext& context, TreeKind trees) {
   if (!(measured.distance < HUGE_VAL)) return 0;  // an overflow or a NaN proves nothing
   const double above = measured.distance - options.absolute - errorOf(a, b);
-  const double lower = roundedDown(above / (1 + options.relative + kShare));
+  const double lower = roundedDown(above / (1 + options.relative + kErrorShare));
   if (!(lower > 0)) return 0;
   const bool convex = !a.shape.isMesh() || !b.shape.isMesh();
   return convex && surfacesCloserThan(a, b, lower, context, trees) ? 0 : lower;
 }
 
 double distanceUpperBound(const Posed<Body>& a, const Posed<Body>& b, const Distance& measured) {
-  return roundedUp(measured.distance * (1 + kShare) + errorOf(a, b));
+  return roundedUp(measured.distance * (1 + kErrorShare) + errorOf(a, b));
 }
 
 }  // namespace corridor

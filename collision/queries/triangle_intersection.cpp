@@ -33,9 +33,10 @@ Double2 determinant(const Vector2& a, const Vector2& b, const Vector2& c) {
 /// move a determinant by at most 18·e·D². Its evaluation (six terms, each with two products of 7v
 /// and three sums of 3v) loses at most 6·23·v·D³ ≤ 290·v·S·D². The sum is below 2^10·v·S·D²; twice
 /// that is the bound B.
-class Crossing {
+class TriangleCrossing {
  public:
-  Crossing(const Triangle& a0, const Transform& X_WA, const Triangle& b0, const Transform& X_WB) {
+  TriangleCrossing(const Triangle& a0, const Transform& X_WA, const Triangle& b0,
+                   const Transform& X_WB) {
     for (std::size_t i = 0; i < 3; ++i) {
       a_[i] = mapped(X_WA, a0[i]);
       b_[i] = mapped(X_WB, b0[i]);
@@ -135,7 +136,7 @@ class Crossing {
 
 Segment triangleIntersection(const Triangle& a, const Transform& X_WA, const Triangle& b,
                              const Transform& X_WB) {
-  if (const auto segment = Crossing(a, X_WA, b, X_WB).segment()) return *segment;
+  if (const auto segment = TriangleCrossing(a, X_WA, b, X_WB).segment()) return *segment;
   return triangleIntersectionExact(a, X_WA, b, X_WB);
 }
 

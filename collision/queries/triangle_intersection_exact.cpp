@@ -45,9 +45,9 @@ double roundedQuotient(Int numerator, Int denominator, int exponent) {
 /// The corners of the intersection of two triangles. For each edge, the part that is inside the
 /// other triangle is found; the ends of these parts are the corners.
 template <class Int>
-class Corners {
+class ExactSection {
  public:
-  Corners(const TriangleCorners<Int>& a, const TriangleCorners<Int>& b, int exponent)
+  ExactSection(const TriangleCorners<Int>& a, const TriangleCorners<Int>& b, int exponent)
       : exponent_(exponent) {
     const Vector<Int> nA = cross(a[1] - a[0], a[2] - a[0]), nB = cross(b[1] - b[0], b[2] - b[0]);
     for (int i = 0; i < 3; ++i) {
@@ -157,8 +157,8 @@ class Corners {
 template <class Int>
 Segment longestSegment(const exact::MappedPoints& a0, const exact::MappedPoints& b0,
                        const exact::Grid& grid) {
-  return Corners<Int>(exact::mapped<Int>(a0, grid), exact::mapped<Int>(b0, grid),
-                      grid.high <= grid.low ? 0 : grid.low)
+  return ExactSection<Int>(exact::mapped<Int>(a0, grid), exact::mapped<Int>(b0, grid),
+                           grid.high <= grid.low ? 0 : grid.low)
       .longest();
 }
 

@@ -8,7 +8,7 @@
 namespace corridor {
 namespace {
 
-constexpr int kSteps = 16;  // more steps shrink the sphere only slowly
+constexpr int kSphereSteps = 16;  // more steps shrink the sphere only slowly
 
 }  // namespace
 
@@ -19,7 +19,7 @@ BoundingSphere BoundingSphere::around(const Obb& box, const Content& content) {
   const double unit = powerOfTwo(largest);
   BoundingSphere best{box.center, HUGE_VAL};
   Vec3 center = box.center;
-  for (int step = 1; step <= kSteps; ++step) {
+  for (int step = 1; step <= kSphereSteps; ++step) {
     double farthest = -1;
     Vec3 towards = Vec3::Zero();
     content.forEach([&](const Vec3& p, double r) {

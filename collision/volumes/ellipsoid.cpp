@@ -11,7 +11,7 @@ namespace corridor {
 namespace {
 
 // More steps make the ellipsoid smaller by less than 1 % of its volume.
-constexpr int kSteps = 24;
+constexpr int kFitSteps = 24;
 
 /// Keeps points that are extreme along 13 lines. They decide most of the ellipsoid's shape; its
 /// scale is found from all points.
@@ -73,7 +73,7 @@ Shape smallest(const std::vector<Vec3>& z) {
     mean.setZero(), variance.setZero();
     for (std::size_t i = 0; i < z.size(); ++i) mean += weight[i] * z[i];
     for (std::size_t i = 0; i < z.size(); ++i) variance += weight[i] * (z[i] - mean).cwiseAbs2();
-    if (step == kSteps) break;
+    if (step == kFitSteps) break;
     // An axis along which all points are equal, up to rounding, has no share.
     const Vec3 used = variance.cwiseMax(0x1p-20);
     double sum = 0, most = 0;

@@ -14,9 +14,9 @@ namespace {
 /// One run of Qhull, whose memory is always freed. Qhull writes its messages to a FILE. They are
 /// discarded, because every failure has the same consequence: there is no hull, and another fit is
 /// used.
-class Hull {
+class QhullRun {
  public:
-  explicit Hull(std::vector<double>& xyz) : sink_(std::fopen("/dev/null", "w"), &std::fclose) {
+  explicit QhullRun(std::vector<double>& xyz) : sink_(std::fopen("/dev/null", "w"), &std::fclose) {
     if (!sink_) return;
     qh_zero(&qh_, sink_.get());
     char command[] = "qhull Qt";  // triangulated facets
@@ -24,14 +24,14 @@ class Hull {
                        sink_.get(), sink_.get()) == 0;
     started_ = true;
   }
-  ~Hull() {
+  ~QhullRun() {
     if (!started_) return;
     qh_freeqhull(&qh_, !qh_ALL);
     int curlong, totlong;
     qh_memfreeshort(&qh_, &curlong, &totlong);
   }
-  Hull(const Hull&) = delete;
-  Hull& operator=(const Hull&) = delete;
+  QhullRun(const QhullRun&) = delete;
+  QhullRun& operator=(const QhullRun&) = delete;
 
   bool ok() const { return ok_; }
   std::vector<Triangle> facets() {
@@ -60,7 +60,7 @@ Moments hullMoments(std::span<const Triangle> triangles) {
   xyz.reserve(9 * triangles.size());
   for (const Triangle& t : triangles)
     for (const Vec3& p : t) xyz.insert(xyz.end(), {p[0], p[1], p[2]});
-  Hull hull(xyz);
+  QhullRun hull(xyz);
   if (!hull.ok()) return {};
   const std::vector<Triangle> facets = hull.facets();
   return facets.size() < 4 ? Moments{} : surfaceMoments(facets);

@@ -13,7 +13,7 @@ namespace {
 
 /// The maximum number of steps of one search. Most need two or three, gaps of 1e-9 of the size up
 /// to eight.
-constexpr int kSteps = 12;
+constexpr int kOverlapSteps = 12;
 /// If the swept spheres and the distance to be proved exceed this share of the semi-axes, inflated
 /// ellipsoids are a bad approximation, and a second search by simplices follows.
 constexpr double kRound = 0x1p-6;
@@ -59,7 +59,7 @@ class EllipsoidPair {
         matrixB(k, i) = matrixB(i, k);
       }
     double low = 0, high = 1, lastShare = 0, lastRest = 0;
-    for (int step = 0; step < kSteps; ++step) {
+    for (int step = 0; step < kOverlapSteps; ++step) {
       const double s = share_;
       if (!(s > low && s < high)) return;
       Mat3 G = s * matrixB;

@@ -9,14 +9,14 @@ namespace {
 
 TEST(Audit, Edges) {
   Audit audit(1, {});
-  audit.run(countOf(20'000, 1'000'000));
+  audit.run(countOf(10'000, 1'000'000));
   audit.report("edges");
   audit.expectDecided();
 }
 
 TEST(Audit, States) {
   Audit audit(2, {.states = true});
-  audit.run(countOf(20'000, 1'000'000));
+  audit.run(countOf(10'000, 1'000'000));
   audit.report("states");
   audit.expectDecided();
 }
@@ -33,7 +33,7 @@ TEST(Audit, Curves) {
 TEST(Audit, DepthsOfRounding) {
   for (const bool states : {false, true}) {
     Audit audit(9, {.states = states, .fine = true, .verify = 20});
-    audit.run(countOf(6'000, 200'000));
+    audit.run(countOf(3'000, 200'000));
     audit.report(states ? "depths of rounding, states" : "depths of rounding, edges");
   }
   Audit curves(13, {.curves = true, .fine = true, .verify = 20});
@@ -46,7 +46,7 @@ TEST(Audit, DepthsOfRounding) {
 TEST(Audit, LargeValuesOfCircles) {
   for (const bool states : {false, true}) {
     Audit audit(3, {.states = states, .verify = 1, .family = Family::largeCircles});
-    audit.run(countOf(1'500, 50'000));
+    audit.run(countOf(700, 50'000));
     audit.report(states ? "large circles, states" : "large circles, edges");
   }
 }
