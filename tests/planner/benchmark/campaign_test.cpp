@@ -321,7 +321,7 @@ TEST(Campaign, PlannersHaveLabelsAndParameters) {
   const CampaignResult result = runCampaign(campaign);
   ASSERT_EQ(result.cells.size(), 3u);
   const auto range = [&](std::size_t i) {
-    return result.cells[i].runs.at(0).ompl.settings.at("range");
+    return result.cells[i].runs.at(0).ompl->settings.at("range");
   };
   EXPECT_EQ(range(0), "0.5");
   EXPECT_EQ(range(1), "0.05");

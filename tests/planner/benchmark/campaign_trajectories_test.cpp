@@ -18,6 +18,7 @@
 #include "planner/benchmark/report.h"
 #include "planner/benchmark/rows.h"
 #include "planner/benchmark/run_campaign.h"
+#include "planner/benchmark/run_record.h"
 #include "planner/benchmark/trajectory_rows.h"
 #include "tests/support/support.h"
 

@@ -60,6 +60,13 @@ class Report : public testing::Test {
     run.length.metres = 3;
     return run;
   }
+  static std::shared_ptr<const OmplRecord> onMachine(const std::string& host,
+                                                     const std::string& cpu) {
+    OmplRecord record;
+    record.host = host;
+    record.cpu = cpu;
+    return std::make_shared<const OmplRecord>(record);
+  }
   std::string page() const {
     writeReport(campaign_, cells_, folder_);
     return test::contents(folder_ / "report.html");
@@ -325,9 +332,8 @@ TEST_F(Report, DescribesTheMeasurement) {
 }
 
 TEST_F(Report, ProcessorsWithoutANameAreNoFault) {
-  cells_[0].runs[0].ompl.host = "somewhere";
   for (const char* cpu : {"", "\n", "Model name:", "Model name:  ", "Model name:\nmore"}) {
-    cells_[0].runs[0].ompl.cpu = cpu;
+    cells_[0].runs[0].ompl = onMachine("somewhere", cpu);
     EXPECT_THAT(page(), HasSubstr("machine</td><td>somewhere</td>")) << cpu;
   }
 }
@@ -363,8 +369,7 @@ TEST_F(Report, HostileNames) {
   campaign_.variants[1].name = evil;
   for (CampaignCell& cell : cells_) cell.planner.label = evil;
   campaign_.planners = {{evil, evil, {{{evil, evil}}}}};
-  cells_[0].runs[0].ompl.host = evil;
-  cells_[0].runs[0].ompl.cpu = "Model name:  " + evil;
+  cells_[0].runs[0].ompl = onMachine(evil, "Model name:  " + evil);
   campaign_.notes = {evil};
   const std::string text = page();
   EXPECT_THAT(text, Not(HasSubstr("<script>alert")));
