@@ -48,13 +48,12 @@ inline std::filesystem::path writeSimulated(const SimulatedSize& size,
   for (std::size_t k = 0; k < size.planners; ++k)
     planners += (k ? ", " : "") + names.at(k % names.size());
   const std::size_t cells = size.problems * size.variants * size.planners;
-  write("campaign.yaml",
-        "format: corridor-campaign-1\nname: simulated\nproblems: [" + problems + "]\nplanners: [" +
-            planners + "]\ncheckers:\n  certified: {edges: certified}\n" +
-            (resolutions.empty()
-                 ? ""
-                 : "  sampled: {edges: discrete, resolution: [" + resolutions + "]}\n") +
-            "runs: " + std::to_string((size.runs + cells - 1) / cells) + "\n");
+  write("campaign.yaml", "format: corridor-campaign-1\nproblems: [" + problems + "]\nplanners: [" +
+                             planners + "]\ncheckers:\n  certified: {edges: certified}\n" +
+                             (resolutions.empty() ? ""
+                                                  : "  sampled: {edges: discrete, resolution: [" +
+                                                        resolutions + "]}\n") +
+                             "runs: " + std::to_string((size.runs + cells - 1) / cells) + "\n");
   return folder / "campaign.yaml";
 }
 
