@@ -33,8 +33,8 @@ void forCells(const std::vector<CampaignCell>& cells, std::size_t problem, std::
 /// The largest number of steps of a curve. With n > kMostSteps values it has kMostSteps of the n
 /// steps, the first and the last among them, and at these values it is exact. Between two of them
 /// fewer than (n − 1)/(kMostSteps − 1) steps are missing, so the curve is too low by less than
-/// 1/499. An axis of shares is 258 SVG units high (`heightOf` in report.cpp), and the page scales
-/// plots by 1.33 at most (the 740 pixels of a single plot for 560 units): 0.7 pixels.
+/// 1/499. gnuplot draws a share of 1 at a height of 195 units (`heightOf` in report.cpp), and the
+/// page scales plots by at most 1.32 (a single plot has 738 pixels for 560 units): 0.52 pixels.
 constexpr std::size_t kMostSteps = 500;
 
 /// Returns a step function that rises by 1/of at each value, over [first, last].
@@ -93,9 +93,9 @@ void forCosts(const Campaign& campaign, const std::vector<CampaignCell>& cells,
 
 /// The plot of costs has a point per run up to this number of runs. If there are more, it has one
 /// for each variant and each cell of a grid that contains runs: the first of these runs, with their
-/// number in its text. The grid has at most kFinestGrid × kFinestGrid cells, so a run is at most
-/// 1/128 of an axis away from its point: 4 of 480 SVG units, the size of a point's mark. If there
-/// are still too many points, the grid is coarser.
+/// number in its text. The finest grid has 128 cells along an axis. The axes have 426 and 194
+/// units, so a run is less than 3.4 and 1.6 units from its point, whose radius is 3.4. If there are
+/// still too many points, the grid is coarser; the title says how fine it is.
 constexpr std::size_t kMostPoints = 4000, kFinestGrid = 128;
 
 /// The points of the plot of costs, as series of variants.
@@ -344,7 +344,8 @@ Plot predictedCost(const Campaign& campaign, const std::vector<CampaignCell>& ce
   }
   if (grid.cells > 0)
     plot.title = "All problems, " + std::to_string(grid.points()) + " points for " +
-                 std::to_string(runs) + " runs";
+                 std::to_string(runs) + " runs, on a grid of " + std::to_string(grid.cells) +
+                 " × " + std::to_string(grid.cells);
   for (PlotSeries& series : grid.series) plot.series.push_back(std::move(series));
   return plot;
 }
