@@ -25,6 +25,7 @@
 #include "planner/benchmark/report.h"
 #include "planner/benchmark/rows.h"
 #include "planner/benchmark/run_campaign.h"
+#include "planner/benchmark/run_record.h"
 #include "planner/benchmark/trajectory_rows.h"
 #include "planner/benchmark/write_reports.h"
 #include "planner/problem/keys.h"
@@ -177,13 +178,18 @@ int benchmarkCommand(const BenchmarkArguments& a) {
   CampaignOptions options;
   options.interrupted = &interrupted;
   options.jobs = a.jobs;
+  RunTrimmer trimmer;
   if (database)
-    options.done = [&](std::size_t cell, const BenchmarkRun& run) { database->add(cell, run); };
+    options.done = [&](std::size_t cell, BenchmarkRun& run) {
+      database->add(cell, run);
+      trimmer.trim(run);
+    };
   const bool show = ::isatty(STDERR_FILENO) != 0;
   if (show) options.progress = [&](const CampaignProgress& p) { showProgress(campaign, p); };
   const CampaignResult result = runCampaign(campaign, options, std::move(cells));
   if (show) std::fputs("\r\033[K", stderr);
   const bool any = anyRun(result.cells);
+  const RunSource runs = database ? database->runs() : runsOf(result.cells);
   // If a file can't be written (its folder may be gone), the table is still printed on stdout. The
   // error is kept, and thrown after the table.
   std::exception_ptr unwritten;
@@ -204,7 +210,7 @@ int benchmarkCommand(const BenchmarkArguments& a) {
                     : "interrupted: the results cover the finished runs");
   try {
     if (a.output && any) {
-      writeReports(campaign, result, *a.output);
+      writeReports(campaign, result, runs, *a.output);
       writeReport(campaign, result.cells, *a.output, sessions);
     }
   } catch (const InputError&) {
@@ -217,7 +223,7 @@ int benchmarkCommand(const BenchmarkArguments& a) {
     if (made) std::filesystem::remove(*a.output, ignored);
   }
   if (a.json)
-    std::cout << campaignJson(campaign, result) << '\n';
+    printJson(campaign, result, any ? runs : runsOf(result.cells), std::cout);
   else if (any)
     printTables(campaign, result.cells);
   if (unwritten) std::rethrow_exception(unwritten);

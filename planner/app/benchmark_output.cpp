@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <ostream>
 #include <set>
 #include <utility>
 
@@ -64,10 +65,12 @@ std::string marginNote(const Campaign& campaign) {
 }
 
 std::set<std::string> hostsOf(const std::vector<CampaignCell>& cells) {
-  std::set<std::string> hosts;
+  std::set<const OmplRecord*> records;  // runs share them
   for (const CampaignCell& cell : cells)
-    for (const BenchmarkRun& run : cell.runs)
-      if (!run.ompl.host.empty()) hosts.insert(run.ompl.host);
+    for (const BenchmarkRun& run : cell.runs) records.insert(run.ompl.get());
+  std::set<std::string> hosts;
+  for (const OmplRecord* record : records)
+    if (!record->host.empty()) hosts.insert(record->host);
   return hosts;
 }
 
@@ -122,27 +125,62 @@ std::vector<std::string> failuresOf(const std::vector<CampaignCell>& cells) {
   return lines;
 }
 
-std::string campaignJson(const Campaign& campaign, const CampaignResult& result) {
+void printJson(const Campaign& campaign, const CampaignResult& result, const RunSource& runs,
+               std::ostream& out) {
   ordered_json j = {{"format", "corridor-benchmark-report-2"},
                     {"campaign", campaign.name},
                     {"seed", campaign.seed},
                     {"runs", campaign.runs},
                     {"interrupted", result.interrupted},
-                    {"notes", campaign.notes},
-                    {"results", ordered_json::array()}};
-  for (const CampaignCell& cell : result.cells) {
-    ordered_json of = jsonOf(summaryRow(campaign, cell));
-    of["rows"] = ordered_json::array();
-    for (const BenchmarkRun& run : cell.runs)
-      of["rows"].push_back(jsonOf(runRow(campaign, cell, run)));
-    j["results"].push_back(std::move(of));
-  }
+                    {"notes", campaign.notes}};
+  // The runs may not fit into memory as JSON, so lists of them are printed row by row.
+  const auto text = [](const ordered_json& of, int depth) {
+    std::string lines = of.dump(2, ' ', false, kReplace);
+    const std::string indent(static_cast<std::size_t>(2 * depth), ' ');
+    for (auto at = lines.find('\n'); at != std::string::npos; at = lines.find('\n', at + 1))
+      lines.insert(at + 1, indent);
+    return lines;
+  };
+  /// Prints an object, with one more key at its end.
+  const auto openObject = [&](const ordered_json& of, int depth, const char* key) {
+    std::string lines = text(of, depth);
+    lines.erase(lines.rfind('\n'));
+    out << lines << ",\n"
+        << std::string(static_cast<std::size_t>(2 * depth) + 2, ' ') << '"' << key << "\": ";
+  };
+  /// Prints a list of what `each` passes to its argument.
+  const auto list = [&](int depth, const auto& each) {
+    const std::string indent(static_cast<std::size_t>(2 * depth), ' ');
+    bool any = false;
+    out << '[';
+    each([&](const auto& print) {
+      out << (any ? ",\n  " : "\n  ") << indent;
+      any = true;
+      print();
+    });
+    out << (any ? "\n" + indent : std::string()) << ']';
+  };
+  openObject(j, 0, "results");
+  list(1, [&](const auto& addCell) {
+    for (std::size_t c = 0; c < result.cells.size(); ++c)
+      addCell([&] {
+        const CampaignCell& cell = result.cells[c];
+        openObject(jsonOf(summaryRow(campaign, cell)), 2, "rows");
+        list(3, [&](const auto& addRun) {
+          runs(c, [&](const BenchmarkRun& run) {
+            addRun([&] { out << text(jsonOf(runRow(campaign, cell, run)), 4); });
+          });
+        });
+        out << "\n    }";
+      });
+  });
   if (!campaign.trajectories.makers.empty()) {
-    j["trajectories"] = ordered_json::array();
+    ordered_json trajectories = ordered_json::array();
     for (const Row& row : trajectoryRows(campaign, result.cells))
-      j["trajectories"].push_back(jsonOf(row));
+      trajectories.push_back(jsonOf(row));
+    out << ",\n  \"trajectories\": " << text(trajectories, 1);
   }
-  return j.dump(2, ' ', false, kReplace);
+  out << "\n}\n";
 }
 
 }  // namespace corridor::app

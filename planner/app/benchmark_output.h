@@ -1,5 +1,6 @@
 #pragma once
 
+#include <iosfwd>
 #include <string>
 #include <vector>
 
@@ -23,7 +24,8 @@ std::vector<std::string> notesOf(const Campaign& campaign, const std::vector<Cam
 /// failed: out of memory". `runs.csv` has the reason of each run.
 std::vector<std::string> failuresOf(const std::vector<CampaignCell>& cells);
 
-/// Returns the object that --json prints.
-std::string campaignJson(const Campaign& campaign, const CampaignResult& result);
+/// Prints the object of --json. @param runs the runs of the result's cells, whole.
+void printJson(const Campaign& campaign, const CampaignResult& result, const RunSource& runs,
+               std::ostream& out);
 
 }  // namespace corridor::app

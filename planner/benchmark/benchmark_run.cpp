@@ -2,13 +2,13 @@
 
 #include <cmath>
 
-#include <nlohmann/json.hpp>
 #include <ompl/geometric/SimpleSetup.h>
 #include <ompl/tools/benchmark/Benchmark.h>
 
 #include "collision/core/shortest.h"
 #include "planner/benchmark/checking_tally.h"
 #include "planner/benchmark/child_process.h"
+#include "planner/benchmark/run_record.h"
 #include "planner/problem/yaml_reader.h"
 #include "planner/solve/solve_steps.h"
 #include "planner/solve/verify_solution.h"
@@ -17,23 +17,6 @@ namespace corridor {
 
 namespace ob = ompl::base;
 namespace og = ompl::geometric;
-
-// The fields that the child process sends to its parent, as JSON.
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Counters, boxTests, triangleTests, exactTests, poses, splits,
-                                   edges, states, undecided)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PathLength, metres, radians)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(OmplRecord, planner, setup, host, cpu, settings, properties,
-                                   progressNames, progress)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BenchmarkRun, seed, failure, result, why, solved, certified,
-                                   verdict, finding, provenClearance, leastDistance, time,
-                                   processorTime, setUpTime, plannerTime, simplificationTime,
-                                   certificationTime, checkingTime, searchProcessorTime,
-                                   verificationTime, states, edges, counters, rawStates, pathStates,
-                                   rawLength, length, ompl)
-
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(TrajectoryRun, fault, duration, rows, velocity, acceleration,
-                                   jerk, link, beyondBounds, verdict, finding, makeTime, verifyTime)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LimitedTrajectories, optimum, makers)
 
 namespace {
 
@@ -134,7 +117,7 @@ void take(const SolveReport& report, BenchmarkRun& run) {
   run.length = report.length;
 }
 
-OmplRecord recordOf(const ompl::tools::Benchmark::CompleteExperiment& experiment) {
+OmplRecord omplRecordOf(const ompl::tools::Benchmark::CompleteExperiment& experiment) {
   const auto& planner = experiment.planners.at(0);
   OmplRecord record{planner.name,
                     experiment.setupInfo,
@@ -152,19 +135,6 @@ OmplRecord recordOf(const ompl::tools::Benchmark::CompleteExperiment& experiment
 }
 
 }  // namespace
-
-std::string text(const BenchmarkRun& run) {
-  nlohmann::json json = run;
-  if (!run.trajectories.empty()) json["trajectories"] = run.trajectories;
-  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
-BenchmarkRun readRun(const std::string& text) {
-  const auto json = nlohmann::json::parse(text);
-  auto run = json.get<BenchmarkRun>();
-  if (json.contains("trajectories")) json["trajectories"].get_to(run.trajectories);
-  return run;
-}
 
 void checkRun(const Problem& planned, const std::map<std::string, std::string>& valueOrigins) {
   SolveOptions options;
@@ -213,7 +183,7 @@ BenchmarkRun runUnderOmpl(const Problem& planned, const std::string& digest,
   const auto& experiment = benchmark.getRecordedExperimentData();
   if (experiment.planners.empty() || experiment.planners[0].runs.empty())
     throw std::runtime_error("OMPL's Benchmark recorded nothing");
-  run.ompl = recordOf(experiment);
+  run.ompl = std::make_shared<const OmplRecord>(omplRecordOf(experiment));
   path = solve.report().path;
   return run;
 }

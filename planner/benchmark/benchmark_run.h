@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,6 +26,9 @@ struct OmplRecord {
   std::vector<std::string> progressNames;         ///< "best cost REAL", …
   std::vector<std::map<std::string, std::string>> progress;
 };
+
+/// Returns a record whose texts are all empty.
+const std::shared_ptr<const OmplRecord>& noOmplRecord();
 
 /// One run: one planner on one problem with one variant and one seed. Units: seconds, metres,
 /// radians.
@@ -66,7 +70,8 @@ struct BenchmarkRun {
   /// For each set of limits of the campaign; empty if the run is not solved, or the campaign makes
   /// no trajectories.
   std::vector<LimitedTrajectories> trajectories;
-  OmplRecord ompl;
+  /// Never null; without a record all of its texts are empty. Runs may share it.
+  std::shared_ptr<const OmplRecord> ompl = noOmplRecord();
 };
 
 /// The trajectories that are made along the path of a run.
@@ -79,10 +84,6 @@ struct BenchmarkLimits {
   double memory = 4096;   ///< MB per run, in addition to what reading the problems took
   double patience = 600;  ///< seconds for verifying one path, or for one trajectory
 };
-
-/// Writes a run as one line of JSON, and reads it back.
-std::string text(const BenchmarkRun& run);
-BenchmarkRun readRun(const std::string& text);
 
 /// Sets up a run, without planning, to find its faults. @throws InputError as solveProblem.
 /// @param valueOrigins as SolveOptions::valueOrigins.

@@ -15,7 +15,7 @@ namespace {
 /// Time limit in seconds, for each cell, of the child process that sets up all cells to find their
 /// faults. Setting up a cell samples goals and builds trees.
 constexpr double kCheckPatience = 120;
-/// Limits the memory for the results: some kilobytes per run.
+/// Limits the memory for the results: half a kilobyte per run, more with trajectories.
 constexpr std::uint64_t kMostRuns = 1'000'000;
 constexpr std::uint64_t kLastSeed = 0xffffffff;  // OMPL's seeds have 32 bits
 
@@ -113,6 +113,12 @@ std::vector<CampaignCell> cellsOf(const Campaign& c) {
       for (std::size_t v = 0; v < c.variants.size(); ++v) cells.push_back({p, v, planner, {}});
   }
   return cells;
+}
+
+RunSource runsOf(const std::vector<CampaignCell>& cells) {
+  return [&cells](std::size_t cell, const std::function<void(const BenchmarkRun&)>& visit) {
+    for (const BenchmarkRun& run : cells[cell].runs) visit(run);
+  };
 }
 
 Problem plannedProblem(const Campaign& campaign, const CampaignCell& cell, std::uint64_t seed) {

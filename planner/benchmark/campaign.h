@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -61,6 +62,13 @@ struct CampaignCell {
 
 /// Returns all cells, without runs, in order of problem, then planner, then variant.
 std::vector<CampaignCell> cellsOf(const Campaign& campaign);
+
+/// Calls `visit` for each run of a cell (an index), whole and in order of seed.
+using RunSource =
+    std::function<void(std::size_t cell, const std::function<void(const BenchmarkRun&)>& visit)>;
+
+/// Returns a source of the runs in the cells. @pre the cells outlive it.
+RunSource runsOf(const std::vector<CampaignCell>& cells);
 
 struct CampaignResult {
   std::vector<CampaignCell> cells;

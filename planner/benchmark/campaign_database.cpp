@@ -2,7 +2,8 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <SQLiteCpp/VariadicBind.h>
-#include <algorithm>
+#include <map>
+#include <optional>
 #include <set>
 #include <sqlite3.h>
 #include <sys/resource.h>
@@ -10,17 +11,17 @@
 #include <nlohmann/json.hpp>
 
 #include "collision/core/error.h"
-#include "collision/core/shortest.h"
-#include "collision/core/spelling.h"
 #include "planner/benchmark/build_commit.h"
-#include "planner/benchmark/csv_text.h"
+#include "planner/benchmark/database_statements.h"
 #include "planner/benchmark/ompl_log.h"
+#include "planner/benchmark/run_record.h"
 
 namespace corridor {
 namespace {
 
-/// "corr" marks our files (PRAGMA application_id); the second number is the version of our tables.
-constexpr int kApplication = 0x636f7272, kVersion = 2;
+/// "corr" marks our files (PRAGMA application_id). The version is that of our tables. Files of
+/// version 2 become version 3: they get `kSetups`, and their runs stay as they are.
+constexpr int kApplication = 0x636f7272, kVersion = 3, kFirstVersion = 2;
 
 /// OMPL's tables, word for word as `ompl_benchmark_statistics` 1.5.2 creates them, and ours. OMPL's
 /// columns of runs are added when a run first has them.
@@ -44,35 +45,13 @@ CREATE TABLE corridor_runs (cellid INTEGER, seed INTEGER, runid INTEGER UNIQUE, 
 CREATE TABLE corridor_sessions (id INTEGER PRIMARY KEY, started DATETIME, version TEXT,
   "commit" TEXT, jobs INTEGER);
 )";
-
-/// The name and the type of a column, from OMPL's words: "graph states INTEGER" is the column
-/// graph_states of type INTEGER.
-struct ColumnName {
-  std::string name, type;
-  explicit ColumnName(const std::string& words) {
-    const auto blank = words.rfind(' ');
-    name = words.substr(0, blank);
-    type = blank == std::string::npos ? "TEXT" : words.substr(blank + 1);
-    std::replace(name.begin(), name.end(), ' ', '_');
-  }
-};
-
-/// Returns all limits as a text of numbers.
-std::string limitsText(const JointLimits& limits) {
-  std::string text;
-  for (const Configuration* each : {&limits.velocity, &limits.acceleration, &limits.jerk}) {
-    for (const double value : *each) text += shortest(value) + " ";
-    text += "| ";
-  }
-  for (const LinkSpeed& link : limits.links) text += link.link + ": " + shortest(link.speed) + " ";
-  text.pop_back();
-  return text;
-}
-
-/// Reports whether OMPL's script stores a value as NULL.
-bool isNull(const std::string& value) {
-  return value.empty() || value == "nan" || value == "inf" || value == "-nan" || value == "-inf";
-}
+/// The columns `record`, `ompl` and `setup` are the parts of a `RunRecord`. In runs of version 2,
+/// `record` holds the whole run, and setupid and ompl are NULL.
+constexpr const char* kSetups = R"(
+CREATE TABLE corridor_setups (id INTEGER PRIMARY KEY, setup TEXT UNIQUE);
+ALTER TABLE corridor_runs ADD setupid INTEGER;
+ALTER TABLE corridor_runs ADD ompl TEXT;
+)";
 
 }  // namespace
 
@@ -86,6 +65,7 @@ class CampaignDatabase::Tables {
       const bool there = std::filesystem::exists(file, ignored);
       base_ = std::make_unique<SQLite::Database>(file.string(),
                                                  SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+      rows_.emplace(*base_);
       base_->exec("PRAGMA locking_mode = EXCLUSIVE");
       base_->exec("PRAGMA foreign_keys = ON");
       // From here on no other process can read or write the file.
@@ -97,7 +77,15 @@ class CampaignDatabase::Tables {
       matchCells(cells);
       beginSession(jobs);
       base_->exec("COMMIT");
+      keepLog();
     });
+  }
+  Tables(const Tables&) = delete;
+  Tables& operator=(const Tables&) = delete;
+  /// Leaves one file, which programs can read without write access to its folder.
+  ~Tables() {
+    rows_.reset();
+    base_->tryExec("PRAGMA journal_mode = DELETE");  // if it fails, the next session does it
   }
 
   std::vector<CampaignSession> sessions() {
@@ -115,27 +103,25 @@ class CampaignDatabase::Tables {
   }
 
   void add(std::size_t cell, const BenchmarkRun& run) {
+    if (together_) return insert(cell, run);
+    inTransaction([&] { insert(cell, run); });
+  }
+  void addTogether(const std::function<void()>& adds) {
+    inTransaction([&] {
+      together_ = true;
+      adds();
+    });
+  }
+
+  void forEachRun(std::size_t cell, const std::function<void(const BenchmarkRun&)>& visit) {
     withFileInErrors([&] {
-      columns_.clear();  // a failed transaction may have removed columns again
-      SQLite::Transaction transaction(*base_);
-      const CampaignCell& stored = cells_[cell];
-      SQLite::Statement known(*base_,
-                              "SELECT id, experimentid FROM corridor_cells WHERE problem = ? "
-                              "AND variant = ? AND planner = ?");
-      bindNames(known, stored);
-      known.executeStep();
-      const std::int64_t cellId = known.getColumn(0).getInt64();
-      const std::int64_t experiment =
-          known.getColumn(1).isNull() ? addExperiment(stored, run) : known.getColumn(1).getInt64();
-      known.reset();
-      const std::int64_t runId = addRun(stored, run, experiment, plannerOf(stored, run));
-      addProgress(run, runId);
-      execute("UPDATE corridor_cells SET experimentid = ? WHERE id = ?", experiment, cellId);
-      execute("UPDATE experiments SET totaltime = totaltime + ? WHERE id = ?",
-              run.time + run.verificationTime, experiment);
-      execute("INSERT INTO corridor_runs VALUES (?, ?, ?, ?, ?)", cellId,
-              static_cast<std::int64_t>(run.seed), runId, session_, text(run));
-      transaction.commit();
+      SQLite::Statement runs(*base_,
+                             "SELECT record, ompl, setupid FROM corridor_runs WHERE cellid = ? "
+                             "ORDER BY seed");
+      runs.bind(1, cellIds_[cell]);
+      while (runs.executeStep())
+        visit(readRecord(runs.getColumn(0).getString(), runs.getColumn(1).getString(),
+                         *setup(runs.getColumn(2))));
     });
   }
 
@@ -187,10 +173,34 @@ class CampaignDatabase::Tables {
 
   template <class... Values>
   std::int64_t execute(const std::string& sql, const Values&... values) {
-    SQLite::Statement statement(*base_, sql);
-    SQLite::bind(statement, values...);
-    statement.exec();
-    return base_->getLastInsertRowid();
+    return rows_->execute(sql, values...);
+  }
+  /// Makes all changes of a step, or none if it throws.
+  template <class Step>
+  void inTransaction(const Step& step) {
+    withFileInErrors([&] {
+      try {
+        SQLite::Transaction transaction(*base_);
+        step();
+        transaction.commit();
+      } catch (...) {
+        // The transaction may have added what is known here.
+        rows_->forget();
+        known_ = {};
+        together_ = false;
+        throw;
+      }
+      together_ = false;
+    });
+  }
+  /// Writes runs to a log beside the file first. If the process is killed, no run is lost; if the
+  /// machine loses power, the last runs may be. The file is consistent in both cases, and a run
+  /// does not wait for the disk (https://sqlite.org/pragma.html#pragma_synchronous). SQLite needs
+  /// no shared memory for it, since this process has the file alone. If the file system has no such
+  /// log, SQLite keeps its usual journal, and each run waits.
+  void keepLog() {
+    if (base_->execAndGet("PRAGMA journal_mode = WAL").getString() == "wal")
+      base_->exec("PRAGMA synchronous = NORMAL");
   }
   void bindNames(SQLite::Statement& statement, const CampaignCell& cell) const {
     SQLite::bind(statement, campaign_.problemNames[cell.problem],
@@ -200,6 +210,7 @@ class CampaignDatabase::Tables {
 
   void makeTables() {
     base_->exec(kTables);
+    base_->exec(kSetups);
     base_->exec("PRAGMA application_id = " + std::to_string(kApplication));
     base_->exec("PRAGMA user_version = " + std::to_string(kVersion));
     int value = 0;
@@ -210,7 +221,8 @@ class CampaignDatabase::Tables {
   void checkTables(Mode mode) {
     if (base_->execAndGet("PRAGMA application_id").getInt() != kApplication)
       refuse("is a database, but not of a campaign");
-    if (const int version = base_->execAndGet("PRAGMA user_version").getInt(); version != kVersion)
+    const int version = base_->execAndGet("PRAGMA user_version").getInt();
+    if (version < kFirstVersion || version > kVersion)
       refuse("is a campaign database of version " + std::to_string(version) +
              "; this program needs version " + std::to_string(kVersion) + "; name another folder");
     if (const std::string check = base_->execAndGet("PRAGMA quick_check(1)").getString();
@@ -220,11 +232,15 @@ class CampaignDatabase::Tables {
     if (mode == Mode::fresh && runs > 0)
       refuse("contains " + std::to_string(runs) + (runs == 1 ? " run" : " runs") +
              " already; continue with --resume, or name another folder");
+    if (version == kVersion) return;
+    base_->exec(kSetups);
+    base_->exec("PRAGMA user_version = " + std::to_string(kVersion));
   }
 
-  /// Compares the file's cells with the campaign's, and moves the file's runs into `cells`.
+  /// Compares the file's cells with the campaign's, and copies the file's runs into `cells`.
   void matchCells(std::vector<CampaignCell>& cells) {
     std::set<std::int64_t> ids;
+    RunTrimmer trimmer;
     for (CampaignCell& cell : cells) {
       SQLite::Statement known(*base_,
                               "SELECT id, spec FROM corridor_cells WHERE problem = ? AND "
@@ -232,16 +248,18 @@ class CampaignDatabase::Tables {
       bindNames(known, cell);
       const std::string spec = specOf(campaign_, cell);
       if (!known.executeStep()) {
-        ids.insert(execute(
+        cellIds_.push_back(execute(
             "INSERT INTO corridor_cells (problem, variant, planner, spec) VALUES (?, ?, ?, ?)",
             campaign_.problemNames[cell.problem], campaign_.variants[cell.variant].name,
             cell.planner.label, spec));
+        ids.insert(cellIds_.back());
         continue;
       }
       const std::int64_t id = known.getColumn(0).getInt64();
       const std::string was = known.getColumn(1).getString();
       ids.insert(id);
-      readRuns(id, cell);
+      cellIds_.push_back(id);
+      readRuns(id, cell, trimmer);
       if (was == spec) continue;
       if (!cell.runs.empty())
         refuse(cellName(cell) + " was measured with other settings: " + difference(was, spec) +
@@ -258,17 +276,32 @@ class CampaignDatabase::Tables {
                others.getColumn(2).getString() + ", " + others.getColumn(3).getString() +
                ", which the campaign doesn't have; name another folder");
   }
-  void readRuns(std::int64_t id, CampaignCell& cell) {
-    SQLite::Statement runs(*base_,
-                           "SELECT record FROM corridor_runs WHERE cellid = ? ORDER BY seed");
+  void readRuns(std::int64_t id, CampaignCell& cell, RunTrimmer& trimmer) {
+    SQLite::Statement runs(
+        *base_, "SELECT record, setupid FROM corridor_runs WHERE cellid = ? ORDER BY seed");
     runs.bind(1, id);
+    cell.runs.reserve(campaign_.runs);
     while (runs.executeStep()) {
       BenchmarkRun run = readRun(runs.getColumn(0).getString());
       if (run.seed < campaign_.seed || run.seed >= campaign_.seed + campaign_.runs)
         refuse("contains a run of seed " + std::to_string(run.seed) + " of " + cellName(cell) +
                ", which the campaign doesn't have; name another folder");
+      if (!runs.getColumn(1).isNull()) run.ompl = setup(runs.getColumn(1));
+      trimmer.trim(run);
       cell.runs.push_back(std::move(run));
     }
+  }
+  /// Returns OMPL's record without the parts of a run; empty for an id that is NULL.
+  std::shared_ptr<const OmplRecord> setup(const SQLite::Column& id) {
+    if (id.isNull()) return noOmplRecord();
+    auto& known = setups_[id.getInt64()];
+    if (!known) {
+      SQLite::Statement row(*base_, "SELECT setup FROM corridor_setups WHERE id = ?");
+      row.bind(1, id.getInt64());
+      if (!row.executeStep()) refuse("is damaged: a row of corridor_setups is missing");
+      known = std::make_shared<const OmplRecord>(readSetup(row.getColumn(0).getString()));
+    }
+    return known;
   }
   std::string cellName(const CampaignCell& cell) const {
     return campaign_.problemNames[cell.problem] + ", " + campaign_.variants[cell.variant].name +
@@ -294,6 +327,36 @@ class CampaignDatabase::Tables {
         std::string(CORRIDOR_VERSION), std::string(buildCommit()), static_cast<std::int64_t>(jobs));
   }
 
+  void insert(std::size_t cell, const BenchmarkRun& run) {
+    const CampaignCell& stored = cells_[cell];
+    const auto [experiment, isNew] = known_.experiments.try_emplace(cell);
+    if (isNew) {
+      experiment->second = experimentOf(cell, run);
+      execute("UPDATE corridor_cells SET experimentid = ? WHERE id = ?", experiment->second,
+              cellIds_[cell]);
+    }
+    const RunRecord record = recordOf(run);
+    const std::int64_t runId = rows_->addRow(
+        "runs", omplProperties(campaign_, stored, run),
+        {{"experimentid", experiment->second}, {"plannerid", plannerOf(stored, run)}});
+    addProgress(run, runId);
+    execute("UPDATE experiments SET totaltime = totaltime + ? WHERE id = ?",
+            run.time + run.verificationTime, experiment->second);
+    execute(
+        "INSERT INTO corridor_runs (cellid, seed, runid, sessionid, record, setupid, ompl) VALUES "
+        "(?, ?, ?, ?, ?, ?, ?)",
+        cellIds_[cell], static_cast<std::int64_t>(run.seed), runId, session_, record.figures,
+        setupOf(record.setup), record.ompl);
+  }
+
+  /// Returns the id of the cell's experiment, which is added if the file has none.
+  std::int64_t experimentOf(std::size_t cell, const BenchmarkRun& run) {
+    SQLite::Statement known(*base_,
+                            "SELECT experimentid FROM corridor_cells WHERE id = ? AND "
+                            "experimentid IS NOT NULL");
+    known.bind(1, cellIds_[cell]);
+    return known.executeStep() ? known.getColumn(0).getInt64() : addExperiment(cells_[cell], run);
+  }
   std::int64_t addExperiment(const CampaignCell& cell, const BenchmarkRun& run) {
     // Another planner may have added the experiment of this problem and variant. Experiments are
     // not found by name, since "one pct" and "one_pct" have the same name in OMPL's tables.
@@ -302,7 +365,7 @@ class CampaignDatabase::Tables {
                             "variant = ? AND experimentid IS NOT NULL");
     SQLite::bind(known, campaign_.problemNames[cell.problem],
                  campaign_.variants[cell.variant].name);
-    const auto [ofProblem, ofPlanner] = omplSetup(run.ompl.setup);
+    const auto [ofProblem, ofPlanner] = omplSetup(run.ompl->setup);
     if (known.executeStep()) {
       const std::int64_t id = known.getColumn(0).getInt64();
       execute("UPDATE experiments SET setup = setup || ? WHERE id = ?", ofPlanner, id);
@@ -315,14 +378,10 @@ class CampaignDatabase::Tables {
         "?)",
         freeName(omplExperimentName(campaign_, cell)),
         campaign_.time.value_or(problem.settings.planner.time), campaign_.limits.memory,
-        static_cast<std::int64_t>(campaign_.runs), "OMPL " + versionOfOmpl(), run.ompl.host,
-        run.ompl.cpu, std::to_string(campaign_.seed), ofProblem + ofPlanner);
-    for (const auto& [words, value] : omplParameters(campaign_, cell)) {
-      const ColumnName column(words);
-      addColumn("experiments", column);
-      execute("UPDATE experiments SET " + inDoubleQuotes(column.name) + " = ? WHERE id = ?", value,
-              id);
-    }
+        static_cast<std::int64_t>(campaign_.runs), "OMPL " + versionOfOmpl(), run.ompl->host,
+        run.ompl->cpu, std::to_string(campaign_.seed), ofProblem + ofPlanner);
+    for (const auto& [words, value] : omplParameters(campaign_, cell))
+      rows_->setValue("experiments", id, words, value);
     return id;
   }
 
@@ -339,66 +398,53 @@ class CampaignDatabase::Tables {
   }
 
   std::int64_t plannerOf(const CampaignCell& cell, const BenchmarkRun& run) {
-    const std::string name = omplPlannerName(cell, run.ompl);
+    const std::string name = omplPlannerName(cell, *run.ompl);
     std::string settings;
-    for (const auto& [key, value] : run.ompl.settings) settings += key + " = " + value + "\n;";
+    for (const auto& [key, value] : run.ompl->settings) settings += key + " = " + value + "\n;";
+    const auto [id, isNew] = known_.planners.try_emplace({name, settings});
+    if (!isNew) return id->second;
     SQLite::Statement known(*base_,
                             "SELECT id FROM plannerConfigs WHERE name = ? AND settings = ?");
     SQLite::bind(known, name, settings);
-    if (known.executeStep()) return known.getColumn(0).getInt64();
-    return execute("INSERT INTO plannerConfigs (name, settings) VALUES (?, ?)", name, settings);
+    return id->second = known.executeStep()
+                            ? known.getColumn(0).getInt64()
+                            : execute("INSERT INTO plannerConfigs (name, settings) VALUES (?, ?)",
+                                      name, settings);
   }
 
-  std::int64_t addRun(const CampaignCell& cell, const BenchmarkRun& run, std::int64_t experiment,
-                      std::int64_t planner) {
-    return addRow("runs", omplProperties(campaign_, cell, run),
-                  {{"experimentid", experiment}, {"plannerid", planner}});
+  std::int64_t setupOf(const std::string& setup) {
+    const auto [id, isNew] = known_.setups.try_emplace(setup);
+    if (!isNew) return id->second;
+    SQLite::Statement known(*base_, "SELECT id FROM corridor_setups WHERE setup = ?");
+    known.bind(1, setup);
+    return id->second = known.executeStep()
+                            ? known.getColumn(0).getInt64()
+                            : execute("INSERT INTO corridor_setups (setup) VALUES (?)", setup);
   }
+
   void addProgress(const BenchmarkRun& run, std::int64_t runId) {
     std::set<std::string> times;  // the first sample of each time is kept, as by OMPL's script
-    for (const auto& sample : run.ompl.progress)
+    for (const auto& sample : run.ompl->progress)
       if (const auto time = sample.find("time REAL");
           time == sample.end() || times.insert(time->second).second)
-        addRow("progress", sample, {{"runid", runId}});
-  }
-
-  std::int64_t addRow(const std::string& table,
-                      const std::map<std::string, std::string>& properties,
-                      const std::vector<std::pair<std::string, std::int64_t>>& ids) {
-    std::string names, marks;
-    for (const auto& [name, id] : ids) names += "," + name, marks += ",?";
-    for (const auto& [words, value] : properties) {
-      const ColumnName column(words);
-      addColumn(table, column);
-      names += "," + inDoubleQuotes(column.name), marks += ",?";
-    }
-    SQLite::Statement row(*base_, "INSERT INTO " + table + " (" + names.substr(1) + ") VALUES (" +
-                                      marks.substr(1) + ")");
-    int at = 0;
-    for (const auto& [name, id] : ids) row.bind(++at, id);
-    for (const auto& [words, value] : properties) {
-      ++at;
-      if (!isNull(value)) row.bind(at, value);  // SQLite converts it to the column's type
-    }
-    row.exec();
-    return base_->getLastInsertRowid();
-  }
-  void addColumn(const std::string& table, const ColumnName& column) {
-    if (columns_.empty())
-      for (const char* name : {"experiments", "runs", "progress"}) {
-        SQLite::Statement known(*base_, std::string("PRAGMA table_info(") + name + ")");
-        while (known.executeStep()) columns_.insert({name, known.getColumn(1).getString()});
-      }
-    if (!columns_.insert({table, column.name}).second) return;
-    base_->exec("ALTER TABLE " + table + " ADD " + inDoubleQuotes(column.name) + " " + column.type);
+        rows_->addRow("progress", sample, {{"runid", runId}});
   }
 
   std::filesystem::path file_;
   const Campaign& campaign_;
   const std::vector<CampaignCell> cells_;  // without runs
   std::unique_ptr<SQLite::Database> base_;
+  std::optional<DatabaseStatements> rows_;
   std::int64_t session_ = 0;
-  std::set<std::pair<std::string, std::string>> columns_;  // columns that exist, by table
+  std::vector<std::int64_t> cellIds_;
+  /// Ids of rows that the file is known to have.
+  struct Known {
+    std::map<std::size_t, std::int64_t> experiments;  // by cell
+    std::map<std::pair<std::string, std::string>, std::int64_t> planners;
+    std::map<std::string, std::int64_t> setups;
+  } known_;
+  std::map<std::int64_t, std::shared_ptr<const OmplRecord>> setups_;  // those that were read
+  bool together_ = false;  // whether a transaction of several runs is under way
 };
 
 CampaignDatabase::CampaignDatabase(const std::filesystem::path& file, Mode mode,
@@ -411,37 +457,18 @@ void CampaignDatabase::add(std::size_t cell, const BenchmarkRun& run) {
   tables_->add(cell, run);
 }
 
-std::vector<CampaignSession> CampaignDatabase::sessions() const {
-  return tables_->sessions();
+void CampaignDatabase::addTogether(const std::function<void()>& adds) {
+  tables_->addTogether(adds);
 }
 
-std::string specOf(const Campaign& campaign, const CampaignCell& cell) {
-  const Problem planned = plannedProblem(campaign, cell, 0);
-  nlohmann::ordered_json checker = nlohmann::ordered_json::object();
-  for (const YamlValue::Entry& entry : campaign.variants[cell.variant].checker.entries)
-    checker[entry.key] = entry.value.text;
-  if (campaign.variants[cell.variant].competitor)
-    checker["peer"] = campaign.variants[cell.variant].competitor->name;
-  // In earlier versions `true` was another simplifier. Runs of the two must not be mixed.
-  const bool isOwn = planned.settings.simplify == Simplifier::corridor;
-  const std::string simplify = isOwn ? "corridor" : wordOf(planned.settings.simplify);
-  nlohmann::ordered_json spec{{"problem", campaign.digests[cell.problem]},
-                              {"checker", checker},
-                              {"planner", planned.settings.planner.name},
-                              {"params", planned.settings.planner.params},
-                              {"time", planned.settings.planner.time},
-                              {"memory_mb", campaign.limits.memory},
-                              {"simplify", simplify},
-                              {"verify", campaign.verify}};
-  // Campaigns without trajectories have the same settings as before there were any.
-  if (!campaign.trajectories.makers.empty()) {
-    for (const TrajectoryMaker maker : campaign.trajectories.makers)
-      spec["trajectories"].push_back(nameOf(maker));
-    for (const CampaignLimits& limits : campaign.trajectories.limits)
-      spec["limits over time"].push_back(
-          {{"name", limits.name}, {"values", limitsText(limits.ofProblem[cell.problem])}});
-  }
-  return spec.dump();
+RunSource CampaignDatabase::runs() const {
+  return [this](std::size_t cell, const std::function<void(const BenchmarkRun&)>& visit) {
+    tables_->forEachRun(cell, visit);
+  };
+}
+
+std::vector<CampaignSession> CampaignDatabase::sessions() const {
+  return tables_->sessions();
 }
 
 }  // namespace corridor

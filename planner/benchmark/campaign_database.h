@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -25,8 +26,10 @@ struct CampaignSession {
 class CampaignDatabase {
  public:
   enum class Mode {
-    fresh,   ///< the file must not contain runs yet
-    resume,  ///< the file must belong to this campaign, or not exist; the cells receive its runs
+    fresh,  ///< the file must not contain runs yet
+    /// The file must belong to this campaign, or not exist. The cells receive its runs, without
+    /// their texts (`RunTrimmer`).
+    resume,
   };
 
   /// Opens or creates the file. Only one process can have it open at a time. @pre the campaign
@@ -43,6 +46,14 @@ class CampaignDatabase {
   /// Stores a run. @param cell the index of its cell in the campaign's cells. @throws InputError if
   /// it can't be written; the runs that were stored before remain.
   void add(std::size_t cell, const BenchmarkRun& run);
+
+  /// Stores many runs quickly, all or none: calls `adds`, which calls `add`. @throws as `add` and
+  /// `adds`; then none of these runs is stored.
+  void addTogether(const std::function<void()>& adds);
+
+  /// Returns a source of the stored runs, whole. It reads one run at a time. It throws InputError
+  /// as `add`. @pre this object outlives it.
+  RunSource runs() const;
 
   /// Returns the sessions that made at least one run, oldest first. @throws InputError as `add`.
   std::vector<CampaignSession> sessions() const;

@@ -45,10 +45,13 @@ VariantScore::Cost costOf(const std::vector<QueryCost>& queries) {
 /// both are solved.
 void addRatios(const CampaignCell& cell, const CampaignCell& reference,
                std::vector<double>& ratios) {
-  for (const BenchmarkRun& run : cell.runs)
-    for (const BenchmarkRun& other : reference.runs)
-      if (run.seed == other.seed && run.solved && other.solved && other.processorTime > 0)
-        ratios.push_back(run.processorTime / other.processorTime);
+  auto other = reference.runs.begin();  // both are ordered by seed
+  for (const BenchmarkRun& run : cell.runs) {
+    while (other != reference.runs.end() && other->seed < run.seed) ++other;
+    if (other == reference.runs.end()) break;
+    if (run.seed == other->seed && run.solved && other->solved && other->processorTime > 0)
+      ratios.push_back(run.processorTime / other->processorTime);
+  }
 }
 
 }  // namespace

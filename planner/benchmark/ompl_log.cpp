@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <ostream>
+#include <set>
 #include <sstream>
 
 #include <ompl/base/PlannerStatus.h>
@@ -33,21 +35,44 @@ class Log final : public Benchmark {
   CompleteExperiment& experiment() { return exp_; }
 };
 
-/// Returns a planner's runs as OMPL's Benchmark stores them. A planner that reports progress has a
-/// list of samples for each run.
-Benchmark::PlannerExperiment plannerOf(const Campaign& campaign, const CampaignCell& cell) {
-  Benchmark::PlannerExperiment planner;
-  planner.name = omplPlannerName(cell, {});
-  for (const BenchmarkRun& run : cell.runs) {
-    planner.runs.push_back(omplProperties(campaign, cell, run));
-    planner.runsProgressData.push_back(run.ompl.progress);
-    if (run.ompl.planner.empty()) continue;
-    planner.name = omplPlannerName(cell, run.ompl);
-    planner.common = run.ompl.settings;
-    if (!run.ompl.progressNames.empty()) planner.progressPropertyNames = run.ompl.progressNames;
+/// A planner of an experiment, without its runs.
+struct LoggedPlanner {
+  std::size_t cell = 0;  ///< index of its runs
+  std::string name;
+  std::map<std::string, std::string> settings;
+  std::set<std::string> properties;  ///< names of all properties that its runs have
+  std::vector<std::string> progressNames;
+};
+
+/// Writes a planner and its runs as OMPL's Benchmark does. Its own writer needs all runs in memory.
+void writePlanner(const Campaign& campaign, const CampaignCell& cell, const RunSource& runs,
+                  const LoggedPlanner& planner, std::ostream& out) {
+  out << planner.name << '\n' << planner.settings.size() << " common properties\n";
+  for (const auto& [name, value] : planner.settings) out << name << " = " << value << '\n';
+  out << planner.properties.size() << " properties for each run\n";
+  for (const std::string& name : planner.properties) out << name << '\n';
+  out << cell.runs.size() << " runs\n";
+  runs(planner.cell, [&](const BenchmarkRun& run) {
+    const auto properties = omplProperties(campaign, cell, run);
+    for (const std::string& name : planner.properties) {
+      if (const auto value = properties.find(name); value != properties.end()) out << value->second;
+      out << "; ";
+    }
+    out << '\n';
+  });
+  if (!planner.progressNames.empty()) {  // a planner that reports progress: the samples of each run
+    out << planner.progressNames.size() << " progress properties for each run\n";
+    for (const std::string& name : planner.progressNames) out << name << '\n';
+    out << cell.runs.size() << " runs\n";
+    runs(planner.cell, [&](const BenchmarkRun& run) {
+      for (const auto& sample : run.ompl->progress) {
+        for (const auto& [name, value] : sample) out << value << ',';
+        out << ';';
+      }
+      out << '\n';
+    });
   }
-  if (planner.progressPropertyNames.empty()) planner.runsProgressData.clear();
-  return planner;
+  out << ".\n";
 }
 
 }  // namespace
@@ -73,7 +98,7 @@ std::string oneWord(std::string text) {
 std::map<std::string, std::string> omplProperties(const Campaign& campaign,
                                                   const CampaignCell& cell,
                                                   const BenchmarkRun& run) {
-  std::map<std::string, std::string> properties = run.ompl.properties;
+  std::map<std::string, std::string> properties = run.ompl->properties;
   for (const auto& [name, value] : runRow(campaign, cell, run)) {
     if (const auto* yes = std::get_if<bool>(&value))
       properties.emplace(name + " BOOLEAN", *yes ? "1" : "0");
@@ -132,8 +157,8 @@ std::pair<std::string, std::string> omplSetup(const std::string& setup) {
   return {setup.substr(0, first), setup.substr(first)};
 }
 
-std::string omplLog(const Campaign& campaign, const CampaignResult& result, std::size_t problem,
-                    std::size_t variant) {
+void writeOmplLog(const Campaign& campaign, const CampaignResult& result, const RunSource& runs,
+                  std::size_t problem, std::size_t variant, std::ostream& out) {
   const CampaignCell any{problem, variant, {}, {}};
   const Problem& p = campaign.problems[problem];
   og::SimpleSetup none(std::make_shared<ob::RealVectorStateSpace>(1));
@@ -150,27 +175,50 @@ std::string omplLog(const Campaign& campaign, const CampaignResult& result, std:
     const auto blank = nameAndType.rfind(' ');
     log.addExperimentParameter(nameAndType.substr(0, blank), nameAndType.substr(blank + 1), value);
   }
-  for (const CampaignCell& cell : result.cells) {
+  std::vector<LoggedPlanner> planners;
+  for (std::size_t c = 0; c < result.cells.size(); ++c) {
+    const CampaignCell& cell = result.cells[c];
     if (cell.problem != problem || cell.variant != variant || cell.runs.empty()) continue;
-    experiment.planners.push_back(plannerOf(campaign, cell));
-    for (const BenchmarkRun& run : cell.runs) {
-      if (run.ompl.planner.empty()) continue;
-      const auto [ofProblem, ofPlanner] = omplSetup(run.ompl.setup);
+    LoggedPlanner planner{c, omplPlannerName(cell, {}), {}, {}, {}};
+    bool described = false;
+    runs(c, [&](const BenchmarkRun& run) {
+      for (const auto& [name, value] : omplProperties(campaign, cell, run))
+        planner.properties.insert(name);
+      const OmplRecord& record = *run.ompl;
+      if (record.planner.empty()) return;
+      planner.name = omplPlannerName(cell, record);
+      planner.settings = record.settings;
+      if (!record.progressNames.empty()) planner.progressNames = record.progressNames;
+      if (described) return;
+      described = true;
+      const auto [ofProblem, ofPlanner] = omplSetup(record.setup);
       experiment.setupInfo += experiment.setupInfo.empty() ? ofProblem + ofPlanner : ofPlanner;
-      experiment.host = oneWord(run.ompl.host);
-      experiment.cpuInfo = run.ompl.cpu;
-      break;
-    }
+      experiment.host = oneWord(record.host);
+      experiment.cpuInfo = record.cpu;
+    });
+    planners.push_back(std::move(planner));
   }
-  std::ostringstream text;
-  log.saveResultsToStream(text);
-  std::string all = text.str();
+  experiment.planners.resize(planners.size());  // without names and runs: only their number matters
+  std::ostringstream head;
+  log.saveResultsToStream(head);
+  std::string text = head.str();
+  const std::string last = "\n" + std::to_string(planners.size()) + " planners\n";
+  text.erase(text.rfind(last) + last.size());
   // Debian's OMPL 1.5.2 has an empty OMPL_VERSION; OMPL's readers would then read "version" as the
   // number.
   const std::string unversioned = "OMPL version \n";
-  if (all.rfind(unversioned, 0) == 0)
-    all.replace(0, unversioned.size(), "OMPL version " + versionOfOmpl() + "\n");
-  return all;
+  if (text.rfind(unversioned, 0) == 0)
+    text.replace(0, unversioned.size(), "OMPL version " + versionOfOmpl() + "\n");
+  out << text;
+  for (const LoggedPlanner& planner : planners)
+    writePlanner(campaign, result.cells[planner.cell], runs, planner, out);
+}
+
+std::string omplLog(const Campaign& campaign, const CampaignResult& result, std::size_t problem,
+                    std::size_t variant) {
+  std::ostringstream text;
+  writeOmplLog(campaign, result, runsOf(result.cells), problem, variant, text);
+  return text.str();
 }
 
 }  // namespace corridor

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <iosfwd>
 #include <map>
 #include <string>
 #include <utility>
@@ -9,10 +10,12 @@
 
 namespace corridor {
 
-/// Returns a log as OMPL's own Benchmark (OMPL 1.5) writes it, for the runs of a problem with a
+/// Writes a log as OMPL's own Benchmark (OMPL 1.5) writes it, for the runs of a problem with a
 /// variant and all planners. `ompl_benchmark_statistics` and Planner Arena can read it. A run has
 /// OMPL's properties, and every count and measure of `runRow` under the same name. A failed run has
-/// the status "Crash".
+/// the status "Crash". @param runs the runs of the result's cells, whole; each is read three times.
+void writeOmplLog(const Campaign& campaign, const CampaignResult& result, const RunSource& runs,
+                  std::size_t problem, std::size_t variant, std::ostream& out);
 std::string omplLog(const Campaign& campaign, const CampaignResult& result, std::size_t problem,
                     std::size_t variant);
 

@@ -20,6 +20,9 @@ using view::escapedHtml;
 /// Plots and tables of up to this many problems are shown at once; if there are more problems, they
 /// are folded.
 constexpr std::size_t kMostAtOnce = 8;
+/// Plots of folded problems, and those with more bytes than this, are texts in the page until they
+/// come near the window: a browser opens a page with 20,000 elements of SVG seconds later.
+constexpr std::size_t kLargePlot = 200'000;
 
 /// "1 problem", "2 problems"
 std::string counted(std::size_t number, const std::string& noun) {
@@ -161,7 +164,7 @@ class Report {
                                          std::size_t)) {
     std::string all;
     for (std::size_t p = 0; p < campaign_.problems.size(); ++p)
-      all += figure(plot(campaign_, cells_, p));
+      all += figure(plot(campaign_, cells_, p), campaign_.problems.size() > kMostAtOnce);
     return ofEach("Plots", figures(all));
   }
   std::string cellTables() const {
@@ -173,8 +176,9 @@ class Report {
   }
 
   /// Writes a plot's files, and returns the figure for the page. The data is written even if
-  /// gnuplot fails, so that no measurement is lost.
-  std::string figure(Plot plot) {
+  /// gnuplot fails, so that no measurement is lost. @param isFolded whether the figure is hidden
+  /// when the page opens.
+  std::string figure(Plot plot, bool isFolded = false) {
     const std::string name = fileName(plot.name);
     plot.name = name;
     // "a b" and "a-b" have the same file name.
@@ -198,7 +202,14 @@ class Report {
     writeWhole(base.string() + ".svg", svg);
     files_.push_back(base.string() + ".svg");
     svg.erase(0, svg.find("<svg"));
-    return "<figure data-plot=\"" + escapedHtml(plot.name) + "\">" + svg + "</figure>\n";
+    std::string head = "<figure data-plot=\"" + escapedHtml(plot.name) + "\"";
+    // report.js draws it. No name in the text can end the script: `svgOf` replaces their "<".
+    if (isFolded || svg.size() > kLargePlot) {
+      head += " style=\"aspect-ratio: " + std::to_string(kPlotWidth) + " / " +
+              std::to_string(heightOf(plot)) + "\"";
+      svg = "<script type=\"text/plain\">" + svg + "</script>";
+    }
+    return head + ">" + svg + "</figure>\n";
   }
 
   const Campaign& campaign_;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <map>
 
 #include "collision/core/quantiles.h"
 
@@ -29,15 +30,26 @@ void forCells(const std::vector<CampaignCell>& cells, std::size_t problem, std::
     if (cell.problem == problem && cell.variant == variant) f(cell);
 }
 
+/// The largest number of steps of a curve. With n > kMostSteps values it has kMostSteps of the n
+/// steps, the first and the last among them, and at these values it is exact. Between two of them
+/// fewer than (n − 1)/(kMostSteps − 1) steps are missing, so the curve is too low by less than
+/// 1/499. gnuplot draws a share of 1 at a height of 195 units (`heightOf` in report.cpp), and the
+/// page scales plots by at most 1.32 (a single plot has 738 pixels for 560 units): 0.52 pixels.
+constexpr std::size_t kMostSteps = 500;
+
 /// Returns a step function that rises by 1/of at each value, over [first, last].
 std::vector<PlotPoint> steps(std::vector<double> values, std::size_t of, double first,
                              double last) {
   std::sort(values.begin(), values.end());
   std::vector<PlotPoint> points{{first, 0}};
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const double x = std::max(values[i], first);
-    points.push_back({x, static_cast<double>(i) / static_cast<double>(of)});
-    points.push_back({x, static_cast<double>(i + 1) / static_cast<double>(of)});
+  const std::size_t n = values.size(), drawn = std::min(n, kMostSteps);
+  std::size_t reached = 0;  // steps below the curve
+  for (std::size_t i = 0; i < drawn; ++i) {
+    const std::size_t rank = drawn > 1 ? i * (n - 1) / (drawn - 1) : 0;
+    const double x = std::max(values[rank], first);
+    points.push_back({x, static_cast<double>(reached) / static_cast<double>(of)});
+    reached = rank + 1;
+    points.push_back({x, static_cast<double>(reached) / static_cast<double>(of)});
   }
   points.push_back({std::max(last, points.back().x), points.back().y});
   return points;
@@ -53,6 +65,92 @@ std::pair<double, double> decades(const std::vector<double>& values) {
   const double from = std::floor(std::log10(least)), to = std::ceil(std::log10(most));
   return {std::pow(10, from), std::pow(10, std::max(to, from + 1))};
 }
+
+/// A run in the plot of costs; times in seconds.
+struct CostPoint {
+  std::size_t variant;
+  const CampaignCell& cell;
+  const BenchmarkRun& run;
+  double predicted, measured;
+};
+
+/// Calls f(point) for each run whose cost is known, in order of variants.
+void forCosts(const Campaign& campaign, const std::vector<CampaignCell>& cells,
+              const std::vector<VariantScore>& scores,
+              const std::function<void(const CostPoint&)>& f) {
+  for (std::size_t v = 0; v < campaign.variants.size(); ++v) {
+    const auto score = std::find_if(scores.begin(), scores.end(),
+                                    [&](const VariantScore& s) { return s.variant == v; });
+    if (!score->cost) continue;
+    for (const CampaignCell& cell : cells) {
+      if (cell.variant != v) continue;
+      for (const BenchmarkRun& run : cell.runs)
+        if (const auto cost = checkingCost(run))
+          f({v, cell, run, 1e-9 * score->cost->model.predicted(*cost), 1e-9 * cost->ns});
+    }
+  }
+}
+
+/// The plot of costs has a point per run up to this number of runs. If there are more, it has one
+/// for each variant and each cell of a grid that contains runs: the first of these runs, with their
+/// number in its text. The finest grid has 128 cells along an axis. The axes have 426 and 194
+/// units, so a run is less than 3.4 and 1.6 units from its point, whose radius is 3.4. If there are
+/// still too many points, the grid is coarser; the title says how fine it is.
+constexpr std::size_t kMostPoints = 4000, kFinestGrid = 128;
+
+/// The points of the plot of costs, as series of variants.
+struct CostGrid {
+  const Campaign& campaign;
+  std::pair<double, double> range;  ///< of both axes
+  std::size_t cells;                ///< along an axis; 0: a point per run
+  std::vector<PlotSeries> series;
+
+  std::size_t points() const {
+    std::size_t sum = 0;
+    for (const PlotSeries& s : series) sum += s.points.size();
+    return sum;
+  }
+  void fill(const std::vector<CampaignCell>& of, const std::vector<VariantScore>& scores) {
+    series.clear();
+    std::map<std::pair<std::size_t, std::size_t>, std::pair<std::size_t, std::size_t>> taken;
+    const auto endSeries = [&] {
+      for (const auto& [place, point] : taken)
+        if (const auto [index, runs] = point; runs > 1)
+          series.back().points[index].text +=
+              "\nand " + std::to_string(runs - 1) + (runs == 2 ? " more run" : " more runs");
+      taken.clear();
+    };
+    forCosts(campaign, of, scores, [&](const CostPoint& p) {
+      const std::string& name = campaign.variants[p.variant].name;
+      if (series.empty() || series.back().color != p.variant) {
+        endSeries();
+        series.push_back({name, p.variant, PlotSeries::Style::points, {}});
+      }
+      auto& points = series.back().points;
+      if (cells > 0) {
+        const auto [point, isNew] =
+            taken.try_emplace({along(p.predicted), along(p.measured)}, points.size(), 0);
+        ++point->second.second;
+        if (!isNew) return;
+      }
+      points.push_back({p.predicted, p.measured});
+      points.back().text = campaign.problemNames[p.cell.problem] + ", " + p.cell.planner.label +
+                           ", seed " + std::to_string(p.run.seed) + "\n" + name + "\nN_v " +
+                           digits(static_cast<double>(p.run.counters.boxTests)) + ", N_p " +
+                           digits(static_cast<double>(p.run.counters.triangleTests));
+    });
+    endSeries();
+  }
+
+ private:
+  /// Returns the place of a value along an axis, which is logarithmic: 0 for values that it leaves
+  /// out.
+  std::size_t along(double value) const {
+    if (!(value > 0)) return 0;
+    const double share = std::log(value / range.first) / std::log(range.second / range.first);
+    return 1 + static_cast<std::size_t>(std::clamp(share, 0.0, 1.0) * static_cast<double>(cells));
+  }
+};
 
 }  // namespace
 
@@ -164,12 +262,15 @@ Plot profileOfAll(const Campaign& campaign, const std::vector<CampaignCell>& cel
   std::size_t runs = 0;
   std::vector<std::vector<double>> ratios(variants);
   std::vector<double> all;
-  for (std::size_t first = 0; first < cells.size(); first += variants)
+  for (std::size_t first = 0; first < cells.size(); first += variants) {
+    std::vector<std::size_t> at(variants, 0);  // the runs of a cell are ordered by seed
     for (const BenchmarkRun& any : cells[first].runs) {
       std::vector<const BenchmarkRun*> same;
-      for (std::size_t v = 0; v < variants; ++v)
-        for (const BenchmarkRun& run : cells[first + v].runs)
-          if (run.seed == any.seed) same.push_back(&run);
+      for (std::size_t v = 0; v < variants; ++v) {
+        const std::vector<BenchmarkRun>& of = cells[first + v].runs;
+        while (at[v] < of.size() && of[at[v]].seed < any.seed) ++at[v];
+        if (at[v] < of.size() && of[at[v]].seed == any.seed) same.push_back(&of[at[v]]);
+      }
       if (same.size() < variants) continue;
       ++runs;
       const auto holds = [](const BenchmarkRun& r) { return r.solved && r.verdict != "refuted"; };
@@ -183,6 +284,7 @@ Plot profileOfAll(const Campaign& campaign, const std::vector<CampaignCell>& cel
           all.push_back(ratios[v].back());
         }
     }
+  }
   Plot plot{"profile",
             "All problems, the " + std::to_string(runs) + " runs that every variant has made",
             "processor time, multiples of the quickest variant", "share of runs", true};
@@ -227,32 +329,24 @@ Plot predictedCost(const Campaign& campaign, const std::vector<CampaignCell>& ce
             true,
             true};
   std::vector<double> both;
-  std::vector<PlotSeries> series;
-  for (std::size_t v = 0; v < campaign.variants.size(); ++v) {
-    const auto score = std::find_if(scores.begin(), scores.end(),
-                                    [&](const VariantScore& s) { return s.variant == v; });
-    if (!score->cost) continue;
-    PlotSeries of{campaign.variants[v].name, v, PlotSeries::Style::points, {}};
-    for (const CampaignCell& cell : cells) {
-      if (cell.variant != v) continue;
-      for (const BenchmarkRun& run : cell.runs)
-        if (const auto cost = checkingCost(run)) {
-          const double predicted = 1e-9 * score->cost->model.predicted(*cost);
-          both.push_back(predicted), both.push_back(1e-9 * cost->ns);
-          PlotPoint point{predicted, 1e-9 * cost->ns};
-          point.text = campaign.problemNames[cell.problem] + ", " + cell.planner.label + ", seed " +
-                       std::to_string(run.seed) + "\n" + of.name + "\nN_v " +
-                       digits(cost->boxTests) + ", N_p " + digits(cost->triangleTests);
-          of.points.push_back(std::move(point));
-        }
-    }
-    series.push_back(std::move(of));
-  }
+  forCosts(campaign, cells, scores,
+           [&](const CostPoint& p) { both.push_back(p.predicted), both.push_back(p.measured); });
   plot.rangeX = plot.rangeY = decades(both);
   const auto [least, most] = *plot.rangeX;
   plot.series.push_back(
       {"as predicted", 6, PlotSeries::Style::dashes, {{least, least}, {most, most}}});
-  plot.series.insert(plot.series.end(), series.begin(), series.end());
+  const std::size_t runs = both.size() / 2;
+  CostGrid grid{campaign, *plot.rangeX, runs <= kMostPoints ? 0 : kFinestGrid, {}};
+  grid.fill(cells, scores);
+  while (grid.points() > kMostPoints) {
+    grid.cells /= 2;
+    grid.fill(cells, scores);
+  }
+  if (grid.cells > 0)
+    plot.title = "All problems, " + std::to_string(grid.points()) + " points for " +
+                 std::to_string(runs) + " runs, on a grid of " + std::to_string(grid.cells) +
+                 " × " + std::to_string(grid.cells);
+  for (PlotSeries& series : grid.series) plot.series.push_back(std::move(series));
   return plot;
 }
 

@@ -231,10 +231,12 @@ std::string measuredTable(const Campaign& campaign, const std::vector<CampaignCe
   std::strftime(date, sizeof date, "%Y-%m-%d %H:%M UTC", &utc);
   Table table({});
   table.row({"written", date});
-  std::set<std::pair<std::string, std::string>> machines;
+  std::set<const OmplRecord*> records;  // runs share them
   for (const CampaignCell& cell : cells)
-    for (const BenchmarkRun& run : cell.runs)
-      if (!run.ompl.host.empty()) machines.insert({run.ompl.host, processorOf(run.ompl.cpu)});
+    for (const BenchmarkRun& run : cell.runs) records.insert(run.ompl.get());
+  std::set<std::pair<std::string, std::string>> machines;
+  for (const OmplRecord* record : records)
+    if (!record->host.empty()) machines.insert({record->host, processorOf(record->cpu)});
   for (const auto& [host, processor] : machines)
     table.row({"machine", escapedHtml(host + (processor.empty() ? "" : ", " + processor))});
   table.row({"programs", "Corridor, commit " + escapedHtml(buildCommit()) + "; OMPL " +

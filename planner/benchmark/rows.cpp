@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <functional>
 #include <limits>
+#include <sstream>
 
 #include "collision/core/quantiles.h"
 #include "collision/core/shortest.h"
@@ -190,15 +191,21 @@ std::vector<Row> summaryRows(const Campaign& campaign, const std::vector<Campaig
   return rows;
 }
 
-std::string csvOf(const std::vector<Row>& rows) {
-  std::string text;
-  const auto line = [&](const Row& row, auto cell) {
-    for (const auto& column : row) text += (&column == &row.front() ? "" : ",") + cell(column);
-    text += '\n';
+void CsvWriter::add(const Row& row) {
+  const auto line = [&](auto cell) {
+    for (const auto& column : row) out_ << (&column == &row.front() ? "" : ",") << cell(column);
+    out_ << '\n';
   };
-  if (!rows.empty()) line(rows[0], [](const auto& column) { return column.first; });
-  for (const Row& row : rows) line(row, [](const auto& column) { return csvText(column.second); });
-  return text;
+  if (!hasNames_) line([](const auto& column) { return column.first; });
+  hasNames_ = true;
+  line([](const auto& column) { return csvText(column.second); });
+}
+
+std::string csvOf(const std::vector<Row>& rows) {
+  std::ostringstream text;
+  CsvWriter csv(text);
+  for (const Row& row : rows) csv.add(row);
+  return text.str();
 }
 
 std::string tableOf(const std::vector<Row>& rows) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <iosfwd>
 #include <string>
 #include <utility>
 #include <variant>
@@ -29,8 +30,17 @@ std::vector<Row> runRows(const Campaign& campaign, const std::vector<CampaignCel
 std::vector<Row> pathSummaryRows(const Campaign& campaign, const std::vector<CampaignCell>& cells);
 std::vector<Row> summaryRows(const Campaign& campaign, const std::vector<CampaignCell>& cells);
 
-/// Returns CSV: a line of names, then a line per row. Numbers read back as the same doubles; yes is
-/// 1, no is 0. @pre all rows have the same columns.
+/// Writes rows as CSV: a line of names, then a line per row. Numbers read back as the same doubles;
+/// yes is 1, no is 0. @pre all rows have the same columns.
+class CsvWriter {
+ public:
+  explicit CsvWriter(std::ostream& out) : out_(out) {}
+  void add(const Row& row);
+
+ private:
+  std::ostream& out_;
+  bool hasNames_ = false;
+};
 std::string csvOf(const std::vector<Row>& rows);
 
 /// Returns an aligned table for people to read, with four significant digits. A column without

@@ -22,8 +22,11 @@ std::deque<QueuedRun> tasksOf(const Campaign& campaign, const std::vector<Campai
   std::deque<QueuedRun> tasks;
   const std::size_t variants = campaign.variants.size();
   const auto has = [&](std::size_t cell, std::uint64_t seed) {
-    return std::any_of(cells[cell].runs.begin(), cells[cell].runs.end(),
-                       [&](const BenchmarkRun& run) { return run.seed == seed; });
+    const auto& runs = cells[cell].runs;
+    const auto at =
+        std::lower_bound(runs.begin(), runs.end(), seed,
+                         [](const BenchmarkRun& run, std::uint64_t of) { return run.seed < of; });
+    return at != runs.end() && at->seed == seed;
   };
   // cellsOf puts the variants of a problem and planner next to each other.
   for (std::size_t first = 0; first < cells.size(); first += variants)
@@ -36,25 +39,28 @@ std::deque<QueuedRun> tasksOf(const Campaign& campaign, const std::vector<Campai
 /// Mean durations of finished runs, to estimate the time left.
 class Durations {
  public:
-  explicit Durations(std::size_t cells) : cells_(cells) {}
+  Durations(std::size_t cells, const std::deque<QueuedRun>& tasks) : cells_(cells) {
+    for (const QueuedRun& task : tasks) ++cells_[task.cell].waiting;
+  }
+  void begin(std::size_t cell) { --cells_[cell].waiting; }
   void add(std::size_t cell, double seconds) {
     cells_[cell].seconds += seconds, ++cells_[cell].runs;
     all_.seconds += seconds, ++all_.runs;
   }
-  /// Returns the estimated seconds of all tasks, one after the other. Each takes the mean time of
-  /// its cell, or of all runs if its cell has none. Negative: unknown.
-  double of(const std::deque<QueuedRun>& tasks) const {
+  /// Returns the estimated seconds of all waiting runs, one after the other. Each takes the mean
+  /// time of its cell, or of all runs if its cell has none. Negative: unknown.
+  double ofWaiting() const {
     if (all_.runs == 0) return -1;
     double sum = 0;
-    for (const QueuedRun& task : tasks)
-      sum += cells_[task.cell].runs > 0 ? cells_[task.cell].mean() : all_.mean();
+    for (const Sum& cell : cells_)
+      sum += static_cast<double>(cell.waiting) * (cell.runs > 0 ? cell.mean() : all_.mean());
     return sum;
   }
 
  private:
   struct Sum {
     double seconds = 0;
-    std::size_t runs = 0;
+    std::size_t runs = 0, waiting = 0;
     double mean() const { return seconds / static_cast<double>(runs); }
   };
   std::vector<Sum> cells_;
@@ -76,17 +82,19 @@ CampaignResult runCampaign(const Campaign& campaign, const CampaignOptions& opti
   std::deque<QueuedRun> tasks = tasksOf(campaign, cells);
   const std::uint64_t total = cells.size() * campaign.runs;
   std::uint64_t done = total - tasks.size();
-  Durations durations(cells.size());
+  Durations durations(cells.size(), tasks);
+  for (CampaignCell& cell : cells) cell.runs.reserve(campaign.runs);  // growing would need twice
   std::list<Running> running;  // its destructor kills these runs
 
   const auto begin = [&] {
     const QueuedRun task = tasks.front();
     const CampaignCell& cell = cells[task.cell];
     if (options.progress) {
-      const double left = durations.of(tasks);
+      const double left = durations.ofWaiting();
       options.progress({done, total, left < 0 ? left : left / static_cast<double>(options.jobs),
                         cell, task.seed});
     }
+    durations.begin(task.cell);
     tasks.pop_front();
     running.push_back(
         {task, Clock::now(),

@@ -16,8 +16,9 @@ struct CampaignProgress {
 
 struct CampaignOptions {
   std::function<void(const CampaignProgress&)> progress;
-  /// Called with each finished run and the index of its cell. If it throws, the campaign ends.
-  std::function<void(std::size_t cell, const BenchmarkRun&)> done;
+  /// Called with each finished run and the index of its cell. It may change the run before the run
+  /// becomes a part of the result (`RunTrimmer`). If it throws, the campaign ends.
+  std::function<void(std::size_t cell, BenchmarkRun&)> done;
   std::size_t jobs = 1;  ///< runs at a time; with several, times are those of a busy machine
   /// When it becomes true, unfinished runs are killed; the result has the finished runs.
   const std::atomic<bool>* interrupted = nullptr;

@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <ostream>
 #include <set>
 #include <unistd.h>
 
@@ -97,9 +98,13 @@ bool makeReportFolder(const fs::path& folder, const Campaign& campaign) {
 }
 
 std::vector<fs::path> writeReports(const Campaign& campaign, const CampaignResult& result,
-                                   const fs::path& folder) {
+                                   const RunSource& runs, const fs::path& folder) {
   std::vector<fs::path> files{folder / "runs.csv", folder / "summary.csv"};
-  writeWhole(files[0], csvOf(runRows(campaign, result.cells)));
+  writeWhole(files[0], [&](std::ostream& out) {
+    CsvWriter csv(out);
+    for (std::size_t c = 0; c < result.cells.size(); ++c)
+      runs(c, [&](const BenchmarkRun& run) { csv.add(runRow(campaign, result.cells[c], run)); });
+  });
   writeWhole(files[1], csvOf(summaryRows(campaign, result.cells)));
   const std::vector<fs::path> logs = logFiles(campaign, folder);
   for (std::size_t p = 0; p < campaign.problems.size(); ++p)
@@ -109,9 +114,15 @@ std::vector<fs::path> writeReports(const Campaign& campaign, const CampaignResul
       };
       if (std::none_of(result.cells.begin(), result.cells.end(), isRun)) continue;
       files.push_back(logs[p * campaign.variants.size() + v]);
-      writeWhole(files.back(), omplLog(campaign, result, p, v));
+      writeWhole(files.back(),
+                 [&](std::ostream& out) { writeOmplLog(campaign, result, runs, p, v, out); });
     }
   return files;
+}
+
+std::vector<fs::path> writeReports(const Campaign& campaign, const CampaignResult& result,
+                                   const fs::path& folder) {
+  return writeReports(campaign, result, runsOf(result.cells), folder);
 }
 
 }  // namespace corridor

@@ -17,7 +17,11 @@ bool makeReportFolder(const std::filesystem::path& folder, const Campaign& campa
 
 /// Writes `runs.csv`, `summary.csv`, and OMPL's log `PROBLEM.VARIANT.log` for each problem and
 /// variant that has runs. Existing files of these names are replaced. Each file is written whole or
-/// not at all. @returns the files. @throws InputError if one can't be written.
+/// not at all. @param runs the runs of the result's cells, whole; they are read several times, one
+/// by one. @returns the files. @throws InputError if one can't be written.
+std::vector<std::filesystem::path> writeReports(const Campaign& campaign,
+                                                const CampaignResult& result, const RunSource& runs,
+                                                const std::filesystem::path& folder);
 std::vector<std::filesystem::path> writeReports(const Campaign& campaign,
                                                 const CampaignResult& result,
                                                 const std::filesystem::path& folder);

@@ -81,4 +81,28 @@ def points_have_texts(browser, out):
     browser.check_page()
 
 
-main([pages])
+def folded(browser, folder):
+    """Plots of many problems are texts until their part of the page is opened and scrolled to, or printed."""
+    campaign = os.path.join(folder, "folded.yaml")
+    with open(campaign, "w") as file:
+        file.write("format: corridor-campaign-1\nproblems: [%s]\ncheckers: {sampled: {edges: discrete}}\nruns: 1\nlimits: {time: 60}\n"
+                   % ", ".join([source("problems", "thin_plate")] * 9))
+    out = os.path.join(folder, "results")
+    corridor("benchmark", campaign, "-o", out)
+    browser.size("desktop")
+    browser.open(os.path.join(out, "report.html"))
+    browser.check_page()
+    drawn = "[...document.querySelectorAll('details figure')].filter((figure) => figure.querySelector('svg')).length"
+    assert browser.js("document.querySelectorAll('details figure').length") == 27
+    assert browser.js(drawn) == 0
+    browser.wait("document.querySelector(\"figure[data-plot='error'] svg\")")  # of all problems: drawn at once
+    browser.click("#solved summary")
+    browser.driver.execute_script("document.querySelector('#solved details figure:last-child').scrollIntoView()")
+    browser.wait("document.querySelector('#solved details figure:last-child svg')")
+    browser.check_page()
+    browser.js("dispatchEvent(new Event('beforeprint'))")
+    assert browser.js(drawn) == 27
+    browser.check_page()
+
+
+main([pages, folded])

@@ -13,7 +13,22 @@ const gnuplot_svg = {
   },
 };
 addEventListener("scroll", gnuplot_svg.hideHypertext, {passive: true});
+// Large and folded plots are texts until they come near the window.
+const draw = (figure) => {
+  const text = figure.querySelector("script");
+  if (text) figure.innerHTML = text.textContent;
+};
+const later = [...document.querySelectorAll("figure > script")].map((text) => text.parentElement);
+const near = new IntersectionObserver((figures) => {
+  for (const figure of figures) {
+    if (!figure.isIntersecting) continue;
+    draw(figure.target);
+    near.unobserve(figure.target);
+  }
+}, {rootMargin: "50%"});
+for (const figure of later) near.observe(figure);
 // Printed details can't be opened: open all of them first.
 addEventListener("beforeprint", () => {
+  later.forEach(draw);
   for (const details of document.querySelectorAll("details")) details.open = true;
 });

@@ -173,7 +173,8 @@ TEST_F(CampaignCommand, TrajectoriesOfProblems) {
   EXPECT_EQ(run(options + "--trajectories stop,spline -o results --resume").out, table.out);
   const Result json = run(options + "--trajectories blends --json");
   ASSERT_EQ(json.status, 0) << json.err;
-  const auto report = nlohmann::json::parse(json.out);
+  const auto report = nlohmann::ordered_json::parse(json.out);
+  EXPECT_EQ(json.out, report.dump(2) + "\n") << "printed row by row, as if printed at once";
   ASSERT_EQ(report["trajectories"].size(), 1u);
   EXPECT_EQ(report["trajectories"][0]["trajectory"], "blends");
   EXPECT_EQ(report["trajectories"][0]["proved"], 1);
@@ -191,6 +192,28 @@ TEST_F(CampaignCommand, OptionsOverrideTheFile) {
   ASSERT_EQ(json["results"].size(), 6u);
   EXPECT_EQ(json["results"][3]["planner"], "short");
   EXPECT_EQ(json["results"][3]["rows"][1]["seed"], 6);
+  EXPECT_EQ(result.out, nlohmann::ordered_json::parse(result.out).dump(2) + "\n");
+}
+
+/// With -o, the rows come from the database: the same as without, and again after --resume.
+TEST_F(CampaignCommand, StoredRowsAreTheSame) {
+  const auto rows = [&](const std::string& options) {
+    const Result result = run("benchmark campaign.yaml --runs 2 --json " + options);
+    EXPECT_EQ(result.status, 0) << result.err;
+    return nlohmann::ordered_json::parse(result.out);
+  };
+  const auto without = rows(""), with = rows("-o results"), again = rows("-o results --resume");
+  EXPECT_EQ(again, with);
+  ASSERT_EQ(with["results"].size(), 6u);
+  for (std::size_t c = 0; c < 6; ++c) {
+    ASSERT_EQ(with["results"][c]["rows"].size(), 2u);
+    for (std::size_t i = 0; i < 2; ++i)
+      for (const auto& [key, value] : without["results"][c]["rows"][i].items())
+        if (!key.ends_with("_s")) {
+          EXPECT_EQ(with["results"][c]["rows"][i][key], value) << key;
+        }
+  }
+  EXPECT_NE(with["results"][1]["rows"][0]["finding"], nullptr) << "sampled edges miss the wall";
 }
 
 TEST_F(CampaignCommand, BadInputIsOneLine) {

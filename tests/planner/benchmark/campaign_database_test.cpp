@@ -7,6 +7,9 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <optional>
+#include <stdexcept>
 #include <sys/resource.h>
 
 #include <gmock/gmock.h>
@@ -17,6 +20,7 @@
 #include "planner/benchmark/child_process.h"
 #include "planner/benchmark/rows.h"
 #include "planner/benchmark/run_campaign.h"
+#include "planner/benchmark/run_record.h"
 #include "planner/benchmark/write_reports.h"
 #include "tests/planner/checker/hall.h"
 #include "tests/support/support.h"
@@ -147,14 +151,134 @@ TEST_F(Database, StoresTheSessionsOfItsRuns) {
   EXPECT_EQ(sessions[1].runs, 2u);
 }
 
+/// Returns the files that `writeReports` writes, by their names.
+std::map<std::string, std::string> reportsOf(const Campaign& campaign, const CampaignResult& result,
+                                             const RunSource& runs,
+                                             const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
+  std::map<std::string, std::string> texts;
+  for (const auto& file : writeReports(campaign, result, runs, folder))
+    texts[file.filename()] = test::contents(file);
+  return texts;
+}
+
+/// Stored runs are read one by one, and give the same files as the runs in memory. The runs that a
+/// resumed campaign keeps in memory have the same figures, but no texts.
 TEST_F(Database, StoredRunsReadBackUnchanged) {
-  const Campaign campaign = hallCampaign({"certified", "discrete:0.2"});
+  Campaign campaign = hallCampaign({"certified", "discrete:0.2"});
+  campaign.planners = {{"RRTConnect", "RRTConnect", {}}, {"star", "RRTstar", {}}};
+  campaign.time = 1.0 * test::kSlowdown;
   const CampaignResult result = runInto(campaign);
+  CampaignResult stored = result;
+  stored.cells = cellsOf(campaign);
+  std::optional<CampaignDatabase> again;
+  again.emplace(file_, Mode::resume, campaign, stored.cells);
+  const auto before = reportsOf(campaign, result, runsOf(result.cells), folder_ / "before");
+  EXPECT_EQ(before.size(), 4u);
+  EXPECT_GT(before.at("runs.csv").size(), 2000u);
+  EXPECT_THAT(before.at("hall.certified.log"), HasSubstr("progress properties for each run"));
+  EXPECT_EQ(reportsOf(campaign, stored, again->runs(), folder_ / "after"), before);
+  again.reset();
+  bool refuted = false;
+  for (std::size_t c = 0; c < result.cells.size(); ++c) {
+    ASSERT_EQ(stored.cells[c].runs.size(), result.cells[c].runs.size());
+    for (std::size_t i = 0; i < result.cells[c].runs.size(); ++i) {
+      const BenchmarkRun &kept = stored.cells[c].runs[i], &whole = result.cells[c].runs[i];
+      refuted |= !whole.finding.empty();
+      EXPECT_EQ(kept.why + kept.finding, "");
+      EXPECT_TRUE(kept.ompl->properties.empty() && kept.ompl->setup.empty());
+      EXPECT_EQ(kept.ompl->host, whole.ompl->host);
+      EXPECT_EQ(kept.ompl->cpu, whole.ompl->cpu);
+      EXPECT_EQ(kept.ompl, stored.cells[0].runs[0].ompl) << "each machine is kept once";
+      BenchmarkRun trimmed = whole;
+      trimmed.why = trimmed.finding = {};
+      trimmed.ompl = kept.ompl;
+      EXPECT_EQ(text(kept), text(trimmed));
+    }
+  }
+  EXPECT_TRUE(refuted) << "no run has a finding";
+  // The description of a planner and a machine is stored once for all runs of a cell.
+  EXPECT_THAT(rowsOf(file_, "SELECT count(*) FROM corridor_setups"), ElementsAre("4"));
+}
+
+/// A program of the version before stored each run as one text. Such files can be resumed.
+TEST_F(Database, ContinuesFilesOfTheVersionBefore) {
+  Campaign campaign = hallCampaign({"certified"});
+  const CampaignResult result = runInto(campaign);
+  {
+    SQLite::Database base(file_.string(), SQLite::OPEN_READWRITE);
+    for (const BenchmarkRun& run : result.cells[0].runs) {
+      SQLite::Statement old(base, "UPDATE corridor_runs SET record = ? WHERE seed = ?");
+      old.bind(1, text(run));
+      old.bind(2, static_cast<std::int64_t>(run.seed));
+      old.exec();
+    }
+    base.exec(
+        "ALTER TABLE corridor_runs DROP COLUMN setupid; ALTER TABLE corridor_runs DROP COLUMN "
+        "ompl; DROP TABLE corridor_setups; PRAGMA user_version = 2");
+  }
+  campaign.runs = 3;
+  CampaignResult all = runInto(campaign);
+  ASSERT_EQ(all.cells[0].runs.size(), 3u);
+  EXPECT_EQ(all.cells[0].runs[0].ompl->host, result.cells[0].runs[0].ompl->host);
+  EXPECT_THAT(rowsOf(file_, "PRAGMA user_version"), ElementsAre("3"));
+  const CampaignDatabase again(file_, Mode::resume, campaign, all.cells);
+  std::vector<std::string> texts;
+  again.runs()(0, [&](const BenchmarkRun& run) { texts.push_back(text(run)); });
+  ASSERT_EQ(texts.size(), 3u);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(texts[i], text(result.cells[0].runs[i]));
+}
+
+/// Runs that are added together are stored together, or not at all.
+TEST_F(Database, RunsAddedTogether) {
+  const Campaign campaign = hallCampaign({"certified", "discrete:0.2"});
   std::vector<CampaignCell> cells = cellsOf(campaign);
-  const CampaignDatabase again(file_, Mode::resume, campaign, cells);
-  EXPECT_EQ(csvOf(runRows(campaign, cells)), csvOf(runRows(campaign, result.cells)));
-  EXPECT_EQ(csvOf(runRows(campaign, cells)).size() > 500, true);
-  EXPECT_EQ(cells[0].runs[1].ompl.properties, result.cells[0].runs[1].ompl.properties);
+  BenchmarkRun run;
+  run.result = "not found";
+  {
+    CampaignDatabase database(file_, Mode::fresh, campaign, cells);
+    const auto add = [&](std::size_t cell, std::uint64_t seed) {
+      run.seed = seed;
+      database.add(cell, run);
+    };
+    const auto fails = [&] {
+      add(0, 1);
+      add(1, 1);
+      throw std::runtime_error("a reason");
+    };
+    EXPECT_THROW(database.addTogether(fails), std::runtime_error);
+    EXPECT_THROW(database.addTogether([&] { add(0, 1), add(0, 1); }), InputError);
+    add(0, 2);
+    database.addTogether([&] { add(0, 1), add(1, 2); });
+  }
+  CampaignDatabase(file_, Mode::resume, campaign, cells);
+  ASSERT_EQ(cells[0].runs.size(), 2u);
+  EXPECT_EQ(cells[0].runs[0].seed, 1u);
+  ASSERT_EQ(cells[1].runs.size(), 1u);
+  EXPECT_EQ(cells[1].runs[0].seed, 2u);
+  EXPECT_THAT(rowsOf(file_, "SELECT count(*) FROM runs"), ElementsAre("3"));
+}
+
+/// A killed process leaves a log beside the file. The next one reads it, and leaves the file alone.
+TEST_F(Database, AKilledProcessLosesNoStoredRun) {
+  const Campaign campaign = hallCampaign({"certified"});
+  std::vector<CampaignCell> cells = cellsOf(campaign);
+  const ChildEnd end = inChild(
+      [&](const auto&) {
+        CampaignDatabase database(file_, Mode::fresh, campaign, cells);
+        BenchmarkRun run;
+        run.result = "not found";
+        for (run.seed = 1; run.seed <= 2; ++run.seed) database.add(0, run);
+        std::raise(SIGKILL);
+      },
+      {{600}, 0});
+  EXPECT_THAT(end.failure, HasSubstr("killed by signal 9"));
+  const std::filesystem::path log = file_.string() + "-wal";
+  EXPECT_TRUE(std::filesystem::exists(log));
+  CampaignDatabase(file_, Mode::resume, campaign, cells);
+  EXPECT_EQ(cells[0].runs.size(), 2u);
+  EXPECT_FALSE(std::filesystem::exists(log));
+  EXPECT_THAT(rowsOf(file_, "PRAGMA journal_mode"), ElementsAre("delete"));
 }
 
 /// The tables and rows must be equal, except for times and dates of whole experiments.
@@ -266,7 +390,7 @@ TEST_F(Database, ForeignAndDamagedFiles) {
   SQLite::Database(file_.string(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 99");
   EXPECT_EQ(
       complaint(Mode::resume, campaign),
-      "is a campaign database of version 99; this program needs version 2; name another folder");
+      "is a campaign database of version 99; this program needs version 3; name another folder");
   std::filesystem::resize_file(file_, std::filesystem::file_size(file_) / 2);
   EXPECT_THAT(complaint(Mode::resume, campaign),
               testing::AnyOf(HasSubstr("is damaged"), HasSubstr("of version 99")));

@@ -18,6 +18,7 @@
 #include "planner/benchmark/report.h"
 #include "planner/benchmark/rows.h"
 #include "planner/benchmark/run_campaign.h"
+#include "planner/benchmark/run_record.h"
 #include "planner/benchmark/trajectory_rows.h"
 #include "tests/support/support.h"
 
@@ -282,7 +283,11 @@ TEST_F(HallWithTrajectories, ResumesWithTheSameFigures) {
     const CampaignResult result = runCampaign(c, options, std::move(cells));
     EXPECT_EQ(result.cells[0].runs.size(), static_cast<std::size_t>(stop));
     if (stop == 3) {
-      EXPECT_EQ(repeatable(c, result.cells), repeatable(c, whole.cells));
+      std::vector<CampaignCell> stored = cellsOf(c);
+      database.runs()(0, [&](const BenchmarkRun& run) { stored[0].runs.push_back(run); });
+      EXPECT_EQ(repeatable(c, stored), repeatable(c, whole.cells));
+      for (const TrajectoryRun& run : result.cells[0].runs[0].trajectories.at(0).makers)
+        EXPECT_EQ(run.finding, "") << "runs of earlier sessions have no texts in memory";
     }
   }
   const auto complaint = [&](const Campaign& other) -> std::string {

@@ -13,7 +13,7 @@
 #include "planner/benchmark/comparison.h"
 #include "planner/benchmark/report_plots.h"
 #include "planner/benchmark/report_tables.h"
-#include "tests/planner/checker/hall.h"
+#include "tests/planner/benchmark/made_campaign.h"
 #include "tests/support/support.h"
 
 namespace corridor {
@@ -22,53 +22,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-/// A campaign of two problems, three variants, one planner and ten runs, with figures by formulas
-/// instead of real runs.
-class Report : public testing::Test {
- protected:
-  Report() {
-    campaign_.name = "made";
-    campaign_.problems = {test::hallProblem(test::Rigid::SE3), test::hallProblem(test::Rigid::SE3)};
-    for (const char* name : {"certified", "discrete:0.1", "discrete:0.01"})
-      campaign_.variants.push_back(readVariant(name));
-    identifyProblems(campaign_);
-    cells_ = cellsOf(campaign_);
-    for (CampaignCell& cell : cells_)
-      for (std::uint64_t seed = 1; seed <= 10; ++seed) cell.runs.push_back(run(cell, seed));
-  }
-  ~Report() override { std::filesystem::remove_all(folder_); }
-
-  /// discrete:0.1 is twice as fast as certified, and half of its paths are refuted; discrete:0.01
-  /// is ten times slower, and a tenth of its paths is refuted.
-  static BenchmarkRun run(const CampaignCell& cell, std::uint64_t seed) {
-    BenchmarkRun run;
-    const double factor = cell.variant == 0 ? 1 : cell.variant == 1 ? 0.5 : 10;
-    run.seed = seed;
-    run.result = "solved";
-    run.solved = true;
-    run.certified = cell.variant == 0;
-    run.processorTime = run.time = 0.1 * static_cast<double>(seed) * factor;
-    const bool refuted = cell.variant == 1 ? seed > 5 : cell.variant == 2 && seed == 10;
-    run.verdict = refuted ? "refuted" : "proved";
-    run.leastDistance = refuted ? 0 : 0.01 * static_cast<double>(seed);
-    run.counters.boxTests = 1000 * seed;
-    run.counters.triangleTests = 10 * seed * seed;
-    // 100 ns per box test, 1000 ns per pair of triangles.
-    run.checkingTime = 1e-9 * (100.0 * static_cast<double>(run.counters.boxTests) +
-                               1000.0 * static_cast<double>(run.counters.triangleTests));
-    run.rawLength.metres = 4;
-    run.length.metres = 3;
-    return run;
-  }
-  std::string page() const {
-    writeReport(campaign_, cells_, folder_);
-    return test::contents(folder_ / "report.html");
-  }
-
-  Campaign campaign_;
-  std::vector<CampaignCell> cells_;
-  std::filesystem::path folder_ = test::newFolder();
-};
+class Report : public test::MadeCampaign {};
 
 TEST_F(Report, Ranking) {
   const std::vector<VariantScore> scores = scoresOf(campaign_, cells_);
@@ -325,9 +279,8 @@ TEST_F(Report, DescribesTheMeasurement) {
 }
 
 TEST_F(Report, ProcessorsWithoutANameAreNoFault) {
-  cells_[0].runs[0].ompl.host = "somewhere";
   for (const char* cpu : {"", "\n", "Model name:", "Model name:  ", "Model name:\nmore"}) {
-    cells_[0].runs[0].ompl.cpu = cpu;
+    cells_[0].runs[0].ompl = onMachine("somewhere", cpu);
     EXPECT_THAT(page(), HasSubstr("machine</td><td>somewhere</td>")) << cpu;
   }
 }
@@ -363,8 +316,7 @@ TEST_F(Report, HostileNames) {
   campaign_.variants[1].name = evil;
   for (CampaignCell& cell : cells_) cell.planner.label = evil;
   campaign_.planners = {{evil, evil, {{{evil, evil}}}}};
-  cells_[0].runs[0].ompl.host = evil;
-  cells_[0].runs[0].ompl.cpu = "Model name:  " + evil;
+  cells_[0].runs[0].ompl = onMachine(evil, "Model name:  " + evil);
   campaign_.notes = {evil};
   const std::string text = page();
   EXPECT_THAT(text, Not(HasSubstr("<script>alert")));

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "planner/benchmark/rows.h"
+#include "planner/benchmark/run_record.h"
 #include "planner/benchmark/trajectory_rows.h"
 #include "planner/trajectory/natural_spline.h"
 #include "tests/planner/problem/problem_fixture.h"

@@ -1,0 +1,52 @@
+#include <nlohmann/json.hpp>
+
+#include "collision/core/shortest.h"
+#include "planner/benchmark/campaign_database.h"
+
+namespace corridor {
+namespace {
+
+/// Returns all limits as a text of numbers.
+std::string limitsText(const JointLimits& limits) {
+  std::string text;
+  for (const Configuration* each : {&limits.velocity, &limits.acceleration, &limits.jerk}) {
+    for (const double value : *each) text += shortest(value) + " ";
+    text += "| ";
+  }
+  for (const LinkSpeed& link : limits.links) text += link.link + ": " + shortest(link.speed) + " ";
+  text.pop_back();
+  return text;
+}
+
+}  // namespace
+
+std::string specOf(const Campaign& campaign, const CampaignCell& cell) {
+  const Problem planned = plannedProblem(campaign, cell, 0);
+  nlohmann::ordered_json checker = nlohmann::ordered_json::object();
+  for (const YamlValue::Entry& entry : campaign.variants[cell.variant].checker.entries)
+    checker[entry.key] = entry.value.text;
+  if (campaign.variants[cell.variant].competitor)
+    checker["peer"] = campaign.variants[cell.variant].competitor->name;
+  // In earlier versions `true` was another simplifier. Runs of the two must not be mixed.
+  const bool isOwn = planned.settings.simplify == Simplifier::corridor;
+  const std::string simplify = isOwn ? "corridor" : wordOf(planned.settings.simplify);
+  nlohmann::ordered_json spec{{"problem", campaign.digests[cell.problem]},
+                              {"checker", checker},
+                              {"planner", planned.settings.planner.name},
+                              {"params", planned.settings.planner.params},
+                              {"time", planned.settings.planner.time},
+                              {"memory_mb", campaign.limits.memory},
+                              {"simplify", simplify},
+                              {"verify", campaign.verify}};
+  // Campaigns without trajectories have the same settings as before there were any.
+  if (!campaign.trajectories.makers.empty()) {
+    for (const TrajectoryMaker maker : campaign.trajectories.makers)
+      spec["trajectories"].push_back(nameOf(maker));
+    for (const CampaignLimits& limits : campaign.trajectories.limits)
+      spec["limits over time"].push_back(
+          {{"name", limits.name}, {"values", limitsText(limits.ofProblem[cell.problem])}});
+  }
+  return spec.dump();
+}
+
+}  // namespace corridor
