@@ -193,6 +193,26 @@ MotionResult Checker::certifyEdge(const Configuration& from, const Configuration
   return certify(from, to, options, method_);
 }
 
+MotionResult Checker::certifyEdge(const Configuration& from, const Configuration& to, bool earliest,
+                                  MotionCertificate& certificate) const {
+  certificate = {};
+  if (!standardFloatingPoint()) return refused();
+  MotionOptions options = options_;
+  options.earliest = earliest;
+  Workspace& workspace = workspaceOfThread();
+  workspace.motion.set(from, to);
+  return scene_.certify(workspace.motion, options, workspace.context, certificate);
+}
+
+std::optional<CertificateFault> Checker::faultOf(const MotionCertificate& certificate,
+                                                 const Configuration& from, const Configuration& to,
+                                                 double until) const {
+  Workspace& workspace = workspaceOfThread();
+  workspace.motion.set(from, to);
+  return checkCertificate(workspace.motion, scene_.motionPairs(), options_, until, certificate,
+                          workspace.context);
+}
+
 MotionResult Checker::certifyEdge(const Configuration& from, const Configuration& to,
                                   const PairMargins& more, bool earliest) const {
   MotionOptions options = options_;

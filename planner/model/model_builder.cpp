@@ -94,21 +94,42 @@ ModelBuilder& ModelBuilder::addRobot(const std::filesystem::path& urdf,
   robot.name = options.name;
   robot.description = std::move(*model);
   robot.base = options.base;
+  addDescribed(std::move(robot), options.joints, urdf.string());
+  return *this;
+}
+
+ModelBuilder& ModelBuilder::addRobot(RobotParts parts, const RigidPose& base,
+                                     const std::vector<std::string>& joints) {
+  ModelRobot robot;
+  robot.name = parts.name;
+  robot.base = base;
+  const std::string place = parts.name.empty() ? "robot" : "robot " + quotedWord(parts.name);
+  auto model = makeRobot(std::move(parts), faults_);
+  if (!model) return *this;
+  robot.description = std::move(*model);
+  addDescribed(std::move(robot), joints, place);
+  return *this;
+}
+
+/// @param place the robot's URDF, or what else messages name.
+void ModelBuilder::addDescribed(ModelRobot robot, const std::vector<std::string>& joints,
+                                const std::string& place) {
+  const std::size_t before = faults_.size();
   std::vector<std::size_t> active;
-  for (const std::string& name : options.joints) {
+  for (const std::string& name : joints) {
     const auto j = findJoint(robot.description, name);
     if (j && canMove(robot.description.joints[*j]) &&
         std::find(active.begin(), active.end(), *j) == active.end())
       active.push_back(*j);
     else
-      fault(quotedWord(name) + " is no joint of " + urdf.string() +
+      fault(quotedWord(name) + " is no joint of " + place +
             " that moves by itself, or it is named twice");
   }
-  if (options.joints.empty() && (active = allMoving(robot)).empty())
-    faults_.push_back({urdf.string(), 0, whyNoneMoves(robot)});
-  if (faults_.size() > before) return *this;
+  if (joints.empty() && (active = allMoving(robot)).empty())
+    faults_.push_back({place, 0, whyNoneMoves(robot)});
+  if (faults_.size() > before) return;
   chooseJoints(robot, active);
-  return addRobot(std::move(robot));
+  addRobot(std::move(robot));
 }
 
 ModelBuilder& ModelBuilder::addRigidBody(const std::string& name, JointType type,

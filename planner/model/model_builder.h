@@ -8,6 +8,7 @@
 
 #include "collision/core/error.h"
 #include "planner/model/bounds.h"
+#include "planner/robot/robot_parts.h"
 #include "planner/robot/urdf_file.h"
 
 namespace corridor {
@@ -32,6 +33,11 @@ class ModelBuilder {
  public:
   /// Adds a robot with joints. Planar and floating joints need bounds (`bound`).
   ModelBuilder& addRobot(const std::filesystem::path& urdf, const UrdfOptions& options = {});
+  /// Adds a robot that the program describes by links and joints. Planar and floating joints need
+  /// bounds (`bound`).
+  /// @param base X_WB. @param joints as in `UrdfOptions`.
+  ModelBuilder& addRobot(RobotParts parts, const RigidPose& base = {},
+                         const std::vector<std::string>& joints = {});
   /// Adds a robot. All its members must be set, except for those that the builder sets.
   ModelBuilder& addRobot(ModelRobot robot);
   /// Adds a rigid body that moves in the plane (`planar`) or in space (`floating`). Its coordinates
@@ -57,8 +63,8 @@ class ModelBuilder {
   /// them to touch, if they are adjacent, or if they never move against each other. Afterwards the
   /// builder is empty.
   /// @throws InputError with all faults: those of the URDF and SRDF files; unknown or repeated
-  /// names; illegal primitives; a robot that was added after an obstacle; missing or bad bounds;
-  /// more than 10^7 pairs of bodies.
+  /// names; those of described robots (`makeRobot`); illegal primitives; a robot that was added
+  /// after an obstacle; missing or bad bounds; more than 10^7 pairs of bodies.
   Model build();
   /// Returns the model for readers, which set bounds and allowed pairs afterwards. It ignores
   /// `bound` and `allow`: all bounds of positions are NaN. The number of pairs is not limited.
@@ -66,6 +72,8 @@ class ModelBuilder {
 
  private:
   void fault(std::string text);
+  void addDescribed(ModelRobot robot, const std::vector<std::string>& joints,
+                    const std::string& place);
   void applyBounds();
   std::vector<std::array<std::size_t, 2>> allowedBodies();
 

@@ -119,21 +119,26 @@ py::tuple firstContact(const Body& a, const Body& b, const Array& from, const Ar
                         result.contactTime);
 }
 
+BodyPointer bodyFrom(const py::tuple& shape) {
+  const PlacedShape placed = shapeFrom("body", shape);
+  if (!placed.mesh) return std::make_shared<Body>("body", placed.parts.at(0));
+  const std::shared_ptr<const TriangleMesh> mesh(placed.mesh, &placed.mesh->mesh);
+  return std::make_shared<Body>("body", mesh, placed.solid);
+}
+
 }  // namespace
 
 void bindBodies(py::module_& module) {
   py::class_<Body, BodyPointer>(module, "Body");
-  module.def("body", [](const py::tuple& shape) {
-    const PlacedShape placed = shapeFrom("body", shape);
-    if (!placed.mesh) return std::make_shared<Body>("body", placed.parts.at(0));
-    const std::shared_ptr<const TriangleMesh> mesh(placed.mesh, &placed.mesh->mesh);
-    return std::make_shared<Body>("body", mesh, placed.solid);
-  });
-  module.def("touch", &touch);
-  module.def("closer_than", &closer);
-  module.def("distance", &distances);
-  module.def("contacts", &contactsOf);
-  module.def("first_contact", &firstContact);
+  module.def("body", &bodyFrom, py::arg("shape"));
+  const auto a = py::arg("a"), b = py::arg("b"), poseA = py::arg("pose_a"),
+             poseB = py::arg("pose_b"), threads = py::arg("threads");
+  module.def("touch", &touch, a, b, poseA, poseB, threads);
+  module.def("closer_than", &closer, a, b, py::arg("distance"), poseA, poseB, threads);
+  module.def("distance", &distances, a, b, poseA, poseB, threads);
+  module.def("contacts", &contactsOf, a, b, poseA, poseB);
+  module.def("first_contact", &firstContact, a, b, py::arg("start"), py::arg("end"),
+             py::arg("tolerance"));
 }
 
 }  // namespace corridor::python

@@ -9,9 +9,6 @@
 namespace corridor::python {
 namespace {
 
-/// The verdicts of corridor.Verdict.
-enum Code : std::int8_t { kFree = 0, kContact = 1, kUndecided = 2, kOutOfBounds = 3 };
-
 /// Results of many queries, as arrays with one element for each.
 struct Results {
   explicit Results(std::size_t n)
@@ -32,10 +29,7 @@ struct Rows {
         gap(r.gap.mutable_data()),
         pairs(r.pairs.mutable_data()) {}
   void set(std::size_t i, const Checker& checker, bool inBounds, const MotionResult& r) {
-    verdict[i] = !inBounds                             ? kOutOfBounds
-                 : r.verdict == MotionVerdict::free    ? kFree
-                 : r.verdict == MotionVerdict::contact ? kContact
-                                                       : kUndecided;
+    verdict[i] = codeOf(inBounds, r.verdict);
     time[i] = r.contactTime >= 0 ? r.contactTime : std::numeric_limits<double>::quiet_NaN();
     gap[i] = r.gap;
     pairs[2 * i] = r.pair ? static_cast<std::int64_t>(checker.bodyOf(r.pair->bodyA)) : -1;
@@ -93,9 +87,11 @@ py::tuple certify(const NativeProblem& problem, const Array& from, const Array& 
 }  // namespace
 
 void bindChecks(py::module_& module) {
-  module.def("check", &check);
-  module.def("clearance", &clearance);
-  module.def("certify", &certify);
+  using py::arg;
+  module.def("check", &check, arg("problem"), arg("states"), arg("threads"));
+  module.def("clearance", &clearance, arg("problem"), arg("states"), arg("threads"));
+  module.def("certify", &certify, arg("problem"), arg("q0"), arg("q1"), arg("earliest"),
+             arg("threads"));
 }
 
 }  // namespace corridor::python

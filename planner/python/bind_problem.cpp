@@ -8,6 +8,7 @@
 #include "planner/python/arrays.h"
 #include "planner/python/bindings.h"
 #include "planner/python/native_problem.h"
+#include "planner/python/robots.h"
 #include "planner/python/shapes.h"
 
 namespace corridor::python {
@@ -15,31 +16,10 @@ namespace {
 
 using ProblemPointer = std::shared_ptr<NativeProblem>;
 
-Corners cornersOf(const py::object& bounds, const char* name) {
-  const std::vector<Vec3> rows = pointsOf(bounds.cast<Array>(), name);
-  if (rows.size() != 2) refuse(name, "two points are needed: [[x, y, z], [x, y, z]]");
-  return {rows[0], rows[1]};
-}
-
 /// Builds a problem of descriptions of robots and obstacles (corridor/problem.py).
 ProblemPointer build(const py::list& robots, const py::dict& obstacles, const py::list& allowed) {
   ModelBuilder builder;
-  for (const py::handle each : robots) {
-    const auto robot = each.cast<py::dict>();
-    const auto name = robot["name"].cast<std::string>();
-    if (robot.contains("urdf")) {
-      UrdfOptions options;
-      options.name = name;
-      options.base = poseOf(robot["base"]);
-      options.srdf = robot["srdf"].cast<std::string>();
-      options.joints = robot["joints"].cast<std::vector<std::string>>();
-      builder.addRobot(robot["urdf"].cast<std::string>(), options);
-    } else {
-      builder.addRigidBody(
-          name, robot["planar"].cast<bool>() ? JointType::planar : JointType::floating,
-          shapesFrom(name, robot["shapes"].cast<py::list>()), cornersOf(robot["bounds"], "bounds"));
-    }
-  }
+  for (const py::handle each : robots) addRobot(builder, each.cast<py::dict>());
   for (const auto& [key, shapes] : obstacles) {
     const auto name = key.cast<std::string>();
     builder.addObstacle(name, shapesFrom(name, shapes.cast<py::list>()));
@@ -234,12 +214,15 @@ void bindProblem(py::module_& module) {
           "time", [](const NativeProblem& p) { return p.problem().settings.planner.time; })
       .def_property_readonly("seed",
                              [](const NativeProblem& p) { return p.problem().settings.seed; })
-      .def("edited", &edited);
-  module.def("read_problem", [](const std::string& file) {
-    const py::gil_scoped_release unlocked;
-    return std::make_shared<NativeProblem>(readProblem(file));
-  });
-  module.def("build_problem", &build);
+      .def("edited", &edited, py::arg("edits"));
+  module.def(
+      "read_problem",
+      [](const std::string& file) {
+        const py::gil_scoped_release unlocked;
+        return std::make_shared<NativeProblem>(readProblem(file));
+      },
+      py::arg("file"));
+  module.def("build_problem", &build, py::arg("robots"), py::arg("obstacles"), py::arg("allow"));
 }
 
 }  // namespace corridor::python

@@ -13,6 +13,7 @@
 #include "planner/solve/solution.h"
 #include "planner/solve/solve.h"
 #include "planner/solve/verify_solution.h"
+#include "planner/view/svg_picture.h"
 #include "planner/view/view_page.h"
 
 namespace corridor::python {
@@ -181,13 +182,22 @@ std::string page(const NativeProblem& native, const std::optional<Array>& states
   return viewPage(problem, path);
 }
 
+/// Returns an SVG.
+std::string picture(const NativeProblem& native, const Array& states) {
+  const Path path = solutionFrom(native.problem(), states).path;
+  const py::gil_scoped_release unlocked;
+  return svgPicture(native.problem(), path);
+}
+
 }  // namespace
 
 void bindSolve(py::module_& module) {
-  module.def("solve", &solve);
-  module.def("verify_path", &verifyPathOf);
-  module.def("verify_trajectory", &verifyTrajectoryOf);
-  module.def("page", &page);
+  using py::arg;
+  module.def("solve", &solve, arg("problem"), arg("trajectory"), arg("progress"));
+  module.def("verify_path", &verifyPathOf, arg("problem"), arg("path"));
+  module.def("verify_trajectory", &verifyTrajectoryOf, arg("problem"), arg("text"));
+  module.def("page", &page, arg("problem"), arg("path"));
+  module.def("picture", &picture, arg("problem"), arg("path"));
 }
 
 }  // namespace corridor::python

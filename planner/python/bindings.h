@@ -11,6 +11,7 @@ namespace py = pybind11;
 // Each function adds one part of the interface to the module.
 void bindProblem(py::module_& module);
 void bindChecks(py::module_& module);
+void bindCertificates(py::module_& module);
 void bindSolve(py::module_& module);
 void bindBodies(py::module_& module);
 

@@ -31,6 +31,7 @@ PYBIND11_MODULE(_native, module) {
   });
   corridor::python::bindProblem(module);
   corridor::python::bindChecks(module);
+  corridor::python::bindCertificates(module);
   corridor::python::bindSolve(module);
   corridor::python::bindBodies(module);
 }

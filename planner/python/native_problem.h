@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -10,6 +11,16 @@
 #include "planner/problem/problem.h"
 
 namespace corridor::python {
+
+/// The values of corridor.Verdict.
+enum Code : std::int8_t { kFree = 0, kContact = 1, kUndecided = 2, kOutOfBounds = 3 };
+
+inline Code codeOf(bool inBounds, MotionVerdict verdict) {
+  if (!inBounds) return kOutOfBounds;
+  return verdict == MotionVerdict::free      ? kFree
+         : verdict == MotionVerdict::contact ? kContact
+                                             : kUndecided;
+}
 
 /// A problem, and the checker of it, which is made when a query first needs it. Immutable: edits
 /// make another NativeProblem. Threads may share it.

@@ -2,41 +2,71 @@
 
 #include <pybind11/stl.h>
 
+#include "collision/geometry/mesh_health.h"
 #include "planner/model/model_builder.h"
 #include "planner/python/arrays.h"
+#include "planner/robot/rpy.h"
 
 namespace corridor::python {
+namespace {
 
-RigidPose poseOf(const py::object& matrix) {
-  if (matrix.is_none()) return {};
-  return rigidPoseOf(matrix.cast<Array>(), "pose");
+PlacedShape primitiveShape(const std::string& name, const Primitive& primitive,
+                           const GivenPose& at) {
+  if (const auto wrong = checkPrimitive(primitive)) throw py::value_error(name + ": " + *wrong);
+  PlacedShape shape = shapeOf(name, primitive, at.pose);
+  shape.parts = {placed(primitive, at.X)};
+  return shape;
+}
+
+PlacedShape meshShape(const std::string& name, TriangleMesh mesh, bool solid, const GivenPose& at) {
+  if (solid) {
+    const MeshHealth health = inspectMesh(mesh);
+    if (!health.watertight)
+      throw py::value_error(name + ": a solid mesh must be watertight: " + health.whyNotWatertight);
+  }
+  if (!(at.X == Transform{}))
+    for (Vec3& p : mesh.vertices) p = at.X * p;
+  return shapeOf(name, std::move(mesh), solid);
+}
+
+}  // namespace
+
+GivenPose givenPose(const py::object& value, const char* name) {
+  if (value.is_none()) return {};
+  if (!py::isinstance<py::tuple>(value)) {
+    const RigidPose pose = rigidPoseOf(value.cast<Array>(), name);
+    return {pose, {rotationMatrix(pose.q), pose.p}};
+  }
+  const auto [xyz, rpy] = value.cast<std::pair<std::array<double, 3>, std::array<double, 3>>>();
+  const Vec3 p(xyz[0], xyz[1], xyz[2]), angles(rpy[0], rpy[1], rpy[2]);
+  if (!p.allFinite() || !angles.allFinite()) refuse(name, "the numbers must be finite");
+  return {{p, quaternionFromRpy(angles)}, {matrixFromRpy(angles), p}};
+}
+
+RigidPose poseOf(const py::object& value, const char* name) {
+  return givenPose(value, name).pose;
 }
 
 PlacedShape shapeFrom(const std::string& name, const py::tuple& shape) {
   const auto kind = shape[0].cast<std::string>();
-  const RigidPose at = poseOf(shape[shape.size() - 1]);
-  const auto primitive = [&](const Primitive& p) {
-    if (const auto wrong = checkPrimitive(p)) throw py::value_error(name + ": " + *wrong);
-    return shapeOf(name, p, at);
-  };
+  const GivenPose at = givenPose(shape[shape.size() - 1], (name + ": pose").c_str());
   if (kind == "box") {
     const auto size = pointsOf(shape[1].cast<Array>().reshape({1, -1}), "size");
-    return primitive(Box{size[0]});
+    return primitiveShape(name, Box{size[0]}, at);
   }
-  if (kind == "sphere") return primitive(Sphere{shape[1].cast<double>()});
+  if (kind == "sphere") return primitiveShape(name, Sphere{shape[1].cast<double>()}, at);
   if (kind == "capsule")
-    return primitive(Capsule{shape[1].cast<double>(), shape[2].cast<double>()});
+    return primitiveShape(name, Capsule{shape[1].cast<double>(), shape[2].cast<double>()}, at);
   if (kind == "cylinder")
-    return primitive(Cylinder{shape[1].cast<double>(), shape[2].cast<double>()});
-  if (kind == "convex") return primitive(Convex{pointsOf(shape[1].cast<Array>(), "points")});
+    return primitiveShape(name, Cylinder{shape[1].cast<double>(), shape[2].cast<double>()}, at);
+  if (kind == "convex")
+    return primitiveShape(name, Convex{pointsOf(shape[1].cast<Array>(), "points")}, at);
   TriangleMesh mesh = kind == "mesh"
                           ? meshOf(shape[1].cast<Array>(), shape[2].cast<Indices>())
                           : readMeshFile(shape[1].cast<std::string>(),
                                          {.metresPerUnit = shape[2].cast<std::optional<double>>()})
                                 .mesh;
-  const Mat3 R = rotationMatrix(at.q);
-  for (Vec3& p : mesh.vertices) p = R * p + at.p;
-  return shapeOf(name, std::move(mesh), shape[3].cast<bool>());
+  return meshShape(name, std::move(mesh), shape[3].cast<bool>(), at);
 }
 
 std::vector<PlacedShape> shapesFrom(const std::string& name, const py::list& shapes) {

@@ -11,13 +11,22 @@ namespace corridor::python {
 
 namespace py = pybind11;
 
-/// Reads a 4×4 matrix; None: the identity.
-RigidPose poseOf(const py::object& matrix);
+/// A pose as the user gave it, and the same pose as a map of points. Both are rounded from the
+/// given numbers, not from each other, as in the reader of URDF.
+struct GivenPose {
+  RigidPose pose;
+  Transform X;
+};
+
+/// Reads a pose: a 4×4 matrix, or a tuple of xyz and rpy (as in URDF). None: the identity.
+GivenPose givenPose(const py::object& value, const char* name);
+RigidPose poseOf(const py::object& value, const char* name = "pose");
 
 /// Makes a shape of a tuple: its kind, its numbers and its pose.
 PlacedShape shapeFrom(const std::string& name, const py::tuple& shape);
 
-/// Makes the shapes of a body; at least one.
+/// Makes the shapes of a body.
+/// @throws py::value_error if the list is empty.
 std::vector<PlacedShape> shapesFrom(const std::string& name, const py::list& shapes);
 
 }  // namespace corridor::python

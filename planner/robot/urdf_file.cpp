@@ -41,15 +41,6 @@ RigidPose poseOf(const urdf::Pose& pose, const Vec3& rpy) {
   return {Vec3(pose.position.x, pose.position.y, pose.position.z), quaternionFromRpy(rpy)};
 }
 
-/// Returns the axis scaled by a power of two, so that its largest component is in [1, 2). No square
-/// over- or underflows then, and the scaling is exact.
-Vec3 axisOf(const urdf::Vector3& axis) {
-  const Vec3 v(axis.x, axis.y, axis.z);
-  const int exponent = std::ilogb(v.cwiseAbs().maxCoeff());
-  return {std::scalbn(v.x(), -exponent), std::scalbn(v.y(), -exponent),
-          std::scalbn(v.z(), -exponent)};
-}
-
 std::optional<Primitive> primitiveOf(const urdf::Geometry& geometry) {
   if (const auto* box = dynamic_cast<const urdf::Box*>(&geometry))
     return Box{Vec3(box->dim.x, box->dim.y, box->dim.z)};
@@ -86,22 +77,8 @@ class UrdfBuilder {
       linkIndex_[outline_.links[i].name] = i;
       addLink(outline_.links[i]);
     }
-    std::vector<bool> hasParent(model_.links.size(), false);
-    std::vector<std::size_t> place(order.size());  // of each of the outline's joints in the model
-    for (std::size_t k = 0; k < order.size(); ++k) place[order[k]] = k;
-    for (const std::size_t j : order) {
-      addJoint(outline_.joints[j]);
-      JointModel& joint = model_.joints.back();
-      if (mimics[j])
-        joint.mimic = Mimic{place[mimics[j]->joint], mimics[j]->multiplier, mimics[j]->offset};
-      hasParent[joint.child] = true;
-      // Two links that a planar or floating joint connects can collide, so they are tested.
-      if (!isPoseJoint(joint.type))
-        model_.allowed.push_back(
-            {model_.links[joint.parent].name, model_.links[joint.child].name, "adjacent"});
-    }
-    model_.root = static_cast<std::size_t>(std::find(hasParent.begin(), hasParent.end(), false) -
-                                           hasParent.begin());
+    for (const std::size_t j : order) addJoint(outline_.joints[j]);
+    finishRobot(order, mimics, model_);
     return std::move(model_);
   }
 
@@ -199,7 +176,7 @@ class UrdfBuilder {
     joint.X_PJ = poseOf(source->parent_to_joint_origin_transform, outline.rpy);
     noteFarOrigin(joint);
     if (joint.type != JointType::fixed && joint.type != JointType::floating)
-      joint.axis = axisOf(source->axis);
+      joint.axis = scaledAxis({source->axis.x, source->axis.y, source->axis.z});
     if (joint.type == JointType::revolute || joint.type == JointType::prismatic) {
       const UrdfLimit limit = outline.limit.value_or(UrdfLimit());
       joint.lower = limit.lower.value_or(0);  // 0 as in urdfdom

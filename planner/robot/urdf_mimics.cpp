@@ -28,9 +28,9 @@ bool hasRange(const UrdfJoint& joint) {
 
 class Mimics {
  public:
-  Mimics(const UrdfOutline& outline, XmlFile& file, std::vector<Note>& notes)
+  Mimics(const UrdfOutline& outline, RobotFaults& faults, std::vector<Note>& notes)
       : joints_(outline.joints),
-        file_(file),
+        faults_(faults),
         notes_(notes),
         leader_(joints_.size(), kNoIndex),
         walk_(joints_.size(), kNoIndex),
@@ -59,12 +59,12 @@ class Mimics {
     const int line = joint.mimic->line;
     const std::string owner = owned("joint", joint.name);
     if (isPoseJoint(*joint.type))
-      return file_.fault(line, owner + " is " + nameOf(*joint.type) +
-                                   ", and only a joint of one variable can mimic another");
-    if (joint.mimic->joint == joint.name) return file_.fault(line, owner + " mimics itself");
+      return faults_.fault(line, owner + " is " + nameOf(*joint.type) +
+                                     ", and only a joint of one variable can mimic another");
+    if (joint.mimic->joint == joint.name) return faults_.fault(line, owner + " mimics itself");
     const auto found = indices_.find(joint.mimic->joint);
     if (found == indices_.end())
-      return addLost(joint, "not a joint of this file",
+      return addLost(joint, "not a joint of this robot",
                      hints_-- > 0 ? didYouMean(joint.mimic->joint, names_) : "");
     const UrdfJoint& leader = joints_[found->second];
     if (!leader.type) return;
@@ -73,25 +73,25 @@ class Mimics {
     leader_[j] = found->second;
   }
 
-  /// Handles a joint whose <mimic> names an unusable joint: one that is not in the file, or not of
+  /// Handles a joint whose <mimic> names an unusable joint: one that is not in the robot, or not of
   /// one variable. The mimicking joint then moves by itself, within its own limits.
   void addLost(const UrdfJoint& joint, const std::string& why, const std::string& hint) {
     const std::string text = owned("joint", joint.name) + " mimics " +
                              quotedWord(joint.mimic->joint) + ", which is " + why;
     const bool needed = hasRange(joint);
     if (needed && (!joint.limit || (!joint.limit->lower && !joint.limit->upper)))
-      file_.fault(joint.mimic->line,
-                  text + hint +
-                      "; and it has no lower or upper limit with which it could move by "
-                      "itself");
+      faults_.fault(joint.mimic->line,
+                    text + hint +
+                        "; and it has no lower or upper limit with which it could move by "
+                        "itself");
     else
-      notes_.push_back(
-          {file_.at(joint.mimic->line, text +
-                                           (needed && rangeOf(joint).lower == rangeOf(joint).upper
-                                                ? "; it can't move, since its own limits are equal"
-                                                : "; it moves by itself") +
-                                           hint),
-           NoteWeight::motion});
+      notes_.push_back({faults_.at(joint.mimic->line,
+                                   text +
+                                       (needed && rangeOf(joint).lower == rangeOf(joint).upper
+                                            ? "; it can't move, since its own limits are equal"
+                                            : "; it moves by itself") +
+                                       hint),
+                        NoteWeight::motion});
   }
 
   /// Makes the rules of a joint and of all joints that it follows.
@@ -124,30 +124,30 @@ class Mimics {
     for (std::size_t j = leader_[first]; j != first; j = leader_[j])
       names.push_back(joints_[j].name);
     names.push_back(joints_[first].name);
-    file_.fault(joints_[first].mimic->line,
-                "the joints " + joinedFirst(names) + " mimic in a circle");
+    faults_.fault(joints_[first].mimic->line,
+                  "the joints " + joinedFirst(names) + " mimic in a circle");
   }
 
   void checkRule(const UrdfJoint& joint, const Mimic& rule) {
     const int line = joint.mimic->line;
     const UrdfJoint& leader = joints_[rule.joint];
     if (!std::isfinite(rule.multiplier) || !std::isfinite(rule.offset))
-      return file_.fault(line, owned("joint", joint.name) + " mimics " + quotedWord(leader.name) +
-                                   " by a multiplier of " + shortest(rule.multiplier) +
-                                   " and an offset of " + shortest(rule.offset) +
-                                   ", which is out of the range of doubles");
+      return faults_.fault(line, owned("joint", joint.name) + " mimics " + quotedWord(leader.name) +
+                                     " by a multiplier of " + shortest(rule.multiplier) +
+                                     " and an offset of " + shortest(rule.offset) +
+                                     ", which is out of the range of doubles");
     if (leader.type != JointType::continuous || rule.multiplier == 0) return;
     if (joint.type == JointType::prismatic)
-      file_.fault(line, owned("joint", joint.name) + " is prismatic and mimics " +
-                            quotedWord(leader.name) +
-                            ", which is continuous and repeats after a full turn; change the type "
-                            "of one of them");
+      faults_.fault(
+          line, owned("joint", joint.name) + " is prismatic and mimics " + quotedWord(leader.name) +
+                    ", which is continuous and repeats after a full turn; change the type "
+                    "of one of them");
     else if (rule.multiplier != std::round(rule.multiplier))
-      file_.fault(line, owned("joint", joint.name) + " mimics " + quotedWord(leader.name) +
-                            ", which is continuous and repeats after a full turn, by the "
-                            "multiplier " +
-                            shortest(rule.multiplier) + "; use a whole multiplier or a revolute " +
-                            quotedWord(leader.name));
+      faults_.fault(line, owned("joint", joint.name) + " mimics " + quotedWord(leader.name) +
+                              ", which is continuous and repeats after a full turn, by the "
+                              "multiplier " +
+                              shortest(rule.multiplier) +
+                              "; use a whole multiplier or a revolute " + quotedWord(leader.name));
   }
 
   /// Checks the range of a joint that moves by itself.
@@ -156,10 +156,10 @@ class Mimics {
     const std::string owner = owned("joint", joint.name);
     if (!joint.limit) {
       if (!joint.mimic)  // else addLost() has reported it
-        file_.fault(joint.line, owner + ": <limit lower=\"…\" upper=\"…\"/> is missing" +
-                                    (joint.type == JointType::revolute
-                                         ? "; a joint without limits is of type continuous"
-                                         : ""));
+        faults_.fault(joint.line, owner + ": <limit lower=\"…\" upper=\"…\"/> is missing" +
+                                      (joint.type == JointType::revolute
+                                           ? "; a joint without limits is of type continuous"
+                                           : ""));
       return;
     }
     const auto& lower = joint.limit->lower;
@@ -171,30 +171,30 @@ class Mimics {
     const double largest = std::max(std::abs(range.lower), std::abs(range.upper));
     const bool isRevolute = joint.type == JointType::revolute;
     if (isRevolute && largest > mostDegrees)
-      notes_.push_back({file_.at(line, owner + ": its limits, " + range.text() +
-                                           ", are in radians; a joint without limits is of type "
-                                           "continuous"),
+      notes_.push_back({faults_.at(line, owner + ": its limits, " + range.text() +
+                                             ", are in radians; a joint without limits is of type "
+                                             "continuous"),
                         NoteWeight::motion});
     else if (isRevolute &&
              (largest > mostRadians || seemsDegrees(range.lower) || seemsDegrees(range.upper)))
-      notes_.push_back({file_.at(line, owner + ": its limits, " + range.text() +
-                                           ", are in radians, as URDF requires; are these "
-                                           "degrees?"),
+      notes_.push_back({faults_.at(line, owner + ": its limits, " + range.text() +
+                                             ", are in radians, as URDF requires; are these "
+                                             "degrees?"),
                         NoteWeight::motion});
     if (std::isinf(range.upper - range.lower))
-      file_.fault(line, owner + ": the range from " + shortest(range.lower) + " to " +
-                            shortest(range.upper) + " is larger than any double");
+      faults_.fault(line, owner + ": the range from " + shortest(range.lower) + " to " +
+                              shortest(range.upper) + " is larger than any double");
     if (range.lower > range.upper)
-      file_.fault(line, owner + ": the lower limit " + shortest(range.lower) +
-                            " is above the upper limit " + shortest(range.upper));
+      faults_.fault(line, owner + ": the lower limit " + shortest(range.lower) +
+                              " is above the upper limit " + shortest(range.upper));
     if (!lower && !upper && !joint.mimic)
       notes_.push_back(
-          {file_.at(line, owner + ": <limit> has neither lower nor upper, so both are 0, and the "
-                                  "joint cannot move"),
+          {faults_.at(line, owner + ": <limit> has neither lower nor upper, so both are 0, and the "
+                                    "joint cannot move"),
            NoteWeight::motion});
     else if (!lower != !upper)
-      notes_.push_back({file_.at(line, owner + ": <limit> has no " + (lower ? "upper" : "lower") +
-                                           ", so it is 0"),
+      notes_.push_back({faults_.at(line, owner + ": <limit> has no " + (lower ? "upper" : "lower") +
+                                             ", so it is 0"),
                         NoteWeight::motion});
   }
 
@@ -210,7 +210,7 @@ class Mimics {
     const bool stands = rule.multiplier == 0;
     if (!stands && !hasRange(leader))
       return notes_.push_back(
-          {file_.at(follower.mimic->line, text + "is continuous, without limits"),
+          {faults_.at(follower.mimic->line, text + "is continuous, without limits"),
            NoteWeight::motion});
     const JointRange limits = rangeOf(leader);
     const double a = stands ? rule.offset : rule.multiplier * limits.lower + rule.offset;
@@ -220,12 +220,12 @@ class Mimics {
     const double slack =
         0x1p-50 * (std::abs(rule.offset) + std::abs(own.lower) + std::abs(own.upper));
     if (range.lower >= own.lower - slack && range.upper <= own.upper + slack) return;
-    notes_.push_back(
-        {file_.at(follower.mimic->line, text + "moves it in " + range.text()), NoteWeight::motion});
+    notes_.push_back({faults_.at(follower.mimic->line, text + "moves it in " + range.text()),
+                      NoteWeight::motion});
   }
 
   const std::vector<UrdfJoint>& joints_;
-  XmlFile& file_;
+  RobotFaults& faults_;
   std::vector<Note>& notes_;
   std::unordered_map<std::string, std::size_t> indices_;
   std::vector<std::string> names_;
@@ -237,9 +237,9 @@ class Mimics {
 
 }  // namespace
 
-std::vector<std::optional<Mimic>> resolveMimics(const UrdfOutline& outline, XmlFile& file,
+std::vector<std::optional<Mimic>> resolveMimics(const UrdfOutline& outline, RobotFaults& faults,
                                                 std::vector<Note>& notes) {
-  return Mimics(outline, file, notes).resolve();
+  return Mimics(outline, faults, notes).resolve();
 }
 
 }  // namespace corridor

@@ -64,17 +64,27 @@ UrdfOutline readUrdfOutline(XmlFile& file, const UrdfRules& rules, MeshStore& me
 
 /// Reports links that don't form a tree with one root.
 /// @returns indices of the joints in the tree's order: depth first, siblings as in the file. Empty
-/// if the file has any fault.
-std::vector<std::size_t> checkUrdfTree(const UrdfOutline& outline, XmlFile& file);
+/// if the robot has any fault.
+std::vector<std::size_t> checkUrdfTree(const UrdfOutline& outline, RobotFaults& faults);
 
 /// Resolves chains of mimics, and checks the limits of the joints that move by themselves. Only the
 /// limits of the leader count, as in other programs that read URDF; a note is added if a follower's
-/// own limits disagree. If the leader is not in the file, or is not a joint of one variable, the
+/// own limits disagree. If the leader is not in the robot, or is not a joint of one variable, the
 /// follower moves by itself, with a note. Mimics in a circle and mimics that would make a joint
 /// jump are faults.
 /// @returns the rule of each joint, in the outline's order; `Mimic::joint` is an index in the
 /// outline. nullopt: the joint follows no other.
-std::vector<std::optional<Mimic>> resolveMimics(const UrdfOutline& outline, XmlFile& file,
+std::vector<std::optional<Mimic>> resolveMimics(const UrdfOutline& outline, RobotFaults& faults,
                                                 std::vector<Note>& notes);
+
+/// Completes a description that has its links, and its joints in the order of `checkUrdfTree`: sets
+/// the rules of mimics and the root, and allows adjacent links to touch.
+/// @param order, mimics as `checkUrdfTree` and `resolveMimics` return them.
+void finishRobot(const std::vector<std::size_t>& order,
+                 const std::vector<std::optional<Mimic>>& mimics, RobotModel& model);
+
+/// Returns the axis scaled by a power of two, so that its largest component is in [1, 2). No square
+/// over- or underflows then, and the scaling is exact. @pre finite and not 0.
+Vec3 scaledAxis(const Vec3& axis);
 
 }  // namespace corridor

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <unordered_map>
 
 #include "collision/core/spelling.h"
@@ -10,11 +11,11 @@ namespace {
 
 class Tree {
  public:
-  Tree(const UrdfOutline& outline, XmlFile& file)
+  Tree(const UrdfOutline& outline, RobotFaults& faults)
       : outline_(outline),
         links_(outline.links),
         joints_(outline.joints),
-        file_(file),
+        faults_(faults),
         parentJoint_(links_.size(), kNoIndex),
         children_(links_.size()) {
     for (std::size_t i = 0; i < links_.size(); ++i) linkIndex_[links_[i].name] = i;
@@ -26,7 +27,7 @@ class Tree {
     // If a joint has a misspelt link, or was left out, its child has no parent. The child would
     // then also be reported as a second root.
     if (joined) checkShape();
-    return file_.sound() ? order() : std::vector<std::size_t>();
+    return faults_.sound() ? order() : std::vector<std::size_t>();
   }
 
  private:
@@ -38,22 +39,22 @@ class Tree {
     for (const auto& [what, name] :
          {std::pair{"parent", joint.parent}, std::pair{"child", joint.child}}) {
       if (!name.empty() && !linkIndex_.contains(name))
-        file_.fault(joint.line, owner + ": its " + what + " " + quotedWord(name) +
-                                    " is not a link of this file" + hint(name));
+        faults_.fault(joint.line, owner + ": its " + what + " " + quotedWord(name) +
+                                      " is not a link of this robot" + hint(name));
       known &= linkIndex_.contains(name);
     }
     if (!known) return false;
     if (joint.parent == joint.child) {
-      file_.fault(joint.line, owner + ": its parent and its child are the same link " +
-                                  quotedWord(joint.child));
+      faults_.fault(joint.line, owner + ": its parent and its child are the same link " +
+                                    quotedWord(joint.child));
       return false;
     }
     const std::size_t child = linkIndex_.at(joint.child);
     if (const std::size_t first = parentJoint_[child]; first != kNoIndex) {
-      file_.fault(joint.line, owner + ": its child " + quotedWord(joint.child) +
-                                  " is already the child of joint " +
-                                  quotedWord(joints_[first].name) + " on line " +
-                                  std::to_string(joints_[first].line) + "; a link has one parent");
+      faults_.fault(joint.line, owner + ": its child " + quotedWord(joint.child) +
+                                    " is already the child of joint " +
+                                    quotedWord(joints_[first].name) + onLine(joints_[first].line) +
+                                    "; a link has one parent");
       return false;
     }
     parentJoint_[child] = j;
@@ -63,7 +64,7 @@ class Tree {
 
   /// " (did you mean …?)" with the nearest link, or empty.
   std::string hint(const std::string& name) const {
-    if (!file_.hints()) return "";
+    if (!faults_.hints()) return "";
     std::vector<std::string> names;
     for (const UrdfLink& link : links_) names.push_back(link.name);
     return didYouMean(name, names);
@@ -81,11 +82,10 @@ class Tree {
       if (root == kNoIndex)
         root = link;
       else
-        file_.fault(links_[link].line, owned("link", links_[link].name) +
-                                           " is not a child of any joint, and neither is " +
-                                           quotedWord(links_[root].name) + " on line " +
-                                           std::to_string(links_[root].line) +
-                                           "; a robot has one root");
+        faults_.fault(links_[link].line, owned("link", links_[link].name) +
+                                             " is not a child of any joint, and neither is " +
+                                             quotedWord(links_[root].name) +
+                                             onLine(links_[root].line) + "; a robot has one root");
     }
     // Every link has at most one parent. So a link that is not below a root is in a circle, or
     // below one.
@@ -107,8 +107,8 @@ class Tree {
     }
     names.push_back(links_[link].name);
     std::reverse(names.begin(), names.end());
-    file_.fault(line,
-                "the links " + joinedFirst(names) + " are joined in a circle; a tree is needed");
+    faults_.fault(line,
+                  "the links " + joinedFirst(names) + " are joined in a circle; a tree is needed");
   }
 
   std::vector<std::size_t> order() const {
@@ -130,7 +130,7 @@ class Tree {
   const UrdfOutline& outline_;
   const std::vector<UrdfLink>& links_;
   const std::vector<UrdfJoint>& joints_;
-  XmlFile& file_;
+  RobotFaults& faults_;
   std::unordered_map<std::string, std::size_t> linkIndex_;
   std::vector<std::size_t> parentJoint_;            // for each link
   std::vector<std::vector<std::size_t>> children_;  // for each link: the joints below it
@@ -138,8 +138,33 @@ class Tree {
 
 }  // namespace
 
-std::vector<std::size_t> checkUrdfTree(const UrdfOutline& outline, XmlFile& file) {
-  return Tree(outline, file).check();
+std::vector<std::size_t> checkUrdfTree(const UrdfOutline& outline, RobotFaults& faults) {
+  return Tree(outline, faults).check();
+}
+
+Vec3 scaledAxis(const Vec3& axis) {
+  const int exponent = std::ilogb(axis.cwiseAbs().maxCoeff());
+  return {std::scalbn(axis.x(), -exponent), std::scalbn(axis.y(), -exponent),
+          std::scalbn(axis.z(), -exponent)};
+}
+
+void finishRobot(const std::vector<std::size_t>& order,
+                 const std::vector<std::optional<Mimic>>& mimics, RobotModel& model) {
+  std::vector<bool> hasParent(model.links.size(), false);
+  std::vector<std::size_t> place(order.size());  // of each joint of the outline in the model
+  for (std::size_t k = 0; k < order.size(); ++k) place[order[k]] = k;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    JointModel& joint = model.joints[k];
+    if (const auto& rule = mimics[order[k]])
+      joint.mimic = Mimic{place[rule->joint], rule->multiplier, rule->offset};
+    hasParent[joint.child] = true;
+    // Two links that a planar or floating joint connects can collide, so they are tested.
+    if (!isPoseJoint(joint.type))
+      model.allowed.push_back(
+          {model.links[joint.parent].name, model.links[joint.child].name, "adjacent"});
+  }
+  model.root = static_cast<std::size_t>(std::find(hasParent.begin(), hasParent.end(), false) -
+                                        hasParent.begin());
 }
 
 }  // namespace corridor

@@ -6,7 +6,6 @@
 #include <cstdlib>
 #include <set>
 
-#include "collision/core/fault_list.h"
 #include "collision/core/read_file.h"
 #include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
@@ -111,31 +110,23 @@ bool isUnclosed(std::string_view text) {
 
 }  // namespace
 
-std::string owned(const std::string& kind, std::string_view name) {
-  return kind + " " + quotedWord(name);
-}
-
 XmlFile::XmlFile(std::filesystem::path file, const std::string& what,
                  const std::vector<std::string>& xacro)
-    : path_(std::move(file)) {
+    : RobotFaults(file.string()), path_(std::move(file)) {
   open(what, xacro);
-}
-
-std::string XmlFile::label() const {
-  return path_.string() + (expanded_.empty() ? "" : ", expanded by xacro");
 }
 
 void XmlFile::open(const std::string& what, const std::vector<std::string>& xacro) {
   std::string text;
   try {
-    if (isXacro(path_))
+    if (isXacro(path_)) {
       text = expanded_ = expandXacro(path_, xacro);
-    else
+      if (!text.empty()) setLabel(path_.string() + ", expanded by xacro");
+    } else {
       text = readTextFile(path_, what);
+    }
   } catch (const InputError& error) {
-    faults_ = error.faults();
-    faultCount_ = faults_.size();
-    return;
+    return setFaults(error.faults());
   }
   if (const std::string why = whyTooMuch(text); !why.empty()) return fault(0, why);
   if (const auto error = document_.Parse(text.data(), text.size()); error != tinyxml2::XML_SUCCESS)
@@ -153,23 +144,6 @@ void XmlFile::open(const std::string& what, const std::vector<std::string>& xacr
     return fault(second->GetLineNum(),
                  "another element follows </robot>; only one root is allowed");
   root_ = first;
-}
-
-void XmlFile::fault(int line, std::string text) {
-  // Names in the file may contain control characters, which would garble the message.
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, '?');
-  if (++faultCount_ <= FaultList::kMost) faults_.push_back({label(), line, std::move(text)});
-}
-
-std::vector<Fault> XmlFile::takeFaults() {
-  std::stable_sort(faults_.begin(), faults_.end(),
-                   [](const Fault& a, const Fault& b) { return a.line < b.line; });
-  if (faultCount_ > faults_.size())
-    faults_.push_back(
-        {label(), 0, "and " + std::to_string(faultCount_ - faults_.size()) + " more faults"});
-  faultCount_ = 0;
-  return std::exchange(faults_, {});
 }
 
 void XmlFile::require(const Element& element, const char* attribute, const std::string& owner) {
@@ -216,10 +190,6 @@ XmlFile::Element* XmlFile::child(Element& parent, const char* name, const std::s
     fault(next->GetLineNum(), owner + ": a second <" + name + ">; the first is on line " +
                                   std::to_string(first->GetLineNum()) + "; only one is allowed");
   return first;
-}
-
-std::string XmlFile::at(int line, const std::string& text) const {
-  return label() + ":" + std::to_string(line) + ": " + text;
 }
 
 void XmlFile::checkChildren(Element& parent, const std::vector<std::string>& read,

@@ -8,15 +8,15 @@
 #include <tinyxml2.h>
 #include <vector>
 
-#include "collision/core/error.h"
 #include "planner/robot/note.h"
+#include "planner/robot/robot_faults.h"
 
 /// Internal: this header includes TinyXML2, which users of the library don't need.
 namespace corridor {
 
 /// An XML file with root <robot>, and the list of its faults. In all functions `owner` names the
 /// element for messages: `joint "elbow"`.
-class XmlFile {
+class XmlFile : public RobotFaults {
  public:
   using Element = tinyxml2::XMLElement;
 
@@ -33,19 +33,6 @@ class XmlFile {
   const std::filesystem::path& path() const { return path_; }
   /// Returns the text that xacro made of the file, or "" if it was read as it is.
   const std::string& expanded() const { return expanded_; }
-
-  void fault(int line, std::string text);
-  /// Formats "file:line: text", for notes.
-  std::string at(int line, const std::string& text) const;
-  bool sound() const { return faultCount_ == 0; }
-  /// Returns the number of all faults, including those that are not kept because the list is
-  /// limited.
-  std::size_t faultCount() const { return faultCount_; }
-  /// Returns whether to search for similar names for messages. The search is skipped after 100
-  /// faults, because its time grows with the number of names.
-  bool hints() const { return faultCount_ < 100; }
-  /// Returns the faults, sorted by line.
-  std::vector<Fault> takeFaults();
 
   /// Returns a required attribute, which must not be empty. Returns nullopt if a fault was
   /// reported.
@@ -74,12 +61,9 @@ class XmlFile {
 
  private:
   void open(const std::string& what, const std::vector<std::string>& xacro);
-  std::string label() const;  ///< the file's name in messages
 
   std::filesystem::path path_;
   std::string expanded_;
-  std::vector<Fault> faults_;
-  std::size_t faultCount_ = 0;
   tinyxml2::XMLDocument document_;
   Element* root_ = nullptr;
 };
@@ -91,8 +75,5 @@ void forEach(XmlFile::Element& parent, const char* name, const Read& read) {
        child = child->NextSiblingElement(name))
     read(*child);
 }
-
-/// Formats kind and name: `joint "elbow"`.
-std::string owned(const std::string& kind, std::string_view name);
 
 }  // namespace corridor

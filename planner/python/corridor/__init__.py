@@ -10,15 +10,20 @@
 Lengths are metres, angles radians, poses 4×4 matrices.
 """
 
+from . import _load  # first: explains a compiled part that can't be loaded
 from . import shapes
 from ._errors import Fault, InputError
 from .bodies import Body, Contacts, Distances, FirstContact, closer_than, contacts, distance, first_contact, touch
-from .problem import Problem, Results, Solution, Verdict, rigid_body, solve, solve_many, urdf
+from .certificates import Certificate, CertificateFault
+from .problem import Problem, Solution, solve, solve_many
+from .results import Results, Verdict
+from .robots import Joint, rigid_body, robot, urdf
+from .shapes import Pose
 
 read_problem = Problem.read
 
 __all__ = [
-    "Body", "Contacts", "Distances", "Fault", "FirstContact", "InputError", "Problem", "Results", "Solution",
-    "Verdict", "closer_than", "contacts", "distance", "first_contact", "read_problem", "rigid_body", "shapes",
-    "solve", "solve_many", "touch", "urdf",
+    "Body", "Certificate", "CertificateFault", "Contacts", "Distances", "Fault", "FirstContact", "InputError", "Joint",
+    "Pose", "Problem", "Results", "Solution", "Verdict", "closer_than", "contacts", "distance", "first_contact",
+    "read_problem", "rigid_body", "robot", "shapes", "solve", "solve_many", "touch", "urdf",
 ]

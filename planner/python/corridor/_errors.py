@@ -1,5 +1,8 @@
 """Exceptions of the package."""
 
+from __future__ import annotations
+
+from collections.abc import Iterable
 from typing import NamedTuple
 
 
@@ -17,10 +20,10 @@ class InputError(ValueError):
     `faults` lists all of them. The text of the exception has one line for each.
     """
 
-    def __init__(self, text, faults=()):
+    def __init__(self, text: str, faults: Iterable[tuple[str, int, str]] = ()):
         super().__init__(text, faults)
         self.text = text
         self.faults = [Fault(*fault) for fault in faults]
 
-    def __str__(self):
+    def __str__(self) -> str:
         return self.text

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from .problem import Verdict
+from .results import Verdict
 from .shapes import Shape, _array
 
 _ORIGIN = np.eye(4)
@@ -25,17 +25,23 @@ class Body:
 
 
 class Distances(NamedTuple):
-    distance: NDArray  #: N metres; 0 if and only if the bodies touch
-    on_a: NDArray  #: N×3, the closest point of a, world coordinates
-    on_b: NDArray  #: N×3, that of b
+    """Distances of two bodies at N poses, and the points that are closest."""
+
+    distance: NDArray[np.float64]  #: N metres; 0 if and only if the bodies touch
+    on_a: NDArray[np.float64]  #: N×3, the closest point of a, world coordinates
+    on_b: NDArray[np.float64]  #: N×3, that of b
 
 
 class Contacts(NamedTuple):
-    pairs: NDArray  #: N×2, the triangles of a and b that touch
-    segments: NDArray  #: N×2×3, the ends of the segment that they share, world coordinates
+    """The triangles of two meshes that touch."""
+
+    pairs: NDArray[np.int64]  #: N×2, the triangles of a and b that touch
+    segments: NDArray[np.float64]  #: N×2×3, the ends of the segment that they share, world coordinates
 
 
 class FirstContact(NamedTuple):
+    """The first contact of a motion."""
+
     verdict: Verdict
     free_until: float  #: the motion is proved free on [0, free_until]
     time: float  #: the first contact is in (free_until, time]; −1 if there is none

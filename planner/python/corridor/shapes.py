@@ -1,15 +1,38 @@
-"""Shapes of obstacles and rigid bodies. Lengths are metres; `pose` is a 4×4 matrix, by default the origin."""
+"""Shapes of links, obstacles and rigid bodies. Lengths are metres.
+
+`pose` is a 4×4 matrix, or a `Pose`; default: the origin.
+"""
 
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from . import _native
 
-class Shape(tuple):
+
+@dataclass(frozen=True)
+class Pose:
+    """A position, m, and roll, pitch and yaw, rad, as in URDF. NumPy takes it as a 4×4 matrix.
+
+    rpy: rotations about the fixed axes x, then y, then z. Multiples of a quarter turn are exact.
+    """
+
+    xyz: Sequence[float] = (0.0, 0.0, 0.0)
+    rpy: Sequence[float] = (0.0, 0.0, 0.0)
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[np.float64]:
+        """Returns the 4×4 matrix."""
+        matrix = _native.pose_matrix(_numbers("xyz", self.xyz, 3), _numbers("rpy", self.rpy, 3))
+        return matrix if dtype is None else matrix.astype(dtype)
+
+
+class Shape(tuple[Any, ...]):
     """A shape: its kind, its numbers, and its pose. The functions of this module make it."""
 
     __slots__ = ()
@@ -20,6 +43,20 @@ def _array(name: str, value: Any) -> NDArray[np.float64]:
         return np.array(value, dtype=float)
     except (TypeError, ValueError) as error:
         raise ValueError(f"{name}: an array of numbers is needed: {error}") from None
+
+
+def _numbers(name: str, value: Any, count: int) -> tuple[float, ...]:
+    array = _array(name, value)
+    if array.shape != (count,):
+        raise ValueError(f"{name}: {count} numbers are needed, not an array of shape {array.shape}")
+    return tuple(array.tolist())
+
+
+def _pose(name: str, value: Any) -> Any:
+    """Returns a pose in the form that the native module takes."""
+    if isinstance(value, Pose):
+        return (_numbers(f"{name}: xyz", value.xyz, 3), _numbers(f"{name}: rpy", value.rpy, 3))
+    return None if value is None else _array(name, value)
 
 
 def _indices(triangles: Any) -> NDArray[np.int64]:
@@ -33,7 +70,7 @@ def _indices(triangles: Any) -> NDArray[np.int64]:
 
 
 def _shape(kind: str, *numbers: Any, pose: ArrayLike | None) -> Shape:
-    return Shape((kind, *numbers, None if pose is None else _array("pose", pose)))
+    return Shape((kind, *numbers, _pose("pose", pose)))
 
 
 def _size(size: ArrayLike) -> NDArray[np.float64]:
@@ -77,7 +114,7 @@ def mesh(vertices: ArrayLike, triangles: ArrayLike, solid: bool = False, pose: A
 
 
 def mesh_file(
-    file: str | os.PathLike, metres_per_unit: float | None = None, solid: bool = False, pose: ArrayLike | None = None
+    file: str | os.PathLike[str], metres_per_unit: float | None = None, solid: bool = False, pose: ArrayLike | None = None
 ) -> Shape:
     """A mesh file: OBJ, STL, PLY, OFF, Collada, glTF and more. metres_per_unit: default, the unit of the file."""
     return _shape("file", os.path.abspath(file), metres_per_unit, bool(solid), pose=pose)

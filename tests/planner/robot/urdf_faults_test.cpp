@@ -73,11 +73,11 @@ TEST_F(UrdfFaults, Names) {
 TEST_F(UrdfFaults, Trees) {
   EXPECT_EQ(complaintOfParts(link("base") + link("hand") + joint("j", "fixed", "bse", "hnd") +
                              joint("k", "fixed", "elsewhere", "hand")),
-            "r.urdf:4: joint \"j\": its parent \"bse\" is not a link of this file (did you mean "
+            "r.urdf:4: joint \"j\": its parent \"bse\" is not a link of this robot (did you mean "
             "\"base\"?)\n"
-            "r.urdf:4: joint \"j\": its child \"hnd\" is not a link of this file (did you mean "
+            "r.urdf:4: joint \"j\": its child \"hnd\" is not a link of this robot (did you mean "
             "\"hand\"?)\n"
-            "r.urdf:5: joint \"k\": its parent \"elsewhere\" is not a link of this file");
+            "r.urdf:5: joint \"k\": its parent \"elsewhere\" is not a link of this robot");
   EXPECT_EQ(complaintOfParts(link("a") + link("b") + joint("j", "fixed", "a", "a")),
             "r.urdf:4: joint \"j\": its parent and its child are the same link \"a\"");
   EXPECT_EQ(complaintOfParts(link("a") + link("b") + link("c") + joint("j", "fixed", "a", "c") +
@@ -102,7 +102,7 @@ TEST_F(UrdfFaults, HintsOnlyForTheFirstHundredFaults) {
   std::string parts = link("base");
   for (int i = 0; i < 101; ++i) parts += joint("j" + std::to_string(i), "fixed", "bse", "base");
   const std::string text = complaintOfParts(parts);
-  const std::string line = "its parent \"bse\" is not a link of this file";
+  const std::string line = "its parent \"bse\" is not a link of this robot";
   EXPECT_THAT(text, testing::HasSubstr("joint \"j99\": " + line + " (did you mean \"base\"?)\n"));
   EXPECT_THAT(text, testing::EndsWith("joint \"j100\": " + line));
 }
@@ -234,7 +234,7 @@ TEST_F(UrdfFaults, AJointWithoutLeaderNeedsLimitsOfItsOwn) {
                             joint("c", "revolute", "l", "m", content + "<mimic joint=\"x\"/>"));
   };
   const std::string lacking =
-      "r.urdf:4: joint \"c\" mimics \"x\", which is not a joint of this file; and it has no lower "
+      "r.urdf:4: joint \"c\" mimics \"x\", which is not a joint of this robot; and it has no lower "
       "or upper limit with which it could move by itself";
   EXPECT_EQ(complaint(""), lacking);
   EXPECT_EQ(complaint(R"(<limit effort="1" velocity="1"/>)"), lacking);

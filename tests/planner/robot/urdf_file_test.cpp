@@ -132,7 +132,7 @@ TEST_F(UrdfFile, AMimicOfAnUnknownJointMovesByItself) {
       textsOf(model.notes),
       testing::ElementsAre((folder_ / "r.urdf").string() +
                            ":6: joint \"tilt\" mimics \"pam\", which is not a joint of this "
-                           "file; it moves by itself (did you mean \"pan\"?)"));
+                           "robot; it moves by itself (did you mean \"pan\"?)"));
 }
 
 TEST_F(UrdfFile, AJointThatCannotLeadIsNoLeader) {

@@ -1,0 +1,96 @@
+"""Certificates: the proof of an edge, as arrays."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _native
+from .results import Verdict
+
+if TYPE_CHECKING:
+    from .problem import Problem
+
+
+class CertificateFault(NamedTuple):
+    """Why a certificate is not accepted."""
+
+    kind: str
+    """One word or two:
+
+    "gap": the intervals of the pair do not cover time t. "refuted": at t, the pair is closer than an interval claims,
+    or one body is inside the other. "unproved": the edge keeps the margin at t, but this method can't prove the
+    interval with tube and rounding. "work limit": it took too long. "malformed": the numbers are no certificate.
+    "ambiguous": the edge is no motion, such as a half turn. "floating point": the processor's rounding mode is not
+    the usual one.
+    """
+    pair: int  #: index into `Certificate.pairs`
+    t: float  #: time on the edge, from 0 to 1
+
+
+@dataclass(eq=False)
+class Certificate:
+    """The proof of one edge from q0 to q1, as data. Time t is 0 at q0 and 1 at q1.
+
+    Interval k states: on all of [t0[k], t1[k]], for every path in the tube, the two shapes of `shapes[pair[k]]` stay
+    at least `clearance[k]` metres apart. This includes the margin and all rounding. For each pair, the intervals cover
+    [0, free_until] without a gap, in any order; there may be more. Meshes count as surfaces: containment in solid
+    meshes is tested once more by the query, and the certificate is empty if it decides the verdict.
+
+    Pairs that are not tested, such as adjacent links, are not listed.
+    """
+
+    problem: Problem
+    q0: NDArray[np.float64]  #: (J,)
+    q1: NDArray[np.float64]  #: (J,)
+    verdict: Verdict
+    reason: str  #: why it is undecided: "clearance", "work limit", "ambiguous", "rounding", "floating point"; or ""
+    free_until: float  #: the edge is proved free on [0, free_until]; 0 unless FREE or `earliest`
+    shapes: list[tuple[str, str]]  #: P names of shapes, a and b of each tested pair
+    pairs: NDArray[np.int64]  #: P×2, their bodies, indices into `problem.bodies`
+    margins: NDArray[np.float64]  #: P, the distance that each pair must keep, m
+    pair: NDArray[np.int64]  #: K, index into `pairs`
+    t0: NDArray[np.float64]  #: K, multiples of 2^-48
+    t1: NDArray[np.float64]  #: K
+    clearance: NDArray[np.float64]  #: K, m
+    contact: tuple[int, int] | None  #: the two bodies in contact, or not decided, indices into `problem.bodies`
+    time: float | None  #: of the contact, or in the part that is not decided
+    point: NDArray[np.float64] | None  #: (3,), of a contact: where it is, in the frame of `contact[0]`, m
+    tolerance: float  #: the clearance beyond margin and tube that FREE needs, m
+    tube: NDArray[np.float64] = field(default_factory=lambda: np.zeros(0))  #: (J,), as `Problem.tube`
+
+    def covered(self) -> NDArray[np.float64]:
+        """Returns for each pair, (P,), the end of the part [0, end] that its intervals cover without a gap."""
+        ends = np.zeros(len(self.pairs))
+        for k in np.lexsort((self.t0, self.pair)):
+            p = self.pair[k]
+            if self.t0[k] <= ends[p]:
+                ends[p] = max(ends[p], self.t1[k])
+        return ends
+
+    def check(self) -> CertificateFault | None:
+        """Proves the intervals again, by another method on other trees. Returns None, or the first fault.
+
+        It proves that each pair stays farther apart than margin + (clearance − margin)/2 in its intervals, and that
+        they cover [0, free_until]. "unproved" is no refutation: fewer than one of 100 true certificates gets it.
+        """
+        fault = _native.certificate_fault(
+            self.problem._native, self.q0, self.q1, self.free_until, self.pair, self.t0, self.t1, self.clearance
+        )
+        return None if fault is None else CertificateFault(*fault)
+
+    def __repr__(self) -> str:
+        return (
+            f"<Certificate: {self.verdict.name.lower().replace('_', ' ')}, {len(self.pairs)} pairs, "
+            f"{len(self.pair)} intervals>"
+        )
+
+
+def certificate_of(problem: Problem, q0: NDArray[np.float64], q1: NDArray[np.float64], earliest: bool) -> Certificate:
+    """Makes the certificate of an edge; see `Problem.certificate`."""
+    made: dict[str, Any] = _native.certificate(problem._native, q0, q1, earliest)
+    made["verdict"] = Verdict(made["verdict"])
+    return Certificate(problem=problem, q0=q0, q1=q1, tube=problem.tube, **made)

@@ -1,0 +1,140 @@
+"""Robots: of a URDF, of links and joints, or a rigid body. `corridor.Problem` takes what these functions return."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from numpy.typing import ArrayLike
+
+from .shapes import Shape, _array, _numbers, _pose
+
+
+@dataclass(frozen=True)
+class Joint:
+    """A joint between two links. Its child link has the joint's pose at the value 0, and moves with its value.
+
+    type: "fixed", "revolute", "continuous" (revolute without limits), "prismatic", "planar" or "floating".
+    parent, child: names of links. origin: a `Pose` or 4×4, the joint in its parent link. axis: (3,), in the joint's
+    frame, of any length; not of fixed and floating joints. limits: (lower, upper), rad or m; revolute and prismatic
+    joints need them. velocity: the largest speed, rad/s or m/s, for trajectories. mimic: (joint, multiplier, offset);
+    the value is multiplier·(value of the other joint) + offset, and limits don't count.
+    """
+
+    name: str
+    type: str
+    parent: str
+    child: str
+    origin: Any = None
+    axis: Sequence[float] = (1.0, 0.0, 0.0)
+    limits: tuple[float, float] | None = None
+    velocity: float | None = None
+    mimic: tuple[str, float, float] | None = None
+
+
+def robot(
+    links: Mapping[str, Shape | Iterable[Shape] | None] | Iterable[tuple[str, Shape | Iterable[Shape] | None]],
+    joints: Iterable[Joint], allow: Iterable[tuple[str, str]] = (), planned: Sequence[str] = (),
+    base: ArrayLike | None = None, bounds: Mapping[str, ArrayLike] | None = None, name: str = "",
+) -> dict[str, Any]:  # fmt: skip
+    """Describes a robot by links and joints, which are a tree with one root.
+
+    links: the shapes of each link by its name, in the link's frame; None or () for a link without shapes.
+    joints: in any order. allow: pairs of links that may touch. As in a URDF, two links that a joint connects are not
+    tested against each other, unless the joint is planar or floating.
+    planned: the names of the joints that are planned for; default: all that can move. The others stay at the value
+    nearest to 0. base: a `Pose` or 4×4, the pose of the root link. bounds: for each planar and floating joint
+    [[x, y, z], [x, y, z]], the corners of its position, m. name: needed if there are several robots.
+
+    `corridor.Problem` raises InputError with all faults. From equal numbers, it is the same robot as that of a URDF,
+    to the last bit, if poses are given as `Pose`.
+    """
+    pairs = links.items() if isinstance(links, Mapping) else links
+    return {
+        "links": [(_text("links", link), _shapes(shapes)) for link, shapes in pairs],
+        "joints": [_joint(joint) for joint in joints],
+        "allow": [_pair(pair) for pair in allow],
+        "plan": [_text("planned", joint) for joint in planned],
+        "base": _pose("base", base),
+        "bounds": _bounds(bounds),
+        "name": _text("name", name),
+    }
+
+
+def urdf(
+    file: str | os.PathLike[str], srdf: str | os.PathLike[str] | None = None, joints: Sequence[str] = (),
+    base: ArrayLike | None = None, bounds: Mapping[str, ArrayLike] | None = None, name: str = "",
+) -> dict[str, Any]:  # fmt: skip
+    """Describes a robot by a URDF file.
+
+    srdf: a file with pairs of links that may touch. joints: the names of those that are planned for; default: all
+    that can move. base: a `Pose` or 4×4, the pose of the root link. bounds: for each planar and floating joint
+    [[x, y, z], [x, y, z]], the corners of its position, m. name: needed if there are several robots.
+    """
+    return {
+        "urdf": os.path.abspath(file),
+        "srdf": "" if srdf is None else os.path.abspath(srdf),
+        "plan": list(joints),
+        "base": _pose("base", base),
+        "bounds": _bounds(bounds),
+        "name": name,
+    }
+
+
+def rigid_body(
+    shapes: Shape | Iterable[Shape], bounds: ArrayLike, planar: bool = False, name: str = "body"
+) -> dict[str, Any]:
+    """Describes a rigid body that moves in space, or in the plane (`planar`).
+
+    bounds: [[x, y, z], [x, y, z]], the lower and the upper corner of its position, m.
+    """
+    return {"shapes": _shapes(shapes), "bounds": _array("bounds", bounds), "planar": planar, "name": name}
+
+
+def _shapes(shapes: Shape | Iterable[Shape] | None) -> list[Shape]:
+    if shapes is None:
+        return []
+    return [shapes] if isinstance(shapes, Shape) else list(shapes)
+
+
+def _bounds(bounds: Mapping[str, ArrayLike] | None) -> dict[str, Any]:
+    return {joint: _array(f"bounds of {joint}", corners) for joint, corners in (bounds or {}).items()}
+
+
+def _text(what: str, value: Any) -> str:
+    if not isinstance(value, str):
+        raise ValueError(f"{what}: a name is needed, not {value!r}")
+    return value
+
+
+def _pair(pair: Any) -> tuple[str, str]:
+    if isinstance(pair, str) or len(pair) != 2:
+        raise ValueError(f"allow: two links are needed, not {pair!r}")
+    return _text("allow", pair[0]), _text("allow", pair[1])
+
+
+def _joint(joint: Joint) -> dict[str, Any]:
+    if not isinstance(joint, Joint):
+        raise ValueError(f"joints: a corridor.Joint is needed, not {joint!r}")
+    name = _text("name of a joint", joint.name)
+    what = f'joint "{name}"'
+    limits: tuple[Any, ...] = (None, None) if joint.limits is None else _numbers(f"{what}: limits", joint.limits, 2)
+    mimic: tuple[Any, ...] | None = joint.mimic
+    if mimic is not None:
+        if isinstance(mimic, str) or len(mimic) != 3:
+            raise ValueError(f"{what}: mimic: (joint, multiplier, offset) is needed, not {mimic!r}")
+        mimic = (_text(f"{what}: mimic", mimic[0]), *_numbers(f"{what}: mimic", mimic[1:], 2))
+    return {
+        "name": name,
+        "type": _text(f"{what}: type", joint.type),
+        "parent": _text(f"{what}: parent", joint.parent),
+        "child": _text(f"{what}: child", joint.child),
+        "origin": _pose(f"{what}: origin", joint.origin),
+        "axis": _numbers(f"{what}: axis", joint.axis, 3),
+        "lower": limits[0],
+        "upper": limits[1],
+        "velocity": None if joint.velocity is None else _numbers(f"{what}: velocity", [joint.velocity], 1)[0],
+        "mimic": mimic,
+    }

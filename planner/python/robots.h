@@ -1,0 +1,17 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include "planner/model/model_builder.h"
+
+/// Robots as the Python package describes them (corridor/robots.py).
+namespace corridor::python {
+
+namespace py = pybind11;
+
+/// Adds a robot: a URDF, links and joints, or a rigid body.
+/// @throws InputError with all faults in the numbers of links and joints. Other faults are those of
+/// `ModelBuilder::build`.
+void addRobot(ModelBuilder& builder, const py::dict& robot);
+
+}  // namespace corridor::python

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "collision/core/error.h"
+
+namespace corridor {
+
+/// Collects the faults of one robot: of its file, or of a robot that a program describes. At most
+/// `FaultList::kMost` are kept.
+class RobotFaults {
+ public:
+  /// @param label the file's name, or what else messages begin with.
+  explicit RobotFaults(std::string label) : label_(std::move(label)) {}
+
+  /// @param line counted from 1; 0: the robot as a whole, or no file.
+  void fault(int line, std::string text);
+  /// Formats "label:line: text", for notes.
+  std::string at(int line, const std::string& text) const;
+  bool sound() const { return faultCount_ == 0; }
+  /// Returns the number of all faults, including those that are not kept because the list is
+  /// limited.
+  std::size_t faultCount() const { return faultCount_; }
+  /// Returns whether to search for similar names for messages. The search is skipped after 100
+  /// faults, because its time grows with the number of names.
+  bool hints() const { return faultCount_ < 100; }
+  /// Returns the faults, sorted by line.
+  std::vector<Fault> takeFaults();
+
+ protected:
+  void setLabel(std::string label) { label_ = std::move(label); }
+  /// Replaces all faults.
+  void setFaults(const std::vector<Fault>& faults);
+
+ private:
+  std::string label_;
+  std::vector<Fault> faults_;
+  std::size_t faultCount_ = 0;
+};
+
+/// Formats kind and name: `joint "elbow"`.
+std::string owned(const std::string& kind, std::string_view name);
+
+/// Returns " on line N" for messages, or "" for 0: no file.
+std::string onLine(int line);
+
+}  // namespace corridor
