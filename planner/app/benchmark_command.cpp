@@ -14,19 +14,20 @@
 
 #include "collision/core/fault_list.h"
 #include "collision/core/spelling.h"
+#include "planner/app/benchmark_arguments.h"
+#include "planner/app/benchmark_merge.h"
 #include "planner/app/benchmark_output.h"
+#include "planner/app/benchmark_results.h"
 #include "planner/app/commands.h"
 #include "planner/app/interrupt.h"
 #include "planner/app/options.h"
 #include "planner/app/output.h"
+#include "planner/app/rank_job.h"
 #include "planner/benchmark/campaign_database.h"
 #include "planner/benchmark/campaign_yaml.h"
 #include "planner/benchmark/competitors.h"
-#include "planner/benchmark/report.h"
-#include "planner/benchmark/rows.h"
 #include "planner/benchmark/run_campaign.h"
 #include "planner/benchmark/run_record.h"
-#include "planner/benchmark/trajectory_rows.h"
 #include "planner/benchmark/write_reports.h"
 #include "planner/problem/keys.h"
 #include "planner/problem/nothing_tested.h"
@@ -35,22 +36,17 @@
 namespace corridor::app {
 namespace {
 
-struct BenchmarkArguments {
-  std::vector<std::string> files;  ///< a campaign, or problems
-  /// The options --variants, --planners and --trajectories, which are illegal with a campaign. Each
-  /// string is a comma-separated list; empty: the defaults.
-  std::vector<std::string> variants, planners;
-  std::vector<std::string> trajectories;  ///< --trajectories: as those; empty: none
-  std::optional<std::uint64_t> runs, seed;
-  std::optional<double> time;    ///< limit of a run, seconds
-  std::optional<double> memory;  ///< limit of a run, MB
-  std::uint64_t jobs = 1;
-  std::optional<std::string> output;
-  bool resume = false, json = false;
-};
-
 [[noreturn]] void refuse(const std::string& option, const std::string& why) {
   throw InputError(Fault{option, 0, why});
+}
+
+CLI::Validator isShard() {
+  return {[](std::string& text) {
+            return readShard(text)
+                       ? std::string()
+                       : "K/N is needed, such as 1/3, with K from 1 to N, not " + quotedWord(text);
+          },
+          ""};
 }
 
 /// Splits the values of an option at commas. CLI11's own delimiter drops empty entries: then
@@ -138,26 +134,35 @@ Campaign campaignOf(const BenchmarkArguments& a) {
   campaign.runs = a.runs.value_or(campaign.runs);
   campaign.seed = a.seed.value_or(campaign.seed);
   if (a.time) campaign.time = a.time;
+  if (a.shard) campaign.shard = readShard(*a.shard);
   campaign.limits.memory = a.memory.value_or(campaign.limits.memory);
   return campaign;
 }
 
-bool anyRun(const std::vector<CampaignCell>& cells) {
-  return std::any_of(cells.begin(), cells.end(),
-                     [](const CampaignCell& cell) { return !cell.runs.empty(); });
+/// Returns the settings of all cells, by which ranks test that they have the same campaign.
+std::string specsOf(const Campaign& campaign) {
+  std::string all;
+  for (const CampaignCell& cell : cellsOf(campaign)) all += specOf(campaign, cell) + '\n';
+  return all;
 }
 
-/// Prints a row per cell, and then, if there are trajectories, a row per variant, set of limits and
-/// maker.
-void printTables(const Campaign& campaign, const std::vector<CampaignCell>& cells) {
-  std::cout << tableOf(pathSummaryRows(campaign, cells));
-  if (campaign.trajectories.makers.empty()) return;
-  std::cout << "\nTrajectories along the paths of all problems:\n"
-            << tableOf(trajectoryRows(campaign, cells));
+/// Makes runs of the campaign that rank 0 hands out. @returns the exit status.
+int serveCampaign(const BenchmarkArguments& a, RankJob& job) {
+  Campaign campaign;
+  return job.serve([&](const std::string& specs) {
+    campaign = campaignOf(a);
+    if (specsOf(campaign) != specs)
+      throw std::runtime_error(
+          "its campaign is not the first rank's; all machines need the same files and packages");
+    return std::make_unique<LocalExecutor>(a.jobs, runStarter(campaign));
+  });
 }
 
 int benchmarkCommand(const BenchmarkArguments& a) {
+  RankJob job(a.jobs);
+  if (job.serves()) return serveCampaign(a, job);
   if (a.resume && !a.output) refuse("--resume", "needs -o with the folder of the campaign");
+  if (a.shard && !a.output) refuse("--shard", "needs -o with a folder for this share of the runs");
   Campaign campaign = campaignOf(a);
   for (std::size_t i = campaign.problems.size(); i-- > 0;)  // put these notes before all others
     if (nothingIsTested(campaign.problems[i]))
@@ -166,7 +171,7 @@ int benchmarkCommand(const BenchmarkArguments& a) {
   for (const std::string& note : campaign.notes) warn(note);
   checkCampaign(campaign);
   // From here on the command creates files. If a signal arrives, it must finish or remove them.
-  const std::atomic<bool>& interrupted = listenForInterrupts();
+  const std::atomic<bool>& interrupted = job.listen();
   const bool made = a.output && makeReportFolder(*a.output, campaign);
   std::vector<CampaignCell> cells = cellsOf(campaign);
   std::optional<CampaignDatabase> database;
@@ -174,10 +179,15 @@ int benchmarkCommand(const BenchmarkArguments& a) {
   if (a.output)
     database.emplace(file,
                      a.resume ? CampaignDatabase::Mode::resume : CampaignDatabase::Mode::fresh,
-                     campaign, cells, a.jobs);
+                     campaign, cells, job.executor() ? job.executor()->places() : a.jobs);
+  if (campaign.shard)
+    campaign.notes.push_back("these are share " + text(*campaign.shard) +
+                             " of the campaign's runs; benchmark --merge puts the shares together");
   CampaignOptions options;
   options.interrupted = &interrupted;
   options.jobs = a.jobs;
+  options.executor = job.executor();
+  if (job.executor()) job.executor()->begin(specsOf(campaign));
   RunTrimmer trimmer;
   if (database)
     options.done = [&](std::size_t cell, BenchmarkRun& run) {
@@ -188,45 +198,19 @@ int benchmarkCommand(const BenchmarkArguments& a) {
   if (show) options.progress = [&](const CampaignProgress& p) { showProgress(campaign, p); };
   const CampaignResult result = runCampaign(campaign, options, std::move(cells));
   if (show) std::fputs("\r\033[K", stderr);
-  const bool any = anyRun(result.cells);
-  const RunSource runs = database ? database->runs() : runsOf(result.cells);
-  // If a file can't be written (its folder may be gone), the table is still printed on stdout. The
-  // error is kept, and thrown after the table.
-  std::exception_ptr unwritten;
-  std::vector<CampaignSession> sessions;
+  std::exception_ptr fault;
   try {
-    if (database) sessions = database->sessions();
+    giveResults(campaign, result, {a.output, database ? &*database : nullptr, a.json});
   } catch (const InputError&) {
-    unwritten = std::current_exception();
+    fault = std::current_exception();
   }
-  for (const std::string& note : notesOf(campaign, result.cells, sessions)) {
-    campaign.notes.push_back(note);
-    warn(note);
-  }
-  for (const std::string& line : failuresOf(result.cells)) warn(line);
-  if (result.interrupted)
-    warn(!any       ? "interrupted before the first run was done; nothing is written"
-         : a.output ? "interrupted: the results cover the finished runs; --resume continues"
-                    : "interrupted: the results cover the finished runs");
-  try {
-    if (a.output && any) {
-      writeReports(campaign, result, runs, *a.output);
-      writeReport(campaign, result.cells, *a.output, sessions);
-    }
-  } catch (const InputError&) {
-    unwritten = std::current_exception();
-  }
-  if (!any && !a.resume) {
+  if (!anyRun(result.cells) && !a.resume) {
     std::error_code ignored;
     database.reset();
     if (a.output) std::filesystem::remove(file, ignored);
     if (made) std::filesystem::remove(*a.output, ignored);
   }
-  if (a.json)
-    printJson(campaign, result, any ? runs : runsOf(result.cells), std::cout);
-  else if (any)
-    printTables(campaign, result.cells);
-  if (unwritten) std::rethrow_exception(unwritten);
+  if (fault) std::rethrow_exception(fault);
   return result.interrupted ? interruptedStatus() : kDone;
 }
 
@@ -237,7 +221,9 @@ void addBenchmark(CLI::App& program, int& status) {
   BenchmarkArguments& a = *arguments;
   CLI::App* command = program.add_subcommand(
       "benchmark", "Compare checkers and planners: run time, and how many paths are refuted");
-  command->add_option("CAMPAIGN|PROBLEM", a.files, "a campaign file, or problems as for solve")
+  command
+      ->add_option("CAMPAIGN|PROBLEM", a.files,
+                   "a campaign file, or problems as for solve; with --merge: folders of results")
       ->required();
   const char* compared = "Comparison (with problems; a campaign names its own)";
   command
@@ -281,10 +267,17 @@ void addBenchmark(CLI::App& program, int& status) {
       ->check(isWithin(1.0, 1e9, "a number of MB from 1 to 1e9"))
       ->group(runs);
   command
-      ->add_option("--jobs", a.jobs,
-                   "number of runs at the same time (default 1); more than 1 makes measured times "
-                   "longer")
+      ->add_option(
+          "--jobs", a.jobs,
+          "number of runs at the same time (default 1), under mpirun on each rank except the "
+          "first; more than 1 makes measured times longer")
       ->check(isWithin<std::uint64_t>(1, 1024, "a whole number from 1 to 1024"))
+      ->group(runs);
+  command
+      ->add_option("--shard", a.shard,
+                   "K/N: make only share K of N of the runs, for several machines without MPI; "
+                   "--merge puts the shares together")
+      ->check(isShard())
       ->group(runs);
   const char* results = "Results";
   command
@@ -295,6 +288,14 @@ void addBenchmark(CLI::App& program, int& status) {
       ->group(results);
   command->add_flag("--resume", a.resume, "continue the campaign in the folder where it stopped")
       ->group(results);
+  CLI::Option* const merge = command->add_flag(
+      "--merge", a.merge,
+      "put the results of one campaign in several folders together, in the folder of -o: its "
+      "shards, or the same campaign with other seeds");
+  merge->group(results);
+  for (const char* option : {"--variants", "--planners", "--trajectories", "--runs", "--seed",
+                             "--time", "--memory", "--jobs", "--shard", "--resume"})
+    merge->excludes(std::string(option));
   addJson(*command, a.json, results);
   command->footer(
       std::string(
@@ -302,6 +303,9 @@ void addBenchmark(CLI::App& program, int& status) {
           "Or without a campaign file: corridor benchmark problems/thin_plate problems/piano "
           "--variants "
           "certified,discrete:0.01,discrete:0.001 -o results\n"
+          "Three machines: the campaign with --shard 1/3 -o a, 2/3 -o b and 3/3 -o c, and then "
+          "corridor benchmark --merge a b c -o results\n"
+          "With MPI: mpirun -n 64 ./corridor benchmark CAMPAIGN -o results\n"
           "Each run is a separate process, under OMPL's Benchmark. The independent verifier tests "
           "each path: `refuted` counts the paths that collide, or violate the problem's margin, "
           "bounds, start or goal. Times and counts are medians over the solved runs.\n"
@@ -310,7 +314,9 @@ void addBenchmark(CLI::App& program, int& status) {
           "in radians, checking_share: the share of time_s that checking takes. All columns, and "
           "the keys of campaign files: planner/benchmark/README.md.\n") +
       kExitStatus);
-  command->callback([arguments, &status] { status = benchmarkCommand(*arguments); });
+  command->callback([arguments, &status] {
+    status = arguments->merge ? mergeCampaigns(*arguments) : benchmarkCommand(*arguments);
+  });
 }
 
 }  // namespace corridor::app

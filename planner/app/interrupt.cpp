@@ -34,13 +34,15 @@ void onInterrupt(int signal) {
 
 }  // namespace
 
-const std::atomic<bool>& listenForInterrupts(SecondInterrupt second) {
+const std::atomic<bool>& listenForInterrupts(SecondInterrupt second,
+                                             std::initializer_list<int> more) {
   secondEnds = second == SecondInterrupt::ends;
   struct sigaction action {};
   action.sa_handler = onInterrupt;
   action.sa_flags = SA_RESTART;  // a signal doesn't end the reading of a pipe, such as gnuplot's
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  for (const int signal : more) sigaction(signal, &action, nullptr);
   struct sigaction hangUp {};
   sigaction(SIGHUP, nullptr, &hangUp);
   if (hangUp.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);

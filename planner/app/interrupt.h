@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <initializer_list>
 
 namespace corridor::app {
 
@@ -12,7 +13,9 @@ enum class SecondInterrupt {
 
 /// Installs signal handlers and returns the flag that the first SIGINT, SIGTERM or SIGHUP sets. The
 /// caller polls the flag and stops. SIGHUP stays ignored if it was ignored, as under nohup.
-const std::atomic<bool>& listenForInterrupts(SecondInterrupt second = SecondInterrupt::ends);
+/// @param more further signals that count as interrupts.
+const std::atomic<bool>& listenForInterrupts(SecondInterrupt second = SecondInterrupt::ends,
+                                             std::initializer_list<int> more = {});
 
 /// Returns the exit status of a program that the first signal N stopped: 128 + N, as shells report
 /// it (130 for SIGINT, 143 for SIGTERM). @pre the flag of `listenForInterrupts` is set.

@@ -13,6 +13,7 @@
 #include "planner/app/commands.h"
 #include "planner/app/options.h"
 #include "planner/app/output.h"
+#include "planner/app/rank_job.h"
 #include "planner/app/standard_streams.h"
 #include "planner/app/usage.h"
 
@@ -48,6 +49,7 @@ int main(int argc, char** argv) {
       program.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
       if (error.get_exit_code() != 0) {
+        letRank0Report();
         std::cerr << usageFault(program, error, argc > 1 ? argv[1] : "") << '\n';
         return kBadInput;
       }
@@ -55,6 +57,7 @@ int main(int argc, char** argv) {
     }
     requireResultsWritten();
   } catch (const corridor::InputError& error) {
+    letRank0Report();
     printFaults(error);
     return kBadInput;
   } catch (const std::bad_alloc&) {

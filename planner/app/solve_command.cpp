@@ -3,6 +3,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "planner/app/options.h"
 #include "planner/app/output.h"
 #include "planner/app/problem_list.h"
+#include "planner/app/rank_job.h"
 #include "planner/app/solve_many.h"
 #include "planner/app/solve_one.h"
 #include "planner/problem/keys.h"
@@ -39,6 +41,14 @@ int solveSingle(const std::string& file, const SolveArguments& a,
   const bool done = solved.report.outcome == SolveOutcome::solved &&
                     (!solved.report.trajectory || solved.report.trajectory->proved());
   return done ? kDone : kNegativeResult;
+}
+
+/// Returns the names of all problems, by which ranks test that they have the same ones.
+std::string namesOf(const ProblemList& list) {
+  std::string all;
+  for (const ListedProblem& problem : list.problems)
+    all += problem.name + ' ' + problem.file + '\n';
+  return all;
 }
 
 /// Tests the options of the trajectory. @throws InputError
@@ -84,7 +94,22 @@ void requireFiles(const SolveArguments& a) {
     throw InputError(Fault{"--trajectory", 0, "is the file of --output; name another one"});
 }
 
+/// Solves problems that rank 0 hands out. @returns the exit status.
+int serveProblems(const SolveArguments& a, RankJob& job) {
+  ProblemList list;
+  return job.serve([&](const std::string& names) {
+    list = listProblems(a.problems);
+    if (namesOf(list) != names)
+      throw std::runtime_error(
+          "its problems are not the first rank's; all machines need the same files");
+    return std::make_unique<LocalExecutor>(a.jobs, solveStarter(list.problems, a),
+                                           Killable::untilItSends);
+  });
+}
+
 int solveCommand(const SolveArguments& a) {
+  RankJob job(a.jobs);
+  if (job.serves()) return serveProblems(a, job);
   if (a.from && !a.picture)
     throw InputError(Fault{"--from", 0, "needs --picture, which is not given"});
   if (a.from) viewDirection(*a.from, "--from");
@@ -92,9 +117,14 @@ int solveCommand(const SolveArguments& a) {
     throw InputError(Fault{"--keep", 0, "needs --tries, which is not given"});
   const ProblemList list = listProblems(a.problems);
   requireTrajectory(a, list.several);
-  if (list.several) return solveMany(list.problems, a, listenForInterrupts());
+  if (list.several) {
+    LocalExecutor local(a.jobs, solveStarter(list.problems, a), Killable::untilItSends);
+    if (job.executor()) job.executor()->begin(namesOf(list));
+    Executor& executor = job.executor() ? static_cast<Executor&>(*job.executor()) : local;
+    return solveMany(list.problems, a, executor, job.listen());
+  }
   requireFiles(a);
-  return solveSingle(list.problems.front().file, a, listenForInterrupts());
+  return solveSingle(list.problems.front().file, a, job.listen());
 }
 
 }  // namespace
@@ -148,8 +178,10 @@ void addSolve(CLI::App& program, int& status) {
       ->group(planning);
   const char* many = "Several problems, several tries";
   command
-      ->add_option("--jobs", a.jobs,
-                   "problems solved at a time, each in a process of its own (default 1)")
+      ->add_option(
+          "--jobs", a.jobs,
+          "problems solved at a time, each in a process of its own (default 1); under mpirun "
+          "on each rank except the first")
       ->check(isWithin<std::uint64_t>(1, 1024, "a whole number from 1 to 1024"))
       ->group(many);
   command

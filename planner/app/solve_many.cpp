@@ -9,6 +9,7 @@
 #include <string>
 #include <system_error>
 #include <unistd.h>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -19,7 +20,6 @@
 #include "planner/app/interrupt.h"
 #include "planner/app/output.h"
 #include "planner/app/solve_one.h"
-#include "planner/benchmark/child_process.h"
 #include "planner/solve/solution.h"
 
 namespace corridor::app {
@@ -111,71 +111,29 @@ ChildProcess::Work workFor(const ListedProblem& problem, const SolveArguments& a
   };
 }
 
-/// The problems that are being solved, and the reports so far.
-class Jobs {
- public:
-  Jobs(const std::vector<ListedProblem>& problems, const SolveArguments& a)
-      : problems_(problems), arguments_(a), reports_(problems.size()) {}
+/// Returns the report on a problem, by the end of its process.
+ordered_json reportOf(const ListedProblem& problem, const ChildEnd& end) {
+  if (end.messages.size() == 2) return ordered_json::parse(end.messages.back());
+  return {{"problem", problem.file}, {"result", kFailedResult}, {"why", end.failure}};
+}
 
-  /// @param done is called with each report and the number of its problem.
-  template <class Done>
-  void run(const std::atomic<bool>& interrupted, const Done& done) {
-    std::size_t next = 0;
-    while (next < problems_.size() || !running_.empty()) {
-      while (!interrupted && next < problems_.size() && running_.size() < arguments_.jobs &&
-             start(next))
-        ++next;
-      std::vector<ChildProcess*> children;
-      for (const Running& job : running_) children.push_back(job.child.get());
-      ChildProcess::waitForAny(children, kPollMs);
-      for (Running& job : running_) {
-        const bool isOver = job.child->advance();
-        // A child that writes its files is not stopped in the middle.
-        if (interrupted && job.child->end().messages.empty()) job.child->stop("interrupted");
-        if (!isOver) continue;
-        reports_[job.problem] = reportOf(job);
-        done(job.problem, reports_[job.problem]);
-      }
-      std::erase_if(running_, [](const Running& job) { return job.child->over(); });
-      if (interrupted && running_.empty()) return;
-    }
+/// Solves all problems, or until it is interrupted. @param done is called with each report and the
+/// number of its problem.
+template <class Done>
+void solveAll(std::size_t problems, Executor& executor, const std::atomic<bool>& interrupted,
+              const Done& done) {
+  std::size_t next = 0;
+  bool stopped = false;
+  while (next < problems || executor.underWay() > 0) {
+    while (!interrupted && next < problems && executor.underWay() < executor.places() &&
+           executor.start(next))
+      ++next;
+    for (const TaskEnd& one : executor.wait(kPollMs)) done(one.task, one.end);
+    // A child that writes its files is not stopped in the middle.
+    if (interrupted && !std::exchange(stopped, true)) executor.stop();
+    if (interrupted && executor.underWay() == 0) return;
   }
-
-  /// The reports in the order of the problems; null for problems that were not finished.
-  const std::vector<ordered_json>& reports() const { return reports_; }
-
- private:
-  struct Running {
-    std::size_t problem;
-    std::unique_ptr<ChildProcess> child;
-  };
-
-  /// Starts to solve a problem. Returns false if the system has no room for another process, but
-  /// others are running: then one of them has to end first.
-  bool start(std::size_t problem) {
-    try {
-      running_.push_back(
-          {problem, std::make_unique<ChildProcess>(workFor(problems_[problem], arguments_),
-                                                   ChildLimits{{kPatience, kPatience}, 0})});
-    } catch (const std::system_error&) {
-      if (running_.empty()) throw;
-      return false;
-    }
-    return true;
-  }
-
-  ordered_json reportOf(const Running& job) const {
-    const ChildEnd& end = job.child->end();
-    if (end.messages.size() == 2) return ordered_json::parse(end.messages.back());
-    return {
-        {"problem", problems_[job.problem].file}, {"result", kFailedResult}, {"why", end.failure}};
-  }
-
-  const std::vector<ListedProblem>& problems_;
-  const SolveArguments& arguments_;
-  std::vector<Running> running_;
-  std::vector<ordered_json> reports_;
-};
+}
 
 int statusOf(const ordered_json& report) {
   const std::string result = report["result"];
@@ -251,8 +209,14 @@ void printTable(const std::vector<ordered_json>& reports, const ResultPrinter& o
 
 }  // namespace
 
+TaskStarter solveStarter(const std::vector<ListedProblem>& problems, const SolveArguments& a) {
+  return [&problems, &a](std::uint64_t task) {
+    return ChildProcess(workFor(problems[task], a), {{kPatience, kPatience}, 0});
+  };
+}
+
 int solveMany(const std::vector<ListedProblem>& problems, const SolveArguments& a,
-              const std::atomic<bool>& interrupted) {
+              Executor& executor, const std::atomic<bool>& interrupted) {
   requireFolder(a.output, "--output", problems.size());
   requireFolder(a.picture, "--picture", problems.size());
   requireNoOtherFile(problems, a);
@@ -260,8 +224,9 @@ int solveMany(const std::vector<ListedProblem>& problems, const SolveArguments& 
   const bool show = !a.quiet && ::isatty(STDERR_FILENO) != 0;
   int status = kDone;
   std::size_t done = 0;
-  Jobs jobs(problems, a);
-  jobs.run(interrupted, [&](std::size_t i, const ordered_json& report) {
+  std::vector<ordered_json> reports(problems.size());  // null: not finished
+  solveAll(problems.size(), executor, interrupted, [&](std::size_t i, const ChildEnd& end) {
+    const ordered_json& report = reports[i] = reportOf(problems[i], end);
     ++done;
     status = std::max(status, statusOf(report));
     if (show) std::fputs("\r\033[K", stderr);
@@ -273,13 +238,13 @@ int solveMany(const std::vector<ListedProblem>& problems, const SolveArguments& 
   if (show) std::fputs("\r\033[K", stderr);
   if (a.json && !a.quiet) {
     ordered_json list = ordered_json::array();
-    for (const ordered_json& report : jobs.reports())
+    for (const ordered_json& report : reports)
       if (!report.is_null()) list.push_back(report);
     std::cout << reportJson(list).dump(2) << '\n';
   }
   if (!a.quiet && !a.json && !a.jsonLines) {
     out.blank();
-    printTable(jobs.reports(), out);
+    printTable(reports, out);
   }
   if (interrupted && !a.quiet)
     warn("interrupted: " + std::to_string(problems.size() - done) + " of " +

@@ -5,15 +5,22 @@
 
 #include "planner/app/problem_list.h"
 #include "planner/app/solve_arguments.h"
+#include "planner/benchmark/executor.h"
 
 namespace corridor::app {
 
-/// Solves several problems, `jobs` at a time, each in a process of its own: a crash costs only its
-/// own problem. Prints one line for each problem as it is done, and a table at the end; or JSON.
-/// `output` and `picture`, if given, are folders, which are made if necessary.
+/// Returns how the problems are solved, for executors: the number of a task is the index of its
+/// problem. A task must not be killed after its first message: then it writes its files.
+/// @pre the arguments outlive the result.
+TaskStarter solveStarter(const std::vector<ListedProblem>& problems, const SolveArguments& a);
+
+/// Solves several problems, each in a process of its own: a crash costs only its own problem.
+/// Prints one line for each problem as it is done, and a table at the end; or JSON. `output` and
+/// `picture`, if given, are folders, which are made if necessary.
+/// @param executor starts tasks by `solveStarter`.
 /// @returns the exit status: the worst of all problems.
 /// @throws InputError if a folder can't be used.
 int solveMany(const std::vector<ListedProblem>& problems, const SolveArguments& a,
-              const std::atomic<bool>& interrupted);
+              Executor& executor, const std::atomic<bool>& interrupted);
 
 }  // namespace corridor::app

@@ -240,39 +240,35 @@ void addMissing(std::size_t limitSets, std::size_t makers, const std::string& wh
 
 }  // namespace
 
-RunProcess::RunProcess(const Problem* problem, const Problem& planned, const std::string& digest,
-                       const std::optional<BenchmarkCompetitor>& competitor,
-                       const BenchmarkLimits& limits, const RunTrajectories& trajectories)
-    : seed_(planned.settings.seed),
-      limitSets_(trajectories.limits.size()),
-      makers_(trajectories.makers.size()),
-      process_(
-          [&](const auto& send) {
-            Path path;
-            BenchmarkRun run = competitor && competitor->run
-                                   ? competitor->run(planned, limits.memory, path)
-                                   : runUnderOmpl(planned, digest, competitor, limits.memory, path);
-            send(text(run));
-            if (run.solved && problem) verifyRun(*problem, path, run);
-            send(text(run));
-            std::size_t missing = trajectories.limits.size() * trajectories.makers.size();
-            if (run.solved && problem && missing > 0)
-              runTrajectories(*problem, trajectories, path, run, [&] {
-                send(text(run));
-                --missing;
-              });
-            for (; missing > 0; --missing) send(text(run));
-          },
-          // At limits.memory OMPL stops a planner, if the planner checks its termination condition.
-          // The larger limit here covers everything else.
-          {patienceOf(planned, limits, trajectories),
-           static_cast<std::size_t>(1.5 * limits.memory * 1024 * 1024)}) {}
+ChildProcess startRun(const Problem* problem, const Problem& planned, const std::string& digest,
+                      const std::optional<BenchmarkCompetitor>& competitor,
+                      const BenchmarkLimits& limits, const RunTrajectories& trajectories) {
+  const auto work = [&](const auto& send) {
+    Path path;
+    BenchmarkRun run = competitor && competitor->run
+                           ? competitor->run(planned, limits.memory, path)
+                           : runUnderOmpl(planned, digest, competitor, limits.memory, path);
+    send(text(run));
+    if (run.solved && problem) verifyRun(*problem, path, run);
+    send(text(run));
+    std::size_t missing = trajectories.limits.size() * trajectories.makers.size();
+    if (run.solved && problem && missing > 0)
+      runTrajectories(*problem, trajectories, path, run, [&] {
+        send(text(run));
+        --missing;
+      });
+    for (; missing > 0; --missing) send(text(run));
+  };
+  // At limits.memory OMPL stops a planner, if the planner checks its termination condition. The
+  // larger limit here covers everything else.
+  return ChildProcess(work, {patienceOf(planned, limits, trajectories),
+                             static_cast<std::size_t>(1.5 * limits.memory * 1024 * 1024)});
+}
 
-BenchmarkRun RunProcess::run() const {
-  const ChildEnd& end = process_.end();
+BenchmarkRun runOf(const ChildEnd& end, std::uint64_t seed, const RunTrajectories& trajectories) {
   BenchmarkRun run;
   if (!end.messages.empty()) run = readRun(end.messages.back());
-  run.seed = seed_;
+  run.seed = seed;
   if (end.messages.empty()) {
     run.result = "failed";
     run.failure = end.failure;
@@ -282,8 +278,9 @@ BenchmarkRun RunProcess::run() const {
   } else if (!end.failure.empty() && run.solved) {
     run.failure = "a trajectory failed: " + end.failure;
   }
-  if (run.solved && makers_ > 0)
-    addMissing(limitSets_, makers_, run.failure.empty() ? "" : "not made: " + run.failure, run);
+  if (run.solved && !trajectories.makers.empty())
+    addMissing(trajectories.limits.size(), trajectories.makers.size(),
+               run.failure.empty() ? "" : "not made: " + run.failure, run);
   return run;
 }
 

@@ -112,24 +112,17 @@ void verifyRun(const Problem& problem, const Path& path, BenchmarkRun& run);
 void runTrajectories(const Problem& problem, const RunTrajectories& trajectories, const Path& path,
                      BenchmarkRun& run, const std::function<void()>& done);
 
-/// Makes and verifies a run in a process of its own: a crash, an endless loop or a lack of memory
-/// is then a failure of this run only. Planning is stopped after twice planner.time plus a minute.
-/// @pre the caller has one thread.
-class RunProcess {
- public:
-  /// Starts the process. @param problem the problem as its file has it, for verifying the path;
-  /// null: the path is not verified. @pre without a problem there are no trajectories.
-  RunProcess(const Problem* problem, const Problem& planned, const std::string& digest,
-             const std::optional<BenchmarkCompetitor>& competitor, const BenchmarkLimits& limits,
-             const RunTrajectories& trajectories = {});
-  ChildProcess& process() { return process_; }
-  /// @pre the process is over.
-  BenchmarkRun run() const;
-
- private:
-  std::uint64_t seed_;
-  std::size_t limitSets_, makers_;
-  ChildProcess process_;
-};
+/// Starts to make and verify a run in a process of its own: a crash, an endless loop or a lack of
+/// memory is then a failure of this run only. Planning is stopped after twice planner.time plus a
+/// minute.
+/// @param problem the problem as its file has it, for verifying the path; null: the path is not
+/// verified. @pre without a problem there are no trajectories; as ChildProcess.
+ChildProcess startRun(const Problem* problem, const Problem& planned, const std::string& digest,
+                      const std::optional<BenchmarkCompetitor>& competitor,
+                      const BenchmarkLimits& limits, const RunTrajectories& trajectories = {});
+/// Returns the run that `startRun` started. @param end how its process ended. Only the number of
+/// messages and the last one matter.
+BenchmarkRun runOf(const ChildEnd& end, std::uint64_t seed,
+                   const RunTrajectories& trajectories = {});
 
 }  // namespace corridor

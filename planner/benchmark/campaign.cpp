@@ -121,6 +121,13 @@ RunSource runsOf(const std::vector<CampaignCell>& cells) {
   };
 }
 
+bool hasRun(const Campaign& campaign, std::size_t cell, std::size_t cells, std::uint64_t seed) {
+  if (seed < campaign.seed || seed - campaign.seed >= campaign.runs) return false;
+  const std::size_t variants = campaign.variants.size();  // they are next to each other
+  return !campaign.shard ||
+         campaign.shard->contains(cell / variants, cells / variants, seed - campaign.seed);
+}
+
 Problem plannedProblem(const Campaign& campaign, const CampaignCell& cell, std::uint64_t seed) {
   Problem problem = campaign.problems[cell.problem];
   campaign.variants[cell.variant].apply(problem.settings.checker);
@@ -171,6 +178,12 @@ void checkCampaign(const Campaign& campaign) {
                           std::to_string(cells) + " combinations of problem, checker and planner"});
   if (campaign.runs > kLastSeed - campaign.seed + 1)
     faults.push_back({placeOf(campaign, "runs"), 0, "the last seed would be above 2^32 - 1"});
+  const std::uint64_t groups = campaign.variants.empty() ? 0 : cells / campaign.variants.size();
+  if (campaign.shard && faults.empty() && campaign.shard->count > groups * campaign.runs)
+    faults.push_back({placeOf(campaign, "shard"), 0,
+                      text(*campaign.shard) + " would have no runs: there are only " +
+                          std::to_string(groups * campaign.runs) +
+                          " combinations of problem, planner and seed to deal out"});
   if (faults.empty()) faults = faultsInChild(campaign);
   if (!faults.empty()) throw InputError(std::move(faults));
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "planner/benchmark/benchmark_run.h"
+#include "planner/benchmark/campaign_shard.h"
 #include "planner/benchmark/campaign_trajectories.h"
 
 namespace corridor {
@@ -36,6 +37,7 @@ struct Campaign {
   std::vector<Variant> variants;
   std::vector<CampaignPlanner> planners;  ///< empty: each problem's own planner
   std::uint64_t runs = 10, seed = 1;      ///< seeds: seed … seed + runs − 1
+  std::optional<CampaignShard> shard;     ///< the share of the runs that is made; unset: all
   std::optional<double> time;             ///< seconds per run; unset: the problem's own limit
   std::optional<Simplifier> simplify;     ///< unset: the problem's own setting
   /// Whether every path is verified. If not, nothing reports which paths are in collision.
@@ -62,6 +64,10 @@ struct CampaignCell {
 
 /// Returns all cells, without runs, in order of problem, then planner, then variant.
 std::vector<CampaignCell> cellsOf(const Campaign& campaign);
+
+/// Returns whether the campaign has a run of this seed, and it belongs to the campaign's share.
+/// @param cell the index of a cell in `cellsOf`. @param cells their number.
+bool hasRun(const Campaign& campaign, std::size_t cell, std::size_t cells, std::uint64_t seed);
 
 /// Calls `visit` for each run of a cell (an index), whole and in order of seed.
 using RunSource =

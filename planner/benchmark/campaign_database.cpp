@@ -5,23 +5,19 @@
 #include <map>
 #include <optional>
 #include <set>
-#include <sqlite3.h>
-#include <sys/resource.h>
 
 #include <nlohmann/json.hpp>
 
 #include "collision/core/error.h"
 #include "planner/benchmark/build_commit.h"
+#include "planner/benchmark/campaign_record.h"
+#include "planner/benchmark/database_file.h"
 #include "planner/benchmark/database_statements.h"
 #include "planner/benchmark/ompl_log.h"
 #include "planner/benchmark/run_record.h"
 
 namespace corridor {
 namespace {
-
-/// "corr" marks our files (PRAGMA application_id). The version is that of our tables. Files of
-/// version 2 become version 3: they get `kSetups`, and their runs stay as they are.
-constexpr int kApplication = 0x636f7272, kVersion = 3, kFirstVersion = 2;
 
 /// OMPL's tables, word for word as `ompl_benchmark_statistics` 1.5.2 creates them, and ours. OMPL's
 /// columns of runs are added when a run first has them.
@@ -45,6 +41,10 @@ CREATE TABLE corridor_runs (cellid INTEGER, seed INTEGER, runid INTEGER UNIQUE, 
 CREATE TABLE corridor_sessions (id INTEGER PRIMARY KEY, started DATETIME, version TEXT,
   "commit" TEXT, jobs INTEGER);
 )";
+/// The campaign itself: `record` (campaign_record.h), and `shard`, such as "2/3" or "" for all
+/// runs. Databases of earlier versions don't have it.
+constexpr const char* kCampaignTable =
+    "CREATE TABLE IF NOT EXISTS corridor_campaign (key TEXT PRIMARY KEY, value TEXT)";
 /// The columns `record`, `ompl` and `setup` are the parts of a `RunRecord`. In runs of version 2,
 /// `record` holds the whole run, and setupid and ompl are NULL.
 constexpr const char* kSetups = R"(
@@ -74,6 +74,7 @@ class CampaignDatabase::Tables {
         makeTables();
       else
         checkTables(mode);
+      storeCampaign();
       matchCells(cells);
       beginSession(jobs);
       base_->exec("COMMIT");
@@ -126,49 +127,11 @@ class CampaignDatabase::Tables {
   }
 
  private:
-  [[noreturn]] void refuse(const std::string& why) const {
-    throw InputError(Fault{file_.string(), 0, why});
-  }
+  [[noreturn]] void refuse(const std::string& why) const { refuseFile(file_, why); }
 
-  /// Turns SQLite's exceptions into InputError, since users can mend the cause, such as a full disk
-  /// or a file of another program.
   template <class Step>
   void withFileInErrors(const Step& step) const {
-    try {
-      step();
-    } catch (const nlohmann::json::exception& error) {  // the stored JSON is damaged
-      refuse("is damaged: " + std::string(error.what()));
-    } catch (const SQLite::Exception& error) {
-      const std::string kept = "finished runs are kept; continue with --resume";
-      switch (error.getErrorCode()) {
-        case SQLITE_NOTADB:
-          refuse("is not a campaign database");
-        case SQLITE_BUSY:
-        case SQLITE_LOCKED:
-          refuse("is in use by another process");
-        case SQLITE_CANTOPEN:
-          refuse("can't be created or opened");
-        case SQLITE_READONLY:
-          refuse("can't be written to");
-        case SQLITE_FULL:
-          refuse("can't be written: the disk is full; " + kept);
-        case SQLITE_IOERR:
-          refuse("can't be read or written: " + std::string(error.what()) + sizeLimit() + "; " +
-                 kept);
-        case SQLITE_CORRUPT:
-          refuse("is damaged: " + std::string(error.what()));
-        default:
-          refuse("can't be read or written: " + std::string(error.what()));
-      }
-    }
-  }
-
-  /// Returns a note on the limit of file sizes, or "" if there is no limit. SQLite's error code
-  /// does not distinguish this limit from a failing disk.
-  static std::string sizeLimit() {
-    rlimit limit{};
-    if (::getrlimit(RLIMIT_FSIZE, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return "";
-    return " (no file may be larger than " + std::to_string(limit.rlim_cur) + " bytes: ulimit -f)";
+    corridor::withFileInErrors(file_, step);
   }
 
   template <class... Values>
@@ -211,37 +174,48 @@ class CampaignDatabase::Tables {
   void makeTables() {
     base_->exec(kTables);
     base_->exec(kSetups);
-    base_->exec("PRAGMA application_id = " + std::to_string(kApplication));
-    base_->exec("PRAGMA user_version = " + std::to_string(kVersion));
+    base_->exec("PRAGMA application_id = " + std::to_string(kCampaignApplication));
+    base_->exec("PRAGMA user_version = " + std::to_string(kCampaignVersion));
     int value = 0;
     for (const std::string& status : omplStatusNames())
       execute("INSERT INTO enums VALUES ('status', ?, ?)", value++, status);
   }
 
   void checkTables(Mode mode) {
-    if (base_->execAndGet("PRAGMA application_id").getInt() != kApplication)
-      refuse("is a database, but not of a campaign");
-    const int version = base_->execAndGet("PRAGMA user_version").getInt();
-    if (version < kFirstVersion || version > kVersion)
-      refuse("is a campaign database of version " + std::to_string(version) +
-             "; this program needs version " + std::to_string(kVersion) + "; name another folder");
-    if (const std::string check = base_->execAndGet("PRAGMA quick_check(1)").getString();
-        check != "ok")
-      refuse("is damaged: " + check);
+    const int version = requireCampaignFile(*base_, file_);
     const int runs = base_->execAndGet("SELECT count(*) FROM corridor_runs").getInt();
     if (mode == Mode::fresh && runs > 0)
       refuse("contains " + std::to_string(runs) + (runs == 1 ? " run" : " runs") +
              " already; continue with --resume, or name another folder");
-    if (version == kVersion) return;
+    if (version == kCampaignVersion) return;
     base_->exec(kSetups);
-    base_->exec("PRAGMA user_version = " + std::to_string(kVersion));
+    base_->exec("PRAGMA user_version = " + std::to_string(kCampaignVersion));
+  }
+
+  /// Compares the file's share with the campaign's, and stores what reports need of the campaign.
+  void storeCampaign() {
+    base_->exec(kCampaignTable);
+    const std::string shard = campaign_.shard ? text(*campaign_.shard) : "";
+    SQLite::Statement known(*base_, "SELECT value FROM corridor_campaign WHERE key = 'shard'");
+    const std::string was = known.executeStep() ? known.getColumn(0).getString() : "";
+    const bool empty = base_->execAndGet("SELECT count(*) FROM corridor_runs").getInt() == 0;
+    if (!empty && was.empty() && !shard.empty())
+      refuse("contains runs of the whole campaign, not of share " + shard +
+             " only; leave out --shard, or name another folder");
+    if (!empty && was != shard)
+      refuse("contains share " + was + " of the runs; continue with --shard " + was +
+             ", or name another folder");
+    known.reset();
+    execute("REPLACE INTO corridor_campaign VALUES ('shard', ?), ('record', ?)", shard,
+            recordOf(campaign_));
   }
 
   /// Compares the file's cells with the campaign's, and copies the file's runs into `cells`.
   void matchCells(std::vector<CampaignCell>& cells) {
     std::set<std::int64_t> ids;
     RunTrimmer trimmer;
-    for (CampaignCell& cell : cells) {
+    for (std::size_t index = 0; index < cells.size(); ++index) {
+      CampaignCell& cell = cells[index];
       SQLite::Statement known(*base_,
                               "SELECT id, spec FROM corridor_cells WHERE problem = ? AND "
                               "variant = ? AND planner = ?");
@@ -259,7 +233,7 @@ class CampaignDatabase::Tables {
       const std::string was = known.getColumn(1).getString();
       ids.insert(id);
       cellIds_.push_back(id);
-      readRuns(id, cell, trimmer);
+      readRuns(id, index, cells, trimmer);
       if (was == spec) continue;
       if (!cell.runs.empty())
         refuse(cellName(cell) + " was measured with other settings: " + difference(was, spec) +
@@ -276,16 +250,19 @@ class CampaignDatabase::Tables {
                others.getColumn(2).getString() + ", " + others.getColumn(3).getString() +
                ", which the campaign doesn't have; name another folder");
   }
-  void readRuns(std::int64_t id, CampaignCell& cell, RunTrimmer& trimmer) {
+  void readRuns(std::int64_t id, std::size_t index, std::vector<CampaignCell>& cells,
+                RunTrimmer& trimmer) {
+    CampaignCell& cell = cells[index];
     SQLite::Statement runs(
         *base_, "SELECT record, setupid FROM corridor_runs WHERE cellid = ? ORDER BY seed");
     runs.bind(1, id);
     cell.runs.reserve(campaign_.runs);
     while (runs.executeStep()) {
       BenchmarkRun run = readRun(runs.getColumn(0).getString());
-      if (run.seed < campaign_.seed || run.seed >= campaign_.seed + campaign_.runs)
+      if (!hasRun(campaign_, index, cells.size(), run.seed))
         refuse("contains a run of seed " + std::to_string(run.seed) + " of " + cellName(cell) +
-               ", which the campaign doesn't have; name another folder");
+               ", which the campaign" + (campaign_.shard ? "'s share" : "") +
+               " doesn't have; name another folder");
       if (!runs.getColumn(1).isNull()) run.ompl = setup(runs.getColumn(1));
       trimmer.trim(run);
       cell.runs.push_back(std::move(run));

@@ -32,7 +32,8 @@ class ChildProcess {
  public:
   using Work = std::function<void(const std::function<void(const std::string&)>& send)>;
 
-  /// Starts the work. @pre the caller has one thread.
+  /// Starts the work. @pre the caller has one thread. Further threads are harmless if the child
+  /// needs no lock of theirs, such as those of MPI; glibc's own locks are free in the child.
   /// @throws std::system_error if no further process or pipe can be created.
   ChildProcess(const Work& work, const ChildLimits& limits);
   ~ChildProcess();  ///< kills the child if it is still running
@@ -43,7 +44,9 @@ class ChildProcess {
   bool advance();
   /// Kills the child, with `reason` as its failure. Does nothing if the child has ended.
   void stop(const std::string& reason);
-  bool over() const { return id_ < 0; }         ///< whether the child has ended
+  bool over() const { return id_ < 0; }  ///< whether the child has ended
+  /// Whether a message has arrived, as of the last call of `advance`.
+  bool hasSent() const { return !end_.messages.empty(); }
   const ChildEnd& end() const { return end_; }  ///< @pre over
 
   /// Waits until one of the children has sent something or ended, for at most `milliseconds`.

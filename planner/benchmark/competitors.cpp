@@ -1,12 +1,11 @@
 #include "planner/benchmark/competitors.h"
 
-#include <dlfcn.h>
-#include <filesystem>
 #include <mutex>
 #include <stdexcept>
 
 #include <ompl/base/StateValidityChecker.h>
 
+#include "planner/benchmark/module_file.h"
 #include "planner/checker/problem_state_space.h"
 
 namespace corridor {
@@ -18,23 +17,15 @@ struct Module {
   std::string why;  ///< why the module is not available
 };
 
-/// Opens the module beside the program, or else the one in the build folder.
-Module openModule() {
+Module openFcl() {
 #ifdef CORRIDOR_FCL_MODULE
-  std::error_code error;
-  const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
-  const std::string name = CORRIDOR_FCL_MODULE;
-  for (const auto& file : {(program.parent_path() / name).string(),
-                           (std::filesystem::path(CORRIDOR_FCL_DIR) / name).string()})
-    if (void* const module = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL)) {
-      void* const scene = dlsym(module, "corridorFclScene");
-      void* const version = dlsym(module, "corridorFclVersion");
-      if (scene && version)
-        return {reinterpret_cast<decltype(&corridorFclScene)>(scene),
-                reinterpret_cast<decltype(&corridorFclVersion)>(version)(), ""};
-    }
-  const char* const reason = dlerror();
-  return {nullptr, "", std::string("its module can't be opened: ") + (reason ? reason : "unknown")};
+  const OpenModule module = openModule(CORRIDOR_FCL_MODULE, CORRIDOR_FCL_DIR);
+  void* const scene = functionIn(module, "corridorFclScene");
+  void* const version = functionIn(module, "corridorFclVersion");
+  if (scene && version)
+    return {reinterpret_cast<decltype(&corridorFclScene)>(scene),
+            reinterpret_cast<decltype(&corridorFclVersion)>(version)(), ""};
+  return {nullptr, "", "its module can't be opened: " + (module.handle ? "unknown" : module.why)};
 #else
   return {nullptr, "",
           "Corridor was built without it; install Debian's libfcl-dev and build again"};
@@ -42,7 +33,7 @@ Module openModule() {
 }
 
 const Module& fclModule() {
-  static const Module module = openModule();
+  static const Module module = openFcl();
   return module;
 }
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <deque>
-#include <list>
+#include <map>
 
 namespace corridor {
 namespace {
@@ -17,22 +17,30 @@ struct QueuedRun {
   std::uint64_t seed = 0;
 };
 
+/// Compares runs and seeds by seed.
+struct BySeed {
+  static std::uint64_t seedOf(const BenchmarkRun& run) { return run.seed; }
+  static std::uint64_t seedOf(std::uint64_t seed) { return seed; }
+  template <class A, class B>
+  bool operator()(const A& a, const B& b) const {
+    return seedOf(a) < seedOf(b);
+  }
+};
+
 /// Returns the runs to make, in the order in which they begin.
 std::deque<QueuedRun> tasksOf(const Campaign& campaign, const std::vector<CampaignCell>& cells) {
   std::deque<QueuedRun> tasks;
   const std::size_t variants = campaign.variants.size();
-  const auto has = [&](std::size_t cell, std::uint64_t seed) {
-    const auto& runs = cells[cell].runs;
-    const auto at =
-        std::lower_bound(runs.begin(), runs.end(), seed,
-                         [](const BenchmarkRun& run, std::uint64_t of) { return run.seed < of; });
-    return at != runs.end() && at->seed == seed;
+  const auto isMissing = [&](std::size_t cell, std::uint64_t seed) {
+    return hasRun(campaign, cell, cells.size(), seed) &&
+           !std::binary_search(cells[cell].runs.begin(), cells[cell].runs.end(), seed, BySeed());
   };
   // cellsOf puts the variants of a problem and planner next to each other.
   for (std::size_t first = 0; first < cells.size(); first += variants)
     for (std::uint64_t i = 0; i < campaign.runs; ++i)
       for (std::size_t v = 0; v < variants; ++v)
-        if (!has(first + v, campaign.seed + i)) tasks.push_back({first + v, campaign.seed + i});
+        if (isMissing(first + v, campaign.seed + i))
+          tasks.push_back({first + v, campaign.seed + i});
   return tasks;
 }
 
@@ -67,66 +75,76 @@ class Durations {
   Sum all_;
 };
 
-struct Running {
-  QueuedRun task;
-  Clock::time_point since;
-  RunProcess run;
-};
+/// A run as the number of a task. Seeds have 32 bits (checkCampaign).
+std::uint64_t taskOf(const QueuedRun& run) {
+  return std::uint64_t{run.cell} << 32 | run.seed;
+}
+QueuedRun queuedRun(std::uint64_t task) {
+  return {static_cast<std::size_t>(task >> 32), task & 0xffffffff};
+}
 
 }  // namespace
+
+TaskStarter runStarter(const Campaign& campaign) {
+  return [&campaign, cells = cellsOf(campaign)](std::uint64_t task) {
+    const auto [index, seed] = queuedRun(task);
+    const CampaignCell& cell = cells[index];
+    return startRun(campaign.verify ? &campaign.problems[cell.problem] : nullptr,
+                    plannedProblem(campaign, cell, seed), campaign.digests[cell.problem],
+                    campaign.variants[cell.variant].competitor, campaign.limits,
+                    trajectoriesOf(campaign, cell));
+  };
+}
 
 CampaignResult runCampaign(const Campaign& campaign, const CampaignOptions& options,
                            std::vector<CampaignCell> cells) {
   CampaignResult result;
   result.start = std::chrono::system_clock::now();
   std::deque<QueuedRun> tasks = tasksOf(campaign, cells);
-  const std::uint64_t total = cells.size() * campaign.runs;
-  std::uint64_t done = total - tasks.size();
+  std::uint64_t done = 0;
+  for (const CampaignCell& cell : cells) done += cell.runs.size();
+  const std::uint64_t total = done + tasks.size();
   Durations durations(cells.size(), tasks);
-  for (CampaignCell& cell : cells) cell.runs.reserve(campaign.runs);  // growing would need twice
-  std::list<Running> running;  // its destructor kills these runs
+  if (!campaign.shard)  // growing would need twice the memory
+    for (CampaignCell& cell : cells) cell.runs.reserve(campaign.runs);
+  std::map<std::uint64_t, Clock::time_point> since;  // of the tasks under way
+  LocalExecutor local(options.jobs, runStarter(campaign));
+  Executor& executor = options.executor ? *options.executor : local;
 
+  /// @returns false if a run must end before this one can begin.
   const auto begin = [&] {
     const QueuedRun task = tasks.front();
-    const CampaignCell& cell = cells[task.cell];
     if (options.progress) {
       const double left = durations.ofWaiting();
-      options.progress({done, total, left < 0 ? left : left / static_cast<double>(options.jobs),
-                        cell, task.seed});
+      options.progress({done, total,
+                        left < 0 ? left : left / static_cast<double>(executor.places()),
+                        cells[task.cell], task.seed});
     }
+    if (!executor.start(taskOf(task))) return false;
+    since[taskOf(task)] = Clock::now();
     durations.begin(task.cell);
     tasks.pop_front();
-    running.push_back(
-        {task, Clock::now(),
-         RunProcess(campaign.verify ? &campaign.problems[cell.problem] : nullptr,
-                    plannedProblem(campaign, cell, task.seed), campaign.digests[cell.problem],
-                    campaign.variants[cell.variant].competitor, campaign.limits,
-                    trajectoriesOf(campaign, cell))});
+    return true;
   };
-  const auto end = [&](Running& one) {
-    durations.add(one.task.cell, std::chrono::duration<double>(Clock::now() - one.since).count());
-    BenchmarkRun run = one.run.run();
-    if (options.done) options.done(one.task.cell, run);
+  const auto end = [&](const TaskEnd& one) {
+    const auto [cell, seed] = queuedRun(one.task);
+    durations.add(cell, std::chrono::duration<double>(Clock::now() - since.at(one.task)).count());
+    since.erase(one.task);
+    BenchmarkRun run = runOf(one.end, seed, trajectoriesOf(campaign, cells[cell]));
+    if (options.done) options.done(cell, run);
     ++done;
-    auto& runs = cells[one.task.cell].runs;
-    runs.insert(std::upper_bound(runs.begin(), runs.end(), run,
-                                 [](const auto& a, const auto& b) { return a.seed < b.seed; }),
-                std::move(run));
+    auto& runs = cells[cell].runs;
+    runs.insert(std::upper_bound(runs.begin(), runs.end(), run.seed, BySeed()), std::move(run));
   };
   const auto interrupted = [&] { return options.interrupted && options.interrupted->load(); };
-  while (!(tasks.empty() && running.empty())) {
-    while (!tasks.empty() && running.size() < options.jobs && !interrupted()) begin();
-    if (interrupted()) break;  // destroying `running` kills its runs
-    std::vector<ChildProcess*> children;
-    for (Running& one : running) children.push_back(&one.run.process());
-    ChildProcess::waitForAny(children, kCampaignPollMs);
-    std::erase_if(running, [&](Running& one) {
-      const bool over = one.run.process().advance();
-      if (over) end(one);
-      return over;
-    });
+  while (!(tasks.empty() && since.empty()) && !interrupted()) {
+    while (!tasks.empty() && since.size() < executor.places() && !interrupted())
+      if (!begin()) break;
+    if (interrupted()) break;
+    for (const TaskEnd& one : executor.wait(kCampaignPollMs)) end(one);
   }
-  result.interrupted = !(tasks.empty() && running.empty());
+  result.interrupted = !(tasks.empty() && since.empty());
+  executor.stop();
   result.cells = std::move(cells);
   result.seconds =
       std::chrono::duration<double>(std::chrono::system_clock::now() - result.start).count();

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "planner/benchmark/campaign.h"
+#include "planner/benchmark/executor.h"
 
 namespace corridor {
 
@@ -19,10 +20,16 @@ struct CampaignOptions {
   /// Called with each finished run and the index of its cell. It may change the run before the run
   /// becomes a part of the result (`RunTrimmer`). If it throws, the campaign ends.
   std::function<void(std::size_t cell, BenchmarkRun&)> done;
-  std::size_t jobs = 1;  ///< runs at a time; with several, times are those of a busy machine
+  /// Makes the runs: each is a task, `runStarter` starts it. Null: processes of this one, `jobs`
+  /// at a time. With several at a time, times are those of a busy machine.
+  Executor* executor = nullptr;
+  std::size_t jobs = 1;
   /// When it becomes true, unfinished runs are killed; the result has the finished runs.
   const std::atomic<bool>* interrupted = nullptr;
 };
+
+/// Returns how a campaign's runs are started, for executors. @pre the campaign outlives the result.
+TaskStarter runStarter(const Campaign& campaign);
 
 /// Makes the runs that are missing in the cells, each in a process of its own. The variants take
 /// turns seed by seed, so that other work on the machine affects all variants alike.

@@ -65,10 +65,11 @@ class SimulatedRuns {
     cells_ = cellsOf(campaign);
     for (const CampaignCell& cell : cells_) {
       if (cell.problem > 0) continue;
-      RunProcess real(&campaign.problems[0], plannedProblem(campaign, cell, 1), campaign.digests[0],
-                      campaign.variants[cell.variant].competitor, campaign.limits);
-      while (!real.process().advance()) ChildProcess::waitForAny({&real.process()}, 100);
-      samples_[{cell.variant, cell.planner.label}] = real.run();
+      ChildProcess real =
+          startRun(&campaign.problems[0], plannedProblem(campaign, cell, 1), campaign.digests[0],
+                   campaign.variants[cell.variant].competitor, campaign.limits);
+      while (!real.advance()) ChildProcess::waitForAny({&real}, 100);
+      samples_[{cell.variant, cell.planner.label}] = runOf(real.end(), 1);
     }
   }
   std::size_t cells() const { return cells_.size(); }

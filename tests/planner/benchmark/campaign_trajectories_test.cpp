@@ -349,10 +349,10 @@ TEST_F(HallWithTrajectories, AnEndedProcessKeepsWhatWasDone) {
     ::setitimer(ITIMER_REAL, &timer, nullptr);  // SIGALRM ends the process
     return run;
   };
-  RunProcess process(&c.problems[0], plannedProblem(c, cellsOf(c)[0], 1), c.digests[0], competitor,
-                     {}, trajectories);
-  while (!process.process().advance()) ChildProcess::waitForAny({&process.process()}, 100);
-  const BenchmarkRun run = process.run();
+  ChildProcess process = startRun(&c.problems[0], plannedProblem(c, cellsOf(c)[0], 1), c.digests[0],
+                                  competitor, {}, trajectories);
+  while (!process.advance()) ChildProcess::waitForAny({&process}, 100);
+  const BenchmarkRun run = runOf(process.end(), 1, trajectories);
   EXPECT_THAT(run.failure, HasSubstr("a trajectory failed: killed by signal 14"));
   EXPECT_EQ(run.verdict, "proved");
   ASSERT_EQ(run.trajectories.size(), 3000u);

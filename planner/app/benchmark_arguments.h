@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace corridor::app {
+
+/// The arguments of `corridor benchmark`.
+struct BenchmarkArguments {
+  std::vector<std::string> files;  ///< a campaign, or problems; with `merge`, databases
+  /// The options --variants, --planners and --trajectories, which are illegal with a campaign. Each
+  /// string is a comma-separated list; empty: the defaults.
+  std::vector<std::string> variants, planners;
+  std::vector<std::string> trajectories;  ///< --trajectories: as those; empty: none
+  std::optional<std::uint64_t> runs, seed;
+  std::optional<double> time;        ///< limit of a run, seconds
+  std::optional<double> memory;      ///< limit of a run, MB
+  std::optional<std::string> shard;  ///< "2/3"
+  std::uint64_t jobs = 1;
+  std::optional<std::string> output;
+  bool resume = false, merge = false, json = false;
+};
+
+}  // namespace corridor::app

@@ -1,0 +1,69 @@
+#include "planner/app/benchmark_results.h"
+
+#include <algorithm>
+#include <exception>
+#include <iostream>
+
+#include "planner/app/benchmark_output.h"
+#include "planner/app/output.h"
+#include "planner/benchmark/report.h"
+#include "planner/benchmark/rows.h"
+#include "planner/benchmark/trajectory_rows.h"
+#include "planner/benchmark/write_reports.h"
+
+namespace corridor::app {
+namespace {
+
+/// Prints a row per cell, and then, if there are trajectories, a row per variant, set of limits and
+/// maker.
+void printTables(const Campaign& campaign, const std::vector<CampaignCell>& cells) {
+  std::cout << tableOf(pathSummaryRows(campaign, cells));
+  if (campaign.trajectories.makers.empty()) return;
+  std::cout << "\nTrajectories along the paths of all problems:\n"
+            << tableOf(trajectoryRows(campaign, cells));
+}
+
+}  // namespace
+
+bool anyRun(const std::vector<CampaignCell>& cells) {
+  return std::any_of(cells.begin(), cells.end(),
+                     [](const CampaignCell& cell) { return !cell.runs.empty(); });
+}
+
+void giveResults(Campaign& campaign, const CampaignResult& result, const BenchmarkTarget& target) {
+  const bool any = anyRun(result.cells);
+  const RunSource runs = target.database ? target.database->runs() : runsOf(result.cells);
+  // If a file can't be written (its folder may be gone), the table is still printed on stdout. The
+  // error is kept, and thrown after the table.
+  std::exception_ptr unwritten;
+  std::vector<CampaignSession> sessions;
+  try {
+    if (target.database) sessions = target.database->sessions();
+  } catch (const InputError&) {
+    unwritten = std::current_exception();
+  }
+  for (const std::string& note : notesOf(campaign, result.cells, sessions)) {
+    campaign.notes.push_back(note);
+    warn(note);
+  }
+  for (const std::string& line : failuresOf(result.cells)) warn(line);
+  if (result.interrupted)
+    warn(!any            ? "interrupted before the first run was done; nothing is written"
+         : target.folder ? "interrupted: the results cover the finished runs; --resume continues"
+                         : "interrupted: the results cover the finished runs");
+  try {
+    if (target.folder && any) {
+      writeReports(campaign, result, runs, *target.folder);
+      writeReport(campaign, result.cells, *target.folder, sessions);
+    }
+  } catch (const InputError&) {
+    unwritten = std::current_exception();
+  }
+  if (target.json)
+    printJson(campaign, result, any ? runs : runsOf(result.cells), std::cout);
+  else if (any)
+    printTables(campaign, result.cells);
+  if (unwritten) std::rethrow_exception(unwritten);
+}
+
+}  // namespace corridor::app

@@ -1,0 +1,31 @@
+#include "planner/app/rank_job.h"
+
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+#include "planner/app/commands.h"
+#include "planner/app/interrupt.h"
+
+namespace corridor::app {
+
+RankJob::RankJob(std::size_t jobs) : ranks_(joinRanks()) {
+  if (ranks_ && ranks_->rank() == 0) executor_.emplace(*ranks_, jobs);
+}
+
+const std::atomic<bool>& RankJob::listen() const {
+  return ranks_ ? listenForInterrupts(SecondInterrupt::isIgnored, {SIGUSR1})
+                : listenForInterrupts();
+}
+
+int RankJob::serve(const RankSetUp& setUp) {
+  const std::atomic<bool>& interrupted = listen();
+  serveRanks(*ranks_, setUp, [&] { return interrupted ? interruptedStatus() - 128 : 0; });
+  return kDone;
+}
+
+void letRank0Report() {
+  if (rankInEnvironment() > 0) std::this_thread::sleep_for(std::chrono::seconds(5));
+}
+
+}  // namespace corridor::app

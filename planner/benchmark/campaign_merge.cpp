@@ -1,0 +1,397 @@
+#include "planner/benchmark/campaign_merge.h"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <SQLiteCpp/VariadicBind.h>
+#include <algorithm>
+#include <set>
+#include <sqlite3.h>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "collision/core/error.h"
+#include "planner/benchmark/campaign_database.h"
+#include "planner/benchmark/campaign_record.h"
+#include "planner/benchmark/csv_text.h"
+#include "planner/benchmark/database_file.h"
+#include "planner/benchmark/ompl_log.h"
+
+namespace corridor {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path databaseIn(const fs::path& source) {
+  std::error_code none;
+  const fs::path file = fs::is_directory(source, none) ? source / "campaign.db" : source;
+  if (!fs::exists(file, none)) refuseFile(file, "there is no such database");
+  return file;
+}
+
+std::string nameOfCell(const std::string& problem, const std::string& variant,
+                       const std::string& planner) {
+  return problem + ", " + variant + ", " + planner;
+}
+
+/// Returns the first setting that differs between two specs: "time 3.0, there 2.0".
+std::string differingSetting(const std::string& here, const std::string& there) {
+  const auto a = nlohmann::json::parse(here), b = nlohmann::json::parse(there);
+  const auto value = [](const nlohmann::json& of, const std::string& key) {
+    return of.contains(key) ? of[key].dump() : "not set";
+  };
+  for (const auto* all : {&a, &b})
+    for (const auto& [key, unused] : all->items())
+      if (value(a, key) != value(b, key))
+        return key + " " + value(a, key) + ", there " + value(b, key);
+  return "other settings";
+}
+
+Campaign recordedIn(SQLite::Database& base, int version, const fs::path& file) {
+  SQLite::Statement table(
+      base, "SELECT 1 FROM sqlite_master WHERE type = 'table' AND name = 'corridor_campaign'");
+  if (version == kCampaignVersion && table.executeStep()) {
+    SQLite::Statement record(base, "SELECT value FROM corridor_campaign WHERE key = 'record'");
+    if (record.executeStep()) return campaignOfRecord(record.getColumn(0).getString());
+  }
+  refuseFile(file,
+             "was written by an earlier version, without its campaign; call `corridor benchmark` "
+             "once with --resume for it");
+}
+
+/// Tests that a file has the campaign's cells with the same settings, and runs of no others.
+void requireSameCells(SQLite::Database& base, const fs::path& file, const Campaign& campaign,
+                      const fs::path& first) {
+  const std::string refusal = file == first
+                                  ? "is damaged: its cells are not those of its record: "
+                                  : "is not of the same campaign as " + first.string() + ": ";
+  std::set<std::int64_t> ids;
+  for (const CampaignCell& cell : cellsOf(campaign)) {
+    const std::string &problem = campaign.problemNames[cell.problem],
+                      &variant = campaign.variants[cell.variant].name;
+    const std::string name = nameOfCell(problem, variant, cell.planner.label);
+    SQLite::Statement known(base,
+                            "SELECT id, spec FROM corridor_cells WHERE problem = ? AND variant = ? "
+                            "AND planner = ?");
+    SQLite::bind(known, problem, variant, cell.planner.label);
+    if (!known.executeStep()) refuseFile(file, refusal + "it does not have " + name);
+    ids.insert(known.getColumn(0).getInt64());
+    const std::string here = known.getColumn(1).getString(), there = specOf(campaign, cell);
+    if (here != there) refuseFile(file, refusal + name + " has " + differingSetting(here, there));
+  }
+  SQLite::Statement others(base,
+                           "SELECT id, problem, variant, planner FROM corridor_cells c WHERE "
+                           "EXISTS (SELECT 1 FROM corridor_runs WHERE cellid = c.id)");
+  while (others.executeStep())
+    if (!ids.count(others.getColumn(0).getInt64()))
+      refuseFile(file,
+                 refusal + "it has runs of " +
+                     nameOfCell(others.getColumn(1).getString(), others.getColumn(2).getString(),
+                                others.getColumn(3).getString()) +
+                     ", which are not in that one");
+}
+
+/// The new database while the files are copied into it, one after the other, each attached as
+/// `source`. Ids of rows are those of the source plus an offset; cells, experiments and planners
+/// that several files have are stored once.
+class Merger {
+ public:
+  Merger(const CampaignMerge& merge, const fs::path& file)
+      : merge_(merge), base_(file.string(), SQLite::OPEN_READWRITE) {
+    base_.exec("PRAGMA synchronous = OFF");  // until the file has its name, a crash costs nothing
+    base_.exec("PRAGMA locking_mode = EXCLUSIVE");
+  }
+
+  void add(const fs::path& file) {
+    SQLite::Statement attach(base_, "ATTACH DATABASE ? AS source");
+    attach.bind(1, file.string());
+    attach.exec();
+    SQLite::Transaction transaction(base_);
+    base_.exec(R"(
+      CREATE TEMP TABLE cellOf AS SELECT s.id AS was, m.id AS now FROM source.corridor_cells s
+        JOIN main.corridor_cells m USING (problem, variant, planner);
+      CREATE TEMP TABLE experimentOf (was INTEGER PRIMARY KEY, now INTEGER);
+      CREATE TEMP TABLE plannerOf (was INTEGER PRIMARY KEY, now INTEGER);
+      CREATE TEMP TABLE setupOf (was INTEGER PRIMARY KEY, now INTEGER);
+      INSERT OR IGNORE INTO main.corridor_setups (setup) SELECT setup FROM source.corridor_setups
+        ORDER BY id;
+      INSERT INTO setupOf SELECT s.id, m.id FROM source.corridor_setups s JOIN
+        main.corridor_setups m USING (setup);)");
+    refuseDamagedRecords(file);
+    refuseRepeatedRuns(file);
+    addColumns();
+    copied_.clear();
+    addExperiments();
+    const std::int64_t runs = largest("runs"), sessions = largest("corridor_sessions");
+    const auto by = [](std::int64_t offset) { return " + " + std::to_string(offset); };
+    base_.exec(R"(
+      INSERT INTO main.plannerConfigs (name, settings) SELECT name, settings
+        FROM source.plannerConfigs s WHERE NOT EXISTS (SELECT 1 FROM main.plannerConfigs m
+          WHERE m.name = s.name AND m.settings IS s.settings) ORDER BY id;
+      INSERT INTO plannerOf SELECT s.id, min(m.id) FROM source.plannerConfigs s JOIN
+        main.plannerConfigs m ON m.name = s.name AND m.settings IS s.settings GROUP BY s.id;)");
+    const std::string columns = listOf("runs", {"id", "experimentid", "plannerid"});
+    base_.exec("INSERT INTO main.runs (id, experimentid, plannerid" + columns + ") SELECT id" +
+               by(runs) +
+               ", (SELECT now FROM experimentOf WHERE was = experimentid),"
+               " (SELECT now FROM plannerOf WHERE was = plannerid)" +
+               columns + " FROM source.runs ORDER BY id");
+    const std::string samples = listOf("progress", {"runid"});
+    base_.exec("INSERT INTO main.progress (runid" + samples + ") SELECT runid" + by(runs) +
+               samples + " FROM source.progress");
+    base_.exec(
+        "INSERT INTO main.corridor_sessions (id, started, version, \"commit\", jobs) "
+        "SELECT id" +
+        by(sessions) +
+        ", started, version, \"commit\", jobs FROM source.corridor_sessions WHERE id IN "
+        "(SELECT sessionid FROM source.corridor_runs)");
+    base_.exec(
+        "INSERT INTO main.corridor_runs (cellid, seed, runid, sessionid, record, ompl, setupid) "
+        "SELECT now, seed, runid" +
+        by(runs) + ", sessionid" + by(sessions) +
+        ", record, ompl, (SELECT now FROM setupOf WHERE was = setupid) FROM source.corridor_runs "
+        "JOIN cellOf ON was = cellid");
+    base_.exec(
+        "DROP TABLE cellOf; DROP TABLE experimentOf; DROP TABLE plannerOf; DROP TABLE setupOf");
+    transaction.commit();
+    base_.exec("DETACH DATABASE source");
+  }
+
+  /// Ends the merge. The file is on the disk afterwards.
+  void finish() {
+    base_.exec("PRAGMA synchronous = FULL");
+    SQLite::Statement seeds(base_, "UPDATE experiments SET seed = ?, runcount = ?");
+    SQLite::bind(seeds, std::to_string(merge_.campaign.seed),
+                 static_cast<std::int64_t>(merge_.campaign.runs));
+    seeds.exec();
+  }
+
+ private:
+  void refuseDamagedRecords(const fs::path& file) {
+    SQLite::Statement damaged(
+        base_,
+        "SELECT seed FROM source.corridor_runs WHERE NOT json_valid(record) OR "
+        "NOT json_valid(ifnull(ompl, '{}')) OR (setupid IS NOT NULL AND "
+        "setupid NOT IN (SELECT was FROM setupOf)) LIMIT 1");
+    if (damaged.executeStep())
+      refuseFile(file,
+                 "is damaged: the record of a run of seed " + damaged.getColumn(0).getString());
+  }
+
+  void refuseRepeatedRuns(const fs::path& file) {
+    SQLite::Statement twice(
+        base_,
+        "SELECT c.problem, c.variant, c.planner, m.seed FROM source.corridor_runs s JOIN cellOf ON "
+        "was = s.cellid JOIN main.corridor_runs m ON m.cellid = now AND m.seed = s.seed JOIN "
+        "main.corridor_cells c ON c.id = now LIMIT 1");
+    if (twice.executeStep())
+      refuseFile(file,
+                 "has runs that another of these databases has, too: seed " +
+                     twice.getColumn(3).getString() + " of " +
+                     nameOfCell(twice.getColumn(0).getString(), twice.getColumn(1).getString(),
+                                twice.getColumn(2).getString()) +
+                     "; name each share once");
+  }
+
+  std::vector<std::pair<std::string, std::string>> columnsOf(const std::string& schema,
+                                                             const std::string& table) {
+    std::vector<std::pair<std::string, std::string>> columns;
+    SQLite::Statement rows(base_, "PRAGMA " + schema + ".table_info(" + table + ")");
+    while (rows.executeStep())
+      columns.emplace_back(rows.getColumn(1).getString(), rows.getColumn(2).getString());
+    return columns;
+  }
+
+  /// OMPL's columns are added when a run first has them, so the files may have different ones.
+  void addColumns() {
+    for (const char* table : {"experiments", "runs", "progress"}) {
+      const auto known = columnsOf("main", table);
+      for (const auto& column : columnsOf("source", table))
+        if (std::none_of(known.begin(), known.end(),
+                         [&](const auto& one) { return one.first == column.first; }))
+          base_.exec("ALTER TABLE main." + std::string(table) + " ADD " +
+                     inDoubleQuotes(column.first) + " " + column.second);
+    }
+  }
+
+  /// Returns ", a, b": the columns of a table of the source, except some.
+  std::string listOf(const std::string& table, const std::set<std::string>& except) {
+    std::string list;
+    for (const auto& [name, type] : columnsOf("source", table))
+      if (!except.count(name)) list += ", " + inDoubleQuotes(name);
+    return list;
+  }
+
+  std::int64_t largest(const std::string& table) {
+    return base_.execAndGet("SELECT ifnull(max(id), 0) FROM main." + table).getInt64();
+  }
+
+  /// An experiment has all runs of a problem and variant. Its setup ends with the planners.
+  void addExperiments() {
+    SQLite::Statement cells(
+        base_,
+        "SELECT s.experimentid, s.id, now FROM source.corridor_cells s JOIN cellOf ON was = "
+        "s.id WHERE s.experimentid IS NOT NULL ORDER BY s.id");
+    while (cells.executeStep())
+      addExperiment(cells.getColumn(0).getInt64(), cells.getColumn(1).getInt64(),
+                    cells.getColumn(2).getInt64());
+  }
+  void addExperiment(std::int64_t was, std::int64_t cellWas, std::int64_t cell) {
+    SQLite::Statement mapped(base_, "SELECT now FROM experimentOf WHERE was = ?");
+    mapped.bind(1, was);
+    const bool isNew = !mapped.executeStep();
+    std::int64_t now = isNew ? 0 : mapped.getColumn(0).getInt64();
+    mapped.reset();
+    if (isNew) {
+      SQLite::Statement known(base_,
+                              "SELECT o.experimentid FROM main.corridor_cells c JOIN "
+                              "main.corridor_cells o USING (problem, variant) WHERE c.id = ? AND "
+                              "o.experimentid IS NOT NULL");
+      known.bind(1, cell);
+      if (known.executeStep()) {
+        now = known.getColumn(0).getInt64();
+        execute(
+            "UPDATE main.experiments SET totaltime = totaltime + (SELECT totaltime FROM "
+            "source.experiments WHERE id = ?) WHERE id = ?",
+            was, now);
+      } else {
+        now = copyExperiment(was);
+      }
+      execute("INSERT INTO experimentOf VALUES (?, ?)", was, now);
+    }
+    SQLite::Statement stored(base_, "SELECT experimentid FROM main.corridor_cells WHERE id = ?");
+    stored.bind(1, cell);
+    stored.executeStep();
+    if (!stored.getColumn(0).isNull()) return;
+    stored.reset();
+    // The first file with this planner. If the experiment was there already, without the planner,
+    // its setup gets the planner's part.
+    if (!copied_.count(now)) addPlannerSetup(cellWas, now);
+    execute("UPDATE main.corridor_cells SET experimentid = ? WHERE id = ?", now, cell);
+  }
+
+  std::int64_t copyExperiment(std::int64_t was) {
+    const std::string columns = listOf("experiments", {"id"});
+    execute("INSERT INTO main.experiments (id" + columns + ") SELECT NULL" + columns +
+                " FROM source.experiments WHERE id = ?",
+            was);
+    const std::int64_t now = base_.getLastInsertRowid();
+    copied_.insert(now);
+    const std::string name =
+        base_.execAndGet("SELECT name FROM main.experiments WHERE id = " + std::to_string(now))
+            .getString();
+    for (int i = 2; isTaken(now); ++i)
+      execute("UPDATE main.experiments SET name = ? WHERE id = ?", name + "-" + std::to_string(i),
+              now);
+    return now;
+  }
+
+  /// Returns whether another experiment has the name of this one: "one pct" and "one_pct" have the
+  /// same name in OMPL's tables.
+  bool isTaken(std::int64_t experiment) {
+    SQLite::Statement other(base_,
+                            "SELECT 1 FROM main.experiments a JOIN main.experiments b USING (name) "
+                            "WHERE a.id = ? AND b.id <> a.id");
+    other.bind(1, experiment);
+    return other.executeStep();
+  }
+
+  void addPlannerSetup(std::int64_t cellWas, std::int64_t now) {
+    // Runs of version 2 have OMPL's record in their own.
+    SQLite::Statement run(base_,
+                          "SELECT ifnull(json_extract(setup, '$.setup'), json_extract(record, "
+                          "'$.ompl.setup')) FROM source.corridor_runs LEFT JOIN "
+                          "source.corridor_setups s ON s.id = setupid WHERE cellid = ? ORDER BY "
+                          "runid LIMIT 1");
+    run.bind(1, cellWas);
+    if (run.executeStep())
+      execute("UPDATE main.experiments SET setup = setup || ? WHERE id = ?",
+              omplSetup(run.getColumn(0).getString()).second, now);
+  }
+
+  template <class... Values>
+  void execute(const std::string& sql, const Values&... values) {
+    SQLite::Statement statement(base_, sql);
+    SQLite::bind(statement, values...);
+    statement.exec();
+  }
+
+  const CampaignMerge& merge_;
+  SQLite::Database base_;
+  std::set<std::int64_t> copied_;  ///< experiments that were copied from this source
+};
+
+/// Attributes faults to a source, except for faults of writing, which are the new file's.
+void withSourceInErrors(const fs::path& source, const std::function<void()>& step) {
+  try {
+    step();
+  } catch (const SQLite::Exception& error) {
+    const std::set<int> ofSource{SQLITE_NOTADB, SQLITE_BUSY, SQLITE_LOCKED, SQLITE_CANTOPEN,
+                                 SQLITE_CORRUPT};
+    if (!ofSource.count(error.getErrorCode())) throw;
+    withFileInErrors(source, [&] { throw error; });
+  }
+}
+
+}  // namespace
+
+CampaignMerge readCampaigns(const std::vector<fs::path>& sources) {
+  CampaignMerge merge;
+  std::uint64_t first = 0, end = 0;
+  for (const fs::path& source : sources) {
+    const fs::path file = databaseIn(source);
+    withFileInErrors(file, [&] {
+      SQLite::Database base(file.string(), SQLite::OPEN_READWRITE);
+      const int version = requireCampaignFile(base, file);
+      Campaign campaign = recordedIn(base, version, file);
+      if (merge.files.empty()) {
+        merge.campaign = campaign;
+        first = campaign.seed, end = campaign.seed + campaign.runs;
+      }
+      requireSameCells(base, file, merge.campaign,
+                       merge.files.empty() ? file : merge.files.front());
+      first = std::min(first, campaign.seed);
+      end = std::max(end, campaign.seed + campaign.runs);
+      for (const std::string& note : campaign.notes)
+        if (std::find(merge.campaign.notes.begin(), merge.campaign.notes.end(), note) ==
+            merge.campaign.notes.end())
+          merge.campaign.notes.push_back(note);
+    });
+    merge.files.push_back(file);
+  }
+  merge.campaign.seed = first;
+  merge.campaign.runs = end - first;
+  merge.campaign.shard = {};
+  return merge;
+}
+
+void mergeInto(const CampaignMerge& merge, const fs::path& file) {
+  const fs::path part = file.string() + ".part";
+  const auto remove = [&] {
+    std::error_code ignored;
+    for (const char* end : {"", "-journal", "-wal"}) fs::remove(part.string() + end, ignored);
+  };
+  remove();
+  try {
+    {
+      std::vector<CampaignCell> cells = cellsOf(merge.campaign);
+      CampaignDatabase(part, CampaignDatabase::Mode::fresh, merge.campaign, cells);
+    }
+    withFileInErrors(
+        file,
+        [&] {
+          Merger merger(merge, part);
+          for (const fs::path& source : merge.files)
+            withSourceInErrors(source, [&] { merger.add(source); });
+          merger.finish();
+        },
+        "nothing is merged");
+    std::error_code failure;
+    fs::rename(part, file, failure);
+    if (failure) refuseFile(file, "can't be written: " + failure.message());
+  } catch (...) {
+    remove();
+    throw;
+  }
+}
+
+}  // namespace corridor

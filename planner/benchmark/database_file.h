@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+namespace SQLite {
+class Database;
+}
+
+/// What the writer and the merger of campaign databases share: faults of SQLite files, for users.
+namespace corridor {
+
+/// "corr" marks our files (PRAGMA application_id). The version is that of our tables. Files of
+/// version 2 become version 3 when a session opens them (campaign_database.cpp); their runs stay as
+/// they are.
+constexpr int kCampaignApplication = 0x636f7272, kCampaignVersion = 3, kFirstCampaignVersion = 2;
+
+[[noreturn]] void refuseFile(const std::filesystem::path& file, const std::string& why);
+
+/// Does a step, and turns SQLite's exceptions into InputError, since users can mend the cause, such
+/// as a full disk or a file of another program. The same for damaged JSON that the file holds.
+/// @param kept what remains if the file can't be written.
+void withFileInErrors(const std::filesystem::path& file, const std::function<void()>& step,
+                      const std::string& kept = "finished runs are kept; continue with --resume");
+
+/// Tests that an open file is a whole campaign database. @returns its version. @throws InputError
+int requireCampaignFile(SQLite::Database& base, const std::filesystem::path& file);
+
+}  // namespace corridor

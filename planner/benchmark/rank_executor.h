@@ -1,0 +1,63 @@
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "planner/benchmark/executor.h"
+#include "planner/benchmark/ranks.h"
+
+namespace corridor {
+
+/// Does tasks on the other ranks of a job under `mpirun`. For rank 0; all others call `serveRanks`.
+///
+/// A task takes two messages: its number to a rank that has a place free, and its end to rank 0. No
+/// rank gets a task before it can begin it, so that none waits while another one is idle.
+///
+/// Waiting takes little processor time: rank 0 looks for messages, and pauses in between for 50 µs
+/// to 2 ms, the longer the less has arrived lately. The others look every 5 ms while a task runs.
+/// So 2 ms may pass after a task before the next one begins.
+class RankExecutor final : public Executor {
+ public:
+  /// @param jobs tasks at a time on each of the other ranks. @pre ranks.rank() is 0; at least two
+  /// ranks; `ranks` outlives this object.
+  RankExecutor(Ranks& ranks, std::size_t jobs);
+  /// Ends the other ranks: their calls of `serveRanks` return.
+  ~RankExecutor() override;
+
+  /// Lets the other ranks set up. @param setUp what their `SetUp` gets. @pre called once, before
+  /// the first task.
+  void begin(const std::string& setUp);
+
+  std::size_t places() const override { return places_; }
+  std::size_t underWay() const override { return underWay_; }
+  bool start(std::uint64_t task) override;
+  /// If a signal arrived at another rank, it is raised in this process, too.
+  /// @throws InputError if a rank reports that it can't do its part.
+  std::vector<TaskEnd> wait(int milliseconds) override;
+  std::vector<std::uint64_t> stop() override;
+  /// Number of messages sent and received so far.
+  std::uint64_t messages() const { return messages_; }
+
+ private:
+  void sendTo(int rank, std::string text);
+  void take(RankMessage message, std::vector<TaskEnd>& ends);
+
+  Ranks& ranks_;
+  std::size_t places_, underWay_ = 0;
+  std::deque<int> free_;  ///< a rank for each free place
+  std::uint64_t messages_ = 0;
+};
+
+/// Makes the executor of a rank, when rank 0 begins. @param setUp the text that it sent. If it
+/// throws, rank 0 reports the exception's text, and the job ends.
+using RankSetUp = std::function<std::unique_ptr<Executor>(const std::string& setUp)>;
+
+/// Does what rank 0 hands out, until rank 0 ends the job. Tasks that are under way are then killed.
+/// @param signal returns the signal that arrived at this process, or 0. Rank 0 gets it, and
+/// decides.
+void serveRanks(Ranks& ranks, const RankSetUp& setUp, const std::function<int()>& signal);
+
+}  // namespace corridor

@@ -1,0 +1,205 @@
+// Tests of `corridor benchmark` on several machines without MPI: --shard and --merge. Shares put
+// together have the rows of the whole campaign; databases that don't belong together are refused.
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/planner/app/campaign_fixture.h"
+
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class CampaignMerge : public corridor::test::CampaignTest {
+ protected:
+  std::string query(const std::string& file, const std::string& sql) const {
+    SQLite::Database base((folder_ / file).string());
+    return base.execAndGet(sql).getString();
+  }
+  /// Runs the shares 1/count … count/count into the folders s1, s2, …
+  void runShards(int count, const std::string& options = "") const {
+    for (int k = 1; k <= count; ++k) {
+      const std::string K = std::to_string(k);
+      const Result result = run("benchmark campaign.yaml " + options + " --shard " + K + "/" +
+                                std::to_string(count) + " -o s" + K);
+      ASSERT_EQ(result.status, 0) << result.err;
+    }
+  }
+  /// Replaces times in a page or log, which differ from run to run.
+  std::vector<std::string> filesIn(const std::string& folder) const {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_ / folder))
+      names.push_back(std::filesystem::relative(entry.path(), folder_ / folder).string());
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+};
+
+TEST_F(CampaignMerge, ThreeShardsHaveTheRowsOfTheWhole) {
+  ASSERT_EQ(run("benchmark campaign.yaml --runs 4 -o whole").status, 0);
+  runShards(3, "--runs 4");
+  std::size_t rows = 0;
+  for (const char* folder : {"s1", "s2", "s3"}) {
+    const std::size_t own = repeatable(folder).size() - 1;
+    EXPECT_TRUE(own == 6 || own == 9) << own;  // 8 groups of 3 variants
+    rows += own;
+  }
+  EXPECT_EQ(rows, 24u);
+  EXPECT_THAT(read("s2/report.html"), HasSubstr("these are share 2/3"));
+  std::filesystem::remove(folder_ / "hall.yaml");  // the databases know all that is needed
+  std::filesystem::remove(folder_ / "campaign.yaml");
+  const Result merged = run("benchmark --merge s3 s1/campaign.db s2 -o merged");
+  EXPECT_EQ(merged.status, 0) << merged.err;
+  EXPECT_EQ(merged.err, "");
+  EXPECT_EQ(repeatable("merged"), repeatable("whole"));
+  EXPECT_EQ(filesIn("merged"), filesIn("whole"));
+  EXPECT_THAT(read("merged/report.html"), testing::Not(HasSubstr("these are share")));
+  // OMPL's tables have the same runs, except for times.
+  for (const char* sql :
+       {"SELECT group_concat(x) FROM (SELECT e.name || p.name || r.seed || r.solved || r.certified "
+        "|| r.edges || r.path_states AS x FROM runs r JOIN experiments e ON e.id = r.experimentid "
+        "JOIN plannerConfigs p ON p.id = r.plannerid ORDER BY x)",
+        "SELECT group_concat(name || runcount || seed || edges || ifnull(resolution, '') || setup) "
+        "FROM (SELECT * FROM experiments ORDER BY name)",
+        "SELECT group_concat(name || settings) FROM (SELECT * FROM plannerConfigs ORDER BY 2, 3)",
+        "SELECT group_concat(problem || variant || planner || spec) FROM (SELECT * FROM "
+        "corridor_cells ORDER BY 2, 3, 4)",
+        "SELECT count(*) || ',' || count(DISTINCT runid) FROM corridor_runs",
+        "SELECT group_concat(key || value) FROM corridor_campaign",
+        "SELECT group_concat(name) FROM (SELECT name FROM pragma_table_info('runs') ORDER BY "
+        "name)"}) {
+    EXPECT_EQ(query("merged/campaign.db", sql), query("whole/campaign.db", sql)) << sql;
+    EXPECT_GT(query("merged/campaign.db", sql).size(), 4u) << sql;
+  }
+  EXPECT_EQ(query("merged/campaign.db",
+                  "SELECT count(DISTINCT sessionid) || ',' || (SELECT count(*) FROM "
+                  "corridor_runs c JOIN runs r ON r.id = c.runid WHERE r.seed <> c.seed) FROM "
+                  "corridor_runs JOIN corridor_sessions s ON s.id = sessionid"),
+            "3,0");
+}
+
+/// Two laboratories run one campaign with different seeds.
+TEST_F(CampaignMerge, OtherSeedsOfTheSameCampaign) {
+  ASSERT_EQ(run("benchmark campaign.yaml --runs 5 -o whole").status, 0);
+  ASSERT_EQ(run("benchmark campaign.yaml --runs 2 -o a").status, 0);
+  ASSERT_EQ(run("benchmark campaign.yaml --runs 3 --seed 3 -o b").status, 0);
+  ASSERT_EQ(run("benchmark --merge b a -o merged").status, 0);
+  EXPECT_EQ(repeatable("merged"), repeatable("whole"));
+  // What is merged can be continued, and merged again.
+  ASSERT_EQ(run("benchmark campaign.yaml --runs 6 -o merged --resume").status, 0);
+  ASSERT_EQ(run("benchmark campaign.yaml --runs 1 --seed 7 -o c").status, 0);
+  ASSERT_EQ(run("benchmark --merge c merged -o all").status, 0);
+  EXPECT_EQ(repeatable("all").size(), 1u + 7 * 6);
+}
+
+TEST_F(CampaignMerge, MissingSharesAreNotedAndCanBeMade) {
+  runShards(3, "--runs 3");
+  const Result part = run("benchmark --merge s1 s3 -o merged");
+  EXPECT_EQ(part.status, 0);
+  EXPECT_EQ(part.err, "corridor: warning: 6 runs of 18 are missing\n");
+  EXPECT_THAT(read("merged/report.html"), HasSubstr("6 runs of 18 are missing"));
+  ASSERT_EQ(run("benchmark campaign.yaml --runs 3 -o merged --resume").status, 0);
+  ASSERT_EQ(run("benchmark campaign.yaml --runs 3 -o whole").status, 0);
+  EXPECT_EQ(repeatable("merged"), repeatable("whole"));
+}
+
+TEST_F(CampaignMerge, TrajectoriesAndCompetitorsAreRecorded) {
+  const std::string options =
+      "benchmark hall.yaml --variants certified --trajectories stop,spline --runs 2 ";
+  ASSERT_EQ(run(options + "-o whole").status, 0);
+  ASSERT_EQ(run(options + "--shard 1/2 -o a").status, 0);
+  ASSERT_EQ(run(options + "--shard 2/2 -o b").status, 0);
+  const Result merged = run("benchmark --merge a b -o merged");
+  EXPECT_EQ(merged.status, 0) << merged.err;
+  EXPECT_THAT(merged.err, HasSubstr("limits: no acceleration is given for"));
+  EXPECT_EQ(repeatable("merged"), repeatable("whole"));
+  EXPECT_THAT(read("merged/summary.csv"), HasSubstr(",stop_made,stop_proved,stop_refuted,"));
+}
+
+TEST_F(CampaignMerge, AShardResumes) {
+  ASSERT_EQ(run("benchmark campaign.yaml --runs 2 --shard 2/3 -o s").status, 0);
+  expectFault("benchmark campaign.yaml --runs 4 --resume -o s",
+              "s/campaign.db: contains share 2/3 of the runs; continue with --shard 2/3, or name "
+              "another folder");
+  expectFault("benchmark campaign.yaml --runs 4 --resume --shard 1/3 -o s",
+              "s/campaign.db: contains share 2/3 of the runs; continue with --shard 2/3, or name "
+              "another folder");
+  const std::size_t before = repeatable("s").size();
+  const Result more = run("benchmark campaign.yaml --runs 4 --resume --shard 2/3 -o s");
+  EXPECT_EQ(more.status, 0) << more.err;
+  EXPECT_GT(repeatable("s").size(), before);
+  ASSERT_EQ(run("benchmark campaign.yaml --runs 1 -o whole").status, 0);
+  expectFault("benchmark campaign.yaml --runs 4 --resume --shard 2/3 -o whole",
+              "whole/campaign.db: contains runs of the whole campaign, not of share 2/3 only; "
+              "leave out --shard, or name another folder");
+  // One planner fewer: the groups are dealt to other shares.
+  write("campaign.yaml",
+        "format: corridor-campaign-1\nproblems: [hall.yaml]\nplanners: [RRTConnect]\ncheckers:\n  "
+        "certified: {edges: certified}\n  sampled: {edges: discrete, resolution: [0.2, 0.01]}\n");
+  expectFaultThatBegins("benchmark campaign.yaml --runs 4 --resume --shard 2/3 -o s",
+                        "s/campaign.db: contains ");
+}
+
+TEST_F(CampaignMerge, BadInputIsOneLine) {
+  expectFault("benchmark campaign.yaml --shard 1/3",
+              "--shard: needs -o with a folder for this share of the runs");
+  for (const char* shard : {"0/3", "4/3", "x", "1"})
+    expectFault("benchmark campaign.yaml -o s --shard " + std::string(shard),
+                "--shard: K/N is needed, such as 1/3, with K from 1 to N, not \"" +
+                    std::string(shard) + "\"; see corridor benchmark --help");
+  expectFault("benchmark campaign.yaml --runs 2 --shard 5/5 -o s",
+              "--shard: 5/5 would have no runs: there are only 4 combinations of problem, planner "
+              "and seed to deal out");
+  runShards(2, "--runs 1");
+  expectFault("benchmark --merge s1 s2", "--merge: needs -o with the folder of the results");
+  expectFault("benchmark --merge s1 s3 -o m", "s3: there is no such database");
+  expectFault("benchmark --merge s1 . -o m", "./campaign.db: there is no such database");
+  expectFault("benchmark --merge s1 hall.yaml -o m", "hall.yaml: is not a campaign database");
+  expectFault("benchmark --merge s1 s2 --runs 3 -o m",
+              "--runs excludes --merge; see corridor benchmark --help");
+  expectFault("benchmark --merge s1 s2 -o s1",
+              "s1/campaign.db: contains 3 runs already; continue with --resume, or name another "
+              "folder");
+  for (const char* same : {"s1 s2 s1", "s2 s1/campaign.db s1"})
+    expectFault("benchmark --merge " + std::string(same) + " -o m",
+                "s1/campaign.db: has runs that another of these databases has, too: seed 1 of "
+                "hall, certified, RRTConnect; name each share once");
+  ASSERT_EQ(run("benchmark campaign.yaml --runs 1 --seed 9 --time 77 -o other").status, 0);
+  expectFault("benchmark --merge s1 other -o m",
+              "other/campaign.db: is not of the same campaign as s1/campaign.db: hall, certified, "
+              "RRTConnect has time 77.0, there 20.0");
+  ASSERT_EQ(run("benchmark hall.yaml --variants certified --runs 1 -o other2").status, 0);
+  expectFault("benchmark --merge s1 other2 -o m",
+              "other2/campaign.db: is not of the same campaign as s1/campaign.db: it does not have "
+              "hall, sampled 0.2, RRTConnect");
+  expectFault("benchmark --merge other2 s1 -o m",
+              "s1/campaign.db: is not of the same campaign as other2/campaign.db: it has runs of "
+              "hall, sampled 0.01, RRTConnect, which are not in that one");
+  {
+    SQLite::Database base((folder_ / "s2/campaign.db").string(), SQLite::OPEN_READWRITE);
+    base.exec("UPDATE corridor_runs SET record = 'x'");
+  }
+  expectFaultThatBegins("benchmark --merge s1 s2 -o m", "s2/campaign.db: is damaged: ");
+  {
+    SQLite::Database base((folder_ / "s2/campaign.db").string(), SQLite::OPEN_READWRITE);
+    base.exec("DROP TABLE corridor_campaign");
+  }
+  expectFault("benchmark --merge s1 s2 -o m",
+              "s2/campaign.db: was written by an earlier version, without its campaign; call "
+              "`corridor benchmark` once with --resume for it");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "m"));  // nothing was written
+}
+
+TEST_F(CampaignMerge, AFullDiskLeavesNothing) {
+  runShards(2, "--runs 8");
+  const Result full = run("benchmark --merge s1 s2 -o m", "ulimit -f 300 && ");
+  EXPECT_EQ(full.status, 2);
+  EXPECT_THAT(full.err,
+              HasSubstr("m/campaign.db: can't be read or written: disk I/O error (no file "
+                        "may be larger than 153600 bytes: ulimit -f); nothing is merged"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "m"));
+}
+
+}  // namespace

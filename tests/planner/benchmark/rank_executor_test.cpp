@@ -1,0 +1,195 @@
+// Tests of how rank 0 hands out tasks to other ranks, without MPI: the ranks are threads, and their
+// messages go through queues. tests/planner/app/mpi_command_test.cpp tests the program under
+// mpirun.
+#include "planner/benchmark/rank_executor.h"
+
+#include <algorithm>
+#include <atomic>
+#include <csignal>
+#include <map>
+#include <mutex>
+#include <stdexcept>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "collision/core/error.h"
+
+namespace corridor {
+namespace {
+
+using testing::EndsWith;
+using testing::StartsWith;
+
+/// The queues of messages, one for each rank.
+struct Post {
+  explicit Post(int ranks) : boxes(static_cast<std::size_t>(ranks)) {}
+  std::mutex mutex;
+  std::vector<std::deque<RankMessage>> boxes;
+};
+
+class ThreadRanks final : public Ranks {
+ public:
+  ThreadRanks(Post& post, int rank) : post_(post), rank_(rank) {}
+  int rank() const override { return rank_; }
+  int size() const override { return static_cast<int>(post_.boxes.size()); }
+  void send(int to, std::string text) override {
+    const std::lock_guard lock(post_.mutex);
+    post_.boxes[static_cast<std::size_t>(to)].push_back({rank_, std::move(text)});
+  }
+  std::optional<RankMessage> receive() override {
+    const std::lock_guard lock(post_.mutex);
+    auto& box = post_.boxes[static_cast<std::size_t>(rank_)];
+    if (box.empty()) return std::nullopt;
+    const RankMessage message = box.front();
+    box.pop_front();
+    return message;
+  }
+
+ private:
+  Post& post_;
+  int rank_;
+};
+
+/// Tasks that end at once; a task from 1000 on never ends, and from 2000 on can't be killed.
+class FakeExecutor final : public Executor {
+ public:
+  explicit FakeExecutor(std::size_t places) : places_(places) {}
+  std::size_t places() const override { return places_; }
+  std::size_t underWay() const override { return tasks_.size(); }
+  bool start(std::uint64_t task) override {
+    if (task == 13) throw std::runtime_error("no room");
+    tasks_.push_back(task);
+    EXPECT_LE(tasks_.size(), places_);
+    return true;
+  }
+  std::vector<TaskEnd> wait(int milliseconds) override {
+    std::vector<TaskEnd> ends;
+    for (const std::uint64_t task : tasks_)
+      if (task < 1000)
+        ends.push_back({task, {{"", "result\nof " + std::to_string(task)}, task % 2 ? "odd" : ""}});
+      else if (task >= 2000 && stopped_)
+        ends.push_back({task, {{}, "late"}});
+    std::erase_if(tasks_,
+                  [&](std::uint64_t task) { return task < 1000 || (task >= 2000 && stopped_); });
+    if (ends.empty()) std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+    return ends;
+  }
+  std::vector<std::uint64_t> stop() override {
+    std::vector<std::uint64_t> killed;
+    std::copy_if(tasks_.begin(), tasks_.end(), std::back_inserter(killed),
+                 [](std::uint64_t task) { return task < 2000; });
+    std::erase_if(tasks_, [](std::uint64_t task) { return task < 2000; });
+    stopped_ = true;
+    return killed;
+  }
+
+ private:
+  std::size_t places_;
+  bool stopped_ = false;
+  std::vector<std::uint64_t> tasks_;
+};
+
+/// Ranks 1, 2, … in threads, which end with rank 0's executor.
+class RankTest : public testing::Test {
+ protected:
+  static constexpr int kRanks = 4;
+  RankTest() {
+    for (int rank = 1; rank < kRanks; ++rank)
+      threads_.emplace_back([this, rank] {
+        ThreadRanks ranks(post_, rank);
+        serveRanks(
+            ranks,
+            [](const std::string& text) {
+              if (text != "set up") throw std::runtime_error("other files");
+              return std::make_unique<FakeExecutor>(2);
+            },
+            [this, rank] { return rank == 2 ? signal_.load() : 0; });
+      });
+  }
+  ~RankTest() override {
+    executor_.reset();
+    for (std::thread& thread : threads_) thread.join();
+  }
+
+  Post post_{kRanks};
+  ThreadRanks zero_{post_, 0};
+  std::atomic<int> signal_ = 0;
+  std::optional<RankExecutor> executor_{std::in_place, zero_, 2};
+  std::vector<std::thread> threads_;
+};
+
+TEST_F(RankTest, DoesEachTaskOnceByTwoMessages) {
+  executor_->begin("set up");
+  EXPECT_EQ(executor_->places(), 6u);
+  std::map<std::uint64_t, TaskEnd> ends;
+  const std::uint64_t before = executor_->messages();
+  for (std::uint64_t next = 100; next < 600 || executor_->underWay() > 0;) {
+    while (next < 600 && executor_->underWay() < executor_->places()) executor_->start(next++);
+    for (TaskEnd& one : executor_->wait(200))
+      EXPECT_TRUE(ends.emplace(one.task, std::move(one)).second);
+  }
+  EXPECT_EQ(ends.size(), 500u);
+  EXPECT_EQ(executor_->messages() - before, 2u * 500);
+  for (const auto& [task, one] : ends) {
+    ASSERT_EQ(one.end.messages.size(), 2u);
+    EXPECT_EQ(one.end.messages[1], "result\nof " + std::to_string(task));
+    EXPECT_EQ(one.end.failure, task % 2 ? "odd" : "");
+  }
+}
+
+TEST_F(RankTest, StopKillsWhatMayBeKilled) {
+  executor_->begin("set up");
+  for (const std::uint64_t task : {1000, 1001, 1002, 1003, 2000}) executor_->start(task);
+  EXPECT_TRUE(executor_->wait(50).empty());
+  executor_->stop();
+  std::vector<TaskEnd> ends;
+  for (int i = 0; i < 200 && executor_->underWay() > 0; ++i)
+    for (const TaskEnd& one : executor_->wait(200)) ends.push_back(one);
+  EXPECT_EQ(executor_->underWay(), 0u);
+  ASSERT_EQ(ends.size(), 1u);
+  EXPECT_EQ(ends[0].task, 2000u);
+  EXPECT_EQ(ends[0].end.failure, "late");
+  EXPECT_TRUE(ends[0].end.messages.empty());
+}
+
+volatile std::sig_atomic_t received = 0;
+
+TEST_F(RankTest, ASignalAtARankArrivesAtRank0) {
+  executor_->begin("set up");
+  const auto old = std::signal(SIGUSR2, [](int number) { received = number; });
+  signal_ = SIGUSR2;
+  for (int i = 0; i < 200 && received == 0; ++i) executor_->wait(50);
+  std::signal(SIGUSR2, old);
+  EXPECT_EQ(received, SIGUSR2);
+}
+
+TEST_F(RankTest, FaultsOfRanksEndTheJob) {
+  const auto complaint = [&] {
+    try {
+      for (int i = 0; i < 200; ++i) executor_->wait(50);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  executor_->begin("set up");
+  executor_->start(13);
+  const std::string fault = complaint();
+  EXPECT_THAT(fault, StartsWith("rank 1: "));
+  EXPECT_THAT(fault, EndsWith(": no room"));
+}
+
+TEST_F(RankTest, FaultsOfTheSetUpEndTheJob) {
+  executor_->begin("something else");
+  EXPECT_THROW(for (int i = 0; i < 200; ++i) executor_->wait(50), InputError);
+}
+
+/// Nothing was begun: the others just end.
+TEST_F(RankTest, EndsWithoutWork) {
+  EXPECT_EQ(executor_->underWay(), 0u);
+}
+
+}  // namespace
+}  // namespace corridor
