@@ -173,7 +173,7 @@ std::vector<std::uint64_t> RankExecutor::stop() {
 void serveRanks(Ranks& ranks, const RankSetUp& setUp, const std::function<int()>& signal) {
   std::unique_ptr<Executor> executor;
   std::deque<std::uint64_t> waiting;  // tasks for which the system has no process yet
-  bool faulty = false, told = false;
+  bool faulty = false, reported = false;
   Pause pause;
   const auto fail = [&](const std::string& why) {
     if (!faulty) ranks.send(0, kFault + hostOfRank() + ": " + why);
@@ -205,9 +205,9 @@ void serveRanks(Ranks& ranks, const RankSetUp& setUp, const std::function<int()>
         for (const std::uint64_t task : killed) ranks.send(0, kKilled + std::to_string(task));
       }
     }
-    if (const int number = signal(); number != 0 && !told) {
+    if (const int number = signal(); number != 0 && !reported) {
       ranks.send(0, kSignal + std::to_string(number));
-      told = true;
+      reported = true;
     }
     guarded([&] {
       while (!waiting.empty() && executor->start(waiting.front())) waiting.pop_front();

@@ -80,7 +80,10 @@ class MpiCommand : public corridor::test::CampaignTest {
   /// Returns the number of runs in a database; 0 while there is none.
   int runsIn(const std::string& folder) const {
     try {
-      SQLite::Database base((folder_ / folder / "campaign.db").string(), SQLite::OPEN_READWRITE);
+      // A killed rank may still hold the file: under load, it ends seconds after mpirun.
+      constexpr int kBusyMs = 30'000;
+      SQLite::Database base((folder_ / folder / "campaign.db").string(), SQLite::OPEN_READWRITE,
+                            kBusyMs);
       EXPECT_EQ(base.execAndGet("PRAGMA integrity_check").getString(), "ok");
       if (base.execAndGet("SELECT count(*) FROM sqlite_master").getInt() == 0) return 0;
       return base.execAndGet("SELECT count(*) FROM corridor_runs").getInt();
@@ -88,22 +91,24 @@ class MpiCommand : public corridor::test::CampaignTest {
       return 0;
     }
   }
-  /// Waits until the database has grown several times, at most a minute: runs are being stored.
+  /// Waits until the database or its log was written several times, at most a minute: runs are
+  /// being stored. Sizes don't show it, because SQLite writes the log again from its beginning.
   void awaitRuns(const std::string& folder) const {
     const fs::path file = folder_ / folder / "campaign.db";
     std::error_code none;
-    const auto bytes = [&] {  // of the database and its log
-      std::uintmax_t sum = 0;
+    const auto written = [&] {
+      fs::file_time_type last = fs::file_time_type::min();
       for (const char* end : {"", "-wal"})
-        if (const auto size = fs::file_size(file.string() + end, none); !none) sum += size;
-      return sum;
+        if (const auto time = fs::last_write_time(file.string() + end, none); !none)
+          last = std::max(last, time);
+      return last;
     };
-    std::uintmax_t before = bytes();
-    for (int i = 0, grown = 0; i < 6000 && grown < 4; ++i) {
+    fs::file_time_type before = written();
+    for (int i = 0, times = 0; i < 6000 && times < 4; ++i) {
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
-      const std::uintmax_t size = bytes();
-      grown += size > before;
-      before = size;
+      const fs::file_time_type now = written();
+      times += now > before;
+      before = now;
     }
   }
   static std::size_t count(const std::string& text, const std::string& what) {
