@@ -34,7 +34,10 @@ class MpiRanks final : public corridor::Ranks {
   }
   std::optional<corridor::RankMessage> receive() override {
     clear();
-    const auto status = world_.iprobe(mpi::any_source, kTag);
+    auto status = world_.iprobe(mpi::any_source, kTag);
+    // Open MPI looks for what has arrived after it has looked into its queue: the second call finds
+    // it. Otherwise each message would wait for one more pause of the caller.
+    if (!status) status = world_.iprobe(mpi::any_source, kTag);
     if (!status) return std::nullopt;
     corridor::RankMessage message{status->source(), std::string(bytesOf(*status), '\0')};
     world_.recv(message.from, kTag, message.text.data(), static_cast<int>(message.text.size()));

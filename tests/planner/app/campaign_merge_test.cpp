@@ -105,7 +105,7 @@ TEST_F(CampaignMerge, MissingSharesAreNotedAndCanBeMade) {
   EXPECT_EQ(repeatable("merged"), repeatable("whole"));
 }
 
-TEST_F(CampaignMerge, TrajectoriesAndCompetitorsAreRecorded) {
+TEST_F(CampaignMerge, TrajectoriesAreRecorded) {
   const std::string options =
       "benchmark hall.yaml --variants certified --trajectories stop,spline --runs 2 ";
   ASSERT_EQ(run(options + "-o whole").status, 0);
