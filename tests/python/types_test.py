@@ -1,4 +1,4 @@
-"""Tests of the stub of the compiled module, of docstrings, and of types (by mypy, if it is installed)."""
+"""Tests of `_native.pyi` against the compiled module, of docstrings, and of types (by mypy, if it is installed)."""
 
 import ast
 import importlib
@@ -33,7 +33,7 @@ def signature(function):
     return [word for word in words if word]
 
 
-class Stub(unittest.TestCase):
+class NativeTypes(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         tree = ast.parse((PACKAGE / "_native.pyi").read_text(encoding="utf-8"))

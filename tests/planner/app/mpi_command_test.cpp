@@ -19,7 +19,7 @@ using testing::HasSubstr;
 using testing::Not;
 namespace fs = std::filesystem;
 
-/// Open MPI runs as root only if it is told so.
+/// Open MPI runs as root only with these variables.
 const char* const kAllowRoot =
     "export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 && ";
 
