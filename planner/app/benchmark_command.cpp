@@ -24,8 +24,10 @@
 #include "planner/app/output.h"
 #include "planner/app/rank_job.h"
 #include "planner/benchmark/campaign_database.h"
+#include "planner/benchmark/campaign_spec.h"
 #include "planner/benchmark/campaign_yaml.h"
 #include "planner/benchmark/competitors.h"
+#include "planner/benchmark/database_file.h"
 #include "planner/benchmark/run_campaign.h"
 #include "planner/benchmark/run_record.h"
 #include "planner/benchmark/write_reports.h"
@@ -196,7 +198,21 @@ int benchmarkCommand(const BenchmarkArguments& a) {
     };
   const bool show = ::isatty(STDERR_FILENO) != 0;
   if (show) options.progress = [&](const CampaignProgress& p) { showProgress(campaign, p); };
-  const CampaignResult result = runCampaign(campaign, options, std::move(cells));
+  // Leaves no empty database and no new folder behind.
+  const auto removeEmpty = [&] {
+    std::error_code ignored;
+    if (a.resume || !database || !database->sessions().empty()) return;
+    database.reset();
+    removeDatabase(file);
+    if (made) std::filesystem::remove(*a.output, ignored);
+  };
+  CampaignResult result;
+  try {
+    result = runCampaign(campaign, options, std::move(cells));
+  } catch (const InputError&) {  // such as the fault of a rank
+    removeEmpty();
+    throw;
+  }
   if (show) std::fputs("\r\033[K", stderr);
   std::exception_ptr fault;
   try {
@@ -204,12 +220,7 @@ int benchmarkCommand(const BenchmarkArguments& a) {
   } catch (const InputError&) {
     fault = std::current_exception();
   }
-  if (!anyRun(result.cells) && !a.resume) {
-    std::error_code ignored;
-    database.reset();
-    if (a.output) std::filesystem::remove(file, ignored);
-    if (made) std::filesystem::remove(*a.output, ignored);
-  }
+  if (!anyRun(result.cells)) removeEmpty();
   if (fault) std::rethrow_exception(fault);
   return result.interrupted ? interruptedStatus() : kDone;
 }

@@ -10,6 +10,7 @@
 #include "planner/app/rank_job.h"
 #include "planner/benchmark/campaign_database.h"
 #include "planner/benchmark/campaign_merge.h"
+#include "planner/benchmark/database_file.h"
 #include "planner/benchmark/write_reports.h"
 
 namespace corridor::app {
@@ -28,7 +29,7 @@ int mergeCampaigns(const BenchmarkArguments& a) {
   const bool made = makeReportFolder(folder, campaign),
              had = std::filesystem::exists(file, ignored);
   const auto removeAll = [&] {
-    if (!had) std::filesystem::remove(file, ignored);
+    if (!had) removeDatabase(file);
     if (made) std::filesystem::remove(folder, ignored);
   };
   CampaignResult result;
@@ -42,13 +43,14 @@ int mergeCampaigns(const BenchmarkArguments& a) {
     mergeInto(merge, file);
     result.cells = cellsOf(campaign);
     database.emplace(file, CampaignDatabase::Mode::resume, campaign, result.cells);
-  } catch (const InputError&) {
+  } catch (...) {
+    database.reset();
     removeAll();
     throw;
   }
   if (interrupted) {
     database.reset();
-    std::filesystem::remove(file, ignored);
+    removeDatabase(file);
     removeAll();
     return interruptedStatus();
   }

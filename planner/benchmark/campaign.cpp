@@ -181,9 +181,9 @@ void checkCampaign(const Campaign& campaign) {
   const std::uint64_t groups = campaign.variants.empty() ? 0 : cells / campaign.variants.size();
   if (campaign.shard && faults.empty() && campaign.shard->count > groups * campaign.runs)
     faults.push_back({placeOf(campaign, "shard"), 0,
-                      text(*campaign.shard) + " would have no runs: there are only " +
+                      std::to_string(campaign.shard->count) + " shares are too many for " +
                           std::to_string(groups * campaign.runs) +
-                          " combinations of problem, planner and seed to deal out"});
+                          " combinations of problem, planner and seed: some would have no runs"});
   if (faults.empty()) faults = faultsInChild(campaign);
   if (!faults.empty()) throw InputError(std::move(faults));
 }

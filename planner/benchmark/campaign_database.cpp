@@ -11,6 +11,7 @@
 #include "collision/core/error.h"
 #include "planner/benchmark/build_commit.h"
 #include "planner/benchmark/campaign_record.h"
+#include "planner/benchmark/campaign_spec.h"
 #include "planner/benchmark/database_file.h"
 #include "planner/benchmark/database_statements.h"
 #include "planner/benchmark/ompl_log.h"
@@ -236,8 +237,8 @@ class CampaignDatabase::Tables {
       readRuns(id, index, cells, trimmer);
       if (was == spec) continue;
       if (!cell.runs.empty())
-        refuse(cellName(cell) + " was measured with other settings: " + difference(was, spec) +
-               "; name another folder");
+        refuse(cellName(campaign_, cell) + " was measured with other settings: " +
+               changeOf(was, spec) + "; name another folder");
       known.reset();
       execute("UPDATE corridor_cells SET spec = ? WHERE id = ?", spec, id);
     }
@@ -256,13 +257,12 @@ class CampaignDatabase::Tables {
     SQLite::Statement runs(
         *base_, "SELECT record, setupid FROM corridor_runs WHERE cellid = ? ORDER BY seed");
     runs.bind(1, id);
-    cell.runs.reserve(campaign_.runs);
     while (runs.executeStep()) {
       BenchmarkRun run = readRun(runs.getColumn(0).getString());
       if (!hasRun(campaign_, index, cells.size(), run.seed))
-        refuse("contains a run of seed " + std::to_string(run.seed) + " of " + cellName(cell) +
-               ", which the campaign" + (campaign_.shard ? "'s share" : "") +
-               " doesn't have; name another folder");
+        refuse("contains a run of seed " + std::to_string(run.seed) + " of " +
+               cellName(campaign_, cell) + ", which the campaign" +
+               (campaign_.shard ? "'s share" : "") + " doesn't have; name another folder");
       if (!runs.getColumn(1).isNull()) run.ompl = setup(runs.getColumn(1));
       trimmer.trim(run);
       cell.runs.push_back(std::move(run));
@@ -280,20 +280,9 @@ class CampaignDatabase::Tables {
     }
     return known;
   }
-  std::string cellName(const CampaignCell& cell) const {
-    return campaign_.problemNames[cell.problem] + ", " + campaign_.variants[cell.variant].name +
-           ", " + cell.planner.label;
-  }
-  /// Describes the first key whose values differ.
-  static std::string difference(const std::string& was, const std::string& is) {
-    const auto a = nlohmann::json::parse(was), b = nlohmann::json::parse(is);
-    for (const auto& [key, value] : b.items())
-      if (!a.contains(key) || a[key] != value)
-        return key + " was " + (a.contains(key) ? a[key].dump() : "not set") + " and is now " +
-               value.dump();
-    for (const auto& [key, value] : a.items())
-      if (!b.contains(key)) return key + " was " + value.dump() + " and is now not set";
-    return was;
+  static std::string changeOf(const std::string& spec, const std::string& now) {
+    const auto [key, was, is] = specDifference(spec, now);
+    return key + " was " + was + " and is now " + is;
   }
 
   void beginSession(std::size_t jobs) {

@@ -63,8 +63,4 @@ class CampaignDatabase {
   std::unique_ptr<Tables> tables_;
 };
 
-/// Returns, as JSON, the settings of a cell that must be the same in all sessions: the problem's
-/// digest, checker, planner with its parameters, limits, `simplify` and `verify`.
-std::string specOf(const Campaign& campaign, const CampaignCell& cell);
-
 }  // namespace corridor

@@ -12,6 +12,7 @@
 #include "collision/core/error.h"
 #include "planner/benchmark/campaign_database.h"
 #include "planner/benchmark/campaign_record.h"
+#include "planner/benchmark/campaign_spec.h"
 #include "planner/benchmark/csv_text.h"
 #include "planner/benchmark/database_file.h"
 #include "planner/benchmark/ompl_log.h"
@@ -26,24 +27,6 @@ fs::path databaseIn(const fs::path& source) {
   const fs::path file = fs::is_directory(source, none) ? source / "campaign.db" : source;
   if (!fs::exists(file, none)) refuseFile(file, "there is no such database");
   return file;
-}
-
-std::string nameOfCell(const std::string& problem, const std::string& variant,
-                       const std::string& planner) {
-  return problem + ", " + variant + ", " + planner;
-}
-
-/// Returns the first setting that differs between two specs: "time 3.0, there 2.0".
-std::string differingSetting(const std::string& here, const std::string& there) {
-  const auto a = nlohmann::json::parse(here), b = nlohmann::json::parse(there);
-  const auto value = [](const nlohmann::json& of, const std::string& key) {
-    return of.contains(key) ? of[key].dump() : "not set";
-  };
-  for (const auto* all : {&a, &b})
-    for (const auto& [key, unused] : all->items())
-      if (value(a, key) != value(b, key))
-        return key + " " + value(a, key) + ", there " + value(b, key);
-  return "other settings";
 }
 
 Campaign recordedIn(SQLite::Database& base, int version, const fs::path& file) {
@@ -68,7 +51,7 @@ void requireSameCells(SQLite::Database& base, const fs::path& file, const Campai
   for (const CampaignCell& cell : cellsOf(campaign)) {
     const std::string &problem = campaign.problemNames[cell.problem],
                       &variant = campaign.variants[cell.variant].name;
-    const std::string name = nameOfCell(problem, variant, cell.planner.label);
+    const std::string name = cellName(campaign, cell);
     SQLite::Statement known(base,
                             "SELECT id, spec FROM corridor_cells WHERE problem = ? AND variant = ? "
                             "AND planner = ?");
@@ -76,18 +59,18 @@ void requireSameCells(SQLite::Database& base, const fs::path& file, const Campai
     if (!known.executeStep()) refuseFile(file, refusal + "it does not have " + name);
     ids.insert(known.getColumn(0).getInt64());
     const std::string here = known.getColumn(1).getString(), there = specOf(campaign, cell);
-    if (here != there) refuseFile(file, refusal + name + " has " + differingSetting(here, there));
+    if (here == there) continue;
+    const auto [key, has, had] = specDifference(here, there);
+    refuseFile(file, refusal + name + " has " + key + " " + has + ", there " + had);
   }
-  SQLite::Statement others(base,
-                           "SELECT id, problem, variant, planner FROM corridor_cells c WHERE "
-                           "EXISTS (SELECT 1 FROM corridor_runs WHERE cellid = c.id)");
+  SQLite::Statement others(
+      base,
+      "SELECT id, problem || ', ' || variant || ', ' || planner FROM "
+      "corridor_cells c WHERE EXISTS (SELECT 1 FROM corridor_runs WHERE cellid = c.id)");
   while (others.executeStep())
     if (!ids.count(others.getColumn(0).getInt64()))
-      refuseFile(file,
-                 refusal + "it has runs of " +
-                     nameOfCell(others.getColumn(1).getString(), others.getColumn(2).getString(),
-                                others.getColumn(3).getString()) +
-                     ", which are not in that one");
+      refuseFile(file, refusal + "it has runs of " + others.getColumn(1).getString() +
+                           ", which are not in that one");
 }
 
 /// The new database while the files are copied into it, one after the other, each attached as
@@ -180,16 +163,14 @@ class Merger {
   void refuseRepeatedRuns(const fs::path& file) {
     SQLite::Statement twice(
         base_,
-        "SELECT c.problem, c.variant, c.planner, m.seed FROM source.corridor_runs s JOIN cellOf ON "
+        "SELECT m.seed, c.problem || ', ' || c.variant || ', ' || c.planner FROM "
+        "source.corridor_runs s JOIN cellOf ON "
         "was = s.cellid JOIN main.corridor_runs m ON m.cellid = now AND m.seed = s.seed JOIN "
         "main.corridor_cells c ON c.id = now LIMIT 1");
     if (twice.executeStep())
-      refuseFile(file,
-                 "has runs that another of these databases has, too: seed " +
-                     twice.getColumn(3).getString() + " of " +
-                     nameOfCell(twice.getColumn(0).getString(), twice.getColumn(1).getString(),
-                                twice.getColumn(2).getString()) +
-                     "; name each share once");
+      refuseFile(file, "has runs that another of these databases has, too: seed " +
+                           twice.getColumn(0).getString() + " of " +
+                           twice.getColumn(1).getString() + "; name each share once");
   }
 
   std::vector<std::pair<std::string, std::string>> columnsOf(const std::string& schema,
@@ -320,6 +301,27 @@ class Merger {
   std::set<std::int64_t> copied_;  ///< experiments that were copied from this source
 };
 
+/// The seeds of a campaign: from `first` to `end` − 1.
+struct SeedRange {
+  std::uint64_t first, end;
+};
+
+/// Returns the range of all seeds. @throws InputError if there are seeds between the first and the
+/// last one that no file has: a campaign has seeds without a gap.
+SeedRange joinedSeeds(std::vector<SeedRange> ranges, const fs::path& file) {
+  std::sort(ranges.begin(), ranges.end(),
+            [](const SeedRange& a, const SeedRange& b) { return a.first < b.first; });
+  SeedRange all = ranges.front();
+  for (const SeedRange& range : ranges) {
+    if (range.first > all.end)
+      refuseFile(file, "can't be merged with the others: none of them is for the seeds from " +
+                           std::to_string(all.end) + " to " + std::to_string(range.first - 1) +
+                           ", and a campaign has seeds without a gap");
+    all.end = std::max(all.end, range.end);
+  }
+  return all;
+}
+
 /// Attributes faults to a source, except for faults of writing, which are the new file's.
 void withSourceInErrors(const fs::path& source, const std::function<void()>& step) {
   try {
@@ -336,21 +338,17 @@ void withSourceInErrors(const fs::path& source, const std::function<void()>& ste
 
 CampaignMerge readCampaigns(const std::vector<fs::path>& sources) {
   CampaignMerge merge;
-  std::uint64_t first = 0, end = 0;
+  std::vector<SeedRange> seeds;
   for (const fs::path& source : sources) {
     const fs::path file = databaseIn(source);
     withFileInErrors(file, [&] {
       SQLite::Database base(file.string(), SQLite::OPEN_READWRITE);
       const int version = requireCampaignFile(base, file);
       Campaign campaign = recordedIn(base, version, file);
-      if (merge.files.empty()) {
-        merge.campaign = campaign;
-        first = campaign.seed, end = campaign.seed + campaign.runs;
-      }
+      if (merge.files.empty()) merge.campaign = campaign;
       requireSameCells(base, file, merge.campaign,
                        merge.files.empty() ? file : merge.files.front());
-      first = std::min(first, campaign.seed);
-      end = std::max(end, campaign.seed + campaign.runs);
+      seeds.push_back({campaign.seed, campaign.seed + campaign.runs});
       for (const std::string& note : campaign.notes)
         if (std::find(merge.campaign.notes.begin(), merge.campaign.notes.end(), note) ==
             merge.campaign.notes.end())
@@ -358,19 +356,16 @@ CampaignMerge readCampaigns(const std::vector<fs::path>& sources) {
     });
     merge.files.push_back(file);
   }
-  merge.campaign.seed = first;
-  merge.campaign.runs = end - first;
+  const SeedRange all = joinedSeeds(std::move(seeds), merge.files.front());
+  merge.campaign.seed = all.first;
+  merge.campaign.runs = all.end - all.first;
   merge.campaign.shard = {};
   return merge;
 }
 
 void mergeInto(const CampaignMerge& merge, const fs::path& file) {
   const fs::path part = file.string() + ".part";
-  const auto remove = [&] {
-    std::error_code ignored;
-    for (const char* end : {"", "-journal", "-wal"}) fs::remove(part.string() + end, ignored);
-  };
-  remove();
+  removeDatabase(part);
   try {
     {
       std::vector<CampaignCell> cells = cellsOf(merge.campaign);
@@ -385,11 +380,9 @@ void mergeInto(const CampaignMerge& merge, const fs::path& file) {
           merger.finish();
         },
         "nothing is merged");
-    std::error_code failure;
-    fs::rename(part, file, failure);
-    if (failure) refuseFile(file, "can't be written: " + failure.message());
+    renameDatabase(part, file);
   } catch (...) {
-    remove();
+    removeDatabase(part);
     throw;
   }
 }

@@ -1,7 +1,8 @@
+#include "planner/benchmark/campaign_spec.h"
+
 #include <nlohmann/json.hpp>
 
 #include "collision/core/shortest.h"
-#include "planner/benchmark/campaign_database.h"
 
 namespace corridor {
 namespace {
@@ -47,6 +48,22 @@ std::string specOf(const Campaign& campaign, const CampaignCell& cell) {
           {{"name", limits.name}, {"values", limitsText(limits.ofProblem[cell.problem])}});
   }
   return spec.dump();
+}
+
+SpecDifference specDifference(const std::string& a, const std::string& b) {
+  const auto of = nlohmann::json::parse(a), other = nlohmann::json::parse(b);
+  const auto value = [](const nlohmann::json& spec, const std::string& key) {
+    return spec.contains(key) ? spec[key].dump() : "not set";
+  };
+  for (const auto* all : {&other, &of})
+    for (const auto& [key, unused] : all->items())
+      if (value(of, key) != value(other, key)) return {key, value(of, key), value(other, key)};
+  return {"order of settings", a, b};
+}
+
+std::string cellName(const Campaign& campaign, const CampaignCell& cell) {
+  return campaign.problemNames[cell.problem] + ", " + campaign.variants[cell.variant].name + ", " +
+         cell.planner.label;
 }
 
 }  // namespace corridor

@@ -18,6 +18,7 @@
 #include <utility>
 
 #include "collision/core/memory_limit.h"
+#include "planner/solve/user_signals.h"
 
 namespace corridor {
 namespace {
@@ -45,7 +46,7 @@ void writeAll(int pipe, const std::string& text) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(1);  // the parent ended before the line above took effect
   // A signal from the terminal reaches the whole group; the parent alone decides what it means.
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::signal(signal, SIG_IGN);
+  for (const int signal : kUserSignals) ::signal(signal, SIG_IGN);
   if (bytes > 0) limitMemory(bytes);
   std::string failure;
   try {

@@ -55,6 +55,19 @@ void withFileInErrors(const std::filesystem::path& file, const std::function<voi
   }
 }
 
+void removeDatabase(const std::filesystem::path& file) {
+  std::error_code ignored;
+  for (const char* end : {"", "-journal", "-wal"})
+    std::filesystem::remove(file.string() + end, ignored);
+}
+
+void renameDatabase(const std::filesystem::path& from, const std::filesystem::path& to) {
+  removeDatabase(to);
+  std::error_code failure;
+  std::filesystem::rename(from, to, failure);
+  if (failure) refuseFile(to, "can't be written: " + failure.message());
+}
+
 int requireCampaignFile(SQLite::Database& base, const std::filesystem::path& file) {
   if (base.execAndGet("PRAGMA application_id").getInt() != kCampaignApplication)
     refuseFile(file, "is a database, but not of a campaign");

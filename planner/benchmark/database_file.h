@@ -24,6 +24,12 @@ constexpr int kCampaignApplication = 0x636f7272, kCampaignVersion = 3, kFirstCam
 void withFileInErrors(const std::filesystem::path& file, const std::function<void()>& step,
                       const std::string& kept = "finished runs are kept; continue with --resume");
 
+/// Removes a database with the files that SQLite keeps beside it, if they are there.
+void removeDatabase(const std::filesystem::path& file);
+/// Gives a closed database another name. A log that is left from an earlier file of that name is
+/// removed before, because SQLite would apply it to the new one. @throws InputError
+void renameDatabase(const std::filesystem::path& from, const std::filesystem::path& to);
+
 /// Tests that an open file is a whole campaign database. @returns its version. @throws InputError
 int requireCampaignFile(SQLite::Database& base, const std::filesystem::path& file);
 

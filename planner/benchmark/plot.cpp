@@ -173,8 +173,8 @@ std::string runGnuplot(const std::string& script) {
   std::string word = file;  // quoted for the shell: TMPDIR may contain any characters
   replaceAll(word, "'", "'\\''");
   // -d ignores the user's own settings (~/.gnuplot). The trap ignores signals to the whole process
-  // group: only the parent decides what they mean.
-  const std::string command = "trap '' INT TERM HUP; exec gnuplot -d '" + word + "' 2>&1";
+  // group (user_signals.h): only the parent decides what they mean.
+  const std::string command = "trap '' INT TERM HUP USR1; exec gnuplot -d '" + word + "' 2>&1";
   if (FILE* const pipe = ::popen(command.c_str(), "r")) {
     std::array<char, 65536> part;
     while (const std::size_t n = std::fread(part.data(), 1, part.size(), pipe))

@@ -140,6 +140,8 @@ std::vector<TaskEnd> RankExecutor::wait(int milliseconds) {
   for (;;) {
     bool any = false;
     while (auto message = ranks_.receive()) take(std::move(*message), ends), any = true;
+    // Tasks that ended before a fault was reported are returned first.
+    if (fault_ && ends.empty()) throw InputError(*fault_);
     if (any || RankClock::now() >= until) return ends;
     pause();
   }
@@ -159,7 +161,9 @@ void RankExecutor::take(RankMessage message, std::vector<TaskEnd>& ends) {
       std::raise(static_cast<int>(rankNumberIn(message.text)));
       return;
     case kFault:
-      throw InputError(Fault{"rank " + std::to_string(message.from), 0, message.text.substr(1)});
+      if (!fault_)
+        fault_ = Fault{"rank " + std::to_string(message.from), 0, message.text.substr(1)};
+      return;
     default:
       notUnderstood(message.text);
   }

@@ -3,9 +3,11 @@
 #include <deque>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "collision/core/error.h"
 #include "planner/benchmark/executor.h"
 #include "planner/benchmark/ranks.h"
 
@@ -13,8 +15,8 @@ namespace corridor {
 
 /// Does tasks on the other ranks of a job under `mpirun`. For rank 0; all others call `serveRanks`.
 ///
-/// A task takes two messages: its number to a rank that has a place free, and its end to rank 0. No
-/// rank gets a task before it can begin it, so that none waits while another one is idle.
+/// A task takes two messages: its number to a rank that has a place free, and its end to rank 0. A
+/// rank gets a task only when it can begin it. So no task waits at one rank while another is idle.
 ///
 /// Waiting takes little processor time: rank 0 looks for messages, and pauses in between for 50 µs
 /// to 2 ms, the longer the less has arrived lately. The others look every 5 ms while a task runs.
@@ -49,6 +51,7 @@ class RankExecutor final : public Executor {
   std::size_t places_, underWay_ = 0;
   std::deque<int> free_;  ///< a rank for each free place
   std::uint64_t messages_ = 0;
+  std::optional<Fault> fault_;  ///< the first that a rank reported
 };
 
 /// Makes the executor of a rank, when rank 0 begins. @param setUp the text that it sent. If it

@@ -31,10 +31,11 @@ void forCells(const std::vector<CampaignCell>& cells, std::size_t problem, std::
 }
 
 /// The largest number of steps of a curve. With n > kMostSteps values it has kMostSteps of the n
-/// steps, the first and the last among them, and at these values it is exact. Between two of them
-/// fewer than (n − 1)/(kMostSteps − 1) steps are missing, so the curve is too low by less than
-/// 1/499. gnuplot draws a share of 1 at a height of 195 units (`heightOf` in report.cpp), and the
-/// page scales plots by at most 1.32 (a single plot has 738 pixels for 560 units): 0.52 pixels.
+/// steps, the first and the last among them. Between two of them, fewer than
+/// (n − 1)/(kMostSteps − 1) steps are missing, so the curve is nowhere too high, and too low by
+/// less than 1/499. gnuplot draws a share of 1 at a height of 195 units (`heightOf` in report.cpp),
+/// and the page scales plots by at most 1.32 (a single plot has 738 pixels for 560 units): 0.52
+/// pixels.
 constexpr std::size_t kMostSteps = 500;
 
 /// Returns a step function that rises by 1/of at each value, over [first, last].
@@ -338,7 +339,7 @@ Plot predictedCost(const Campaign& campaign, const std::vector<CampaignCell>& ce
   const std::size_t runs = both.size() / 2;
   CostGrid grid{campaign, *plot.rangeX, runs <= kMostPoints ? 0 : kFinestGrid, {}};
   grid.fill(cells, scores);
-  while (grid.points() > kMostPoints) {
+  while (grid.points() > kMostPoints && grid.cells > 1) {
     grid.cells /= 2;
     grid.fill(cells, scores);
   }

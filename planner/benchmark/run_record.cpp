@@ -89,12 +89,23 @@ BenchmarkRun readRecord(const std::string& figures, const std::string& ompl,
   return run;
 }
 
+namespace {
+
+/// Makes a text empty, and frees its memory. An assignment would keep it.
+void release(std::string& text) {
+  std::string().swap(text);
+}
+
+}  // namespace
+
 void RunTrimmer::trim(BenchmarkRun& run) {
-  run.why = run.finding = {};
+  for (std::string* text : {&run.why, &run.finding}) release(*text);
   for (LimitedTrajectories& set : run.trajectories)
     for (TrajectoryRun& made : set.makers) {
-      if (!made.fault.empty()) made.fault = "none";
-      made.finding = {};
+      release(made.finding);
+      if (made.fault.empty()) continue;
+      release(made.fault);
+      made.fault = RunTrimmer::kFault;
     }
   if (run.ompl == noOmplRecord()) return;
   auto& machine = machines_[{run.ompl->host, run.ompl->cpu}];

@@ -32,9 +32,10 @@ BenchmarkRun readRecord(const std::string& figures, const std::string& ompl,
 class RunTrimmer {
  public:
   /// Removes what only rows of single runs and OMPL's logs show: `why`, `finding`, and OMPL's
-  /// record except the machine. The fault of a trajectory becomes "none". The run then takes less
+  /// record except the machine. The fault of a trajectory becomes `kFault`. The run then takes less
   /// than half a kilobyte, and 0.2 KB for each of its trajectories.
   void trim(BenchmarkRun& run);
+  static constexpr const char* kFault = "not kept";  ///< as short as a text without memory
 
  private:
   std::map<std::pair<std::string, std::string>, std::shared_ptr<const OmplRecord>> machines_;

@@ -84,7 +84,7 @@ class Checker {
   MotionResult certifyEdge(const Configuration& from, const Configuration& to, bool earliest) const;
   /// The same, always by `EdgeMethod::directional`, with a certificate. Its pairs are those of
   /// `Scene::motionPairs()`. It is about surfaces: it is empty if the verdict follows from
-  /// containment in a solid mesh. Takes about 1.5 times as long.
+  /// containment in a solid mesh. Takes longer: without a broad phase, every pair is proved.
   MotionResult certifyEdge(const Configuration& from, const Configuration& to, bool earliest,
                            MotionCertificate& certificate) const;
   /// Checks a certificate of an edge by another method, and returns its first fault

@@ -9,6 +9,7 @@
 #include "planner/model/robot_assembly.h"
 #include "planner/robot/angles.h"
 #include "planner/robot/joint_types.h"
+#include "planner/robot/robot_faults.h"
 
 namespace corridor {
 namespace {
@@ -103,7 +104,7 @@ ModelBuilder& ModelBuilder::addRobot(RobotParts parts, const RigidPose& base,
   ModelRobot robot;
   robot.name = parts.name;
   robot.base = base;
-  const std::string place = parts.name.empty() ? "robot" : "robot " + quotedWord(parts.name);
+  const std::string place = robotLabel(parts.name);
   auto model = makeRobot(std::move(parts), faults_);
   if (!model) return *this;
   robot.description = std::move(*model);

@@ -6,6 +6,7 @@
 #include "planner/python/arrays.h"
 #include "planner/python/shapes.h"
 #include "planner/robot/joint_types.h"
+#include "planner/robot/robot_faults.h"
 
 namespace corridor::python {
 namespace {
@@ -53,11 +54,10 @@ RobotParts partsFrom(const std::string& name, const py::dict& robot) {
   parts.name = name;
   std::vector<Fault> faults;
   const auto collect = [&](const auto& read) {
-    const std::string place = name.empty() ? "robot" : "robot " + quotedWord(name);
     try {
       read();
     } catch (const py::value_error& error) {
-      faults.push_back({place, 0, error.what()});
+      faults.push_back({robotLabel(name), 0, error.what()});
     } catch (const InputError& error) {  // of a mesh file
       faults.insert(faults.end(), error.faults().begin(), error.faults().end());
     }
@@ -70,7 +70,7 @@ RobotParts partsFrom(const std::string& name, const py::dict& robot) {
   }
   for (const py::handle each : robot["joints"].cast<py::list>()) {
     const auto joint = each.cast<py::dict>();
-    const std::string owner = "joint " + quotedWord(joint["name"].cast<std::string>());
+    const std::string owner = owned("joint", joint["name"].cast<std::string>());
     collect([&] {
       try {
         parts.joints.push_back(jointFrom(joint));

@@ -12,6 +12,10 @@ std::string owned(const std::string& kind, std::string_view name) {
   return kind + " " + quotedWord(name);
 }
 
+std::string robotLabel(std::string_view name) {
+  return name.empty() ? "robot" : owned("robot", name);
+}
+
 std::string onLine(int line) {
   return line > 0 ? " on line " + std::to_string(line) : "";
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "collision/core/error.h"
@@ -41,6 +42,9 @@ class RobotFaults {
 
 /// Formats kind and name: `joint "elbow"`.
 std::string owned(const std::string& kind, std::string_view name);
+
+/// Returns `robot "arm"`, or "robot" for "": a robot that has no name because it is the only one.
+std::string robotLabel(std::string_view name);
 
 /// Returns " on line N" for messages, or "" for 0: no file.
 std::string onLine(int line);

@@ -81,6 +81,8 @@ class PartsCheck {
     if (joint.child.empty()) faults_.fault(0, owner + " has no child");
     if (!joint.X_PJ.p.allFinite() || !joint.X_PJ.q.coeffs().allFinite())
       faults_.fault(0, owner + ": the numbers of its origin must be finite");
+    else if (joint.X_PJ.q.coeffs().isZero(0))
+      faults_.fault(0, owner + ": the quaternion of its origin is zero");
     if (joint.type != JointType::fixed && joint.type != JointType::floating) {
       if (!joint.axis.allFinite())
         faults_.fault(0, owner + ": the numbers of its axis must be finite");
@@ -182,7 +184,7 @@ JointModel modelOf(const PartsJoint& joint,
 }  // namespace
 
 std::optional<RobotModel> makeRobot(RobotParts parts, std::vector<Fault>& faults) {
-  RobotFaults found(parts.name.empty() ? "robot" : owned("robot", parts.name));
+  RobotFaults found(robotLabel(parts.name));
   std::vector<Note> notes;
   const UrdfOutline outline = PartsCheck(parts, found).outline();
   const std::vector<std::size_t> order = checkUrdfTree(outline, found);

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "collision/core/error.h"
+#include "planner/solve/user_signals.h"
 
 namespace corridor {
 namespace {
@@ -17,7 +18,8 @@ class SignalBlocker {
   SignalBlocker() {
     sigset_t signals;
     sigemptyset(&signals);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) sigaddset(&signals, signal);
+    for (const int signal : kUserSignals) sigaddset(&signals, signal);
+    sigaddset(&signals, SIGQUIT);
     ::pthread_sigmask(SIG_BLOCK, &signals, &before_);
   }
   SignalBlocker(const SignalBlocker&) = delete;

@@ -9,7 +9,7 @@ namespace corridor {
 
 /// Writes a file whole or not at all. `write` (or the text) fills a temporary file in the same
 /// folder, which then replaces the file. On failure no temporary file is left, and an existing file
-/// stays as it is. Meanwhile SIGINT, SIGTERM, SIGHUP and SIGQUIT are blocked in the calling thread.
+/// stays as it is. Meanwhile SIGQUIT and `kUserSignals` are blocked in the calling thread.
 /// A device or a pipe is written to directly.
 /// @throws InputError with the system's reason if it can't be written.
 void writeWhole(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write);

@@ -11,7 +11,7 @@
 campaign=${1:?the file of a campaign is needed} results=${2:?a folder for the results is needed}
 mpirun ${MPIRUN_OPTIONS-} ./corridor benchmark "$campaign" -o "$results" --resume &
 job=$! stopped=
-# Again and again, since mpirun does not hand on a signal that arrives before the ranks are there.
+# Repeats the signal, because mpirun does not hand on one that arrives before the ranks are there.
 trap 'stopped=1; while kill -USR1 "$job" 2>/dev/null; do sleep 3; done' TERM INT
 status=0
 wait "$job" || status=$?

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -37,8 +37,8 @@ class Certificate:
 
     Interval k states: on all of [t0[k], t1[k]], for every path in the tube, the two shapes of `shapes[pair[k]]` stay
     at least `clearance[k]` metres apart. This includes the margin and all rounding. For each pair, the intervals cover
-    [0, free_until] without a gap, in any order; there may be more. Meshes count as surfaces: containment in solid
-    meshes is tested once more by the query, and the certificate is empty if it decides the verdict.
+    [0, free_until] without a gap, in any order; there may be more. Intervals are about surfaces. The query also tests
+    whether a body is inside a solid mesh; if this alone decides the verdict, there are no intervals.
 
     Pairs that are not tested, such as adjacent links, are not listed.
     """
@@ -48,7 +48,7 @@ class Certificate:
     q1: NDArray[np.float64]  #: (J,)
     verdict: Verdict
     reason: str  #: why it is undecided: "clearance", "work limit", "ambiguous", "rounding", "floating point"; or ""
-    free_until: float  #: the edge is proved free on [0, free_until]; 0 unless FREE or `earliest`
+    free_until: float  #: no contact on [0, free_until]; 0 without such a part. Bounds of joints don't count
     shapes: list[tuple[str, str]]  #: P names of shapes, a and b of each tested pair
     pairs: NDArray[np.int64]  #: P×2, their bodies, indices into `problem.bodies`
     margins: NDArray[np.float64]  #: P, the distance that each pair must keep, m
@@ -60,7 +60,11 @@ class Certificate:
     time: float | None  #: of the contact, or in the part that is not decided
     point: NDArray[np.float64] | None  #: (3,), of a contact: where it is, in the frame of `contact[0]`, m
     tolerance: float  #: the clearance beyond margin and tube that FREE needs, m
-    tube: NDArray[np.float64] = field(default_factory=lambda: np.zeros(0))  #: (J,), as `Problem.tube`
+
+    @property
+    def tube(self) -> NDArray[np.float64]:
+        """`Problem.tube`, (J,)."""
+        return self.problem.tube
 
     def covered(self) -> NDArray[np.float64]:
         """Returns for each pair, (P,), the end of the part [0, end] that its intervals cover without a gap."""
@@ -75,7 +79,8 @@ class Certificate:
         """Proves the intervals again, by another method on other trees. Returns None, or the first fault.
 
         It proves that each pair stays farther apart than margin + (clearance − margin)/2 in its intervals, and that
-        they cover [0, free_until]. "unproved" is no refutation: fewer than one of 100 true certificates gets it.
+        they cover [0, free_until]. "unproved" is no refutation. With default options and without a tube, at most one of
+        100 certificates of random edges gets it.
         """
         fault = _native.certificate_fault(
             self.problem._native, self.q0, self.q1, self.free_until, self.pair, self.t0, self.t1, self.clearance
@@ -93,4 +98,4 @@ def certificate_of(problem: Problem, q0: NDArray[np.float64], q1: NDArray[np.flo
     """Makes the certificate of an edge; see `Problem.certificate`."""
     made: dict[str, Any] = _native.certificate(problem._native, q0, q1, earliest)
     made["verdict"] = Verdict(made["verdict"])
-    return Certificate(problem=problem, q0=q0, q1=q1, tube=problem.tube, **made)
+    return Certificate(problem=problem, q0=q0, q1=q1, **made)

@@ -50,6 +50,14 @@ TEST_F(CampaignMerge, ThreeShardsHaveTheRowsOfTheWhole) {
   EXPECT_THAT(read("s2/report.html"), HasSubstr("these are share 2/3"));
   std::filesystem::remove(folder_ / "hall.yaml");  // the databases know all that is needed
   std::filesystem::remove(folder_ / "campaign.yaml");
+  {  // SQLite would apply a log that a database left behind to a new one of its name
+    SQLite::Database other((folder_ / "other.db").string(),
+                           SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+    other.exec("PRAGMA journal_mode = WAL");
+    other.exec("CREATE TABLE other (x)");
+    std::filesystem::create_directory(folder_ / "merged");
+    std::filesystem::copy_file(folder_ / "other.db-wal", folder_ / "merged/campaign.db-wal");
+  }
   const Result merged = run("benchmark --merge s3 s1/campaign.db s2 -o merged");
   EXPECT_EQ(merged.status, 0) << merged.err;
   EXPECT_EQ(merged.err, "");
@@ -92,6 +100,9 @@ TEST_F(CampaignMerge, OtherSeedsOfTheSameCampaign) {
   ASSERT_EQ(run("benchmark campaign.yaml --runs 1 --seed 7 -o c").status, 0);
   ASSERT_EQ(run("benchmark --merge c merged -o all").status, 0);
   EXPECT_EQ(repeatable("all").size(), 1u + 7 * 6);
+  expectFault("benchmark --merge c a -o gap",
+              "c/campaign.db: can't be merged with the others: none of them is for the seeds from "
+              "3 to 6, and a campaign has seeds without a gap");
 }
 
 TEST_F(CampaignMerge, MissingSharesAreNotedAndCanBeMade) {
@@ -149,9 +160,10 @@ TEST_F(CampaignMerge, BadInputIsOneLine) {
     expectFault("benchmark campaign.yaml -o s --shard " + std::string(shard),
                 "--shard: K/N is needed, such as 1/3, with K from 1 to N, not \"" +
                     std::string(shard) + "\"; see corridor benchmark --help");
-  expectFault("benchmark campaign.yaml --runs 2 --shard 5/5 -o s",
-              "--shard: 5/5 would have no runs: there are only 4 combinations of problem, planner "
-              "and seed to deal out");
+  expectFault(
+      "benchmark campaign.yaml --runs 2 --shard 5/5 -o s",
+      "--shard: 5 shares are too many for 4 combinations of problem, planner and seed: some "
+      "would have no runs");
   runShards(2, "--runs 1");
   expectFault("benchmark --merge s1 s2", "--merge: needs -o with the folder of the results");
   expectFault("benchmark --merge s1 s3 -o m", "s3: there is no such database");

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <map>
 #include <optional>
 #include <stdexcept>
@@ -199,6 +200,20 @@ TEST_F(Database, StoredRunsReadBackUnchanged) {
   EXPECT_TRUE(refuted) << "no run has a finding";
   // The description of a planner and a machine is stored once for all runs of a cell.
   EXPECT_THAT(rowsOf(file_, "SELECT count(*) FROM corridor_setups"), ElementsAre("4"));
+}
+
+TEST(RunTrimmer, FreesTexts) {
+  BenchmarkRun run;
+  run.why = run.finding = std::string(200, 'x');
+  TrajectoryRun made;
+  made.fault = made.finding = run.why;
+  run.trajectories = {{1.0, {made}}};
+  RunTrimmer().trim(run);
+  const TrajectoryRun& kept = run.trajectories[0].makers[0];
+  for (const std::string& text :
+       {std::cref(run.why), std::cref(run.finding), std::cref(kept.fault), std::cref(kept.finding)})
+    EXPECT_LT(text.capacity(), 32u);
+  EXPECT_EQ(kept.fault, RunTrimmer::kFault);
 }
 
 /// A program of the version before stored each run as one text. Such files can be resumed.

@@ -13,6 +13,7 @@
 
 #include "collision/core/error.h"
 #include "planner/benchmark/campaign_database.h"
+#include "planner/benchmark/campaign_spec.h"
 #include "planner/benchmark/campaign_yaml.h"
 #include "planner/benchmark/ompl_log.h"
 #include "planner/benchmark/report.h"

@@ -181,6 +181,22 @@ TEST_F(RankTest, FaultsOfRanksEndTheJob) {
   EXPECT_THAT(fault, EndsWith(": no room"));
 }
 
+/// Both messages are there when rank 0 looks: the task's end must not be lost.
+TEST_F(RankTest, TasksThatEndedBeforeAFaultAreReturned) {
+  executor_->begin("set up");
+  executor_->start(100);
+  executor_->start(13);
+  const auto arrived = [&] {
+    const std::lock_guard lock(post_.mutex);
+    return post_.boxes[0].size();
+  };
+  while (arrived() < 2) std::this_thread::yield();
+  const std::vector<TaskEnd> ends = executor_->wait(50);
+  ASSERT_EQ(ends.size(), 1u);
+  EXPECT_EQ(ends[0].task, 100u);
+  EXPECT_THROW(executor_->wait(50), InputError);
+}
+
 TEST_F(RankTest, FaultsOfTheSetUpEndTheJob) {
   executor_->begin("something else");
   EXPECT_THROW(for (int i = 0; i < 200; ++i) executor_->wait(50), InputError);

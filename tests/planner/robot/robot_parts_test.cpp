@@ -98,11 +98,13 @@ TEST(RobotParts, FaultsAreReportedTogether) {
   parts.joints[1].axis = Vec3::Zero();
   parts.joints[1].upper.reset();
   parts.joints[0].mimic->offset = INFINITY;
+  parts.joints[0].X_PJ.q.coeffs().setZero();
   parts.allow = {{"arm", "fingr"}};
   EXPECT_THAT(
       faultsOf(parts),
       testing::ElementsAre(
           "robot \"left\": link number 0 has no name",
+          "robot \"left\": joint \"follow\": the quaternion of its origin is zero",
           "robot \"left\": joint \"follow\": the numbers of its mimic must be finite",
           "robot \"left\": joint \"turn\": its axis is zero; a direction is needed, such as (0, 0, "
           "1)",
