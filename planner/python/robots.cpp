@@ -63,7 +63,9 @@ RobotParts partsFrom(const std::string& name, const py::dict& robot) {
     }
   };
   for (const py::handle each : robot["links"].cast<py::list>()) {
-    const auto [link, shapes] = each.cast<std::pair<std::string, py::list>>();
+    const auto pair = each.cast<std::pair<std::string, py::list>>();
+    const std::string& link = pair.first;
+    const py::list& shapes = pair.second;
     LinkModel& added = parts.links.emplace_back();
     added.name = link;
     if (!shapes.empty()) collect([&] { added.shapes = shapesFrom(link, shapes); });

@@ -348,7 +348,7 @@ bool JerkSpline::improve(double weight) {
   };
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     const double h = widthOf(i);
-    const auto& [left, right] = blend_[i];
+    const double left = blend_[i][0], right = blend_[i][1];
     const Triple b = bernstein(c_, i);
     // The rows of values by the spline's coefficients, from those by Bernstein coefficients.
     const auto rowsOf = [&](double t) {

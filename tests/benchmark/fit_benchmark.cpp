@@ -124,7 +124,8 @@ std::vector<double> volumesByLevel(const VolumeTree<Obb>& tree) {
   std::vector<double> sums;
   std::vector<std::pair<std::uint32_t, std::size_t>> stack = {{0, 0}};
   while (!stack.empty()) {
-    const auto [i, level] = stack.back();
+    const std::uint32_t i = stack.back().first;
+    const std::size_t level = stack.back().second;
     stack.pop_back();
     if (sums.size() <= level) sums.resize(level + 1);
     sums[level] += 8 * tree.node(i).box.half.prod();

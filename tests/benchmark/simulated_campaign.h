@@ -61,7 +61,7 @@ inline std::filesystem::path writeSimulated(const SimulatedSize& size,
 class SimulatedRuns {
  public:
   /// Makes one real run of each variant and planner of the first problem. @pre one thread.
-  SimulatedRuns(const Campaign& campaign, std::uint64_t seed) : campaign_(campaign), seed_(seed) {
+  SimulatedRuns(const Campaign& campaign, std::uint64_t seed) : seed_(seed) {
     cells_ = cellsOf(campaign);
     for (const CampaignCell& cell : cells_) {
       if (cell.problem > 0) continue;
@@ -124,7 +124,6 @@ class SimulatedRuns {
   }
 
  private:
-  const Campaign& campaign_;
   std::uint64_t seed_;
   std::vector<CampaignCell> cells_;
   std::map<std::pair<std::size_t, std::string>, BenchmarkRun> samples_;
