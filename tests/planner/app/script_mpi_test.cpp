@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A clone of which only the script is there, and a build in which programs are made by `touch`.
+/// A clone of which only the script is there; the program is another script.
 class ScriptUnderMpi : public corridor::test::ProgramTest {
  protected:
   ScriptUnderMpi() {
@@ -47,21 +47,21 @@ TEST_F(ScriptUnderMpi, NeitherInstallsNorBuilds) {
               std::string("corridor: ") + command + " is not for mpirun; call it without\n");
   }
 
-  if (std::system("command -v ninja >/dev/null 2>&1") != 0) GTEST_SKIP() << "ninja is needed";
-  fs::create_directories(folder_ / "build/release");
-  write("build/release/source", "1");
-  write("build/release/build.ninja",
-        "rule make\n  command = printf '#!/bin/sh\\necho \"$$@\"\\n' > $out; chmod +x $out\n"
-        "  description = Building $out\nbuild corridor: make source\nbuild corridor_assimp: make "
-        "source\n");
-  ASSERT_EQ(
-      std::system(("ninja -C '" + (folder_ / "build/release").string() + "' >/dev/null").c_str()),
-      0);
+  for (const char* folder : {"build/release", "collision", "planner"})
+    fs::create_directories(folder_ / folder);
+  for (const char* source :
+       {"CMakeLists.txt", "CMakePresets.json", "planner/a.cpp", "planner/README.md"})
+    write(source, "");
+  write("build/release/corridor", "#!/bin/sh\necho \"$@\"\n");
+  fs::permissions(folder_ / "build/release/corridor", fs::perms::owner_all);
+  write("build/release/.built-corridor", "");
   const Result ready = script("benchmark x.yaml -o y");
   EXPECT_EQ(ready.status, 0) << ready.err;
   EXPECT_EQ(ready.out, "benchmark x.yaml -o y\n");
-  fs::last_write_time(folder_ / "build/release/source",
-                      fs::file_time_type::clock::now() + std::chrono::hours(1));
+  const auto later = fs::file_time_type::clock::now() + std::chrono::hours(1);
+  fs::last_write_time(folder_ / "planner/README.md", later);
+  EXPECT_EQ(script("benchmark x.yaml -o y").out, "benchmark x.yaml -o y\n");
+  fs::last_write_time(folder_ / "planner/a.cpp", later);
   const Result old = script("benchmark x.yaml -o y");
   EXPECT_EQ(old.status, 2);
   EXPECT_EQ(old.err, "corridor: the program is older than its sources, and " + first());
