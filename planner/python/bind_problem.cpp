@@ -10,6 +10,7 @@
 #include "planner/python/native_problem.h"
 #include "planner/python/robots.h"
 #include "planner/python/shapes.h"
+#include "planner/solve/why_not_free.h"
 
 namespace corridor::python {
 namespace {
@@ -65,7 +66,7 @@ void apply(const std::string& key, const py::handle value, Problem& problem) {
   constexpr double kPositive = std::numeric_limits<double>::min();
   const auto inBounds = [&](Configuration q, const char* name) {
     space.normalise(q);
-    if (!space.inBounds(q)) refuse(name, "the configuration is out of bounds");
+    if (!space.inBounds(q)) refuse(name, whyOutOfBounds(q, space));
     return q;
   };
   if (key == "start") {
@@ -129,6 +130,17 @@ void apply(const std::string& key, const py::handle value, Problem& problem) {
   }
 }
 
+/// Returns what the value of an edit must be.
+std::string typeOf(const std::string& key) {
+  if (key == "seed") return "a whole number of 0 or more";
+  if (key == "start" || key == "goals") return "an array of numbers";
+  if (key == "tube") return "a dictionary such as {\"joints\": 0.01}";
+  if (key == "params") return "a dictionary of the planner's parameters";
+  for (const char* text : {"planner", "simplify", "edges", "smooth"})
+    if (key == text) return "a text";
+  return "a number";
+}
+
 /// @param edits in the order in which they are applied.
 ProblemPointer edited(const NativeProblem& from, const py::dict& edits) {
   Problem problem = from.problem();
@@ -137,8 +149,7 @@ ProblemPointer edited(const NativeProblem& from, const py::dict& edits) {
     try {
       apply(name, value, problem);
     } catch (const py::cast_error&) {
-      refuse(name.c_str(),
-             "a value of another type is needed, not " + py::repr(value).cast<std::string>());
+      refuse(name.c_str(), typeOf(name) + " is needed, not " + py::repr(value).cast<std::string>());
     }
   }
   if (problem.settings.prefer.clearance.value_or(0) > 0)
@@ -146,6 +157,8 @@ ProblemPointer edited(const NativeProblem& from, const py::dict& edits) {
       refuse("clearance", *why);
   std::map<std::string, std::string> origins = from.origins();
   if (edits.contains("planner")) origins["planner.name"] = "planner";
+  if (edits.contains("start")) origins["start"] = "";
+  if (edits.contains("goals")) origins["goal"] = "";
   if (edits.contains("params"))
     for (const auto& [key, value] : problem.settings.planner.params)
       origins["planner.params." + key] = "params";

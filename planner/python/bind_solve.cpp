@@ -101,7 +101,7 @@ py::dict solve(const NativeProblem& native, const std::optional<std::string>& tr
   d["edges_tested"] = r.counters.edges;
   d["length_m"] = r.length.metres;
   d["length_rad"] = r.length.radians;
-  d["clearance_m"] = r.clearance ? py::cast(r.clearance->proved) : py::none();
+  d["proved_clearance_m"] = r.clearance ? py::cast(r.clearance->proved) : py::none();
   d["warnings"] = [&] {
     std::vector<std::string> texts;
     for (const Fault& fault : r.warnings) texts.push_back(fault.str());
@@ -149,9 +149,11 @@ Solution solutionFrom(const Problem& problem, const Array& path) {
   return solution;
 }
 
-py::dict verifyPathOf(const NativeProblem& native, const Array& path) {
+/// @param clearance the bound of the path's clearance is refined until it reaches this, metres.
+py::dict verifyPathOf(const NativeProblem& native, const Array& path, double clearance) {
   const Problem& problem = native.problem();
-  const Solution solution = solutionFrom(problem, path);
+  Solution solution = solutionFrom(problem, path);
+  solution.clearance = clearance;
   VerifyReport report;
   {
     const py::gil_scoped_release unlocked;
@@ -194,7 +196,7 @@ std::string picture(const NativeProblem& native, const Array& states) {
 void bindSolve(py::module_& module) {
   using py::arg;
   module.def("solve", &solve, arg("problem"), arg("trajectory"), arg("progress"));
-  module.def("verify_path", &verifyPathOf, arg("problem"), arg("path"));
+  module.def("verify_path", &verifyPathOf, arg("problem"), arg("path"), arg("clearance"));
   module.def("verify_trajectory", &verifyTrajectoryOf, arg("problem"), arg("text"));
   module.def("page", &page, arg("problem"), arg("path"));
   module.def("picture", &picture, arg("problem"), arg("path"));

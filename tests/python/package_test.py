@@ -5,6 +5,8 @@ import os
 import pathlib
 import pickle
 import signal
+import subprocess
+import sys
 import tempfile
 import threading
 import time
@@ -144,7 +146,7 @@ class Problems(unittest.TestCase):
     def test_contradictory_edits(self):
         problem = corridor.read_problem(ARM)
         for edits, error, text in (
-            ({"start": problem.start + 100}, ValueError, "start: the configuration is out of bounds"),
+            ({"start": problem.start + 100}, ValueError, "start: .* is not in"),
             ({"goals": np.zeros((0, 7))}, ValueError, "goals: at least one goal is needed"),
             ({"margin": -1}, ValueError, "margin: a finite number of 0 or more is needed"),
             ({"time": 0}, ValueError, "time: a finite number above 0 is needed"),
@@ -159,9 +161,42 @@ class Problems(unittest.TestCase):
 
     def test_edits_of_the_wrong_type(self):
         problem = corridor.read_problem(ARM)
-        for key, value in ("seed", -1), ("margin", "a"), ("planner", 3), ("time", None), ("tube", 0.1):
-            with self.assertRaisesRegex(ValueError, f"{key}: a value of another type is needed"):
+        for key, value, text in (
+            ("seed", -1, "seed: a whole number of 0 or more is needed, not -1"),
+            ("seed", 1.5, "seed: a whole number of 0 or more is needed, not 1.5"),
+            ("margin", "1mm", "margin: a number is needed, not '1mm'"),
+            ("planner", 3, "planner: a text is needed, not 3"),
+            ("time", None, "time: a number is needed, not None"),
+            ("tube", 0.1, "tube: a dictionary such as .* is needed, not 0.1"),
+        ):
+            with self.assertRaisesRegex(ValueError, text):
                 problem.edited(**{key: value})
+
+    def test_objects_of_the_wrong_type(self):
+        ball, problem = shapes.sphere(1), corridor.read_problem(ARM)
+        for text, call in (
+            ("robots: what `urdf`, .* is needed, not 'x.urdf'; read_problem", lambda: corridor.Problem("x.urdf")),
+            ("obstacles: shapes by name are needed", lambda: corridor.Problem([], [ball])),
+            ("a Problem is needed, not 'problems/piano'; read_problem", lambda: corridor.solve("problems/piano")),
+            ("a Problem is needed, not 3", lambda: list(corridor.solve_many([problem, 3]))),
+            ("b: a Body is needed, not .*; Body", lambda: corridor.touch(Body(ball), ball)),
+            ("a shape of corridor.shapes is needed", lambda: Body("ball.stl")),
+        ):
+            with self.assertRaisesRegex(TypeError, text):
+                call()
+
+    def test_faults_of_edited_ends_name_no_line_of_the_file(self):
+        problem = corridor.read_problem(ARM)
+        with self.assertRaisesRegex(ValueError, r"^start: .* = .* is not in \["):
+            problem.edited(start=problem.bounds[1] + 1)
+        states = np.random.default_rng(1).uniform(*problem.bounds, (200, len(problem.numbers)))
+        touching = states[problem.check(states).verdict == Verdict.CONTACT][0]
+        with self.assertRaises(corridor.InputError) as caught:
+            corridor.solve(problem.edited(start=touching))
+        self.assertEqual(caught.exception.faults[0][:2], ("", 0))
+        self.assertRegex(str(caught.exception), "^start: in contact")
+        with self.assertRaisesRegex(corridor.InputError, "^goal: in contact"):
+            corridor.solve(problem.edited(goals=touching))
 
     def test_the_order_of_edits_does_not_matter(self):
         problem = corridor.read_problem(ARM)
@@ -347,6 +382,64 @@ class Solve(unittest.TestCase):
         many = list(corridor.solve_many(problems, processes=2))
         for problem, solution in zip(problems, many):
             np.testing.assert_array_equal(solution.path, corridor.solve(problem).path)
+
+    def test_many_with_a_fault(self):
+        solutions = corridor.solve_many([cube_in_room(seed=1), cube_in_room(params={"rnage": 1}), cube_in_room(seed=2)])
+        self.assertTrue(next(solutions))
+        with self.assertRaisesRegex(corridor.InputError, "rnage"):
+            next(solutions)
+
+    def script(self, text):
+        """Starts a script in a session of its own."""
+        with tempfile.NamedTemporaryFile("w", suffix=".py", delete=False) as file:
+            file.write(text)
+        self.addCleanup(os.remove, file.name)
+        return subprocess.Popen(
+            [sys.executable, "-B", file.name], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+            start_new_session=True,
+        )  # fmt: skip
+
+    MANY = """
+import corridor
+if __name__ == "__main__":
+    walled = corridor.read_problem(%r).edited(time=600)
+    room = corridor.shapes.box([0.1, 9, 9])
+    cube = corridor.rigid_body(corridor.shapes.box([0.2] * 3), [[-2] * 3, [2] * 3])
+    closed = corridor.Problem(cube, {"wall": room}, start=[-1, 0, 0, 0, 0, 0, 1], goals=[1, 0, 0, 0, 0, 0, 1], time=600)
+    many = corridor.solve_many([walled] + [closed] * 6, processes=2)
+    next(many)
+    print("begun", flush=True)
+    next(many)
+""" % str(ARM)
+
+    def test_interrupts_end_all_processes(self):
+        for interrupts in (1, 2):
+            process = self.script(self.MANY)
+            self.assertEqual(process.stdout.readline(), "begun\n")
+            for _ in range(interrupts):
+                os.killpg(process.pid, signal.SIGINT)
+                time.sleep(0.1)
+            _, err = process.communicate(timeout=300)  # the pipes end with the last process
+            self.assertEqual(process.returncode, -signal.SIGINT, err)
+            self.assertLessEqual(err.count("Traceback"), interrupts, err)  # none of the processes prints one
+
+    def test_a_killed_process(self):
+        process = self.script(self.MANY)
+        self.assertEqual(process.stdout.readline(), "begun\n")
+        children = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()
+        solving = [c for c in children if "spawn_main" in pathlib.Path(f"/proc/{c}/cmdline").read_text()]
+        self.assertEqual(len(solving), 2)
+        os.kill(int(solving[0]), signal.SIGKILL)
+        _, err = process.communicate(timeout=300)
+        self.assertIn("RuntimeError: a process of solve_many was ended by signal 9 while it solved problem", err)
+
+    def test_a_script_without_a_guard(self):
+        process = self.script(self.MANY.replace('if __name__ == "__main__":', "if True:"))
+        out, err = process.communicate(timeout=300)
+        self.assertEqual((process.returncode, out), (1, ""))
+        self.assertIn("corridor: a script calls solve_many under `if __name__", err)
+        self.assertIn("RuntimeError: a process of solve_many ended with status 1 before it began", err)
+        self.assertEqual(err.count("Traceback"), 1, err)
 
 
 class Queries(unittest.TestCase):

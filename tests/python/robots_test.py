@@ -277,7 +277,7 @@ class BadRobots(unittest.TestCase):
         for make, text in (
             (lambda: corridor.robot({"a": LINK}, ["j"]), "joints: a corridor.Joint is needed, not 'j'"),
             (lambda: corridor.robot({1: LINK}, []), "links: a name is needed, not 1"),
-            (lambda: corridor.robot({"a": LINK}, [], allow=["ab"]), "allow: two links are needed, not 'ab'"),
+            (lambda: corridor.robot({"a": LINK}, [], allow=["ab"]), "allow: two names are needed, not 'ab'"),
             (lambda: corridor.robot({}, [revolute(axis=(1, 0))]),
              r'joint "j": axis: 3 numbers are needed, not an array of shape \(2,\)'),
             (lambda: corridor.robot({}, [revolute(limits=1)]),

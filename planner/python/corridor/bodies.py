@@ -1,8 +1,11 @@
-"""Collision queries of two bodies. Poses are 4×4 matrices, or N×4×4 for N queries at once."""
+"""Collision queries of two bodies. Poses are 4×4 matrices, or N×4×4 for N queries at once.
+
+The matrices are taken as they are: any affine maps, also scaled ones. The motion of `first_contact` needs rotations.
+"""
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,11 +20,21 @@ _ORIGIN = np.eye(4)
 class Body:
     """A body of one shape (`corridor.shapes`): a mesh or a convex solid.
 
-    Its trees are built when a query first needs them. Raises ValueError for a solid mesh that is not watertight.
+    Its trees are built when a query first needs them. It can be pickled. Raises ValueError for a solid mesh that is not
+    watertight.
     """
 
     def __init__(self, shape: Shape):
+        if not isinstance(shape, Shape):
+            raise TypeError(f"a shape of corridor.shapes is needed, not {shape!r}")
+        self._shape = shape
         self._native = _native.body(shape)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Body, (self._shape,)
+
+    def __repr__(self) -> str:
+        return f"<Body: {self._shape[0]}>"
 
 
 class Distances(NamedTuple):
@@ -47,30 +60,38 @@ class FirstContact(NamedTuple):
     time: float  #: the first contact is in (free_until, time]; −1 if there is none
 
 
+def _natives(a: Body, b: Body) -> tuple[_native.Body, _native.Body]:
+    for name, body in (("a", a), ("b", b)):
+        if not isinstance(body, Body):
+            hint = "; Body(shape) makes one" if isinstance(body, Shape) else ""
+            raise TypeError(f"{name}: a Body is needed, not {body!r}{hint}")
+    return a._native, b._native
+
+
 def touch(
     a: Body, b: Body, pose_a: ArrayLike = _ORIGIN, pose_b: ArrayLike = _ORIGIN, threads: int = 0
 ) -> NDArray[np.bool_]:
     """Whether the bodies touch: N bool. Exact for meshes; touching is contact."""
-    return _native.touch(a._native, b._native, _array("pose_a", pose_a), _array("pose_b", pose_b), threads)
+    return _native.touch(*_natives(a, b), _array("pose_a", pose_a), _array("pose_b", pose_b), threads)
 
 
 def closer_than(
     a: Body, b: Body, distance: float, pose_a: ArrayLike = _ORIGIN, pose_b: ArrayLike = _ORIGIN, threads: int = 0
 ) -> NDArray[np.bool_]:
     """Whether the bodies are at most `distance` metres apart: N bool. False is a proof."""
-    return _native.closer_than(a._native, b._native, distance, _array("pose_a", pose_a), _array("pose_b", pose_b), threads)
+    return _native.closer_than(*_natives(a, b), distance, _array("pose_a", pose_a), _array("pose_b", pose_b), threads)
 
 
 def distance(
     a: Body, b: Body, pose_a: ArrayLike = _ORIGIN, pose_b: ArrayLike = _ORIGIN, threads: int = 0
 ) -> Distances:
     """The distances of the bodies and their closest points."""
-    return Distances(*_native.distance(a._native, b._native, _array("pose_a", pose_a), _array("pose_b", pose_b), threads))
+    return Distances(*_native.distance(*_natives(a, b), _array("pose_a", pose_a), _array("pose_b", pose_b), threads))
 
 
 def contacts(a: Body, b: Body, pose_a: ArrayLike = _ORIGIN, pose_b: ArrayLike = _ORIGIN) -> Contacts:
     """All pairs of triangles of two meshes that touch, for one pair of poses."""
-    return Contacts(*_native.contacts(a._native, b._native, _array("pose_a", pose_a), _array("pose_b", pose_b)))
+    return Contacts(*_native.contacts(*_natives(a, b), _array("pose_a", pose_a), _array("pose_b", pose_b)))
 
 
 def first_contact(a: Body, b: Body, start: ArrayLike, end: ArrayLike, tolerance: float = 0.0) -> FirstContact:
@@ -80,5 +101,5 @@ def first_contact(a: Body, b: Body, start: ArrayLike, end: ArrayLike, tolerance:
     """
     if not tolerance >= 0:
         raise ValueError("tolerance: a number of 0 or more is needed")
-    verdict, until, time = _native.first_contact(a._native, b._native, _array("start", start), _array("end", end), tolerance)
+    verdict, until, time = _native.first_contact(*_natives(a, b), _array("start", start), _array("end", end), tolerance)
     return FirstContact(Verdict(verdict), until, time)

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import concurrent.futures
 import copy
 import html
-import multiprocessing
 import os
 import tempfile
 import threading
@@ -17,10 +15,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _native, pictures
+from . import _native, pictures, workers
 from .certificates import Certificate, certificate_of
 from .results import Results
-from .robots import _shapes
+from .robots import _pair, _shapes
 from .shapes import Shape, _array
 
 _solving = threading.Lock()  # OMPL has one generator of random numbers per process
@@ -51,9 +49,15 @@ class Problem:
         robots: one, or a list, of `urdf`, `robot` or `rigid_body`. obstacles: shapes by name, in world coordinates.
         allow: pairs of names of bodies that may touch. edits: as for `edited`.
         """
-        robots = [robots] if isinstance(robots, dict) else list(robots)
+        given: list[Any] = [robots] if isinstance(robots, (dict, str)) else list(robots)
+        for robot in given:
+            if not isinstance(robot, dict):
+                hint = "; read_problem(FILE) reads a problem's file" if isinstance(robot, str) else ""
+                raise TypeError(f"robots: what `urdf`, `robot` or `rigid_body` returns is needed, not {robot!r}{hint}")
+        if obstacles is not None and not isinstance(obstacles, Mapping):
+            raise TypeError(f"obstacles: shapes by name are needed, such as {{'table': shape}}, not {obstacles!r}")
         named = {name: _shapes(shapes) for name, shapes in (obstacles or {}).items()}
-        self._set(("built", robots, named, [tuple(pair) for pair in allow]), edits)
+        self._set(("built", given, named, [_pair(pair) for pair in allow]), edits)
 
     @classmethod
     def read(cls, file: str | os.PathLike[str]) -> Problem:
@@ -90,7 +94,8 @@ class Problem:
         seed; simplify (True, False, "ompl"); edges ("certified", "discrete", ...); clearance, m; tolerance, m. For
         trajectories: smooth ("time", "length", "acceleration", "corners", "none"); rate, rows per second; deviation
         and corner_deviation, rad or m.
-        Raises ValueError if a value is illegal or contradicts another one.
+        Raises ValueError if a value is illegal or contradicts another one. Names of planners and of their parameters are
+        checked by `solve`.
         """
         other = object.__new__(type(self))
         other._recipe = self._recipe
@@ -99,6 +104,10 @@ class Problem:
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _restored, (self._recipe, self._edits)
+
+    def _require(self, key: str) -> None:
+        if self._recipe[0] == "built" and key not in self._edits:
+            raise ValueError(f"{key}: the problem has none; set it by problem.edited({key}=...)")
 
     def __repr__(self) -> str:
         return f"<Problem: {self.name}, {len(self.numbers)} numbers, {len(self.bodies)} bodies>"
@@ -125,12 +134,13 @@ class Problem:
 
     @property
     def start(self) -> NDArray[np.float64]:
-        """(J,): where paths begin. Zeros if the problem was built without one."""
+        """(J,): where paths begin. Raises ValueError if the problem was built without one."""
+        self._require("start")
         return self._native.start
 
     @property
     def goals(self) -> NDArray[np.float64]:
-        """G×J: a path may end at any of them."""
+        """G×J: a path may end at any of them. Empty if the problem was built without one."""
         return self._native.goals
 
     @property
@@ -234,7 +244,8 @@ class Solution:
     why: str  #: why it is not solved, one line
     path: NDArray[np.float64]  #: N×J states; empty unless solved
     certified: bool  #: every edge of `path` is proved
-    figures: dict[str, Any] = field(default_factory=dict)  #: times, lengths and counts of the solve
+    #: times, lengths and counts of the solve. `proved_clearance_m` is at most the preferred clearance; `verify` finds more
+    figures: dict[str, Any] = field(default_factory=dict)
     trajectory: dict[str, Any] | None = None  #: text, duration, proved and keeps_limits; or why_none
     _text: str = ""
 
@@ -252,7 +263,7 @@ class Solution:
     def verify(self) -> dict[str, Any]:
         """Verifies the path by the independent verifier. Returns `verdict`, `findings`, `clearance_m`, ..."""
         self._require_path()
-        return _native.verify_path(self.problem._native, self.path)
+        return _native.verify_path(self.problem._native, self.path, self.figures.get("proved_clearance_m") or 0.0)
 
     def verify_trajectory(self) -> dict[str, Any]:
         """Verifies the trajectory as it is written."""
@@ -322,15 +333,14 @@ def solve(
     The same problem and seed give the same path, with most planners. A process solves one problem at a time: a second
     call waits. `solve_many` uses several processes.
     """
+    _require_problem(problem)
     edits = {k: v for k, v in {"planner": planner, "time": time, "seed": seed}.items() if v is not None}
     if edits:
         problem = problem.edited(**edits)
     if trajectory not in (None, "csv", "yaml"):
         raise ValueError(f'trajectory: "csv" or "yaml" is needed, not {trajectory!r}')
-    if problem._recipe[0] == "built":
-        for key in ("start", "goals"):
-            if key not in problem._edits:
-                raise ValueError(f"{key}: the problem has none; set it by problem.edited({key}=...)")
+    problem._require("start")
+    problem._require("goals")
     if getattr(_this_thread, "solves", False):
         raise RuntimeError("solve can't be called by the progress callback of a solve")
     _this_thread.solves = True
@@ -343,6 +353,11 @@ def solve(
         problem, take("outcome"), take("why"), take("path"), take("certified"), trajectory=take("trajectory", None),
         _text=take("text", ""), figures=result,
     )  # fmt: skip
+
+
+def _require_problem(problem: object) -> None:
+    if not isinstance(problem, Problem):
+        raise TypeError(f"a Problem is needed, not {problem!r}; read_problem(FILE) reads a problem's file")
 
 
 def _solve_alone(problem: Problem, trajectory: str | None, progress: Callable[[float, int], None] | None) -> dict[str, Any]:
@@ -359,8 +374,9 @@ def solve_many(problems: Iterable[Problem], processes: int | None = None, **opti
     """Solves several problems, and yields their solutions in the same order.
 
     processes: default, as many as there are cores. options: those of `solve`, except progress.
-    As with all processes of Python, a script calls it under `if __name__ == "__main__":`.
+    As with all processes of Python, a script calls it under `if __name__ == "__main__":`. Ctrl-C ends all of them.
     """
-    context = multiprocessing.get_context("spawn")
-    with concurrent.futures.ProcessPoolExecutor(processes or os.cpu_count(), mp_context=context) as pool:
-        yield from pool.map(_solve_one, [(problem, options) for problem in problems])
+    problems = list(problems)
+    for problem in problems:
+        _require_problem(problem)
+    yield from workers.in_order(_solve_one, [(problem, options) for problem in problems], processes)

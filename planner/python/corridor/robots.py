@@ -73,6 +73,8 @@ def urdf(
     that can move. base: a `Pose` or 4×4, the pose of the root link. bounds: for each planar and floating joint
     [[x, y, z], [x, y, z]], the corners of its position, m. name: needed if there are several robots.
     """
+    if os.fspath(file).endswith((".yaml", ".yml")):
+        raise ValueError(f"urdf: {file} is no URDF; a robot.yaml belongs to a problem's file, for read_problem")
     return {
         "urdf": os.path.abspath(file),
         "srdf": "" if srdf is None else os.path.abspath(srdf),
@@ -96,7 +98,12 @@ def rigid_body(
 def _shapes(shapes: Shape | Iterable[Shape] | None) -> list[Shape]:
     if shapes is None:
         return []
-    return [shapes] if isinstance(shapes, Shape) else list(shapes)
+    all_shapes = [shapes] if isinstance(shapes, Shape) or isinstance(shapes, str) else list(shapes)
+    for shape in all_shapes:
+        if not isinstance(shape, Shape):
+            hint = "; shapes.mesh_file(FILE) reads a mesh" if isinstance(shape, str) else ""
+            raise TypeError(f"a shape of corridor.shapes is needed, not {shape!r}{hint}")
+    return all_shapes
 
 
 def _bounds(bounds: Mapping[str, ArrayLike] | None) -> dict[str, Any]:
@@ -111,7 +118,7 @@ def _text(what: str, value: Any) -> str:
 
 def _pair(pair: Any) -> tuple[str, str]:
     if isinstance(pair, str) or len(pair) != 2:
-        raise ValueError(f"allow: two links are needed, not {pair!r}")
+        raise ValueError(f"allow: two names are needed, not {pair!r}")
     return _text("allow", pair[0]), _text("allow", pair[1])
 
 

@@ -1,4 +1,5 @@
 #include <iostream>
+#include <stdexcept>
 
 #include <ompl/geometric/SimpleSetup.h>
 
@@ -7,7 +8,8 @@
 #include "planner/checker/state_validity_checkers.h"
 #include "planner/model/model_builder.h"
 
-int main(int, char** arguments) try {
+int main(int count, char** arguments) try {
+  if (count != 2) throw std::invalid_argument("usage: plan ROBOT.urdf");
   const corridor::Model model = corridor::ModelBuilder()
                                     .addRobot(arguments[1])  // a URDF file
                                     .addObstacle("post", corridor::Cylinder{0.05, 2}, {{0.5, 0, 1}})

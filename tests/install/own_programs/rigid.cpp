@@ -1,4 +1,5 @@
 #include <iostream>
+#include <stdexcept>
 
 #include <ompl/geometric/SimpleSetup.h>
 #include <ompl/geometric/planners/rrt/RRTConnect.h>
@@ -8,7 +9,8 @@
 #include "planner/checker/state_validity_checkers.h"
 #include "planner/model/model_builder.h"
 
-int main(int, char** arguments) try {
+int main(int count, char** arguments) try {
+  if (count != 2) throw std::invalid_argument("usage: rigid MESH");
   using namespace corridor;
   const TriangleMesh mesh = readMeshFile(arguments[1]).mesh;  // metres
   const Model model = ModelBuilder()

@@ -1,12 +1,14 @@
 #include <algorithm>
 #include <iostream>
+#include <stdexcept>
 
 #include "planner/checker/checker.h"
 #include "planner/model/model_builder.h"
 #include "planner/trajectory/trajectory_curve.h"
 #include "planner/trajectory/trajectory_file.h"
 
-int main(int, char** arguments) try {
+int main(int count, char** arguments) try {
+  if (count != 3) throw std::invalid_argument("usage: trajectory ROBOT.urdf TRAJECTORY.csv");
   using namespace corridor;
   const Model model = ModelBuilder()
                           .addRobot(arguments[1])  // a URDF file
