@@ -88,6 +88,27 @@ TEST_F(CampaignMerge, ThreeShardsHaveTheRowsOfTheWhole) {
             "3,0");
 }
 
+/// The two shares have runs of different problems, with the same ids. RRTstar reports its progress.
+TEST_F(CampaignMerge, RowsGetNewIdsTogether) {
+  write("other.yaml", read("hall.yaml") + "margin: 0.01\n");
+  write("campaign.yaml",
+        "format: corridor-campaign-1\nproblems: [hall.yaml, other.yaml]\nplanners: [RRTstar]\n"
+        "checkers: {certified: {edges: certified}}\nlimits: {time: 0.3}\n");
+  runShards(2, "--runs 1");
+  ASSERT_EQ(run("benchmark --merge s2 s1 -o merged").status, 0);
+  const std::string rows =
+      "SELECT group_concat(x, char(10)) FROM (SELECT e.name || r.seed || r.solved || r.edges || "
+      "c.problem || substr(json_extract(s.setup, '$.setup'), 1, 20) || count(g.time) || ' ' || "
+      "sum(g.time) AS x FROM corridor_cells c JOIN "
+      "corridor_runs k ON k.cellid = c.id JOIN runs r ON r.id = k.runid JOIN experiments e ON e.id "
+      "= r.experimentid JOIN corridor_setups s ON s.id = k.setupid JOIN progress g ON g.runid = "
+      "r.id GROUP BY r.id ORDER BY c.problem DESC)";
+  const std::string first = query("s2/campaign.db", rows), second = query("s1/campaign.db", rows);
+  EXPECT_THAT(first, testing::StartsWith("other"));
+  EXPECT_THAT(second, testing::StartsWith("hall"));
+  EXPECT_EQ(query("merged/campaign.db", rows), first + "\n" + second);
+}
+
 /// Two laboratories run one campaign with different seeds.
 TEST_F(CampaignMerge, OtherSeedsOfTheSameCampaign) {
   ASSERT_EQ(run("benchmark campaign.yaml --runs 5 -o whole").status, 0);
@@ -100,6 +121,10 @@ TEST_F(CampaignMerge, OtherSeedsOfTheSameCampaign) {
   ASSERT_EQ(run("benchmark campaign.yaml --runs 1 --seed 7 -o c").status, 0);
   ASSERT_EQ(run("benchmark --merge c merged -o all").status, 0);
   EXPECT_EQ(repeatable("all").size(), 1u + 7 * 6);
+  ASSERT_EQ(run("benchmark campaign.yaml --runs 1 --seed 4 -o d").status, 0);
+  expectFault("benchmark --merge d a -o gap",
+              "d/campaign.db: can't be merged with the others: none of them is for the seeds from "
+              "3 to 3, and a campaign has seeds without a gap");
   expectFault("benchmark --merge c a -o gap",
               "c/campaign.db: can't be merged with the others: none of them is for the seeds from "
               "3 to 6, and a campaign has seeds without a gap");
@@ -172,8 +197,8 @@ TEST_F(CampaignMerge, BadInputIsOneLine) {
   expectFault("benchmark --merge s1 s2 --runs 3 -o m",
               "--runs excludes --merge; see corridor benchmark --help");
   expectFault("benchmark --merge s1 s2 -o s1",
-              "s1/campaign.db: contains 3 runs already; continue with --resume, or name another "
-              "folder");
+              "s1/campaign.db: contains 3 runs already; name another folder, or continue them by "
+              "--resume");
   for (const char* same : {"s1 s2 s1", "s2 s1/campaign.db s1"})
     expectFault("benchmark --merge " + std::string(same) + " -o m",
                 "s1/campaign.db: has runs that another of these databases has, too: seed 1 of "

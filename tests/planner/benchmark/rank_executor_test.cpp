@@ -52,7 +52,8 @@ class ThreadRanks final : public Ranks {
   int rank_;
 };
 
-/// Tasks that end at once; a task from 1000 on never ends, and from 2000 on can't be killed.
+/// Tasks that end at once; a task from 1000 on never ends, and from 2000 on can't be killed. For a
+/// task from 3000 on there is never a process.
 class FakeExecutor final : public Executor {
  public:
   explicit FakeExecutor(std::size_t places) : places_(places) {}
@@ -60,6 +61,7 @@ class FakeExecutor final : public Executor {
   std::size_t underWay() const override { return tasks_.size(); }
   bool start(std::uint64_t task) override {
     if (task == 13) throw std::runtime_error("no room");
+    if (task >= 3000) return false;
     tasks_.push_back(task);
     EXPECT_LE(tasks_.size(), places_);
     return true;
@@ -141,7 +143,7 @@ TEST_F(RankTest, DoesEachTaskOnceByTwoMessages) {
 
 TEST_F(RankTest, StopKillsWhatMayBeKilled) {
   executor_->begin("set up");
-  for (const std::uint64_t task : {1000, 1001, 1002, 1003, 2000}) executor_->start(task);
+  for (const std::uint64_t task : {1000, 1001, 1002, 1003, 2000, 3000}) executor_->start(task);
   EXPECT_TRUE(executor_->wait(50).empty());
   executor_->stop();
   std::vector<TaskEnd> ends;

@@ -127,6 +127,12 @@ TEST(RobotParts, ABuilderTakesThem) {
   EXPECT_THAT(model.space.numberNames(), testing::ElementsAre("left/turn", "right/turn"));
   ASSERT_EQ(model.bodies.size(), 3U);
   EXPECT_EQ(model.bodies[1].name, "right/arm");
+  left.links[2].shapes = {shapeOf("finger", Sphere{0.1})};
+  left.links[0].shapes = left.links[2].shapes;
+  const Model touching = ModelBuilder().addRobot(left).build();
+  EXPECT_EQ(touching.filter.whyNotTested(0, 2), "");
+  left.allow = {{"finger", "base"}};
+  EXPECT_EQ(ModelBuilder().addRobot(left).build().filter.whyNotTested(0, 2), "allow");
   try {
     ModelBuilder().addRobot(fingered(), {}, {"follow"}).build();
     FAIL() << "a joint that mimics can't be planned for";
