@@ -11,7 +11,10 @@
 namespace corridor::app {
 
 std::string limitsText(const Problem& problem, const LimitRatios& ratios) {
-  std::string text = keepsLimits(ratios) ? "kept at every instant" : "exceeded";
+  const bool areTested = ratios.acceleration.tested && ratios.jerk.tested;
+  std::string text = !keepsLimits(ratios) ? "exceeded"
+                     : areTested          ? "kept at every instant"
+                                          : "those that are tested are kept at every instant";
   const std::vector<std::string> numbers = problem.model.space.numberNames();
   const auto add = [&](const char* what, const LimitShare& share, const std::string& name) {
     // Rounded up, so that a limit that is exceeded never shows as 100 %. The factor takes back what

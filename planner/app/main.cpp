@@ -36,9 +36,10 @@ int main(int argc, char** argv) {
   CLI::App program("Corridor plans collision-free motions and proves each one.", "corridor");
   program.set_version_flag("--version", CORRIDOR_VERSION);
   program.require_subcommand(1);
-  program.footer(std::string("corridor COMMAND --help lists a command's options.\n"
-                             "In a checkout, ./corridor also has the commands test and fuzz.\n") +
-                 kExitStatus);
+  program.footer(
+      std::string("corridor COMMAND --help lists a command's options.\n"
+                  "In a checkout, ./corridor also has the commands python, test and fuzz.\n") +
+      kExitStatus);
   int status = kDone;
   for (const auto add : {addSolve, addVerify, addView, addBenchmark, addCheck, addInspect, addPose,
                          addQuery, addNew})

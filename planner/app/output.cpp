@@ -14,6 +14,7 @@
 
 #include "collision/core/error.h"
 #include "collision/core/shortest.h"
+#include "planner/benchmark/ranks.h"
 #include "planner/problem/nothing_tested.h"
 #include "planner/solve/finish_path.h"
 
@@ -33,7 +34,8 @@ const char* nameOf(MotionVerdict verdict) {
 
 void ResultPrinter::line(std::string_view key, const std::string& value, Tone tone) const {
   if (quiet_) return;
-  static const bool colour = ::isatty(STDOUT_FILENO) != 0;
+  // mpirun gives the ranks a terminal, whatever its own output is.
+  static const bool colour = ::isatty(STDOUT_FILENO) != 0 && !startedByMpirun();
   const char* on = !colour              ? ""
                    : tone == Tone::good ? "\033[32m"
                    : tone == Tone::bad  ? "\033[31m"

@@ -15,7 +15,7 @@ RankJob::RankJob(std::size_t jobs) : ranks_(joinRanks()) {
 
 const std::atomic<bool>& RankJob::listen() const {
   return ranks_ ? listenForInterrupts(SecondInterrupt::isIgnored, {SIGUSR1})
-                : listenForInterrupts();
+                : listenForInterrupts(SecondInterrupt::ends, {SIGUSR1});
 }
 
 int RankJob::serve(const RankSetUp& setUp) {

@@ -59,6 +59,10 @@ std::map<std::string, std::string> applyArguments(const SolveArguments& a, Probl
   if (a.noSimplify) problem.settings.simplify = Simplifier::none;
   requireClearance(a, problem);
   TrajectorySettings& trajectory = problem.settings.trajectory;
+  if (a.smooth && a.cornerDeviation && *a.smooth != wordOf(Smoothing::corners))
+    throw InputError(Fault{
+        "--corner-deviation", 0,
+        "rounds corners only, which is --smooth corners; leave --smooth " + *a.smooth + " out"});
   if (a.smooth) trajectory.smooth = choiceNamed<Smoothing>(*a.smooth).value();
   if (a.deviation) trajectory.deviation = *a.deviation;
   if (a.cornerDeviation) trajectory.cornerDeviation = a.cornerDeviation;

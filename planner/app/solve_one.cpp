@@ -6,6 +6,7 @@
 #include <iostream>
 #include <unistd.h>
 
+#include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
 #include "planner/app/options.h"
 #include "planner/app/output.h"
@@ -37,9 +38,13 @@ bool isBetter(const ConfigurationSpace& space, const SolveReport& a, const Solve
 SolveReport bestOf(const SolveArguments& a, Problem& problem, const SolveOptions& options,
                    std::uint64_t& tries) {
   if (a.keep == "clearest" && preferredClearance(problem) == 0)
-    throw InputError(Fault{"--keep", 0,
-                           "the clearest path needs a preferred clearance, such as --clearance "
-                           "0.005"});
+    throw InputError(
+        Fault{"--keep", 0,
+              "the clearest path needs a preferred clearance" +
+                  std::string(problem.task.margin > 0
+                                  ? ", which can't be used with a margin: --margin 0 --clearance " +
+                                        shortest(problem.task.margin) + " replaces it"
+                                  : ", such as --clearance 0.005")});
   SolveReport best = solveProblem(problem, options);
   // OMPL takes a seed of 0 as 1.
   const std::uint64_t first = std::max<std::uint64_t>(problem.settings.seed, 1);

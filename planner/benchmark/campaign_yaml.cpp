@@ -248,7 +248,8 @@ class CampaignReader {
         const auto [other, unlike] = same.insert({effectOf(one.map), one.suffix});
         if (!unlike) {
           source_.fault(entry.line, path + ": \"" + entry.key + other->second + "\" and \"" +
-                                        entry.key + one.suffix + "\" would be the same checker");
+                                        entry.key + one.suffix +
+                                        "\" would be the same checker: what differs has no effect");
           return;
         }
         if (takesPart) campaign_.variants.push_back(std::move(variant));

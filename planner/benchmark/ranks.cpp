@@ -24,6 +24,11 @@ std::optional<int> numberIn(const char* name) {
 
 }  // namespace
 
+bool startedByMpirun() {
+  const auto size = numberIn("OMPI_COMM_WORLD_SIZE");
+  return size ? *size > 1 : std::getenv("PMIX_RANK") != nullptr;
+}
+
 int rankInEnvironment() {
   for (const char* name : {"OMPI_COMM_WORLD_RANK", "PMIX_RANK"})
     if (const auto rank = numberIn(name)) return *rank;
@@ -31,8 +36,7 @@ int rankInEnvironment() {
 }
 
 std::unique_ptr<Ranks> joinRanks() {
-  const auto size = numberIn("OMPI_COMM_WORLD_SIZE");
-  if (size ? *size <= 1 : !std::getenv("PMIX_RANK")) return nullptr;
+  if (!startedByMpirun()) return nullptr;
 #ifdef CORRIDOR_MPI_MODULE
   const OpenModule module = openModule(CORRIDOR_MPI_MODULE, CORRIDOR_MPI_DIR);
   if (!module.handle) refuseRanks("the module for MPI can't be opened: " + module.why);

@@ -36,6 +36,9 @@ extern "C" {
 Ranks* corridorRanks();
 }
 
+/// Returns whether this process is one of several that `mpirun`, or `srun --mpi=pmix`, started.
+bool startedByMpirun();
+
 /// The number of this process in its job, as the environment has it: Open MPI's `mpirun`, and
 /// Slurm's `srun --mpi=pmix`, set it. 0 if it is alone.
 int rankInEnvironment();

@@ -52,7 +52,10 @@ void readFile(const YamlMap& map, const Model& model, bool isComplete, LimitSpec
       map.require("joint_limits", "{JOINT: {has_velocity_limits: true, max_velocity: 2}}");
   if (!value) return;
   const std::vector<LimitedJoint> joints = jointsWithLimits(model);
-  std::vector<std::string> unused, positions;
+  std::vector<std::string> known, unused, positions;
+  for (const ModelRobot& robot : model.robots)
+    for (const JointModel& joint : robot.description.joints) known.push_back(joint.name);
+  std::string unknown;  // joints of no robot, each with a suggestion
   const YamlMap limits(*value, map.pathOf("joint_limits"), nullptr, map.source());
   for (const YamlValue::Entry* entry : limits.entries()) {
     const YamlMap own(entry->value, limits.pathOf(entry->key), &kJoint, map.source());
@@ -69,12 +72,21 @@ void readFile(const YamlMap& map, const Model& model, bool isComplete, LimitSpec
       spec.named[joint.name] = values;
       used = true;
     }
-    if (!used) unused.push_back(entry->key);
+    if (used) continue;
+    unused.push_back(entry->key);
+    if (std::find(known.begin(), known.end(), entry->key) == known.end())
+      unknown +=
+          (unknown.empty() ? "" : ", ") + quotedWord(entry->key) + didYouMean(entry->key, known);
   }
   if (!isComplete) return;
   if (!unused.empty() && unused.size() == limits.entries().size())
     return map.fault("joint_limits",
                      "no joint of this file is planned for: " + joinedFirst(unused));
+  if (!unknown.empty())
+    notes.push_back({file + ": no robot here has these joints: " + unknown, NoteWeight::motion});
+  std::erase_if(unused, [&](const std::string& name) {
+    return std::find(known.begin(), known.end(), name) == known.end();
+  });
   if (!unused.empty())
     notes.push_back({file + ": limits of " + joinedFirst(unused) + " are not used: not planned for",
                      NoteWeight::detail});

@@ -104,28 +104,32 @@ Solve::Solve(const Problem& problem, const SolveOptions& options)
       treesText(problem.settings.checker.trees);
 }
 
+Fault Solve::faultAt(const std::string& place, const std::string& text) const {
+  const auto elsewhere = options_.valueOrigins.find(place);
+  if (elsewhere != options_.valueOrigins.end()) return {elsewhere->second, 0, text};
+  return problem_.source.faultAt(place, text);
+}
+
 PlannerParameter Solve::parameterAt(const std::string& place, const std::string& key,
                                     const std::string& value) const {
-  const auto elsewhere = options_.valueOrigins.find(place);
-  if (elsewhere != options_.valueOrigins.end()) return {key, value, elsewhere->second, 0};
-  const Fault at = problem_.source.faultAt(place, "");
+  const Fault at = faultAt(place, "");
   return {key, value, at.file, at.line};
 }
 
 void Solve::checkEnds() {
   std::vector<Fault> faults;
   if (const auto why = whyNotFree(start_, checker_))
-    faults.push_back(problem_.source.faultAt("start", "start: " + *why));
+    faults.push_back(faultAt("start", "start: " + *why));
   std::vector<std::string> whyNot;
   goalSamples_ = sampleGoals(problem_, checker_, kGoalSamples, whyNot);
   for (const std::string& why : whyNot) {
     if (goalSamples_.empty())
-      faults.push_back(problem_.source.faultAt(
-          "goal", problem_.task.goalRegion
-                      ? "no free state was found in the goal region; at its middle: " + why
-                      : why));
+      faults.push_back(
+          faultAt("goal", problem_.task.goalRegion
+                              ? "no free state was found in the goal region; at its middle: " + why
+                              : why));
     else if (!problem_.task.goalRegion)
-      report_.warnings.push_back(problem_.source.faultAt("goal", why));
+      report_.warnings.push_back(faultAt("goal", why));
   }
   if (!faults.empty()) throw InputError(std::move(faults));
 }

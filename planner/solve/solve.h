@@ -32,7 +32,8 @@ struct SolveOptions {
   /// the margin (checker/still_pairs.h).
   bool noteStillPairs = false;
   /// For messages: the origins of values that were not read from the problem's file, by key, such
-  /// as "planner.name" → "--planner".
+  /// as "planner.name" → "--planner". The keys are planner.name, planner.params.KEY, start and
+  /// goal.
   std::map<std::string, std::string> valueOrigins;
   /// Called once before planning, after the checkers of states and motions were set. It may replace
   /// them: planner/benchmark does so to measure times, and to use competitors. Tests of start and

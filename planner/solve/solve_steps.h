@@ -86,6 +86,8 @@ class Solve {
   bool maximisesClearance() const {
     return problem_.settings.objective == Objective::maxMinClearance;
   }
+  /// A fault of a value: at its line of the problem's file, or at its origin.
+  Fault faultAt(const std::string& place, const std::string& text) const;
   PlannerParameter parameterAt(const std::string& place, const std::string& key = "",
                                const std::string& value = "") const;
   bool interrupted() const { return options_.interrupted && options_.interrupted->load(); }

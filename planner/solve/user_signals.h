@@ -6,8 +6,8 @@
 namespace corridor {
 
 /// The signals by which users, terminals and batch systems end a program. They may reach a whole
-/// process group; the program that was called decides what they mean. SIGUSR1 counts under `mpirun`
-/// only (planner/app/rank_job.h), which sends it to all processes of a rank.
+/// process group; the program that was called decides what they mean. SIGUSR1 counts in
+/// campaigns and in solves of many problems (planner/app/rank_job.h).
 inline constexpr std::array kUserSignals{SIGINT, SIGTERM, SIGHUP, SIGUSR1};
 
 }  // namespace corridor

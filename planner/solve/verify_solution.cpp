@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "collision/core/shortest.h"
 #include "planner/checker/default_tolerance.h"
@@ -147,6 +148,14 @@ std::string boundsText(const Coordinate& c) {
   return "[" + shortest(c.lower) + ", " + shortest(c.upper) + "]";
 }
 
+/// Returns a hint if a value that is out of bounds would be in them in degrees, or "".
+std::string degreesHintOf(const Coordinate& c, double value) {
+  const double radians = value * (std::numbers::pi / 180);
+  const bool isDegrees = c.angular && std::abs(value) > 2 * std::numbers::pi &&
+                         c.lower <= radians && radians <= c.upper;
+  return isDegrees ? "; is it in degrees? These files have radians" : "";
+}
+
 void checkBounds(const Problem& problem, const Path& path, std::vector<std::string>& violations) {
   for (std::size_t i = 0; i < path.size(); ++i) {
     for (const Coordinate& c : problem.model.space.coordinates()) {
@@ -154,7 +163,8 @@ void checkBounds(const Problem& problem, const Path& path, std::vector<std::stri
       const double value = path[i][static_cast<Eigen::Index>(c.first)];
       if (value >= c.lower && value <= c.upper) continue;
       violations.push_back("state " + std::to_string(i) + " is outside of the bounds: " + c.name +
-                           " = " + shortest(value) + " is not in " + boundsText(c));
+                           " = " + shortest(value) + " is not in " + boundsText(c) +
+                           degreesHintOf(c, value));
     }
   }
 }
@@ -172,7 +182,7 @@ void checkBounds(const ConfigurationSpace& space, const TrajectoryRows& rows, co
     violations.push_back(c.name + " = " + shortest(outside.value) + " is outside of its bounds, " +
                          boundsText(c) + ": " + when +
                          (outside.t > 0 && outside.t < 1 ? "after " : "in ") + "line " +
-                         std::to_string(line));
+                         std::to_string(line) + degreesHintOf(c, outside.value));
   }
 }
 

@@ -144,13 +144,12 @@ struct NearestFree {
 };
 
 /// Rounds the numbers that the message prints to 4, 6, 9 or 12 digits: the fewest with which
-/// `exact` remains free. If it never does, nothing is rounded. The message prints the whole
-/// position of a pose, or else the numbers that differ from `from`.
-NearestFree withFewDigits(const Configuration& exact, const Configuration& from, double away,
-                          const Checker& checker) {
+/// `exact` remains free. If it never does, nothing is rounded. The message prints the position of a
+/// pose, or else all numbers, which can then be copied into the problem.
+NearestFree withFewDigits(const Configuration& exact, double away, const Checker& checker) {
   const CoordinateGroup* const pose = onlyPose(checker.space());
   const auto isPrinted = [&](Eigen::Index i) {
-    return pose ? i + 1 < static_cast<Eigen::Index>(pose->coordinates.size()) : exact[i] != from[i];
+    return !pose || i + 1 < static_cast<Eigen::Index>(pose->coordinates.size());
   };
   for (const int digits : {4, 6, 9, 12}) {
     Configuration q = exact;
@@ -181,14 +180,13 @@ std::optional<NearestFree> nearestFree(const Configuration& q, const Checker& ch
         const double middle = (inside + outside) / 2;
         (freeAt(middle * d) ? outside : inside) = middle;
       }
-      return withFewDigits(q + outside * d, q, outside, checker);
+      return withFewDigits(q + outside * d, outside, checker);
     }
   }
   return std::nullopt;
 }
 
-std::string describedFree(const std::optional<NearestFree>& free, const Configuration& q,
-                          const ConfigurationSpace& space) {
+std::string describedFree(const std::optional<NearestFree>& free, const ConfigurationSpace& space) {
   if (const CoordinateGroup* pose = onlyPose(space)) {
     if (!free) return "no free position was found nearby with this orientation";
     return "the nearest free position found is " + number(free->away) +
@@ -198,23 +196,10 @@ std::string describedFree(const std::optional<NearestFree>& free, const Configur
   const std::vector<std::string> names = space.numberNames();
   std::string values;
   for (std::size_t i = 0; i < names.size(); ++i)
-    if (const auto k = static_cast<Eigen::Index>(i); free->q[k] != q[k])
-      values += (values.empty() ? "" : ", ") + names[i] + ": " + number(free->q[k], free->digits);
+    values += (values.empty() ? "" : ", ") + names[i] + ": " +
+              number(free->q[static_cast<Eigen::Index>(i)], free->digits);
   return "the nearest free values found are at most " + number(free->away) + " rad or m away: {" +
          values + "}";
-}
-
-std::string outOfBounds(const Configuration& q, const ConfigurationSpace& space) {
-  if (const CoordinateGroup* pose = onlyPose(space))
-    return position(q, *pose) + " is outside of the bounds";
-  std::string text;
-  for (const Coordinate& c : space.coordinates()) {
-    const double value = q[static_cast<Eigen::Index>(c.first)];
-    if (c.kind == Coordinate::Kind::line && !(c.lower <= value && value <= c.upper))
-      text += (text.empty() ? "" : ", ") + c.name + " = " + number(value) + " is not in [" +
-              number(c.lower) + ", " + number(c.upper) + "]";
-  }
-  return text;
 }
 
 /// Explains the reasons that do not depend on the gap between two bodies.
@@ -232,8 +217,21 @@ std::string whyUndecided(UndecidedReason reason) {
 
 }  // namespace
 
+std::string whyOutOfBounds(const Configuration& q, const ConfigurationSpace& space) {
+  if (const CoordinateGroup* pose = onlyPose(space))
+    return position(q, *pose) + " is outside of the bounds";
+  std::string text;
+  for (const Coordinate& c : space.coordinates()) {
+    const double value = q[static_cast<Eigen::Index>(c.first)];
+    if (c.kind == Coordinate::Kind::line && !(c.lower <= value && value <= c.upper))
+      text += (text.empty() ? "" : ", ") + c.name + " = " + number(value) + " is not in [" +
+              number(c.lower) + ", " + number(c.upper) + "]";
+  }
+  return text;
+}
+
 std::optional<std::string> whyNotFree(const Configuration& q, const Checker& checker) {
-  if (!checker.inBounds(q)) return outOfBounds(q, checker.space());
+  if (!checker.inBounds(q)) return whyOutOfBounds(q, checker.space());
   const MotionResult result = checker.certifyState(q);
   if (result.verdict == MotionVerdict::free) return std::nullopt;
 
@@ -266,7 +264,7 @@ std::optional<std::string> whyNotFree(const Configuration& q, const Checker& che
          (checker.interference(q)
               ? " touch"
               : " are closer than the " + kept + " of " + number(margin) + " m") +
-         "; " + describedFree(nearestFree(q, checker), q, checker.space());
+         "; " + describedFree(nearestFree(q, checker), checker.space());
 }
 
 }  // namespace corridor

@@ -13,4 +13,8 @@ namespace corridor {
 /// to set.
 std::optional<std::string> whyNotFree(const Configuration& q, const Checker& checker);
 
+/// Returns one line: the numbers that are outside of their bounds, and the bounds.
+/// @pre `q` is out of bounds.
+std::string whyOutOfBounds(const Configuration& q, const ConfigurationSpace& space);
+
 }  // namespace corridor

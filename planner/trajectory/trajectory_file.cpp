@@ -9,6 +9,7 @@
 #include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
 #include "planner/problem/urdf_robot.h"
+#include "planner/robot/joint_types.h"
 #include "planner/trajectory/row_faults.h"
 #include "planner/trajectory/trajectory_table.h"
 
@@ -176,17 +177,19 @@ class RowMaker {
 
   /// Checks the columns of joints that are not planned for.
   void checkOthers(const Columns& columns, const TrajectoryTable& table, TrajectoryRows& result) {
-    std::vector<std::string> followers;
+    std::vector<std::string> followers, fixed;
     for (std::size_t i = 0; i < columns.size(); ++i) {
       if (columns[i].kind == Meaning::Kind::number) continue;
       const ModelRobot& robot = model_.robots[columns[i].robot];
       const JointModel& joint = robot.description.joints[columns[i].index];
       const std::string& name = table.positions[i];
       if (columns[i].kind == Meaning::Kind::other) {
-        faults_.add(file_, table.namesLine,
-                    quotedWord(name) +
-                        " is not planned for, and has no value of its own; leave "
-                        "it out");
+        if (joint.type == JointType::fixed)
+          fixed.push_back(name);
+        else
+          faults_.add(file_, table.namesLine,
+                      quotedWord(name) + " is a " + nameOf(joint.type) +
+                          " joint whose pose is held; leave it out");
       } else if (columns[i].kind == Meaning::Kind::held) {
         checkHeld(robot.held.at(columns[i].index), name, joint.name, i, table);
       } else {
@@ -194,6 +197,10 @@ class RowMaker {
         noteMimic(robot, *joint.mimic, name, i, table, result);
       }
     }
+    if (!fixed.empty())
+      result.notes.push_back(
+          {file_ + ": not read: " + joinedFirst(fixed) + "; these joints are fixed",
+           NoteWeight::detail});
     if (!followers.empty())
       result.notes.push_back({file_ + ": not read: " + joinedFirst(followers) +
                                   "; mimic joints follow the rule of the robot",

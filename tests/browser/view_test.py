@@ -157,8 +157,10 @@ def trajectory(browser, path):
     for file, text in {
             "robot.yaml": "format: corridor-robot-1\nname: cube\nrigid: SE2\nshapes: [{box: [1, 1, 1]}]\n",
             "problem.yaml": "format: corridor-problem-1\nrobot: robot.yaml\nworld: {wall: {box: [0.1, 1, 1]}}\n"
-                            "start: {at: [-3, 0]}\ngoal: {at: [3, 0]}\nbounds: {at: [[-4, -4], [4, 4]]}\n",
-            "path.csv": "time,x,y,yaw\n1,-3,0,0\n21,-1,2,0\n41,3,0,1\n", "through.csv": "time,x,y,yaw\n1,-3,0,0\n5,3,0,0\n"}.items():
+                            "start: {at: [-3, 0]}\ngoal: {at: [3, 0]}\nbounds: {at: [[-4, -4], [4, 4]]}\n"
+                            "limits: {position: {velocity: 1}, rotation: {velocity: 1}}\n",
+            "path.csv": "time,x,y,yaw\n1,-3,0,0\n21,-1,2,0\n41,3,0,1\n", "through.csv": "time,x,y,yaw\n1,-3,0,0\n5,3,0,0\n",
+            "fast.csv": "time,x,y,yaw\n1,-3,0,0\n2,-1,2,0\n3,3,0,1\n"}.items():
         with open(os.path.join(path, file), "w", encoding="utf-8") as out:
             out.write(text)
     page = os.path.join(path, "page.html")
@@ -182,6 +184,13 @@ def trajectory(browser, path):
         browser.click("#plots svg")  # at its centre, which is not that of the axes
         assert abs(browser.js("corridorView.motion.at") - 0.4) < 0.02
         assert browser.js("document.querySelector('#slider').getAttribute('aria-valuetext')") == browser.find("#place").text
+    assert "Limitskept" in browser.js("document.getElementById('facts').textContent")
+    corridor("view", os.path.join(path, "problem.yaml"), os.path.join(path, "fast.csv"), "-o", os.path.join(path, "fast.html"))
+    shown(browser, os.path.join(path, "fast.html"), "desktop")
+    assert browser.find("#badge").text == "Proved free of contact, limits exceeded", "green although limits are exceeded"
+    assert browser.find("#badge").get_attribute("class") == "undecided"
+    assert "Limitsexceeded: velocity " in browser.js("document.getElementById('facts').textContent")
+    shown(browser, page, "desktop")
     # The true speed: w seconds later by the clock of the frames, the place is w seconds later.
     for speed in (0.25, 1, 2):
         browser.driver.execute_script("document.getElementById('speed').value = arguments[0];", str(speed))

@@ -27,10 +27,10 @@ class Chart {
   curve(points, stroke) {
     this.add('polyline', {points: points.join(' '), fill: 'none', stroke, 'stroke-width': 1.5, 'stroke-linejoin': 'round'});
   }
-  /** Draws a dashed line at a value, with a word above its end. */
-  level(value, stroke, word = '') {
+  /** Draws a dashed line at a value, with a word above its end. The word may be left of other `words`, to keep clear of them. */
+  level(value, stroke, word = '', words = '') {
     this.line(this.left, this.y(value), this.right, this.y(value), {stroke, 'stroke-dasharray': '4 3'});
-    if (word) this.add('text', {x: this.right, y: this.y(value) - 3, 'text-anchor': 'end'}, word);
+    if (word) this.add('text', {x: this.right - 7 * words.length, y: this.y(value) - 3, 'text-anchor': 'end'}, word);
   }
 
   finish() {
@@ -98,7 +98,8 @@ class DistanceChart extends Chart {
     this.add('polygon', {points: `${this.x(closest.at[0])},${bottom} ${points.join(' ')} ${right},${bottom}`, fill: palette.robots[0], opacity: 0.1});
     this.curve(points, palette.robots[0]);
     if (margin > 0) this.level(margin, palette.goal, 'margin');
-    if (proved > 0) this.level(proved, palette.start, 'proved');
+    const isNear = margin > 0 && Math.abs(this.y(proved) - this.y(margin)) < 12;
+    if (proved > 0) this.level(proved, palette.start, 'proved', isNear ? 'margin' : '');
     this.finish();
     this.dot = this.add('circle', {r: 3.5, fill: palette.witness, stroke: '#fff', 'stroke-width': 1.5});
     this.goTo(this.at);

@@ -13,6 +13,7 @@ const Panel = {
       badge.textContent = {proved: 'Proved free of contact', refuted: 'Refuted', undecided: 'Undecided', 'other problem': 'Other problem'}[v.verdict];
       badge.className = this.verdictClass();
       if (this.provedOfNothing()) badge.textContent = 'No pair is tested';
+      else if (this.exceedsLimits()) badge.textContent += ', limits exceeded';
       badge.hidden = false;
       if (s.planner) facts.push(['Planner', s.planner + (s.seed === undefined ? '' : `, seed ${s.seed}`)]);
       if (s.checker) facts.push(['Certified', s.certified ? 'yes' : `no (${s.checker})`]);
@@ -23,6 +24,7 @@ const Panel = {
       facts.push([s.between ? 'Rows' : 'States', s.states.toLocaleString('en')]);
       if (v.verdict !== 'other problem') facts.push(['Edges proved', `${v.edges_proved.toLocaleString('en')} of ${v.edges.toLocaleString('en')}`]);
       if (v.clearance_m !== undefined && v.clearance_m !== null) facts.push(['Clearance', `at least ${metres(v.clearance_m)}`]);
+      if (v.limits) facts.push(['Limits', this.limitsText()]);
     }
     if (s && s.margin_m > 0) facts.push(['Margin', metres(s.margin_m)]);
     facts.push(['Bodies', data.bodies.length.toLocaleString('en')]);
@@ -62,9 +64,21 @@ const Panel = {
   /** Returns whether the path counts as proved only because no pair is tested. */
   provedOfNothing: () => data.verdict.verdict === 'proved' && data.pairs.tested === 0,
 
-  /** Returns the CSS class of the verdict: only a proof with tested pairs is green. */
+  /** Returns whether a trajectory exceeds the limits over time. */
+  exceedsLimits: () => data.verdict.limits !== undefined && !data.verdict.limits.kept,
+
+  /** Returns "exceeded: velocity 418 %, acceleration 97 %"; rounded up, as by `corridor verify`. */
+  limitsText() {
+    const shares = Object.entries(data.verdict.limits.shares);
+    const share = (value) => value === null ? 'not tested' : typeof value === 'string' ? value : `${Math.ceil(1e3 * value * (1 - 1e-12)) / 10} %`;
+    const text = shares.map(([name, value]) => `${name} ${share(value)}`).join(', ');
+    return `${this.exceedsLimits() ? 'exceeded' : 'kept'}${text ? `: ${text}` : ''}`;
+  },
+
+  /** Returns the CSS class of the verdict: only a proof with tested pairs and kept limits is green. */
   verdictClass() {
-    return this.provedOfNothing() || data.verdict.verdict === 'other problem' ? 'undecided' : data.verdict.verdict;
+    const {verdict} = data.verdict, weaker = this.provedOfNothing() || (verdict === 'proved' && this.exceedsLimits());
+    return weaker || verdict === 'other problem' ? 'undecided' : verdict;
   },
 
   /** Returns the verdict in a line: "refuted: seat and shelf touch". */

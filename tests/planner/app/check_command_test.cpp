@@ -240,6 +240,8 @@ TEST_F(CheckCommand, CheckOfStartAndGoal) {
   EXPECT_EQ(touch.status, 1);
   EXPECT_THAT(touch.out, HasSubstr("start: in contact: \"lower\" and \"post\" touch; the "
                                    "nearest free values found are at most 0."));
+  // All values, also the one that is the same: they can be copied into the problem.
+  EXPECT_THAT(touch.out, testing::ContainsRegex("\\{shoulder: [0-9.]+, elbow: [-0-9.e]+\\}"));
   write("bad.yaml",
         "format: corridor-problem-1\nrobot: arm.urdf\nworld:\n  post: {sphere: 0.1, at: [0, 1.5, "
         "0]}\n"

@@ -215,7 +215,10 @@ TEST_F(SolveArm, MarginAndClearanceOfTheCommandLine) {
            {"--keep clearest", "--keep: needs --tries, which is not given\n"},
            {"--keep clearest --tries 2 --clearance 0",
             "--keep: the clearest path needs a preferred clearance, such as --clearance "
-            "0.005\n"}}) {
+            "0.005\n"},
+           {"--keep clearest --tries 2 --margin 0.002",
+            "--keep: the clearest path needs a preferred clearance, which can't be used with a "
+            "margin: --margin 0 --clearance 0.002 replaces it\n"}}) {
     const Result refused = run(std::string("solve arm.yaml -o none.yaml ") + options);
     EXPECT_EQ(refused.status, 2) << options;
     EXPECT_EQ(refused.err, complaint);

@@ -253,9 +253,9 @@ TEST_F(CampaignYaml, VariantsDiffer) {
   const auto of = [&](const char* checker) {
     return faults(std::string(kStart) + "checkers:\n  a: " + checker + "\n");
   };
-  EXPECT_THAT(
-      of("{edges: certified, resolution: [0.1, 0.01]}"),
-      ElementsAre("c.yaml:4: checkers.a: \"a 0.1\" and \"a 0.01\" would be the same checker"));
+  EXPECT_THAT(of("{edges: certified, resolution: [0.1, 0.01]}"),
+              ElementsAre("c.yaml:4: checkers.a: \"a 0.1\" and \"a 0.01\" would be the same "
+                          "checker: what differs has no effect"));
   EXPECT_THAT(of("{edges: [certified, discrete], resolution: [0.1, 0.01]}"),
               ElementsAre(HasSubstr("\"a certified 0.1\" and \"a certified 0.01\"")));
   EXPECT_THAT(of("{edges: discrete, tolerance: [0.1, 0.01]}"), SizeIs(1));

@@ -95,10 +95,21 @@ TEST_F(LimitsTest, MoveitFile) {
   EXPECT_FALSE(spec.named.at("lift").velocity.has_value());
   EXPECT_EQ(spec.named.at("lift").jerk, 7);
   ASSERT_EQ(notes_.size(), 2);
-  EXPECT_THAT(notes_[0].text, testing::HasSubstr("limits of other are not used: not planned for"));
+  EXPECT_THAT(notes_[0].text, testing::EndsWith(": no robot here has these joints: \"other\""));
+  EXPECT_EQ(notes_[0].weight, NoteWeight::motion);
   EXPECT_EQ(notes_[1].text,
             "the file's default factor makes acceleration_scale 0.5; limits: {acceleration_scale: "
             "1} replaces it");
+}
+
+TEST_F(LimitsTest, MisspeltJointsOfMoveitsFile) {
+  write("joint_limits.yaml",
+        "joint_limits:\n  pan: {has_velocity_limits: true, max_velocity: 2}\n"
+        "  lfit: {has_velocity_limits: true, max_velocity: 2}\n");
+  specOf("  file: joint_limits.yaml\n");
+  ASSERT_EQ(notes_.size(), 1);
+  EXPECT_THAT(notes_[0].text, testing::EndsWith(": no robot here has these joints: \"lfit\" (did "
+                                                "you mean \"lift\"?)"));
 }
 
 /// The forms in which people have MoveIt's file: the plain one, that of launch files, and

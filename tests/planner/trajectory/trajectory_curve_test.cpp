@@ -187,6 +187,9 @@ TEST_F(TrajectoryCurve, StartAndGoalAreNotedAndBoundsRefute) {
   EXPECT_THAT(beyond.violations,
               ElementsAre(HasSubstr("lift = -3.5 is outside of its bounds, [-3.14159, 3.14159]: at "
                                     "2 s, in line 3")));
+  const VerifyReport degrees = verified("time pan lift\n0 0 0\n2 0 35\n3 0 0\n");
+  ASSERT_FALSE(degrees.violations.empty());
+  EXPECT_THAT(degrees.violations[0], HasSubstr("; is it in degrees? These files have radians"));
 }
 
 }  // namespace

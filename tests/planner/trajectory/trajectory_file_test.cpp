@@ -35,6 +35,12 @@ TEST_F(TrajectoryFile, AHeaderNamesColumnsInAnyOrder) {
   EXPECT_EQ(read.rows[1].time, 0.75);
 }
 
+TEST_F(TrajectoryFile, FixedJointsAreNotRead) {
+  const TrajectoryRows read = rows("pan lift wrist\n1 2 0\n3 4 7\n");
+  EXPECT_EQ(read.rows[1].positions, numbers({3, 4}));
+  EXPECT_THAT(texts(read), testing::ElementsAre("t.csv: not read: wrist; these joints are fixed"));
+}
+
 TEST_F(TrajectoryFile, TheCommonNamesOfVelocitiesAreRead) {
   for (const char* const header :
        {"time,pan,lift,pan_velocity,lift_velocity,pan_acceleration,lift_acceleration",
@@ -190,8 +196,6 @@ TEST_F(TrajectoryFile, EveryFaultOfRowsIsOneLineWithItsPlace) {
             "t.csv:4: the time 1 s is not after that of the row before, 1 s; times must ascend");
   EXPECT_EQ(complaint("time pan lift\n1 0 0\n0.5 1 1\n"),
             "t.csv:3: the time 0.5 s is not after that of the row before, 1 s; times must ascend");
-  EXPECT_EQ(complaint("pan lift wrist\n0 0 0\n1 1 0\n"),
-            "t.csv:1: \"wrist\" is not planned for, and has no value of its own; leave it out");
   EXPECT_EQ(complaint("pan lift slide\n0 0 0.02\n1 1 0.04\n2 2 0.04\n"),
             "t.csv:3: \"slide\" is held at 0.02 in the problem, but is 0.02 to 0.04 in this file; "
             "plan for the joint (joints: in the robot's file), or leave it out of the file and let "

@@ -131,6 +131,23 @@ TEST_F(TrajectoryPage, PlotsHaveAllDerivativesAndTheLimits) {
   EXPECT_EQ(at.back(), 1);
 }
 
+TEST_F(TrajectoryPage, LimitsOverTimeAreInTheVerdict) {
+  const char* rows = "time,pan,lift\n10,0,1.57\n12,1.6,1.57\n";
+  const std::string problem =
+      "format: corridor-problem-1\nrobot: arm.yaml\nstart: {pan: 0, lift: 1.57}\ngoal: {pan: 1.6, "
+      "lift: 1.57}\n";
+  problem_ = read(problem + "limits: {default: {velocity: 0.5, acceleration: 1}}\n");
+  const auto exceeded = page(viewed(rows)).json["verdict"];
+  EXPECT_EQ(exceeded["verdict"], "proved");
+  EXPECT_EQ(exceeded["limits"]["kept"], false);
+  EXPECT_NEAR(exceeded["limits"]["shares"]["velocity"].get<double>(), 1.6, 1e-9);
+  EXPECT_TRUE(exceeded["limits"]["shares"].at("acceleration").is_null());
+  EXPECT_FALSE(exceeded["limits"]["shares"].contains("jerk"));
+  problem_ = read(problem + "limits: {default: {velocity: 1, acceleration: 1}}\n");
+  EXPECT_EQ(page(viewed(rows)).json["verdict"]["limits"]["kept"], true);
+  EXPECT_FALSE(page(viewed("pan,lift\n0,1.57\n1.6,1.57\n")).json["verdict"].contains("limits"));
+}
+
 TEST_F(TrajectoryPage, RowsWithoutTimesPlayAsAPath) {
   const PageReader reader = page(viewed("pan,lift\n0,0.5\n0.5,0.75\n1,0.3\n"));
   EXPECT_FALSE(reader.json["path"].contains("times"));
