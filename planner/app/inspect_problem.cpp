@@ -175,7 +175,7 @@ class ProblemReport {
                 far == tested ? Tone::bad : Tone::plain);
     for (const auto& [reason, count] : skipped)
       out_.line("pairs skipped", grouped(count) + ": " + reason);
-    out_.line("never a pair", "world with itself (it stands still), a body with itself");
+    out_.line("never a pair", "two obstacles, a body with itself");
   }
 
   bool reportEnds() {

@@ -45,7 +45,7 @@ std::vector<std::string> clearanceLines(const PathClearance& c) {
   if (!c.a.empty())
     lines.back() += "; closest found: " + c.a + " and " + c.b + ", " + rounded(1e3 * c.smallest) +
                     " mm, edge " + std::to_string(c.edge) + " at " + rounded(c.t);
-  lines.push_back("every pair keeps its target on " +
+  lines.push_back("every pair keeps the preferred distance, as far as start and goal allow, on " +
                   rounded(std::floor(1e3 * c.shareOnTarget) / 10) + " % of the length");
   return lines;
 }

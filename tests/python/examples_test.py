@@ -1,4 +1,4 @@
-"""Runs the examples of planner/python/README.md, as one script."""
+"""Runs the examples of planner/python/README.md, as one script, and that of README.md."""
 
 import os
 import pathlib
@@ -12,19 +12,26 @@ SOURCE = pathlib.Path(os.environ["CORRIDOR_SOURCE_DIR"])
 
 
 class Examples(unittest.TestCase):
-    def test_readme(self):
-        text = (SOURCE / "planner/python/README.md").read_text(encoding="utf-8")
-        blocks = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
-        self.assertGreaterEqual(len(blocks), 6)
+    def printed(self, page, least):
+        """Runs all blocks of Python of a page, and returns what they print."""
+        blocks = re.findall(r"```python\n(.*?)```", (SOURCE / page).read_text(encoding="utf-8"), re.DOTALL)
+        self.assertGreaterEqual(len(blocks), least)
         with tempfile.TemporaryDirectory() as folder:
             script = pathlib.Path(folder, "examples.py")
             script.write_text("".join(blocks), encoding="utf-8")
             done = subprocess.run([sys.executable, script], cwd=SOURCE, capture_output=True, text=True, timeout=600)
         self.assertEqual(done.stderr, "")
         self.assertEqual(done.returncode, 0)
-        self.assertRegex(done.stdout, r"<Solution: solved, \d+ states, certified>")
-        self.assertIn("proved\n", done.stdout)
-        self.assertRegex(done.stdout, r"(?m)^0\.(5|49999)\d*$")  # of the first contact
+        return done.stdout
+
+    def test_guide(self):
+        out = self.printed("planner/python/README.md", 6)
+        self.assertRegex(out, r"<Solution: solved, \d+ states, certified>")
+        self.assertIn("proved\n", out)
+        self.assertRegex(out, r"(?m)^0\.(5|49999)\d*$")  # of the first contact
+
+    def test_front_page(self):
+        self.assertRegex(self.printed("README.md", 1), r"^<Solution: solved, \d+ states, certified> proved\n$")
 
 
 if __name__ == "__main__":

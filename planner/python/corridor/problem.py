@@ -246,7 +246,8 @@ class Solution:
     certified: bool  #: every edge of `path` is proved
     #: times, lengths and counts of the solve. `proved_clearance_m` is at most the preferred clearance; `verify` finds more
     figures: dict[str, Any] = field(default_factory=dict)
-    trajectory: dict[str, Any] | None = None  #: text, duration, proved and keeps_limits; or why_none
+    #: text, duration, proved and keeps_limits; or why_none. Empty unless `solve` was to make one
+    trajectory: dict[str, Any] = field(default_factory=dict)
     _text: str = ""
 
     def __bool__(self) -> bool:
@@ -267,7 +268,7 @@ class Solution:
 
     def verify_trajectory(self) -> dict[str, Any]:
         """Verifies the trajectory as it is written."""
-        if not self.trajectory or not self.trajectory.get("text"):
+        if not self.trajectory.get("text"):
             raise ValueError('there is no trajectory; pass trajectory="csv" to solve')
         return _native.verify_trajectory(self.problem._native, self.trajectory["text"])
 
@@ -350,7 +351,7 @@ def solve(
         _this_thread.solves = False
     take = result.pop
     return Solution(
-        problem, take("outcome"), take("why"), take("path"), take("certified"), trajectory=take("trajectory", None),
+        problem, take("outcome"), take("why"), take("path"), take("certified"), trajectory=take("trajectory", {}),
         _text=take("text", ""), figures=result,
     )  # fmt: skip
 

@@ -98,15 +98,18 @@ INSTANTIATE_TEST_SUITE_P(Uses, RealBrowser, testing::ValuesIn(named("ViewImage")
 class StoppedCampaign : public Signals {};
 
 TEST_P(StoppedCampaign, WritesWhatIsDone) {
-  const pid_t id = start(GetParam().longer);
-  awaitStart(GetParam().startedFile);
-  pause(1500 * kSlowdown);
-  ::kill(id, SIGTERM);
-  const End end = wait(id);
-  EXPECT_EQ(end.status, 128 + SIGTERM);
-  EXPECT_THAT(end.err, testing::HasSubstr("--resume continues"));
-  EXPECT_GT(lines(read("out/results/runs.csv")).size(), 1u);
-  EXPECT_THAT(read("out/results/report.html"), testing::HasSubstr("</html>"));
+  for (const int signal : {SIGTERM, SIGUSR1}) {  // batch systems send either
+    fs::remove_all(folder_ / "out/results");
+    const pid_t id = start(GetParam().longer);
+    awaitStart(GetParam().startedFile);
+    pause(1500 * kSlowdown);
+    ::kill(id, signal);
+    const End end = wait(id);
+    EXPECT_EQ(end.status, 128 + signal);
+    EXPECT_THAT(end.err, testing::HasSubstr("--resume continues"));
+    EXPECT_GT(lines(read("out/results/runs.csv")).size(), 1u);
+    EXPECT_THAT(read("out/results/report.html"), testing::HasSubstr("</html>"));
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Uses, StoppedCampaign, testing::ValuesIn(named("BenchmarkOutput")),

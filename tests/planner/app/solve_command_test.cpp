@@ -176,7 +176,8 @@ TEST_F(SolveArm, KeepsItsDistance) {
 
   EXPECT_THAT(run("solve arm.yaml").out,
               testing::ContainsRegex("clearance: proved: [0-9.]+ mm.*\n"
-                                     "clearance: every pair keeps its target on [0-9.]+ % of the "
+                                     "clearance: every pair keeps the preferred distance, as far as "
+                                     "start and goal allow, on [0-9.]+ % of the "
                                      "length\n"));
   const Result shortest = run("solve arm.yaml --clearance 0 -o s.yaml");
   EXPECT_THAT(shortest.out, testing::Not(HasSubstr("clearance")));
