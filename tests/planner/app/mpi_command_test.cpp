@@ -164,9 +164,10 @@ TEST_F(MpiCommand, ResumesAfterRanksWereKilled) {
     std::printf("rank %d of %zu killed: mpirun returns %d, %d runs are stored\n", victim,
                 ranks.size(), status, runs);
     EXPECT_NE(status, 0);
-    EXPECT_GT(runs, last);
+    EXPECT_GE(runs, last);  // more, unless the rank was killed before the first run ended
     last = runs;
   }
+  EXPECT_GT(last, 0);
   EXPECT_LT(last, 6 * runsOfCell);
   const Result result = runRanks(4, campaign + " -o killed --resume");
   ASSERT_EQ(result.status, 0) << result.err;
