@@ -5,8 +5,6 @@ import os
 import pathlib
 import pickle
 import signal
-import subprocess
-import sys
 import tempfile
 import threading
 import time
@@ -376,70 +374,6 @@ class Solve(unittest.TestCase):
 
         with self.assertRaisesRegex(RuntimeError, "enough"):
             corridor.solve(cube_in_room(planner="RRTstar", time=60), progress=fail)
-
-    def test_many(self):
-        problems = [cube_in_room(seed=seed) for seed in (1, 2, 3)]
-        many = list(corridor.solve_many(problems, processes=2))
-        for problem, solution in zip(problems, many):
-            np.testing.assert_array_equal(solution.path, corridor.solve(problem).path)
-
-    def test_many_with_a_fault(self):
-        solutions = corridor.solve_many([cube_in_room(seed=1), cube_in_room(params={"rnage": 1}), cube_in_room(seed=2)])
-        self.assertTrue(next(solutions))
-        with self.assertRaisesRegex(corridor.InputError, "rnage"):
-            next(solutions)
-
-    def script(self, text):
-        """Starts a script in a session of its own."""
-        with tempfile.NamedTemporaryFile("w", suffix=".py", delete=False) as file:
-            file.write(text)
-        self.addCleanup(os.remove, file.name)
-        return subprocess.Popen(
-            [sys.executable, "-B", file.name], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-            start_new_session=True,
-        )  # fmt: skip
-
-    MANY = """
-import corridor
-if __name__ == "__main__":
-    walled = corridor.read_problem(%r).edited(time=600)
-    room = corridor.shapes.box([0.1, 9, 9])
-    cube = corridor.rigid_body(corridor.shapes.box([0.2] * 3), [[-2] * 3, [2] * 3])
-    closed = corridor.Problem(cube, {"wall": room}, start=[-1, 0, 0, 0, 0, 0, 1], goals=[1, 0, 0, 0, 0, 0, 1], time=600)
-    many = corridor.solve_many([walled] + [closed] * 6, processes=2)
-    next(many)
-    print("begun", flush=True)
-    next(many)
-""" % str(ARM)
-
-    def test_interrupts_end_all_processes(self):
-        for interrupts in (1, 2):
-            process = self.script(self.MANY)
-            self.assertEqual(process.stdout.readline(), "begun\n")
-            for _ in range(interrupts):
-                os.killpg(process.pid, signal.SIGINT)
-                time.sleep(0.1)
-            _, err = process.communicate(timeout=300)  # the pipes end with the last process
-            self.assertEqual(process.returncode, -signal.SIGINT, err)
-            self.assertLessEqual(err.count("Traceback"), interrupts, err)  # none of the processes prints one
-
-    def test_a_killed_process(self):
-        process = self.script(self.MANY)
-        self.assertEqual(process.stdout.readline(), "begun\n")
-        children = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()
-        solving = [c for c in children if "spawn_main" in pathlib.Path(f"/proc/{c}/cmdline").read_text()]
-        self.assertEqual(len(solving), 2)
-        os.kill(int(solving[0]), signal.SIGKILL)
-        _, err = process.communicate(timeout=300)
-        self.assertIn("RuntimeError: a process of solve_many was ended by signal 9 while it solved problem", err)
-
-    def test_a_script_without_a_guard(self):
-        process = self.script(self.MANY.replace('if __name__ == "__main__":', "if True:"))
-        out, err = process.communicate(timeout=300)
-        self.assertEqual((process.returncode, out), (1, ""))
-        self.assertIn("corridor: a script calls solve_many under `if __name__", err)
-        self.assertIn("RuntimeError: a process of solve_many ended with status 1 before it began", err)
-        self.assertEqual(err.count("Traceback"), 1, err)
 
 
 class Queries(unittest.TestCase):

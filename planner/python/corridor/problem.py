@@ -335,9 +335,7 @@ def solve(
     call waits. `solve_many` uses several processes.
     """
     _require_problem(problem)
-    edits = {k: v for k, v in {"planner": planner, "time": time, "seed": seed}.items() if v is not None}
-    if edits:
-        problem = problem.edited(**edits)
+    problem = _planned(problem, planner=planner, time=time, seed=seed)
     if trajectory not in (None, "csv", "yaml"):
         raise ValueError(f'trajectory: "csv" or "yaml" is needed, not {trajectory!r}')
     problem._require("start")
@@ -356,6 +354,18 @@ def solve(
     )  # fmt: skip
 
 
+def _planned(problem: Problem, **options: Any) -> Problem:
+    edits = {k: options[k] for k in ("planner", "time", "seed") if options.get(k) is not None}
+    return problem.edited(**edits) if edits else problem
+
+
+def _require_options(options: dict[str, Any]) -> None:
+    known = ("planner", "time", "seed", "trajectory")
+    for name in options:
+        if name not in known:
+            raise TypeError(f"solve_many has no option {name!r}; there are {', '.join(known)}")
+
+
 def _require_problem(problem: object) -> None:
     if not isinstance(problem, Problem):
         raise TypeError(f"a Problem is needed, not {problem!r}; read_problem(FILE) reads a problem's file")
@@ -368,7 +378,9 @@ def _solve_alone(problem: Problem, trajectory: str | None, progress: Callable[[f
 
 def _solve_one(arguments: tuple[Problem, dict[str, Any]]) -> Solution:
     problem, options = arguments
-    return solve(problem, **options)
+    solution = solve(problem, **options)
+    solution.problem = None  # type: ignore[assignment]  # the caller has it
+    return solution
 
 
 def solve_many(problems: Iterable[Problem], processes: int | None = None, **options: Any) -> Iterator[Solution]:
@@ -380,4 +392,8 @@ def solve_many(problems: Iterable[Problem], processes: int | None = None, **opti
     problems = list(problems)
     for problem in problems:
         _require_problem(problem)
-    yield from workers.in_order(_solve_one, [(problem, options) for problem in problems], processes)
+    _require_options(options)
+    solutions = workers.in_order(_solve_one, [(problem, options) for problem in problems], processes)
+    for problem, solution in zip(problems, solutions):
+        solution.problem = _planned(problem, **options)
+        yield solution

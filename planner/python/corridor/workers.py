@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-import contextlib
 import multiprocessing
+import multiprocessing.connection
+import multiprocessing.resource_tracker
 import os
+import pickle
 import signal
 import sys
+import threading
 from collections.abc import Callable, Iterator, Sequence
-from multiprocessing.connection import Connection, wait
 from typing import Any
 
-_MAIN_GUARD = 'a script calls solve_many under `if __name__ == "__main__":`'
+_MAIN_GUARD = 'a script must be a file, and must call solve_many under `if __name__ == "__main__":`'
 
 
 class _Worker:
@@ -19,88 +21,139 @@ class _Worker:
 
     def __init__(self, function: Callable[[Any], Any]):
         if getattr(multiprocessing.current_process(), "_inheriting", False):
-            sys.exit(f"corridor: {_MAIN_GUARD}, because each of its processes reads the script")
+            sys.exit(f"corridor: {_MAIN_GUARD}: each of its processes reads the script")
         context = multiprocessing.get_context("spawn")
         self.pipe, other = context.Pipe()
         self.process = context.Process(target=_serve, args=(function, other), daemon=True)
-        # A Ctrl-C is for the parent, which then ends its processes. They inherit the mask.
+        # Ctrl-C is for the parent, which then kills its processes: they inherit a mask that blocks SIGINT. The tracker
+        # must run before, because its start unblocks SIGINT.
+        multiprocessing.resource_tracker.ensure_running()
         before = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
         try:
             self.process.start()
         finally:
             signal.pthread_sigmask(signal.SIG_SETMASK, before)
         other.close()
-        self.task: int | None = None
 
-    def receive(self) -> Any:
-        """Returns what the process sends. Raises RuntimeError if it ended instead."""
+    def await_begin(self) -> None:
+        """Waits until the process takes arguments. Raises RuntimeError if it ended instead."""
         try:
-            return self.pipe.recv()
+            self.pipe.recv()
         except (EOFError, OSError):
-            self.process.join()
-            status = self.process.exitcode or 0
-            how = f"was ended by signal {-status}" if status < 0 else f"ended with status {status}"
-            if self.task is None:
-                why = f"before it began: {_MAIN_GUARD}, and is a file"
-            else:
-                why = f"while it solved problem {self.task}"
-            raise RuntimeError(f"a process of solve_many {how} {why}") from None
+            raise RuntimeError(f"a process of solve_many {self._end()} before it began: {_MAIN_GUARD}") from None
 
-    def end(self) -> None:
-        """Waits for the end of the killed process."""
+    def call(self, index: int, argument: Any) -> tuple[Any, BaseException | None]:
+        """Returns the result for an argument, or an exception. `index` is for messages."""
+        try:
+            data = pickle.dumps(argument)
+        except Exception as error:
+            return None, error
+        try:
+            self.pipe.send_bytes(data)
+            data = self.pipe.recv_bytes()
+        except (EOFError, OSError):
+            return None, RuntimeError(f"a process of solve_many {self._end()} while it solved problems[{index}]")
+        try:
+            result, error = pickle.loads(data)
+        except Exception as failure:
+            return None, failure
+        return result, error
+
+    def _end(self) -> str:
         self.process.join()
-        self.pipe.close()
+        status = self.process.exitcode or 0
+        return f"was ended by signal {-status}" if status < 0 else f"ended with status {status}"
 
 
-def _serve(function: Callable[[Any], Any], pipe: Connection) -> None:
-    """What a process does: it sends None when it is ready, and a result and an exception for each argument."""
+def _end_with_parent() -> None:
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        multiprocessing.connection.wait([parent.sentinel])
+        os._exit(1)
+
+
+def _serve(function: Callable[[Any], Any], pipe: multiprocessing.connection.Connection) -> None:
+    """What a process does: it sends None when it is ready, then a result and an exception for each argument."""
+    threading.Thread(target=_end_with_parent, daemon=True).start()
     pipe.send(None)
-    with contextlib.suppress(EOFError, OSError):  # the parent has ended
-        while True:
-            argument = pipe.recv()
-            answer: tuple[Any, Exception | None]
-            try:
-                answer = function(argument), None
-            except Exception as error:
-                answer = None, error
-            pipe.send(answer)
+    while True:
+        try:
+            data = pipe.recv_bytes()
+        except (EOFError, OSError):
+            return  # the parent has closed the pipe
+        try:
+            answer = pickle.dumps((function(pickle.loads(data)), None))
+        except Exception as error:
+            answer = _pickled(error)
+        pipe.send_bytes(answer)
+
+
+def _pickled(error: Exception) -> bytes:
+    """Returns the answer for an exception. One that can't be pickled becomes a RuntimeError with its text."""
+    try:
+        data = pickle.dumps((None, error))
+        pickle.loads(data)
+    except Exception:
+        data = pickle.dumps((None, RuntimeError(repr(error))))
+    return data
+
+
+class _Answers:
+    """What threads have received from their processes, by the index of the argument."""
+
+    def __init__(self, arguments: Sequence[Any]):
+        self.arguments = arguments
+        self.changed = threading.Condition()
+        self.answers: dict[int, tuple[Any, BaseException | None]] = {}
+        self.begun = 0
+
+    def serve(self, worker: _Worker) -> None:
+        """What a thread does: it gives a process one argument after the other, until none is left or the process ends."""
+        while worker.process.exitcode is None:
+            with self.changed:
+                index = self.begun
+                if index == len(self.arguments):
+                    return
+                self.begun += 1
+            answer = worker.call(index, self.arguments[index])
+            with self.changed:
+                self.answers[index] = answer
+                self.changed.notify()
+
+    def take(self, index: int) -> Any:
+        with self.changed:
+            self.changed.wait_for(lambda: index in self.answers)
+            result, error = self.answers.pop(index)
+        if error is not None:
+            raise error
+        return result
 
 
 def in_order(function: Callable[[Any], Any], arguments: Sequence[Any], processes: int | None) -> Iterator[Any]:
     """Yields function(argument) for each argument, in this order, computed by several processes.
 
     processes: None, as many as there are cores. If the function raises an exception, so does the iterator, at the place of
-    that argument. If the iterator ends early, as by Ctrl-C, it kills its processes.
+    that argument. If the iterator ends early, as by Ctrl-C, it kills its processes. They go on while the caller works.
     """
-    workers: list[_Worker] = []
-    answers: dict[int, tuple[Any, BaseException | None]] = {}
-    begun = 0
+    if processes is None:
+        processes = os.cpu_count() or 1
+    if processes < 1:
+        raise ValueError(f"processes: a number above 0 is needed, not {processes}")
+    answers, workers, owner = _Answers(arguments), list[_Worker](), os.getpid()
     try:
-        for _ in range(min(len(arguments), processes or os.cpu_count() or 1)):
+        for _ in range(min(len(arguments), processes)):
             workers.append(_Worker(function))
             if len(workers) == 1:
-                workers[0].receive()  # if the first one can't begin, there are no others
+                workers[0].await_begin()  # if the first one can't begin, there are no others
         for worker in workers[1:]:
-            worker.receive()
-        for wanted in range(len(arguments)):
-            while wanted not in answers:
-                for worker in workers:
-                    if worker.task is None and begun < len(arguments):
-                        worker.task = begun
-                        worker.pipe.send(arguments[begun])
-                        begun += 1
-                busy = {worker.pipe: worker for worker in workers if worker.task is not None}
-                for pipe in wait(list(busy)):
-                    worker = busy[pipe]  # type: ignore[index]
-                    answer = worker.receive()
-                    assert worker.task is not None
-                    answers[worker.task], worker.task = answer, None
-            result, error = answers.pop(wanted)
-            if error:
-                raise error
-            yield result
+            worker.await_begin()
+        for worker in workers:
+            threading.Thread(target=answers.serve, args=(worker,), daemon=True).start()
+        for index in range(len(arguments)):
+            yield answers.take(index)
     finally:
-        for worker in workers:
-            worker.process.kill()
-        for worker in workers:
-            worker.end()
+        if os.getpid() == owner:  # a child that was forked has a copy of the iterator
+            for worker in workers:
+                worker.process.kill()
+            for worker in workers:
+                worker.process.join()
