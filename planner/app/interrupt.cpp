@@ -26,7 +26,7 @@ void onInterrupt(int signal) {
   if (askedAt.compare_exchange_strong(first, ms)) {
     signalTaken = signal;
     interruptAsked = true;
-  } else if (secondEnds && ms - first > kSameMs) {
+  } else if (secondEnds && ms - first > kSameMs && signal != SIGUSR1) {
     std::signal(signal, SIG_DFL);
     std::raise(signal);
   }

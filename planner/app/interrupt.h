@@ -7,7 +7,7 @@ namespace corridor::app {
 
 /// What a second signal does, if it comes more than half a second after the first.
 enum class SecondInterrupt {
-  ends,      ///< it ends the program at once
+  ends,      ///< it ends the program at once, except for SIGUSR1, which job scripts repeat
   isIgnored  ///< nothing: for work that stops soon by itself and must remove its files
 };
 

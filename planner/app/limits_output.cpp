@@ -11,10 +11,9 @@
 namespace corridor::app {
 
 std::string limitsText(const Problem& problem, const LimitRatios& ratios) {
-  const bool areTested = ratios.acceleration.tested && ratios.jerk.tested;
-  std::string text = !keepsLimits(ratios) ? "exceeded"
-                     : areTested          ? "kept at every instant"
-                                          : "those that are tested are kept at every instant";
+  std::string text = keepsLimits(ratios)     ? "kept at every instant"
+                     : exceedsLimits(ratios) ? "exceeded"
+                                             : "not all tested; the others are kept";
   const std::vector<std::string> numbers = problem.model.space.numberNames();
   const auto add = [&](const char* what, const LimitShare& share, const std::string& name) {
     // Rounded up, so that a limit that is exceeded never shows as 100 %. The factor takes back what
@@ -39,7 +38,7 @@ std::string limitsText(const Problem& problem, const LimitRatios& ratios) {
 }
 
 void addLimits(nlohmann::ordered_json& json, const LimitRatios& ratios) {
-  json["limits"] = keepsLimits(ratios) ? "kept" : "exceeded";
+  json["limits"] = limitsVerdict(ratios);
   const auto add = [&](const char* key, const LimitShare& share) {
     json[key] = share.tested ? numberJson(share.share) : nlohmann::ordered_json();
   };

@@ -9,10 +9,10 @@
 
 namespace corridor::app {
 
-/// Returns "kept at every instant; velocity 97.3 % (elbow); …", or "exceeded; …". Says which limits
-/// were not tested.
+/// Returns "kept at every instant; velocity 97.3 % (elbow); …", "exceeded; …", or "not all tested;
+/// …" with the limits that were not.
 std::string limitsText(const Problem& problem, const LimitRatios& ratios);
-/// Adds `limits` ("kept" or "exceeded") and the share of each limit to a JSON object. The share of
+/// Adds `limits` (`limitsVerdict`) and the share of each limit to a JSON object. The share of
 /// a limit that was not tested is null.
 void addLimits(nlohmann::ordered_json& json, const LimitRatios& ratios);
 

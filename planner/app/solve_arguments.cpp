@@ -63,7 +63,10 @@ std::map<std::string, std::string> applyArguments(const SolveArguments& a, Probl
     throw InputError(Fault{
         "--corner-deviation", 0,
         "rounds corners only, which is --smooth corners; leave --smooth " + *a.smooth + " out"});
-  if (a.smooth) trajectory.smooth = choiceNamed<Smoothing>(*a.smooth).value();
+  if (a.smooth) {
+    trajectory.smooth = choiceNamed<Smoothing>(*a.smooth).value();
+    trajectory.cornerDeviation.reset();  // of the problem's file: it rounds corners only
+  }
   if (a.deviation) trajectory.deviation = *a.deviation;
   if (a.cornerDeviation) trajectory.cornerDeviation = a.cornerDeviation;
   if (a.rate) trajectory.rate = a.rate;

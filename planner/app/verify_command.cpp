@@ -26,7 +26,7 @@ struct VerifyArguments {
   std::optional<double> margin;
   std::optional<std::string> between;  ///< the name of a Between; trajectories only
   bool ignoreDigest = false;  ///< verify the solution even if its digest is not the problem's
-  bool limits = false;        ///< exceeded limits over time give the exit status 1
+  bool limits = false;        ///< unless all limits over time are kept, the exit status is 1
   bool json = false, quiet = false;
 };
 
@@ -163,7 +163,7 @@ void print(const VerifyReport& r, const Problem& problem, const VerifyArguments&
   for (const std::string& violation : r.violations) out.line("violation", violation);
   if (r.limits)
     out.line("limits over time", limitsText(problem, *r.limits),
-             keepsLimits(*r.limits) ? Tone::plain : Tone::bad);
+             exceedsLimits(*r.limits) ? Tone::bad : Tone::plain);
   std::size_t notExamined = 0;  // edges after the work limit: the first one stands for all
   for (const PathFinding& finding : r.pathReport.findings)
     if (finding.reason != kWorkLimit || ++notExamined == 1)
@@ -231,9 +231,10 @@ void addVerify(CLI::App& program, int& status) {
       ->add_option("--margin", a.margin,
                    "metres that all tested pairs must keep apart, in place of the problem's margin")
       ->check(isMetres());
-  command->add_flag("--limits", a.limits,
-                    "exit with status 1, too, if a trajectory exceeds the problem's limits of "
-                    "velocity, acceleration or jerk");
+  command->add_flag(
+      "--limits", a.limits,
+      "exit with status 1, too, unless a trajectory keeps all of the problem's limits "
+      "of velocity, acceleration and jerk");
   addIgnoreDigest(*command, a.ignoreDigest);
   addJson(*command, a.json);
   addQuiet(*command, a.quiet);

@@ -25,8 +25,7 @@ std::optional<int> numberIn(const char* name) {
 }  // namespace
 
 bool startedByMpirun() {
-  const auto size = numberIn("OMPI_COMM_WORLD_SIZE");
-  return size ? *size > 1 : std::getenv("PMIX_RANK") != nullptr;
+  return std::getenv("OMPI_COMM_WORLD_SIZE") || std::getenv("PMIX_RANK");
 }
 
 int rankInEnvironment() {
@@ -36,7 +35,8 @@ int rankInEnvironment() {
 }
 
 std::unique_ptr<Ranks> joinRanks() {
-  if (!startedByMpirun()) return nullptr;
+  const auto size = numberIn("OMPI_COMM_WORLD_SIZE");
+  if (size ? *size <= 1 : !std::getenv("PMIX_RANK")) return nullptr;
 #ifdef CORRIDOR_MPI_MODULE
   const OpenModule module = openModule(CORRIDOR_MPI_MODULE, CORRIDOR_MPI_DIR);
   if (!module.handle) refuseRanks("the module for MPI can't be opened: " + module.why);

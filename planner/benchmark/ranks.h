@@ -36,7 +36,7 @@ extern "C" {
 Ranks* corridorRanks();
 }
 
-/// Returns whether this process is one of several that `mpirun`, or `srun --mpi=pmix`, started.
+/// Returns whether `mpirun`, or `srun --mpi=pmix`, started this process.
 bool startedByMpirun();
 
 /// The number of this process in its job, as the environment has it: Open MPI's `mpirun`, and

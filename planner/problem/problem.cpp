@@ -17,7 +17,8 @@ Problem readProblem(const std::filesystem::path& path) {
     return readMbmProblem(text.substr(0, hash + 5), text.substr(hash + 6));
   if (path.extension() == ".json") return readMbmProblem(path, "");
   std::error_code none;  // ignored: the reader reports a file that can't be accessed
-  if (const auto kind = path.extension(); kind == ".urdf" || kind == ".xacro")
+  if (const auto kind = path.extension();
+      (kind == ".urdf" || kind == ".xacro") && std::filesystem::is_regular_file(path, none))
     throw InputError(
         Fault{path.string(), 0,
               "this is a robot, not a problem; `corridor new problem` writes a problem "

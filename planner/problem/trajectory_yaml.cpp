@@ -15,11 +15,17 @@ void readTrajectoryKeys(const YamlMap& problem, TrajectorySettings& settings) {
     map.fault(key, range.text() + " is needed, not " + shortest(*number));
     return std::optional<double>();
   };
-  if (const auto word = map.choice("smooth", wordsFor<Smoothing>()))
-    settings.smooth = *choiceNamed<Smoothing>(*word);
+  const auto word = map.choice("smooth", wordsFor<Smoothing>());
+  if (word) settings.smooth = *choiceNamed<Smoothing>(*word);
   settings.deviation =
       within("deviation", TrajectorySettings::kDeviations).value_or(settings.deviation);
   settings.cornerDeviation = within("corner_deviation", TrajectorySettings::kCornerDeviations);
+  if (word && settings.cornerDeviation && settings.smooth != Smoothing::corners)
+    map.source().notes.push_back(
+        {"trajectory: with corner_deviation only corners are rounded; "
+         "smooth: " +
+             *word + " is not used",
+         NoteWeight::motion});
   settings.rate = within("rate", TrajectorySettings::kRates);
 }
 

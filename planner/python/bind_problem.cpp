@@ -132,11 +132,12 @@ void apply(const std::string& key, const py::handle value, Problem& problem) {
 
 /// Returns what the value of an edit must be.
 std::string typeOf(const std::string& key) {
-  if (key == "seed") return "a whole number of 0 or more";
+  if (key == "seed") return "a whole number from 0 to 2^64 - 1";
   if (key == "start" || key == "goals") return "an array of numbers";
   if (key == "tube") return "a dictionary such as {\"joints\": 0.01}";
   if (key == "params") return "a dictionary of the planner's parameters";
-  for (const char* text : {"planner", "simplify", "edges", "smooth"})
+  if (key == "simplify") return "True, False or \"ompl\"";
+  for (const char* text : {"planner", "edges", "smooth"})
     if (key == text) return "a text";
   return "a number";
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "collision/core/floating_point.h"
+#include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
 
 namespace corridor {
@@ -144,18 +145,19 @@ struct NearestFree {
 };
 
 /// Rounds the numbers that the message prints to 4, 6, 9 or 12 digits: the fewest with which
-/// `exact` remains free. If it never does, nothing is rounded. The message prints the position of a
-/// pose, or else all numbers, which can then be copied into the problem.
-NearestFree withFewDigits(const Configuration& exact, double away, const Checker& checker) {
+/// `exact` remains free. If it never does, nothing is rounded. Rounded are the position of a pose,
+/// or else the numbers that differ from `from`.
+NearestFree withFewDigits(const Configuration& exact, const Configuration& from, double away,
+                          const Checker& checker) {
   const CoordinateGroup* const pose = onlyPose(checker.space());
-  const auto isPrinted = [&](Eigen::Index i) {
-    return !pose || i + 1 < static_cast<Eigen::Index>(pose->coordinates.size());
+  const auto isRounded = [&](Eigen::Index i) {
+    return pose ? i + 1 < static_cast<Eigen::Index>(pose->coordinates.size()) : exact[i] != from[i];
   };
   for (const int digits : {4, 6, 9, 12}) {
     Configuration q = exact;
     for (Eigen::Index i = 0; i < q.size(); ++i)
-      if (isPrinted(i)) q[i] = std::strtod(number(q[i], digits).c_str(), nullptr);
-    if (checker.isProvedFree(q)) return {q, digits, away};
+      if (isRounded(i)) q[i] = std::strtod(number(q[i], digits).c_str(), nullptr);
+    if (checker.isProvedFree(q)) return {q, digits, pose ? away : (q - from).cwiseAbs().maxCoeff()};
   }
   return {exact, 17, away};
 }
@@ -180,13 +182,15 @@ std::optional<NearestFree> nearestFree(const Configuration& q, const Checker& ch
         const double middle = (inside + outside) / 2;
         (freeAt(middle * d) ? outside : inside) = middle;
       }
-      return withFewDigits(q + outside * d, outside, checker);
+      return withFewDigits(q + outside * d, q, outside, checker);
     }
   }
   return std::nullopt;
 }
 
-std::string describedFree(const std::optional<NearestFree>& free, const ConfigurationSpace& space) {
+/// The text has all numbers, so that those of an arm can be copied into the problem.
+std::string describedFree(const std::optional<NearestFree>& free, const Configuration& q,
+                          const ConfigurationSpace& space) {
   if (const CoordinateGroup* pose = onlyPose(space)) {
     if (!free) return "no free position was found nearby with this orientation";
     return "the nearest free position found is " + number(free->away) +
@@ -195,9 +199,11 @@ std::string describedFree(const std::optional<NearestFree>& free, const Configur
   if (!free) return "no free values were found nearby";
   const std::vector<std::string> names = space.numberNames();
   std::string values;
-  for (std::size_t i = 0; i < names.size(); ++i)
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
     values += (values.empty() ? "" : ", ") + names[i] + ": " +
-              number(free->q[static_cast<Eigen::Index>(i)], free->digits);
+              (free->q[k] == q[k] ? shortest(q[k]) : number(free->q[k], free->digits));
+  }
   return "the nearest free values found are at most " + number(free->away) + " rad or m away: {" +
          values + "}";
 }
@@ -224,8 +230,8 @@ std::string whyOutOfBounds(const Configuration& q, const ConfigurationSpace& spa
   for (const Coordinate& c : space.coordinates()) {
     const double value = q[static_cast<Eigen::Index>(c.first)];
     if (c.kind == Coordinate::Kind::line && !(c.lower <= value && value <= c.upper))
-      text += (text.empty() ? "" : ", ") + c.name + " = " + number(value) + " is not in [" +
-              number(c.lower) + ", " + number(c.upper) + "]";
+      text += (text.empty() ? "" : ", ") + c.name + " = " + shortest(value) + " is not in [" +
+              shortest(c.lower) + ", " + shortest(c.upper) + "]";
   }
   return text;
 }
@@ -264,7 +270,7 @@ std::optional<std::string> whyNotFree(const Configuration& q, const Checker& che
          (checker.interference(q)
               ? " touch"
               : " are closer than the " + kept + " of " + number(margin) + " m") +
-         "; " + describedFree(nearestFree(q, checker), checker.space());
+         "; " + describedFree(nearestFree(q, checker), q, checker.space());
 }
 
 }  // namespace corridor

@@ -29,10 +29,19 @@ LimitRatios limitsOfRows(const TrajectoryRows& rows, Between between,
   return ratios;
 }
 
+bool exceedsLimits(const LimitRatios& ratios) {
+  return !(std::max({ratios.velocity.share, ratios.acceleration.share, ratios.jerk.share,
+                     ratios.link.share}) <= 1 + kLimitSlack &&
+           ratios.position.share <= kLimitSlack);
+}
+
 bool keepsLimits(const LimitRatios& ratios) {
-  return std::max({ratios.velocity.share, ratios.acceleration.share, ratios.jerk.share,
-                   ratios.link.share}) <= 1 + kLimitSlack &&
-         ratios.position.share <= kLimitSlack;
+  return !exceedsLimits(ratios) && ratios.velocity.tested && ratios.acceleration.tested &&
+         ratios.jerk.tested && ratios.link.tested;
+}
+
+const char* limitsVerdict(const LimitRatios& ratios) {
+  return exceedsLimits(ratios) ? "exceeded" : keepsLimits(ratios) ? "kept" : "not tested";
 }
 
 }  // namespace corridor

@@ -19,10 +19,15 @@ LimitRatios limitsOfRows(const TrajectoryRows& rows, Between between,
 /// bound.
 inline constexpr double kLimitSlack = 0x1p-40;
 
-/// Returns whether no limit that was tested is exceeded at any instant. Shares are upper bounds,
-/// whose own rounding is below 2^-44 of them. So a share of up to 1 + kLimitSlack counts as kept:
-/// otherwise a motion exactly at a limit would exceed it. For the same reason, positions may be up
-/// to kLimitSlack beyond the bounds, less than the default tube.
+/// Returns whether a limit that was tested is exceeded at some instant, by its upper
+/// bound. Shares are upper bounds, whose own rounding is below 2^-44 of them. So a share of up to
+/// 1 + kLimitSlack counts as kept: otherwise a motion exactly at a limit would exceed it. For the
+/// same reason, positions may be up to kLimitSlack beyond the bounds, less than the default tube.
+bool exceedsLimits(const LimitRatios& ratios);
+/// Returns whether all limits are kept at every instant: none is exceeded, and each that is given
+/// was tested.
 bool keepsLimits(const LimitRatios& ratios);
+/// Returns "kept", "exceeded" or "not tested": none is exceeded, but some were not tested.
+const char* limitsVerdict(const LimitRatios& ratios);
 
 }  // namespace corridor

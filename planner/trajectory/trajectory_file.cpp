@@ -189,7 +189,7 @@ class RowMaker {
         else
           faults_.add(file_, table.namesLine,
                       quotedWord(name) + " is a " + nameOf(joint.type) +
-                          " joint whose pose is held; leave it out");
+                          " joint, and is not planned for; leave it out");
       } else if (columns[i].kind == Meaning::Kind::held) {
         checkHeld(robot.held.at(columns[i].index), name, joint.name, i, table);
       } else {

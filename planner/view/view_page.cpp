@@ -223,7 +223,9 @@ class PageData {
     add("acceleration", ratios.acceleration);
     add("jerk", ratios.jerk);
     add("speed of links", ratios.link);
-    verdict["limits"] = {{"kept", keepsLimits(ratios)}, {"shares", shares}};
+    verdict["limits"] = {{"verdict", limitsVerdict(ratios)}, {"shares", shares}};
+    if (ratios.position.share > kLimitSlack)
+      verdict["limits"]["beyond_bounds"] = ratios.position.share;
   }
 
   static bool isLength(const Coordinate& c) {

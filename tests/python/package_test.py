@@ -160,8 +160,8 @@ class Problems(unittest.TestCase):
     def test_edits_of_the_wrong_type(self):
         problem = corridor.read_problem(ARM)
         for key, value, text in (
-            ("seed", -1, "seed: a whole number of 0 or more is needed, not -1"),
-            ("seed", 1.5, "seed: a whole number of 0 or more is needed, not 1.5"),
+            ("seed", -1, "seed: a whole number from 0 to .* is needed, not -1"),
+            ("seed", 1.5, "seed: a whole number from 0 to .* is needed, not 1.5"),
             ("margin", "1mm", "margin: a number is needed, not '1mm'"),
             ("planner", 3, "planner: a text is needed, not 3"),
             ("time", None, "time: a number is needed, not None"),

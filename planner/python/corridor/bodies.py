@@ -5,6 +5,7 @@ The matrices are taken as they are: any affine maps, also scaled ones. The motio
 
 from __future__ import annotations
 
+import copy
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -27,11 +28,11 @@ class Body:
     def __init__(self, shape: Shape):
         if not isinstance(shape, Shape):
             raise TypeError(f"a shape of corridor.shapes is needed, not {shape!r}")
-        self._shape = shape
+        self._shape = copy.deepcopy(shape)
         self._native = _native.body(shape)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return Body, (self._shape,)
+        return type(self), (self._shape,)
 
     def __repr__(self) -> str:
         return f"<Body: {self._shape[0]}>"

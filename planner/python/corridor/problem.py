@@ -93,7 +93,7 @@ class Problem:
         "position": m, "rotation": rad}; planner, OMPL's name; params, the planner's parameters by OMPL's names; time, s;
         seed; simplify (True, False, "ompl"); edges ("certified", "discrete", ...); clearance, m; tolerance, m. For
         trajectories: smooth ("time", "length", "acceleration", "corners", "none"); rate, rows per second; deviation
-        and corner_deviation, rad or m.
+        and corner_deviation, rad or m; with corner_deviation only corners are rounded, whatever `smooth` is.
         Raises ValueError if a value is illegal or contradicts another one. Names of planners and of their parameters are
         checked by `solve`.
         """

@@ -46,8 +46,8 @@ class _Worker:
         """Returns the result for an argument, or an exception. `index` is for messages."""
         try:
             data = pickle.dumps(argument)
-        except Exception as error:
-            return None, error
+        except Exception as failure:
+            return None, failure
         try:
             self.pipe.send_bytes(data)
             data = self.pipe.recv_bytes()

@@ -27,7 +27,7 @@ class Chart {
   curve(points, stroke) {
     this.add('polyline', {points: points.join(' '), fill: 'none', stroke, 'stroke-width': 1.5, 'stroke-linejoin': 'round'});
   }
-  /** Draws a dashed line at a value, with a word above its end. The word may be left of other `words`, to keep clear of them. */
+  /** Draws a dashed line at a value, with a word above its end, or left of other `words` that are there. */
   level(value, stroke, word = '', words = '') {
     this.line(this.left, this.y(value), this.right, this.y(value), {stroke, 'stroke-dasharray': '4 3'});
     if (word) this.add('text', {x: this.right - 7 * words.length, y: this.y(value) - 3, 'text-anchor': 'end'}, word);

@@ -65,14 +65,15 @@ const Panel = {
   provedOfNothing: () => data.verdict.verdict === 'proved' && data.pairs.tested === 0,
 
   /** Returns whether a trajectory exceeds the limits over time. */
-  exceedsLimits: () => data.verdict.limits !== undefined && !data.verdict.limits.kept,
+  exceedsLimits: () => data.verdict.limits !== undefined && data.verdict.limits.verdict === 'exceeded',
 
   /** Returns "exceeded: velocity 418 %, acceleration 97 %"; rounded up, as by `corridor verify`. */
   limitsText() {
-    const shares = Object.entries(data.verdict.limits.shares);
+    const {verdict, shares: all, beyond_bounds: beyond} = data.verdict.limits, shares = Object.entries(all);
     const share = (value) => value === null ? 'not tested' : typeof value === 'string' ? value : `${Math.ceil(1e3 * value * (1 - 1e-12)) / 10} %`;
-    const text = shares.map(([name, value]) => `${name} ${share(value)}`).join(', ');
-    return `${this.exceedsLimits() ? 'exceeded' : 'kept'}${text ? `: ${text}` : ''}`;
+    const parts = shares.map(([name, value]) => `${name} ${share(value)}`);
+    if (beyond) parts.unshift(`position ${digits(beyond)} beyond the bounds`);
+    return [verdict === 'not tested' ? 'not all tested' : verdict, ...parts].join(', ').replace(', ', ': ');
   },
 
   /** Returns the CSS class of the verdict: only a proof with tested pairs and kept limits is green. */

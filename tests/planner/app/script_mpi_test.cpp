@@ -54,18 +54,41 @@ TEST_F(ScriptUnderMpi, NeitherInstallsNorBuilds) {
     write(source, "");
   write("build/release/corridor", "#!/bin/sh\necho \"$@\"\n");
   fs::permissions(folder_ / "build/release/corridor", fs::perms::owner_all);
-  write("build/release/.built-corridor", "");
+  const auto build = [&] {
+    const std::string find =
+        "{collision,planner,CMakeLists.txt,CMakePresets.json} -type f -not -name '*.md'";
+    ASSERT_EQ(std::system(("bash -c \"find '" + folder_.string() + "'/" + find +
+                           " | sort | cksum\" >'" + (folder_ / "built").string() + "'")
+                              .c_str()),
+              0);
+    fs::rename(folder_ / "built", folder_ / "build/release/.built-corridor");
+  };
+  build();
   const Result ready = script("benchmark x.yaml -o y");
   EXPECT_EQ(ready.status, 0) << ready.err;
   EXPECT_EQ(ready.out, "benchmark x.yaml -o y\n");
   const auto later = fs::file_time_type::clock::now() + std::chrono::hours(1);
-  fs::last_write_time(folder_ / "planner/README.md", later);
+  write("page", "");  // as git replaces a file
+  fs::rename(folder_ / "page", folder_ / "planner/README.md");
+  for (const char* each : {"planner/README.md", "planner"})
+    fs::last_write_time(folder_ / each, later);
   EXPECT_EQ(script("benchmark x.yaml -o y").out, "benchmark x.yaml -o y\n");
+  const auto expectOld = [&] {
+    const Result old = script("benchmark x.yaml -o y");
+    EXPECT_EQ(old.status, 2);
+    EXPECT_EQ(old.err, "corridor: the program is older than its sources, and " + first());
+    EXPECT_EQ(old.out, "");
+  };
   fs::last_write_time(folder_ / "planner/a.cpp", later);
-  const Result old = script("benchmark x.yaml -o y");
-  EXPECT_EQ(old.status, 2);
-  EXPECT_EQ(old.err, "corridor: the program is older than its sources, and " + first());
-  EXPECT_EQ(old.out, "");
+  expectOld();
+  fs::remove(folder_ / "planner/a.cpp");
+  expectOld();
+  build();
+  EXPECT_EQ(script("benchmark x.yaml -o y").status, 0);
+  write("planner/b.cpp", "");
+  expectOld();
+  fs::remove_all(folder_ / "collision");
+  expectOld();
 }
 
 }  // namespace

@@ -174,11 +174,12 @@ TEST_F(SolveArm, KeepsItsDistance) {
   EXPECT_THAT(bold.err, HasSubstr("it claims a clearance of 90.00"));
   EXPECT_THAT(bold.err, HasSubstr(" m is proved\n"));
 
-  EXPECT_THAT(run("solve arm.yaml").out,
-              testing::ContainsRegex("clearance: proved: [0-9.]+ mm.*\n"
-                                     "clearance: every pair keeps the preferred distance, as far as "
-                                     "start and goal allow, on [0-9.]+ % of the "
-                                     "length\n"));
+  EXPECT_THAT(
+      run("solve arm.yaml").out,
+      testing::ContainsRegex("clearance: proved: [0-9.]+ mm.*\n"
+                             "clearance: every pair keeps the preferred distance, as far as "
+                             "start and goal allow, on [0-9.]+ % of the "
+                             "length\n"));
   const Result shortest = run("solve arm.yaml --clearance 0 -o s.yaml");
   EXPECT_THAT(shortest.out, testing::Not(HasSubstr("clearance")));
   EXPECT_THAT(read("s.yaml"), testing::Not(HasSubstr("clearance")));
