@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -56,6 +57,9 @@ std::string secondsText(double seconds) {
   std::snprintf(text, sizeof text, "%.7g", seconds + 0.0);  // no "-0"
   return text;
 }
+
+/// The most findings, and the most violations, that are printed.
+constexpr std::size_t kMostLines = 20;
 
 /// Returns "edge 3 at t = 0.3, free until 0.25" or, with times, "edge 3 at 1.2 s, free until 1.1
 /// s". Leaves "free until" out if nothing of the edge is proved before the finding.
@@ -160,14 +164,21 @@ void print(const VerifyReport& r, const Problem& problem, const VerifyArguments&
   out.line("tube", tubeText(problem.model.space, r.tube));
   out.line(r.between ? "bounds" : "start, goal, bounds", r.violations.empty() ? "hold" : "violated",
            r.violations.empty() ? Tone::plain : Tone::bad);
-  for (const std::string& violation : r.violations) out.line("violation", violation);
+  for (std::size_t i = 0; i < std::min(r.violations.size(), kMostLines); ++i)
+    out.line("violation", r.violations[i]);
+  const auto addRest = [&](const char* key, std::size_t count) {
+    if (count > kMostLines)
+      out.line(key, grouped(count - kMostLines) + " more; --json has all of them");
+  };
+  addRest("violation", r.violations.size());
   if (r.limits)
     out.line("limits over time", limitsText(problem, *r.limits),
              exceedsLimits(*r.limits) ? Tone::bad : Tone::plain);
-  std::size_t notExamined = 0;  // edges after the work limit: the first one stands for all
+  std::size_t findings = 0, notExamined = 0;  // edges after the work limit: one stands for all
   for (const PathFinding& finding : r.pathReport.findings)
-    if (finding.reason != kWorkLimit || ++notExamined == 1)
+    if ((finding.reason != kWorkLimit || ++notExamined == 1) && ++findings <= kMostLines)
       out.line("finding", text(finding, r, problem));
+  addRest("finding", findings);
   if (notExamined > 1)
     out.line("not examined",
              counted(notExamined - 1, "more edge") + ", because the work limit was reached");

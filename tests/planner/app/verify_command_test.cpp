@@ -112,6 +112,22 @@ TEST_F(VerifyTrajectory, BoundsAreProvedAlongTheWholeCurve) {
   EXPECT_EQ(run("verify arm.yaml t.csv --between linear").status, 0);
 }
 
+TEST_F(VerifyTrajectory, AtMostTwentyFindingsArePrinted) {
+  std::string rows = "shoulder elbow\n";  // the arm swings through the post 59 times
+  for (int i = 0; i < 60; ++i) rows += i % 2 ? "1 0\n" : "2 0\n";
+  write("t.csv", rows);
+  const std::vector<std::string> printed = lines(run("verify arm.yaml t.csv").out);
+  EXPECT_EQ(std::count_if(printed.begin(), printed.end(),
+                          [](const std::string& line) { return line.starts_with("finding: "); }),
+            21);
+  EXPECT_THAT(printed, testing::Contains("finding: 39 more; --json has all of them"));
+  const auto all = nlohmann::json::parse(run("verify arm.yaml t.csv --json").out);
+  EXPECT_EQ(all["findings"].size(), 59u);
+  write("t.csv", "shoulder elbow\n0 0\n0 100\n");
+  EXPECT_THAT(run("verify arm.yaml t.csv").out,
+              HasSubstr("; is it in degrees? These files have radians"));
+}
+
 TEST_F(VerifyTrajectory, BadInputIsOneLineAndExit2) {
   write("t.csv", "time,shoulder,elbow\n0,0,0\n0,0.5,-0.5\n");
   expectFault("verify arm.yaml t.csv",
