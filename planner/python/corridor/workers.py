@@ -34,6 +34,7 @@ class _Worker:
         finally:
             signal.pthread_sigmask(signal.SIG_SETMASK, before)
         other.close()
+        self.is_lost = False  # a call found that the process had ended
 
     def await_begin(self) -> None:
         """Waits until the process takes arguments. Raises RuntimeError if it ended instead."""
@@ -52,6 +53,7 @@ class _Worker:
             self.pipe.send_bytes(data)
             data = self.pipe.recv_bytes()
         except (EOFError, OSError):
+            self.is_lost = True
             return None, RuntimeError(f"a process of solve_many {self._end()} while it solved problems[{index}]")
         try:
             result, error = pickle.loads(data)
@@ -108,8 +110,8 @@ class _Answers:
         self.begun = 0
 
     def serve(self, worker: _Worker) -> None:
-        """What a thread does: it gives a process one argument after the other, until none is left or the process ends."""
-        while worker.process.exitcode is None:
+        """What a thread does: it gives a process one argument after the other, until none is left or a call is lost."""
+        while not worker.is_lost:
             with self.changed:
                 index = self.begun
                 if index == len(self.arguments):
