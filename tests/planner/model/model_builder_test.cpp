@@ -159,9 +159,10 @@ TEST(CheckerOptions, AreChecked) {
   EXPECT_THAT(refused({.margin = -1}), HasSubstr("margin"));
   EXPECT_THAT(refused({.tube = Configuration::Zero(2)}), HasSubstr("tube"));
   EXPECT_THAT(refused({.tolerance = 0}), HasSubstr("tolerance"));
-  EXPECT_THAT(
-      refused({.method = EdgeMethod::advancement, .trees = {TreeKind::obbGjk, ObbFit::triangles}}),
-      HasSubstr("measure distances"));
+  TreeChoice gjk;
+  gjk.trees = TreeKind::obbGjk;
+  EXPECT_THAT(refused({.method = EdgeMethod::advancement, .trees = gjk}),
+              HasSubstr("measure distances"));
 }
 
 }  // namespace
