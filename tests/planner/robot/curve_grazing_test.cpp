@@ -245,8 +245,9 @@ TEST(CurveMotion, RandomPiecesAgainstSamples) {
     const Scene::FramePair frames{0, random.tree.frames.size() - 1};
     EdgeMotion motion(random.tree, random.space, {&frames, 1}, random.noTube());
     const ReferenceKinematics reference(random.tree, random.space, piece);
-    const auto [a, b] =
+    const auto soups =
         randomSoups(random, reference.relative(0, frames.b, 0.5L).t.cast<double>(), 1.5);
+    const auto &a = std::get<0>(soups), &b = std::get<1>(soups);
     const MotionPair pair{&a, &b};
     MotionOptions options;
     options.tolerance = 1e-7;
