@@ -117,7 +117,8 @@ TEST_F(TrajectoryPage, PlotsHaveAllDerivativesAndTheLimits) {
   for (std::size_t i = 0; i < at.size(); ++i) {
     if (i > 0 && at[i] == at[i - 1]) ++piece;  // the knot: the values after it
     const double s = 1 + 3 * at[i] - knots_[piece];
-    for (const auto& [joint, cubic] : {std::pair(0, pan_[piece]), {1, lift_[piece]}}) {
+    for (const int joint : {0, 1}) {
+      const auto& cubic = (joint == 0 ? pan_ : lift_)[piece];
       const auto values = [&](int quantity) {
         return reader.array<double>(joints[joint]["values"][quantity]).at(i);
       };
