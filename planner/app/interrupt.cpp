@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <ctime>
 
+#include "planner/solve/user_signals.h"
+
 namespace corridor::app {
 namespace {
 
@@ -34,18 +36,16 @@ void onInterrupt(int signal) {
 
 }  // namespace
 
-const std::atomic<bool>& listenForInterrupts(SecondInterrupt second,
-                                             std::initializer_list<int> more) {
+const std::atomic<bool>& listenForInterrupts(SecondInterrupt second) {
   secondEnds = second == SecondInterrupt::ends;
   struct sigaction action {};
   action.sa_handler = onInterrupt;
   action.sa_flags = SA_RESTART;  // a signal doesn't end the reading of a pipe, such as gnuplot's
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-  for (const int signal : more) sigaction(signal, &action, nullptr);
-  struct sigaction hangUp {};
-  sigaction(SIGHUP, nullptr, &hangUp);
-  if (hangUp.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);
+  for (const int signal : kUserSignals) {
+    struct sigaction before {};
+    sigaction(signal, nullptr, &before);
+    if (signal != SIGHUP || before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);
+  }
   return interruptAsked;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <atomic>
-#include <initializer_list>
 
 namespace corridor::app {
 
@@ -11,11 +10,9 @@ enum class SecondInterrupt {
   isIgnored  ///< nothing: for work that stops soon by itself and must remove its files
 };
 
-/// Installs signal handlers and returns the flag that the first SIGINT, SIGTERM or SIGHUP sets. The
-/// caller polls the flag and stops. SIGHUP stays ignored if it was ignored, as under nohup.
-/// @param more further signals that count as interrupts.
-const std::atomic<bool>& listenForInterrupts(SecondInterrupt second = SecondInterrupt::ends,
-                                             std::initializer_list<int> more = {});
+/// Installs signal handlers and returns the flag that the first of `kUserSignals` sets. The caller
+/// polls the flag and stops. SIGHUP stays ignored if it was ignored, as under nohup.
+const std::atomic<bool>& listenForInterrupts(SecondInterrupt second = SecondInterrupt::ends);
 
 /// Returns the exit status of a program that the first signal N stopped: 128 + N, as shells report
 /// it (130 for SIGINT, 143 for SIGTERM). @pre the flag of `listenForInterrupts` is set.

@@ -1,10 +1,12 @@
 #include "planner/app/limits_output.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include <nlohmann/json.hpp>
 
+#include "collision/core/shortest.h"
 #include "planner/app/output.h"
 #include "planner/trajectory/rows_limits.h"
 
@@ -16,11 +18,10 @@ std::string limitsText(const Problem& problem, const LimitRatios& ratios) {
                                              : "not all tested; the others are kept";
   const std::vector<std::string> numbers = problem.model.space.numberNames();
   const auto add = [&](const char* what, const LimitShare& share, const std::string& name) {
-    // Rounded up, so that a limit that is exceeded never shows as 100 %. The factor takes back what
-    // `keepsLimits` allows.
-    text += std::string("; ") + what + " " +
-            rounded(std::ceil(1e3 * share.share * (1 - 2 * kLimitSlack)) / 10) + " % (" + name +
-            ")";
+    // Rounded up, so that a limit that is exceeded never shows as 100 %.
+    double tenths = std::ceil(1e3 * share.share);
+    if (share.share > 1) tenths = share.share <= 1 + kLimitSlack ? 1000 : std::max(tenths, 1001.0);
+    text += std::string("; ") + what + " " + shortest(tenths / 10) + " % (" + name + ")";
   };
   if (ratios.velocity.share > 0) add("velocity", ratios.velocity, numbers[ratios.velocity.number]);
   if (ratios.acceleration.share > 0)

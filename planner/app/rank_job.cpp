@@ -1,7 +1,6 @@
 #include "planner/app/rank_job.h"
 
 #include <chrono>
-#include <csignal>
 #include <thread>
 
 #include "planner/app/commands.h"
@@ -14,8 +13,7 @@ RankJob::RankJob(std::size_t jobs) : ranks_(joinRanks()) {
 }
 
 const std::atomic<bool>& RankJob::listen() const {
-  return ranks_ ? listenForInterrupts(SecondInterrupt::isIgnored, {SIGUSR1})
-                : listenForInterrupts(SecondInterrupt::ends, {SIGUSR1});
+  return listenForInterrupts(ranks_ ? SecondInterrupt::isIgnored : SecondInterrupt::ends);
 }
 
 int RankJob::serve(const RankSetUp& setUp) {

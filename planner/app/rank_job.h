@@ -22,9 +22,8 @@ class RankJob {
   bool serves() const { return ranks_ && ranks_->rank() > 0; }
   /// The other ranks' executor; null for a process that is alone. @pre !serves()
   RankExecutor* executor() { return executor_ ? &*executor_ : nullptr; }
-  /// Listens for interrupts as `listenForInterrupts`. SIGUSR1 counts, too: batch systems send it,
-  /// and `mpirun` hands it on to all ranks without killing them. In a job, a second signal does
-  /// nothing, since each rank may get several.
+  /// Listens for interrupts as `listenForInterrupts`. In a job, a second signal does nothing, since
+  /// each rank may get several.
   const std::atomic<bool>& listen() const;
   /// Does what rank 0 hands out. @pre serves(). @returns the exit status.
   int serve(const RankSetUp& setUp);

@@ -15,6 +15,7 @@
 #include "collision/geometry/mesh_file.h"
 #include "planner/app/commands.h"
 #include "planner/app/interrupt.h"
+#include "planner/app/limits_output.h"
 #include "planner/app/motion_file.h"
 #include "planner/app/options.h"
 #include "planner/app/output.h"
@@ -130,6 +131,7 @@ ViewedPath viewedPath(const Problem& problem, const ViewArguments& a) {
   for (const TrajectoryRow& row : rows.rows) path.solution.path.push_back(row.positions);
   path.velocityLimits = problem.task.limits.velocity;
   path.accelerationLimits = problem.task.limits.acceleration;
+  if (path.report.limits) path.limitsText = limitsText(problem, *path.report.limits);
   return path;
 }
 

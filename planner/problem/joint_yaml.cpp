@@ -1,11 +1,11 @@
 #include "planner/problem/joint_yaml.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
 #include "planner/problem/keys.h"
+#include "planner/robot/angles.h"
 
 namespace corridor {
 
@@ -29,8 +29,7 @@ std::string outsideLimits(double value, double lower, double upper, const std::s
 }
 
 std::string degreesHint(double value, double lower, double upper, const std::string& joint) {
-  const double radians = value * (std::numbers::pi / 180);
-  if (std::abs(value) <= 2 * std::numbers::pi || radians < lower || radians > upper) return "";
+  if (!fitsAsDegrees(value, lower, upper)) return "";
   return "; in degrees, write " + joint.substr(joint.rfind('/') + 1) + "_deg: " + shortest(value);
 }
 

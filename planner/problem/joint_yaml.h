@@ -22,9 +22,8 @@ std::string whyNotActive(const RobotModel& model, std::size_t joint);
 /// `degreesHint` is appended to the message.
 std::string outsideLimits(double value, double lower, double upper, const std::string& angle = "");
 
-/// If a value in radians is obviously meant in degrees, returns a hint: "; in degrees, write
-/// pan_deg: 60". Such a value is more than a full turn in radians, and is within the limits if it
-/// is read as degrees. Otherwise returns "".
+/// If a value in radians is obviously meant in degrees (`fitsAsDegrees`), returns a hint: "; in
+/// degrees, write pan_deg: 60". Otherwise returns "".
 /// @param joint the joint's name, also with the robot's name before it: "left/pan".
 std::string degreesHint(double value, double lower, double upper, const std::string& joint);
 

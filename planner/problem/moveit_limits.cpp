@@ -52,10 +52,9 @@ void readFile(const YamlMap& map, const Model& model, bool isComplete, LimitSpec
       map.require("joint_limits", "{JOINT: {has_velocity_limits: true, max_velocity: 2}}");
   if (!value) return;
   const std::vector<LimitedJoint> joints = jointsWithLimits(model);
-  std::vector<std::string> known, unused, positions;
+  std::vector<std::string> known, notPlanned, unknown, positions;
   for (const ModelRobot& robot : model.robots)
     for (const JointModel& joint : robot.description.joints) known.push_back(joint.name);
-  std::string unknown;  // joints of no robot, each with a suggestion
   const YamlMap limits(*value, map.pathOf("joint_limits"), nullptr, map.source());
   for (const YamlValue::Entry* entry : limits.entries()) {
     const YamlMap own(entry->value, limits.pathOf(entry->key), &kJoint, map.source());
@@ -73,23 +72,24 @@ void readFile(const YamlMap& map, const Model& model, bool isComplete, LimitSpec
       used = true;
     }
     if (used) continue;
-    unused.push_back(entry->key);
-    if (std::find(known.begin(), known.end(), entry->key) == known.end())
-      unknown +=
-          (unknown.empty() ? "" : ", ") + quotedWord(entry->key) + didYouMean(entry->key, known);
+    const bool isKnown = std::find(known.begin(), known.end(), entry->key) != known.end();
+    (isKnown ? notPlanned : unknown).push_back(entry->key);
   }
   if (!isComplete) return;
-  if (!unused.empty() && unused.size() == limits.entries().size())
+  if (const std::size_t unused = notPlanned.size() + unknown.size();
+      unused > 0 && unused == limits.entries().size()) {
+    notPlanned.insert(notPlanned.end(), unknown.begin(), unknown.end());
     return map.fault("joint_limits",
-                     "no joint of this file is planned for: " + joinedFirst(unused));
-  if (!unknown.empty())
-    notes.push_back({file + ": no robot here has these joints: " + unknown, NoteWeight::motion});
-  std::erase_if(unused, [&](const std::string& name) {
-    return std::find(known.begin(), known.end(), name) == known.end();
-  });
-  if (!unused.empty())
-    notes.push_back({file + ": limits of " + joinedFirst(unused) + " are not used: not planned for",
-                     NoteWeight::detail});
+                     "no joint of this file is planned for: " + joinedFirst(notPlanned));
+  }
+  for (const std::string& name : unknown)
+    notes.push_back(
+        {file + ": no robot here has the joint " + quotedWord(name) + didYouMean(name, known),
+         NoteWeight::motion});
+  if (!notPlanned.empty())
+    notes.push_back(
+        {file + ": limits of " + joinedFirst(notPlanned) + " are not used: not planned for",
+         NoteWeight::detail});
   if (!positions.empty())
     notes.push_back({file + ": limits of the position of " + joinedFirst(positions) +
                          " are not used; write bounds",

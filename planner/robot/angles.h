@@ -16,6 +16,13 @@ inline bool seemsDegrees(double radians) {
   return std::abs(radians) > 2 * std::numbers::pi && std::remainder(radians, 15) == 0;
 }
 
+/// Returns whether a value in radians that is outside of [lower, upper] is obviously meant in
+/// degrees: it is more than a full turn, and within the limits if it is read as degrees.
+inline bool fitsAsDegrees(double value, double lower, double upper) {
+  const double radians = value * (std::numbers::pi / 180);
+  return std::abs(value) > 2 * std::numbers::pi && lower <= radians && radians <= upper;
+}
+
 /// Returns the normalised quaternion, without overflow or underflow for coefficients of any size.
 /// @pre finite, not zero.
 inline Eigen::Quaterniond unitQuaternion(const Eigen::Quaterniond& q) {

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "collision/core/shortest.h"
 #include "planner/checker/default_tolerance.h"
 #include "planner/problem/digest.h"
 #include "planner/problem/yaml_reader.h"
+#include "planner/robot/angles.h"
 #include "planner/verify/edge_curve.h"
 
 namespace corridor {
@@ -150,10 +150,9 @@ std::string boundsText(const Coordinate& c) {
 
 /// Returns a hint if a value that is out of bounds would be in them in degrees, or "".
 std::string degreesHintOf(const Coordinate& c, double value) {
-  const double radians = value * (std::numbers::pi / 180);
-  const bool isDegrees = c.angular && std::abs(value) > 2 * std::numbers::pi &&
-                         c.lower <= radians && radians <= c.upper;
-  return isDegrees ? "; is it in degrees? These files have radians" : "";
+  return c.angular && fitsAsDegrees(value, c.lower, c.upper)
+             ? "; is it in degrees? These files have radians"
+             : "";
 }
 
 void checkBounds(const Problem& problem, const Path& path, std::vector<std::string>& violations) {
@@ -182,7 +181,8 @@ void checkBounds(const ConfigurationSpace& space, const TrajectoryRows& rows, co
     violations.push_back(c.name + " = " + shortest(outside.value) + " is outside of its bounds, " +
                          boundsText(c) + ": " + when +
                          (outside.t > 0 && outside.t < 1 ? "after " : "in ") + "line " +
-                         std::to_string(line) + degreesHintOf(c, outside.value));
+                         std::to_string(line) +
+                         (outside.t > 0 && outside.t < 1 ? "" : degreesHintOf(c, outside.value)));
   }
 }
 

@@ -11,6 +11,7 @@
 #include "collision/core/floating_point.h"
 #include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
+#include "planner/robot/angles.h"
 
 namespace corridor {
 namespace {
@@ -227,12 +228,15 @@ std::string whyOutOfBounds(const Configuration& q, const ConfigurationSpace& spa
   if (const CoordinateGroup* pose = onlyPose(space))
     return position(q, *pose) + " is outside of the bounds";
   std::string text;
+  bool areDegrees = false;
   for (const Coordinate& c : space.coordinates()) {
     const double value = q[static_cast<Eigen::Index>(c.first)];
-    if (c.kind == Coordinate::Kind::line && !(c.lower <= value && value <= c.upper))
-      text += (text.empty() ? "" : ", ") + c.name + " = " + shortest(value) + " is not in [" +
-              shortest(c.lower) + ", " + shortest(c.upper) + "]";
+    if (c.kind != Coordinate::Kind::line || (c.lower <= value && value <= c.upper)) continue;
+    areDegrees |= c.angular && fitsAsDegrees(value, c.lower, c.upper);
+    text += (text.empty() ? "" : ", ") + c.name + " = " + shortest(value) + " is not in [" +
+            shortest(c.lower) + ", " + shortest(c.upper) + "]";
   }
+  if (areDegrees) text += "; is it in degrees? Radians are needed";
   return text;
 }
 

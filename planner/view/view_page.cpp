@@ -193,7 +193,8 @@ class PageData {
       verdict["clearance_m"] = r.pathReport.provenClearance;
       verdict["distance_met_m"] = r.pathReport.smallestDistanceMet;
     }
-    if (r.limits) addLimits(*r.limits, verdict);
+    if (r.limits)
+      verdict["limits"] = {{"verdict", limitsVerdict(*r.limits)}, {"text", path_->limitsText}};
     for (const PathFinding& f : r.pathReport.findings) {
       verdict["findings"].push_back({{"verdict", nameOf(f.verdict)},
                                      {"reason", f.reason},
@@ -207,25 +208,6 @@ class PageData {
       const auto k = static_cast<std::size_t>(f.edge);
       verdict["findings"].back()["time_s"] = r.times[k] + f.t * (r.times[k + 1] - r.times[k]);
     }
-  }
-
-  /// Adds the largest share of each limit over time; null: given, but not tested. JSON has no
-  /// infinity.
-  static void addLimits(const LimitRatios& ratios, ordered_json& verdict) {
-    ordered_json shares = ordered_json::object();
-    const auto add = [&](const char* name, const LimitShare& share) {
-      if (!share.tested)
-        shares[name] = nullptr;
-      else if (share.share > 0)
-        shares[name] = std::isfinite(share.share) ? ordered_json(share.share) : "unbounded";
-    };
-    add("velocity", ratios.velocity);
-    add("acceleration", ratios.acceleration);
-    add("jerk", ratios.jerk);
-    add("speed of links", ratios.link);
-    verdict["limits"] = {{"verdict", limitsVerdict(ratios)}, {"shares", shares}};
-    if (ratios.position.share > kLimitSlack)
-      verdict["limits"]["beyond_bounds"] = ratios.position.share;
   }
 
   static bool isLength(const Coordinate& c) {

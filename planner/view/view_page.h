@@ -19,6 +19,7 @@ struct ViewedPath {
   /// empty: none. The position of a planar or floating joint has the limit of the vector's length,
   /// at the first of its numbers.
   Configuration velocityLimits, accelerationLimits;
+  std::string limitsText;  ///< of `report.limits`: the shares of the limits over time, one line
 };
 
 /// Returns an HTML page that shows a problem as a 3D scene, and plays a path or trajectory of it.

@@ -184,12 +184,12 @@ def trajectory(browser, path):
         browser.click("#plots svg")  # at its centre, which is not that of the axes
         assert abs(browser.js("corridorView.motion.at") - 0.4) < 0.02
         assert browser.js("document.querySelector('#slider').getAttribute('aria-valuetext')") == browser.find("#place").text
-    assert "Limitsnot all tested: velocity " in browser.js("document.getElementById('facts').textContent")
+    assert "Limitsnot all tested; the others are kept; velocity " in browser.js("document.getElementById('facts').textContent")
     corridor("view", os.path.join(path, "problem.yaml"), os.path.join(path, "fast.csv"), "-o", os.path.join(path, "fast.html"))
     shown(browser, os.path.join(path, "fast.html"), "desktop")
     assert browser.find("#badge").text == "Proved free of contact, limits exceeded", "green although limits are exceeded"
     assert browser.find("#badge").get_attribute("class") == "undecided"
-    assert "Limitsexceeded: velocity " in browser.js("document.getElementById('facts').textContent")
+    assert "Limitsexceeded; velocity " in browser.js("document.getElementById('facts').textContent")
     shown(browser, page, "desktop")
     # The true speed: w seconds later by the clock of the frames, the place is w seconds later.
     for speed in (0.25, 1, 2):

@@ -24,7 +24,7 @@ const Panel = {
       facts.push([s.between ? 'Rows' : 'States', s.states.toLocaleString('en')]);
       if (v.verdict !== 'other problem') facts.push(['Edges proved', `${v.edges_proved.toLocaleString('en')} of ${v.edges.toLocaleString('en')}`]);
       if (v.clearance_m !== undefined && v.clearance_m !== null) facts.push(['Clearance', `at least ${metres(v.clearance_m)}`]);
-      if (v.limits) facts.push(['Limits', this.limitsText()]);
+      if (v.limits) facts.push(['Limits', v.limits.text]);
     }
     if (s && s.margin_m > 0) facts.push(['Margin', metres(s.margin_m)]);
     facts.push(['Bodies', data.bodies.length.toLocaleString('en')]);
@@ -67,16 +67,7 @@ const Panel = {
   /** Returns whether a trajectory exceeds the limits over time. */
   exceedsLimits: () => data.verdict.limits !== undefined && data.verdict.limits.verdict === 'exceeded',
 
-  /** Returns "exceeded: velocity 418 %, acceleration 97 %"; rounded up, as by `corridor verify`. */
-  limitsText() {
-    const {verdict, shares: all, beyond_bounds: beyond} = data.verdict.limits, shares = Object.entries(all);
-    const share = (value) => value === null ? 'not tested' : typeof value === 'string' ? value : `${Math.ceil(1e3 * value * (1 - 1e-12)) / 10} %`;
-    const parts = shares.map(([name, value]) => `${name} ${share(value)}`);
-    if (beyond) parts.unshift(`position ${digits(beyond)} beyond the bounds`);
-    return [verdict === 'not tested' ? 'not all tested' : verdict, ...parts].join(', ').replace(', ', ': ');
-  },
-
-  /** Returns the CSS class of the verdict: only a proof with tested pairs and kept limits is green. */
+  /** Returns the CSS class of the verdict: only a proof with tested pairs, and without an exceeded limit, is green. */
   verdictClass() {
     const {verdict} = data.verdict, weaker = this.provedOfNothing() || (verdict === 'proved' && this.exceedsLimits());
     return weaker || verdict === 'other problem' ? 'undecided' : verdict;

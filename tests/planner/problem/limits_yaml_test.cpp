@@ -95,7 +95,7 @@ TEST_F(LimitsTest, MoveitFile) {
   EXPECT_FALSE(spec.named.at("lift").velocity.has_value());
   EXPECT_EQ(spec.named.at("lift").jerk, 7);
   ASSERT_EQ(notes_.size(), 2);
-  EXPECT_THAT(notes_[0].text, testing::EndsWith(": no robot here has these joints: \"other\""));
+  EXPECT_THAT(notes_[0].text, testing::EndsWith(": no robot here has the joint \"other\""));
   EXPECT_EQ(notes_[0].weight, NoteWeight::motion);
   EXPECT_EQ(notes_[1].text,
             "the file's default factor makes acceleration_scale 0.5; limits: {acceleration_scale: "
@@ -108,8 +108,8 @@ TEST_F(LimitsTest, MisspeltJointsOfMoveitsFile) {
         "  lfit: {has_velocity_limits: true, max_velocity: 2}\n");
   specOf("  file: joint_limits.yaml\n");
   ASSERT_EQ(notes_.size(), 1);
-  EXPECT_THAT(notes_[0].text, testing::EndsWith(": no robot here has these joints: \"lfit\" (did "
-                                                "you mean \"lift\"?)"));
+  EXPECT_THAT(notes_[0].text, testing::EndsWith(": no robot here has the joint \"lfit\" (did you "
+                                                "mean \"lift\"?)"));
 }
 
 /// The forms in which people have MoveIt's file: the plain one, that of launch files, and
