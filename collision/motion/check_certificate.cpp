@@ -38,6 +38,10 @@ class CertificateCheck {
   std::optional<CertificateFault> faultIn(const FreeInterval& i) {
     const MotionPair& pair = pairs_[i.pair];
     const double h = (i.t1 - i.t0) / 2, middle = i.t0 + h;
+    // Below a width of 2^-52 a middle may be rounded, and [middle − h, middle + h] is another
+    // interval.
+    if (middle - i.t0 != h || i.t1 - middle != h)
+      return CertificateFault{Kind::unproved, i.pair, i.t0};
     if (context_.counters.work() >= workEnd_)
       return CertificateFault{Kind::workLimit, i.pair, middle};
     const RelativeMotion relative = motion_.relativeMotion(pair.motion, middle, h);

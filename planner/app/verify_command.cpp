@@ -244,8 +244,8 @@ void addVerify(CLI::App& program, int& status) {
       ->check(isMetres());
   command->add_flag(
       "--limits", a.limits,
-      "exit with status 1, too, unless a trajectory keeps all of the problem's limits "
-      "of velocity, acceleration and jerk");
+      "also exit with status 1 if a trajectory exceeds a limit of velocity, acceleration or jerk, "
+      "or can't be tested against it");
   addIgnoreDigest(*command, a.ignoreDigest);
   addJson(*command, a.json);
   addQuiet(*command, a.quiet);

@@ -187,7 +187,8 @@ class CampaignDatabase::Tables {
     const int runs = base_->execAndGet("SELECT count(*) FROM corridor_runs").getInt();
     if (mode == Mode::fresh && runs > 0)
       refuse("contains " + std::to_string(runs) + (runs == 1 ? " run" : " runs") +
-             " already; name another folder, or continue them by --resume");
+             " already; name another folder, or call benchmark CAMPAIGN --resume, which continues "
+             "them");
     if (version == kCampaignVersion) return;
     base_->exec(kSetups);
     base_->exec("PRAGMA user_version = " + std::to_string(kCampaignVersion));

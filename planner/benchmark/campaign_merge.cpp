@@ -25,7 +25,9 @@ namespace fs = std::filesystem;
 fs::path databaseIn(const fs::path& source) {
   std::error_code none;
   const fs::path file = fs::is_directory(source, none) ? source / "campaign.db" : source;
-  if (!fs::exists(file, none)) refuseFile(file, "there is no such database");
+  if (!fs::exists(file, none))
+    refuseFile(file,
+               "there is no such database; a folder of results, or its campaign.db, is needed");
   return file;
 }
 
@@ -170,7 +172,8 @@ class Merger {
     if (twice.executeStep())
       refuseFile(file, "has runs that another of these databases has, too: seed " +
                            twice.getColumn(0).getString() + " of " +
-                           twice.getColumn(1).getString() + "; name each share once");
+                           twice.getColumn(1).getString() +
+                           "; name each folder once, or repeat one with another --seed");
   }
 
   std::vector<std::pair<std::string, std::string>> columnsOf(const std::string& schema,

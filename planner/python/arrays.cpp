@@ -9,7 +9,8 @@
 namespace corridor::python {
 namespace {
 
-/// How far a rotation matrix may be from orthonormal.
+/// How far an element of MᵀM may be from the identity's, for the matrix M of a rigid pose. Numbers
+/// with seven digits are off by up to 3·1e-7.
 constexpr double kOrthonormal = 1e-6;
 
 void requireFinite(const Array& array, const char* name) {
@@ -92,9 +93,13 @@ RigidPose rigidPoseOf(const Array& array, const char* name) {
   const double off = (X.m.transpose() * X.m - Mat3::Identity()).cwiseAbs().maxCoeff();
   if (!(off <= kOrthonormal) || X.m.determinant() < 0)
     refuse(name, "the upper left 3×3 matrix must be a rotation");
+  // A Newton step to the nearest rotation. With E = MᵀM − I, |E| ≤ 3·1e-6, it moves M by |M·E|/2 ≤
+  // 1.6e-6, and the result is off from orthonormal by 3/4·|E|² < 1e-11. So the quaternion, which is
+  // exact for rotations only, differs from M by less than 2e-6.
+  const Mat3 R = X.m * (1.5 * Mat3::Identity() - 0.5 * X.m.transpose() * X.m);
   RigidPose pose;
   pose.p = X.t;
-  pose.q = Eigen::Quaterniond(X.m).normalized();
+  pose.q = Eigen::Quaterniond(R).normalized();
   return pose;
 }
 

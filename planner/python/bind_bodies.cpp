@@ -5,6 +5,7 @@
 #include "collision/world/rigid_scene.h"
 #include "planner/python/arrays.h"
 #include "planner/python/bindings.h"
+#include "planner/python/fingerprint.h"
 #include "planner/python/parallel.h"
 #include "planner/python/shapes.h"
 
@@ -131,6 +132,13 @@ BodyPointer bodyFrom(const py::tuple& shape) {
 void bindBodies(py::module_& module) {
   py::class_<Body, BodyPointer>(module, "Body");
   module.def("body", &bodyFrom, py::arg("shape"));
+  module.def(
+      "shape_fingerprint",
+      [](const py::tuple& shape) {
+        const PlacedShape placed = shapeFrom("body", shape);
+        return fingerprintOf({&placed, 1});
+      },
+      py::arg("shape"));
   const auto a = py::arg("a"), b = py::arg("b"), poseA = py::arg("pose_a"),
              poseB = py::arg("pose_b"), threads = py::arg("threads");
   module.def("touch", &touch, a, b, poseA, poseB, threads);

@@ -62,8 +62,10 @@ const char* nameOf(UndecidedReason reason) {
   return "";
 }
 
-/// Adds the tested pairs: names of shapes, bodies, and margins.
-void addPairs(const Checker& checker, py::dict& d) {
+/// Returns the tested pairs: names of shapes, bodies, and margins.
+py::dict certificatePairs(const NativeProblem& problem) {
+  const Checker& checker = problem.checker();
+  py::dict d;
   const auto pairs = checker.scene().motionPairs();
   py::array_t<std::int64_t> bodies({pairs.size(), std::size_t{2}});
   Array margins(static_cast<py::ssize_t>(pairs.size()));
@@ -78,6 +80,7 @@ void addPairs(const Checker& checker, py::dict& d) {
   d["shapes"] = shapes;
   d["pairs"] = bodies;
   d["margins"] = margins;
+  return d;
 }
 
 void addIntervals(const MotionCertificate& certificate, py::dict& d) {
@@ -108,13 +111,12 @@ py::dict certificate(const NativeProblem& problem, const Array& q0, const Array&
     const py::gil_scoped_release unlocked;
     result = checker.certifyEdge(from, to, earliest, proof);
   }
-  py::dict d;
+  py::dict d = certificatePairs(problem);
   d["verdict"] =
       static_cast<int>(codeOf(checker.inBounds(from) && checker.inBounds(to), result.verdict));
   d["reason"] = nameOf(result.reason);
   d["free_until"] = result.certifiedUntil;
   d["time"] = result.contactTime >= 0 ? py::cast(result.contactTime) : py::none();
-  addPairs(checker, d);
   addIntervals(proof, d);
   d["contact"] = py::none();
   if (result.pair)
@@ -186,6 +188,7 @@ Array poseMatrix(const std::array<double, 3>& xyz, const std::array<double, 3>& 
 void bindCertificates(py::module_& module) {
   using py::arg;
   module.def("certificate", &certificate, arg("problem"), arg("q0"), arg("q1"), arg("earliest"));
+  module.def("certificate_pairs", &certificatePairs, arg("problem"));
   module.def("certificate_fault", &certificateFault, arg("problem"), arg("q0"), arg("q1"),
              arg("until"), arg("pair"), arg("t0"), arg("t1"), arg("clearance"));
   module.def("poses", &poses, arg("problem"), arg("states"));

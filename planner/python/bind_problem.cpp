@@ -7,6 +7,7 @@
 #include "planner/problem/assembly.h"
 #include "planner/python/arrays.h"
 #include "planner/python/bindings.h"
+#include "planner/python/fingerprint.h"
 #include "planner/python/native_problem.h"
 #include "planner/python/robots.h"
 #include "planner/python/shapes.h"
@@ -37,9 +38,19 @@ ProblemPointer build(const py::list& robots, const py::dict& obstacles, const py
   return std::make_shared<NativeProblem>(std::move(problem));
 }
 
+/// Converts the value of an edit. @param what it must be, for the message: "a number".
+template <class T>
+T valueFrom(const py::handle value, const char* key, const char* what) {
+  try {
+    return value.cast<T>();
+  } catch (const py::cast_error&) {
+    refuse(key, std::string(what) + " is needed, not " + py::repr(value).cast<std::string>());
+  }
+}
+
 template <class Choice>
 Choice choiceFrom(const py::handle value, const char* key) {
-  const auto word = value.cast<std::string>();
+  const auto word = valueFrom<std::string>(value, key, "a text");
   if (const auto choice = choiceNamed<Choice>(word)) return *choice;
   std::string known;
   for (const std::string& each : wordsFor<Choice>()) known += (known.empty() ? "" : ", ") + each;
@@ -47,7 +58,7 @@ Choice choiceFrom(const py::handle value, const char* key) {
 }
 
 double numberFrom(const py::handle value, const char* key, double least) {
-  const auto number = value.cast<double>();
+  const auto number = valueFrom<double>(value, key, "a number");
   if (!(number >= least && std::isfinite(number)))
     refuse(key, least > 0 ? "a finite number above 0 is needed"
                           : "a finite number of 0 or more is needed");
@@ -55,7 +66,7 @@ double numberFrom(const py::handle value, const char* key, double least) {
 }
 
 double numberWithin(const py::handle value, const char* key, const ClosedRange& range) {
-  const auto number = value.cast<double>();
+  const auto number = valueFrom<double>(value, key, "a number");
   if (range.contains(number)) return number;
   refuse(key, range.text() + " is needed, not " + shortest(number));
 }
@@ -81,10 +92,10 @@ void apply(const std::string& key, const py::handle value, Problem& problem) {
   } else if (key == "margin") {
     setMargin(problem, numberFrom(value, "margin", 0));
   } else if (key == "tube") {
-    if (!py::isinstance<py::dict>(value)) throw py::cast_error();
+    using Widths = std::map<std::string, py::object>;
     TubeSpec tube;
-    for (const auto& [name, width] : value.cast<py::dict>()) {
-      const auto word = name.cast<std::string>();
+    for (const auto& [word, width] :
+         valueFrom<Widths>(value, "tube", "a dictionary such as {\"joints\": 0.01}")) {
       const double number = numberFrom(width, "tube", 0);
       if (word == "joints")
         tube.joints = number;
@@ -99,14 +110,16 @@ void apply(const std::string& key, const py::handle value, Problem& problem) {
     }
     setTube(problem, tubeOf(space, tube));
   } else if (key == "planner") {
-    problem.settings.planner.name = value.cast<std::string>();
+    problem.settings.planner.name = valueFrom<std::string>(value, "planner", "a text");
     problem.settings.planner.params.clear();
   } else if (key == "params") {
-    problem.settings.planner.params = value.cast<std::map<std::string, std::string>>();
+    problem.settings.planner.params = valueFrom<std::map<std::string, std::string>>(
+        value, "params", "a dictionary of the planner's parameters");
   } else if (key == "time") {
     problem.settings.planner.time = numberFrom(value, "time", kPositive);
   } else if (key == "seed") {
-    problem.settings.seed = value.cast<std::uint64_t>();
+    problem.settings.seed =
+        valueFrom<std::uint64_t>(value, "seed", "a whole number from 0 to 2^64 - 1");
   } else if (key == "simplify") {
     problem.settings.simplify = choiceFrom<Simplifier>(value, "simplify");
   } else if (key == "edges") {
@@ -130,28 +143,12 @@ void apply(const std::string& key, const py::handle value, Problem& problem) {
   }
 }
 
-/// Returns what the value of an edit must be.
-std::string typeOf(const std::string& key) {
-  if (key == "seed") return "a whole number from 0 to 2^64 - 1";
-  if (key == "start" || key == "goals") return "an array of numbers";
-  if (key == "tube") return "a dictionary such as {\"joints\": 0.01}";
-  if (key == "params") return "a dictionary of the planner's parameters";
-  if (key == "simplify") return "True, False or \"ompl\"";
-  for (const char* text : {"planner", "edges", "smooth"})
-    if (key == text) return "a text";
-  return "a number";
-}
-
 /// @param edits in the order in which they are applied.
 ProblemPointer edited(const NativeProblem& from, const py::dict& edits) {
   Problem problem = from.problem();
   for (const auto& [key, value] : edits) {
     const auto name = key.cast<std::string>();
-    try {
-      apply(name, value, problem);
-    } catch (const py::cast_error&) {
-      refuse(name.c_str(), typeOf(name) + " is needed, not " + py::repr(value).cast<std::string>());
-    }
+    apply(name, value, problem);
   }
   if (problem.settings.prefer.clearance.value_or(0) > 0)
     if (const auto why = whyNoClearance(problem.task.margin, problem.settings))
@@ -228,6 +225,8 @@ void bindProblem(py::module_& module) {
           "time", [](const NativeProblem& p) { return p.problem().settings.planner.time; })
       .def_property_readonly("seed",
                              [](const NativeProblem& p) { return p.problem().settings.seed; })
+      .def_property_readonly(
+          "fingerprint", [](const NativeProblem& p) { return fingerprintOf(p.problem().model); })
       .def("edited", &edited, py::arg("edits"));
   module.def(
       "read_problem",

@@ -1,5 +1,6 @@
 """Tests of certificates as data."""
 
+import dataclasses
 import math
 import os
 import pathlib
@@ -175,6 +176,30 @@ class ManyPairs(unittest.TestCase):
         proof = problem.certificate([1, 1, 1, 0, 0, 0, 1], [2, 1, 1, 0, 0, 0, 1])
         self.assertEqual(proof.verdict, Verdict.CONTACT)
         self.assertEqual((len(proof.pair), proof.free_until), (0, 0))
+
+
+class Tampering(unittest.TestCase):
+    """A certificate that claims more than its intervals, or is of other pairs, is not accepted."""
+
+    def test_claims(self):
+        problem = corridor.read_problem(pathlib.Path(os.environ["CORRIDOR_SOURCE_DIR"]) / "problems/arm_at_shelf")
+        states = np.random.default_rng(1).uniform(*problem.bounds, (50, len(problem.numbers)))
+        ends = states + 0.01
+        free = int(np.argmax(problem.certify(states, ends).free))
+        proof = problem.certificate(states[free], ends[free])
+        self.assertEqual((proof.verdict, proof.check()), (Verdict.FREE, None))
+        none = np.array([], float)
+        for kind, changes in (
+            ("gap", {"free_until": 0.0, "pair": none.astype(int), "t0": none, "t1": none, "clearance": none}),
+            ("malformed", {"margins": proof.margins + 5}),
+            ("malformed", {"pairs": proof.pairs[::-1]}),
+            ("malformed", {"shapes": proof.shapes[1:]}),
+            ("malformed", {"pair": proof.pair + 0.5}),
+        ):
+            fault = dataclasses.replace(proof, **changes).check()
+            self.assertEqual(fault and fault.kind, kind, changes)
+        negative = dataclasses.replace(proof, pair=np.full_like(proof.pair, -1))
+        self.assertFalse(negative.covered().any())
 
 
 if __name__ == "__main__":

@@ -99,7 +99,7 @@ if __name__ == "__main__":
     def test_bad_options_of_many(self):
         problem = cube_in_room()
         for error, text, call in (
-            (ValueError, "processes: a number above 0 is needed, not -1", lambda: corridor.solve_many([problem], -1)),
+            (ValueError, "processes: a whole number of 1 or more is needed, not -1", lambda: corridor.solve_many([problem], -1)),
             (TypeError, "solve_many has no option 'progress'", lambda: corridor.solve_many([problem], progress=print)),
         ):
             with self.assertRaisesRegex(error, text):

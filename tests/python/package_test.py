@@ -196,6 +196,68 @@ class Problems(unittest.TestCase):
         with self.assertRaisesRegex(corridor.InputError, "^goal: in contact"):
             corridor.solve(problem.edited(goals=touching))
 
+    def test_values_of_the_wrong_type(self):
+        problem, body, q = corridor.read_problem(ARM), Body(shapes.sphere(1)), corridor.read_problem(ARM).start
+        for text, call in (
+            ("metres_per_unit: a number is needed, not 'mm'", lambda: shapes.mesh_file("a.obj", "mm")),
+            ("radius: a number is needed, not '1'", lambda: shapes.sphere("1")),
+            ("threads: a whole number of 0 or more is needed, not -1", lambda: problem.check(q, threads=-1)),
+            ("threads: .*, not '2'", lambda: problem.clearance(q, threads="2")),
+            ("earliest: True or False is needed, not 'no'", lambda: problem.certificate(q, q, earliest="no")),
+            ("distance: a number is needed, not 'x'", lambda: corridor.closer_than(body, body, "x")),
+            ("tolerance: a number is needed, not 'x'", lambda: corridor.first_contact(body, body, at(3), at(2), "x")),
+            ("joints: a list of names is needed, not 'pan'", lambda: corridor.urdf("a.urdf", joints="pan")),
+            ("name: a name is needed, not 3", lambda: corridor.urdf("a.urdf", name=3)),
+            ("bounds: corners by the names of joints", lambda: corridor.urdf("a.urdf", bounds=[[0], [1]])),
+            ("obstacles: a name is needed, not 3", lambda: corridor.Problem([], {3: shapes.sphere(1)})),
+            ("states: an array of real numbers", lambda: problem.check(q + 1j)),
+            ("states: an array of real numbers", lambda: problem.check(np.ma.masked_array(q, False))),
+            ("in degrees. Radians are needed", lambda: problem.edited(start=problem.bounds[1] * 180 / math.pi * 0.9)),
+        ):
+            with self.assertRaisesRegex(ValueError, text):
+                call()
+        with self.assertRaisesRegex(TypeError, "did you mean 'goals'"):
+            problem.edited(goal=q)
+        with self.assertRaisesRegex(TypeError, "progress: a function"):
+            corridor.solve(problem, progress=3)
+
+    def test_files_that_have_changed_since_pickling(self):
+        with tempfile.TemporaryDirectory() as folder:
+            mesh, file = pathlib.Path(folder, "wall.obj"), pathlib.Path(folder, "problem.yaml")
+            wall = "v 0 -1 -1\nv 0 1 -1\nv 0 0 {}\nf 1 2 3\n"
+            mesh.write_text(wall.format(1))
+            (pathlib.Path(folder) / "robot.yaml").write_text(
+                "format: corridor-robot-1\nname: cube\nrigid: SE3\nshapes: [{box: [0.2, 0.2, 0.2]}]\n"
+            )
+            file.write_text(
+                "format: corridor-problem-1\nrobot: robot.yaml\nworld: {wall: {mesh: wall.obj}}\n"
+                "start: {at: [-1, 0, 0]}\ngoal: {at: [1, 0, 0]}\nbounds: {at: [[-2, -2, -2], [2, 2, 2]]}\n"
+            )
+            read = corridor.read_problem(file)
+            built = corridor.Problem(
+                corridor.rigid_body(shapes.sphere(0.1), [[-2] * 3, [2] * 3]), {"wall": shapes.mesh_file(mesh)}
+            )
+            kept = [pickle.dumps(each) for each in (read, built, Body(shapes.mesh_file(mesh)))]
+            for each in kept:
+                pickle.loads(each)
+            mesh.write_text(wall.format(1.0000001))
+            for each in kept:
+                with self.assertRaisesRegex(ValueError, "changed since"):
+                    pickle.loads(each)
+
+    def test_matrices_near_a_rotation(self):
+        turned = at(0.5)
+        turned[:3, :3] = [[0, -1, 0], [1, 0, 0], [0, 0, 1]]
+        ball = Body(shapes.sphere(0.25))
+        for off, accepted in ((3e-7, True), (1e-6, False)):
+            pose = turned.copy()
+            pose[:3, :3] *= 1 + off
+            if accepted:
+                corridor.first_contact(ball, ball, pose, pose)
+            else:
+                with self.assertRaisesRegex(ValueError, "start: the upper left 3×3 matrix must be a rotation"):
+                    corridor.first_contact(ball, ball, pose, pose)
+
     def test_the_order_of_edits_does_not_matter(self):
         problem = corridor.read_problem(ARM)
         for edits in (

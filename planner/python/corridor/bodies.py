@@ -1,6 +1,7 @@
 """Collision queries of two bodies. Poses are 4×4 matrices, or N×4×4 for N queries at once.
 
-The matrices are taken as they are: any affine maps, also scaled ones. The motion of `first_contact` needs rotations.
+The matrices are taken as they are: any affine maps, also scaled ones. Only the poses of `first_contact` must be rigid:
+their matrices may differ from a rotation by 1e-6, and stand for the nearest one.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 from .results import Verdict
-from .shapes import Shape, _array
+from .shapes import Shape, _array, _number, _require_shape, _whole
 
 _ORIGIN = np.eye(4)
 
@@ -21,21 +22,26 @@ _ORIGIN = np.eye(4)
 class Body:
     """A body of one shape (`corridor.shapes`): a mesh or a convex solid.
 
-    Its trees are built when a query first needs them. It can be pickled. Raises ValueError for a solid mesh that is not
-    watertight.
+    Its trees are built when a query first needs them. Raises ValueError for a solid mesh that is not watertight. It can
+    be pickled; a mesh file is read again when it is unpickled, which raises ValueError if the mesh has changed.
     """
 
     def __init__(self, shape: Shape):
-        if not isinstance(shape, Shape):
-            raise TypeError(f"a shape of corridor.shapes is needed, not {shape!r}")
+        _require_shape(shape)
         self._shape = copy.deepcopy(shape)
         self._native = _native.body(shape)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return type(self), (self._shape,)
+        return _restored, (type(self), self._shape, _native.shape_fingerprint(self._shape))
 
     def __repr__(self) -> str:
         return f"<Body: {self._shape[0]}>"
+
+
+def _restored(kind: type[Body], shape: Shape, fingerprint: str) -> Body:
+    if _native.shape_fingerprint(shape) != fingerprint:
+        raise ValueError(f"{shape[1]}: this mesh file has changed since the body was pickled")
+    return kind(shape)
 
 
 class Distances(NamedTuple):
@@ -69,30 +75,35 @@ def _natives(a: Body, b: Body) -> tuple[_native.Body, _native.Body]:
     return a._native, b._native
 
 
+def _poses(pose_a: ArrayLike, pose_b: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    return _array("pose_a", pose_a), _array("pose_b", pose_b)
+
+
 def touch(
     a: Body, b: Body, pose_a: ArrayLike = _ORIGIN, pose_b: ArrayLike = _ORIGIN, threads: int = 0
 ) -> NDArray[np.bool_]:
     """Whether the bodies touch: N bool. Exact for meshes; touching is contact."""
-    return _native.touch(*_natives(a, b), _array("pose_a", pose_a), _array("pose_b", pose_b), threads)
+    return _native.touch(*_natives(a, b), *_poses(pose_a, pose_b), _whole("threads", threads, 0))
 
 
 def closer_than(
     a: Body, b: Body, distance: float, pose_a: ArrayLike = _ORIGIN, pose_b: ArrayLike = _ORIGIN, threads: int = 0
 ) -> NDArray[np.bool_]:
     """Whether the bodies are at most `distance` metres apart: N bool. False is a proof."""
-    return _native.closer_than(*_natives(a, b), distance, _array("pose_a", pose_a), _array("pose_b", pose_b), threads)
+    limit = _number("distance", distance)
+    return _native.closer_than(*_natives(a, b), limit, *_poses(pose_a, pose_b), _whole("threads", threads, 0))
 
 
 def distance(
     a: Body, b: Body, pose_a: ArrayLike = _ORIGIN, pose_b: ArrayLike = _ORIGIN, threads: int = 0
 ) -> Distances:
     """The distances of the bodies and their closest points."""
-    return Distances(*_native.distance(*_natives(a, b), _array("pose_a", pose_a), _array("pose_b", pose_b), threads))
+    return Distances(*_native.distance(*_natives(a, b), *_poses(pose_a, pose_b), _whole("threads", threads, 0)))
 
 
 def contacts(a: Body, b: Body, pose_a: ArrayLike = _ORIGIN, pose_b: ArrayLike = _ORIGIN) -> Contacts:
     """All pairs of triangles of two meshes that touch, for one pair of poses."""
-    return Contacts(*_native.contacts(*_natives(a, b), _array("pose_a", pose_a), _array("pose_b", pose_b)))
+    return Contacts(*_native.contacts(*_natives(a, b), *_poses(pose_a, pose_b)))
 
 
 def first_contact(a: Body, b: Body, start: ArrayLike, end: ArrayLike, tolerance: float = 0.0) -> FirstContact:
@@ -100,7 +111,7 @@ def first_contact(a: Body, b: Body, start: ArrayLike, end: ArrayLike, tolerance:
 
     tolerance: metres; 0: a default for the sizes of the bodies.
     """
-    if not tolerance >= 0:
+    if not _number("tolerance", tolerance) >= 0:
         raise ValueError("tolerance: a number of 0 or more is needed")
     verdict, until, time = _native.first_contact(*_natives(a, b), _array("start", start), _array("end", end), tolerance)
     return FirstContact(Verdict(verdict), until, time)

@@ -23,9 +23,9 @@ class CertificateFault(NamedTuple):
 
     "gap": the intervals of the pair do not cover time t. "refuted": at t, the pair is closer than an interval claims,
     or one body is inside the other. "unproved": the edge keeps the margin at t, but this method can't prove the
-    interval with tube and rounding. "work limit": it took too long. "malformed": the numbers are no certificate.
-    "ambiguous": the edge is no motion, such as a half turn. "floating point": the processor's rounding mode is not
-    the usual one.
+    interval with tube and rounding. "work limit": it took too long. "malformed": the numbers are no certificate of
+    this problem. "ambiguous": the edge is no motion, such as a half turn. "floating point": the processor's rounding
+    mode is not the usual one.
     """
     pair: int  #: index into `Certificate.pairs`
     t: float  #: time on the edge, from 0 to 1
@@ -71,17 +71,33 @@ class Certificate:
         ends = np.zeros(len(self.pairs))
         for k in np.lexsort((self.t0, self.pair)):
             p = self.pair[k]
-            if self.t0[k] <= ends[p]:
+            if 0 <= p < len(ends) and 0 <= self.t0[k] <= ends[p] and self.t1[k] <= 1:
                 ends[p] = max(ends[p], self.t1[k])
         return ends
+
+    def _mismatch(self) -> CertificateFault | None:
+        """Returns a fault if the pairs are not the problem's, or if the verdict is more than the intervals claim."""
+        known = _native.certificate_pairs(self.problem._native)
+        same = (
+            self.shapes == known["shapes"]
+            and np.array_equal(self.pairs, known["pairs"])
+            and np.array_equal(self.margins, known["margins"])
+        )
+        if not same or self.pair.dtype.kind not in "iu":
+            return CertificateFault("malformed", 0, 0.0)
+        if self.verdict == Verdict.FREE and self.free_until != 1:
+            return CertificateFault("gap", 0, self.free_until)
+        return None
 
     def check(self) -> CertificateFault | None:
         """Proves the intervals again, by another method on other trees. Returns None, or the first fault.
 
         It proves that each pair stays farther apart than margin + (clearance − margin)/2 in its intervals, and that
-        they cover [0, free_until]. "unproved" is no refutation. With default options and without a tube, at most one of
-        100 certificates of random edges gets it.
+        they cover [0, free_until]; with a `free_until` of 0 it proves nothing. "unproved" is no refutation. With
+        default options and without a tube, at most one of 100 certificates of random edges gets it.
         """
+        if mismatch := self._mismatch():
+            return mismatch
         fault = _native.certificate_fault(
             self.problem._native, self.q0, self.q1, self.free_until, self.pair, self.t0, self.t1, self.clearance
         )

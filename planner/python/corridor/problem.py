@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import difflib
 import html
 import os
 import tempfile
@@ -19,7 +20,7 @@ from . import _native, pictures, workers
 from .certificates import Certificate, certificate_of
 from .results import Results
 from .robots import _pair, _shapes
-from .shapes import Shape, _array
+from .shapes import Shape, _array, _flag, _text, _whole
 
 _solving = threading.Lock()  # OMPL has one generator of random numbers per process
 _this_thread = threading.local()
@@ -31,7 +32,9 @@ _EDITS = (
 
 
 class Problem:
-    """A planning problem. It never changes: `edited` returns another one. It can be pickled.
+    """A planning problem. It never changes: `edited` returns another one.
+
+    It can be pickled. Its files are read again when it is unpickled, which raises ValueError if they have changed.
 
     A configuration is an array of J numbers, whose names are `numbers`: radians, metres, and quaternions
     (qx, qy, qz, qw) of floating bodies.
@@ -49,14 +52,15 @@ class Problem:
         robots: one, or a list, of `urdf`, `robot` or `rigid_body`. obstacles: shapes by name, in world coordinates.
         allow: pairs of names of bodies that may touch. edits: as for `edited`.
         """
-        given: list[Any] = [robots] if isinstance(robots, (dict, str)) else list(robots)
+        is_list = isinstance(robots, Iterable) and not isinstance(robots, (dict, str))
+        given: list[Any] = list(robots) if is_list else [robots]
         for robot in given:
-            if not isinstance(robot, dict):
-                hint = "; read_problem(FILE) reads a problem's file" if isinstance(robot, str) else ""
+            if not isinstance(robot, dict) or "bounds" not in robot:
+                hint = "; read_problem(FILE) reads a problem's file" if isinstance(robot, (str, os.PathLike)) else ""
                 raise TypeError(f"robots: what `urdf`, `robot` or `rigid_body` returns is needed, not {robot!r}{hint}")
         if obstacles is not None and not isinstance(obstacles, Mapping):
             raise TypeError(f"obstacles: shapes by name are needed, such as {{'table': shape}}, not {obstacles!r}")
-        named = {name: _shapes(shapes) for name, shapes in (obstacles or {}).items()}
+        named = {_text("obstacles", name): _shapes(shapes) for name, shapes in (obstacles or {}).items()}
         self._set(("built", given, named, [_pair(pair) for pair in allow]), edits)
 
     @classmethod
@@ -77,7 +81,9 @@ class Problem:
     def _edit(self, base: _native.Problem, before: dict[str, Any], edits: dict[str, Any]) -> None:
         for key in edits:
             if key not in _EDITS:
-                raise TypeError(f"a problem has no {key!r} that can be edited; there are {', '.join(_EDITS)}")
+                close = difflib.get_close_matches(key, _EDITS, 1)
+                hint = f" (did you mean {close[0]!r}?)" if close else f"; there are {', '.join(_EDITS)}"
+                raise TypeError(f"a problem has no {key!r} that can be edited{hint}")
         edits = {k: _value(k, v) for k, v in edits.items()}
         if "planner" in edits:  # parameters belong to a planner
             before = {k: v for k, v in before.items() if k != "params"}
@@ -103,7 +109,7 @@ class Problem:
         return other
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _restored, (self._recipe, self._edits)
+        return _restored, (self._recipe, self._edits, self._native.fingerprint)
 
     def _require(self, key: str) -> None:
         if self._recipe[0] == "built" and key not in self._edits:
@@ -175,15 +181,19 @@ class Problem:
 
     def check(self, states: ArrayLike, threads: int = 0) -> Results:
         """Decides whether states, (J,) or (N, J), are proved free. threads: 0 means all cores."""
-        return Results(self.bodies, *_native.check(self._native, _array("states", states), threads))
+        return Results(self.bodies, *_native.check(self._native, _array("states", states), _whole("threads", threads, 0)))
 
     def certify(self, q0: ArrayLike, q1: ArrayLike, earliest: bool = False, threads: int = 0) -> Results:
         """Decides whether edges are proved free, from each row of q0 to that of q1, (J,) or (N, J).
 
-        Circles and rotations go the shorter way. With `earliest`, the first contact is at most `time`, up to the tolerance.
+        Continuous joints and rotations go the shorter way. With `earliest`, the first contact is at most `time`, up to
+        the tolerance.
         """
         return Results(
-            self.bodies, *_native.certify(self._native, _array("q0", q0), _array("q1", q1), earliest, threads)
+            self.bodies,
+            *_native.certify(
+                self._native, _array("q0", q0), _array("q1", q1), _flag("earliest", earliest), _whole("threads", threads, 0)
+            ),
         )
 
     def certificate(self, q0: ArrayLike, q1: ArrayLike, earliest: bool = False) -> Certificate:
@@ -192,7 +202,7 @@ class Problem:
         With `earliest`, the part before a contact is proved, too. Takes longer than `certify`: every pair is proved, also
         those that are far apart all the time. The method is always `certified`, whatever `edges` is.
         """
-        return certificate_of(self, _array("q0", q0), _array("q1", q1), bool(earliest))
+        return certificate_of(self, _array("q0", q0), _array("q1", q1), _flag("earliest", earliest))
 
     def poses(self, states: ArrayLike) -> NDArray[np.float64]:
         """Returns the poses of all bodies in the world, N×B×4×4, at states, (J,) or (N, J).
@@ -204,7 +214,7 @@ class Problem:
 
     def clearance(self, states: ArrayLike, threads: int = 0) -> NDArray[np.float64]:
         """Returns the smallest distance of tested pairs at each state, minus the margin, (N,), m."""
-        return _native.clearance(self._native, _array("states", states), threads)
+        return _native.clearance(self._native, _array("states", states), _whole("threads", threads, 0))
 
     def page(self) -> str:
         """Returns an HTML page that shows the scene in 3D."""
@@ -225,9 +235,13 @@ def _value(key: str, value: Any) -> Any:
     return copy.deepcopy(value)
 
 
-def _restored(recipe: tuple[Any, ...], edits: dict[str, Any]) -> Problem:
+def _restored(recipe: tuple[Any, ...], edits: dict[str, Any], fingerprint: str) -> Problem:
     problem = object.__new__(Problem)
     problem._set(recipe, edits)
+    if problem._native.fingerprint != fingerprint:
+        raise ValueError(
+            f"{problem.name}: its files have changed since it was pickled, so its proofs are about another problem"
+        )
     return problem
 
 
@@ -244,9 +258,9 @@ class Solution:
     why: str  #: why it is not solved, one line
     path: NDArray[np.float64]  #: N×J states; empty unless solved
     certified: bool  #: every edge of `path` is proved
-    #: times, lengths and counts of the solve. `proved_clearance_m` is at most the preferred clearance; `verify` finds more
+    #: times, lengths and counts of the solve. `proved_clearance_m` is at most the preferred clearance; `verify` may find more
     figures: dict[str, Any] = field(default_factory=dict)
-    #: text, duration, proved and keeps_limits; or why_none. Empty unless `solve` was to make one
+    #: text, duration, proved, keeps_limits and why_none. Empty unless `solve` was to make one
     trajectory: dict[str, Any] = field(default_factory=dict)
     _text: str = ""
 
@@ -284,7 +298,7 @@ class Solution:
             raise ValueError(f"a solution file is for the problem's file, and {edited[0]} was edited")
         if not self._text:
             raise ValueError("a solution file names the problem's file, and there is none")
-        with open(file, "w", encoding="utf-8") as out:
+        with open(os.fspath(file), "w", encoding="utf-8") as out:
             out.write(self._text)
 
     def page(self) -> str:
@@ -307,7 +321,9 @@ class Solution:
     def view(self, file: str | os.PathLike[str] | None = None) -> str:
         """Writes the page to a file, or opens it in a browser. Returns the name of the file."""
         page, opens = self.page(), file is None
-        if file is None:
+        if file is not None:
+            file = os.fspath(file)
+        else:
             handle, file = tempfile.mkstemp(suffix=".html")
             os.close(handle)
         with open(file, "w", encoding="utf-8") as out:
@@ -336,6 +352,8 @@ def solve(
     """
     _require_problem(problem)
     problem = _planned(problem, planner=planner, time=time, seed=seed)
+    if progress is not None and not callable(progress):
+        raise TypeError(f"progress: a function of seconds and edges is needed, not {progress!r}")
     if trajectory not in (None, "csv", "yaml"):
         raise ValueError(f'trajectory: "csv" or "yaml" is needed, not {trajectory!r}')
     problem._require("start")
@@ -386,9 +404,12 @@ def _solve_one(arguments: tuple[Problem, dict[str, Any]]) -> Solution:
 def solve_many(problems: Iterable[Problem], processes: int | None = None, **options: Any) -> Iterator[Solution]:
     """Solves several problems, and yields their solutions in the same order.
 
-    processes: default, as many as there are cores. options: those of `solve`, except progress.
+    processes: default, as many as there are cores. options: those of `solve`, except progress. Nothing is solved, and no
+    argument tested, before the first solution is asked for.
     As with all processes of Python, a script calls it under `if __name__ == "__main__":`. Ctrl-C ends all of them.
     """
+    if isinstance(problems, Problem):
+        raise TypeError("problems: a list of problems is needed, not one problem")
     problems = list(problems)
     for problem in problems:
         _require_problem(problem)

@@ -9,7 +9,7 @@ from typing import Any
 
 from numpy.typing import ArrayLike
 
-from .shapes import Shape, _array, _numbers, _pose
+from .shapes import Shape, _array, _flag, _numbers, _pose, _require_shape, _text
 
 
 @dataclass(frozen=True)
@@ -56,7 +56,7 @@ def robot(
         "links": [(_text("links", link), _shapes(shapes)) for link, shapes in pairs],
         "joints": [_joint(joint) for joint in joints],
         "allow": [_pair(pair) for pair in allow],
-        "plan": [_text("planned", joint) for joint in planned],
+        "plan": _names("planned", planned),
         "base": _pose("base", base),
         "bounds": _bounds(bounds),
         "name": _text("name", name),
@@ -78,10 +78,10 @@ def urdf(
     return {
         "urdf": os.path.abspath(file),
         "srdf": "" if srdf is None else os.path.abspath(srdf),
-        "plan": list(joints),
+        "plan": _names("joints", joints),
         "base": _pose("base", base),
         "bounds": _bounds(bounds),
-        "name": name,
+        "name": _text("name", name),
     }
 
 
@@ -92,32 +92,37 @@ def rigid_body(
 
     bounds: [[x, y, z], [x, y, z]], the lower and the upper corner of its position, m.
     """
-    return {"shapes": _shapes(shapes), "bounds": _array("bounds", bounds), "planar": planar, "name": name}
+    return {
+        "shapes": _shapes(shapes),
+        "bounds": _array("bounds", bounds),
+        "planar": _flag("planar", planar),
+        "name": _text("name", name),
+    }
 
 
 def _shapes(shapes: Shape | Iterable[Shape] | None) -> list[Shape]:
     if shapes is None:
         return []
-    all_shapes = [shapes] if isinstance(shapes, Shape) or isinstance(shapes, str) else list(shapes)
-    for shape in all_shapes:
-        if not isinstance(shape, Shape):
-            hint = "; shapes.mesh_file(FILE) reads a mesh" if isinstance(shape, str) else ""
-            raise TypeError(f"a shape of corridor.shapes is needed, not {shape!r}{hint}")
-    return all_shapes
+    several = list(shapes) if isinstance(shapes, Iterable) and not isinstance(shapes, (Shape, str)) else [shapes]
+    for shape in several:
+        _require_shape(shape)
+    return several
 
 
 def _bounds(bounds: Mapping[str, ArrayLike] | None) -> dict[str, Any]:
+    if bounds is not None and not isinstance(bounds, Mapping):
+        raise ValueError(f"bounds: corners by the names of joints are needed, not {bounds!r}")
     return {joint: _array(f"bounds of {joint}", corners) for joint, corners in (bounds or {}).items()}
 
 
-def _text(what: str, value: Any) -> str:
-    if not isinstance(value, str):
-        raise ValueError(f"{what}: a name is needed, not {value!r}")
-    return value
+def _names(what: str, value: Any) -> list[str]:
+    if isinstance(value, str):
+        raise ValueError(f"{what}: a list of names is needed, not {value!r}")
+    return [_text(what, name) for name in value]
 
 
 def _pair(pair: Any) -> tuple[str, str]:
-    if isinstance(pair, str) or len(pair) != 2:
+    if isinstance(pair, str) or not isinstance(pair, Sequence) or len(pair) != 2:
         raise ValueError(f"allow: two names are needed, not {pair!r}")
     return _text("allow", pair[0]), _text("allow", pair[1])
 

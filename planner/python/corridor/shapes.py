@@ -1,10 +1,12 @@
 """Shapes of links, obstacles and rigid bodies. Lengths are metres.
 
-`pose` is a 4×4 matrix, or a `Pose`; default: the origin.
+`pose` is a 4×4 matrix, or a `Pose`; default: the origin. A matrix may differ from a rotation by 1e-6, and stands for the
+nearest rotation. The vertices of meshes are rounded once when they are placed.
 """
 
 from __future__ import annotations
 
+import operator
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -38,11 +40,51 @@ class Shape(tuple[Any, ...]):
     __slots__ = ()
 
 
+def _require_shape(shape: object) -> None:
+    if not isinstance(shape, Shape):
+        hint = "; shapes.mesh_file(FILE) reads a mesh" if isinstance(shape, (str, os.PathLike)) else ""
+        raise TypeError(f"a shape of corridor.shapes is needed, not {shape!r}{hint}")
+
+
 def _array(name: str, value: Any) -> NDArray[np.float64]:
+    """Returns a copy as doubles. Numbers of other types are rounded to the nearest double: proofs are about these."""
+    if isinstance(value, np.ma.MaskedArray) or np.iscomplexobj(value):
+        raise ValueError(f"{name}: an array of real numbers without a mask is needed")
     try:
         return np.array(value, dtype=float)
     except (TypeError, ValueError) as error:
         raise ValueError(f"{name}: an array of numbers is needed: {error}") from None
+
+
+def _number(name: str, value: Any) -> float:
+    try:
+        if not isinstance(value, (str, bytes)):
+            return float(value)
+    except (TypeError, ValueError, OverflowError):
+        pass
+    raise ValueError(f"{name}: a number is needed, not {value!r}")
+
+
+def _whole(name: str, value: Any, least: int) -> int:
+    try:
+        number = operator.index(value)
+    except TypeError:
+        number = least - 1
+    if number < least:
+        raise ValueError(f"{name}: a whole number of {least} or more is needed, not {value!r}")
+    return number
+
+
+def _flag(name: str, value: Any) -> bool:
+    if not isinstance(value, (bool, np.bool_)):
+        raise ValueError(f"{name}: True or False is needed, not {value!r}")
+    return bool(value)
+
+
+def _text(name: str, value: Any) -> str:
+    if not isinstance(value, str):
+        raise ValueError(f"{name}: a name is needed, not {value!r}")
+    return value
 
 
 def _numbers(name: str, value: Any, count: int) -> tuple[float, ...]:
@@ -87,17 +129,17 @@ def box(size: ArrayLike, pose: ArrayLike | None = None) -> Shape:
 
 def sphere(radius: float, pose: ArrayLike | None = None) -> Shape:
     """A solid sphere."""
-    return _shape("sphere", float(radius), pose=pose)
+    return _shape("sphere", _number("radius", radius), pose=pose)
 
 
 def capsule(radius: float, length: float, pose: ArrayLike | None = None) -> Shape:
     """A solid capsule along z; `length` is the distance of the centres of its end spheres."""
-    return _shape("capsule", float(radius), float(length), pose=pose)
+    return _shape("capsule", _number("radius", radius), _number("length", length), pose=pose)
 
 
 def cylinder(radius: float, length: float, pose: ArrayLike | None = None) -> Shape:
     """A solid cylinder along z; `length` is its full length."""
-    return _shape("cylinder", float(radius), float(length), pose=pose)
+    return _shape("cylinder", _number("radius", radius), _number("length", length), pose=pose)
 
 
 def convex(points: ArrayLike, pose: ArrayLike | None = None) -> Shape:
@@ -110,11 +152,12 @@ def mesh(vertices: ArrayLike, triangles: ArrayLike, solid: bool = False, pose: A
 
     It is a surface. With `solid`, everything inside belongs to it, and it must be watertight.
     """
-    return _shape("mesh", _array("vertices", vertices), _indices(triangles), bool(solid), pose=pose)
+    return _shape("mesh", _array("vertices", vertices), _indices(triangles), _flag("solid", solid), pose=pose)
 
 
 def mesh_file(
     file: str | os.PathLike[str], metres_per_unit: float | None = None, solid: bool = False, pose: ArrayLike | None = None
 ) -> Shape:
     """A mesh file: OBJ, STL, PLY, OFF, Collada, glTF and more. metres_per_unit: default, the unit of the file."""
-    return _shape("file", os.path.abspath(file), metres_per_unit, bool(solid), pose=pose)
+    unit = None if metres_per_unit is None else _number("metres_per_unit", metres_per_unit)
+    return _shape("file", os.path.abspath(file), unit, _flag("solid", solid), pose=pose)

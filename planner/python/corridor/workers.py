@@ -13,6 +13,8 @@ import threading
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
+from .shapes import _whole
+
 _MAIN_GUARD = 'a script must be a file, and must call solve_many under `if __name__ == "__main__":`'
 
 
@@ -139,8 +141,7 @@ def in_order(function: Callable[[Any], Any], arguments: Sequence[Any], processes
     """
     if processes is None:
         processes = os.cpu_count() or 1
-    if processes < 1:
-        raise ValueError(f"processes: a number above 0 is needed, not {processes}")
+    processes = _whole("processes", processes, 1)
     answers, workers, owner = _Answers(arguments), list[_Worker](), os.getpid()
     try:
         for _ in range(min(len(arguments), processes)):

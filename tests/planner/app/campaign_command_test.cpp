@@ -200,8 +200,8 @@ TEST_F(CampaignCommand, BadInputIsOneLine) {
   ASSERT_EQ(run("benchmark campaign.yaml --runs 1 -o results").status, 0);
   const std::string before = read("results/campaign.db");
   expectFault("benchmark campaign.yaml --runs 1 -o results",
-              "results/campaign.db: contains 6 runs already; name another folder, or "
-              "continue them by --resume");
+              "results/campaign.db: contains 6 runs already; name another folder, or call "
+              "benchmark CAMPAIGN --resume, which continues them");
   write("campaign.yaml",
         "format: corridor-campaign-1\nproblems: [hall.yaml]\nplanners: [RRTConect]\n"
         "checkers:\n  certified: {edges: certified}\n");

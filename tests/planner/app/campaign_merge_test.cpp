@@ -191,18 +191,22 @@ TEST_F(CampaignMerge, BadInputIsOneLine) {
       "would have no runs");
   runShards(2, "--runs 1");
   expectFault("benchmark --merge s1 s2", "--merge: needs -o with the folder of the results");
-  expectFault("benchmark --merge s1 s3 -o m", "s3: there is no such database");
-  expectFault("benchmark --merge s1 . -o m", "./campaign.db: there is no such database");
+  expectFault("benchmark --merge s1 s3 -o m",
+              "s3: there is no such database; a folder of results, or its campaign.db, is needed");
+  expectFault("benchmark --merge s1 . -o m",
+              "./campaign.db: there is no such database; a folder of results, or its campaign.db, "
+              "is needed");
   expectFault("benchmark --merge s1 hall.yaml -o m", "hall.yaml: is not a campaign database");
   expectFault("benchmark --merge s1 s2 --runs 3 -o m",
               "--runs excludes --merge; see corridor benchmark --help");
   expectFault("benchmark --merge s1 s2 -o s1",
-              "s1/campaign.db: contains 3 runs already; name another folder, or continue them by "
-              "--resume");
+              "s1/campaign.db: contains 3 runs already; name another folder, or call benchmark "
+              "CAMPAIGN --resume, which continues them");
   for (const char* same : {"s1 s2 s1", "s2 s1/campaign.db s1"})
-    expectFault("benchmark --merge " + std::string(same) + " -o m",
-                "s1/campaign.db: has runs that another of these databases has, too: seed 1 of "
-                "hall, certified, RRTConnect; name each share once");
+    expectFault(
+        "benchmark --merge " + std::string(same) + " -o m",
+        "s1/campaign.db: has runs that another of these databases has, too: seed 1 of "
+        "hall, certified, RRTConnect; name each folder once, or repeat one with another --seed");
   ASSERT_EQ(run("benchmark campaign.yaml --runs 1 --seed 9 --time 77 -o other").status, 0);
   expectFault("benchmark --merge s1 other -o m",
               "other/campaign.db: is not of the same campaign as s1/campaign.db: hall, certified, "

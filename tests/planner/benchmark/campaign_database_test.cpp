@@ -356,7 +356,8 @@ TEST_F(Database, RefusesExistingRunsAndOtherCampaigns) {
   const Campaign campaign = hallCampaign({"discrete:0.2"});
   runInto(campaign);
   EXPECT_EQ(complaint(Mode::fresh, campaign),
-            "contains 2 runs already; name another folder, or continue them by --resume");
+            "contains 2 runs already; name another folder, or call benchmark CAMPAIGN --resume, "
+            "which continues them");
   EXPECT_EQ(complaint(Mode::resume, campaign), "");
 
   Campaign other = campaign;

@@ -1,0 +1,76 @@
+#include "planner/python/fingerprint.h"
+
+#include <cstdint>
+#include <random>
+#include <type_traits>
+
+#include "planner/problem/sha256.h"
+
+namespace corridor::python {
+namespace {
+
+/// The bytes that a digest is of.
+class Bytes {
+ public:
+  template <class Number>
+  requires std::is_arithmetic_v<Number>
+  void add(Number number) { bytes_.append(reinterpret_cast<const char*>(&number), sizeof number); }
+  void add(const Vec3& p) {
+    for (const double x : p) add(x);
+  }
+  void add(const Transform& X) {
+    for (const double x : X.m.reshaped()) add(x);
+    add(X.t);
+  }
+  void add(std::string_view text) {
+    add(text.size());
+    bytes_ += text;
+  }
+  void add(std::span<const PlacedShape> shapes) {
+    add(shapes.size());
+    for (const PlacedShape& shape : shapes) {
+      add(shape.solid);
+      forEachPoint(shape, [&](const Vec3& p, double radius) { add(p), add(radius); });
+      if (!shape.mesh) continue;
+      add(shape.mesh->mesh.triangles.size());
+      for (const auto& triangle : shape.mesh->mesh.triangles)
+        for (const auto index : triangle) add(index);
+    }
+  }
+  std::string digest() const { return sha256Hex(bytes_); }
+
+ private:
+  std::string bytes_;
+};
+
+}  // namespace
+
+std::string fingerprintOf(std::span<const PlacedShape> shapes) {
+  Bytes bytes;
+  bytes.add(shapes);
+  return bytes.digest();
+}
+
+std::string fingerprintOf(const Model& model) {
+  Bytes bytes;
+  for (const ModelBody& body : model.bodies) {
+    bytes.add(body.name);
+    bytes.add(body.frame);
+    bytes.add(std::span(body.shapes));
+  }
+  forEachPair(model, [&](std::size_t a, std::size_t b, std::string_view why) {
+    bytes.add(a), bytes.add(b), bytes.add(why.empty());
+  });
+  for (const std::string& name : model.space.numberNames()) bytes.add(name);
+  for (const Coordinate& c : model.space.coordinates()) bytes.add(c.lower), bytes.add(c.upper);
+  FramePoses frames(model);
+  std::mt19937_64 random(1);
+  for (int sample = 0; sample < 3; ++sample) {
+    Configuration q(static_cast<Eigen::Index>(model.space.size()));
+    for (double& number : q) number = static_cast<double>(random() >> 11) * 0x1p-53;
+    for (const Transform& X : frames.at(q)) bytes.add(X);
+  }
+  return bytes.digest();
+}
+
+}  // namespace corridor::python
