@@ -29,7 +29,7 @@ namespace {
 using seidel::Rational;
 using seidel::rational;
 using Direction = std::array<Rational, 3>;
-using Program = seidel::HalfSpace<Rational, 4>;
+using ExactRow = seidel::HalfSpace<Rational, 4>;
 
 /// The points of a set under its map, in rationals.
 class ExactPoints {
@@ -99,7 +99,7 @@ class ExactPoints {
 
 bool touchInRationals(const PosedSet& a, const PosedSet& b, const ConvexCache& found) {
   const ExactPoints pointsA(a), pointsB(b);
-  std::vector<Program> rows;
+  std::vector<ExactRow> rows;
   const auto difference = [&](std::uint32_t pointA, std::uint32_t pointB) {
     Direction w = pointsB[pointB];
     const Direction p = pointsA[pointA];
@@ -125,7 +125,7 @@ bool touchInRationals(const PosedSet& a, const PosedSet& b, const ConvexCache& f
   for (;;) {
     seidel::Point<Rational, 4> x;
     seidel::Tight<4> tight;
-    seidel::solve<Rational, 4>(bounds, std::span<const Program>(rows), wide, x, tight, memory);
+    seidel::solve<Rational, 4>(bounds, std::span<const ExactRow>(rows), wide, x, tight, memory);
     if (!(x[3] > 0)) return true;
     const Direction n{x[0], x[1], x[2]}, back{-x[0], -x[1], -x[2]};
     pointA = pointsA.farthest(n, pointA);

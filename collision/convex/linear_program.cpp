@@ -27,14 +27,12 @@ using seidel::Rational;
 using seidel::Row;
 
 template <int D>
-using Vector = Eigen::Matrix<double, D, 1>;
-
-template <int D>
 class Program {
  public:
   static constexpr std::size_t kD = D, kM = D + 1;
 
-  Program(std::span<const HalfSpace<D>> list, const Vector<D>& goal, std::uint64_t seed)
+  Program(std::span<const HalfSpace<D>> list, const Eigen::Vector<double, D>& goal,
+          std::uint64_t seed)
       : list_(list), goal_(goal), seed_(seed) {
     bool finite = goal.allFinite();
     for (const HalfSpace<D>& each : list)
@@ -112,7 +110,7 @@ class Program {
     const auto second = seidel::candidate<kM>(
         list_.size(), [this](std::uint32_t i) { return lifted(i); }, away, 1, seed_);
     const double s = first.x[kD] + second.x[kD];
-    Vector<D> x;
+    Eigen::Vector<double, D> x;
     for (std::size_t k = 0; k < kD; ++k) x[k] = (first.x[k] + second.x[k]) / s;
     if (!x.allFinite()) return false;
     for (const HalfSpace<D>& each : list_) {
@@ -189,7 +187,7 @@ class Program {
   }
 
   std::span<const HalfSpace<D>> list_;
-  Vector<D> goal_;
+  Eigen::Vector<double, D> goal_;
   std::uint64_t seed_;
   LinearProgramAnswer<D> answer_;
 };
@@ -198,7 +196,8 @@ class Program {
 
 template <int D>
 LinearProgramAnswer<D> solveLinearProgram(std::span<const HalfSpace<D>> halfSpaces,
-                                          const Vector<D>& goal, std::uint64_t seed) {
+                                          const Eigen::Vector<double, D>& goal,
+                                          std::uint64_t seed) {
   return Program<D>(halfSpaces, goal, seed).solve();
 }
 
@@ -207,7 +206,7 @@ LinearProgramAnswer<D> commonPoint(std::span<const HalfSpace<D>> a, std::span<co
                                    std::uint64_t seed) {
   std::vector<HalfSpace<D>> both(a.begin(), a.end());
   both.insert(both.end(), b.begin(), b.end());
-  return solveLinearProgram<D>(both, Vector<D>::Zero(), seed);
+  return solveLinearProgram<D>(both, Eigen::Vector<double, D>::Zero(), seed);
 }
 
 template LinearProgramAnswer<2> solveLinearProgram(std::span<const HalfSpace<2>>,

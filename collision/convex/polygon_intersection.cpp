@@ -36,9 +36,9 @@ std::vector<Vec2> clipped(const std::vector<Vec2>& polygon, const HalfPlane& hal
   return result;
 }
 
-class Search {
+class PolygonSearch {
  public:
-  Search(const ConvexPolygon& p, const ConvexPolygon& q, std::vector<PolygonPruning>* trace)
+  PolygonSearch(const ConvexPolygon& p, const ConvexPolygon& q, std::vector<PolygonPruning>* trace)
       : p_(p), q_(q), trace_(trace), chainP_{0, p.size()}, chainQ_{0, q.size()} {
     for (std::size_t k = 0; k < 3; ++k) triangle_.push_back(k * p.size() / 3);
     // The two edges at each of the extreme vertices along the axes: between the two edges of
@@ -133,8 +133,8 @@ class Search {
   /// Whether T_Q is beyond the line through v with this normal: the least of out·(x − v) over T_Q.
   bool isBeyond(const Vec2& out, const Vec2& v, double size) const {
     if (!(size > 0)) return false;
-    using Half = seidel::HalfSpace<double, 2>;
-    std::vector<Half> list;
+    using Row = seidel::HalfSpace<double, 2>;
+    std::vector<Row> list;
     double reach = 1;
     for (const std::size_t e : edges_) {
       const HalfPlane half = halfPlane(e);
@@ -147,7 +147,7 @@ class Search {
     seidel::Point<double, 2> x{};
     seidel::Tight<2> tight;
     seidel::Heap<double, 1> memory;
-    if (!seidel::solve<double, 2>(bounds, std::span<const Half>(list), {-out.x(), -out.y()}, x,
+    if (!seidel::solve<double, 2>(bounds, std::span<const Row>(list), {-out.x(), -out.y()}, x,
                                   tight, memory))
       return false;
     return out.x() * x[0] + out.y() * x[1] > 0;
@@ -238,7 +238,7 @@ class Search {
 
 PolygonIntersection intersection(const ConvexPolygon& p, const ConvexPolygon& q,
                                  std::vector<PolygonPruning>* trace) {
-  return Search(p, q, trace).run();
+  return PolygonSearch(p, q, trace).run();
 }
 
 }  // namespace corridor

@@ -26,10 +26,10 @@ struct Plane {
 };
 
 /// The frame of the search is Q's, with the center of its polar as the origin.
-class Search {
+class PolytopeSearch {
  public:
-  Search(const DobkinKirkpatrick& p, const Transform& X_WP, const OuterHierarchy& q,
-         const Transform& X_WQ, std::vector<PolytopePruning>* trace)
+  PolytopeSearch(const DobkinKirkpatrick& p, const Transform& X_WP, const OuterHierarchy& q,
+                 const Transform& X_WQ, std::vector<PolytopePruning>* trace)
       : p_(p),
         q_(q),
         X_WP_(X_WP),
@@ -259,7 +259,7 @@ PolytopeIntersection intersection(const DobkinKirkpatrick& p, const Transform& X
                                   std::vector<PolytopePruning>* trace) {
   if (!X_WP.isFinite() || !X_WQ.isFinite())
     throw std::invalid_argument("the maps of polytopes must be finite");
-  return Search(p, X_WP, q, X_WQ, trace).run();
+  return PolytopeSearch(p, X_WP, q, X_WQ, trace).run();
 }
 
 }  // namespace corridor

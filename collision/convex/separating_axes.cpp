@@ -36,7 +36,7 @@ struct Edge {
 };
 
 /// A plane with the normal u × v of two vectors.
-struct Plane {
+struct EdgePlane {
   Edge u, v;
   Vec3 n;
   double size, error;  ///< D_u D_v, and e_u D_v + D_u e_v
@@ -67,7 +67,7 @@ class MappedPolytope {
   std::size_t vertices() const { return points_.size(); }
 
   Edge edge(std::uint32_t h) const { return between(*this, shape.tail(h), *this, shape.head(h)); }
-  Plane plane(std::uint32_t f) const {
+  EdgePlane plane(std::uint32_t f) const {
     const Polytope::Face& c = shape.polytope().faces()[f];
     return planeOf(between(*this, c[0], *this, c[1]), between(*this, c[0], *this, c[2]));
   }
@@ -83,7 +83,7 @@ class MappedPolytope {
             error,
             {{a.X_, a.shape.vertex(v)}, {b.X_, b.shape.vertex(w)}}};
   }
-  static Plane planeOf(const Edge& u, const Edge& v) {
+  static EdgePlane planeOf(const Edge& u, const Edge& v) {
     return {u, v, u.d.cross(v.d), u.size * v.size, u.error * v.size + u.size * v.error};
   }
 
@@ -96,7 +96,7 @@ class MappedPolytope {
 };
 
 /// Returns the sign of det(u, v, w), with the plane of u and v.
-int side(const Plane& plane, const Edge& w) {
+int side(const EdgePlane& plane, const Edge& w) {
   // Within this range no product overflows or vanishes.
   const auto usual = [](const Edge& edge) { return edge.size > 0x1p-250 && edge.size < 0x1p250; };
   if (usual(plane.u) && usual(plane.v) && usual(w)) {
@@ -146,7 +146,7 @@ class Axes {
   /// not beyond the last plane.
   bool testFace(const MappedPolytope& x, const MappedPolytope& y, std::uint32_t f, bool ofA) {
     ++answer_.faces;
-    const Plane plane = x.plane(f);
+    const EdgePlane plane = x.plane(f);
     const std::uint32_t corner = x.shape.polytope().faces()[f][0];
     const auto isBeyond = [&](std::uint32_t v) {
       return side(plane, MappedPolytope::between(x, corner, y, v)) > 0;
@@ -178,7 +178,7 @@ class Axes {
   }
 
   bool testEdges() {
-    std::vector<Plane> planesA;
+    std::vector<EdgePlane> planesA;
     for (std::uint32_t f = 0; f < a_.faces(); ++f) planesA.push_back(a_.plane(f));
     std::vector<signed char> sideA(a_.faces());
     for (std::uint32_t k = 0; k < b_.shape.halfEdges(); ++k) {
@@ -203,7 +203,7 @@ class Axes {
     if (side(b_.plane(b_.shape.leftFace(k)), u) != leftA) return false;
     if (side(b_.plane(b_.shape.leftFace(b_.shape.twin(k))), u) != -leftA) return false;
     ++answer_.edgePairs;
-    const Plane plane = MappedPolytope::planeOf(u, v);
+    const EdgePlane plane = MappedPolytope::planeOf(u, v);
     const Edge w = MappedPolytope::between(a_, a_.shape.tail(h), b_, b_.shape.tail(k));
     if (side(plane, w) != leftA) return false;
     answer_.a = {Kind::edge, h};

@@ -26,14 +26,12 @@ using seidel::Rational;
 using seidel::Row;
 
 template <int D>
-using Vector = Eigen::Matrix<double, D, 1>;
-
-template <int D>
 class Hulls {
  public:
   static constexpr std::size_t kD = D, kPlane = D + 1, kGap = D + 2;
 
-  Hulls(std::span<const Vector<D>> first, std::span<const Vector<D>> second, std::uint64_t seed)
+  Hulls(std::span<const Eigen::Vector<double, D>> first,
+        std::span<const Eigen::Vector<double, D>> second, std::uint64_t seed)
       : first_(first), second_(second), count_(first.size() + second.size()), seed_(seed) {
     if (first.empty() || second.empty())
       throw std::invalid_argument("each set of points must have a point");
@@ -64,7 +62,7 @@ class Hulls {
 
  private:
   bool isFirst(std::size_t i) const { return i < first_.size(); }
-  const Vector<D>& at(std::size_t i) const {
+  const Eigen::Vector<double, D>& at(std::size_t i) const {
     return isFirst(i) ? first_[i] : second_[i - first_.size()];
   }
   void name(std::size_t i) {
@@ -91,7 +89,7 @@ class Hulls {
 
   /// Proves by the two extreme points along the candidate's normal that the hulls are disjoint.
   bool provedApart(const Point<double, kGap>& found) {
-    Vector<D> n;
+    Eigen::Vector<double, D> n;
     for (std::size_t k = 0; k < kD; ++k) n[k] = found[k];
     double below = -HUGE_VAL, above = HUGE_VAL, size = 0, largest = 0;
     std::size_t p = 0, q = 0;
@@ -190,7 +188,7 @@ class Hulls {
     return true;
   }
 
-  std::span<const Vector<D>> first_, second_;
+  std::span<const Eigen::Vector<double, D>> first_, second_;
   std::size_t count_;
   std::uint64_t seed_;
   SeparatingPlane<D> answer_;
@@ -199,8 +197,9 @@ class Hulls {
 }  // namespace
 
 template <int D>
-SeparatingPlane<D> separatingPlane(std::span<const Vector<D>> first,
-                                   std::span<const Vector<D>> second, std::uint64_t seed) {
+SeparatingPlane<D> separatingPlane(std::span<const Eigen::Vector<double, D>> first,
+                                   std::span<const Eigen::Vector<double, D>> second,
+                                   std::uint64_t seed) {
   return Hulls<D>(first, second, seed).solve();
 }
 
