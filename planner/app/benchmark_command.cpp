@@ -164,7 +164,7 @@ int benchmarkCommand(const BenchmarkArguments& a) {
   RankJob job(a.jobs);
   if (job.serves()) return serveCampaign(a, job);
   if (a.resume && !a.output) refuse("--resume", "needs -o with the folder of the campaign");
-  if (a.shard && !a.output) refuse("--shard", "needs -o with a folder for this share of the runs");
+  if (a.shard && !a.output) refuse("--shard", "needs -o with a folder for this shard of the runs");
   Campaign campaign = campaignOf(a);
   for (std::size_t i = campaign.problems.size(); i-- > 0;)  // put these notes before all others
     if (nothingIsTested(campaign.problems[i]))
@@ -183,8 +183,8 @@ int benchmarkCommand(const BenchmarkArguments& a) {
                      a.resume ? CampaignDatabase::Mode::resume : CampaignDatabase::Mode::fresh,
                      campaign, cells, job.executor() ? job.executor()->places() : a.jobs);
   if (campaign.shard)
-    campaign.notes.push_back("these are share " + text(*campaign.shard) +
-                             " of the campaign's runs; benchmark --merge puts the shares together");
+    campaign.notes.push_back("this is shard " + text(*campaign.shard) +
+                             " of the campaign's runs; benchmark --merge puts the shards together");
   CampaignOptions options;
   options.interrupted = &interrupted;
   options.jobs = a.jobs;
@@ -286,8 +286,8 @@ void addBenchmark(CLI::App& program, int& status) {
       ->group(runs);
   command
       ->add_option("--shard", a.shard,
-                   "K/N: make only share K of N of the runs, for several machines without MPI; "
-                   "--merge puts the shares together")
+                   "K/N: make only shard K of N of the runs, for several machines without MPI; "
+                   "--merge puts the shards together")
       ->check(isShard())
       ->group(runs);
   const char* results = "Results";

@@ -58,7 +58,8 @@ int mergeCampaigns(const BenchmarkArguments& a) {
   for (const CampaignCell& cell : result.cells) runs += cell.runs.size();
   const std::uint64_t all = result.cells.size() * campaign.runs;
   if (runs < all) {
-    campaign.notes.push_back(counted(all - runs, "run") + " of " + grouped(all) + " are missing");
+    campaign.notes.push_back(counted(all - runs, "run") + " of " + grouped(all) +
+                             " are missing; benchmark CAMPAIGN --resume makes them");
     warn(campaign.notes.back());
   }
   giveResults(campaign, result, {folder, &*database, a.json});

@@ -67,7 +67,7 @@ std::vector<Fault> faultsInChild(const Campaign& campaign) {
         for (const auto& [key, value] : *cell.planner.params)
           elsewhere["planner.params." + key] = place;
       try {
-        checkRun(plannedProblem(campaign, cell, campaign.seed), elsewhere);
+        checkRun(problemOfRun(campaign, cell, campaign.seed), elsewhere);
       } catch (const InputError& error) {
         for (const Fault& f : error.faults()) {
           const nlohmann::json fault{f.file, f.line, f.text};
@@ -128,7 +128,7 @@ bool hasRun(const Campaign& campaign, std::size_t cell, std::size_t cells, std::
          campaign.shard->contains(cell / variants, cells / variants, seed - campaign.seed);
 }
 
-Problem plannedProblem(const Campaign& campaign, const CampaignCell& cell, std::uint64_t seed) {
+Problem problemOfRun(const Campaign& campaign, const CampaignCell& cell, std::uint64_t seed) {
   Problem problem = campaign.problems[cell.problem];
   campaign.variants[cell.variant].apply(problem.settings.checker);
   if (cell.planner.params)
@@ -181,7 +181,7 @@ void checkCampaign(const Campaign& campaign) {
   const std::uint64_t groups = campaign.variants.empty() ? 0 : cells / campaign.variants.size();
   if (campaign.shard && faults.empty() && campaign.shard->count > groups * campaign.runs)
     faults.push_back({placeOf(campaign, "shard"), 0,
-                      std::to_string(campaign.shard->count) + " shares are too many for " +
+                      std::to_string(campaign.shard->count) + " shards are too many for " +
                           std::to_string(groups * campaign.runs) +
                           " combinations of problem, planner and seed: some would have no runs"});
   if (faults.empty()) faults = faultsInChild(campaign);

@@ -37,7 +37,7 @@ struct Campaign {
   std::vector<Variant> variants;
   std::vector<CampaignPlanner> planners;  ///< empty: each problem's own planner
   std::uint64_t runs = 10, seed = 1;      ///< seeds: seed … seed + runs − 1
-  std::optional<CampaignShard> shard;     ///< the share of the runs that is made; unset: all
+  std::optional<CampaignShard> shard;     ///< the shard of the runs that is made; unset: all
   std::optional<double> time;             ///< seconds per run; unset: the problem's own limit
   std::optional<Simplifier> simplify;     ///< unset: the problem's own setting
   /// Whether every path is verified. If not, nothing reports which paths are in collision.
@@ -65,11 +65,11 @@ struct CampaignCell {
 /// Returns all cells, without runs, in order of problem, then planner, then variant.
 std::vector<CampaignCell> cellsOf(const Campaign& campaign);
 
-/// Returns whether the campaign has a run of this seed, and it belongs to the campaign's share.
+/// Returns whether the campaign has a run of this seed, and it belongs to the campaign's shard.
 /// @param cell the index of a cell in `cellsOf`. @param cells their number.
 bool hasRun(const Campaign& campaign, std::size_t cell, std::size_t cells, std::uint64_t seed);
 
-/// Calls `visit` for each run of a cell (an index), whole and in order of seed.
+/// Calls `visit` for each run of a cell (an index) with all of its data, in order of seed.
 using RunSource =
     std::function<void(std::size_t cell, const std::function<void(const BenchmarkRun&)>& visit)>;
 
@@ -84,14 +84,14 @@ struct CampaignResult {
 };
 
 /// Returns the problem for one run of a cell: with variant, planner, time and seed set.
-Problem plannedProblem(const Campaign& campaign, const CampaignCell& cell, std::uint64_t seed);
+Problem problemOfRun(const Campaign& campaign, const CampaignCell& cell, std::uint64_t seed);
 
 /// Returns the trajectories that are made along the path of each run of a cell.
 RunTrajectories trajectoriesOf(const Campaign& campaign, const CampaignCell& cell);
 
 /// Checks the whole campaign before the first run: names, parameters, and whether starts and goals
 /// are free for every variant. @throws InputError with all faults.
-/// @pre the caller has one thread.
+/// @pre the process has only one thread, since this function forks.
 void checkCampaign(const Campaign& campaign);
 
 }  // namespace corridor

@@ -194,7 +194,7 @@ class CampaignDatabase::Tables {
     base_->exec("PRAGMA user_version = " + std::to_string(kCampaignVersion));
   }
 
-  /// Compares the file's share with the campaign's, and stores what reports need of the campaign.
+  /// Compares the file's shard with the campaign's, and stores what reports need of the campaign.
   void storeCampaign() {
     base_->exec(kCampaignTable);
     const std::string shard = campaign_.shard ? text(*campaign_.shard) : "";
@@ -202,10 +202,10 @@ class CampaignDatabase::Tables {
     const std::string was = known.executeStep() ? known.getColumn(0).getString() : "";
     const bool empty = base_->execAndGet("SELECT count(*) FROM corridor_runs").getInt() == 0;
     if (!empty && was.empty() && !shard.empty())
-      refuse("contains runs of the whole campaign, not of share " + shard +
+      refuse("contains runs of the whole campaign, not of shard " + shard +
              " only; leave out --shard, or name another folder");
     if (!empty && was != shard)
-      refuse("contains share " + was + " of the runs; continue with --shard " + was +
+      refuse("contains shard " + was + " of the runs; continue with --shard " + was +
              ", or name another folder");
     known.reset();
     execute("REPLACE INTO corridor_campaign VALUES ('shard', ?), ('record', ?)", shard,
@@ -263,7 +263,7 @@ class CampaignDatabase::Tables {
       if (!hasRun(campaign_, index, cells.size(), run.seed))
         refuse("contains a run of seed " + std::to_string(run.seed) + " of " +
                cellName(campaign_, cell) + ", which the campaign" +
-               (campaign_.shard ? "'s share" : "") + " doesn't have; name another folder");
+               (campaign_.shard ? "'s shard" : "") + " doesn't have; name another folder");
       if (!runs.getColumn(1).isNull()) run.ompl = setup(runs.getColumn(1));
       trimmer.trim(run);
       cell.runs.push_back(std::move(run));

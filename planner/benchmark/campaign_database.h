@@ -38,7 +38,7 @@ class CampaignDatabase {
   /// @throws InputError, with the file's name, in these cases. The file can't be created, read or
   /// written, or is in use. It is not a campaign's database. It contains runs already (`fresh`). It
   /// contains runs of cells or seeds that the campaign doesn't have, or of a cell whose `specOf`
-  /// has changed, or of another share of the campaign.
+  /// has changed, or of another shard of the campaign.
   CampaignDatabase(const std::filesystem::path& file, Mode mode, const Campaign& campaign,
                    std::vector<CampaignCell>& cells, std::size_t jobs = 1);
   ~CampaignDatabase();

@@ -7,18 +7,18 @@
 
 namespace corridor {
 
-/// A share of a campaign's runs, for machines that exchange no messages: number `index`, from 1, of
-/// `count` shares.
+/// A shard: a part of a campaign's runs, for machines that exchange no messages. It is number
+/// `index`, from 1, of `count` shards.
 ///
 /// The runs are dealt out in groups. A group has the runs of all variants for one problem, planner
 /// and seed, so that one machine measures all that is compared. Groups are dealt in turn, seed by
-/// seed. So the shares differ by at most one group. Of any `count` successive seeds (the first of
-/// them the campaign's first one plus a multiple of `count`), each share gets one of each problem
+/// seed. So the shards differ by at most one group. Of any `count` successive seeds (the first of
+/// them the campaign's first one plus a multiple of `count`), each shard gets one of each problem
 /// and planner. More runs of the campaign don't change who makes the first ones.
 struct CampaignShard {
   std::uint64_t index = 1, count = 1;
 
-  /// Returns whether a group belongs to this share.
+  /// Returns whether a group belongs to this shard.
   /// @param group the number of the problem and planner, from 0. @param groups their count.
   /// @param seed the number of the seed, from 0.
   bool contains(std::size_t group, std::size_t groups, std::uint64_t seed) const;
@@ -26,7 +26,7 @@ struct CampaignShard {
 
 /// "2/3"
 std::string text(const CampaignShard& shard);
-/// Reads "2/3"; nullopt if the text is no share: K and N are whole numbers, 1 ≤ K ≤ N ≤ 1,000,000.
+/// Reads "2/3"; nullopt if the text is no shard: K and N are whole numbers, 1 ≤ K ≤ N ≤ 1,000,000.
 std::optional<CampaignShard> readShard(const std::string& text);
 
 }  // namespace corridor

@@ -22,7 +22,7 @@ std::string limitsText(const JointLimits& limits) {
 }  // namespace
 
 std::string specOf(const Campaign& campaign, const CampaignCell& cell) {
-  const Problem planned = plannedProblem(campaign, cell, 0);
+  const Problem planned = problemOfRun(campaign, cell, 0);
   nlohmann::ordered_json checker = nlohmann::ordered_json::object();
   for (const YamlValue::Entry& entry : campaign.variants[cell.variant].checker.entries)
     checker[entry.key] = entry.value.text;

@@ -90,7 +90,7 @@ TaskStarter runStarter(const Campaign& campaign) {
     const auto [index, seed] = queuedRun(task);
     const CampaignCell& cell = cells[index];
     return startRun(campaign.verify ? &campaign.problems[cell.problem] : nullptr,
-                    plannedProblem(campaign, cell, seed), campaign.digests[cell.problem],
+                    problemOfRun(campaign, cell, seed), campaign.digests[cell.problem],
                     campaign.variants[cell.variant].competitor, campaign.limits,
                     trajectoriesOf(campaign, cell));
   };

@@ -66,7 +66,7 @@ class SimulatedRuns {
     for (const CampaignCell& cell : cells_) {
       if (cell.problem > 0) continue;
       ChildProcess real =
-          startRun(&campaign.problems[0], plannedProblem(campaign, cell, 1), campaign.digests[0],
+          startRun(&campaign.problems[0], problemOfRun(campaign, cell, 1), campaign.digests[0],
                    campaign.variants[cell.variant].competitor, campaign.limits);
       while (!real.advance()) ChildProcess::waitForAny({&real}, 100);
       samples_[{cell.variant, cell.planner.label}] = runOf(real.end(), 1);

@@ -18,7 +18,7 @@ class CampaignMerge : public corridor::test::CampaignTest {
     SQLite::Database base((folder_ / file).string());
     return base.execAndGet(sql).getString();
   }
-  /// Runs the shares 1/count … count/count into the folders s1, s2, …
+  /// Runs the shards 1/count … count/count into the folders s1, s2, …
   void runShards(int count, const std::string& options = "") const {
     for (int k = 1; k <= count; ++k) {
       const std::string K = std::to_string(k);
@@ -47,7 +47,7 @@ TEST_F(CampaignMerge, ThreeShardsHaveTheRowsOfTheWhole) {
     rows += own;
   }
   EXPECT_EQ(rows, 24u);
-  EXPECT_THAT(read("s2/report.html"), HasSubstr("these are share 2/3"));
+  EXPECT_THAT(read("s2/report.html"), HasSubstr("this is shard 2/3"));
   std::filesystem::remove(folder_ / "hall.yaml");  // the databases know all that is needed
   std::filesystem::remove(folder_ / "campaign.yaml");
   {  // SQLite would apply a log that a database left behind to a new one of its name
@@ -63,7 +63,7 @@ TEST_F(CampaignMerge, ThreeShardsHaveTheRowsOfTheWhole) {
   EXPECT_EQ(merged.err, "");
   EXPECT_EQ(repeatable("merged"), repeatable("whole"));
   EXPECT_EQ(filesIn("merged"), filesIn("whole"));
-  EXPECT_THAT(read("merged/report.html"), testing::Not(HasSubstr("these are share")));
+  EXPECT_THAT(read("merged/report.html"), testing::Not(HasSubstr("this is shard")));
   // OMPL's tables have the same runs, except for times.
   for (const char* sql :
        {"SELECT group_concat(x) FROM (SELECT e.name || p.name || r.seed || r.solved || r.certified "
@@ -88,7 +88,7 @@ TEST_F(CampaignMerge, ThreeShardsHaveTheRowsOfTheWhole) {
             "3,0");
 }
 
-/// The two shares have runs of different problems, with the same ids. RRTstar reports its progress.
+/// The two shards have runs of different problems, with the same ids. RRTstar reports its progress.
 TEST_F(CampaignMerge, RowsGetNewIdsTogether) {
   write("other.yaml", read("hall.yaml") + "margin: 0.01\n");
   write("campaign.yaml",
@@ -134,7 +134,9 @@ TEST_F(CampaignMerge, MissingSharesAreNotedAndCanBeMade) {
   runShards(3, "--runs 3");
   const Result part = run("benchmark --merge s1 s3 -o merged");
   EXPECT_EQ(part.status, 0);
-  EXPECT_EQ(part.err, "corridor: warning: 6 runs of 18 are missing\n");
+  EXPECT_EQ(
+      part.err,
+      "corridor: warning: 6 runs of 18 are missing; benchmark CAMPAIGN --resume makes them\n");
   EXPECT_THAT(read("merged/report.html"), HasSubstr("6 runs of 18 are missing"));
   ASSERT_EQ(run("benchmark campaign.yaml --runs 3 -o merged --resume").status, 0);
   ASSERT_EQ(run("benchmark campaign.yaml --runs 3 -o whole").status, 0);
@@ -157,10 +159,10 @@ TEST_F(CampaignMerge, TrajectoriesAreRecorded) {
 TEST_F(CampaignMerge, AShardResumes) {
   ASSERT_EQ(run("benchmark campaign.yaml --runs 2 --shard 2/3 -o s").status, 0);
   expectFault("benchmark campaign.yaml --runs 4 --resume -o s",
-              "s/campaign.db: contains share 2/3 of the runs; continue with --shard 2/3, or name "
+              "s/campaign.db: contains shard 2/3 of the runs; continue with --shard 2/3, or name "
               "another folder");
   expectFault("benchmark campaign.yaml --runs 4 --resume --shard 1/3 -o s",
-              "s/campaign.db: contains share 2/3 of the runs; continue with --shard 2/3, or name "
+              "s/campaign.db: contains shard 2/3 of the runs; continue with --shard 2/3, or name "
               "another folder");
   const std::size_t before = repeatable("s").size();
   const Result more = run("benchmark campaign.yaml --runs 4 --resume --shard 2/3 -o s");
@@ -168,9 +170,9 @@ TEST_F(CampaignMerge, AShardResumes) {
   EXPECT_GT(repeatable("s").size(), before);
   ASSERT_EQ(run("benchmark campaign.yaml --runs 1 -o whole").status, 0);
   expectFault("benchmark campaign.yaml --runs 4 --resume --shard 2/3 -o whole",
-              "whole/campaign.db: contains runs of the whole campaign, not of share 2/3 only; "
+              "whole/campaign.db: contains runs of the whole campaign, not of shard 2/3 only; "
               "leave out --shard, or name another folder");
-  // One planner fewer: the groups are dealt to other shares.
+  // One planner fewer: the groups are dealt to other shards.
   write("campaign.yaml",
         "format: corridor-campaign-1\nproblems: [hall.yaml]\nplanners: [RRTConnect]\ncheckers:\n  "
         "certified: {edges: certified}\n  sampled: {edges: discrete, resolution: [0.2, 0.01]}\n");
@@ -180,14 +182,14 @@ TEST_F(CampaignMerge, AShardResumes) {
 
 TEST_F(CampaignMerge, BadInputIsOneLine) {
   expectFault("benchmark campaign.yaml --shard 1/3",
-              "--shard: needs -o with a folder for this share of the runs");
+              "--shard: needs -o with a folder for this shard of the runs");
   for (const char* shard : {"0/3", "4/3", "x", "1"})
     expectFault("benchmark campaign.yaml -o s --shard " + std::string(shard),
                 "--shard: K/N is needed, such as 1/3, with K from 1 to N, not \"" +
                     std::string(shard) + "\"; see corridor benchmark --help");
   expectFault(
       "benchmark campaign.yaml --runs 2 --shard 5/5 -o s",
-      "--shard: 5 shares are too many for 4 combinations of problem, planner and seed: some "
+      "--shard: 5 shards are too many for 4 combinations of problem, planner and seed: some "
       "would have no runs");
   runShards(2, "--runs 1");
   expectFault("benchmark --merge s1 s2", "--merge: needs -o with the folder of the results");

@@ -1,4 +1,4 @@
-// Tests of how the runs of a campaign are dealt out to shares: each run to one share, fairly.
+// Tests of how the runs of a campaign are dealt out to shards: each run to one shard, fairly.
 #include "planner/benchmark/campaign_shard.h"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ TEST(CampaignShard, TextsReadBack) {
 TEST(CampaignShard, DealsEachRunOnceAndFairly) {
   for (std::size_t groups = 1; groups <= 24; ++groups)
     for (std::uint64_t count = 1; count <= 24; ++count) {
-      SCOPED_TRACE(std::to_string(groups) + " groups, " + std::to_string(count) + " shares");
+      SCOPED_TRACE(std::to_string(groups) + " groups, " + std::to_string(count) + " shards");
       const std::uint64_t seeds = 3 * count + 2;
       std::vector<std::uint64_t> runs(count, 0);
       std::vector<std::vector<std::uint64_t>> ofGroup(count, std::vector<std::uint64_t>(groups, 0));

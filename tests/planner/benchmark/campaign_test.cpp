@@ -115,7 +115,7 @@ TEST(Campaign, ARunEqualsASolve) {
     for (std::size_t i = 0; i < 2; ++i) {
       const BenchmarkRun& run = cell.runs[i];
       EXPECT_EQ(run.seed, 5 + i);
-      const Problem planned = plannedProblem(campaign, cell, run.seed);
+      const Problem planned = problemOfRun(campaign, cell, run.seed);
       const SolveReport report = solveProblem(planned);
       ASSERT_EQ(report.outcome, SolveOutcome::solved);
       EXPECT_TRUE(run.solved) << run.why << run.failure;

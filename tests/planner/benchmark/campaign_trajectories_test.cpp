@@ -350,7 +350,7 @@ TEST_F(HallWithTrajectories, AnEndedProcessKeepsWhatWasDone) {
     ::setitimer(ITIMER_REAL, &timer, nullptr);  // SIGALRM ends the process
     return run;
   };
-  ChildProcess process = startRun(&c.problems[0], plannedProblem(c, cellsOf(c)[0], 1), c.digests[0],
+  ChildProcess process = startRun(&c.problems[0], problemOfRun(c, cellsOf(c)[0], 1), c.digests[0],
                                   competitor, {}, trajectories);
   while (!process.advance()) ChildProcess::waitForAny({&process}, 100);
   const BenchmarkRun run = runOf(process.end(), 1, trajectories);

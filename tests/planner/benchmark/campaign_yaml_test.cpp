@@ -102,11 +102,11 @@ TEST_F(CampaignYaml, EveryKey) {
   EXPECT_EQ(c.limits.memory, 512);
   EXPECT_EQ(c.simplify, Simplifier::none);
   EXPECT_FALSE(c.verify);
-  const Problem planned = plannedProblem(c, cellsOf(c)[0], 9);
+  const Problem planned = problemOfRun(c, cellsOf(c)[0], 9);
   EXPECT_EQ(planned.settings.simplify, Simplifier::none);
-  EXPECT_EQ(plannedProblem(c, cellsOf(c)[8], 9).settings.simplify, Simplifier::none);
+  EXPECT_EQ(problemOfRun(c, cellsOf(c)[8], 9).settings.simplify, Simplifier::none);
   ASSERT_EQ(cellsOf(c)[10].planner.name, "PRM");
-  EXPECT_EQ(plannedProblem(c, cellsOf(c)[10], 9).settings.simplify, Simplifier::ompl);
+  EXPECT_EQ(problemOfRun(c, cellsOf(c)[10], 9).settings.simplify, Simplifier::ompl);
   EXPECT_EQ(planned.settings.planner.time, 2.5);
   EXPECT_EQ(planned.settings.seed, 9u);
 }
