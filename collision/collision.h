@@ -57,8 +57,8 @@
 /// 3. How far apart are they, and where are they closest to each other? The distance is 0 if and
 ///    only if they touch. Otherwise the error is at most 1e-12 of the distance + 4·2^-53·S + the
 ///    error that the options allow. S is the largest Σ|m||v| + |t| over the corners v of both
-///    bodies, with their map x ↦ m·x + t. This question costs 10 to 70 times as much as the first
-///    one.
+///    bodies, each with its body's map x ↦ m·x + t. This question costs 10 to 70 times as much as
+///    the first one.
 ///
 ///        const Distance d = distance(a, b, {}, context);             // d.distance, d.p_WA, d.p_WB
 ///
@@ -92,7 +92,7 @@
 /// 7. How deep are they in each other? The answer is two proved bounds of the length by which b
 ///    must move to leave a, and a direction along which it leaves a by the larger one. The bounds
 ///    may be far apart for bodies that are not convex. This question costs some 15 times as much as
-///    the last one.
+///    question 6.
 ///
 ///        // X_CupTable maps the table into the frame of the cup.
 ///        const DepthBounds d = depthBounds(cup, table, X_CupTable, {}, context);  // d.lower …

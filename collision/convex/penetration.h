@@ -7,8 +7,9 @@ namespace corridor {
 
 /// The length of the move by which a convex set b leaves a convex set a. Lengths in metres.
 struct Penetration {
-  /// Bounds of the depth. If b moves by `upper` along the direction, the two sets touch at most. By
-  /// less than `lower`, they overlap. Both include all rounding. 0, 0: the sets do not overlap.
+  /// Bounds of the depth. After a move of b by `upper` along the direction, the two sets at most
+  /// touch. After a move by less than `lower`, they still overlap. Both include all rounding. 0, 0:
+  /// the sets do not overlap.
   double lower = 0, upper = 0;
   /// The direction of the move, from a to b: unit, rounded.
   Vec3 direction_W = Vec3::Zero();
@@ -26,10 +27,10 @@ struct Penetration {
 ///
 /// Guarantee: `lower` ≤ depth ≤ `upper`, in real arithmetic on the given doubles, for sizes and
 /// coordinates that are 0 or within 2^±440 m. The bounds differ by at most the share `accuracy` of
-/// the depth, or by 2^-42 of the largest coordinate, unless 500 rounds do not suffice. That
-/// happened for curved and for very fine surfaces: in tests up to 1e-4 of the depth for cylinders,
-/// and 0.8 % for a sphere under a scaling map and for a hull of 10,000 points on a sphere, each
-/// against itself.
+/// the depth, or by 2^-42 of the largest coordinate, unless 500 rounds do not suffice. They did not
+/// for some curved or very finely tessellated surfaces. In tests the bounds then differed by up to
+/// 1e-4 of the depth (two equal cylinders) or 0.8 % (two equal spheres under a scaling map, and two
+/// equal hulls of 10,000 points on a sphere).
 ///
 /// Method: the depth is the distance of the origin from the boundary of A − B. If only the spheres
 /// that sweep the cores overlap, the distance of the cores gives the depth. Else the expanding
@@ -42,9 +43,9 @@ Penetration penetration(const PosedSet& a, const PosedSet& b, double accuracy = 
 
 /// Computes the depth along a direction: the length by which b must move along it to leave a. The
 /// method is the same, with the distance of the boundary of A − B along a ray. `lower` ≤ depth ≤
-/// `upper` holds as above. The rounding in their difference is divided by direction_W·normal_W. If
-/// the direction is parallel to the surface where the sets touch, or to flat sets on one plane,
-/// `lower` is 0 and `upper` may be infinite.
+/// `upper` holds as above. The part of upper − lower that comes from rounding is larger by the
+/// factor 1/(direction_W·normal_W). If the direction is parallel to the surface where the sets
+/// touch, or to flat sets on one plane, `lower` is 0 and `upper` may be infinite.
 /// @param direction  not 0, finite.
 /// @throws std::invalid_argument if the direction is 0 or not finite.
 Penetration penetrationAlong(const PosedSet& a, const PosedSet& b, const Vec3& direction,

@@ -35,8 +35,7 @@ struct PolygonPruning {
 /// (SODA 2015), section 3. P is represented by a triangle of its vertices, T_P, which is inside P.
 /// Q is represented by its *edge hull* T_Q: the half-planes of some of its edges, which contain Q.
 /// * If T_P and T_Q are apart, a line separates them, and touches T_P at a vertex. Only one chain
-/// of
-///   P, next to this vertex, reaches beyond the line. The rest is pruned.
+///   of P, next to this vertex, reaches beyond the line. The rest is pruned.
 /// * If T_P and T_Q share points, these are in Q, or all are beyond one chain of Q, between two
 ///   edges of T_Q. In the second case P meets Q if and only if it meets the half-planes of this
 ///   chain. The other edges are pruned.

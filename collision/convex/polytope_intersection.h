@@ -13,10 +13,10 @@ namespace corridor {
 /// The answer whether two convex polytopes share a point, with its witness.
 struct PolytopeIntersection {
   bool intersects = false;
-  /// Not `intersects`, unless `exact`: a unit direction in the world, rounded. The projection of P
-  /// onto it ends before that of Q begins, in real arithmetic.
+  /// Set if neither `intersects` nor `exact`: a unit direction in the world, rounded. The
+  /// projection of P onto it ends before that of Q begins, in real arithmetic.
   Vec3 direction_W = Vec3::Zero();
-  /// `intersects`, unless `exact`: vertices of P and of Q whose hulls share a point already:
+  /// Set if `intersects` and not `exact`: vertices of P and of Q whose hulls share a point already:
   /// O(log n) of them.
   std::vector<std::uint32_t> verticesP, verticesQ;
   int steps = 0;       ///< tests of a part of P against a part of Q
@@ -27,10 +27,12 @@ struct PolytopeIntersection {
 struct PolytopePruning {
   std::size_t levelP, levelQ;  ///< P_i of the inner, Q_j of the outer hierarchy
   bool apart;                  ///< which of the two invariants holds:
-  /// `apart`: normal·x ≤ offset on P_i, and normal·x ≥ offset on Q_j. What is left of P is beyond.
+  /// `apart`: normal·x ≤ offset on P_i, and normal·x ≥ offset on Q_j. The vertices of P that must
+  /// still be examined are beyond this plane.
   Vec3 normal_Q;
   double offset;
-  /// Not `apart`: a point of P_i and Q_j. The half-spaces that are left are those that exclude it.
+  /// Not `apart`: a point of P_i and Q_j. The half-spaces of Q that must still be examined are
+  /// those that exclude this point.
   Vec3 point_Q;
 };
 

@@ -28,9 +28,8 @@ struct CircleTurn {
 ///   off by 2.5e-16, because 2π is rounded to a double. The sum of these errors is below 2^-52·S;
 ///   the bound stored is twice that sum.
 /// * All other angles: the rotation is computed from sines and cosines in long double. The C
-/// library
-///   reduces their arguments with as many digits of π as necessary. Sines and cosines then cause an
-///   error of 2^-58, and rounding the result one of 2^-52.
+///   library reduces their arguments with as many digits of π as necessary. Sines and cosines then
+///   cause an error of 2^-58, and rounding the result one of 2^-52.
 inline CircleTurn circleTurn(double from, double to) {
   if (from == to) return {};
   const double turn = to - from, size = std::abs(from) + std::abs(to);

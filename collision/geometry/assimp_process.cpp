@@ -139,7 +139,7 @@ std::filesystem::path AssimpLimits::assimpProgram() {
 AssimpImport readWithAssimp(const std::string& file, AssimpRules rules,
                             const AssimpLimits& limits) {
   const auto fail = [&](const std::string& what) { throw InputError(Fault{file, 0, what}); };
-  const std::string instead = "; save it as OBJ, STL, PLY or OFF";
+  const std::string instead = "; save the mesh as OBJ, STL, PLY or OFF";
   if (limits.program.empty())
     fail("assimp is needed for this format, and its program " CORRIDOR_ASSIMP_PROGRAM
          " is not found; install it with the library, or save the mesh as OBJ, STL, PLY or OFF");
@@ -155,7 +155,7 @@ AssimpImport readWithAssimp(const std::string& file, AssimpRules rules,
       const int status = helper.end();
       if (WIFEXITED(status) && WEXITSTATUS(status) == kNoMemory)
         fail("assimp, which reads this format, needs more than " +
-             std::to_string(limits.bytes >> 20) + " MiB of memory for it" + instead);
+             std::to_string(limits.bytes >> 20) + " MiB of memory for this file" + instead);
       fail("assimp, which reads this format, ended without an answer (" + textOf(status) + ")" +
            instead);
     }

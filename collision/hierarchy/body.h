@@ -47,8 +47,8 @@ class Body {
   const TriangleMesh& mesh() const;              ///< empty for convex parts
   const std::vector<ConvexPart>& parts() const;  ///< empty for a mesh
   bool solid() const;                            ///< true for convex parts
-  /// Returns whether this is a solid mesh. Only then another body may be inside it without touching
-  /// its surface, and containment is a test of its own.
+  /// Returns whether this is a solid mesh. Only then may another body be inside it without touching
+  /// its surface; so containment is a test of its own.
   bool isSolidMesh() const { return solid() && isMesh(); }
   const Obb4Tree& tree() const;  ///< builds the tree if necessary
   /// Returns the binary tree of one kind of volume. Builds it if necessary.

@@ -17,7 +17,7 @@ namespace corridor::exact {
 
 using Rational = boost::multiprecision::cpp_rational;
 
-/// Returns "node 3", for the complaints of tests of trees.
+/// Returns "node 3", for the messages of `check()` of trees.
 inline std::string named(const char* what, std::size_t i) {
   return std::string(what) + " " + std::to_string(i);
 }
@@ -37,8 +37,9 @@ inline Row minus(const Row& a, const Row& b) {
 }
 
 /// Each specialisation has `contains(p, r)`. It returns true if the solid sphere of radius r about
-/// p is proved to be in a convex subset of the volume, the same for all spheres: then their hull is
-/// inside, too. Where the volume itself isn't convex, there is also `containsTriangle`.
+/// p is proved to be in a convex subset of the volume. The subset is the same for all spheres, so
+/// the hull of several such spheres is inside, too. Where the volume itself isn't convex, there is
+/// also `containsTriangle`.
 template <class Volume>
 class ExactVolume;
 

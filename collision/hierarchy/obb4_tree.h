@@ -90,8 +90,8 @@ class Obb4Tree {
   /// Fits the boxes to triangles that have moved. The tree keeps its structure, and each box keeps
   /// its axes; frame and unit are those of the new coordinates. Refitting is cheaper than building,
   /// but boxes get looser the more the mesh deforms. The result depends on the axes, the
-  /// structure and `moved`. Positions before change only roundings and the order of a box's sides.
-  /// No query may run at the same time.
+  /// structure and `moved`. The positions before the call affect only rounding and the order of a
+  /// box's sides. No query may run at the same time.
   /// @throws std::invalid_argument if the leaves hold parts, if `moved` has another number of
   /// triangles than the tree, or if `checkMesh` finds a fault. The tree is then unchanged.
   void refit(const TriangleMesh& moved);

@@ -14,8 +14,8 @@ namespace corridor {
 
 /// Finds the pairs of bodies that may come close to each other, without a test of each pair. If a
 /// moving body has many partners at rest in the world, a tree of the partners' boxes gives the
-/// pairs that its swept sphere may reach. Moving bodies with the same partners share one tree. All
-/// other pairs are always found.
+/// pairs that its swept sphere may reach. Moving bodies with the same partners share one tree.
+/// Pairs without such a tree are found without a test.
 ///
 /// Const after construction, so threads may share it.
 class BroadPhase {

@@ -51,7 +51,7 @@ class Moving {
       result_.kind = Descent::Kind::workLimit;
       return true;
     }
-    if (left_ < options_.leaveAllAfter) return false;
+    if (deferred_ < options_.deferAllAfter) return false;
     later_.push_back(item);
     return true;
   }
@@ -62,7 +62,7 @@ class Moving {
     noteClearances(item.pairs & ~found.open);
     if (options_.shortest) return found.open;
     const unsigned coarse = found.coarse & item.pairs & bound.far * 0x1111U;
-    leave(item, coarse);
+    defer(item, coarse);
     return found.open & ~coarse;
   }
 
@@ -70,20 +70,20 @@ class Moving {
     unsigned open = 0;
     const bool stop = a_.hasParts() || b_.hasParts() ? solids(na, nb, pairs, open)
                                                      : triangles(na, nb, pairs, open);
-    if (!stop) leave(item, open);
+    if (!stop) defer(item, open);
     return stop;
   }
 
   const Descent& result() const { return result_; }
 
  private:
-  void leave(const Item& item, unsigned pairs) {
+  void defer(const Item& item, unsigned pairs) {
     if (!pairs) return;
     later_.push_back({item.a, item.b, item.key, pairs});
-    left_ += static_cast<unsigned>(std::popcount(pairs));
+    deferred_ += static_cast<unsigned>(std::popcount(pairs));
   }
   bool full(unsigned open) const {
-    return left_ + static_cast<unsigned>(std::popcount(open)) >= options_.leaveAllAfter;
+    return deferred_ + static_cast<unsigned>(std::popcount(open)) >= options_.deferAllAfter;
   }
 
   float* clearances() { return options_.clearance ? clearances_ : nullptr; }
@@ -153,7 +153,7 @@ class Moving {
             unsigned& open) {
     const LeafOutcome pair =
         outcomeOf(answer, a_.meshTriangle(s), b_.meshTriangle(t), options_, result_);
-    if (pair == LeafOutcome::left) open |= leaves;
+    if (pair == LeafOutcome::deferred) open |= leaves;
     return pair == LeafOutcome::last;
   }
 
@@ -165,7 +165,7 @@ class Moving {
   Counters& counters_;
   MotionBound4 bound_;
   Obb4Leaves leaves_;
-  unsigned left_ = 0;  // number of pairs of boxes left by tests, for `leaveAllAfter`
+  unsigned deferred_ = 0;  // number of pairs of boxes deferred by tests, for `deferAllAfter`
   alignas(64) float clearances_[16];
   Descent result_;
 };

@@ -19,7 +19,7 @@ namespace corridor {
 /// The result of one time interval for node pairs of two trees.
 struct Descent {
   enum class Kind {
-    done,     ///< all that is not left to shorter intervals is separated throughout the interval
+    done,  ///< all that is not deferred to shorter intervals is separated throughout the interval
     contact,  ///< `s` and `t` touch at the rounded pose at the interval's middle
     /// `s` and `t` are neither separated nor proved to touch, and shorter intervals would not help,
     /// are not needed, or are not allowed.
@@ -39,14 +39,14 @@ struct DescentOptions {
   double margin = 0, tolerance = 0;  ///< metres
   bool shortest = false;             ///< the interval must not be halved
   std::uint64_t workEnd = 0;         ///< `Counters::work` at which the walk stops
-  /// Once this many pairs of boxes are left to the halves, all others are left, too.
-  unsigned leaveAllAfter = 0;
+  /// Once this many pairs of boxes are deferred to the halves, all others are deferred, too.
+  unsigned deferAllAfter = 0;
   bool clearance = false;  ///< whether `Descent::clearance` is requested, which costs time
 };
 
-/// The result for a pair of leaf primitives. `apart`: separated throughout the interval. `left`:
-/// left to shorter intervals. `last`: ends the walk, for the reason in `Descent::kind`.
-enum class LeafOutcome { apart, left, last };
+/// The result for a pair of leaf primitives. `apart`: separated throughout the interval.
+/// `deferred`: to shorter intervals. `last`: ends the walk, for the reason in `Descent::kind`.
+enum class LeafOutcome { apart, deferred, last };
 
 /// Adds the result for two leaf primitives to the result of the interval. `s` and `t` are their
 /// numbers in their meshes.
@@ -69,7 +69,7 @@ inline LeafOutcome outcomeOf(const MovingPairAnswer& answer, std::uint32_t s, st
     descent.wide = answer.bound > options.tolerance;
     return LeafOutcome::last;
   }
-  return LeafOutcome::left;
+  return LeafOutcome::deferred;
 }
 
 /// Walks the trees below the node pairs `start` in a time interval. b moves by the relative motion
@@ -79,7 +79,8 @@ inline LeafOutcome outcomeOf(const MovingPairAnswer& answer, std::uint32_t s, st
 /// Boxes are separated by the 15 axes, each with the motion bound along it for the whole interval
 /// (overlap_obb4_moving-inl.h). Pairs of leaf primitives are separated along the direction of their
 /// closest points (`decideMovingTriangles`, `decideMovingParts`). Time is split before space: if
-/// b's box moves far, compared with the sizes of both boxes, the pair is left to shorter intervals.
+/// b's box moves far, compared with the sizes of both boxes, the pair is deferred to shorter
+/// intervals.
 ///
 /// @return If the kind is `contact`, `later` also receives the pair that touches and everything
 /// that was not tested. If the kind is `undecided` or `workLimit`, the node pairs appended to

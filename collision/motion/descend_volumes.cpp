@@ -48,13 +48,13 @@ class MovingVolumes {
   bool enter(const Item& item, const Node& na, const Node& nb) {
     item_ = item;
     if (outOfWork()) return false;
-    if (left_ >= options_.leaveAllAfter) return leave();
+    if (deferred_ >= options_.deferAllAfter) return defer();
     ++counters_.boxTests;
     const Travel bound = motionBoundOfVolume(item.b, nb);
     if (apart(na.box, nb.box, bound.pad)) return false;
     const double size = kTravelOfSize * std::max(na.radius, nb.radius);
     const bool coarse = bound.far && bound.isotropic > std::max(size, bound.fixed);
-    return coarse && !options_.shortest ? leave() : true;
+    return coarse && !options_.shortest ? defer() : true;
   }
 
   bool leaves(const Node& na, const Node& nb) {
@@ -65,7 +65,7 @@ class MovingVolumes {
         counters_.addTest(answer.exact);
         const LeafOutcome pair =
             outcomeOf(answer, a_.meshTriangle(s), b_.meshTriangle(t), options_, result_);
-        if (pair == LeafOutcome::left) return leave();
+        if (pair == LeafOutcome::deferred) return defer();
         if (pair == LeafOutcome::last) return true;
       }
     return false;
@@ -76,12 +76,12 @@ class MovingVolumes {
 
   /// Leaves the current node pair to shorter intervals. Returns false: `traverse` then neither
   /// opens the pair nor ends.
-  bool leave() {
-    leave(item_);
-    ++left_;
+  bool defer() {
+    defer(item_);
+    ++deferred_;
     return false;
   }
-  void leave(const Item& item) { later_.push_back({item.a, item.b, 0, kWholeTrees[0].pairs}); }
+  void defer(const Item& item) { later_.push_back({item.a, item.b, 0, kWholeTrees[0].pairs}); }
 
   const Descent& result() const { return result_; }
 
@@ -139,8 +139,8 @@ class MovingVolumes {
   Counters& counters_;
   Item item_{};  // the current node pair
   std::uint32_t travelNode_ = ~std::uint32_t{0};
-  Travel bound_;       // bound of node `travelNode_` of b
-  unsigned left_ = 0;  // node pairs of this interval in `later_`
+  Travel bound_;           // bound of node `travelNode_` of b
+  unsigned deferred_ = 0;  // node pairs of this interval in `later_`
   Descent result_;
 };
 
@@ -156,8 +156,8 @@ Descent descend(std::span<const NodePair4> start, const VolumeTree<Volume>& a,
   fillStack(start, stack);
   traverseFrom(a, b, stack, query);
   if (query.result().kind == Descent::Kind::contact) {
-    query.leave();
-    for (const NodePair& item : stack) query.leave(item);
+    query.defer();
+    for (const NodePair& item : stack) query.defer(item);
   }
   return query.result();
 }

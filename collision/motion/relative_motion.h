@@ -73,8 +73,8 @@ struct RelativeMotion {
 /// and |x(s) − x(0)| ≤ isotropic + pad.
 /// * `pad` bounds the rounding errors, and the displacement by the tube at the middle.
 /// * `isotropic` and `secondOrder` include the deviations of the joints from uniform motion, and
-/// the
-///   tube's growth: how much more the tube can displace the points at other times of the interval.
+///   the tube's growth: how much more the tube can displace the points at other times of the
+///   interval.
 ///
 /// All four numbers are rounded up. They are in metres, except `secondOrderAcross` (metres per
 /// radian of `angular`).

@@ -37,11 +37,12 @@ Real nearest(const Point& p, const Point& d, const Point& q) {
   return square > Real(0) ? clamped(dot(d, q - p) / square) : Real(0);
 }
 
-/// Offers, for two edges, each end with its foot on the other edge, and the two points where the
-/// common perpendicular meets the edges. Uses cross products: for nearly parallel edges, the usual
-/// denominator |d|²|e|² − (d·e)² would lose all digits. With cross products, the point on the first
-/// edge is off by 2^-98 divided by the sine of the angle between the edges. The second point is the
-/// foot of the first one, so the distance is off by only 2^-98 of the coordinates.
+/// Offers pairs of points of two edges as candidates for the closest pair: each end with its foot
+/// on the other edge, and the points where the common perpendicular meets the edges. Uses cross
+/// products: for nearly parallel edges, the usual denominator |d|²|e|² − (d·e)² would lose all
+/// digits. With cross products, the point on the first edge is off by 2^-98 divided by the sine of
+/// the angle between the edges. The second point is the foot of the first one, so the distance is
+/// off by only 2^-98 of the coordinates.
 void offerEdges(Best& best, const Point& p, const Point& p1, const Point& q, const Point& q1) {
   const Point d = p1 - p, e = q1 - q;
   const Point n = cross(d, e);
@@ -72,16 +73,16 @@ bool foot(const Point& p, const ScaledCorners& t, Point& found) {
   return !(x < Real(0)) && !(y < Real(0)) && !(x + y > Real(1));
 }
 
-/// Offers q and its foot in t if the foot lies inside t. `swapped`: q belongs to the second
-/// triangle.
+/// Offers q and its foot in t as a candidate if the foot lies inside t. `swapped`: q belongs to the
+/// second triangle.
 void offerFoot(Best& best, const Point& q, const ScaledCorners& t, bool swapped) {
   Point found;
   if (!foot(q, t, found)) return;
   swapped ? best.offer(found, q) : best.offer(q, found);
 }
 
-/// Offers the points where edges of p pass through the face of t. If the triangles cross, edges of
-/// p or of t have such points.
+/// Offers the points where edges of p pass through the face of t as candidates. If the triangles
+/// cross, edges of p or of t have such points.
 void offerCrossings(Best& best, const ScaledCorners& p, const ScaledCorners& t, bool swapped) {
   const Point n = cross(t[1] - t[0], t[2] - t[0]);
   Real height[3];

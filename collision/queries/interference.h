@@ -14,7 +14,8 @@
 
 namespace corridor {
 
-/// Returns the first pair found of leaf primitives of two trees that share a point, or nullopt.
+/// Returns the first pair found of leaf primitives, one of each tree, that share a point, or
+/// nullopt.
 /// Leaf primitives are closed triangles, or convex parts, which are solid. All volumes and all
 /// builders give the same verdict.
 ///

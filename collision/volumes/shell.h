@@ -35,10 +35,11 @@ struct Shell {
   double cosine() const { return 1 / std::sqrt(1 + slope * slope); }
 
   static constexpr bool kOriented = false;
-  /// Returns the shell of least volume among four centres: the centre of the sphere that fits all
-  /// points best (least squares), two far centres on the line through the content along its
-  /// shortest extent, for flat contents, and the centre of a bounding sphere, for contents all
-  /// around it.
+  /// Returns the shell of least volume among four centres:
+  /// - the centre of the sphere that fits all points best (least squares);
+  /// - two far centres on the line through the content along its shortest extent: good for flat
+  ///   contents;
+  /// - the centre of a bounding sphere: good for contents all around it.
   static Shell around(const Obb& box, const Content& content);
   Mat3 frameAxes() const { return Mat3::Identity(); }
   double axisDefect() const { return 0; }
@@ -48,9 +49,9 @@ struct Shell {
   const Vec3& ballCenter() const { return middle; }
 };
 
-/// Returns the point of a triangle closest to the origin, as a direction: any direction n proves
-/// that the distance is at least min n·corner/|n|. Its largest entry is ±1. NaN if the point is the
-/// origin.
+/// Returns the direction from the origin to the closest point of a triangle, scaled so that its
+/// largest entry is ±1. (Any direction n proves that the distance is at least min n·corner/|n|.)
+/// NaN if the closest point is the origin.
 Vec3 towardsTriangle(const Vec3& p, const Vec3& q, const Vec3& r);
 
 }  // namespace corridor

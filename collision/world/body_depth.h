@@ -11,8 +11,8 @@ namespace corridor {
 
 struct DepthOptions {
   /// Directions along which b may leave a, in a's frame: not 0, finite, of any length. Empty: the
-  /// direction of the deepest pair, the direction between the centres, and the six axes of either
-  /// frame.
+  /// direction of the deepest pair, the direction between the centres, and the positive and
+  /// negative axes of both frames.
   std::vector<Vec3> directions;
   /// The depth along a direction is usually found to within this share of the sum of the bodies'
   /// sizes; at least 2^-40, at most 1/4.
@@ -22,9 +22,9 @@ struct DepthOptions {
 /// Bounds of the penetration depth of two bodies that touch: the length of the shortest translation
 /// of b that separates them. Metres. 0, 0: the bodies are apart.
 struct DepthBounds {
-  /// No translation by less than `lower` separates the bodies. This is the largest least depth of a
-  /// pair of primitives (triangles or convex parts) that touch. If no primitives touch, because one
-  /// body is inside a solid mesh, it is the distance of the surfaces.
+  /// No translation by less than `lower` separates the bodies. Each pair of primitives (triangles
+  /// or convex parts) that touch has a depth; this is a lower bound of the largest one. If no
+  /// primitives touch, because one body is inside a solid mesh, it is the distance of the surfaces.
   double lower = 0;
   /// A translation by `upper` along `direction_A` separates the bodies; so does any longer one.
   /// This is the least depth along the directions that were tried. Infinite: nothing is proved.

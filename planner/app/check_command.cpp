@@ -285,9 +285,9 @@ void addCheck(CLI::App& program, int& status) {
       ->add_option(
           "--edges", a.edges,
           "decide the edges in this file (-: standard input): one per line, the numbers of "
-          "its two states. Prints a line edge,verdict,t0,t1,pair,reason for each edge. It is "
-          "proved free until t0. The verdict is free; contact: the pair touches at t1; undecided: "
-          "the pair could not be decided at t1; or out_of_bounds")
+          "its two states. Prints a line edge,verdict,t0,t1,pair,reason for each edge. The "
+          "edge is proved free until t0. The verdict is free; contact: the pair touches at t1, or "
+          "is within the margin; undecided: the pair could not be decided at t1; or out_of_bounds")
       ->excludes(states);
   addJson(*command, a.json);
   command->footer(

@@ -116,7 +116,9 @@ void addNewRobot(CLI::App& parent, int& status) {
                       "its SRDF: groups, named states, and pairs of links that may touch");
   addFileOptions(*command, a.file);
   const char* reading = "How the URDF is read (the file gets a key for each of these options)";
-  command->add_option("--package", a.packages, "NAME=FOLDER of package://NAME/…; may be repeated")
+  command
+      ->add_option("--package", a.packages,
+                   "NAME=FOLDER: the folder of package://NAME/…; may be repeated")
       ->allow_extra_args(false)
       ->group(reading);
   addChoice(*command, "--visuals", a.visuals, {"ignore", "collide"},

@@ -399,7 +399,8 @@ void addQuery(CLI::App& program, int& status) {
               "farthest along a direction. The others are other algorithms. lp tests for a "
               "separating plane by linear programming, on the rounded vertices of B at each pose "
               "(interference only). vclip finds the closest vertices, edges or faces (no depth). "
-              "axes tests the normals of faces and the products of edges (interference only); its "
+              "axes tests the normals of faces and the cross products of edges (interference "
+              "only); its "
               "time grows with the product of the numbers of edges, so it is for small hulls. "
               "barba-langerman tests parts of an inner hierarchy of A against parts of an outer "
               "one of B (interference only)")

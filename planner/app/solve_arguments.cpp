@@ -60,9 +60,8 @@ std::map<std::string, std::string> applyArguments(const SolveArguments& a, Probl
   requireClearance(a, problem);
   TrajectorySettings& trajectory = problem.settings.trajectory;
   if (a.smooth && a.cornerDeviation && *a.smooth != wordOf(Smoothing::corners))
-    throw InputError(Fault{
-        "--corner-deviation", 0,
-        "rounds corners only, which is --smooth corners; leave --smooth " + *a.smooth + " out"});
+    throw InputError(
+        Fault{"--corner-deviation", 0, "means --smooth corners; leave out --smooth " + *a.smooth});
   if (a.smooth) {
     trajectory.smooth = choiceNamed<Smoothing>(*a.smooth).value();
     trajectory.cornerDeviation.reset();  // of the problem's file: it rounds corners only

@@ -180,8 +180,8 @@ void addSolve(CLI::App& program, int& status) {
   command
       ->add_option(
           "--jobs", a.jobs,
-          "problems solved at a time, each in a process of its own (default 1); under mpirun "
-          "on each rank except the first")
+          "problems solved at a time, each in a process of its own (default 1); under mpirun, "
+          "this many on each rank except the first")
       ->check(isWithin<std::uint64_t>(1, 1024, "a whole number from 1 to 1024"))
       ->group(many);
   command
@@ -262,9 +262,10 @@ void addSolve(CLI::App& program, int& status) {
       ->check(isWithin(TrajectorySettings::kDeviations))
       ->group(motion);
   command
-      ->add_option("--corner-deviation", a.cornerDeviation,
-                   "the largest distance of the curve from the path, rad or m; corners are "
-                   "rounded only (default: as far as the curve is proved)")
+      ->add_option(
+          "--corner-deviation", a.cornerDeviation,
+          "the largest distance of the curve from the path, rad or m; then only the corners "
+          "are rounded (default: as far as the curve can be proved)")
       ->check(isWithin(TrajectorySettings::kCornerDeviations))
       ->group(motion);
   CLI::Option* const json = command->add_flag("--json", a.json, "print one JSON object");

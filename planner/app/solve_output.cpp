@@ -40,8 +40,8 @@ std::vector<std::string> clearanceLines(const PathClearance& c) {
   std::vector<std::string> lines;
   lines.push_back(c.proved > 0 ? "proved: " + rounded(1e3 * c.proved) + " mm"
                                : "free, but no distance is proved");
-  if (std::isfinite(c.ofEnds))
-    lines.back() += " (start and goal themselves: " + rounded(1e3 * c.ofEnds) + " mm)";
+  if (std::isfinite(c.smallestAtEnds))
+    lines.back() += " (start and goal themselves: " + rounded(1e3 * c.smallestAtEnds) + " mm)";
   if (!c.a.empty())
     lines.back() += "; closest found: " + c.a + " and " + c.b + ", " + rounded(1e3 * c.smallest) +
                     " mm, edge " + std::to_string(c.edge) + " at " + rounded(c.t);
@@ -52,7 +52,7 @@ std::vector<std::string> clearanceLines(const PathClearance& c) {
 
 ordered_json clearanceJson(const PathClearance& c) {
   ordered_json j = {{"proved_m", c.proved}, {"share_on_target", c.shareOnTarget}};
-  if (std::isfinite(c.ofEnds)) j["ends_m"] = c.ofEnds;
+  if (std::isfinite(c.smallestAtEnds)) j["ends_m"] = c.smallestAtEnds;
   if (c.a.empty()) return j;
   j["closest"] = {{"bodies", {c.a, c.b}}, {"distance_m", c.smallest}, {"edge", c.edge}, {"t", c.t}};
   return j;

@@ -25,7 +25,8 @@ Module openFcl() {
   if (scene && version)
     return {reinterpret_cast<decltype(&corridorFclScene)>(scene),
             reinterpret_cast<decltype(&corridorFclVersion)>(version)(), ""};
-  return {nullptr, "", "its module can't be opened: " + (module.handle ? "unknown" : module.why)};
+  if (module.handle) return {nullptr, "", "its module is of another version; build again"};
+  return {nullptr, "", "its module can't be opened: " + module.why};
 #else
   return {nullptr, "",
           "Corridor was built without it; install Debian's libfcl-dev and build again"};

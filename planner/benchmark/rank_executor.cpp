@@ -19,7 +19,7 @@ using std::chrono::microseconds;
 
 constexpr microseconds kLeastPause{50}, kLongestPause{2000};
 /// Milliseconds between a rank's looks for messages while a task is under way.
-constexpr int kLookMs = 5;
+constexpr int kPollMs = 5;
 /// Seconds that rank 0 waits for the other ranks at the end. Only a rank that died needs so long.
 constexpr double kFarewell = 30;
 
@@ -28,7 +28,8 @@ constexpr char kSetUp = 'u';  ///< and the text of the set-up
 constexpr char kTask = 't';   ///< and its number
 constexpr char kStop = 's', kEnd = 'e';
 // To rank 0:
-constexpr char kDone = 'd';    ///< and its number, the count of messages, the failure; the last one
+/// Followed by the task's number, the count of its messages, its failure, and its last message.
+constexpr char kDone = 'd';
 constexpr char kKilled = 'k';  ///< and the task's number
 constexpr char kSignal = 'i';  ///< and the signal's number
 constexpr char kFault = 'f';   ///< and its text
@@ -217,7 +218,7 @@ void serveRanks(Ranks& ranks, const RankSetUp& setUp, const std::function<int()>
       while (!waiting.empty() && executor->start(waiting.front())) waiting.pop_front();
     });
     if (executor && executor->underWay() > 0) {
-      for (const TaskEnd& one : executor->wait(kLookMs)) ranks.send(0, textOf(one)), pause.reset();
+      for (const TaskEnd& one : executor->wait(kPollMs)) ranks.send(0, textOf(one)), pause.reset();
     } else {
       pause();
     }

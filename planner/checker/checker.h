@@ -45,8 +45,7 @@ class Checker {
   /// The model must outlive the checker; its bodies are copied.
   /// @throws std::invalid_argument in these cases:
   /// - The margin, a padding or the tolerance is not finite, the margin or a padding is negative,
-  /// or
-  ///   the tolerance is not above 0.
+  ///   or the tolerance is not above 0.
   /// - The tube has another length than a configuration, or contains a number that is not 0 or
   ///   more.
   /// - The method measures distances (`adaptive`, `advancement`), and the trees have another

@@ -89,7 +89,7 @@ class NeverInContact {
 };
 
 /// Returns whether a planar or floating joint that moves lies between the frames of two bodies.
-/// Then any pose of one body relative to the other is possible.
+/// Then no limits of joints keep them apart, and a proof is not tried.
 bool movesFreely(const Model& model, std::size_t a, std::size_t b);
 
 }  // namespace corridor

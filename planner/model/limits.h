@@ -41,7 +41,7 @@ struct JointLimits {
   std::vector<std::string> notes;
 };
 
-/// Limits that a user gives. A value that is unset is not given.
+/// Limits that a user gives. Unset: the user gives no such limit.
 struct LimitValues {
   std::optional<double> velocity, acceleration, jerk;
 };
@@ -63,10 +63,10 @@ struct LimitSpec {
 /// acceleration, and a time law without one would be meaningless.
 inline constexpr double kAssumedAcceleration = 1;
 
-/// Applies limits to a model. For each number, the velocity is the named one, or else the smaller
-/// one of the URDF's and that of `joints` (`slides`). The acceleration and the jerk are the named
-/// one, or else that of `joints` (`slides`). An acceleration that nothing gives is
-/// kAssumedAcceleration, with a note. A joint that mimics another one limits it only if it is
+/// Applies limits to a model. A limit in `named` comes first. Otherwise, let d be the limit in
+/// `joints`, or in `slides` for a prismatic joint: the velocity is the smaller one of d and the
+/// URDF's; acceleration and jerk are d. An acceleration that nothing gives is kAssumedAcceleration,
+/// with a note. A joint that mimics another one limits it only if it is
 /// named: a limit L of the follower limits the leader by L/|multiplier|.
 /// @pre names in `spec` are those of the model (`jointsWithLimits`, links).
 JointLimits limitsOf(const Model& model, const LimitSpec& spec = {});

@@ -62,7 +62,7 @@ struct ModelBody {
   std::vector<PlacedShape> shapes;   ///< at least one, in the coordinates of `frame`
 };
 
-/// Decides which pairs of bodies are tested. By default, every pair is tested.
+/// Decides which pairs of bodies are tested. By default, no pair is excluded.
 class PairFilter {
  public:
   /// Excludes a pair of bodies from all tests. A later reason for the same pair replaces the

@@ -124,7 +124,7 @@ void ModelBuilder::addDescribed(ModelRobot robot, const std::vector<std::string>
       active.push_back(*j);
     else
       fault(quotedWord(name) + " is no joint of " + place +
-            " that moves by itself, or it is named twice");
+            " that can be planned for (it is fixed, a mimic, or missing), or it is named twice");
   }
   if (joints.empty() && (active = allMoving(robot)).empty())
     faults_.push_back({place, 0, whyNoneMoves(robot)});

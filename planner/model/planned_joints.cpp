@@ -23,7 +23,7 @@ std::vector<std::size_t> allMoving(const ModelRobot& robot) {
 }
 
 std::string whyNoneMoves(const ModelRobot& robot) {
-  const std::string none = "has no joint that moves by itself";
+  const std::string none = "has no joint that can be planned for";
   std::vector<std::string> still;  // joints whose limits are equal
   double limit = 0;                // of the first of these joints
   bool isEqual = true;             // for all of these joints

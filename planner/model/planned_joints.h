@@ -15,7 +15,7 @@ bool canMove(const JointModel& joint);
 std::vector<std::size_t> allMoving(const ModelRobot& robot);
 
 /// Returns the complaint about a robot of which `allMoving` returns no joint: "has no joint that
-/// moves by itself", followed by the reason or by what to do.
+/// can be planned for", followed by the reason or by what to do.
 std::string whyNoneMoves(const ModelRobot& robot);
 
 /// Returns a list of the held joints and their values, such as "finger 0.02, base not moved".

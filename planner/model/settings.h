@@ -78,8 +78,9 @@ struct PlannerSettings {
   /// others stop at the first solution.
   std::optional<bool> stopAtFirst;
   /// The number of edges after which the search starts again, with other random numbers. Each
-  /// search may test twice as many edges as the one before. 0: it never starts again, nor does that
-  /// of a planner that uses all its time. Unset: see `Solve::defaultRestart`.
+  /// search may test twice as many edges as the one before. 0: it never starts again. A planner
+  /// that uses all its time never does, whatever this number is. Unset: see
+  /// `Solve::defaultRestart`.
   std::optional<std::uint64_t> restart;
   std::map<std::string, std::string> params;  ///< by OMPL's own names
 };

@@ -135,7 +135,8 @@ JointList readGroup(const YamlMap& map, const std::string& byDefault, RobotModel
            NoteWeight::motion});
     addStatesOf(*name, model);
     if (active.empty())
-      map.fault("group", "the group " + quotedWord(*name) + " has no joint that moves by itself");
+      map.fault("group",
+                "the group " + quotedWord(*name) + " has no joint that can be planned for");
   }
   return active;
 }

@@ -9,7 +9,7 @@
 namespace corridor::python {
 namespace {
 
-/// The bytes that a digest is of.
+/// Collects the bytes that are hashed.
 class Bytes {
  public:
   template <class Number>

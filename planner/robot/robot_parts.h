@@ -38,7 +38,7 @@ struct RobotParts {
 /// numbers, it is equal to the last bit. All faults are appended to `faults`; the result is nullopt
 /// if there is one. Faults are: names that are missing, unknown or not unique; links that are not a
 /// tree with one root; numbers that are not finite; illegal primitives; an axis of length 0; limits
-/// that are missing, exchanged, or given to a joint that has none; mimics in a circle, of an
+/// that are missing, exchanged, or given to a joint that has none; mimics in a cycle, of an
 /// unknown joint, or that would make a joint jump.
 std::optional<RobotModel> makeRobot(RobotParts parts, std::vector<Fault>& faults);
 

@@ -255,8 +255,8 @@ class GroupReader {
       readValue(joint, owner, unknown, state, ignored);
     });
     if (!ignored.empty())
-      note(element, owner + ": the values of joints that do not move by themselves are ignored: " +
-                        joined(ignored));
+      note(element,
+           owner + ": the values of fixed joints and mimics are ignored: " + joined(ignored));
     unknownValues_.add(unknown);
     state.unusable = noteFaults();
     if (state.values.empty() && ignored.empty() && state.unusable.empty())

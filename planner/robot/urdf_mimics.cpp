@@ -74,7 +74,7 @@ class Mimics {
   }
 
   /// Handles a joint whose <mimic> names an unusable joint: one that is not in the robot, or not of
-  /// one variable. The mimicking joint then moves by itself, within its own limits.
+  /// one variable. The mimicking joint is then used as a joint of its own, within its own limits.
   void addLost(const UrdfJoint& joint, const std::string& why, const std::string& hint) {
     const std::string text = owned("joint", joint.name) + " mimics " +
                              quotedWord(joint.mimic->joint) + ", which is " + why;
@@ -82,14 +82,14 @@ class Mimics {
     if (needed && (!joint.limit || (!joint.limit->lower && !joint.limit->upper)))
       faults_.fault(joint.mimic->line,
                     text + hint +
-                        "; and it has no lower or upper limit with which it could move by "
-                        "itself");
+                        "; and it has no lower or upper limit with which it could be used "
+                        "as a joint of its own");
     else
       notes_.push_back({faults_.at(joint.mimic->line,
                                    text +
                                        (needed && rangeOf(joint).lower == rangeOf(joint).upper
                                             ? "; it can't move, since its own limits are equal"
-                                            : "; it moves by itself") +
+                                            : "; it is used as a joint of its own") +
                                        hint),
                         NoteWeight::motion});
   }
@@ -104,7 +104,7 @@ class Mimics {
     }
     if (leader_[j] != kNoIndex &&
         !rules_[j]) {  // a circle; it was reported if an earlier walk met it
-      if (walk_[j] == start && !chain.empty()) faultCircle(j);
+      if (walk_[j] == start && !chain.empty()) faultCycle(j);
       return;
     }
     for (; !chain.empty(); chain.pop_back()) {
@@ -119,13 +119,13 @@ class Mimics {
     }
   }
 
-  void faultCircle(std::size_t first) {
+  void faultCycle(std::size_t first) {
     std::vector<std::string> names{joints_[first].name};
     for (std::size_t j = leader_[first]; j != first; j = leader_[j])
       names.push_back(joints_[j].name);
     names.push_back(joints_[first].name);
     faults_.fault(joints_[first].mimic->line,
-                  "the joints " + joinedFirst(names) + " mimic in a circle");
+                  "the joints " + joinedFirst(names) + " mimic each other in a cycle");
   }
 
   void checkRule(const UrdfJoint& joint, const Mimic& rule) {
@@ -150,7 +150,7 @@ class Mimics {
                               "; use a whole multiplier or a revolute " + quotedWord(leader.name));
   }
 
-  /// Checks the range of a joint that moves by itself.
+  /// Checks the range of a joint that is no mimic.
   void checkRange(const UrdfJoint& joint) {
     if (!hasRange(joint)) return;
     const std::string owner = owned("joint", joint.name);

@@ -67,11 +67,11 @@ UrdfOutline readUrdfOutline(XmlFile& file, const UrdfRules& rules, MeshStore& me
 /// if the robot has any fault.
 std::vector<std::size_t> checkUrdfTree(const UrdfOutline& outline, RobotFaults& faults);
 
-/// Resolves chains of mimics, and checks the limits of the joints that move by themselves. Only the
+/// Resolves chains of mimics, and checks the limits of the joints that are no mimics. Only the
 /// limits of the leader count, as in other programs that read URDF; a note is added if a follower's
 /// own limits disagree. If the leader is not in the robot, or is not a joint of one variable, the
-/// follower moves by itself, with a note. Mimics in a circle and mimics that would make a joint
-/// jump are faults.
+/// follower is used as a joint of its own, with a note. Mimics in a cycle and mimics that would
+/// make a joint jump are faults.
 /// @returns the rule of each joint, in the outline's order; `Mimic::joint` is an index in the
 /// outline. nullopt: the joint follows no other.
 std::vector<std::optional<Mimic>> resolveMimics(const UrdfOutline& outline, RobotFaults& faults,

@@ -87,18 +87,18 @@ class Tree {
                                              quotedWord(links_[root].name) +
                                              onLine(links_[root].line) + "; a robot has one root");
     }
-    // Every link has at most one parent. So a link that is not below a root is in a circle, or
+    // Every link has at most one parent. So a link that is not below a root is in a cycle, or
     // below one.
     std::vector<int> walk(links_.size(), 0);
     for (std::size_t start = 0; start < links_.size(); ++start) {
       std::size_t link = start;
       for (; link != kNoIndex && walk[link] == 0; link = parentOf(link))
         walk[link] = static_cast<int>(start) + 1;
-      if (link != kNoIndex && walk[link] == static_cast<int>(start) + 1) faultCircle(link);
+      if (link != kNoIndex && walk[link] == static_cast<int>(start) + 1) faultCycle(link);
     }
   }
 
-  void faultCircle(std::size_t link) {
+  void faultCycle(std::size_t link) {
     std::vector<std::string> names{links_[link].name};
     int line = joints_[parentJoint_[link]].line;
     for (std::size_t other = parentOf(link); other != link; other = parentOf(other)) {
@@ -107,8 +107,7 @@ class Tree {
     }
     names.push_back(links_[link].name);
     std::reverse(names.begin(), names.end());
-    faults_.fault(line,
-                  "the links " + joinedFirst(names) + " are joined in a circle; a tree is needed");
+    faults_.fault(line, "the links " + joinedFirst(names) + " form a cycle; a tree is needed");
   }
 
   std::vector<std::size_t> order() const {

@@ -24,32 +24,33 @@ constexpr double kNear = 2;
 constexpr int kSteps = 3;
 /// Sweeps over the pairs in each Newton step. The pairs are few, and their gradients similar.
 constexpr int kSweeps = 20;
-/// The least part of the way to the aim that a step tries.
+/// If no step reaches the aim, a half, a quarter, … of the way is tried, down to this part.
 constexpr double kLeastPart = 1.0 / 16;
-/// The share of the distance asked for that a step may miss: sweeps approach the solution.
+/// A step may fall short of the requested change by this share, since sweeps only converge to it.
 constexpr double kUnmet = 0.1;
 /// The longest step of `movedApart` in the space's distance: for arms, radians in a joint.
 constexpr double kLongestStep = 0.5;
 /// Samples of an edge: one for each 0.05 of its length, but at least and at most:
 constexpr double kSampleLength = 0.05;
 constexpr int kLeastSamples = 4, kMostSamples = 32;
-/// The share of a target that is missed by so little that no sample shows it.
+/// The share of a pair whose target is not proved, although no sample is below it.
 constexpr double kJustMissed = 0.99;
 /// Halvings of the step between samples, in the search for the worst place.
 constexpr int kRefinements = 4;
 
-/// @param ofEnds gets the smallest distance at start and goal, if one is below the clearance.
+/// @param smallestAtEnds gets the smallest distance at start and goal, if one is below the
+/// clearance.
 PairMargins targetsOf(const Checker& checker, double clearance, const Configuration& start,
-                      const Configuration& goal, double& ofEnds) {
+                      const Configuration& goal, double& smallestAtEnds) {
   std::vector<double> targets(checker.scene().motionPairs().size(), clearance);
   const PairMargins within(std::vector(targets.size(), clearance / kShareOfEnds));
   for (const Configuration* end : {&start, &goal})
     for (const Scene::NearPair& near : checker.pairsWithin(*end, within)) {
       const double distance = near.distance.distance;
       targets[near.pair] = std::min(targets[near.pair], kShareOfEnds * distance);
-      if (distance < clearance) ofEnds = std::min(ofEnds, distance);
+      if (distance < clearance) smallestAtEnds = std::min(smallestAtEnds, distance);
     }
-  // What a pair must keep anyway is not given up.
+  // A target is never below the pair's padding.
   if (const PairMargins* padding = checker.options().pairMargins)
     for (std::size_t k = 0; k < targets.size(); ++k)
       targets[k] = std::max(targets[k], (*padding)[k]);
@@ -110,8 +111,8 @@ ClearanceTargets::ClearanceTargets(const Checker& checker, double clearance,
                                    const Configuration& start, const Configuration& goal)
     : checker_(checker),
       clearance_(clearance),
-      ofEnds_(std::numeric_limits<double>::infinity()),
-      targets_(targetsOf(checker, clearance, start, goal, ofEnds_)),
+      smallestAtEnds_(std::numeric_limits<double>::infinity()),
+      targets_(targetsOf(checker, clearance, start, goal, smallestAtEnds_)),
       clearances_(std::vector(targets_.size(), clearance)),
       near_(targets_.all()),
       weights_(tangentWeights(checker.space())) {
@@ -120,7 +121,8 @@ ClearanceTargets::ClearanceTargets(const Checker& checker, double clearance,
   near_ = PairMargins(std::move(near));
 }
 
-/// Returns the pair with the smallest share of its length, if that is below 1.
+/// Returns the pair whose distance is the smallest share of its entry in `lengths`, if that share
+/// is below 1.
 ClearanceTargets::Worst ClearanceTargets::worstIn(const Configuration& q,
                                                   const PairMargins& lengths) const {
   Worst worst;
@@ -130,8 +132,8 @@ ClearanceTargets::Worst ClearanceTargets::worstIn(const Configuration& q,
   return worst;
 }
 
-/// Searches an edge at samples, and then around the worst of them, for the pair with the smallest
-/// share of its length.
+/// Searches an edge at samples, and then around the worst of them, for the pair whose
+/// distance is the smallest share of its entry in `lengths`.
 /// @param first a time to sample first.
 ClearanceTargets::Worst ClearanceTargets::worstOn(const Configuration& from,
                                                   const Configuration& to,
@@ -187,8 +189,8 @@ double ClearanceTargets::least() const {
 /// fixed to their frames: to first order, this does not change the distances.
 std::vector<TangentStep> ClearanceTargets::gradientsOf(const std::vector<Scene::NearPair>& near,
                                                        const Configuration& q) const {
-  // The error of the difference is the rounding of positions (some 1e-15 m) over this step. The
-  // error of linearity is its square times the size of the robot.
+  // Rounding of positions (some 1e-15 m) causes an error of the quotient of 1e-15 m over this step.
+  // Curvature causes one of about this step times the size of the robot.
   constexpr double kDifference = 1e-6;
   struct Ends {
     std::size_t frameA, frameB;
@@ -241,7 +243,7 @@ std::optional<Configuration> ClearanceTargets::movedApart(const Configuration& q
       share = std::min(share, pair.distance.distance / targets_[pair.pair]);
     if (share >= kAim) break;
     std::vector<Constraint> constraints = constraintsOf(near, gradientsOf(near, moved), weights_);
-    // In a narrow place, not all pairs can reach the aim. Then the aim is nearer to the share.
+    // In a narrow place, not all pairs can reach the aim. Then it is lowered towards `share`.
     std::optional<TangentStep> step;
     for (double part = 1; !step && part >= kLeastPart; part /= 2) {
       for (Constraint& c : constraints)

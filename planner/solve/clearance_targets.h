@@ -10,9 +10,9 @@
 namespace corridor {
 
 /// The distances that the pairs of a scene should keep along a path from a start to a goal. The
-/// target of a pair is `clearance`, or 70 % of its distance at the start or at the goal if that is
-/// less, but at least its padding: a path can't keep more than its ends. (With 70 %, it takes
-/// little work to prove that the edges at the ends keep the targets.)
+/// target of a pair is the smallest of `clearance` and 70 % of its distances at the start and at
+/// the goal, since a path can't keep more than its ends do. It is never below the pair's padding.
+/// (With 70 %, it takes little work to prove that the edges at the ends keep the targets.)
 ///
 /// The share of a pair in a state is its distance over its target, at most 1.
 class ClearanceTargets {
@@ -27,7 +27,7 @@ class ClearanceTargets {
   double least() const;
   /// Returns the smallest distance of a pair at the start and at the goal, metres; infinite if no
   /// pair is closer than `clearance()` there.
-  double ofEnds() const { return ofEnds_; }
+  double smallestAtEnds() const { return smallestAtEnds_; }
   /// Returns the targets, metres, one for each pair of `Scene::motionPairs()`.
   const PairMargins& all() const { return targets_; }
 
@@ -65,7 +65,7 @@ class ClearanceTargets {
                                        const Configuration& q) const;
 
   const Checker& checker_;
-  double clearance_, ofEnds_;
+  double clearance_, smallestAtEnds_;
   PairMargins targets_, clearances_, near_;
   TangentStep weights_;
 };

@@ -9,7 +9,8 @@ namespace corridor {
 
 namespace {
 
-/// A change must enlarge the share of an edge by this much, or to this share.
+/// A change must enlarge the smallest ratio of distance to target on an edge by kLeastGain, or to
+/// kAlmost.
 constexpr double kLeastGain = 0.05, kAlmost = 0.98;
 /// The maximum number of times that a step away from obstacles is halved.
 constexpr int kHalvings = 2;
@@ -73,7 +74,7 @@ PathMover::Edge PathMover::measured(const Configuration& from, const Configurati
   return {from, space_.distance(from, to), !missed, missed.value_or(ClearanceTargets::Worst())};
 }
 
-/// Returns the edge of the smallest share that can still be changed.
+/// Returns the edge with the smallest ratio of distance to target, of those that can be changed.
 std::optional<std::size_t> PathMover::worstEdge() const {
   std::optional<std::size_t> worst;
   for (std::size_t i = 0; i < edges_.size(); ++i) {

@@ -19,8 +19,8 @@ constexpr double kFirstTry = 0.9;
 constexpr double kNextTry = 0.8;
 constexpr int kMostTries = 10;
 
-/// Returns the clearance proved for a whole path: the largest of a few that every edge keeps, or 0
-/// if that is not more than `least`.
+/// Tries a few clearances from `most` downwards. Returns the first that every edge of a path is
+/// proved to keep, or 0 if none above `least` is.
 double provedClearance(const Checker& checker, const Path& path, double most, double least) {
   double tried = roundedDownTo2Digits(most);
   // The edges before this one keep what is tried. A path of one state has one edge, of no length.
@@ -55,7 +55,7 @@ double roundedDownTo2Digits(double x) {
   std::snprintf(text, sizeof text, "%.1e", x);  // "1.2e-03"
   if (const double nearest = std::strtod(text, nullptr); nearest <= x) return nearest;
   int digits = 10 * (text[0] - '0') + (text[2] - '0') - 1, exponent = std::atoi(text + 4) - 1;
-  if (digits == 9) {  // below 10, two digits are 99 of the next smaller unit
+  if (digits == 9) {  // the number below 1.0·10^n is 9.9·10^(n - 1)
     digits = 99;
     --exponent;
   }
@@ -68,7 +68,7 @@ PathClearance proveClearance(const Checker& checker, const ClearanceTargets& tar
   const ConfigurationSpace& space = checker.space();
   PathClearance result;
   result.smallest = std::numeric_limits<double>::infinity();
-  result.ofEnds = targets.ofEnds();
+  result.smallestAtEnds = targets.smallestAtEnds();
   const auto note = [&](std::size_t edge, const std::optional<ClearanceTargets::Worst>& place) {
     if (!place || !(place->distance > 0) || !(place->distance < result.smallest)) return;
     const MotionPair& pair = checker.scene().motionPairs()[place->pair];

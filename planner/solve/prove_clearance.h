@@ -24,7 +24,7 @@ struct PathClearance {
   double t = 0;
   /// The smallest distance at the start and at the goal, metres; infinite if no pair is closer than
   /// the preferred clearance there.
-  double ofEnds = 0;
+  double smallestAtEnds = 0;
   /// A lower bound of the share of the path's length, in the space's distance, on which every pair
   /// is proved to keep its target (`ClearanceTargets`). 1: on all of it.
   double shareOnTarget = 0;

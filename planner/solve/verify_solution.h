@@ -79,7 +79,7 @@ VerifyReport verifySolution(const Problem& problem, const Solution& solution,
 ///
 /// A trajectory does not claim to solve the problem. So a note says if it does not begin at the
 /// problem's start, or does not end in the goal; the verdict does not depend on either.
-/// @param between nullopt: as betweenOf.
+/// @param between nullopt: by the values that the file has (betweenOf).
 /// @throws InputError: as betweenOf and curveOf.
 VerifyReport verifyTrajectory(const Problem& problem, TrajectoryRows rows,
                               std::optional<Between> between = {});

@@ -12,10 +12,11 @@
 /// the power series in t, such as (−3p0 + 3p1 − 2v0·T − v1·T)/T², and sums them up (the controllers
 /// of ros_control and ros2_control do). Its result is a sum of terms that are p0, p1, v0·T, v1·T,
 /// a0·T² or a1·T² times a factor and a power of τ = t/T in [0, 1]. Each term is off by a factor
-/// (1 + u)^±n, where n counts the roundings on its way, and 8 for each factor T of v·T and a·T²:
-/// the controller's T may be off by 8u·T. The sum of the terms is at most f·M, with
-///     M = |p0| + |p1| + T(|v0| + |v1|) + T²(|a0| + |a1|)
-/// and f the largest sum of the factors of one of these six. Hence the error n·f·u·M:
+/// (1 + u)^±n, where n is the number of the term's roundings, plus 8 for each factor T of v·T and
+/// a·T²: the controller's T may be off by 8u·T. For each of the six quantities, add up the factors
+/// of its terms, and let f be the largest of these sums. The sum of all terms is at most f·M, with
+///     M = |p0| + |p1| + T(|v0| + |v1|) + T²(|a0| + |a1|).
+/// Hence the error n·f·u·M:
 ///
 /// | piece | n | f | n·f | bound |
 /// |---|---|---|---|---|

@@ -14,7 +14,7 @@ constexpr std::array kPlaces{0.0, 0.5, 1.0};
 const std::array<std::array<double, 2>, 3> kQuadrature{
     {{0.5 - std::sqrt(0.15), 5.0 / 18}, {0.5, 8.0 / 18}, {0.5 + std::sqrt(0.15), 5.0 / 18}}};
 /// Newton's method ends when a step promises less than this decrease for each coefficient. A limit
-/// that is reached costs about 1.
+/// that is reached adds about 1 to the objective.
 constexpr double kSmallDecrease = 1e-3;
 constexpr int kMostSteps = 20;
 /// An interval is halved if limits between its places are exceeded by more than this.
@@ -23,8 +23,8 @@ constexpr double kExcess = 1.002;
 constexpr double kMostVariation = 1.5;
 /// Two intervals are halved if the jerk jumps between them by more than this share of its limit.
 constexpr double kJump = 0.5;
-/// An interval is halved if the jerk varies by more than this share: it can be at its limit at one
-/// place only.
+/// An interval is halved if the jerk varies by more than this share of its limit: otherwise it
+/// could reach its limit at one place of the interval only.
 constexpr double kJerkVariation = 0.15;
 
 /// A symmetric matrix with two diagonals beside the main one: (i, i), (i, i + 1), (i, i + 2).
@@ -174,9 +174,9 @@ void JerkSpline::setRows() {
     blend_[i] = {i > 0 ? widthOf(i - 1) / (widthOf(i - 1) + widthOf(i)) : 0,
                  i + 1 < n ? widthOf(i) / (widthOf(i) + widthOf(i + 1)) : 1};
   rows_.resize(n * kPlaces.size() * rowCount_);
-  most_.resize(n * kPlaces.size());
-  for (std::size_t place = 0; place < most_.size(); ++place)
-    most_[place] = rowsAt(place / kPlaces.size(), kPlaces[place % kPlaces.size()],
+  maxY_.resize(n * kPlaces.size());
+  for (std::size_t place = 0; place < maxY_.size(); ++place)
+    maxY_[place] = rowsAt(place / kPlaces.size(), kPlaces[place % kPlaces.size()],
                           rows_.data() + place * rowCount_);
 }
 
@@ -261,7 +261,7 @@ bool JerkSpline::slowToLimits() {
 double JerkSpline::barrier(const std::vector<double>& c) const {
   for (const double value : c)
     if (!(value > 0)) return INFINITY;
-  double sum = 0, product = 1;  // few logarithms
+  double sum = 0, product = 1;  // of gaps: one logarithm of a product costs less than many
   bool within = true;
   const auto add = [&](double gap) {
     within = within && gap > 0;
@@ -269,10 +269,10 @@ double JerkSpline::barrier(const std::vector<double>& c) const {
     if (product < 1e-200) sum -= std::log(product), product = 1;
   };
   const Row* row = rows_.data();
-  for (std::size_t place = 0; place < most_.size() && within; ++place) {
+  for (std::size_t place = 0; place < maxY_.size() && within; ++place) {
     const std::size_t i = place / kPlaces.size();
     const auto [y, u, w] = valueAt(bernstein(c, i), widthOf(i), kPlaces[place % kPlaces.size()]);
-    add(1 - y / most_[place]);
+    add(1 - y / maxY_[place]);
     for (const LimitedNumbers& n : numbers_) {
       double acceleration = 0, jerk = 0;
       for (Eigen::Index m = 0; m < n.count; ++m, ++row) {
@@ -290,7 +290,7 @@ double JerkSpline::barrier(const std::vector<double>& c) const {
 JerkSpline::Local JerkSpline::barrierAt(std::size_t place, const Value& value) const {
   const auto [y, u, w] = value;
   Local local;
-  const double slack = most_[place] - y;
+  const double slack = maxY_[place] - y;
   local.gradient[0] += 1 / slack;
   local.hessian[0] += 1 / (slack * slack);
   const Row* row = rows_.data() + place * rowCount_;

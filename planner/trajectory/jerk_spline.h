@@ -9,7 +9,7 @@
 
 namespace corridor {
 
-/// A law of s at one time.
+/// A time law s(t) at one time: s and its first two derivatives.
 struct PathState {
   double time = 0, s = 0, rate = 0, acceleration = 0;
 };
@@ -28,11 +28,14 @@ class JerkSpline {
   /// @returns false if no factor is small enough.
   bool slowToLimits();
   /// Shortens the time: minimises weight·time + barrier. @pre it is strictly within the limits.
-  /// @param weight per knot; the time gets longer than the optimum by some terms / weight.
+  /// @param weight per knot, relative to the duration. The larger it is, the closer to the optimum
+  /// the time gets: it exceeds the optimum by a share of about (terms of the barrier per knot) /
+  /// weight.
   void shorten(double weight);
-  /// Halves intervals: those that exceed a limit at a fourth of their width, those in which y
-  /// varies much, and those that take longer than `ramp` seconds with the jerk near its limit. The
-  /// law may exceed limits in the middle of the new intervals. @returns whether any was halved.
+  /// Halves intervals: those that exceed a limit at one or three fourths of their width, those in
+  /// which y varies much, and those that take longer than `shortest` seconds and in which the jerk
+  /// varies much, or at whose ends it jumps. The law may exceed limits in the middle of the new
+  /// intervals. @returns whether any was halved.
   bool refine(double shortest);
 
   double duration() const { return durationOf(c_); }
@@ -73,8 +76,8 @@ class JerkSpline {
   /// Computes the rows of a place in an interval. @returns the largest y that velocities allow.
   double rowsAt(std::size_t interval, double t, Row* rows) const;
   void setRows();
-  /// The largest factor by which a velocity, acceleration or jerk is exceeded (as a factor of
-  /// time).
+  /// The factor by which time must be stretched so that all limits hold: the square root of the
+  /// factor by which an acceleration is exceeded, and the cube root for a jerk.
   double excessAt(std::size_t interval, double t) const;
   /// The largest difference of a jerk between two places, as a share of its limit.
   double jerkChange(std::size_t a, std::size_t b) const;
@@ -97,7 +100,7 @@ class JerkSpline {
   std::vector<std::array<double, 2>> blend_;  // of each interval: see bernstein()
   std::vector<double> c_;                     // coefficients of the spline: intervals + 2
   std::vector<Row> rows_;                     // three places in each interval
-  std::vector<double> most_;                  // y, by velocities, at each place
+  std::vector<double> maxY_;                  // y, by velocities, at each place
 };
 
 }  // namespace corridor

@@ -54,15 +54,15 @@ std::vector<PathRun> runsOf(const PathView& view, double cornerAngle, bool smoot
       if (!joined) length = bound;
     }
     if (!joined) {
-      if (!runs.empty()) runs.back().freeEnd = isFree(before, boundOfBefore);
+      if (!runs.empty()) runs.back().restsAtEnd = isFree(before, boundOfBefore);
       runs.emplace_back();
-      runs.back().freeStart = isFree(start, bound);
+      runs.back().restsAtStart = isFree(start, bound);
     }
     runs.back().parts.push_back({piece, length});
     before = endOf(view, piece, 1, bound);
     boundOfBefore = bound;
   }
-  if (!runs.empty()) runs.back().freeEnd = isFree(before, boundOfBefore);
+  if (!runs.empty()) runs.back().restsAtEnd = isFree(before, boundOfBefore);
   return runs;
 }
 

@@ -15,9 +15,9 @@ struct PathRun {
     double length = 0;  ///< > 0
   };
   std::vector<Part> parts;
-  /// Whether dq/ds is 0 at the start and at the end, although the second derivative is not: the
-  /// robot then rests there at any ṡ.
-  bool freeStart = false, freeEnd = false;
+  /// Whether dq/ds is 0 at that end, and d²q/ds² is not. Then the robot is at rest there whatever ṡ
+  /// is, so ṡ need not be 0.
+  bool restsAtStart = false, restsAtEnd = false;
 };
 
 /// Splits a path where its tangent jumps by more than `cornerAngle` radians, or is 0.

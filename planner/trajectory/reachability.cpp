@@ -20,7 +20,7 @@ struct Line {
 };
 
 /// The pairs (x, u) that the limits of one interval allow. For each x, u is in [lowest line,
-/// highest line]: upper lines are u ≤ inv − slope·x, lower lines u ≥ −inv − slope·x.
+/// highest line]: upper lines are u ≤ value − slope·x, lower lines u ≥ −value − slope·x.
 class Cell {
  public:
   /// Sets the limits at both ends of interval i.

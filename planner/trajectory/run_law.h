@@ -13,9 +13,9 @@ namespace corridor {
 struct RunLaw {
   std::vector<LawSegment> segments;  ///< times from 0
   Profile::Failure failure = Profile::Failure::none;
-  double lower = 0, upper = 0;  ///< of a failure: the interval of ds/dt that is possible
-  std::size_t piece = 0;        ///< of a failure
-  double tau = 0;               ///< of a failure
+  double lower = 0, upper = 0;  ///< of a failure: the range of ds/dt that is still possible there
+  std::size_t piece = 0;        ///< of a failure: the piece where it is
+  double tau = 0;               ///< of a failure: τ on that piece
 };
 
 /// @param start, end ds/dt at the ends; infinity: any.

@@ -147,8 +147,8 @@ TimeLaw timeLaw(const std::vector<CurvePiece>& path, const ConfigurationSpace& s
       if (isEnd && rate > 0) return rate * length;
       return isFree && !options.smooth ? INFINITY : 0.0;
     };
-    const double start = rateOf(isFirst, options.startRate, startLength, run.freeStart);
-    const double end = rateOf(isLast, options.endRate, endLength, run.freeEnd);
+    const double start = rateOf(isFirst, options.startRate, startLength, run.restsAtStart);
+    const double end = rateOf(isLast, options.endRate, endLength, run.restsAtEnd);
     RunLaw part = fastestLaw(view, run, bands, start, end, options.intervals);
     if (part.failure != Profile::Failure::none)
       return fail(faultOf(

@@ -22,7 +22,7 @@ const char* nameOf(Between between);
 /// controllers of ros_control and ros2_control do: quintic if the file has accelerations, cubic if
 /// it has velocities, otherwise linear. Adds a note to the rows if velocities or accelerations are
 /// not used.
-/// @throws InputError if the file has not what is wanted.
+/// @throws InputError if the file lacks the values that `wanted` needs.
 Between betweenOf(TrajectoryRows& rows, std::optional<Between> wanted);
 
 /// Returns the curve that the rows mean, with one piece from each row to the next. Its knots are

@@ -133,7 +133,8 @@ void EdgeCurve::addRotation(std::size_t first, const Configuration& from, const 
 }
 
 /// Sets the bounds of a number in a segment and in all segments within it. The polynomials are
-/// those of the segment, as functions on [0, 1] of the segment's share: the derivatives are by t.
+/// those of the segment, reparametrised to [0, 1]; the values of `rate` and `bend` are derivatives
+/// by t.
 void EdgeCurve::addSegments(std::size_t number, const Bernstein& value, const Bernstein& rate,
                             const Bernstein& bend, const Segment& segment) {
   boundsOf(number, segment) = {value.largest(), rate.largest(), bend.largest(),

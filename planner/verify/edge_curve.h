@@ -125,8 +125,7 @@ struct Segment {
 ///   polynomial with coefficients ≤ M is off by < 19u·M (Bernstein::at), and m·q + o by < 21u·|m|·M
 ///   + u·|o|. So `terms` = 3M does for it. A prismatic joint is off by < 21u times its length.
 /// - The derivative of a polynomial is off by < 21u times the V_j of the whole piece (rounding of
-/// the
-///   differences, and of Bernstein::at). This displaces no point by more than 21u·speed.
+///   the differences, and of Bernstein::at). This displaces no point by more than 21u·speed.
 /// - Each frame multiplies two such matrices into the rotation, which adds 10u. In all, a frame
 ///   with a free rotation adds < 300u, and any other frame < 40u.
 /// - With n frames a point is off by ≤ n·300u times the length of the chain. This is below

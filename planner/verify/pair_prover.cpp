@@ -221,10 +221,10 @@ const Reach& PairProver::reach(const TimeInterval& interval, std::size_t pair) {
 }
 
 void PairProver::enter(std::size_t edge) {
-  if (edgeAt_ == edge) return;
+  if (currentEdge_ == edge) return;
   for (auto& [time, unused] : frameStates_) time = -1;
   segments_.clear();
-  edgeAt_ = edge;
+  currentEdge_ = edge;
 }
 
 const FrameState& PairProver::stateOf(std::size_t edge, std::size_t chainIndex, Real t) {
@@ -281,7 +281,7 @@ const char* PairProver::whyRefuted(std::size_t edge, std::size_t pair, const Mea
     return margin > problem_.margin ? "closer than margin and padding" : "closer than the margin";
   // Some curve in the tube comes this close, so it touches, or violates the margin.
   if (std::isfinite(m.gap.upper) && leastInTube(edge, pair, m) <= margin)
-    return "closer than the tube allows";
+    return "a deviation within the tube comes too close";
   return nullptr;
 }
 

@@ -44,12 +44,13 @@ struct PairAnswer {
   Real upper = std::numeric_limits<Real>::infinity();  ///< ≥ the distance at the middle
   PiecePair closest;                ///< the closest pair of leaf primitives at the middle
   RealVec point = RealVec::Zero();  ///< a contact, or the closest point of b; in a's frame
-  const char* reason = nullptr;     ///< without a verdict: the reason if halving doesn't help
+  const char* reason =
+      nullptr;  ///< without a verdict: why, if the interval can't be halved any more
 };
 
-/// Decides one pair of bodies in one time interval of one edge. verifyPath() calls it for ever
-/// shorter intervals. No answer depends on earlier queries. For verifyCurve(), the pieces of the
-/// curve take the place of the edges.
+/// Decides one pair of bodies in one time interval of one edge. verifyPath() calls it for
+/// shorter and shorter intervals. No answer depends on earlier queries. For verifyCurve(), the
+/// pieces of the curve take the place of the edges.
 ///
 /// The object stores all data that depend only on the problem (box trees, kinematic chains) or only
 /// on an edge (its curve and reach weights). It also caches the states of the frames at the latest
@@ -147,11 +148,13 @@ class PairProver {
   std::vector<Pair> pairs_;
   std::vector<EdgeCurve> curves_;
   std::vector<Configuration> tubes_;  // one per edge: the problem's tube, and the piece's error
-  std::vector<std::optional<PathFinding>> noCurve_;                // one per edge
-  std::vector<std::vector<PairReach>> reaches_;                    // [edge][pair]
-  std::map<std::pair<std::size_t, std::size_t>, Reach> segments_;  // of edgeAt_, by place and pair
-  std::vector<std::pair<Real, FrameState>> frameStates_;  // one per chain, at a time of edgeAt_
-  std::size_t edgeAt_ = SIZE_MAX;
+  std::vector<std::optional<PathFinding>> noCurve_;  // one per edge
+  std::vector<std::vector<PairReach>> reaches_;      // [edge][pair]
+  std::map<std::pair<std::size_t, std::size_t>, Reach>
+      segments_;  // of currentEdge_, by place and pair
+  std::vector<std::pair<Real, FrameState>>
+      frameStates_;  // one per chain, at a time of currentEdge_
+  std::size_t currentEdge_ = SIZE_MAX;
   BodyDistance distance_;
   std::vector<PiecePair> near_;  // scratch memory of boundPiecewise()
 };

@@ -281,7 +281,7 @@ PathReport Verifier::run() {
   const auto refuted = std::find_if(findings_.begin(), findings_.end(), [](const auto& each) {
     return each.second.verdict == PathVerdict::refuted;
   });
-  // Only two bodies have a first contact. An edge that is no curve has none.
+  // Only a finding with two bodies has a first contact; one about an edge without a curve has none.
   if (refuted != findings_.end() && !refuted->second.a.empty() && !single_)
     findFirst(refuted->second);
   return report();

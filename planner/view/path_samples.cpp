@@ -13,7 +13,8 @@ namespace {
 constexpr double kTurn = std::numbers::pi / 90;  // largest rotation from sample to sample, rad
 constexpr double kShare = 1.0 / 400;             // largest step, as a share of the path's length
 constexpr double kMostSamples = 1500;
-constexpr int kLook = 8;  // pieces into which an edge is cut to estimate how far bodies move on it
+constexpr int kPiecesForEstimate =
+    8;  // pieces into which an edge is cut to estimate how far bodies move on it
 
 /// Computes how far the moving bodies move between two poses.
 class Travel {
@@ -74,7 +75,7 @@ std::vector<double> parametersOf(std::size_t edge, double steps,
   return all;
 }
 
-/// Makes the places of the samples the shares of the duration.
+/// Sets the place of each sample to its time, as a share of the duration.
 void placeByTime(const std::vector<double>& times, std::vector<PathSample>& samples) {
   for (PathSample& s : samples) {
     const double begin = times[s.edge], end = times[s.edge + 1];
@@ -83,8 +84,8 @@ void placeByTime(const std::vector<double>& times, std::vector<PathSample>& samp
   }
 }
 
-/// Makes the places of the samples, which are sums of distances, the shares of the whole distance.
-/// If nothing moves, the samples are evenly spaced.
+/// Divides the place of each sample, which is a sum of distances, by the whole distance. If nothing
+/// moves, the samples are evenly spaced.
 void placeByDistance(std::vector<PathSample>& samples) {
   const double length = samples.back().at;
   for (std::size_t i = 1; i < samples.size(); ++i)
@@ -104,8 +105,8 @@ PathSamples samplePath(const Problem& problem, std::size_t edges, const Configur
   double way = 0;
   for (std::size_t edge = 0; edge < edges; ++edge) {
     std::vector<Transform> from = poses(edge, 0);
-    for (int k = 1; k <= kLook; ++k) {
-      std::vector<Transform> to = poses(edge, static_cast<double>(k) / kLook);
+    for (int k = 1; k <= kPiecesForEstimate; ++k) {
+      std::vector<Transform> to = poses(edge, static_cast<double>(k) / kPiecesForEstimate);
       ways[edge] += travel.between(from, to);
       turns[edge] += turnBetween(from, to);
       from = std::move(to);

@@ -1,6 +1,5 @@
-/// Measures what a front saves for meshes that move in small steps: `front_benchmark [--triangles
-/// N]
-/// [--steps N] [--cpu N]`.
+/// Measures what a front saves for meshes that move in small steps:
+/// `front_benchmark [--triangles N] [--steps N] [--cpu N]`.
 ///
 /// Two tori with bumps (20,000 triangles each by default) pass each other at a gap of 0.1, 0.01 or
 /// 0.001 of their size; b slides along a, back and forth, and rotates. For each motion per step, as

@@ -7,21 +7,18 @@
 /// CSV; times are medians over the queries, in microseconds, each the least of three runs.
 ///
 /// * `extreme`: the farthest vertex along a random direction.
-/// * `plane`: on which side of a plane, or across it; random planes that meet or miss the polytope
-/// by
-///   up to half of its size.
-/// * `interference`: of two polytopes of n vertices, half of them disjoint, by 5 % of the size, the
-///   others overlapping by as much; along random directions.
+/// * `plane`: on which side of a plane a polytope is, or whether it is across it. The planes are
+///   random; they meet or miss the polytope by up to half of its size.
+/// * `interference`: whether two polytopes of n vertices touch. Half of the pairs have a gap of 5 %
+///   of the size, the others overlap by 5 %, along random directions.
 /// * `touching`: the same with a gap or depth of 1e-12 of the size.
-/// * `distance`, `depth`, `depth along`: of the disjoint, or the overlapping pairs.
-/// * `separation`: the signed separation from such a plane, with its witness; `side`: only its
+/// * `distance` of the disjoint pairs; `depth` and `depth along` of the overlapping pairs.
+/// * `separation`: the signed separation from such a plane, with its witness. `side`: only the
 /// side.
-/// * the contact queries also by Barba and Langerman's algorithm with inner and outer hierarchies,
-/// by
-///   V-Clip, separating axes (up to 1000 vertices) and linear
-/// programming
-///   (up to 10^4), the distance also by V-Clip.
-/// * `polygon interference`: of two convex polygons of n vertices, in the same way.
+/// * The contact queries also by Barba and Langerman's algorithm with inner and outer hierarchies,
+///   by V-Clip, separating axes (up to 1000 vertices) and linear programming (up to 10^4). The
+///   distance also by V-Clip.
+/// * `polygon interference`: whether two convex polygons of n vertices touch, in the same way.
 #include <cmath>
 #include <iomanip>
 #include <iostream>

@@ -64,7 +64,7 @@ class FirstContact(NamedTuple):
 
     verdict: Verdict
     free_until: float  #: the motion is proved free on [0, free_until]
-    time: float  #: the first contact is in (free_until, time]; −1 if there is none
+    time: float  #: CONTACT: the first contact is in [free_until, time]. UNDECIDED: a time that is not decided. Else −1
 
 
 def _natives(a: Body, b: Body) -> tuple[_native.Body, _native.Body]:

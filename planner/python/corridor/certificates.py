@@ -36,9 +36,10 @@ class Certificate:
     """The proof of one edge from q0 to q1, as data. Time t is 0 at q0 and 1 at q1.
 
     Interval k states: on all of [t0[k], t1[k]], for every path in the tube, the two shapes of `shapes[pair[k]]` stay
-    at least `clearance[k]` metres apart. This includes the margin and all rounding. For each pair, the intervals cover
-    [0, free_until] without a gap, in any order; there may be more. Intervals are about surfaces. The query also tests
-    whether a body is inside a solid mesh; if this alone decides the verdict, there are no intervals.
+    at least `clearance[k]` metres apart. This includes the margin and all rounding. For each pair, the intervals
+    cover [0, free_until] without a gap. They are in any order, and some may lie beyond `free_until`. Intervals are
+    about surfaces. The query also tests whether a body is inside a solid mesh; if this alone decides the verdict,
+    there are no intervals.
 
     Pairs that are not tested, such as adjacent links, are not listed.
     """
@@ -94,7 +95,7 @@ class Certificate:
 
         It proves that each pair stays farther apart than margin + (clearance − margin)/2 in its intervals, and that
         they cover [0, free_until]; with a `free_until` of 0 it proves nothing. "unproved" is no refutation. With
-        default options and without a tube, at most one of 100 certificates of random edges gets it.
+        default options and without a tube, it is the answer for at most one of 100 certificates of random edges.
         """
         if mismatch := self._mismatch():
             return mismatch

@@ -186,8 +186,9 @@ class Problem:
     def certify(self, q0: ArrayLike, q1: ArrayLike, earliest: bool = False, threads: int = 0) -> Results:
         """Decides whether edges are proved free, from each row of q0 to that of q1, (J,) or (N, J).
 
-        Continuous joints and rotations go the shorter way. With `earliest`, the first contact is at most `time`, up to
-        the tolerance.
+        Continuous joints and rotations go the shorter way. `time` is the time of a contact. With `earliest`, it is that
+        of the first one: at most 1/1024 of the edge before it is not proved free, unless the contact is grazing. The
+        part that is proved free is `free_until` of `certificate`.
         """
         return Results(
             self.bodies,
@@ -207,8 +208,8 @@ class Problem:
     def poses(self, states: ArrayLike) -> NDArray[np.float64]:
         """Returns the poses of all bodies in the world, N×B×4×4, at states, (J,) or (N, J).
 
-        The poses are rounded; proofs bound that. Obstacles are at the identity, except those of problem files that
-        share a mesh: they have its frame.
+        The poses are rounded; the proofs take this into account. The shapes of obstacles are in world coordinates, so
+        their pose is the identity. Only obstacles of problem files that share one mesh have the pose of that mesh.
         """
         return _native.poses(self._native, _array("states", states))
 
@@ -258,9 +259,9 @@ class Solution:
     why: str  #: why it is not solved, one line
     path: NDArray[np.float64]  #: N×J states; empty unless solved
     certified: bool  #: every edge of `path` is proved
-    #: times, lengths and counts of the solve. `proved_clearance_m` is at most the preferred clearance; `verify` may find more
+    #: times, lengths and counts. `proved_clearance_m` is at most the preferred clearance; `verify` may find more
     figures: dict[str, Any] = field(default_factory=dict)
-    #: text, duration, proved, keeps_limits and why_none. Empty unless `solve` was to make one
+    #: text, duration, proved, keeps_limits and why_none. Empty if `solve` was called without `trajectory`
     trajectory: dict[str, Any] = field(default_factory=dict)
     _text: str = ""
 

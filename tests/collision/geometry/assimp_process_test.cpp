@@ -73,7 +73,7 @@ class AssimpProcess : public MeshFileTest {
 };
 
 const std::string reads = "assimp, which reads this format, ";
-const std::string instead = "; save it as OBJ, STL, PLY or OFF";
+const std::string instead = "; save the mesh as OBJ, STL, PLY or OFF";
 
 TEST_F(AssimpProcess, EndsWithoutAnAnswer) {
   EXPECT_EQ(complaintWith("kill -SEGV $$"),

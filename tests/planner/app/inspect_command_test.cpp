@@ -54,7 +54,7 @@ TEST_F(InspectCommand, DescribesARobotThatCannotMove) {
         "<robot name='still'><link name='a'/>\n<link name='b'/>\n<joint name='j' "
         "type='revolute'><parent link='a'/><child link='b'/><limit lower='0' upper='0' effort='1' "
         "velocity='1'/></joint></robot>");
-  const std::string why = "has no joint that moves by itself: j: lower = upper = 0";
+  const std::string why = "has no joint that can be planned for: j: lower = upper = 0";
   write("still.yaml", "format: corridor-robot-1\nurdf: still.urdf\n");
   for (const std::string file : {"still.urdf", "still.yaml"}) {
     const Result result = run("inspect " + file);

@@ -320,7 +320,7 @@ TEST_F(NewCommand, BadInputIsOneLineAndExit2) {
   write("still.urdf", "<robot name='still'><link name='a'/></robot>");
   expectFault(
       "new robot still.urdf",
-      "still.urdf: has no joint that moves by itself; for a vehicle, add a planar or floating "
+      "still.urdf: has no joint that can be planned for; for a vehicle, add a planar or floating "
       "joint on an empty link to the URDF, or use rigid: SE3 in a robot.yaml");
 }
 

@@ -217,7 +217,7 @@ TEST_F(ArmFaults, RobotFiles) {
       "arm.yaml:4: group: there is no group \"arm\" in the SRDF, and none of its groups can be "
       "used");
   EXPECT_EQ(robot("srdf: arm.srdf\ngroup: nothing\n"),
-            "arm.yaml:4: group: the group \"nothing\" has no joint that moves by itself");
+            "arm.yaml:4: group: the group \"nothing\" has no joint that can be planned for");
   EXPECT_EQ(robot("srdf: arm.srdf\ngroup: arm\njoints: [pan]\n"),
             "arm.yaml:5: joints: one of group and joints is needed, not both");
   EXPECT_EQ(robot("joints: [pan, lift]\nhold: {pan: 1, slide: 2, wirst: 0, follow: 1}\n"),
@@ -243,7 +243,7 @@ TEST_F(ArmFaults, RobotFiles) {
             "one out");
   write("statue.urdf", "<robot name='statue'><link name='stone'/></robot>");
   EXPECT_EQ(complaintOf("format: corridor-problem-1\nrobot: statue.urdf\nstart: {}\ngoal: {}\n"),
-            "statue.urdf: has no joint that moves by itself; for a vehicle, add a planar or "
+            "statue.urdf: has no joint that can be planned for; for a vehicle, add a planar or "
             "floating joint on an empty link to the URDF, or use rigid: SE3 in a robot.yaml");
 }
 
@@ -259,12 +259,12 @@ TEST_F(ArmFaults, RobotsThatCannotMove) {
   const std::string begin = "<robot name='stiff'><link name='stone'/>";
   write("stiff.urdf", begin + stiff("j1", "a", "0") + stiff("j2", "b", "0") + "</robot>");
   EXPECT_EQ(complaintOf(problem),
-            "stiff.urdf: has no joint that moves by itself: j1, j2: lower = upper = 0");
+            "stiff.urdf: has no joint that can be planned for: j1, j2: lower = upper = 0");
   write("stiff.urdf", begin + stiff("j1", "a", "0") + stiff("j2", "b", "0.5") + "</robot>");
   EXPECT_EQ(complaintOf(problem),
-            "stiff.urdf: has no joint that moves by itself: j1, j2: lower = upper");
+            "stiff.urdf: has no joint that can be planned for: j1, j2: lower = upper");
   EXPECT_EQ(robot("hold: {pan: 0, lift: 0, slide: 0.02}\n"),
-            "arm.yaml:2: urdf: has no joint that moves by itself, except those in hold");
+            "arm.yaml:2: urdf: has no joint that can be planned for, except those in hold");
 }
 
 TEST_F(ArmFaults, SeveralRobots) {

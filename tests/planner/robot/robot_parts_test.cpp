@@ -138,7 +138,8 @@ TEST(RobotParts, ABuilderTakesThem) {
     FAIL() << "a joint that mimics can't be planned for";
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(),
-                 "ModelBuilder: \"follow\" is no joint of robot that moves by itself, or it is "
+                 "ModelBuilder: \"follow\" is no joint of robot that can be planned for (it is "
+                 "fixed, a mimic, or missing), or it is "
                  "named twice");
   }
 }

@@ -78,8 +78,8 @@ TEST_F(SrdfFile, States) {
   const std::string file = (folder_ / "r.srdf").string();
   EXPECT_THAT(textsOf(model_.notes),
               testing::ElementsAre(
-                  file + ":5: state \"up\": the values of joints that do not move by themselves "
-                         "are ignored: weld",
+                  file + ":5: state \"up\": the values of fixed joints and mimics are "
+                         "ignored: weld",
                   file + ":8: state \"there\" names no group; its values are taken as they are"));
 }
 

@@ -92,10 +92,10 @@ TEST_F(UrdfFaults, Trees) {
   EXPECT_EQ(complaintOfParts(link("a") + link("b") + link("c") + link("d") +
                              joint("i", "fixed", "c", "d") + joint("j", "fixed", "b", "c") +
                              joint("k", "fixed", "c", "b")),
-            "r.urdf:7: the links b, c, b are joined in a circle; a tree is needed");
+            "r.urdf:7: the links b, c, b form a cycle; a tree is needed");
   EXPECT_EQ(complaintOfParts(link("a") + link("b") + joint("j", "fixed", "a", "b") +
                              joint("k", "fixed", "b", "a")),
-            "r.urdf:4: the links a, b, a are joined in a circle; a tree is needed");
+            "r.urdf:4: the links a, b, a form a cycle; a tree is needed");
 }
 
 TEST_F(UrdfFaults, HintsOnlyForTheFirstHundredFaults) {
@@ -200,10 +200,10 @@ TEST_F(UrdfFaults, Mimics) {
                              joint("j", "revolute", "a", "b", limit + "<mimic joint=\"k\"/>") +
                              joint("k", "revolute", "b", "c", limit + "<mimic joint=\"l\"/>") +
                              joint("l", "revolute", "c", "d", limit + "<mimic joint=\"k\"/>")),
-            "r.urdf:7: the joints k, l, k mimic in a circle");
+            "r.urdf:7: the joints k, l, k mimic each other in a cycle");
 }
 
-/// The joint f follows c, which would follow a joint that the file lacks. So c moves by itself, and
+/// The joint f follows c, which would follow a joint that the file lacks. So c is no mimic, and
 /// the rules for followers hold for f.
 TEST_F(UrdfFaults, MimicsBehindALostLeader) {
   const auto complaint = [&](const std::string& c, const std::string& f,
@@ -235,7 +235,7 @@ TEST_F(UrdfFaults, AJointWithoutLeaderNeedsLimitsOfItsOwn) {
   };
   const std::string lacking =
       "r.urdf:4: joint \"c\" mimics \"x\", which is not a joint of this robot; and it has no lower "
-      "or upper limit with which it could move by itself";
+      "or upper limit with which it could be used as a joint of its own";
   EXPECT_EQ(complaint(""), lacking);
   EXPECT_EQ(complaint(R"(<limit effort="1" velocity="1"/>)"), lacking);
   EXPECT_EQ(complaint(R"(<limit lower="2" upper="1"/>)"),

@@ -132,7 +132,7 @@ TEST_F(UrdfFile, AMimicOfAnUnknownJointMovesByItself) {
       textsOf(model.notes),
       testing::ElementsAre((folder_ / "r.urdf").string() +
                            ":6: joint \"tilt\" mimics \"pam\", which is not a joint of this "
-                           "robot; it moves by itself (did you mean \"pan\"?)"));
+                           "robot; it is used as a joint of its own (did you mean \"pan\"?)"));
 }
 
 TEST_F(UrdfFile, AJointThatCannotLeadIsNoLeader) {
@@ -142,10 +142,11 @@ TEST_F(UrdfFile, AJointThatCannotLeadIsNoLeader) {
                 joint("tilt", "revolute", "b", "c", limit + "<mimic joint=\"pan\"/>"));
     EXPECT_FALSE(model.joints[1].mimic);
     EXPECT_EQ(model.joints[1].upper, 2);
-    EXPECT_THAT(textsOf(model.notes),
-                testing::ElementsAre((folder_ / "r.urdf").string() + ":6: joint \"tilt\" mimics " +
-                                     "\"pan\", which is " + type +
-                                     ", not a joint of one variable; it moves by itself"));
+    EXPECT_THAT(
+        textsOf(model.notes),
+        testing::ElementsAre((folder_ / "r.urdf").string() + ":6: joint \"tilt\" mimics " +
+                             "\"pan\", which is " + type +
+                             ", not a joint of one variable; it is used as a joint of its own"));
   }
 }
 

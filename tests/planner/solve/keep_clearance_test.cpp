@@ -80,7 +80,7 @@ TEST(ClearanceTargets, AreLimitedByTheEndsOfThePath) {
   EXPECT_NEAR(targets.all()[0], 0.7 * 0.02, 1e-4);
   EXPECT_NEAR(targets.all()[1], 0.7 * 0.05, 1e-4);
   EXPECT_EQ(targets.all()[2], 0.1);
-  EXPECT_NEAR(targets.ofEnds(), 0.02, 1e-4);
+  EXPECT_NEAR(targets.smallestAtEnds(), 0.02, 1e-4);
   EXPECT_EQ(targets.least(), targets.all()[0]);
 }
 

@@ -293,7 +293,8 @@ TEST(VerifyPath, TubeLargerThanTheClearanceIsNotProved) {
   for (const bool obstaclesFirst : {false, true}) {  // problem files have links first
     world.spatial.obstaclesFirst = obstaclesFirst;
     EXPECT_EQ(verdict(0.25, 0, 0), PathVerdict::refuted);  // displaced by 0.25 it touches
-    EXPECT_EQ(world.verify(path).findings.at(0).reason, "closer than the tube allows");
+    EXPECT_EQ(world.verify(path).findings.at(0).reason,
+              "a deviation within the tube comes too close");
   }
   // A rotation by τ lifts the corner (1, 1, 1)/2 by sin τ/√2 − (1 − cos τ)/2. The bound for it is
   // τ/√2 + √0.75 τ²/2.

@@ -55,8 +55,7 @@ using Perturbation = std::vector<Quad>;
 /// of an edge, or of a CurvePiece:
 /// - lines: linear in t; in a piece, the polynomial in Bernstein form;
 /// - circles: linear in t, the shorter way round, of the exact difference modulo 2π; in a piece,
-/// the
-///   polynomial, literally;
+///   the polynomial, literally;
 /// - rotations: slerp of the normalised quaternions along the shorter arc;
 /// - a joint's value: multiplier·q + offset.
 template <class S>

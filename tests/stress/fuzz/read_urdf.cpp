@@ -1,5 +1,5 @@
-// Fuzz target: URDF files, beside a small mesh. A robot that is read must be the same robot if it
-// is made of its parts.
+// Fuzz target: URDF files, beside a small mesh. A robot that was read,
+// taken apart into links and joints and built again must equal the original.
 #include <cmath>
 
 #include "planner/robot/robot_parts.h"
