@@ -80,7 +80,8 @@ TEST_F(AssimpProcess, EndsWithoutAnAnswer) {
             reads + "ended without an answer (killed by signal 11, Segmentation fault)" + instead);
   EXPECT_EQ(complaintWith("kill -ABRT $$"),
             reads + "ended without an answer (killed by signal 6, Aborted)" + instead);
-  EXPECT_EQ(complaintWith("exit 9"), reads + "needs more than 1024 MiB of memory for it" + instead);
+  EXPECT_EQ(complaintWith("exit 9"),
+            reads + "needs more than 1024 MiB of memory for this file" + instead);
   EXPECT_EQ(complaintWith("exit 3"), reads + "ended without an answer (exit status 3)" + instead);
   EXPECT_EQ(complaintWith("echo and this is no answer, long as it may be, of the program at all"),
             reads + "ended without an answer (exit status 0)" + instead);
@@ -113,7 +114,7 @@ TEST_F(AssimpProcess, MemoryEnds) {
 #endif
   write("a.dae", grid(400));
   EXPECT_EQ(complaint({600, std::uint64_t{2} << 20, AssimpLimits::assimpProgram()}),
-            reads + "needs more than 2 MiB of memory for it" + instead);
+            reads + "needs more than 2 MiB of memory for this file" + instead);
   EXPECT_EQ(complaint({600, std::uint64_t{1} << 30, AssimpLimits::assimpProgram()}),
             "no complaint");
 }

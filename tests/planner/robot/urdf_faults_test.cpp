@@ -117,8 +117,8 @@ TEST_F(UrdfFaults, LongCyclesListTheirFirstJoints) {
   }
   EXPECT_THAT(
       complaintOfParts(parts),
-      testing::MatchesRegex("r.urdf:4: the joints j0, j1, .*, j28, j29 and 11 more mimic in a "
-                            "circle"));
+      testing::MatchesRegex("r.urdf:4: the joints j0, j1, .*, j28, j29 and 11 more mimic each "
+                            "other in a cycle"));
 }
 
 TEST_F(UrdfFaults, Joints) {
