@@ -225,8 +225,8 @@ void bindProblem(py::module_& module) {
           "time", [](const NativeProblem& p) { return p.problem().settings.planner.time; })
       .def_property_readonly("seed",
                              [](const NativeProblem& p) { return p.problem().settings.seed; })
-      .def_property_readonly(
-          "fingerprint", [](const NativeProblem& p) { return fingerprintOf(p.problem().model); })
+      .def_property_readonly("fingerprint",
+                             [](const NativeProblem& p) { return fingerprintOf(p.problem()); })
       .def("edited", &edited, py::arg("edits"));
   module.def(
       "read_problem",

@@ -26,6 +26,22 @@ class Bytes {
     add(text.size());
     bytes_ += text;
   }
+  void add(const Configuration& q) {
+    add(q.size());
+    for (const double number : q) add(number);
+  }
+  void add(const Task& task) {
+    add(task.start);
+    add(task.goals.size());
+    for (const Configuration& goal : task.goals) add(goal);
+    const GoalRegion region = task.goalRegion.value_or(GoalRegion());
+    add(region.position), add(region.angle), add(region.joint), add(task.margin);
+    add(task.padding.bodies.size());
+    for (const auto& [body, padding] : task.padding.bodies) add(body), add(padding);
+    for (const auto& [pair, padding] : task.padding.pairs)
+      add(pair.first), add(pair.second), add(padding);
+    add(task.tube);
+  }
   void add(std::span<const PlacedShape> shapes) {
     add(shapes.size());
     for (const PlacedShape& shape : shapes) {
@@ -51,8 +67,10 @@ std::string fingerprintOf(std::span<const PlacedShape> shapes) {
   return bytes.digest();
 }
 
-std::string fingerprintOf(const Model& model) {
+std::string fingerprintOf(const Problem& problem) {
+  const Model& model = problem.model;
   Bytes bytes;
+  bytes.add(problem.task);
   for (const ModelBody& body : model.bodies) {
     bytes.add(body.name);
     bytes.add(body.frame);

@@ -240,6 +240,13 @@ class Problems(unittest.TestCase):
             kept = [pickle.dumps(each) for each in (read, built, Body(shapes.mesh_file(mesh)))]
             for each in kept:
                 pickle.loads(each)
+            text = file.read_text()
+            for old, new in (("[1, 0, 0]}", "[1, 0.5, 0]}"), ("bounds:", "margin: 0.01\nbounds:"), ("bounds:", "tube: {position: 0.01}\nbounds:")):
+                file.write_text(text.replace(old, new, 1))
+                with self.assertRaisesRegex(ValueError, "changed since"):
+                    pickle.loads(kept[0])
+            file.write_text(text)
+            pickle.loads(kept[0])
             mesh.write_text(wall.format(1.0000001))
             for each in kept:
                 with self.assertRaisesRegex(ValueError, "changed since"):

@@ -13,8 +13,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
+from ._arguments import _array, _number, _whole
 from .results import Verdict
-from .shapes import Shape, _array, _number, _require_shape, _whole
+from .shapes import Shape, _require_shape
 
 _ORIGIN = np.eye(4)
 

@@ -17,10 +17,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native, pictures, workers
+from ._arguments import _array, _flag, _text, _whole
 from .certificates import Certificate, certificate_of
 from .results import Results
 from .robots import _pair, _shapes
-from .shapes import Shape, _array, _flag, _text, _whole
+from .shapes import Shape
 
 _solving = threading.Lock()  # OMPL has one generator of random numbers per process
 _this_thread = threading.local()
@@ -406,7 +407,7 @@ def solve_many(problems: Iterable[Problem], processes: int | None = None, **opti
     """Solves several problems, and yields their solutions in the same order.
 
     processes: default, as many as there are cores. options: those of `solve`, except progress. Nothing is solved, and no
-    argument tested, before the first solution is asked for.
+    argument tested, before the first solution is requested.
     As with all processes of Python, a script calls it under `if __name__ == "__main__":`. Ctrl-C ends all of them.
     """
     if isinstance(problems, Problem):

@@ -9,7 +9,8 @@ from typing import Any
 
 from numpy.typing import ArrayLike
 
-from .shapes import Shape, _array, _flag, _numbers, _pose, _require_shape, _text
+from ._arguments import _array, _flag, _text
+from .shapes import Shape, _numbers, _pose, _require_shape
 
 
 @dataclass(frozen=True)

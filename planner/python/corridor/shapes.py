@@ -6,7 +6,6 @@ nearest rotation. The vertices of meshes are rounded once when they are placed.
 
 from __future__ import annotations
 
-import operator
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -16,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
+from ._arguments import _array, _flag, _number
 
 
 @dataclass(frozen=True)
@@ -44,47 +44,6 @@ def _require_shape(shape: object) -> None:
     if not isinstance(shape, Shape):
         hint = "; shapes.mesh_file(FILE) reads a mesh" if isinstance(shape, (str, os.PathLike)) else ""
         raise TypeError(f"a shape of corridor.shapes is needed, not {shape!r}{hint}")
-
-
-def _array(name: str, value: Any) -> NDArray[np.float64]:
-    """Returns a copy as doubles. Numbers of other types are rounded to the nearest double: proofs are about these."""
-    if isinstance(value, np.ma.MaskedArray) or np.iscomplexobj(value):
-        raise ValueError(f"{name}: an array of real numbers without a mask is needed")
-    try:
-        return np.array(value, dtype=float)
-    except (TypeError, ValueError) as error:
-        raise ValueError(f"{name}: an array of numbers is needed: {error}") from None
-
-
-def _number(name: str, value: Any) -> float:
-    try:
-        if not isinstance(value, (str, bytes)):
-            return float(value)
-    except (TypeError, ValueError, OverflowError):
-        pass
-    raise ValueError(f"{name}: a number is needed, not {value!r}")
-
-
-def _whole(name: str, value: Any, least: int) -> int:
-    try:
-        number = operator.index(value)
-    except TypeError:
-        number = least - 1
-    if number < least:
-        raise ValueError(f"{name}: a whole number of {least} or more is needed, not {value!r}")
-    return number
-
-
-def _flag(name: str, value: Any) -> bool:
-    if not isinstance(value, (bool, np.bool_)):
-        raise ValueError(f"{name}: True or False is needed, not {value!r}")
-    return bool(value)
-
-
-def _text(name: str, value: Any) -> str:
-    if not isinstance(value, str):
-        raise ValueError(f"{name}: a name is needed, not {value!r}")
-    return value
 
 
 def _numbers(name: str, value: Any, count: int) -> tuple[float, ...]:

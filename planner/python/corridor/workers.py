@@ -13,7 +13,7 @@ import threading
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
-from .shapes import _whole
+from ._arguments import _whole
 
 _MAIN_GUARD = 'a script must be a file, and must call solve_many under `if __name__ == "__main__":`'
 

@@ -1,0 +1,50 @@
+"""Conversions of arguments, which raise a ValueError that names the argument."""
+
+from __future__ import annotations
+
+import operator
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+def _array(name: str, value: Any) -> NDArray[np.float64]:
+    """Returns a copy as doubles. Numbers of other types are rounded to the nearest double: proofs are about these."""
+    if isinstance(value, np.ma.MaskedArray) or np.iscomplexobj(value):
+        raise ValueError(f"{name}: an array of real numbers without a mask is needed")
+    try:
+        return np.array(value, dtype=float)
+    except (TypeError, ValueError) as error:
+        raise ValueError(f"{name}: an array of numbers is needed: {error}") from None
+
+
+def _number(name: str, value: Any) -> float:
+    try:
+        if not isinstance(value, (str, bytes)):
+            return float(value)
+    except (TypeError, ValueError, OverflowError):
+        pass
+    raise ValueError(f"{name}: a number is needed, not {value!r}")
+
+
+def _whole(name: str, value: Any, least: int) -> int:
+    try:
+        number = operator.index(value)
+    except TypeError:
+        number = least - 1
+    if number < least:
+        raise ValueError(f"{name}: a whole number of {least} or more is needed, not {value!r}")
+    return number
+
+
+def _flag(name: str, value: Any) -> bool:
+    if not isinstance(value, (bool, np.bool_)):
+        raise ValueError(f"{name}: True or False is needed, not {value!r}")
+    return bool(value)
+
+
+def _text(name: str, value: Any) -> str:
+    if not isinstance(value, str):
+        raise ValueError(f"{name}: a name is needed, not {value!r}")
+    return value
