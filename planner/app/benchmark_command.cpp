@@ -189,7 +189,6 @@ int benchmarkCommand(const BenchmarkArguments& a) {
   options.interrupted = &interrupted;
   options.jobs = a.jobs;
   options.executor = job.executor();
-  if (job.executor()) job.executor()->begin(specsOf(campaign));
   RunTrimmer trimmer;
   if (database)
     options.done = [&](std::size_t cell, BenchmarkRun& run) {
@@ -208,6 +207,7 @@ int benchmarkCommand(const BenchmarkArguments& a) {
   };
   CampaignResult result;
   try {
+    if (job.executor()) job.executor()->begin(specsOf(campaign));
     result = runCampaign(campaign, options, std::move(cells));
   } catch (const InputError&) {  // such as the fault of a rank
     removeEmpty();

@@ -23,7 +23,7 @@ int RankJob::serve(const RankSetUp& setUp) {
 }
 
 void letRank0Report() {
-  if (rankInEnvironment() > 0) std::this_thread::sleep_for(std::chrono::seconds(5));
+  if (rankInEnvironment() > 0) std::this_thread::sleep_for(std::chrono::seconds(30));
 }
 
 }  // namespace corridor::app

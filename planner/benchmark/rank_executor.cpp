@@ -31,6 +31,7 @@ constexpr char kStop = 's', kEnd = 'e';
 /// Followed by the task's number, the count of its messages, its failure, and its last message.
 constexpr char kDone = 'd';
 constexpr char kKilled = 'k';  ///< and the task's number
+constexpr char kReady = 'r';   ///< the rank is set up
 constexpr char kSignal = 'i';  ///< and the signal's number
 constexpr char kFault = 'f';   ///< and its text
 constexpr char kBye = 'b';     ///< the last message of a rank
@@ -125,6 +126,18 @@ void RankExecutor::sendTo(int rank, std::string text) {
 
 void RankExecutor::begin(const std::string& setUp) {
   for (int rank = 1; rank < ranks_.size(); ++rank) sendTo(rank, kSetUp + setUp);
+  std::vector<TaskEnd> none;
+  Pause pause;
+  for (int waiting = ranks_.size() - 1; waiting > 0;) {
+    auto message = ranks_.receive();
+    if (!message)
+      pause();
+    else if (message->text[0] == kReady)
+      ++messages_, --waiting;
+    else
+      take(std::move(*message), none);
+    if (fault_) throw InputError(*fault_);
+  }
 }
 
 bool RankExecutor::start(std::uint64_t task) {
@@ -201,7 +214,11 @@ void serveRanks(Ranks& ranks, const RankSetUp& setUp, const std::function<int()>
         ranks.send(0, {kBye});
         return;
       }
-      if (text[0] == kSetUp) guarded([&] { executor = setUp(text.substr(1)); });
+      if (text[0] == kSetUp)
+        guarded([&] {
+          executor = setUp(text.substr(1));
+          ranks.send(0, {kReady});
+        });
       if (text[0] == kTask && executor) waiting.push_back(rankNumberIn(text));
       if (text[0] == kStop && executor) {
         std::vector<std::uint64_t> killed = executor->stop();

@@ -15,8 +15,9 @@ namespace corridor {
 
 /// Does tasks on the other ranks of a job under `mpirun`. For rank 0; all others call `serveRanks`.
 ///
-/// A task takes two messages: its number to a rank that has a place free, and its end to rank 0. A
-/// rank gets a task only when it can begin it. So no task waits at one rank while another is idle.
+/// Setting up takes two messages for each rank. A task takes two messages, too: its number to a
+/// rank that has a place free, and its end to rank 0. A rank gets a task only when it can begin it.
+/// So no task waits at one rank while another is idle.
 ///
 /// Waiting takes little processor time: rank 0 looks for messages, and pauses in between for 50 µs
 /// to 2 ms, the longer the less has arrived lately. The others look every 5 ms while a task runs.
@@ -29,8 +30,9 @@ class RankExecutor final : public Executor {
   /// Ends the other ranks: their calls of `serveRanks` return.
   ~RankExecutor() override;
 
-  /// Lets the other ranks set up. @param setUp what their `SetUp` gets. @pre called once, before
-  /// the first task.
+  /// Lets the other ranks set up, and waits until all of them have. So no task begins if a rank
+  /// can't do its part. @param setUp what their `RankSetUp` gets. @pre called once, before the
+  /// first task. @throws InputError with the first fault that a rank reports.
   void begin(const std::string& setUp);
 
   std::size_t places() const override { return places_; }

@@ -271,6 +271,7 @@ TEST_F(MpiCommand, FaultsAreReportedOnce) {
   EXPECT_THAT(read("err.txt"), HasSubstr("rank 2: "));
   EXPECT_THAT(read("err.txt"), HasSubstr(": its campaign is not the first rank's; all machines "
                                          "need the same files and packages\n"));
+  EXPECT_FALSE(fs::exists(folder_ / "r"));  // no run was made
   fs::remove(folder_ / "other/robot.yaml");
   EXPECT_EQ(runOther("benchmark campaign.yaml -o " + (folder_ / "r").string()), 2);
   EXPECT_THAT(read("err.txt"), HasSubstr("rank 2: "));

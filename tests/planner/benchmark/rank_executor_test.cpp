@@ -103,8 +103,11 @@ class RankTest : public testing::Test {
         ThreadRanks ranks(post_, rank);
         serveRanks(
             ranks,
-            [](const std::string& text) {
-              if (text != "set up") throw std::runtime_error("other files");
+            [rank](const std::string& text) {
+              if (text == "late fault" && rank == 3) {
+                std::this_thread::sleep_for(std::chrono::milliseconds(50));
+                throw std::runtime_error("other files");
+              }
               return std::make_unique<FakeExecutor>(2);
             },
             [this, rank] { return rank == 2 ? signal_.load() : 0; });
@@ -199,9 +202,15 @@ TEST_F(RankTest, TasksThatEndedBeforeAFaultAreReturned) {
   EXPECT_THROW(executor_->wait(50), InputError);
 }
 
-TEST_F(RankTest, FaultsOfTheSetUpEndTheJob) {
-  executor_->begin("something else");
-  EXPECT_THROW(for (int i = 0; i < 200; ++i) executor_->wait(50), InputError);
+/// No task begins if a rank can't do its part, however long that rank takes to notice.
+TEST_F(RankTest, WaitsForTheSetUpOfAllRanks) {
+  try {
+    executor_->begin("late fault");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), StartsWith("rank 3: "));
+    EXPECT_THAT(error.what(), EndsWith(": other files"));
+  }
 }
 
 /// Nothing was begun: the others just end.
