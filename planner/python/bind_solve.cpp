@@ -93,7 +93,7 @@ py::dict solve(const NativeProblem& native, const std::optional<std::string>& tr
   d["planner"] = r.planner;
   d["checker"] = r.checker;
   d["seed"] = r.seed;
-  d["repeats"] = r.repeats;
+  d["repeats"] = r.repeatable;
   d["seconds"] = r.time;
   d["planning_seconds"] = r.planningTime;
   d["certification_seconds"] = r.certificationTime;
@@ -184,11 +184,14 @@ std::string page(const NativeProblem& native, const std::optional<Array>& states
   return viewPage(problem, path);
 }
 
-/// Returns an SVG.
-std::string picture(const NativeProblem& native, const Array& states) {
+/// Returns an SVG. @param seenFrom as `viewDirection`. @throws InputError for another direction.
+std::string picture(const NativeProblem& native, const Array& states,
+                    const std::optional<std::string>& seenFrom) {
+  std::optional<ViewDirection> from;
+  if (seenFrom) from = viewDirection(*seenFrom, "seen_from");
   const Path path = solutionFrom(native.problem(), states).path;
   const py::gil_scoped_release unlocked;
-  return svgPicture(native.problem(), path);
+  return svgPicture(native.problem(), path, from);
 }
 
 }  // namespace
@@ -199,7 +202,7 @@ void bindSolve(py::module_& module) {
   module.def("verify_path", &verifyPathOf, arg("problem"), arg("path"), arg("clearance"));
   module.def("verify_trajectory", &verifyTrajectoryOf, arg("problem"), arg("text"));
   module.def("page", &page, arg("problem"), arg("path"));
-  module.def("picture", &picture, arg("problem"), arg("path"));
+  module.def("picture", &picture, arg("problem"), arg("path"), arg("seen_from"));
 }
 
 }  // namespace corridor::python

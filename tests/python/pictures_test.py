@@ -135,6 +135,15 @@ class Pictures(unittest.TestCase):
         self.assertEqual(root.tag, "{http://www.w3.org/2000/svg}svg")
         self.assertNotIn("href", self.solution.svg())
 
+    def test_direction(self):
+        pictures = {self.solution.svg(seen_from=d) for d in ("top", "left", "-60,38", None)}
+        self.assertEqual(len(pictures), 4)
+        self.assertEqual(self.solution.svg("top"), self.solution.svg(seen_from="-90,90"))
+        with self.assertRaisesRegex(corridor.InputError, 'seen_from: .* is needed, not "topp"; did you mean "top"'):
+            self.solution.svg(seen_from="topp")
+        with self.assertRaisesRegex(ValueError, "seen_from: a name is needed"):
+            self.solution.png(seen_from=(0, 90))
+
     def test_without_the_program(self):
         with unittest.mock.patch.dict(os.environ, {"PATH": "/nowhere"}):
             with self.assertRaisesRegex(RuntimeError, "install Debian's package librsvg2-bin"):

@@ -308,17 +308,22 @@ class Solution:
         self._require_path()
         return _native.page(self.problem._native, self.path)
 
-    def svg(self) -> str:
-        """Returns a picture of the scene and the path: an SVG document."""
-        self._require_path()
-        return _native.picture(self.problem._native, self.path)
+    def svg(self, seen_from: str | None = None) -> str:
+        """Returns a picture of the scene and the path: an SVG document.
 
-    def png(self, width: int = 1200) -> bytes:
+        `seen_from` is where the viewer stands: "front" (at +x), "back", "left" (at +y), "right", "top", "bottom", or
+        "AZIMUTH,ELEVATION" in degrees, such as "-60,38". Without it, the scene is seen from above at an angle.
+        """
+        self._require_path()
+        direction = None if seen_from is None else _text("seen_from", seen_from)
+        return _native.picture(self.problem._native, self.path, direction)
+
+    def png(self, width: int = 1200, seen_from: str | None = None) -> bytes:
         """Returns the picture of `svg` as the bytes of a PNG file, `width` pixels wide.
 
         It is drawn by rsvg-convert, of Debian's package librsvg2-bin. Raises RuntimeError if that is missing.
         """
-        return pictures.png_of(self.svg(), width)
+        return pictures.png_of(self.svg(seen_from), width)
 
     def view(self, file: str | os.PathLike[str] | None = None) -> str:
         """Writes the page to a file, or opens it in a browser. Returns the name of the file."""
