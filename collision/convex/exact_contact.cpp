@@ -121,7 +121,7 @@ bool touchInRationals(const PosedSet& a, const PosedSet& b, const ConvexCache& f
   bounds.reach.fill(1);
   bounds.name.fill(~std::uint32_t{0});
   const seidel::Point<Rational, 4> wide{0, 0, 0, 1};
-  seidel::Heap<Rational, 3> memory;
+  seidel::HeapMemory<Rational, 3> memory;
   for (;;) {
     seidel::Point<Rational, 4> x;
     seidel::Tight<4> tight;

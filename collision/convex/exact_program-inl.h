@@ -48,7 +48,7 @@ Candidate<M> candidate(std::size_t count, const Rows& row, const Point<double, M
   bounds.reach.fill(reach);
   for (std::size_t i = 0; i < M; ++i) bounds.name[i] = static_cast<std::uint32_t>(count + i);
   Candidate<M> found;
-  Heap<double, M - 1> memory;
+  HeapMemory<double, M - 1> memory;
   solve<double, M>(bounds, std::span<const Row<M>>(list), goal, found.x, found.tight, memory);
   return found;
 }
@@ -192,7 +192,7 @@ Optimum<M> exactOptimum(std::size_t count, const Rows& row, const Point<Rational
   for (std::size_t i = 0; i < M; ++i) bounds.name[i] = static_cast<std::uint32_t>(count + i);
   Optimum<M> best;
   Tight<M> tight;
-  Heap<Rational, M - 1> memory;
+  HeapMemory<Rational, M - 1> memory;
   for (;;) {
     solve<Rational, M>(bounds, std::span<const HalfSpace<Rational, M>>(rows), goal, best.x, tight,
                        memory);

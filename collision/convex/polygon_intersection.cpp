@@ -146,7 +146,7 @@ class PolygonSearch {
     seidel::Bounds<double, 2> bounds{{1e6 * reach, 1e6 * reach}, {0, 0}};
     seidel::Point<double, 2> x{};
     seidel::Tight<2> tight;
-    seidel::Heap<double, 1> memory;
+    seidel::HeapMemory<double, 1> memory;
     if (!seidel::solve<double, 2>(bounds, std::span<const Row>(list), {-out.x(), -out.y()}, x,
                                   tight, memory))
       return false;

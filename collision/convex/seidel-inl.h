@@ -36,38 +36,39 @@ struct Bounds {
 };
 
 /// The names of the half-spaces and bounds that determine an answer.
-/// * If there is a best point, these are D. It is the only point on all of their planes, and the
+/// * If there is a best point, there are D of them. It is the only point on all of their planes,
+/// and the
 ///   goal is a sum of their normals with weights ≥ 0.
-/// * Otherwise these are at most D + 1, and they have no common point.
+/// * Otherwise there are at most D + 1, and they have no common point.
 template <std::size_t D>
 struct Tight {
   std::array<std::uint32_t, D + 1> name;
   std::size_t count = 0;
 };
 
-/// Scratch memory for any number of half-spaces in up to D variables.
+/// Scratch memory for any number of half-spaces in up to D + 1 variables.
 template <class Real, std::size_t D>
-struct Heap : Heap<Real, D - 1> {
+struct HeapMemory : HeapMemory<Real, D - 1> {
   std::vector<HalfSpace<Real, D>> list;
 };
 template <class Real>
-struct Heap<Real, 0> {};
-/// Scratch memory on the stack, for at most `Count` half-spaces in D + 1 variables: they become at
-/// most one more in each step down to one variable.
+struct HeapMemory<Real, 0> {};
+/// Scratch memory on the stack, for at most `Count` half-spaces in D + 1 variables. Each reduction
+/// by one variable adds at most one half-space.
 template <class Real, std::size_t D, std::size_t Count>
-struct Stack : Stack<Real, D - 1, Count + 1> {
+struct StackMemory : StackMemory<Real, D - 1, Count + 1> {
   std::array<HalfSpace<Real, D>, Count + 1> list;
 };
 template <class Real, std::size_t Count>
-struct Stack<Real, 0, Count> {};
+struct StackMemory<Real, 0, Count> {};
 
 template <class Real, std::size_t D>
-HalfSpace<Real, D>* room(Heap<Real, D>& memory, std::size_t count) {
+HalfSpace<Real, D>* memoryFor(HeapMemory<Real, D>& memory, std::size_t count) {
   if (memory.list.size() < count) memory.list.resize(count);
   return memory.list.data();
 }
 template <class Real, std::size_t D, std::size_t Count>
-HalfSpace<Real, D>* room(Stack<Real, D, Count>& memory, std::size_t) {
+HalfSpace<Real, D>* memoryFor(StackMemory<Real, D, Count>& memory, std::size_t) {
   return memory.list.data();
 }
 
@@ -89,7 +90,7 @@ std::array<T, D - 1> without(const std::array<T, D>& all, std::size_t k) {
 
 /// Sets x to the point within the bounds and half-spaces that is farthest along `goal`, and returns
 /// true. Returns false if no point is within all of them. In both cases `tight` names the
-/// half-spaces that prove it.
+/// half-spaces and bounds that prove the answer.
 template <class Real, class Memory>
 bool solve(const Bounds<Real, 1>& bounds, std::span<const HalfSpace<Real, 1>> list,
            const Point<Real, 1>& goal, Point<Real, 1>& x, Tight<1>& tight, Memory&) {
@@ -138,7 +139,7 @@ bool solve(const Bounds<Real, D>& bounds, std::span<const HalfSpace<Real, D>> li
     const Real share = plane.offset / plane.normal[k];
     Point<Real, D - 1> slope = without(plane.normal, k);
     for (Real& s : slope) s /= plane.normal[k];
-    HalfSpace<Real, D - 1>* const rest = room<Real, D - 1>(memory, i + 2);
+    HalfSpace<Real, D - 1>* const rest = memoryFor<Real, D - 1>(memory, i + 2);
     for (std::size_t j = 0; j < i; ++j) {
       const Real& n = list[j].normal[k];
       rest[j].normal = without(list[j].normal, k);

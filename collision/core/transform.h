@@ -13,7 +13,7 @@ using Mat3 = Eigen::Matrix3d;
 ///
 /// The twelve doubles *are* the map: queries use precisely these numbers, in real arithmetic,
 /// whether or not m is exactly a rotation. (Only 24 matrices of doubles are exact rotations: the
-/// signed permutations.) Lengths in metres.
+/// signed permutations with determinant 1.) Lengths in metres.
 struct Transform {
   Mat3 m = Mat3::Identity();
   Vec3 t = Vec3::Zero();

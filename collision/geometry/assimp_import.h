@@ -41,7 +41,7 @@ AssimpImport importByAssimp(const std::string& file, AssimpRules rules);
 
 /// The helper's exit status when its memory limit is reached. (An exception would reach assimp,
 /// which would report a damaged file.)
-constexpr int kNoMemory = 9;
+constexpr int kOutOfMemoryStatus = 9;
 
 /// Returns the bytes that the helper program writes to its standard output. The format is not
 /// portable: both ends are the same build on the same machine.

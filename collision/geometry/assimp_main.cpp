@@ -25,7 +25,7 @@ int main(int count, char** words) {
   ::setrlimit(RLIMIT_CORE, &none);
   corridor::limitMemory(std::strtoull(words[4], nullptr, 10));
 
-  std::set_new_handler([] { ::_exit(corridor::kNoMemory); });
+  std::set_new_handler([] { ::_exit(corridor::kOutOfMemoryStatus); });
   const std::string bytes = corridor::packed(corridor::importByAssimp(file, rules));
   for (std::size_t done = 0; done < bytes.size();) {
     const ssize_t n = ::write(STDOUT_FILENO, bytes.data() + done, bytes.size() - done);

@@ -153,7 +153,7 @@ AssimpImport readWithAssimp(const std::string& file, AssimpRules rules,
            " s and was stopped" + instead);
     if (!unpack(bytes, result)) {
       const int status = helper.end();
-      if (WIFEXITED(status) && WEXITSTATUS(status) == kNoMemory)
+      if (WIFEXITED(status) && WEXITSTATUS(status) == kOutOfMemoryStatus)
         fail("assimp, which reads this format, needs more than " +
              std::to_string(limits.bytes >> 20) + " MiB of memory for this file" + instead);
       fail("assimp, which reads this format, ended without an answer (" + textOf(status) + ")" +

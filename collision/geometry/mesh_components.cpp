@@ -43,7 +43,7 @@ MeshComponents findComponents(const TriangleMesh& mesh) {
   std::vector<bool> folded(count);
   for (std::uint32_t t = 0; t < count; ++t) {
     std::uint32_t corner[3];
-    for (int i = 0; i < 3; ++i) corner[i] = welder.index(mesh.corner(t, i));
+    for (int i = 0; i < 3; ++i) corner[i] = welder.addOrFind(mesh.corner(t, i));
     folded[t] = corner[0] == corner[1] || corner[1] == corner[2] || corner[2] == corner[0];
     for (int i = 0; i < 3; ++i) {
       const std::uint32_t a = corner[i], b = corner[(i + 1) % 3];

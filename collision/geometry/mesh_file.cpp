@@ -53,7 +53,7 @@ TriangleMesh welded(const TriangleMesh& mesh) {
   TriangleMesh result;
   result.triangles = mesh.triangles;
   for (auto& triangle : result.triangles) {
-    for (std::uint32_t& corner : triangle) corner = welder.index(mesh.vertices[corner]);
+    for (std::uint32_t& corner : triangle) corner = welder.addOrFind(mesh.vertices[corner]);
   }
   result.vertices = welder.takePoints();
   return result;

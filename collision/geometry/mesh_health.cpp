@@ -171,7 +171,7 @@ MeshHealth inspectMesh(const TriangleMesh& mesh) {
   VertexWelder welder(mesh.vertices.size());
   std::vector<Indices> triangles = mesh.triangles;
   for (Indices& t : triangles) {
-    for (std::uint32_t& corner : t) corner = welder.index(mesh.vertices[corner]);
+    for (std::uint32_t& corner : t) corner = welder.addOrFind(mesh.vertices[corner]);
   }
   const std::vector<Vec3> points = welder.takePoints();
   const Bounds bounds(mesh);
@@ -197,7 +197,7 @@ MeshHealth inspectMesh(const TriangleMesh& mesh) {
   health.components = countComponents(triangles, points.size());
   const EdgeUses edges(triangles);
   health.watertight = edges.areWatertight();
-  health.turnedEdges = edges.turned;
+  health.misorientedEdges = edges.turned;
   if (!health.watertight)
     health.whyNotWatertight = whyNotWatertight(edges, health.distinctTriangles < health.triangles);
   if (health.watertight)

@@ -23,7 +23,7 @@ struct MeshHealth {
   std::size_t nonManifoldEdges = 0;  ///< edges of three or more such triangles
   /// Edges used by two triangles in the same direction: one triangle faces out, the other in.
   /// Triangles with two equal corners do not count.
-  std::size_t turnedEdges = 0;
+  std::size_t misorientedEdges = 0;
   /// Sets of triangles connected through shared corners. (`findComponents` requires shared edges.)
   std::size_t components = 0;
   /// True if every edge is used by exactly two triangles, in opposite directions. Triangles with

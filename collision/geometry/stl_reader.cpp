@@ -37,7 +37,7 @@ ReadMesh readBinary(std::string_view bytes, MeshFaults& faults) {
                           "): a coordinate is not finite");
         continue;
       }
-      mesh.triangles[f][corner] = welder.index(vertex);
+      mesh.triangles[f][corner] = welder.addOrFind(vertex);
     }
   }
   faults.throwIfAny();
@@ -113,7 +113,7 @@ class AsciiStl {
         vertex[i] = 0;
       }
     }
-    return welder_.index(vertex);
+    return welder_.addOrFind(vertex);
   }
 
   void expect(std::string_view keyword) {

@@ -32,7 +32,7 @@ void VertexWelder::grow() {
   for (std::uint32_t i = 0; i < points_.size(); ++i) slots_[slotOf(points_[i])] = i;
 }
 
-std::uint32_t VertexWelder::index(const Vec3& point) {
+std::uint32_t VertexWelder::addOrFind(const Vec3& point) {
   const Vec3 p(point.x() + 0.0, point.y() + 0.0, point.z() + 0.0);
   std::size_t slot = slotOf(p);
   if (slots_[slot] != none_) return slots_[slot];

@@ -14,7 +14,7 @@ class VertexWelder {
   explicit VertexWelder(std::size_t expectedPoints);
 
   /// Returns the number of a point, new or seen before. @pre the point is finite.
-  std::uint32_t index(const Vec3& point);
+  std::uint32_t addOrFind(const Vec3& point);
 
   const std::vector<Vec3>& points() const { return points_; }
   std::vector<Vec3> takePoints() { return std::move(points_); }

@@ -8,10 +8,11 @@
 
 namespace corridor::exact {
 
-/// Tests the swept sphere and the ellipsoid apart. A sphere is inside if its centre is in the
-/// ellipsoid, and its radius is at most `size`. By Cramer's rule the centre p is at
-/// x_i = (p − c)·crosses_i/det along the axes. The condition Σ (x_i/half_i)² ≤ 1 is multiplied by
-/// (half_0 half_1 half_2 det)², because divisions would make the numbers long.
+/// Tests two conditions for a sphere: that its centre is in the core ellipsoid, and that its radius
+/// is at most `size`. Let u_k be the axes, v_k = u_i × u_j the crosses of the other two, and det =
+/// u_0·v_0. By Cramer's rule the centre p is at x_k = (p − c)·v_k/det along the axes. The condition
+/// Σ (x_k/half_k)² ≤ 1 is multiplied by (half_0 half_1 half_2 det)², because divisions would make
+/// the numbers long: `rows_` are the v_k·half_i·half_j.
 template <>
 class ExactVolume<Ellipsoid> {
  public:
@@ -44,10 +45,10 @@ class ExactVolume<Ellipsoid> {
   std::array<Row, 3> rows_;
 };
 
-/// Tests the swept sphere and the core apart, as for ellipsoids. A triangle is inside if its
-/// corners are in the outer sphere and the cone, which are convex, and if a direction n proves that
-/// it is outside of the inner sphere. The only candidate for n is that of the fit, so the proof may
-/// fail for a triangle that is inside.
+/// Tests the centre and the radius of a sphere separately, as for ellipsoids. A triangle is inside
+/// if its corners are in the outer sphere and the cone, which are convex, and if a direction n
+/// proves that it is outside of the inner sphere. The only candidate for n is that of the fit, so
+/// the proof may fail for a triangle that is inside.
 template <>
 class ExactVolume<Shell> {
  public:

@@ -72,7 +72,7 @@ class Nearest {
     for (std::uint32_t s = na.first; s < na.first + na.count; ++s)
       for (std::uint32_t t = nb.first; t < nb.first + nb.count; ++t) {
         ++counters_.triangleTests;
-        if (nearest_.look(s, Items::item(a_, s), t, Items::item(b_, t), counters_)) return true;
+        if (nearest_.testPair(s, Items::item(a_, s), t, Items::item(b_, t), counters_)) return true;
       }
     return false;
   }

@@ -76,11 +76,11 @@ class Nearest : public BoxesWithin<true> {
   Distance result() {
     // The pair `closest_` is measured first: because of the allowed error, the limit may be below
     // the bound of the pair that set it, so that the loop below would skip this pair.
-    if (least_ < HUGE_VALF) look(closest_.a, closest_.b);
+    if (least_ < HUGE_VALF) testPair(closest_.a, closest_.b);
     std::erase_if(candidates_, [&](const auto& c) { return c.bound > limit_; });
     std::ranges::sort(candidates_, {}, [](const auto& c) { return std::tuple(c.bound, c.a, c.b); });
     for (const auto& [s, t, bound] : candidates_)
-      if (!(bound > limit_) && !(s == closest_.a && t == closest_.b)) look(s, t);
+      if (!(bound > limit_) && !(s == closest_.a && t == closest_.b)) testPair(s, t);
     return nearest_.result(a_, b_);
   }
 
@@ -106,7 +106,7 @@ class Nearest : public BoxesWithin<true> {
             const auto bit = static_cast<unsigned>(std::countr_zero(rest));
             const auto [s, t] = pairs.triangles(first + bit);
             if (upper[bit] == HUGE_VALF) {  // too far apart for floats, so bounded in double
-              look(s, t);
+              testPair(s, t);
             } else if (!(lower[bit] > limit_)) {
               candidates_.push_back({s, t, lower[bit]});
             }
@@ -115,8 +115,8 @@ class Nearest : public BoxesWithin<true> {
         });
   }
 
-  void look(std::uint32_t s, std::uint32_t t) {
-    nearest_.look(s, a_.triangle(s), t, b_.triangle(t), counters_);
+  void testPair(std::uint32_t s, std::uint32_t t) {
+    nearest_.testPair(s, a_.triangle(s), t, b_.triangle(t), counters_);
     lowerLimit(nearest_.upper());
   }
   void lowerLimit(double metres) { BoxesWithin::lowerLimit(metres, options_); }

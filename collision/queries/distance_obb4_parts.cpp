@@ -34,7 +34,7 @@ class NearestWithParts : public BoxesWithin<true> {
       pairs &= ~(1U << nearest);
       if (forEachLeafPrimitivePair(
               na, nb, 1U << nearest,
-              [&](unsigned, std::uint32_t s, std::uint32_t t) { return look(s, t); }))
+              [&](unsigned, std::uint32_t s, std::uint32_t t) { return testPair(s, t); }))
         return true;
     }
     return false;
@@ -43,10 +43,10 @@ class NearestWithParts : public BoxesWithin<true> {
   Distance result() { return nearest_.result(a_, b_); }
 
  private:
-  bool look(std::uint32_t s, std::uint32_t t) {
+  bool testPair(std::uint32_t s, std::uint32_t t) {
     ++counters_.triangleTests;
     const Obb4LeafSet setA(a_, s), setB(b_, t);
-    if (nearest_.look(s, setA.set(), t, setB.set(), counters_)) return true;
+    if (nearest_.testPair(s, setA.set(), t, setB.set(), counters_)) return true;
     lowerLimit(nearest_.upper(), options_);
     return false;
   }

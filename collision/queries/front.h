@@ -15,7 +15,7 @@ namespace corridor {
 /// the last traversal, which is the set of node pairs at which it stopped (generalised front
 /// tracking: Ehmann, Lin, "Accurate and fast proximity queries between polyhedra using convex
 /// surface decomposition", 2001). Every pair keeps its gap, a proved lower bound of the distance.
-/// The pair is not tested again until the body may have moved by as much: the slack is used up.
+/// The pair is not tested again until the body may have moved by as much as the gap.
 ///
 /// A value that the caller owns. It belongs to two trees: `clear` it before it is used with others,
 /// or after a tree was refitted. Copies are independent.
@@ -47,7 +47,7 @@ class Front {
 /// tested; if it moves by much, the query costs somewhat more than `interference`.
 ///
 /// Each motion is bounded by |Δt| + ‖ΔM‖_F·reach, where `reach` is that of b's tree. The bounds are
-/// added up. So the slack lasts for a path of the length of the gap, not for a distance.
+/// added up. So the length of the path uses up the gap, even if the body comes back.
 /// @param b  the tree that moves, under the map from its frame to a's.
 /// @pre Both are trees of triangles. The map is finite. Instantiated for `Obb` and `Rss`.
 template <BoundingVolume Volume>

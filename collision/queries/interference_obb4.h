@@ -23,7 +23,8 @@ namespace corridor {
 /// are nearly rigid. Convex parts are tested by `convexSetsTouch`, with its guarantee.
 /// @pre The maps are finite.
 ///
-/// Gives up and returns nullopt soon after the counted box and triangle tests reach `workEnd`.
+/// Gives up and returns nullopt soon after the box and triangle tests, as the context counts them,
+/// reach `workEnd` in sum.
 ///
 /// Uses the best SIMD target of the machine, chosen at run time. Every target gives the same
 /// verdict. All targets with fused multiply-add (all except SSE) give the same counts.

@@ -39,8 +39,8 @@ class NearestParts : public NearestPairs {
 
   /// Bounds the distance of a pair of leaf primitives, numbered in leaf order; returns whether they
   /// touch.
-  bool look(std::uint32_t s, const ConvexSet& a, std::uint32_t t, const ConvexSet& b,
-            Counters& counters) {
+  bool testPair(std::uint32_t s, const ConvexSet& a, std::uint32_t t, const ConvexSet& b,
+                Counters& counters) {
     const PosedSet posedA(a, X_WA_), posedB(b, X_WB_);
     const ConvexRange range = convexDistanceRange(posedA, posedB, upper(), 0);
     const PredicateResult touches =

@@ -20,8 +20,8 @@ class NearestTriangles : public NearestPairs {
 
   /// Bounds the distance of a pair of triangles, numbered in leaf order. Returns true if they
   /// touch: then no other pair can be closer.
-  bool look(std::uint32_t s, const Triangle& a, std::uint32_t t, const Triangle& b,
-            Counters& counters) {
+  bool testPair(std::uint32_t s, const Triangle& a, std::uint32_t t, const Triangle& b,
+                Counters& counters) {
     const DistanceRange range = bounds_(a, b);
     if (range.lower == 0 && touch(a, b, counters)) {
       keepContact(s, t);

@@ -53,8 +53,8 @@ Hull hullOf(std::vector<Vec3> points, double size) {
   for (const Vec3& v : hull.vertices) balls.push_back({v});
   const BoundingSphere sphere =
       BoundingSphere::around(enclosingObb(balls, Mat3::Identity()), balls);
-  hull.middle = sphere.center;
-  hull.ball = roundedUp(sphere.size + size);
+  hull.boundingCenter = sphere.center;
+  hull.boundingRadius = roundedUp(sphere.size + size);
   return hull;
 }
 
@@ -92,7 +92,7 @@ Hull Hull::merged(const Hull& a, const Hull& b) {
 }
 
 double Hull::centerReach() const {
-  double farthest = middle.stableNorm();
+  double farthest = boundingCenter.stableNorm();
   for (const Vec3& v : vertices) farthest = std::max(farthest, v.stableNorm());
   return roundedUp(farthest);
 }

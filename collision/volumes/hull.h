@@ -12,8 +12,8 @@ namespace corridor {
 struct Hull {
   std::vector<Vec3> vertices;  ///< points of the content: the extreme ones, and maybe a few others
   double size = 0;             ///< the largest radius of the content's spheres
-  Vec3 middle = Vec3::Zero();  ///< centre of a sphere that contains the volume
-  double ball = 0;             ///< its radius, rounded up
+  Vec3 boundingCenter = Vec3::Zero();  ///< centre of a sphere that contains the volume
+  double boundingRadius = 0;           ///< its radius, rounded up
 
   static constexpr bool kOriented = false;
   static Hull around(const Obb& box, const Content& content);
@@ -21,10 +21,10 @@ struct Hull {
   static Hull merged(const Hull& a, const Hull& b);
   Mat3 frameAxes() const { return Mat3::Identity(); }
   double axisDefect() const { return 0; }
-  /// The largest |x|₂ of the vertices and the middle, rounded up.
+  /// The largest |x|₂ of the vertices and of `boundingCenter`, rounded up.
   double centerReach() const;
-  double radius() const { return ball; }
-  const Vec3& ballCenter() const { return middle; }
+  double radius() const { return boundingRadius; }
+  const Vec3& ballCenter() const { return boundingCenter; }
   /// Memory outside of the object itself.
   std::size_t extraBytes() const { return vertices.capacity() * sizeof(Vec3); }
 };

@@ -24,7 +24,7 @@ Extreme farthest(const std::vector<Vec3>& vertices, const Vec3& n) {
 }
 
 BoundingSphere sphereOf(const Hull& hull) {
-  return {hull.middle, hull.ball};
+  return {hull.boundingCenter, hull.boundingRadius};
 }
 
 }  // namespace
@@ -56,8 +56,8 @@ double PairTest<Hull>::alongDirections(const Hull& a, const Hull& b, double pad,
                                        double agreed) const {
   if (!(slack_ < HUGE_VAL)) return 0;
   const double radii = a.size + b.size, loss = slack_ + radii * (1 + relative_);
-  const Vec3 between = X_AB_ * b.middle - a.middle;
-  const double size = between.cwiseAbs().sum() + a.ball + b.ball;
+  const Vec3 between = X_AB_ * b.boundingCenter - a.boundingCenter;
+  const double size = between.cwiseAbs().sum() + a.boundingRadius + b.boundingRadius;
   return internal::widestGap(between, size, radii + pad, enough, agreed, [&](const Vec3& n) {
     const Vec3 m = X_AB_.m.transpose() * n;
     const Extreme p = farthest(a.vertices, n), q = farthest(b.vertices, -m);

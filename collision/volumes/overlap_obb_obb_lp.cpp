@@ -49,7 +49,7 @@ bool LinearProgram::separated(const Obb& boxA, const Obb& boxB, const Transform&
   }
   seidel::Point<double, 3> x;
   seidel::Tight<3> conflict;
-  seidel::Stack<double, 2, 6> memory;
+  seidel::StackMemory<double, 2, 6> memory;
   if (seidel::solve<double, 3>(bounds, std::span<const seidel::HalfSpace<double, 3>>(faces),
                                {pair.T[0], pair.T[1], pair.T[2]}, x, conflict, memory))
     return false;

@@ -63,7 +63,7 @@ Range distances(const Shell& shell, const Cone& cone, const Vec3& d, const Vec3&
 }
 
 BoundingSphere sphereOf(const Shell& shell) {
-  return {shell.middle, shell.ball};
+  return {shell.boundingCenter, shell.boundingRadius};
 }
 
 }  // namespace
@@ -108,8 +108,8 @@ double PairTest<Shell>::byDistances(const Placed& pair) const {
 double PairTest<Shell>::byDirections(const Placed& pair, double pad, double enough,
                                      double agreed) const {
   const Shell &a = pair.a, &b = pair.b;
-  const Vec3 between = X_AB_ * b.middle - a.middle;
-  const double size = between.cwiseAbs().sum() + a.ball + b.ball;
+  const Vec3 between = X_AB_ * b.boundingCenter - a.boundingCenter;
+  const double size = between.cwiseAbs().sum() + a.boundingRadius + b.boundingRadius;
   const auto reach = [](const Shell& shell, double g) {
     return g * (g >= 0 ? shell.outer : shell.inner);
   };

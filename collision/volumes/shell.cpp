@@ -100,18 +100,18 @@ Shell shellAbout(const Vec3& center, const Vec3& towards, const Content& content
   // of the core are nearer: the squared distance of d from m is |d|² + m² − 2m·|d|·cos, which is
   // convex in |d|, and the larger the wider the angle. The middle is off by 4u of its terms.
   double m = 0;
-  shell.ball = shell.outer;
-  shell.middle = shell.center;
+  shell.boundingRadius = shell.outer;
+  shell.boundingCenter = shell.center;
   if (shell.hasCone()) {
     const double cosine = shell.cosine(), sine = shell.slope * cosine, out = shell.outer / unit,
                  in = shell.inner / unit;
     m = std::min(out * cosine, 0.5 * (out + in) / cosine);
-    shell.middle = shell.center + unit * m * shell.axis;
+    shell.boundingCenter = shell.center + unit * m * shell.axis;
     const auto rim = [&](double r) { return Vec3(r * sine, r * cosine - m, 0).norm(); };
-    shell.ball = unit * (std::max(rim(out), rim(in)) + 32 * kUnit * out) +
-                 4 * kUnit * shell.middle.cwiseAbs().sum();
+    shell.boundingRadius = unit * (std::max(rim(out), rim(in)) + 32 * kUnit * out) +
+                           4 * kUnit * shell.boundingCenter.cwiseAbs().sum();
   }
-  shell.ball = roundedUp(shell.ball + shell.size);
+  shell.boundingRadius = roundedUp(shell.boundingRadius + shell.size);
   return shell;
 }
 
@@ -146,7 +146,7 @@ Shell Shell::around(const Obb& box, const Content& content) {
 }
 
 double Shell::centerReach() const {
-  return roundedUp(std::max(center.stableNorm(), middle.stableNorm()));
+  return roundedUp(std::max(center.stableNorm(), boundingCenter.stableNorm()));
 }
 
 }  // namespace corridor

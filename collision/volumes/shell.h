@@ -26,8 +26,8 @@ struct Shell {
   double inner = 0, outer = 0;
   double size = 0;  ///< radius of the swept sphere: the largest of the content
   /// A sphere that contains the volume: its centre, and its radius rounded up.
-  Vec3 middle = Vec3::Zero();
-  double ball = 0;
+  Vec3 boundingCenter = Vec3::Zero();
+  double boundingRadius = 0;
 
   static constexpr double kNoCone = std::numeric_limits<double>::infinity();
   bool hasCone() const { return slope < kNoCone; }
@@ -43,10 +43,10 @@ struct Shell {
   static Shell around(const Obb& box, const Content& content);
   Mat3 frameAxes() const { return Mat3::Identity(); }
   double axisDefect() const { return 0; }
-  /// The larger of |center|₂ and |middle|₂, rounded up.
+  /// The larger of |center|₂ and |boundingCenter|₂, rounded up.
   double centerReach() const;
-  double radius() const { return ball; }
-  const Vec3& ballCenter() const { return middle; }
+  double radius() const { return boundingRadius; }
+  const Vec3& ballCenter() const { return boundingCenter; }
 };
 
 /// Returns the direction from the origin to the closest point of a triangle, scaled so that its

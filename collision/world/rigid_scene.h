@@ -5,9 +5,9 @@
 
 namespace corridor {
 
-/// A `Scene` of one rigid body, made of the bodies `moving`, among the bodies `fixed`, whose frame
-/// is the world. Like a `Scene`, it is const after construction. Threads may share it, each with
-/// its own `QueryContext`.
+/// A `Scene` in which the bodies `moving` move as one rigid body among the bodies `fixed`, which
+/// stand still in the world. Like a `Scene`, it is const after construction. Threads may share it,
+/// each with its own `QueryContext`.
 class RigidScene {
  public:
   /// In `scene()` the fixed bodies come first, on frame 0; the moving ones follow, on frame 1.
@@ -24,7 +24,7 @@ class RigidScene {
   double defaultTolerance(double farthest = 0) const { return scene_.defaultTolerance(farthest); }
 
   /// All queries throw std::invalid_argument for poses that are not finite, a zero quaternion, and
-  /// numbers that are not finite or out of range.
+  /// options or tubes with numbers that are not finite, or out of range.
 
   /// Returns a contact of the moving bodies under X_WB, or nullopt. `Scene::interference` states
   /// how exact the answer is.

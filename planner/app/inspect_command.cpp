@@ -55,7 +55,7 @@ ordered_json meshJson(const MeshFile& file) {
                     {"sliver_triangles", health.sliverTriangles},
                     {"boundary_edges", health.boundaryEdges},
                     {"non_manifold_edges", health.nonManifoldEdges},
-                    {"turned_edges", health.turnedEdges}};
+                    {"turned_edges", health.misorientedEdges}};
   if (!health.watertight) j["why_not_watertight"] = health.whyNotWatertight;
   if (health.volume) j["volume_m3"] = *health.volume;
   return j;
@@ -121,7 +121,7 @@ int inspectMeshFile(const InspectArguments& a) {
   out.line("slivers", grouped(health.sliverTriangles));
   out.line("boundary edges", grouped(health.boundaryEdges));
   out.line("non-manifold edges", grouped(health.nonManifoldEdges));
-  out.line("turned edges", grouped(health.turnedEdges));
+  out.line("turned edges", grouped(health.misorientedEdges));
   if (const auto tree = treeOf(file.mesh))
     out.line("tree",
              counted(tree->nodes, "node") + " of four boxes, " +

@@ -12,8 +12,8 @@ namespace corridor::app {
 /// Returns "kept at every instant; velocity 97.3 % (elbow); …", "exceeded; …", or "not all tested;
 /// …" with the limits that were not.
 std::string limitsText(const Problem& problem, const LimitRatios& ratios);
-/// Adds `limits` (`limitsVerdict`) and the share of each limit to a JSON object. The share of
-/// a limit that was not tested is null.
+/// Adds to a JSON object the key `limits`, with the text of `limitsVerdict`, and for each limit the
+/// share that the motion uses (1: all of it). The share of a limit that was not tested is null.
 void addLimits(nlohmann::ordered_json& json, const LimitRatios& ratios);
 
 }  // namespace corridor::app

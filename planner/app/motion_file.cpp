@@ -8,8 +8,9 @@
 namespace corridor::app {
 namespace {
 
-std::optional<Between> betweenNamed(const std::optional<std::string>& name) {
-  for (const Between between : {Between::linear, Between::cubic, Between::quintic})
+std::optional<RowInterpolation> betweenNamed(const std::optional<std::string>& name) {
+  for (const RowInterpolation between :
+       {RowInterpolation::linear, RowInterpolation::cubic, RowInterpolation::quintic})
     if (name == nameOf(between)) return between;
   return std::nullopt;
 }

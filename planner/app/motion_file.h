@@ -12,8 +12,8 @@ namespace corridor::app {
 struct MotionFile {
   std::optional<Solution> solution;
   std::optional<TrajectoryRows> trajectory;
-  /// What lies between the rows of a trajectory by the option --between; unset: as betweenOf.
-  std::optional<Between> between;
+  /// What lies between the rows of a trajectory by the option --between; unset: as interpolationOf.
+  std::optional<RowInterpolation> between;
 };
 
 /// Reads a solution, an OMPL.app .path file or a trajectory; "-" is the standard input.

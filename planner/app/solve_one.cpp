@@ -61,7 +61,7 @@ SolveReport bestOf(const SolveArguments& a, Problem& problem, const SolveOptions
       best = std::move(report);
   }
   problem.settings.seed = best.seed;
-  if (a.tries > 1 && best.outcome == SolveOutcome::solved && !best.repeats)
+  if (a.tries > 1 && best.outcome == SolveOutcome::solved && !best.repeatable)
     best.notes.push_back(
         {"the planner does not repeat, or its time ran out: the seed of the path "
          "that is kept may give another path",

@@ -155,7 +155,7 @@ ordered_json jsonOf(const Solved& result, const std::string& problem) {
                     {"seed", r.seed},
                     {"tries", result.tries},
                     {"restarts", r.restarts},
-                    {"repeats", r.repeats},
+                    {"repeats", r.repeatable},
                     {"time_s", r.time},
                     {"planning_time_s", r.planningTime},
                     {"phases", phases},

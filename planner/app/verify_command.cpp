@@ -25,7 +25,7 @@ namespace {
 struct VerifyArguments {
   std::string problem, solution;
   std::optional<double> margin;
-  std::optional<std::string> between;  ///< the name of a Between; trajectories only
+  std::optional<std::string> between;  ///< the name of a RowInterpolation; trajectories only
   bool ignoreDigest = false;  ///< verify the solution even if its digest is not the problem's
   bool limits = false;        ///< unless all limits over time are kept, the exit status is 1
   bool json = false, quiet = false;

@@ -64,15 +64,15 @@ void requireExtension(const std::optional<std::string>& file, const char* option
 
 /// Draws the volumes of a level of a mesh's tree, as an SVG picture.
 int viewVolumes(const ViewArguments& a) {
-  const auto ofProblem = [](const char* option, bool given) {
+  const auto refuseIfGiven = [](const char* option, bool given) {
     if (given)
       throw InputError(Fault{option, 0, "can't be used with --volume, which draws a mesh"});
   };
-  ofProblem("TRAJECTORY", a.trajectory.has_value());
-  ofProblem("--between", a.between.has_value());
-  ofProblem("--ignore-digest", a.ignoreDigest);
-  ofProblem("--image", a.image.has_value());
-  ofProblem("--size", a.size.has_value());
+  refuseIfGiven("TRAJECTORY", a.trajectory.has_value());
+  refuseIfGiven("--between", a.between.has_value());
+  refuseIfGiven("--ignore-digest", a.ignoreDigest);
+  refuseIfGiven("--image", a.image.has_value());
+  refuseIfGiven("--size", a.size.has_value());
   requireExtension(a.output, "--output", "pictures of volumes are SVG", {".svg"});
   if (const auto wrong = invalidNameIn({*a.volume, "", ""}))
     throw InputError(Fault{"--" + wrong->key, 0, wrong->text});
@@ -227,8 +227,8 @@ void addView(CLI::App& program, int& status) {
   for (const VolumeKind& kind : volumeKinds()) names.push_back(kind.name);
   command
       ->add_option("--volume", a.volume,
-                   "PROBLEM is a mesh file: draw it with the bounding volumes of its tree, as an "
-                   "SVG picture (-o, default: MESH_VOLUME_LEVEL.svg): " +
+                   "draw the bounding volumes of a mesh's tree as an SVG picture (-o, default: "
+                   "MESH_VOLUME_LEVEL.svg); PROBLEM is then a mesh file. One of " +
                        joined(names))
       ->group(volumes);
   command

@@ -131,7 +131,7 @@ bool ChildProcess::takeLine() {
   return true;
 }
 
-bool ChildProcess::advance() {
+bool ChildProcess::poll() {
   while (!over()) {
     if (takeLine()) continue;
     char part[65536];
@@ -170,7 +170,7 @@ void ChildProcess::waitForAny(const std::vector<ChildProcess*>& children, int mi
 ChildEnd inChild(const ChildProcess::Work& work, const ChildLimits& limits,
                  const std::atomic<bool>* interrupted) {
   ChildProcess child(work, limits);
-  while (!child.advance()) {
+  while (!child.poll()) {
     if (interrupted && interrupted->load())
       child.stop("interrupted");
     else

@@ -32,8 +32,8 @@ class ChildProcess {
  public:
   using Work = std::function<void(const std::function<void(const std::string&)>& send)>;
 
-  /// Starts the work. @pre the caller has one thread. Further threads are harmless if the child
-  /// needs no lock of theirs, such as those of MPI; glibc's own locks are free in the child.
+  /// Starts the work. @pre the caller has one thread, or the work needs no lock that another thread
+  /// may hold. (The threads of MPI are harmless, and glibc's own locks are free in the child.)
   /// @throws std::system_error if no further process or pipe can be created.
   ChildProcess(const Work& work, const ChildLimits& limits);
   ~ChildProcess();  ///< kills the child if it is still running
@@ -41,11 +41,11 @@ class ChildProcess {
   ChildProcess& operator=(ChildProcess&&) = delete;
 
   /// Reads the messages sent so far, and kills the child if it took too long. @returns `over()`.
-  bool advance();
+  bool poll();
   /// Kills the child, with `reason` as its failure. Does nothing if the child has ended.
   void stop(const std::string& reason);
   bool over() const { return id_ < 0; }  ///< whether the child has ended
-  /// Whether a message has arrived, as of the last call of `advance`.
+  /// Whether a message has arrived, as of the last call of `poll`.
   bool hasSent() const { return !end_.messages.empty(); }
   const ChildEnd& end() const { return end_; }  ///< @pre over
 

@@ -24,7 +24,7 @@ std::vector<TaskEnd> LocalExecutor::wait(int milliseconds) {
   ChildProcess::waitForAny(children, milliseconds);
   std::vector<TaskEnd> ends;
   for (const Running& one : running_) {
-    if (!one.child->advance()) continue;
+    if (!one.child->poll()) continue;
     ends.push_back({one.task, one.child->end()});
     std::vector<std::string>& messages = ends.back().end.messages;
     for (std::size_t i = 0; i + 1 < messages.size(); ++i) messages[i].clear();

@@ -26,8 +26,8 @@ struct LinkSpeed {
 
 /// The limits of a motion over time, for each number of a Configuration. Values are > 0; infinity
 /// means that there is no limit.
-/// - A single joint has its limits at its number: rad/s, rad/s², rad/s³, or m/s and so on if it is
-///   prismatic. Joints that mimic it may have reduced them.
+/// - The limits of a single joint (a joint with one number) are at the index of that number: rad/s,
+///   rad/s², rad/s³, or m/s and so on if it is prismatic. Joints that mimic it may make them lower.
 /// - The position of a planar or floating joint has limits of the length of the vector (ṗ, p̈, p⃛),
 ///   at the first of its numbers (x); those of its other numbers are infinite. So a diagonal motion
 ///   is as fast as one along an axis.
@@ -48,7 +48,7 @@ struct LimitValues {
 
 /// All limits that a user gives for a problem, before they are applied to its model.
 struct LimitSpec {
-  LimitValues joints;    ///< for each single joint that has no limit of its own
+  LimitValues joints;    ///< for each single joint without an entry in `named`
   LimitValues slides;    ///< for prismatic joints, in place of `joints`; m/s, m/s², m/s³
   LimitValues position;  ///< for the position of each planar and floating joint; m/s, m/s², m/s³
   LimitValues rotation;  ///< for the rotation of these joints; rad/s, rad/s², rad/s³
@@ -66,16 +66,16 @@ inline constexpr double kAssumedAcceleration = 1;
 /// Applies limits to a model. A limit in `named` comes first. Otherwise, let d be the limit in
 /// `joints`, or in `slides` for a prismatic joint: the velocity is the smaller one of d and the
 /// URDF's; acceleration and jerk are d. An acceleration that nothing gives is kAssumedAcceleration,
-/// with a note. A joint that mimics another one limits it only if it is
-/// named: a limit L of the follower limits the leader by L/|multiplier|.
+/// with a note. If a mimicking joint is in `named`, its limit L limits
+/// its leader by L/|multiplier|; otherwise it limits nothing.
 /// @pre names in `spec` are those of the model (`jointsWithLimits`, links).
 JointLimits limitsOf(const Model& model, const LimitSpec& spec = {});
 
-/// A single joint that limits can be named for.
+/// A joint for which limits can be given by name.
 struct LimitedJoint {
   std::string name;        ///< "elbow", "left/elbow"
   std::string plain;       ///< the URDF's name: "elbow"
-  std::size_t number = 0;  ///< index of the number in a Configuration that it moves with
+  std::size_t number = 0;  ///< index, in a Configuration, of the number that moves the joint
   double multiplier = 1;   ///< of a mimic; else 1
   bool isMimic = false;
   bool isPrismatic = false;

@@ -10,7 +10,7 @@
 namespace corridor {
 
 bool canMove(const JointModel& joint) {
-  return movesItself(joint) && joint.lower != joint.upper;
+  return hasOwnValue(joint) && joint.lower != joint.upper;
 }
 
 std::vector<std::size_t> allMoving(const ModelRobot& robot) {
@@ -30,7 +30,7 @@ std::string whyNoneMoves(const ModelRobot& robot) {
   bool isHeld = false;
   const std::vector<JointModel>& joints = robot.description.joints;
   for (std::size_t j = 0; j < joints.size(); ++j) {
-    if (!movesItself(joints[j])) continue;
+    if (!hasOwnValue(joints[j])) continue;
     if (canMove(joints[j])) {
       isHeld = true;
       continue;
@@ -73,7 +73,7 @@ void chooseJoints(ModelRobot& robot, const std::vector<std::size_t>& active) {
   const RobotModel& model = robot.description;
   for (std::size_t j = 0; j < model.joints.size(); ++j) {
     const JointModel& joint = model.joints[j];
-    if (!movesItself(joint) || robot.held.contains(j) || robot.heldPoses.contains(j) ||
+    if (!hasOwnValue(joint) || robot.held.contains(j) || robot.heldPoses.contains(j) ||
         std::find(active.begin(), active.end(), j) != active.end())
       continue;
     if (isPoseJoint(joint.type))

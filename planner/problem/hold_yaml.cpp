@@ -20,7 +20,7 @@ std::optional<std::string> readHold(const YamlMap& file, RobotSetup& setup) {
   std::vector<Note>& notes = setup.robot.description.notes;
   const auto read = [&](std::size_t j, const YamlValue::Entry& entry, bool degrees) {
     const JointModel& joint = model.joints[j];
-    if (!movesItself(joint)) return map.fault(entry.key, whyNotActive(model, j));
+    if (!hasOwnValue(joint)) return map.fault(entry.key, whyNotActive(model, j));
     const std::string path = map.pathOf(entry.key);
     if (isPoseJoint(joint.type)) {
       if (const auto pose = readJointPose(entry.value, path, joint, file.source(), notes))
@@ -88,7 +88,7 @@ void holdState(const std::string& name, const std::vector<std::size_t>& planned,
   bool holds = false;
   for (std::size_t j = 0; j < robot.description.joints.size(); ++j) {
     const JointModel& joint = robot.description.joints[j];
-    if (!movesItself(joint) || robot.heldByFile.contains(j)) continue;
+    if (!hasOwnValue(joint) || robot.heldByFile.contains(j)) continue;
     if (std::find(planned.begin(), planned.end(), j) != planned.end()) continue;
     if (isPoseJoint(joint.type)) {
       const auto pose = poseIn(*state, joint);

@@ -180,7 +180,7 @@ void readStates(const YamlMap& file, RobotModel& model) {
     NamedState state;
     readJointValues(map, model, [&](std::size_t j, const YamlValue::Entry& entry, bool degrees) {
       const JointModel& joint = model.joints[j];
-      if (!movesItself(joint)) return map.fault(entry.key, whyNotActive(model, j));
+      if (!hasOwnValue(joint)) return map.fault(entry.key, whyNotActive(model, j));
       if (isPoseJoint(joint.type)) {
         if (const auto pose = readJointPose(entry.value, map.pathOf(entry.key), joint,
                                             file.source(), model.notes))

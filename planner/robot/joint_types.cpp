@@ -42,7 +42,7 @@ bool isPoseJoint(JointType type) {
   return type == JointType::planar || type == JointType::floating;
 }
 
-bool movesItself(const JointModel& joint) {
+bool hasOwnValue(const JointModel& joint) {
   return joint.type != JointType::fixed && !joint.mimic;
 }
 

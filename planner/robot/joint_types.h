@@ -24,7 +24,7 @@ std::vector<std::string> jointTypeNames();
 /// value.
 bool isPoseJoint(JointType type);
 /// Returns whether the joint has a value of its own: it is neither fixed nor a mimic.
-bool movesItself(const JointModel& joint);
+bool hasOwnValue(const JointModel& joint);
 
 /// Returns the index of the joint with this name.
 std::optional<std::size_t> findJoint(const RobotModel& model, std::string_view name);

@@ -85,7 +85,7 @@ MeshStore::MeshStore(const std::filesystem::path& urdf, const UrdfRules& rules,
 
 bool MeshStore::isDoubtful(const std::string& package) const {
   const std::filesystem::path& folder = guessed_.at(package);
-  return used_.contains(folder) ||
+  return foundByName_.contains(folder) ||
          std::any_of(guessed_.begin(), guessed_.end(), [&](const auto& other) {
            return other.first != package && other.second == folder;
          });
@@ -135,7 +135,7 @@ MeshStore::Place MeshStore::inPackage(const std::string& name) {
   // The usual layout of a package is PACKAGE/urdf/robot.urdf. Other packages are beside it.
   const std::vector<Folder>& above = foldersAbove();
   const auto found = [&](const std::filesystem::path& folder) -> Place {
-    used_.insert(folder);
+    foundByName_.insert(folder);
     return {folder / rest, ""};
   };
   for (const Folder& folder : above)

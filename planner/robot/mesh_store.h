@@ -30,7 +30,8 @@ class MeshStore {
   Place add(const std::string& name);
   /// Returns the names of the Collada files whose up-axis is not z, and was not applied.
   std::vector<std::string> ignoredUpAxes() const;
-  /// Returns the packages of which only a folder of another name above the URDF has the meshes.
+  /// Returns the packages that no folder has the name of, but whose meshes are in a folder of
+  /// another name above the URDF.
   const std::map<std::string, std::filesystem::path>& guessedPackages() const { return guessed_; }
   /// Returns whether the folder of a guessed package is also the folder of another package. The
   /// meshes may then be those of the other package, with the same file names.
@@ -46,7 +47,7 @@ class MeshStore {
  private:
   struct Folder {
     std::filesystem::path path;
-    std::string package;  ///< the name of the package whose root the folder would be
+    std::string package;  ///< the name of the package, if this folder is its root
     bool hasPackageXml = false;
   };
   /// Returns the folders that contain the URDF, the innermost first; without the root.
@@ -60,7 +61,7 @@ class MeshStore {
   /// The folders of each package that was searched for on ROS's paths.
   std::map<std::string, std::vector<std::filesystem::path>> rosFolders_;
   std::vector<Folder> above_;                             // see `foldersAbove`
-  std::set<std::filesystem::path> used_;                  // folders found by a package's name
+  std::set<std::filesystem::path> foundByName_;           // folders found by a package's name
   std::map<std::string, std::filesystem::path> guessed_;  // see `guessedPackages`
   std::set<std::string> missing_;                         // packages without a folder, reported
   std::size_t threeSlashes_ = 0;   // number of names that begin with package:///

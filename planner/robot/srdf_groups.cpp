@@ -275,7 +275,7 @@ class GroupReader {
     const auto index = names_.findJoint(element, "name", owner, unknown);
     if (!index) return;
     const JointModel& joint = model_.joints[*index];
-    if (!movesItself(joint)) return ignored.push_back(joint.name);
+    if (!hasOwnValue(joint)) return ignored.push_back(joint.name);
     const std::vector<const char*> parts =
         joint.type == JointType::planar ? std::vector{"/x", "/y", "/yaw"}
         : joint.type == JointType::floating

@@ -15,7 +15,7 @@ namespace corridor {
 
 namespace og = ompl::geometric;
 
-Path readPath(const og::PathGeometric& path) {
+Path configurationsOf(const og::PathGeometric& path) {
   Path states;
   for (const ompl::base::State* state : const_cast<og::PathGeometric&>(path).getStates())
     states.push_back(configurationOf(*path.getSpaceInformation(), state));
@@ -42,7 +42,7 @@ Path withShortTurns(const ConfigurationSpace& space, const Path& path) {
   return states;
 }
 
-bool certifiedPath(const Checker& checker, const Path& path, const EdgeMemory* proved) {
+bool isCertified(const Checker& checker, const Path& path, const EdgeMemory* proved) {
   if (path.empty() || !checker.isProvedFree(path.front())) return false;
   for (std::size_t i = 1; i < path.size(); ++i) {
     const bool known = proved && proved->knowsFree(path[i - 1], path[i]);

@@ -19,7 +19,7 @@ namespace corridor {
 using Path = std::vector<Configuration>;
 
 /// Returns the configurations of an OMPL path. @pre the path's space is a ProblemStateSpace.
-Path readPath(const ompl::geometric::PathGeometric& path);
+Path configurationsOf(const ompl::geometric::PathGeometric& path);
 
 /// Shortens a path by OMPL's `PathSimplifier::simplify`, with random numbers and edge tests of its
 /// own: the baseline of `simplifiedVersions` (simplify_path.h). It ends when OMPL finds no more
@@ -27,16 +27,16 @@ Path readPath(const ompl::geometric::PathGeometric& path);
 void simplifyByOmpl(const std::shared_ptr<ompl::base::SpaceInformation>& si,
                     ompl::geometric::PathGeometric& path, const std::function<bool()>& stop);
 
-/// Returns the path without repeated states, and with states inserted on its edges so that no
-/// circle or rotation turns by more than 90° between two states. Every edge is then far from a half
-/// turn, whose direction is not defined.
+/// Returns the path without edges of length 0 (only the last may remain), and with states inserted
+/// on its edges so that no circle or rotation turns by more than 90° between two states. Every edge
+/// is then far from a half turn, whose direction is not defined.
 Path withShortTurns(const ConfigurationSpace& space, const Path& path);
 
 /// Tests the path again, by the checker's certified method, whatever method the planner used.
 /// Returns whether all states are in bounds and all edges are certified.
-/// @param proved if not null, the edges that it knows to be free are not tested again: this method
-/// must have proved them.
-bool certifiedPath(const Checker& checker, const Path& path, const EdgeMemory* proved = nullptr);
+/// @param proved if not null, the edges that it knows to be free are not tested again. @pre
+/// the certified method has proved them, with this checker.
+bool isCertified(const Checker& checker, const Path& path, const EdgeMemory* proved = nullptr);
 
 /// The length of a path, summed over its edges. `metres`: |Δp| of planar and floating joints, and
 /// |Δq| of prismatic joints. `radians`: the rotation angles of planar and floating joints, and |Δq|
@@ -48,7 +48,7 @@ PathLength lengthOf(const ConfigurationSpace& space, const Path& path);
 /// Returns the length of a path in the space's distance.
 double distanceAlong(const ConfigurationSpace& space, const Path& path);
 
-/// Returns, for messages, over what the lengths are summed besides the edges: "sum over the
+/// Returns words for messages that state what a length adds up, besides the edges: "sum over the
 /// joints". Returns "" if the space has only one joint or body.
 std::string summands(const ConfigurationSpace& space);
 

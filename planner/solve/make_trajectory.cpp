@@ -40,11 +40,11 @@ JointLimits reduced(JointLimits limits, double factor) {
 }
 
 std::string textOf(const std::vector<TimedRow>& timed, const ConfigurationSpace& space,
-                   Between between, TrajectoryFileKind kind) {
+                   RowInterpolation between, TrajectoryFileKind kind) {
   TrajectoryRows rows;
   rows.timed = true;
-  rows.hasVelocities = between != Between::linear;
-  rows.hasAccelerations = between == Between::quintic;
+  rows.hasVelocities = between != RowInterpolation::linear;
+  rows.hasAccelerations = between == RowInterpolation::quintic;
   for (const TimedRow& row : timed) {
     // The times of a message are whole nanoseconds. The position is that of the rounded time, up to
     // 10^-18 s² times the acceleration. With that of the time itself, rows that are near each other
@@ -128,7 +128,7 @@ void makeText(const Problem& problem, const Checker& checker, const LawfulCurve&
   made.fault = curve.law.fault;
   if (!made.fault.empty()) return;
   EmitOptions emit;
-  emit.degree = made.between == Between::quintic ? 5 : 3;
+  emit.degree = made.between == RowInterpolation::quintic ? 5 : 3;
   emit.rate = problem.settings.trajectory.rate;
   emit.deviation = deviation;
   const Emission emission = emitRows(curve.law, curve.pieces, space, limits, tree, emit);
@@ -153,7 +153,7 @@ void makeText(const Problem& problem, const Checker& checker, const LawfulCurve&
 MadeTrajectory provedAlong(const Problem& problem, const Checker& checker, LawfulCurve curve,
                            TrajectoryFileKind kind, int attempts, MadeTrajectory made) {
   JointLimits limits = problem.task.limits;
-  made.between = limitsJerk(limits) ? Between::quintic : Between::cubic;
+  made.between = limitsJerk(limits) ? RowInterpolation::quintic : RowInterpolation::cubic;
   double deviation = problem.settings.trajectory.deviation, share = 1;
   std::optional<MadeTrajectory> proved;
   for (int i = 0; i < attempts && made.fault.empty(); ++i) {

@@ -19,9 +19,9 @@ enum class TrajectoryFileKind {
 struct MadeTrajectory {
   /// The content of the file; "" with a fault.
   std::string text;
-  Between between = Between::cubic;  ///< what a controller does between the rows
-  Curve curve;                       ///< what the text means
-  double duration = 0;               ///< seconds
+  RowInterpolation between = RowInterpolation::cubic;  ///< what a controller does between the rows
+  Curve curve;                                         ///< what the text means
+  double duration = 0;                                 ///< seconds
   std::size_t rows = 0;
   std::size_t corners = 0, rounded = 0;  ///< corners of the path, and those without a stop
   std::size_t replaced = 0;              ///< parts of the curve that were replaced by better ones

@@ -67,7 +67,7 @@ namespace {
 /// Properties of a planner; the defaults are those of most planners.
 struct Traits {
   bool optimises = false;
-  bool repeats = true;
+  bool repeatable = true;
 };
 
 struct Entry {
@@ -77,7 +77,7 @@ struct Entry {
 
 template <class Planner>
 Entry entry(const char* name, const char* about, Traits traits = {}) {
-  return {{name, about, traits.repeats, traits.optimises},
+  return {{name, about, traits.repeatable, traits.optimises},
           [](const ob::SpaceInformationPtr& si) -> ob::PlannerPtr {
             return std::make_shared<Planner>(si);
           }};
@@ -106,10 +106,10 @@ const std::vector<Entry>& entries() {
       entry<og::LBKPIECE1>("LBKPIECE1", "BKPIECE1, edges checked when needed"),
       entry<og::STRIDE>("STRIDE", "one tree, density by a nearest-neighbour structure"),
       entry<og::PDST>("PDST", "subdivides the space of positions"),
-      entry<og::PRM>("PRM", "roadmap", {.repeats = false}),
+      entry<og::PRM>("PRM", "roadmap", {.repeatable = false}),
       entry<og::LazyPRM>("LazyPRM", "roadmap, edges checked when needed"),
-      entry<og::SPARS>("SPARS", "sparse roadmap", {.repeats = false}),
-      entry<og::SPARStwo>("SPARStwo", "sparse roadmap", {.repeats = false}),
+      entry<og::SPARS>("SPARS", "sparse roadmap", {.repeatable = false}),
+      entry<og::SPARStwo>("SPARStwo", "sparse roadmap", {.repeatable = false}),
       entry<og::RRTstar>("RRTstar", "optimises: one tree, rewired", {.optimises = true}),
       entry<og::InformedRRTstar>("InformedRRTstar",
                                  "optimises: RRTstar within the ellipse that can help",
@@ -120,8 +120,8 @@ const std::vector<Entry>& entries() {
       entry<og::RRTXstatic>("RRTXstatic", "optimises: RRTsharp with lazy replanning",
                             {.optimises = true}),
       entry<og::LBTRRT>("LBTRRT", "optimises to a factor, checks fewer edges",
-                        {.optimises = true, .repeats = false}),
-      entry<og::PRMstar>("PRMstar", "optimises: roadmap", {.optimises = true, .repeats = false}),
+                        {.optimises = true, .repeatable = false}),
+      entry<og::PRMstar>("PRMstar", "optimises: roadmap", {.optimises = true, .repeatable = false}),
       entry<og::LazyPRMstar>("LazyPRMstar", "optimises: roadmap, edges checked when needed",
                              {.optimises = true}),
       entry<og::FMT>("FMT", "optimises over a fixed number of samples", {.optimises = true}),
@@ -134,10 +134,10 @@ const std::vector<Entry>& entries() {
                          {.optimises = true}),
       entry<og::SST>("SST", "optimises: a sparse tree", {.optimises = true}),
       entry<og::CForest>("CForest", "optimises: RRTstar in many threads",
-                         {.optimises = true, .repeats = false}),
+                         {.optimises = true, .repeatable = false}),
       entry<og::AnytimePathShortening>("AnytimePathShortening",
                                        "optimises: planners in threads, paths joined",
-                                       {.optimises = true, .repeats = false}),
+                                       {.optimises = true, .repeatable = false}),
   };
   return all;
 }

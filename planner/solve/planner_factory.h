@@ -20,7 +20,7 @@ struct PlannerInfo {
   std::string about;  ///< a description in a few words
   /// Whether the same seed gives the same path if the time does not run out. This holds for
   /// planners without threads and without a clock of their own.
-  bool repeats = true;
+  bool repeatable = true;
   /// Uses all its time for better paths, unless it is set to stop at the first path.
   bool optimises = false;
 };

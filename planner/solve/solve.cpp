@@ -160,7 +160,7 @@ void Solve::setUpPlanner() {
     planner_->params().setParam("range", shortest(*range));
   for (const PlannerInfo& info : knownPlanners())
     if (info.name == problem_.settings.planner.name) {
-      report_.repeats = info.repeats;
+      report_.repeatable = info.repeatable;
       optimises_ = info.optimises;
     }
 }
@@ -171,7 +171,7 @@ void Solve::setUpPlanner() {
 /// passages need more edges, and profit from a large tree.
 std::uint64_t Solve::defaultRestart() const {
   const bool isArm = hasSingleJoints(problem_.model.space);
-  return isArm && report_.repeats ? 8000 : 0;
+  return isArm && report_.repeatable ? 8000 : 0;
 }
 
 void Solve::setUp() {
@@ -314,7 +314,7 @@ ob::PlannerStatus Solve::plan(const ob::PlannerTerminationCondition& orElse) {
                                                                         : SolveOutcome::notFound;
     report_.why = whyNotFound(status);
   }
-  if (endedByTime_ || interrupted()) report_.repeats = false;
+  if (endedByTime_ || interrupted()) report_.repeatable = false;
   report_.time = clock_.seconds();
   report_.processorTime = clock_.processorSeconds();
   report_.searchProcessorTime += report_.processorTime - processorBefore;
@@ -331,7 +331,7 @@ bool Solve::joinsStartAndGoal(const Path& path) const {
 bool Solve::certified(const Path& path) {
   const double before = clock_.seconds(), processorBefore = clock_.processorSeconds();
   const bool isKnown = edges_ && testsAreProofs();
-  const bool holds = certifiedPath(checker_, path, isKnown ? &*edges_ : nullptr);
+  const bool holds = isCertified(checker_, path, isKnown ? &*edges_ : nullptr);
   if (holds && targets_) report_.clearance = proveClearance(checker_, *targets_, path, *onTarget_);
   report_.certificationTime += clock_.seconds() - before;
   // `plan` counts the whole of `finish` as search, so the certification is subtracted here.
@@ -341,7 +341,7 @@ bool Solve::certified(const Path& path) {
 
 /// Returns the versions of the path, from the planner's own to the shortest.
 std::vector<Path> Solve::simplified(og::PathGeometric& path) {
-  std::vector<Path> versions{readPath(path)};
+  std::vector<Path> versions{configurationsOf(path)};
   const Simplifier simplifier = problem_.settings.simplify;
   // Shortcuts would reduce the clearance.
   if (simplifier == Simplifier::none || maximisesClearance()) return versions;
@@ -350,7 +350,7 @@ std::vector<Path> Solve::simplified(og::PathGeometric& path) {
   const auto stop = [&] { return endsByTime(until) || interrupted(); };
   if (simplifier == Simplifier::ompl) {
     simplifyByOmpl(si_, path, stop);
-    versions.push_back(readPath(path));
+    versions.push_back(configurationsOf(path));
     return versions;
   }
   edges_.emplace(
@@ -394,7 +394,7 @@ void Solve::finish() {
        definition_->getSolutionPath()->as<og::PathGeometric>()->getStates())
     path.append(state);
   report_.rawStates = path.getStateCount();
-  report_.rawLength = lengthOf(problem_.model.space, readPath(path));
+  report_.rawLength = lengthOf(problem_.model.space, configurationsOf(path));
   const std::vector<Path> versions = simplified(path);
   for (std::size_t i = versions.size(); i-- > 0 && report_.outcome != SolveOutcome::solved;) {
     Path states = withShortTurns(problem_.model.space, versions[i]);

@@ -69,9 +69,9 @@ struct SolveReport {
   bool certified = false;  ///< every edge of `path` was proved by the final certification
   std::string checker;     ///< "certified", "adaptive, sphere", "discrete, resolution 0.01", …
   std::string planner;
-  /// Whether the same problem and seed give the same path again: the planner repeats, and neither
-  /// planning nor simplifying ended because the time ran out.
-  bool repeats = true;
+  /// Whether the same problem and seed give the same path again: the planner is repeatable, and
+  /// neither planning nor simplifying ended because the time ran out.
+  bool repeatable = true;
   std::uint64_t seed = 0;
   std::uint64_t restarts = 0;         ///< how often the search started again (planner.restart)
   double time = 0, planningTime = 0;  ///< seconds of the whole solve, and until the planner ended
@@ -101,7 +101,7 @@ struct SolveReport {
 /// completed. Simplifying gets the rest of planner.time, but at least 5 % of planner.time. The
 /// final certification takes its time in addition.
 ///
-/// The same problem and seed give the same path if `SolveReport::repeats` is true. OMPL has one
+/// The same problem and seed give the same path if `SolveReport::repeatable` is true. OMPL has one
 /// random seed per process: don't call this from two threads at once.
 /// @throws InputError for a start or goals that are in contact, too close or out of bounds, and for
 /// an unknown planner, parameter or sampler.

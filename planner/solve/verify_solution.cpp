@@ -310,11 +310,11 @@ VerifyReport verifySolution(const Problem& problem, const Solution& solution,
 }
 
 VerifyReport verifyTrajectory(const Problem& problem, TrajectoryRows rows,
-                              std::optional<Between> between) {
+                              std::optional<RowInterpolation> between) {
   VerifyReport report;
   report.margin = problem.task.margin;
   report.tube = problem.task.tube;
-  report.between = betweenOf(rows, between);
+  report.between = interpolationOf(rows, between);
   const ConfigurationSpace& space = problem.model.space;
   const Curve curve = curveOf(rows, space, *report.between);
   if (rows.timed) {

@@ -37,7 +37,7 @@ struct VerifyReport {
   double margin = 0;        ///< metres
   Configuration tube;       ///< the tube of the proof, as Task::tube
   /// What lies between two rows of a trajectory; empty for a solution.
-  std::optional<Between> between;
+  std::optional<RowInterpolation> between;
   /// The time of each row of a trajectory, seconds; empty if it has no times. An edge of
   /// `pathReport` is the curve from one row to the next.
   std::vector<double> times;
@@ -79,9 +79,9 @@ VerifyReport verifySolution(const Problem& problem, const Solution& solution,
 ///
 /// A trajectory does not claim to solve the problem. So a note says if it does not begin at the
 /// problem's start, or does not end in the goal; the verdict does not depend on either.
-/// @param between nullopt: by the values that the file has (betweenOf).
-/// @throws InputError: as betweenOf and curveOf.
+/// @param between nullopt: by the values that the file has (interpolationOf).
+/// @throws InputError: as interpolationOf and curveOf.
 VerifyReport verifyTrajectory(const Problem& problem, TrajectoryRows rows,
-                              std::optional<Between> between = {});
+                              std::optional<RowInterpolation> between = {});
 
 }  // namespace corridor

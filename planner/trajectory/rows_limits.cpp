@@ -7,7 +7,7 @@
 
 namespace corridor {
 
-LimitRatios limitsOfRows(const TrajectoryRows& rows, Between between,
+LimitRatios limitsOfRows(const TrajectoryRows& rows, RowInterpolation between,
                          const ConfigurationSpace& space, const JointLimits& limits,
                          const KinematicTree& tree) {
   const Configuration none = Configuration::Zero(static_cast<Eigen::Index>(space.size()));
@@ -15,14 +15,16 @@ LimitRatios limitsOfRows(const TrajectoryRows& rows, Between between,
   for (const TrajectoryRow& row : rows.rows)
     timed.push_back({row.time, row.positions, rows.hasVelocities ? row.velocities : none,
                      rows.hasAccelerations ? row.accelerations : none});
-  const int degree = between == Between::linear ? 1 : between == Between::cubic ? 3 : 5;
+  const int degree = between == RowInterpolation::linear  ? 1
+                     : between == RowInterpolation::cubic ? 3
+                                                          : 5;
   LimitRatios ratios = proveLimits(timed, degree, space, limits, tree);
   const auto leaveOut = [](LimitShare& share, const Configuration& limit) {
     share = {};
     share.tested = !limit.array().isFinite().any();
   };
-  if (between == Between::linear) leaveOut(ratios.acceleration, limits.acceleration);
-  if (between != Between::quintic) leaveOut(ratios.jerk, limits.jerk);
+  if (between == RowInterpolation::linear) leaveOut(ratios.acceleration, limits.acceleration);
+  if (between != RowInterpolation::quintic) leaveOut(ratios.jerk, limits.jerk);
   if (standardFloatingPoint()) return ratios;
   for (LimitShare* share : {&ratios.velocity, &ratios.acceleration, &ratios.jerk, &ratios.link})
     if (share->share > 0) share->share = std::numeric_limits<double>::infinity();

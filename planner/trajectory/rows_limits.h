@@ -5,13 +5,14 @@
 
 namespace corridor {
 
-/// Proves the limits of the curve that the rows of a file mean, as `proveLimits` does for rows of a
-/// law. Linear rows have limits of velocity only: their velocity jumps at rows. Cubic rows have
-/// limits of velocity and acceleration, and quintic rows of jerk, too. Shares of other limits that
-/// are given are 0 and not `tested`. If the processor's floating-point mode makes the bounds
-/// invalid (collision/core/floating_point.h), shares of what moves are infinite.
+/// Proves the limits of the curve that the rows of a file mean, as `proveLimits` does for the
+/// rows of a time law. For linear rows, only limits of velocity are tested, because their velocity
+/// jumps at rows. For cubic rows, limits of acceleration are tested, too, and for quintic rows also
+/// limits of jerk. For each other limit that is given, the share is 0 and `tested` is false. If the
+/// processor's floating-point mode makes the bounds invalid (collision/core/floating_point.h),
+/// every share above 0 becomes infinite.
 /// @pre the rows have times, and what `between` needs.
-LimitRatios limitsOfRows(const TrajectoryRows& rows, Between between,
+LimitRatios limitsOfRows(const TrajectoryRows& rows, RowInterpolation between,
                          const ConfigurationSpace& space, const JointLimits& limits,
                          const KinematicTree& tree);
 
@@ -19,10 +20,10 @@ LimitRatios limitsOfRows(const TrajectoryRows& rows, Between between,
 /// bound.
 inline constexpr double kLimitSlack = 0x1p-40;
 
-/// Returns whether a limit that was tested is exceeded at some instant, by its upper
-/// bound. Shares are upper bounds, whose own rounding is below 2^-44 of them. So a share of up to
-/// 1 + kLimitSlack counts as kept: otherwise a motion exactly at a limit would exceed it. For the
-/// same reason, positions may be up to kLimitSlack beyond the bounds, less than the default tube.
+/// Returns whether the proved upper bound of a tested share is above 1 + kLimitSlack. (The limit
+/// may still be kept.) The rounding of an upper bound is below 2^-44 of it. So a share of up to 1 +
+/// kLimitSlack counts as kept: otherwise a motion exactly at a limit would exceed it. For the same
+/// reason, positions may be up to kLimitSlack beyond the bounds, less than the default tube.
 bool exceedsLimits(const LimitRatios& ratios);
 /// Returns whether all limits are kept at every instant: none is exceeded, and each that is given
 /// was tested.

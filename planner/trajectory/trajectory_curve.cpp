@@ -39,15 +39,17 @@ void checkTurns(const TrajectoryRows& rows, std::size_t row, const Configuration
 
 }  // namespace
 
-const char* nameOf(Between between) {
-  return between == Between::linear ? "linear" : between == Between::cubic ? "cubic" : "quintic";
+const char* nameOf(RowInterpolation between) {
+  return between == RowInterpolation::linear  ? "linear"
+         : between == RowInterpolation::cubic ? "cubic"
+                                              : "quintic";
 }
 
-Between betweenOf(TrajectoryRows& rows, std::optional<Between> wanted) {
-  const Between usual = rows.hasAccelerations ? Between::quintic
-                        : rows.hasVelocities  ? Between::cubic
-                                              : Between::linear;
-  const Between between = wanted.value_or(usual);
+RowInterpolation interpolationOf(TrajectoryRows& rows, std::optional<RowInterpolation> wanted) {
+  const RowInterpolation usual = rows.hasAccelerations ? RowInterpolation::quintic
+                                 : rows.hasVelocities  ? RowInterpolation::cubic
+                                                       : RowInterpolation::linear;
+  const RowInterpolation between = wanted.value_or(usual);
   if (between > usual)
     throw InputError(Fault{rows.file, 0,
                            std::string("--between ") + nameOf(between) + " needs " +
@@ -56,15 +58,16 @@ Between betweenOf(TrajectoryRows& rows, std::optional<Between> wanted) {
                                " is used"});
   if (between < usual)
     rows.notes.push_back({rows.file + ": --between " + nameOf(between) + ": the file's " +
-                              (between == Between::cubic ? "accelerations"
-                               : rows.hasAccelerations   ? "velocities and accelerations"
-                                                         : "velocities") +
+                              (between == RowInterpolation::cubic ? "accelerations"
+                               : rows.hasAccelerations            ? "velocities and accelerations"
+                                                                  : "velocities") +
                               " are not used",
                           NoteWeight::motion});
   return between;
 }
 
-Curve curveOf(const TrajectoryRows& rows, const ConfigurationSpace& space, Between between) {
+Curve curveOf(const TrajectoryRows& rows, const ConfigurationSpace& space,
+              RowInterpolation between) {
   RowFaults rowFaults(rows.file);
   Curve curve;
   const auto timeOf = [&](std::size_t k) {
@@ -78,9 +81,9 @@ Curve curveOf(const TrajectoryRows& rows, const ConfigurationSpace& space, Betwe
     const CurvePoint begin{from.positions, from.velocities, from.accelerations},
         end{to.positions, to.velocities, to.accelerations};
     curve.pieces.push_back(
-        between == Between::linear  ? linearPiece(space, from.positions, to.positions)
-        : between == Between::cubic ? cubicPiece(space, begin, end, duration, off)
-                                    : quinticPiece(space, begin, end, duration, off));
+        between == RowInterpolation::linear  ? linearPiece(space, from.positions, to.positions)
+        : between == RowInterpolation::cubic ? cubicPiece(space, begin, end, duration, off)
+                                             : quinticPiece(space, begin, end, duration, off));
     const CurvePiece& piece = curve.pieces.back();
     rowFaults.row([&](FaultList& faults) {
       checkTurns(rows, k, space, faults);

@@ -11,19 +11,19 @@
 namespace corridor {
 
 /// What a robot does between two rows of a trajectory.
-enum class Between {
+enum class RowInterpolation {
   linear,  ///< every number is linear in time
   cubic,   ///< the cubic polynomial with the positions and velocities of both rows
   quintic  ///< the polynomial of degree 5 with the accelerations of both rows, too
 };
-const char* nameOf(Between between);
+const char* nameOf(RowInterpolation between);
 
 /// Returns what lies between the rows: what is wanted or, by default, what the trajectory
 /// controllers of ros_control and ros2_control do: quintic if the file has accelerations, cubic if
 /// it has velocities, otherwise linear. Adds a note to the rows if velocities or accelerations are
 /// not used.
 /// @throws InputError if the file lacks the values that `wanted` needs.
-Between betweenOf(TrajectoryRows& rows, std::optional<Between> wanted);
+RowInterpolation interpolationOf(TrajectoryRows& rows, std::optional<RowInterpolation> wanted);
 
 /// Returns the curve that the rows mean, with one piece from each row to the next. Its knots are
 /// the times or, if the file has none, 0, 1, 2, … Angles are literal, and rotations go by slerp.
@@ -31,7 +31,8 @@ Between betweenOf(TrajectoryRows& rows, std::optional<Between> wanted);
 /// counts them from the begin of the file, in doubles.
 /// @throws InputError with all faults: a circle that jumps by more than half a turn from one row to
 /// the next (which is a jump of the angle, not a motion); values that are too large.
-Curve curveOf(const TrajectoryRows& rows, const ConfigurationSpace& space, Between between);
+Curve curveOf(const TrajectoryRows& rows, const ConfigurationSpace& space,
+              RowInterpolation between);
 
 /// A place where a curve is outside of the bounds of a coordinate.
 struct OutsideBounds {

@@ -1,4 +1,4 @@
-#include "planner/verify/box_tree.h"
+#include "planner/verify/body_tree.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,49 +14,49 @@ namespace {
 /// their bounds may round up or down.
 constexpr Real kSame = 1 - 0x1p-30L;
 
-void extend(BoxTree::Node& node, const Piece& piece) {
-  if (!piece.part) {
-    for (const Vec3& corner : piece.corners) {
+void extend(BodyTree::Node& node, const LeafPrimitive& leaf) {
+  if (!leaf.part) {
+    for (const Vec3& corner : leaf.corners) {
       node.lower = node.lower.cwiseMin(corner);
       node.upper = node.upper.cwiseMax(corner);
     }
     return;
   }
-  for (const Vec3& point : piece.part->points)
+  for (const Vec3& point : leaf.part->points)
     for (int i = 0; i < 3; ++i) {  // rounded outward; the disc about a point is within its sphere
       node.lower[i] =
-          std::min(node.lower[i], std::nextafter(point[i] - piece.part->radius, -HUGE_VAL));
+          std::min(node.lower[i], std::nextafter(point[i] - leaf.part->radius, -HUGE_VAL));
       node.upper[i] =
-          std::max(node.upper[i], std::nextafter(point[i] + piece.part->radius, HUGE_VAL));
+          std::max(node.upper[i], std::nextafter(point[i] + leaf.part->radius, HUGE_VAL));
     }
 }
 
 }  // namespace
 
-BoxTree::BoxTree(const TriangleMesh& mesh) {
+BodyTree::BodyTree(const TriangleMesh& mesh) {
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    Piece piece;
+    LeafPrimitive leaf;
     for (int i = 0; i < 3; ++i) {
-      piece.corners[static_cast<std::size_t>(i)] = mesh.corner(t, i);
+      leaf.corners[static_cast<std::size_t>(i)] = mesh.corner(t, i);
       radius_ = std::max(radius_, mesh.corner(t, i).cast<Real>().norm());
     }
-    piece.triangle = t;
-    const RealVec first = piece.corners[0].cast<Real>();
+    leaf.number = t;
+    const RealVec first = leaf.corners[0].cast<Real>();
     const RealVec normal =
-        (piece.corners[1].cast<Real>() - first).cross(piece.corners[2].cast<Real>() - first);
-    if (const Real length = normal.norm(); length > 0) piece.normal = normal / length;
-    pieces_.push_back(piece);
+        (leaf.corners[1].cast<Real>() - first).cross(leaf.corners[2].cast<Real>() - first);
+    if (const Real length = normal.norm(); length > 0) leaf.normal = normal / length;
+    leaves_.push_back(leaf);
   }
   radius_ *= 1 + 0x1p-60L;
   build();
 }
 
-BoxTree::BoxTree(std::span<const ConvexPart> parts) {
+BodyTree::BodyTree(std::span<const ConvexPart> parts) {
   for (const ConvexPart& part : parts) {
-    Piece piece;
-    piece.part = &part;
-    piece.triangle = static_cast<std::uint32_t>(pieces_.size());
-    pieces_.push_back(piece);
+    LeafPrimitive leaf;
+    leaf.part = &part;
+    leaf.number = static_cast<std::uint32_t>(leaves_.size());
+    leaves_.push_back(leaf);
     Real farthest = 0;
     for (const Vec3& point : part.points) farthest = std::max(farthest, point.cast<Real>().norm());
     radius_ = std::max(radius_, (farthest + part.radius) * (1 + 0x1p-60L));
@@ -64,20 +64,20 @@ BoxTree::BoxTree(std::span<const ConvexPart> parts) {
   build();
 }
 
-void BoxTree::build() {
-  nodes_.reserve(2 * pieces_.size());
-  std::vector<std::uint32_t> order(pieces_.size());
+void BodyTree::build() {
+  nodes_.reserve(2 * leaves_.size());
+  std::vector<std::uint32_t> order(leaves_.size());
   std::iota(order.begin(), order.end(), 0u);
   build(order, 0, order.size());
 }
 
-std::uint32_t BoxTree::build(std::vector<std::uint32_t>& order, std::size_t begin,
-                             std::size_t end) {
+std::uint32_t BodyTree::build(std::vector<std::uint32_t>& order, std::size_t begin,
+                              std::size_t end) {
   const auto index = static_cast<std::uint32_t>(nodes_.size());
   Node node;
   node.lower = Vec3::Constant(std::numeric_limits<double>::infinity());
   node.upper = -node.lower;
-  for (std::size_t i = begin; i < end; ++i) extend(node, pieces_[order[i]]);
+  for (std::size_t i = begin; i < end; ++i) extend(node, leaves_[order[i]]);
   nodes_.push_back(node);
   if (end - begin == 1) {
     nodes_[index].leaf = order[begin];
@@ -86,12 +86,12 @@ std::uint32_t BoxTree::build(std::vector<std::uint32_t>& order, std::size_t begi
   int axis = 0;
   (0.5 * node.upper - 0.5 * node.lower).maxCoeff(&axis);
   const auto key = [&](std::uint32_t i) {
-    if (const ConvexPart* part = pieces_[i].part) {
+    if (const ConvexPart* part = leaves_[i].part) {
       Real sum = 0;
       for (const Vec3& point : part->points) sum += point[axis];
       return sum / static_cast<Real>(part->points.size());
     }
-    const Corners& c = pieces_[i].corners;
+    const Corners& c = leaves_[i].corners;
     return Real(c[0][axis]) + c[1][axis] + c[2][axis];
   };
   const std::size_t middle = begin + (end - begin) / 2;
@@ -114,7 +114,7 @@ const BodyDistance::Frame<double>& BodyDistance::frame() const {
   return double_;
 }
 
-void BodyDistance::place(const BoxTree& a, const BoxTree& b, const Placement& X_AB) {
+void BodyDistance::place(const BodyTree& a, const BodyTree& b, const Placement& X_AB) {
   a_ = &a;
   b_ = &b;
   X_AB_ = X_AB;
@@ -126,15 +126,15 @@ void BodyDistance::place(const BoxTree& a, const BoxTree& b, const Placement& X_
       0x1p-400L < size && size < 0x1p400L ? 0x1p-44L * size : std::numeric_limits<Real>::infinity();
   partA_.reset();
   partB_.reset();
-  if (a.hasParts() && a.size() == 1) partA_ = placed(*a.piece(0).part, Placement{});
-  if (b.hasParts() && b.size() == 1) partB_ = placed(*b.piece(0).part, X_AB);
+  if (a.hasParts() && a.size() == 1) partA_ = placed(*a.leaf(0).part, Placement{});
+  if (b.hasParts() && b.size() == 1) partB_ = placed(*b.leaf(0).part, X_AB);
   lookAlong(RealVec::Zero());
   ++stamp_;
   if (boxesB_.size() < b.size()) boxesB_.resize(b.size());
 }
 
 template <class Number>
-BodyDistance::Box<Number> BodyDistance::boxOf(const BoxTree::Node& node) {
+BodyDistance::Box<Number> BodyDistance::boxOf(const BodyTree::Node& node) {
   const Vec<Number> lower = node.lower.cast<Number>(), upper = node.upper.cast<Number>();
   return {(lower + upper) / 2, (upper - lower) / 2};
 }
@@ -146,7 +146,7 @@ BodyDistance::PlacedBox<Number> BodyDistance::placedBox(std::uint32_t node) cons
   box.along = boxOf<Number>(b_->node(node));
   box.along.centre = X.rotation * box.along.centre + X.position;
   const std::uint32_t leaf = b_->node(node).leaf;
-  if (leaf != BoxTree::noLeaf && !b_->hasParts()) {
+  if (leaf != BodyTree::noLeaf && !b_->hasParts()) {
     const auto t = cornersB<Number>(leaf);
     const Vec<Number> least = t[0].cwiseMin(t[1]).cwiseMin(t[2]);
     const Vec<Number> most = t[0].cwiseMax(t[1]).cwiseMax(t[2]);
@@ -182,8 +182,8 @@ void BodyDistance::lookAlong(const RealVec& between) {
   RealVec& direction = real_.direction;
   direction = length > 0 ? RealVec(between / length) : RealVec::Zero();
   double_.direction = direction.cast<double>();
-  if (partA_) endOfA_ = direction.dot(partA_->farthest(direction)) + partA_->ball();
-  if (partB_) startOfB_ = direction.dot(partB_->farthest(-direction)) - partB_->ball();
+  if (partA_) endOfA_ = direction.dot(partA_->farthest(direction)) + partA_->sweptRadius();
+  if (partB_) startOfB_ = direction.dot(partB_->farthest(-direction)) - partB_->sweptRadius();
 }
 
 Real BodyDistance::boxGap(std::uint32_t a, std::uint32_t b, Real enough) {
@@ -220,13 +220,12 @@ Number BodyDistance::boxGap(std::uint32_t a, std::uint32_t b, const PlacedBox<Nu
   if (gap >= enough) return gap;
   // For a long triangle that is oblique to the axes, the slab along its normal gives a better bound
   // than its box.
-  if (const std::uint32_t leaf = a_->node(a).leaf; leaf != BoxTree::noLeaf && !a_->hasParts())
-    gap = std::max(gap, planeGap<Number>(a_->piece(leaf).normal.template cast<Number>(),
+  if (const std::uint32_t leaf = a_->node(a).leaf; leaf != BodyTree::noLeaf && !a_->hasParts())
+    gap = std::max(gap, planeGap<Number>(a_->leaf(leaf).normal.template cast<Number>(),
                                          cornersA<Number>(leaf), boxOfB.around));
-  if (const std::uint32_t leaf = b_->node(b).leaf; leaf != BoxTree::noLeaf && !b_->hasParts())
-    gap =
-        std::max(gap, planeGap<Number>(X.rotation * b_->piece(leaf).normal.template cast<Number>(),
-                                       cornersB<Number>(leaf), boxOfA));
+  if (const std::uint32_t leaf = b_->node(b).leaf; leaf != BodyTree::noLeaf && !b_->hasParts())
+    gap = std::max(gap, planeGap<Number>(X.rotation * b_->leaf(leaf).normal.template cast<Number>(),
+                                         cornersB<Number>(leaf), boxOfA));
   return gap;
 }
 
@@ -242,60 +241,60 @@ Number BodyDistance::planeGap(const Vec<Number>& normal, const std::array<Vec<Nu
 }
 
 template <class Number>
-std::array<BodyDistance::Vec<Number>, 3> BodyDistance::cornersA(std::uint32_t piece) const {
-  const Corners& c = a_->piece(piece).corners;
+std::array<BodyDistance::Vec<Number>, 3> BodyDistance::cornersA(std::uint32_t leaf) const {
+  const Corners& c = a_->leaf(leaf).corners;
   return {c[0].cast<Number>(), c[1].cast<Number>(), c[2].cast<Number>()};
 }
 
 template <class Number>
-std::array<BodyDistance::Vec<Number>, 3> BodyDistance::cornersB(std::uint32_t piece) const {
+std::array<BodyDistance::Vec<Number>, 3> BodyDistance::cornersB(std::uint32_t leaf) const {
   const Frame<Number>& X = frame<Number>();
   std::array<Vec<Number>, 3> result;
   for (std::size_t i = 0; i < 3; ++i)
-    result[i] = X.rotation * b_->piece(piece).corners[i].template cast<Number>() + X.position;
+    result[i] = X.rotation * b_->leaf(leaf).corners[i].template cast<Number>() + X.position;
   return result;
 }
 
-ConvexSet BodyDistance::setA(std::uint32_t piece) const {
+ConvexSet BodyDistance::setA(std::uint32_t leaf) const {
   if (partA_) return *partA_;
-  if (a_->hasParts()) return placed(*a_->piece(piece).part, Placement{});
-  const auto corners = cornersA(piece);
+  if (a_->hasParts()) return placed(*a_->leaf(leaf).part, Placement{});
+  const auto corners = cornersA(leaf);
   return {{corners.begin(), corners.end()}, 0, false, RealVec::Zero()};
 }
 
-ConvexSet BodyDistance::setB(std::uint32_t piece) const {
+ConvexSet BodyDistance::setB(std::uint32_t leaf) const {
   if (partB_) return *partB_;
-  if (b_->hasParts()) return placed(*b_->piece(piece).part, X_AB_);
-  const auto corners = cornersB(piece);
+  if (b_->hasParts()) return placed(*b_->leaf(leaf).part, X_AB_);
+  const auto corners = cornersB(leaf);
   return {{corners.begin(), corners.end()}, 0, false, RealVec::Zero()};
 }
 
-TriangleGap BodyDistance::gap(PiecePair pair, const RealVec& guess, Real enough) const {
+DistanceBounds BodyDistance::gap(LeafPair pair, const RealVec& guess, Real enough) const {
   if (a_->hasParts() || b_->hasParts()) return convexGap(setA(pair.a), setB(pair.b), guess, enough);
   return triangleGap(cornersA(pair.a).data(), cornersB(pair.b).data());
 }
 
 std::array<BodyDistance::Item, 2> BodyDistance::split(const Item& whole, Real enough) {
-  const BoxTree::Node &a = a_->node(whole.a), &b = b_->node(whole.b);
-  const bool leafA = a.leaf != BoxTree::noLeaf, leafB = b.leaf != BoxTree::noLeaf;
+  const BodyTree::Node &a = a_->node(whole.a), &b = b_->node(whole.b);
+  const bool leafA = a.leaf != BodyTree::noLeaf, leafB = b.leaf != BodyTree::noLeaf;
   const bool splitB =
       !leafB && (leafA || boxB(whole.b).around.half.maxCoeff() >= boxOf<double>(a).half.maxCoeff());
   if (splitB) return {item(whole.a, b.left, enough), item(whole.a, b.right, enough)};
   return {item(a.left, whole.b, enough), item(a.right, whole.b, enough)};
 }
 
-BodyGap BodyDistance::measure(PiecePair guess, Real doubt, Real stop,
-                              const std::function<bool(PiecePair)>& touches) {
+BodyGap BodyDistance::measure(LeafPair guess, Real doubt, Real stop,
+                              const std::function<bool(LeafPair)>& touches) {
   BodyGap best;
   lookAlong(RealVec::Zero());
   Real enough = stop;
-  const auto test = [&](PiecePair pair) {
-    TriangleGap found;
+  const auto test = [&](LeafPair pair) {
+    DistanceBounds found;
     if (!a_->hasParts() &&
         !b_->hasParts()) {  // slabs are tried first: they cost less than the distance
       const auto a = cornersA(pair.a), b = cornersB(pair.b);
-      const RealVec normals[2] = {a_->piece(pair.a).normal,
-                                  X_AB_.rotation * b_->piece(pair.b).normal};
+      const RealVec normals[2] = {a_->leaf(pair.a).normal,
+                                  X_AB_.rotation * b_->leaf(pair.b).normal};
       found.lower = slabWidth(a.data(), b.data(), real_.direction);
       for (const RealVec& n : normals)
         if (found.lower < enough)
@@ -329,7 +328,7 @@ BodyGap BodyDistance::measure(PiecePair guess, Real doubt, Real stop,
       continue;
     }
     const std::uint32_t leafA = a_->node(at.a).leaf, leafB = b_->node(at.b).leaf;
-    if (leafA != BoxTree::noLeaf && leafB != BoxTree::noLeaf) {
+    if (leafA != BodyTree::noLeaf && leafB != BodyTree::noLeaf) {
       if (test({leafA, leafB})) return best;
       continue;
     }
@@ -341,8 +340,8 @@ BodyGap BodyDistance::measure(PiecePair guess, Real doubt, Real stop,
   return best;
 }
 
-bool BodyDistance::near(Real within, std::size_t most, const Settled& settled,
-                        std::vector<PiecePair>& pairs) {
+bool BodyDistance::collectNear(Real within, std::size_t most, const Settled& settled,
+                               std::vector<LeafPair>& pairs) {
   pairs.clear();
   stack_.assign(1, item(0, 0, within));
   while (!stack_.empty()) {
@@ -350,7 +349,7 @@ bool BodyDistance::near(Real within, std::size_t most, const Settled& settled,
     stack_.pop_back();
     if (at.lower >= within || settled(aroundA(at.a), aroundB(at.b))) continue;
     const std::uint32_t leafA = a_->node(at.a).leaf, leafB = b_->node(at.b).leaf;
-    if (leafA != BoxTree::noLeaf && leafB != BoxTree::noLeaf) {
+    if (leafA != BodyTree::noLeaf && leafB != BodyTree::noLeaf) {
       if (pairs.size() == most) return false;
       pairs.push_back({leafA, leafB});
       continue;

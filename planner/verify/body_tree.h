@@ -14,17 +14,17 @@
 namespace corridor::verify {
 
 /// A leaf primitive of a body: a triangle of its mesh, or one of its convex parts.
-struct Piece {
+struct LeafPrimitive {
   Corners corners = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};  ///< triangle only
   RealVec normal = RealVec::Zero();  ///< triangle only: unit, rounded; 0 if degenerate
-  std::uint32_t triangle = 0;        ///< number of the triangle or part
+  std::uint32_t number = 0;          ///< of the triangle or part
   const ConvexPart* part = nullptr;
 };
 
 /// A binary tree of axis-aligned boxes over a body's leaf primitives. Each leaf has one leaf
 /// primitive. Nodes are split at the median centroid along the longest axis. Boxes of triangles are
 /// exact: minima and maxima of stored doubles. Boxes of parts are rounded outward.
-class BoxTree {
+class BodyTree {
  public:
   static constexpr std::uint32_t noLeaf = UINT32_MAX;
   struct Node {
@@ -34,14 +34,14 @@ class BoxTree {
   };
 
   /// @pre the mesh has a triangle.
-  explicit BoxTree(const TriangleMesh& mesh);
+  explicit BodyTree(const TriangleMesh& mesh);
   /// @pre at least one part; each part has at least one point.
-  explicit BoxTree(std::span<const ConvexPart> parts);
+  explicit BodyTree(std::span<const ConvexPart> parts);
 
   const Node& node(std::uint32_t i) const { return nodes_[i]; }  ///< 0 is the root
   std::size_t size() const { return nodes_.size(); }
-  const Piece& piece(std::uint32_t i) const { return pieces_[i]; }
-  bool hasParts() const { return pieces_[0].part != nullptr; }
+  const LeafPrimitive& leaf(std::uint32_t i) const { return leaves_[i]; }
+  bool hasParts() const { return leaves_[0].part != nullptr; }
   /// Returns the distance of the farthest point from the origin, rounded up.
   Real radius() const { return radius_; }
 
@@ -49,22 +49,22 @@ class BoxTree {
   void build();
   std::uint32_t build(std::vector<std::uint32_t>& order, std::size_t begin, std::size_t end);
 
-  std::vector<Piece> pieces_;
+  std::vector<LeafPrimitive> leaves_;
   std::vector<Node> nodes_;
   Real radius_ = 0;
 };
 
 /// A pair of leaf primitives: indices in body a and in body b.
-struct PiecePair {
+struct LeafPair {
   std::uint32_t a = 0, b = 0;
 };
 
 /// Lower and upper bound of the distance of two bodies, and witness points in a's frame. Both
-/// bounds may be off by the rounding that TriangleGap describes.
+/// bounds may be off by the rounding that DistanceBounds describes.
 struct BodyGap {
   Real lower = std::numeric_limits<Real>::infinity();
   Real upper = std::numeric_limits<Real>::infinity();
-  PiecePair pair;  ///< the pair of leaf primitives that gives `upper`
+  LeafPair pair;  ///< the pair of leaf primitives that gives `upper`
   RealVec onA = RealVec::Zero(), onB = RealVec::Zero();
   bool touching = false;  ///< `touches` found contact of `pair`; then upper = lower = 0
 };
@@ -82,12 +82,12 @@ struct CentredBox {
 /// products and three sums: it is off by less than 35u·S. The difference of two boxes along the
 /// axes of b takes another such step, so each of its coordinates is off by less than 90u·S, and its
 /// norm by less than 170u·S. Widths of slabs take fewer steps. `boxError_` is 512u·S. If a
-/// bound in double differs from the distance that decides by less than this, it is computed again
-/// in long double.
+/// bound in double is within `boxError_` of the value with which it is compared, it is computed
+/// again in long double.
 class BodyDistance {
  public:
   /// Sets the bodies and their relative placement. Both trees must outlive all queries.
-  void place(const BoxTree& a, const BoxTree& b, const Placement& X_AB);
+  void place(const BodyTree& a, const BodyTree& b, const Placement& X_AB);
 
   /// Bounds the distance of the bodies by branch and bound on the distances of boxes.
   /// @param guess a pair of leaf primitives that is likely close; the search starts with it.
@@ -99,26 +99,27 @@ class BodyDistance {
   /// The result's `lower` also covers all pruned pairs: it is the smallest bound of all pruned node
   /// pairs and all tested pairs of leaf primitives. The box of a node of b, in a's frame, has the
   /// half extents |R|·(half extents) about the image of its centre. The caller must add the
-  /// rounding of the boxes, and all other rounding. The rounding of the boxes is below 32u·S, where
-  /// S bounds all lengths: it consists of 3 sums of 3 products, and a root of three squares.
-  BodyGap measure(PiecePair guess, Real doubt, Real stop,
-                  const std::function<bool(PiecePair)>& touches);
+  /// rounding of the boxes in long double, and all other rounding. The former is below 32u·S, with
+  /// u = 2^-64: it consists of 3 sums of 3 products, and a root of three squares.
+  BodyGap measure(LeafPair guess, Real doubt, Real stop,
+                  const std::function<bool(LeafPair)>& touches);
 
-  /// A function that returns whether `near` may leave out all pairs of leaf primitives in two
-  /// boxes.
+  /// A function that returns whether `collectNear` may leave out all pairs of leaf primitives in
+  /// two boxes.
   using Settled = std::function<bool(const CentredBox& a, const CentredBox& b)>;
   /// Collects the pairs of leaf primitives whose boxes are closer than `within`. Pairs in two boxes
   /// for which `settled` returns true are left out.
   /// @param most the largest number of pairs collected.
   /// @returns false if there are more pairs. If true, all pairs that are not collected are at least
   /// `within` apart, or settled.
-  bool near(Real within, std::size_t most, const Settled& settled, std::vector<PiecePair>& pairs);
+  bool collectNear(Real within, std::size_t most, const Settled& settled,
+                   std::vector<LeafPair>& pairs);
 
-  ConvexSet setA(std::uint32_t piece) const;
-  ConvexSet setB(std::uint32_t piece) const;  ///< in a's frame
+  ConvexSet setA(std::uint32_t leaf) const;
+  ConvexSet setB(std::uint32_t leaf) const;  ///< in a's frame
   /// @param guess,enough as in convexGap().
-  TriangleGap gap(PiecePair pair, const RealVec& guess = RealVec::Zero(),
-                  Real enough = std::numeric_limits<Real>::infinity()) const;
+  DistanceBounds gap(LeafPair pair, const RealVec& guess = RealVec::Zero(),
+                     Real enough = std::numeric_limits<Real>::infinity()) const;
 
  private:
   struct Item {
@@ -152,7 +153,7 @@ class BodyDistance {
   template <class Number>
   const Frame<Number>& frame() const;
   template <class Number>
-  static Box<Number> boxOf(const BoxTree::Node& node);
+  static Box<Number> boxOf(const BodyTree::Node& node);
   template <class Number>
   PlacedBox<Number> placedBox(std::uint32_t node) const;
   const PlacedBox<double>& boxB(std::uint32_t node);  ///< computed once for each placement
@@ -177,12 +178,12 @@ class BodyDistance {
   static Number planeGap(const Vec<Number>& normal, const std::array<Vec<Number>, 3>& corners,
                          const Box<Number>& box);
   template <class Number = Real>
-  std::array<Vec<Number>, 3> cornersA(std::uint32_t piece) const;
+  std::array<Vec<Number>, 3> cornersA(std::uint32_t leaf) const;
   template <class Number = Real>
-  std::array<Vec<Number>, 3> cornersB(std::uint32_t piece) const;
+  std::array<Vec<Number>, 3> cornersB(std::uint32_t leaf) const;
 
-  const BoxTree* a_ = nullptr;
-  const BoxTree* b_ = nullptr;
+  const BodyTree* a_ = nullptr;
+  const BodyTree* b_ = nullptr;
   Placement X_AB_;
   Frame<Real> real_;
   Frame<double> double_;

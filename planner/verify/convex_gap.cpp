@@ -102,11 +102,12 @@ ConvexSet placed(const ConvexPart& part, const Placement& placement) {
   return set;
 }
 
-TriangleGap convexGap(const ConvexSet& a, const ConvexSet& b, const RealVec& guess, Real enough) {
+DistanceBounds convexGap(const ConvexSet& a, const ConvexSet& b, const RealVec& guess,
+                         Real enough) {
   RealVec onA = a.farthest(guess), onB = b.farthest(-guess);
   std::vector<Corner> corners{{onA, onB}};
   Real lower = -std::numeric_limits<Real>::infinity();
-  const Real balls = a.ball() + b.ball();
+  const Real radii = a.sweptRadius() + b.sweptRadius();
   bool meet = false;
   for (int step = 0; step < kMostSteps; ++step) {
     const RealVec v = onB - onA;
@@ -119,7 +120,7 @@ TriangleGap convexGap(const ConvexSet& a, const ConvexSet& b, const RealVec& gue
     const Real slab = v.dot(corner.difference()) / length;
     lower = std::max(lower, slab);
     const Real size = corner.onA.norm() + corner.onB.norm();
-    if (length - lower <= kFine * size || lower - balls >= enough) break;
+    if (length - lower <= kFine * size || lower - radii >= enough) break;
     if (std::any_of(corners.begin(), corners.end(), [&](const Corner& old) {
           return old.onA == corner.onA && old.onB == corner.onB;
         }))
@@ -147,17 +148,17 @@ TriangleGap convexGap(const ConvexSet& a, const ConvexSet& b, const RealVec& gue
       break;
     }
   }
-  TriangleGap gap;
+  DistanceBounds gap;
   const RealVec v = onB - onA;
   const Real length = v.norm();
-  if (!meet && length > balls) {
-    gap.upper = length - balls;
-    gap.lower = std::max<Real>(0, lower - balls);
-    gap.onA = onA + v * (a.ball() / length);
-    gap.onB = onB - v * (b.ball() / length);
+  if (!meet && length > radii) {
+    gap.upper = length - radii;
+    gap.lower = std::max<Real>(0, lower - radii);
+    gap.onA = onA + v * (a.sweptRadius() / length);
+    gap.onB = onB - v * (b.sweptRadius() / length);
   } else {
     gap.upper = gap.lower = 0;
-    gap.onA = gap.onB = meet ? onA : RealVec(onA + v * (balls > 0 ? a.ball() / balls : 0));
+    gap.onA = gap.onB = meet ? onA : RealVec(onA + v * (radii > 0 ? a.sweptRadius() / radii : 0));
   }
   return gap;
 }

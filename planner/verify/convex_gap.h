@@ -20,26 +20,26 @@ struct ConvexSet {
   /// `flatEnds` the disc is included.
   RealVec farthest(const RealVec& direction) const;
   /// Returns the radius of the swept sphere, which is 0 with flat ends.
-  Real ball() const { return flatEnds ? 0 : radius; }
+  Real sweptRadius() const { return flatEnds ? 0 : radius; }
 };
 
 /// Returns `part` under a rigid map.
 ConvexSet placed(const ConvexPart& part, const Placement& placement);
 
-/// Returns a lower and an upper bound of the distance of two convex sets, as TriangleGap describes:
-/// `upper` by witness points, `lower` by the width of a slab. A slab in any direction gives a true
-/// bound.
+/// Returns a lower and an upper bound of the distance of two convex sets, as DistanceBounds
+/// describes: `upper` by witness points, `lower` by the width of a slab. A slab in any direction
+/// gives a true bound.
 ///
 /// Method (Gilbert, Johnson, Keerthi 1988): finds the point of least norm in the difference of the
 /// two sets without their swept spheres. Each step has at most four corners of this difference, and
 /// keeps the subset whose hull contains the point of least norm. It finds this subset by trying all
-/// subsets, which is the simplest way. The rounding is similar to that of TriangleGap, and far
+/// subsets, which is the simplest way. The rounding is similar to that of DistanceBounds, and far
 /// below 2^-50 of the size.
 /// @param guess the direction in which the search starts, from a to b, of any length. Zero: no
 /// guess.
 /// @param enough the search ends when `lower` reaches this value.
-TriangleGap convexGap(const ConvexSet& a, const ConvexSet& b,
-                      const RealVec& guess = RealVec::Zero(),
-                      Real enough = std::numeric_limits<Real>::infinity());
+DistanceBounds convexGap(const ConvexSet& a, const ConvexSet& b,
+                         const RealVec& guess = RealVec::Zero(),
+                         Real enough = std::numeric_limits<Real>::infinity());
 
 }  // namespace corridor::verify

@@ -12,8 +12,8 @@ namespace corridor::verify {
 ///
 /// The decision is exact for lines and circles, and for equal rotations. For other rotations,
 /// `true` means that the angle between them is at most the sum of both errors. `false` means that
-/// it is larger than this sum minus 2^-58 rad, which exceeds the rounding of the angle (64u, u =
-/// 2^-64; see EdgeCurve).
+/// it is larger than this sum minus 2^-56 rad: 2^-58 rad exceeds the rounding of the angle (64u, u
+/// = 2^-64; see EdgeCurve), and a share of 2^-60 that of the sum.
 /// @pre both pieces have finite coefficients, and as many numbers as the coordinates.
 bool joins(const std::vector<Coordinate>& coordinates, const CurvePiece& before,
            const CurvePiece& after);

@@ -89,8 +89,8 @@ MovedSlab::Support MovedSlab::supportOf(const Side& side, const ConvexSet& set) 
     most.back += set.radius * (across(side.back.slope) + perturbation);
     most.forth += set.radius * (across(side.forth.slope) + perturbation);
   }
-  most.back += set.ball();
-  most.forth += set.ball();
+  most.back += set.sweptRadius();
+  most.forth += set.sweptRadius();
   return most;
 }
 
@@ -115,7 +115,7 @@ Real MovedSlab::widthOf(const Support& a, const Support& b, Real radii) const {
 
 Real MovedSlab::width(const ConvexSet& a, const ConvexSet& b) const {
   if (normal_.isZero(0)) return -kInfinity;
-  return widthOf(supportOf(a_, a), supportOf(b_, b), a.ball() + b.ball());
+  return widthOf(supportOf(a_, a), supportOf(b_, b), a.sweptRadius() + b.sweptRadius());
 }
 
 Real MovedSlab::width(const CentredBox& a, const CentredBox& b) const {
@@ -124,7 +124,7 @@ Real MovedSlab::width(const CentredBox& a, const CentredBox& b) const {
 }
 
 Real boundBySlabs(BodyDistance& placed, const BodyGap& measured, const PairMotion& motion,
-                  const Sought& sought, std::vector<PiecePair>& scratch) {
+                  const Sought& sought, std::vector<LeafPair>& scratch) {
   const Real lost = motion.secondOrder + motion.rounding;
   // In any direction, motion, tube and rounding reduce a distance by at most this much.
   const Real most = motion.motionBound + motion.tube + motion.rounding;
@@ -138,8 +138,8 @@ Real boundBySlabs(BodyDistance& placed, const BodyGap& measured, const PairMotio
   // points of the bodies; the direction between the closest points of the two leaf primitives; and
   // the triangles' normals, for triangles that face each other at an angle. Directions may turn
   // with either body.
-  const auto boundOf = [&](PiecePair pieces) {
-    const ConvexSet a = placed.setA(pieces.a), b = placed.setB(pieces.b);
+  const auto boundOf = [&](LeafPair pair) {
+    const ConvexSet a = placed.setA(pair.a), b = placed.setB(pair.b);
     Real best = general.width(a, b) - lost;
     if (best >= sought.wanted) return best;
     const auto attempt = [&](const RealVec& n) {
@@ -147,7 +147,7 @@ Real boundBySlabs(BodyDistance& placed, const BodyGap& measured, const PairMotio
         if (best < sought.wanted && (turn == &fixed || !turn->isZero(0)))
           best = std::max(best, slabAlong(n, *turn).width(a, b) - lost);
     };
-    const TriangleGap gap = placed.gap(pieces);
+    const DistanceBounds gap = placed.gap(pair);
     best = std::max(best, gap.lower - most);
     attempt(gap.onB - gap.onA);
     for (const ConvexSet* set : {&a, &b}) {
@@ -168,9 +168,10 @@ Real boundBySlabs(BodyDistance& placed, const BodyGap& measured, const PairMotio
     const auto settled = [&](const CentredBox& a, const CentredBox& b) {
       return general.width(a, b) - lost >= bound;
     };
-    if (!std::isfinite(bound) || !placed.near(bound + most, count, settled, scratch)) continue;
-    for (const PiecePair& pieces : scratch) {
-      bound = std::min(bound, boundOf(pieces));
+    if (!std::isfinite(bound) || !placed.collectNear(bound + most, count, settled, scratch))
+      continue;
+    for (const LeafPair& pair : scratch) {
+      bound = std::min(bound, boundOf(pair));
       if (bound <= sought.needed) return -kInfinity;
     }
     return bound;

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "planner/verify/box_tree.h"
+#include "planner/verify/body_tree.h"
 
 namespace corridor::verify {
 
@@ -122,6 +122,6 @@ struct Sought {
 /// @param measured their distance there.
 /// @param scratch memory for the pairs of leaf primitives.
 Real boundBySlabs(BodyDistance& placed, const BodyGap& measured, const PairMotion& motion,
-                  const Sought& sought, std::vector<PiecePair>& scratch);
+                  const Sought& sought, std::vector<LeafPair>& scratch);
 
 }  // namespace corridor::verify

@@ -304,13 +304,13 @@ PairProver::Measured PairProver::place(const TimeInterval& interval, std::size_t
   return m;
 }
 
-void PairProver::measure(const PairReach& reach, std::size_t pair, PiecePair guess, Real stop,
+void PairProver::measure(const PairReach& reach, std::size_t pair, LeafPair guess, Real stop,
                          Measured& m) {
   const Pair& p = pairs_[pair];
-  const auto touches = [&](PiecePair pieces) {
+  const auto touches = [&](LeafPair leaves) {
     if (!reach.sharp) return false;
-    const Piece &a = treeOf(p.a).piece(pieces.a), &b = treeOf(p.b).piece(pieces.b);
-    if (a.part || b.part) return distance_.gap(pieces).upper <= reach.rounding;
+    const LeafPrimitive &a = treeOf(p.a).leaf(leaves.a), &b = treeOf(p.b).leaf(leaves.b);
+    if (a.part || b.part) return distance_.gap(leaves).upper <= reach.rounding;
     RigidPose pose;
     pose.p = m.X_AB.position.cast<double>();
     pose.q = Eigen::Quaternion<Real>(m.X_AB.rotation).cast<double>();
@@ -344,7 +344,7 @@ PairAnswer PairProver::decide(const TimeInterval& interval, const OpenPair& open
     // them, if the contact is not at this time only.)
     const Real least =
         std::min(motionBound + pad, secondOrder(bounds, interval.half) + whole.rounding);
-    const TriangleGap guessed = distance_.gap(open.guess);
+    const DistanceBounds guessed = distance_.gap(open.guess);
     const Real upper = guessed.upper;
     if (margin + pad < upper && upper <= margin + least) {
       answer.closest = open.guess;
@@ -413,7 +413,7 @@ std::optional<Vec3> PairProver::pointInside(std::size_t solid, std::size_t other
     for (const auto& component : componentsOf(*o.mesh))
       points.push_back(o.mesh->corner(component[0], 0));
   }
-  const BoxTree::Node& box = treeOf(solid).node(0);
+  const BodyTree::Node& box = treeOf(solid).node(0);
   const RealVec lower = box.lower.cast<Real>(), upper = box.upper.cast<Real>();
   // A point outside of the box is outside of the mesh. The margin is far above all rounding.
   const Real size = lower.norm() + upper.norm() + X_SolidOther.position.norm();
@@ -456,8 +456,8 @@ PathFinding PairProver::finding(const TimeInterval& interval, std::size_t pair,
   finding.configuration = curve.configuration(interval.middle);
   finding.a = problem_.bodies[p.a].name;
   finding.b = problem_.bodies[p.b].name;
-  finding.triangleA = treeOf(p.a).piece(answer.closest.a).triangle;
-  finding.triangleB = treeOf(p.b).piece(answer.closest.b).triangle;
+  finding.triangleA = treeOf(p.a).leaf(answer.closest.a).number;
+  finding.triangleB = treeOf(p.b).leaf(answer.closest.b).number;
   const KinematicChain fromRoot = chainOf(*problem_.tree, 0, problem_.bodies[p.a].frame);
   const Placement X_WA = curve.at(fromRoot, interval.middle).at;
   finding.point = (X_WA.rotation * answer.point + X_WA.position).cast<double>();

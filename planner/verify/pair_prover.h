@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "planner/verify/box_tree.h"
+#include "planner/verify/body_tree.h"
 #include "planner/verify/edge_curve.h"
 #include "planner/verify/moved_slab.h"
 #include "planner/verify/verify_path.h"
@@ -24,7 +24,7 @@ struct TimeInterval {
 /// interval around it.
 struct OpenPair {
   std::size_t pair = 0;
-  PiecePair guess;  ///< a pair of leaf primitives that is likely close
+  LeafPair guess;  ///< a pair of leaf primitives that is likely close
   Real bound = -std::numeric_limits<Real>::infinity();     ///< proved for the longer interval; see
                                                            ///< PairAnswer::bound
   Real estimate = -std::numeric_limits<Real>::infinity();  ///< see PairAnswer::estimate
@@ -42,7 +42,7 @@ struct PairAnswer {
   /// An estimate of `bound`, for the order of tests only. It is not proved.
   Real estimate = -std::numeric_limits<Real>::infinity();
   Real upper = std::numeric_limits<Real>::infinity();  ///< ≥ the distance at the middle
-  PiecePair closest;                ///< the closest pair of leaf primitives at the middle
+  LeafPair closest;                 ///< the closest pair of leaf primitives at the middle
   RealVec point = RealVec::Zero();  ///< a contact, or the closest point of b; in a's frame
   const char* reason =
       nullptr;  ///< without a verdict: why, if the interval can't be halved any more
@@ -115,7 +115,7 @@ class PairProver {
   void addCurve(EdgeCurve curve, const Configuration& error, const char* fault,
                 const Configuration& at);
   std::size_t addChain(std::size_t base, std::size_t frame);
-  const BoxTree& treeOf(std::size_t body) const { return trees_[treeOf_[body]]; }
+  const BodyTree& treeOf(std::size_t body) const { return trees_[treeOf_[body]]; }
   PairReach reachOf(std::size_t edge, std::size_t pair, const Configuration& error) const;
   Reach sumOf(std::size_t edge, std::size_t pair, const Configuration& tube,
               const Segment& segment) const;
@@ -125,7 +125,7 @@ class PairProver {
   /// Sets the bodies' placement at the middle of the interval, for `distance_` and the result.
   Measured place(const TimeInterval& interval, std::size_t pair);
   /// Measures the distance of the placed bodies.
-  void measure(const PairReach& reach, std::size_t pair, PiecePair guess, Real stop, Measured& m);
+  void measure(const PairReach& reach, std::size_t pair, LeafPair guess, Real stop, Measured& m);
   /// Returns the terms of second order that reduce the distance in an interval, in any direction.
   Real secondOrder(const Reach& reach, Real half) const;
   /// Returns a lower bound of the clearance by boundBySlabs().
@@ -141,7 +141,7 @@ class PairProver {
   bool tubeMatters(const Reach& reach) const { return reach.tube > problem_.tolerance; }
 
   const PathProblem& problem_;
-  std::vector<BoxTree> trees_;       // one per mesh; one per body of parts
+  std::vector<BodyTree> trees_;      // one per mesh; one per body of parts
   std::vector<std::size_t> treeOf_;  // for each body, its tree in `trees_`
   std::vector<KinematicChain> chains_;
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> chainIndex_;  // by base and frame
@@ -156,7 +156,7 @@ class PairProver {
       frameStates_;  // one per chain, at a time of currentEdge_
   std::size_t currentEdge_ = SIZE_MAX;
   BodyDistance distance_;
-  std::vector<PiecePair> near_;  // scratch memory of boundPiecewise()
+  std::vector<LeafPair> near_;  // scratch memory of boundPiecewise()
 };
 
 }  // namespace corridor::verify

@@ -10,7 +10,7 @@ Real clampToUnit(Real x) {
   return std::clamp<Real>(x, 0, 1);
 }
 
-void keepCloser(TriangleGap& best, const RealVec& onA, const RealVec& onB) {
+void keepCloser(DistanceBounds& best, const RealVec& onA, const RealVec& onB) {
   const Real square = (onB - onA).squaredNorm();
   if (square < best.upper) best = {0, square, onA, onB};  // `upper` holds squares until the end
 }
@@ -18,7 +18,7 @@ void keepCloser(TriangleGap& best, const RealVec& onA, const RealVec& onB) {
 /// Tries the closest points p + t·d1 and r + u·d2 of two segments (Ericson, Real-Time Collision
 /// Detection, 5.1.9). If the segments are nearly parallel, rounding may make the first value of t
 /// arbitrary. So the best u is computed for it, and then the best t for this u.
-void edgeEdge(TriangleGap& best, const RealVec& p, const RealVec& q, const RealVec& r,
+void edgeEdge(DistanceBounds& best, const RealVec& p, const RealVec& q, const RealVec& r,
               const RealVec& s) {
   const RealVec d1 = q - p, d2 = s - r, w = p - r;
   const Real a = d1.squaredNorm(), e = d2.squaredNorm(), f = d2.dot(w), c = d1.dot(w);
@@ -75,8 +75,8 @@ Real slabWidth(const RealVec a[3], const RealVec b[3], const RealVec& direction)
   return (nearB - nearA) / length;
 }
 
-TriangleGap triangleGap(const RealVec a[3], const RealVec b[3]) {
-  TriangleGap best;
+DistanceBounds triangleGap(const RealVec a[3], const RealVec b[3]) {
+  DistanceBounds best;
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) edgeEdge(best, a[i], a[(i + 1) % 3], b[j], b[(j + 1) % 3]);
     RealVec foot;

@@ -28,7 +28,7 @@ using RealMat = Eigen::Matrix<Real, 3, 3>;
 /// `lower` exceeds the true distance of the given triangles by less than (3 + 3 + 2 + 8)u·S =
 /// 2^-60·S. `upper` may be below the distance of the witness points, also by less than 2^-60·S.
 /// Callers add this error.
-struct TriangleGap {
+struct DistanceBounds {
   Real lower = 0;
   Real upper = std::numeric_limits<Real>::infinity();
   RealVec onA = RealVec::Zero(), onB = RealVec::Zero();
@@ -37,6 +37,6 @@ struct TriangleGap {
 /// Returns the width of the slab along `direction`, which may have any length; 0 if it is zero.
 Real slabWidth(const RealVec a[3], const RealVec b[3], const RealVec& direction);
 
-TriangleGap triangleGap(const RealVec a[3], const RealVec b[3]);
+DistanceBounds triangleGap(const RealVec a[3], const RealVec b[3]);
 
 }  // namespace corridor::verify

@@ -168,7 +168,7 @@ class PageData {
     const VerifyReport& r = path_->report;
     const PathLength length = lengthOf(problem_.model.space, s.path);
     bool lengths = false, angles = false;
-    const bool straight = !r.between || *r.between == Between::linear;
+    const bool straight = !r.between || *r.between == RowInterpolation::linear;
     for (const Coordinate& c : problem_.model.space.coordinates())
       (isLength(c) ? lengths : angles) = straight;
     ordered_json& solution = json_["solution"] = {

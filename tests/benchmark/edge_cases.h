@@ -83,7 +83,7 @@ inline EdgeSet grazingEdges(int count, std::mt19937_64& random) {
   return set;
 }
 
-/// Returns edges in closed form, with the time of first contact: a rod that rotates about its end
+/// Returns edges whose time of first contact has a closed form: a rod that rotates about its end
 /// down onto a plate, a box that slides into a wall, and a blade that rotates past a needle. Half
 /// of them are free.
 inline EdgeSet closedForms(int count, std::mt19937_64& random) {
@@ -137,8 +137,8 @@ inline EdgeSet closedForms(int count, std::mt19937_64& random) {
   return set;
 }
 
-/// Returns random edges of a problem between states in its bounds, the first of them free. Half of
-/// the edges are free, if there are enough. The true verdict is the verifier's.
+/// Returns random edges of a problem between states in its bounds. The first state of each edge is
+/// free. Half of the edges are free, if there are enough. The true verdict is the verifier's.
 inline EdgeSet sceneEdges(const std::string& file, int count, std::uint64_t seed) {
   const auto problem = std::make_shared<const Problem>(readProblem(file));
   const auto checker = std::make_shared<const Checker>(*problem);

@@ -176,7 +176,7 @@ inline BenchmarkCompetitor transcriptPeer(Transcript& transcript) {
 /// @throws std::runtime_error for a planner that doesn't repeat, or if recording failed.
 inline BenchmarkRun replayedRun(const Problem& planned, double memory, Path& path) {
   for (const PlannerInfo& info : knownPlanners())
-    if (info.name == planned.settings.planner.name && !info.repeats)
+    if (info.name == planned.settings.planner.name && !info.repeatable)
       throw std::runtime_error("replay: " + info.name + " doesn't repeat");
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::tmpfile(), std::fclose);
   if (!file) throw std::runtime_error("replay: a temporary file can't be created");

@@ -68,7 +68,7 @@ class SimulatedRuns {
       ChildProcess real =
           startRun(&campaign.problems[0], problemOfRun(campaign, cell, 1), campaign.digests[0],
                    campaign.variants[cell.variant].competitor, campaign.limits);
-      while (!real.advance()) ChildProcess::waitForAny({&real}, 100);
+      while (!real.poll()) ChildProcess::waitForAny({&real}, 100);
       samples_[{cell.variant, cell.planner.label}] = runOf(real.end(), 1);
     }
   }

@@ -61,7 +61,7 @@ class Arm(unittest.TestCase):
         self.assertGreater(free, 50)
         self.assertGreater(contact, 50)
         self.assertGreater(samples, 10_000)
-        # The claims are not empty: somewhere one is within a tenth of the tolerated clearance of the truth.
+        # The claims are not empty: at some sample, the true distance exceeds the claimed one by less than 0.05 m.
         self.assertLess(closest, 0.05)
 
     def test_contacts_have_a_point(self):
@@ -100,9 +100,9 @@ class Arm(unittest.TestCase):
         proof.pair = proof.pair - 1
         self.assertEqual(proof.check().kind, "malformed")
         proof.pair = proof.pair + 1
-        first = proof.t0 > 0
+        later = proof.t0 > 0
         for name in "pair", "t0", "t1", "clearance":
-            setattr(proof, name, getattr(proof, name)[first])
+            setattr(proof, name, getattr(proof, name)[later])
         self.assertEqual(proof.check(), corridor.CertificateFault("gap", 0, 0.0))
         self.assertEqual(proof.covered().tolist(), [0])
         proof.t0 = np.zeros(99)
@@ -110,7 +110,7 @@ class Arm(unittest.TestCase):
             proof.check()
 
     def test_forged_certificates_are_refused(self):
-        """A certificate that is taken for another edge, which has a contact, is never accepted. Seed 3."""
+        """A certificate that is presented for another edge, which has a contact, is never accepted. Seed 3."""
         problem = planar_arm()
         rng = np.random.default_rng(3)
         forged = 0

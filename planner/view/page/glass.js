@@ -70,7 +70,7 @@ class Obstacles {
     const flat = (number) => new THREE.MeshBasicMaterial({color: number, side: THREE.DoubleSide});
     const white = flat(0xffffff);
     const copies = [motion.start, ...motion.goals, ...motion.ghosts].map((shown) => {
-      const copy = new Copy((body, shape) => [new THREE.Mesh(shape.geometry, white)]);
+      const copy = new RobotCopy((body, shape) => [new THREE.Mesh(shape.geometry, white)]);
       shown.frames.forEach((frame, i) => copy.frames[i].matrix.copy(frame.matrix));
       copy.frames.forEach((frame) => { frame.matrixWorldNeedsUpdate = true; });
       return copy.root;

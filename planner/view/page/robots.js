@@ -53,7 +53,7 @@ function framePose(at, frame, position, quaternion) {
 }
 
 /** A copy of all robots: a group per frame, with the meshes that `meshOf(body, shape, index)` returns for each body. */
-class Copy {
+class RobotCopy {
   constructor(meshOf) {
     this.root = new THREE.Group();
     this.frames = Array.from({length: frameCount}, () => new THREE.Group());
@@ -98,7 +98,7 @@ function lines(shape, colour, opacity) {
 const behind = (rank) => ({polygonOffsetFactor: 1 + 0.25 * rank, polygonOffsetUnits: 1 + 300 * rank});
 
 /** Solid robots. Parts that other bodies hide are dimly visible. */
-class Robots extends Copy {
+class Robots extends RobotCopy {
   /** @param hex colour; unset: a colour per robot. @param rank if above 0, frames that never move are left out. */
   constructor(hex, rank = 0) {
     const materials = new Map();
@@ -124,7 +124,7 @@ class Robots extends Copy {
  * Another pose of the robots, like glass. All ghosts form one layer: their depths are drawn first, behind solid things, and then
  * their colours. So the nearest ghost is visible, whatever the order of drawing.
  */
-class Ghost extends Copy {
+class Ghost extends RobotCopy {
   constructor(colour, opacity, rank) {
     const offset = behind(rank);
     const depth = new THREE.MeshBasicMaterial({colorWrite: false, side: THREE.DoubleSide, polygonOffset: true, ...offset});

@@ -29,7 +29,7 @@ TEST(InspectMesh, ClosedMesh) {
   EXPECT_EQ(health.nonManifoldEdges, 0u);
   EXPECT_EQ(health.components, 1u);
   EXPECT_TRUE(health.watertight);
-  EXPECT_EQ(health.turnedEdges, 0u);
+  EXPECT_EQ(health.misorientedEdges, 0u);
   EXPECT_EQ(health.whyNotWatertight, "");
   EXPECT_DOUBLE_EQ(health.volume.value_or(0), 1.0 / 6);
   EXPECT_EQ(health.min, Vec3(0, 0, 0));
@@ -64,7 +64,7 @@ TEST(InspectMesh, OpenTurnedAndDoubledMeshes) {
   std::swap(turned.triangles[0][0], turned.triangles[0][1]);
   EXPECT_EQ(inspectMesh(turned).boundaryEdges, 0u);
   EXPECT_FALSE(inspectMesh(turned).watertight);
-  EXPECT_EQ(inspectMesh(turned).turnedEdges, 3u);
+  EXPECT_EQ(inspectMesh(turned).misorientedEdges, 3u);
   EXPECT_EQ(inspectMesh(turned).whyNotWatertight,
             "its triangles do not face the same way at 3 of its edges");
 
@@ -78,7 +78,7 @@ TEST(InspectMesh, OpenTurnedAndDoubledMeshes) {
   EXPECT_EQ(health.triangles, 8u);
   EXPECT_EQ(health.distinctTriangles, 4u);
   EXPECT_EQ(health.nonManifoldEdges, 0u);
-  EXPECT_EQ(health.turnedEdges, 0u);
+  EXPECT_EQ(health.misorientedEdges, 0u);
   EXPECT_FALSE(health.watertight);
   EXPECT_EQ(health.whyNotWatertight,
             "6 of its edges have three triangles or more, repeated ones included");
@@ -144,7 +144,7 @@ TEST(InspectMesh, EdgesByTheirDefinition) {
     }
     const MeshHealth health = inspectMesh(mesh);
     ASSERT_EQ(health.watertight, watertight) << i;
-    ASSERT_EQ(health.turnedEdges, same) << i;
+    ASSERT_EQ(health.misorientedEdges, same) << i;
     ASSERT_EQ(health.whyNotWatertight.empty(), watertight) << i;
     closed += watertight;
     turned += same > 0;

@@ -304,8 +304,8 @@ TEST(CurvedVolumeBalls, ContainSampledPoints) {
       cones += shell.hasCone();
       for (int i = 0; i < 100; ++i) {
         // The samples are off by some roundings of the lengths involved.
-        ASSERT_LE((anyPoint(random, shell) - shell.middle).norm(),
-                  shell.ball + 0x1p-48 * (shell.outer + shell.center.norm()))
+        ASSERT_LE((anyPoint(random, shell) - shell.boundingCenter).norm(),
+                  shell.boundingRadius + 0x1p-48 * (shell.outer + shell.center.norm()))
             << n;
         const Vec3 d = i < 3 ? Vec3(Vec3::Unit(i)) : anyDirection(random);
         const Vec3 p = e.core.axes * e.core.half.cwiseProduct(d) + e.size * (e.core.axes * d);
@@ -330,7 +330,7 @@ TEST(OverlapShells, NeverFartherThanSampledPoints) {
       if (random() % 4) s.slope = std::pow(10, real(random, -3, 1));
       s.center = (n % 2 ? 0.3 : 1.5) * anyVector(random);
       s.size = random() % 3 ? 0 : real(random, 0, 0.1);
-      s.middle = s.center, s.ball = roundedUp(s.outer + s.size);
+      s.boundingCenter = s.center, s.boundingRadius = roundedUp(s.outer + s.size);
     }
     const auto& [a, b] = pair;
     const Transform X = n % 3 ? test::anyPose(random, 0.3) : Transform();
@@ -352,10 +352,10 @@ TEST(OverlapShells, NeverFartherThanSampledPoints) {
 /// Spheres whose distance from the hole, the outside or the side of a shell is known.
 TEST(OverlapShells, ClosedForms) {
   Shell shell, point;
-  shell.inner = 2, shell.outer = 3, shell.ball = 3;
+  shell.inner = 2, shell.outer = 3, shell.boundingRadius = 3;
   const auto bound = [&](const Vec3& at, double radius) {
-    point.center = point.middle = at;
-    point.size = point.ball = radius;
+    point.center = point.boundingCenter = at;
+    point.size = point.boundingRadius = radius;
     return std::array{
         PairTest<Shell>(boundsOf(shell), boundsOf(point), {}, 0).distanceBound(shell, point),
         PairTest<Shell>(boundsOf(point), boundsOf(shell), {}, 0).distanceBound(point, shell)};

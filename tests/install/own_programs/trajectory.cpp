@@ -18,7 +18,7 @@ int main(int count, char** arguments) try {
   // Rows of a CSV file, or a JointTrajectory of ROS or MoveIt.
   TrajectoryRows rows =
       readTrajectory(arguments[2], readMotionText(arguments[2], "a trajectory"), model);
-  const Between between = betweenOf(rows, {});  // as the usual controllers do
+  const RowInterpolation between = interpolationOf(rows, {});  // as the usual controllers do
   const Curve curve = curveOf(rows, model.space, between);
   for (std::size_t k = 0; k < curve.pieces.size(); ++k) {
     const MotionResult result = checker.certifyCurve(curve.pieces[k], true);

@@ -352,7 +352,7 @@ TEST_F(HallWithTrajectories, AnEndedProcessKeepsWhatWasDone) {
   };
   ChildProcess process = startRun(&c.problems[0], problemOfRun(c, cellsOf(c)[0], 1), c.digests[0],
                                   competitor, {}, trajectories);
-  while (!process.advance()) ChildProcess::waitForAny({&process}, 100);
+  while (!process.poll()) ChildProcess::waitForAny({&process}, 100);
   const BenchmarkRun run = runOf(process.end(), 1, trajectories);
   EXPECT_THAT(run.failure, HasSubstr("a trajectory failed: killed by signal 14"));
   EXPECT_EQ(run.verdict, "proved");

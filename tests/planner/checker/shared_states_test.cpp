@@ -60,7 +60,7 @@ TEST(SharedStates, LinksThatTouchEachOther) {
     arm.description = *model;
     std::vector<std::size_t> moving;
     for (std::size_t j = 0; j < model->joints.size(); ++j)
-      if (movesItself(model->joints[j])) moving.push_back(j);
+      if (hasOwnValue(model->joints[j])) moving.push_back(j);
     chooseJoints(arm, moving);
     Problem problem;
     problem.model = ModelBuilder().addRobot(arm).buildForReader();

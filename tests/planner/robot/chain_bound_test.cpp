@@ -44,7 +44,7 @@ TEST(ChainBound, IsNeverExceeded) {
   const int count = test::isStressRun() ? 2'000'000 : 150'000;
   double tightest = 0, tightestAlong = 0, tightestStray = 0;
   for (int n = 0; n < count; ++n) {
-    if (n % 5 == 0) random.makeTree(1 + random.index(8));
+    if (n % 5 == 0) random.makeTree(1 + random.randomIndex(8));
     random.makeEdge(n % 3 == 0 ? 8 : 1);
     const Scene::FramePair pair[] = {random.pair()};
     Configuration tube = random.noTube();
@@ -55,7 +55,7 @@ TEST(ChainBound, IsNeverExceeded) {
     EdgeMotion motion(random.tree, random.space, pair, tube);
     motion.set(random.from, random.to);
     if (motion.ambiguous()) continue;
-    const double h = std::ldexp(0.5, -static_cast<int>(random.index(8)));
+    const double h = std::ldexp(0.5, -static_cast<int>(random.randomIndex(8)));
     const double t = h + 2 * h * std::floor(random.real(0, 0.5 / h));
     const RelativeMotion w = motion.relativeMotion(0, t, h);
     const Vec3 p = random.vector(n % 7 ? 1 : 100), direction = random.direction();

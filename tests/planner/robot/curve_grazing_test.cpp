@@ -52,7 +52,7 @@ struct CurveGrazing {
   bool known = false;
 
   CurveGrazing(RandomTrees& random, int n, double gap) {
-    random.makeTree(1 + random.index(5));
+    random.makeTree(1 + random.randomIndex(5));
     piece = smoothPiece(random, 2 + n % 8, n % 3 ? 0.5 : 2);
     frames.b = random.tree.frames.size() - 1;
     const ReferenceKinematics reference(random.tree, random.space, piece);
@@ -186,7 +186,7 @@ TEST(CurveMotion, StraightPiecesHaveTheVerdictOfTheEdge) {
   int verdicts[3] = {}, other = 0;
   QueryContext context;
   for (int n = 0; n < count; ++n) {
-    random.makeTree(1 + random.index(6));
+    random.makeTree(1 + random.randomIndex(6));
     random.makeEdge(1);
     if (random.space.ambiguous(random.from, random.to)) continue;
     CurvePiece piece = curveOfPath(random.space, {random.from, random.to}).pieces[0];
@@ -239,7 +239,7 @@ TEST(CurveMotion, RandomPiecesAgainstSamples) {
   int verdicts[3] = {};
   QueryContext context;
   for (int n = 0; n < count; ++n) {
-    random.makeTree(1 + random.index(6));
+    random.makeTree(1 + random.randomIndex(6));
     const int degree = 1 + n % 8;
     const CurvePiece piece = smoothPiece(random, degree, std::pow(10.0, random.real(-2, 0.3)));
     const Scene::FramePair frames{0, random.tree.frames.size() - 1};

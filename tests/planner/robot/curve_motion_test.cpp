@@ -30,7 +30,7 @@ CurvePiece randomPiece(RandomTrees& random, int degree, double size) {
   piece.coefficients.col(0) = random.from;
   piece.coefficients.col(degree) = random.to;
   for (Eigen::Index row = 0; row < numbers; ++row) {
-    const auto kind = random.index(8);
+    const auto kind = random.randomIndex(8);
     const double from = random.from[row], to = random.to[row];
     for (int i = 0; i <= degree; ++i) {
       double& d = piece.coefficients(row, i);
@@ -51,7 +51,7 @@ CurvePiece randomPiece(RandomTrees& random, int degree, double size) {
 }
 
 std::pair<double, double> dyadicInterval(RandomTrees& random) {
-  const double h = std::ldexp(0.5, -static_cast<int>(random.index(12)));
+  const double h = std::ldexp(0.5, -static_cast<int>(random.randomIndex(12)));
   return {h + 2 * h * std::floor(random.real(0, 0.5 / h)), h};
 }
 
@@ -68,7 +68,7 @@ TEST(CurveMotion, PosesAndTwistsAreWithinTheirStatedError) {
   const int count = test::isStressRun() ? 500'000 : 50'000;
   double worst = 0;
   for (int n = 0; n < count; ++n) {
-    if (n % 5 == 0) random.makeTree(1 + random.index(8));
+    if (n % 5 == 0) random.makeTree(1 + random.randomIndex(8));
     const CurvePiece piece = randomPiece(random, 1 + n % 9, n % 3 ? 1 : 5);
     const Scene::FramePair pair[] = {random.pair()};
     EdgeMotion motion(random.tree, random.space, pair, random.noTube());
@@ -100,7 +100,7 @@ TEST(CurveMotion, MotionBoundsHold) {
   const int count = test::isStressRun() ? 300'000 : 30'000;
   double worstIsotropic = 0, worstBeyond = 0;
   for (int n = 0; n < count; ++n) {
-    if (n % 5 == 0) random.makeTree(1 + random.index(6));
+    if (n % 5 == 0) random.makeTree(1 + random.randomIndex(6));
     const CurvePiece piece = randomPiece(random, 1 + n % 9, n % 3 ? 1 : 0.1);
     const Scene::FramePair pair[] = {random.pair()};
     EdgeMotion motion(random.tree, random.space, pair, random.noTube());
@@ -184,7 +184,7 @@ TEST(CurveMotion, AJointThatTurnsRoundIsNotAtRest) {
 TEST(CurveMotion, StraightPiecesAreEdges) {
   RandomTrees random(test::testSeed(43));
   for (int n = 0; n < 5'000; ++n) {
-    random.makeTree(1 + random.index(6));
+    random.makeTree(1 + random.randomIndex(6));
     random.makeEdge(2);
     if (random.space.ambiguous(random.from, random.to)) continue;
     const Scene::FramePair pair[] = {random.pair()};

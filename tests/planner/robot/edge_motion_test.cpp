@@ -26,7 +26,7 @@ using std::numbers::pi;
 
 /// A random time interval with exact doubles, as `certifyMotion` uses them.
 std::pair<double, double> interval(RandomTrees& random) {
-  const double h = std::ldexp(0.5, -static_cast<int>(random.index(12)));
+  const double h = std::ldexp(0.5, -static_cast<int>(random.randomIndex(12)));
   return {h + 2 * h * std::floor(random.real(0, 0.5 / h)), h};
 }
 
@@ -59,7 +59,7 @@ TEST(EdgeMotion, PosesAndTwistsAreWithinTheirStatedError) {
   std::vector<double> shares;
   const int count = test::isStressRun() ? 1'000'000 : 100'000;
   for (int n = 0; n < count; ++n) {
-    if (n % 5 == 0) random.makeTree(1 + random.index(12), n % 7 ? 1 : 1000);
+    if (n % 5 == 0) random.makeTree(1 + random.randomIndex(12), n % 7 ? 1 : 1000);
     random.makeEdge(n % 3 ? 2 : 20, n % 11 ? 3 : 100);
     const Scene::FramePair pair[] = {random.pair()};
     EdgeMotion motion(random.tree, random.space, pair, random.noTube());
@@ -193,7 +193,7 @@ TEST(EdgeMotion, ErrorsBetweenLinksAreSmallFarFromTheOrigin) {
 TEST(EdgeMotion, ScrewsAreTheMotion) {
   RandomTrees random(test::testSeed(2));
   for (int n = 0; n < 20'000; ++n) {
-    random.makeTree(1 + random.index(6));
+    random.makeTree(1 + random.randomIndex(6));
     random.makeEdge(2);
     const Scene::FramePair pair[] = {random.pair()};
     EdgeMotion motion(random.tree, random.space, pair, random.noTube());

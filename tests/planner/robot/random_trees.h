@@ -19,10 +19,10 @@ class RandomTrees {
   double real(double low = -1, double high = 1) {
     return std::uniform_real_distribution(low, high)(random_);
   }
-  std::size_t index(std::size_t count) {
+  std::size_t randomIndex(std::size_t count) {
     return std::uniform_int_distribution<std::size_t>(0, count - 1)(random_);
   }
-  bool oneIn(std::size_t n) { return index(n) == 0; }
+  bool oneIn(std::size_t n) { return randomIndex(n) == 0; }
   Vec3 vector(double size = 1) { return size * Vec3(real(), real(), real()); }
   Vec3 direction() { return vector().normalized(); }
 
@@ -30,15 +30,17 @@ class RandomTrees {
   ConfigurationSpace space;
   Configuration from, to;
 
-  /// A tree of up to `joints` joints, each of one or more degrees of freedom. Each coordinate of
-  /// its base, in the world, is between -far and far, metres.
+  /// Makes a tree of `joints` joints: most have one or more degrees of freedom; some are held, or
+  /// mimic another. Each coordinate of its base, in the world, is between -far and far, metres.
   void makeTree(std::size_t joints, double far = 1) {
     tree = {};
     space = {};
     for (std::size_t n = 0; n < joints; ++n) {
       Frame frame;
       // Mostly unbranched chains.
-      frame.parent = n == 0 ? 0 : oneIn(4) ? index(tree.frames.size()) : tree.frames.size() - 1;
+      frame.parent = n == 0     ? 0
+                     : oneIn(4) ? randomIndex(tree.frames.size())
+                                : tree.frames.size() - 1;
       frame.fixed.p = oneIn(5) ? Vec3::Zero() : vector(n == 0 ? far : 0.5);
       if (!oneIn(3)) frame.fixed.q = quaternion();
       if (oneIn(6)) {
@@ -76,7 +78,7 @@ class RandomTrees {
   }
 
   Scene::FramePair pair() {
-    const std::size_t a = index(tree.frames.size()), b = index(tree.frames.size());
+    const std::size_t a = randomIndex(tree.frames.size()), b = randomIndex(tree.frames.size());
     return {std::min(a, b), std::max(a, b)};
   }
 
@@ -92,21 +94,21 @@ class RandomTrees {
   }
 
   void addJoint(Frame frame) {
-    frame.axis = oneIn(3) ? Vec3::Unit(static_cast<Eigen::Index>(index(3)))
+    frame.axis = oneIn(3) ? Vec3::Unit(static_cast<Eigen::Index>(randomIndex(3)))
                           : vector(std::pow(10.0, real(-2, 2)));
-    const std::size_t kind = index(12);
+    const std::size_t kind = randomIndex(12);
     if (kind == 0 || kind == 1) {  // planar or floating
       const bool planar = kind == 0;
       frame.joint = Frame::Joint::translation;
       frame.count = planar ? 2 : 3;
       for (std::size_t k = 0; k < frame.count; ++k) {
-        const std::size_t number = firstOf(Coordinate::Kind::line);
+        const std::size_t number = addCoordinate(Coordinate::Kind::line);
         if (k == 0) frame.variable = number;
       }
       Frame turn;
       turn.parent = tree.add(frame);
       turn.joint = planar ? Frame::Joint::revolute : Frame::Joint::rotation;
-      turn.variable = firstOf(planar ? Coordinate::Kind::circle : Coordinate::Kind::rotation);
+      turn.variable = addCoordinate(planar ? Coordinate::Kind::circle : Coordinate::Kind::rotation);
       tree.add(turn);
       return;
     }
@@ -120,9 +122,9 @@ class RandomTrees {
         frame.multiplier = oneIn(3) ? -1 : real(-2, 2);
         frame.offset = oneIn(2) ? 0 : real();
       } else {
-        frame.variable =
-            firstOf(frame.joint == Frame::Joint::revolute && oneIn(3) ? Coordinate::Kind::circle
-                                                                      : Coordinate::Kind::line);
+        frame.variable = addCoordinate(frame.joint == Frame::Joint::revolute && oneIn(3)
+                                           ? Coordinate::Kind::circle
+                                           : Coordinate::Kind::line);
       }
     }
     tree.add(frame);
@@ -132,7 +134,7 @@ class RandomTrees {
   /// Frame::noVariable.
   std::size_t followed() {
     if (!oneIn(4)) return Frame::noVariable;
-    const Frame& other = tree.frames[index(tree.frames.size())];
+    const Frame& other = tree.frames[randomIndex(tree.frames.size())];
     const bool single =
         other.joint == Frame::Joint::revolute || other.joint == Frame::Joint::prismatic;
     if (!single || other.variable == Frame::noVariable) return Frame::noVariable;
@@ -141,7 +143,7 @@ class RandomTrees {
     return Frame::noVariable;
   }
 
-  std::size_t firstOf(Coordinate::Kind kind) {
+  std::size_t addCoordinate(Coordinate::Kind kind) {
     Coordinate c;
     c.kind = kind;
     const std::size_t n = space.add(c);

@@ -30,7 +30,7 @@ Scene randomScene(RandomTrees& random) {
     const Vec3 center = random.vector(0.3);
     return Body("", test::box(center - half, center + half));
   };
-  const std::size_t obstacles = 1 + random.index(4);
+  const std::size_t obstacles = 1 + random.randomIndex(4);
   for (std::size_t i = 0; i < obstacles; ++i) {
     const Vec3 center = random.vector(2);
     const Vec3 half(random.real(0.1, 1), random.real(0.1, 1), random.real(0.1, 1));
@@ -78,7 +78,7 @@ TEST(SceneMotion, EdgesOfRandomTrees) {
   std::uint64_t poses = 0, posesAlone = 0;
   const int count = (test::isStressRun() ? 30'000 : 3'000) / test::kSlowdown;
   for (int n = 0; n < count; ++n) {
-    random.makeTree(2 + random.index(7));
+    random.makeTree(2 + random.randomIndex(7));
     const Scene scene = randomScene(random);
     if (scene.pairs().empty()) continue;
     EdgeMotion motion(random.tree, random.space, scene.framePairs(), random.noTube());
@@ -132,7 +132,7 @@ TEST(SceneMotion, CertificateHolds) {
   std::size_t intervals = 0;
   const int count = (test::isStressRun() ? 3'000 : 300) / test::kSlowdown;
   for (int n = 0; n < count; ++n) {
-    random.makeTree(2 + random.index(5));
+    random.makeTree(2 + random.randomIndex(5));
     const Scene scene = randomScene(random);
     if (scene.pairs().empty()) continue;
     EdgeMotion motion(random.tree, random.space, scene.framePairs(), random.noTube());
@@ -161,8 +161,9 @@ TEST(SceneMotion, CertificateHolds) {
         << fault->t;
     // A certificate with an interval missing must be refused.
     if (until == 0 || certificate.free.empty()) continue;
-    certificate.free.erase(certificate.free.begin() +
-                           static_cast<std::ptrdiff_t>(random.index(certificate.free.size())));
+    certificate.free.erase(
+        certificate.free.begin() +
+        static_cast<std::ptrdiff_t>(random.randomIndex(certificate.free.size())));
     const auto missed =
         checkCertificate(motion, scene.motionPairs(), options, 1, certificate, context);
     EXPECT_TRUE(missed) << n;
@@ -180,7 +181,7 @@ TEST(SceneMotion, StatesOfRandomTrees) {
   int touching = 0, apart = 0;
   const int count = (test::isStressRun() ? 30'000 : 3'000) / test::kSlowdown;
   for (int n = 0; n < count; ++n) {
-    random.makeTree(2 + random.index(7));
+    random.makeTree(2 + random.randomIndex(7));
     const Scene scene = randomScene(random);
     random.makeEdge(1);
     std::vector<Transform> X_WF = framePoses(random.tree, random.from);
@@ -252,7 +253,7 @@ TEST(SceneMotion, FramesAtRestChangeNoAnswer) {
   std::uint64_t poses = 0, posesOther = 0;
   const int count = (test::isStressRun() ? 4'000 : 400) / test::kSlowdown;
   for (int n = 0; n < count; ++n) {
-    random.makeTree(1 + random.index(4), 0.3);
+    random.makeTree(1 + random.randomIndex(4), 0.3);
     Crowd crowd;
     const Vec3 half(random.real(0.05, 0.3), random.real(0.05, 0.3), random.real(0.05, 0.3));
     crowd.mesh = test::box(-half, half);

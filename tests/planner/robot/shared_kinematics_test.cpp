@@ -44,7 +44,7 @@ TEST(SharedKinematics, EveryLinkIsWhereTheReferenceHasIt) {
     arm.description = *model;
     std::vector<std::size_t> moving;
     for (std::size_t j = 0; j < model->joints.size(); ++j)
-      if (movesItself(model->joints[j])) moving.push_back(j);
+      if (hasOwnValue(model->joints[j])) moving.push_back(j);
     chooseJoints(arm, moving);
     const Model built = ModelBuilder().addRobot(arm).buildForReader();
     const auto& frames = built.robots.front().linkFrames;

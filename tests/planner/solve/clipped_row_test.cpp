@@ -52,7 +52,7 @@ class ClippedRow {
   };
   /// Returns the first contact beside the row, or nullopt.
   std::optional<Touch> touchOf(double by) const {
-    const Curve curve = curveOf(moved(by), problem_.model.space, Between::cubic);
+    const Curve curve = curveOf(moved(by), problem_.model.space, RowInterpolation::cubic);
     for (std::size_t k = row_ - 1; k <= row_; ++k) {
       const MotionResult r = checker_.certifyCurve(curve.pieces[k]);
       if (r.verdict == MotionVerdict::contact) return Touch{k, r.contactTime};
@@ -97,7 +97,7 @@ void testClip(const Problem& problem, const Checker& checker, ClippedRow& clip,
   const ConfigurationSpace& space = problem.model.space;
   // The distance at the place of the touch grows by `slope` per rad that the row is moved back.
   const double back = 1e-4;
-  const Curve before = curveOf(clip.moved(clip.by() - back), space, Between::cubic);
+  const Curve before = curveOf(clip.moved(clip.by() - back), space, RowInterpolation::cubic);
   const double slope =
       checker.clearance(configurationAt(space, before.pieces[touch->piece], touch->tau)) / back;
   if (!(slope > 1e-2)) return;  // the row moves the bodies along each other
@@ -106,7 +106,7 @@ void testClip(const Problem& problem, const Checker& checker, ClippedRow& clip,
   EXPECT_EQ(verifyTrajectory(problem, apart).pathReport.verdict, PathVerdict::proved);
 
   const TrajectoryRows rows = clip.moved(clip.by() + 1e-6 / slope);
-  const Curve curve = curveOf(rows, space, Between::cubic);
+  const Curve curve = curveOf(rows, space, RowInterpolation::cubic);
   const auto timeOf = [&](std::size_t piece, double tau) {
     return curve.knots[piece] + tau * (curve.knots[piece + 1] - curve.knots[piece]);
   };

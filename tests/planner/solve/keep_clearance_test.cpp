@@ -161,7 +161,7 @@ TEST(KeepClearance, HoldsWhatItPromises) {
     ASSERT_EQ(moved.front(), path.front());
     ASSERT_EQ(moved.back(), path.back());
     EXPECT_LE(distanceAlong(space, moved), 1.1 * distanceAlong(space, path) * (1 + 1e-12));
-    EXPECT_TRUE(certifiedPath(mover.checker, moved));
+    EXPECT_TRUE(isCertified(mover.checker, moved));
     const PathClearance proof = proveClearance(mover.checker, mover.targets, moved, mover.onTarget);
     const double after = clearanceAlong(moved, posts), before = clearanceAlong(path, posts);
     EXPECT_LT(proof.proved, after) << n;
@@ -276,14 +276,14 @@ TEST(CertifiedPath, TestsNoKnownEdge) {
   const Path path{at(-3, 0), at(0, 0), at(3, 0)};
   EXPECT_TRUE(edges.isFree(path[0], path[1]));
   const std::uint64_t before = checker.counters().edges;
-  EXPECT_TRUE(certifiedPath(checker, path, &edges));
+  EXPECT_TRUE(isCertified(checker, path, &edges));
   EXPECT_EQ(checker.counters().edges, before + 1);
-  EXPECT_TRUE(certifiedPath(checker, path));
+  EXPECT_TRUE(isCertified(checker, path));
   EXPECT_EQ(checker.counters().edges, before + 3);
   EdgeMemory bold([](const auto&, const auto&) { return true; });
   const Path outside{at(-3, 0), at(-7, 0), at(-3, 1)};
   EXPECT_TRUE(bold.isFree(outside[0], outside[1]) && bold.isFree(outside[1], outside[2]));
-  EXPECT_FALSE(certifiedPath(checker, outside, &bold));
+  EXPECT_FALSE(isCertified(checker, outside, &bold));
 }
 
 TEST(PreferredClearance, ItsDefaultIsForRobotsWithJoints) {

@@ -128,7 +128,7 @@ TEST_F(MakeTrajectory, KeepsJerkRateAndScale) {
   const MadeTrajectory made = makeTrajectory(problem, Checker(problem), overThePost());
   EXPECT_EQ(made.fault, "");
   EXPECT_TRUE(made.proved());
-  EXPECT_EQ(made.between, Between::quintic);
+  EXPECT_EQ(made.between, RowInterpolation::quintic);
   EXPECT_GT(made.ratios.jerk.share, 0);
   EXPECT_TRUE(keepsLimits(made.ratios));
   EXPECT_GE(made.rows, 50 * made.duration);
@@ -152,7 +152,7 @@ TEST_F(MakeTrajectory, AClipOfAMicrometreIsFound) {
     }
     const TrajectoryRows rows = readTrajectory("clip.csv", text, problem.model);
     const VerifyReport report = verifyTrajectory(problem, rows);
-    const Curve curve = curveOf(rows, problem.model.space, Between::cubic);
+    const Curve curve = curveOf(rows, problem.model.space, RowInterpolation::cubic);
     std::size_t touching = 0;
     for (const CurvePiece& piece : curve.pieces)
       touching += checker.certifyCurve(piece).verdict == MotionVerdict::contact;

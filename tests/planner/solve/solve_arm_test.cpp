@@ -67,7 +67,7 @@ TEST(Arm, SearchesStartAgainAfterTooManyEdges) {
   const SolveReport report = solveProblem(problem);
   ASSERT_EQ(report.outcome, SolveOutcome::solved) << report.why;
   EXPECT_GT(report.restarts, 1U);
-  EXPECT_TRUE(report.repeats);
+  EXPECT_TRUE(report.repeatable);
   EXPECT_EQ(solveProblem(problem).path, report.path);
   EXPECT_EQ(verifySolution(problem, makeSolution(problem, report)).verdict, PathVerdict::proved);
   problem.settings.planner.name = "RRTstar";  // with stop: time, it uses all its time

@@ -76,7 +76,7 @@ TEST_P(Spaces, Simplifiers) {
     const SolveReport report = solveProblem(problem);
     ASSERT_EQ(report.outcome, SolveOutcome::solved) << report.why;
     EXPECT_TRUE(report.certified);
-    EXPECT_TRUE(report.repeats);
+    EXPECT_TRUE(report.repeatable);
     EXPECT_EQ(report.version > 0, simplifier != Simplifier::none);
     if (simplifier == Simplifier::none) raw = report.length.metres;
     EXPECT_LE(report.length.metres, raw * (simplifier == Simplifier::none ? 1 : 0.99))
@@ -93,7 +93,7 @@ TEST_P(Spaces, APathThatDependsOnTheClockDoesNotRepeat) {
     problem.settings.planner.stopAtFirst = first;
     problem.settings.planner.time = first ? 20 : 0.5;
     const SolveReport report = solveProblem(problem);
-    EXPECT_EQ(report.repeats, first);
+    EXPECT_EQ(report.repeatable, first);
     if (first) {
       EXPECT_EQ(report.outcome, SolveOutcome::solved) << report.why;
     }

@@ -17,10 +17,11 @@ using testing::HasSubstr;
 
 class TrajectoryCurve : public test::TrajectoryTest {
  protected:
-  std::string curveComplaint(const std::string& text, std::optional<Between> wanted = {}) const {
+  std::string curveComplaint(const std::string& text,
+                             std::optional<RowInterpolation> wanted = {}) const {
     try {
       TrajectoryRows read = rows(text);
-      const Between between = betweenOf(read, wanted);
+      const RowInterpolation between = interpolationOf(read, wanted);
       curveOf(read, problem_.model.space, between);
     } catch (const InputError& error) {
       return error.what();
@@ -37,7 +38,7 @@ const char* const kCubic = "time pan lift pan_vel lift_vel\n1 0 0 0 1\n1.5 1 1 0
 TEST_F(TrajectoryCurve, TheFileDecidesWhatLiesBetweenRows) {
   for (const auto& [text, degree] : {std::pair{"0 0\n1 1\n1 0\n", 1}, {kCubic, 3}, {kQuintic, 5}}) {
     TrajectoryRows read = rows(text);
-    const Curve curve = curveOf(read, problem_.model.space, betweenOf(read, {}));
+    const Curve curve = curveOf(read, problem_.model.space, interpolationOf(read, {}));
     ASSERT_EQ(curve.pieces.size(), 2u);
     EXPECT_EQ(curve.pieces[0].degree(), degree);
     EXPECT_EQ(curve.knots,
@@ -49,17 +50,17 @@ TEST_F(TrajectoryCurve, TheFileDecidesWhatLiesBetweenRows) {
 
 TEST_F(TrajectoryCurve, TheCommandLineMayChooseLess) {
   TrajectoryRows read = rows(kQuintic);
-  EXPECT_EQ(betweenOf(read, Between::cubic), Between::cubic);
-  EXPECT_EQ(betweenOf(read, Between::linear), Between::linear);
+  EXPECT_EQ(interpolationOf(read, RowInterpolation::cubic), RowInterpolation::cubic);
+  EXPECT_EQ(interpolationOf(read, RowInterpolation::linear), RowInterpolation::linear);
   EXPECT_THAT(
       textsOf(read.notes),
       ElementsAre("t.csv: --between cubic: the file's accelerations are not used",
                   "t.csv: --between linear: the file's velocities and accelerations are not "
                   "used"));
-  EXPECT_EQ(curveComplaint(kCubic, Between::quintic),
+  EXPECT_EQ(curveComplaint(kCubic, RowInterpolation::quintic),
             "t.csv: --between quintic needs accelerations, which the file does not have; by "
             "default, cubic is used");
-  EXPECT_EQ(curveComplaint("time pan lift\n0 0 0\n1 1 1\n", Between::cubic),
+  EXPECT_EQ(curveComplaint("time pan lift\n0 0 0\n1 1 1\n", RowInterpolation::cubic),
             "t.csv: --between cubic needs times and velocities, which the file does not have; by "
             "default, linear is used");
 }
@@ -88,7 +89,7 @@ TEST_F(TrajectoryCurve, BoundsHoldAlongTheWholeCurve) {
     TrajectoryRows read = rows("time pan lift pan_vel lift_vel\n0 0 0 0 0\n1 0 0 0 " +
                                std::to_string(v) + "\n3 0 0 0 0\n");
     return outsideBounds(problem_.model.space,
-                         curveOf(read, problem_.model.space, betweenOf(read, {})).pieces);
+                         curveOf(read, problem_.model.space, interpolationOf(read, {})).pieces);
   };
   const double limit = problem_.model.space.coordinates()[1].upper * 27 / 4 / 2;
   EXPECT_TRUE(outside(limit - 1e-5).empty());
@@ -105,7 +106,7 @@ TEST_F(TrajectoryCurve, BoundsHoldAlongTheWholeCurve) {
   // A curve that rests at its bound is within it.
   TrajectoryRows still = rows("time pan lift pan_vel lift_vel\n0 0 3.14159 0 0\n1 0 3.14159 0 0\n");
   EXPECT_TRUE(outsideBounds(problem_.model.space,
-                            curveOf(still, problem_.model.space, Between::cubic).pieces)
+                            curveOf(still, problem_.model.space, RowInterpolation::cubic).pieces)
                   .empty());
 }
 

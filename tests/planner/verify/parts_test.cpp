@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "planner/verify/box_tree.h"
+#include "planner/verify/body_tree.h"
 #include "planner/verify/edge_curve.h"
 #include "planner/verify/exact_contact.h"
 #include "tests/planner/verify/random_arm.h"
@@ -124,7 +124,7 @@ bool holds(const RealVec t[3], const RealVec& x, Real slack) {
   return triangleGap(t, points[0]).lower <= slack;
 }
 
-TEST(TriangleGap, BracketIsTightAndItsWitnessesLieInTheTriangles) {
+TEST(DistanceBounds, BracketIsTightAndItsWitnessesLieInTheTriangles) {
   std::mt19937_64 random(test::testSeed(1));
   int apart = 0;
   for (int i = 0; i < 20000; ++i) {
@@ -140,7 +140,7 @@ TEST(TriangleGap, BracketIsTightAndItsWitnessesLieInTheTriangles) {
       a[j] = p.cast<Real>();
       b[j] = (q + shift).cast<Real>();
     }
-    const TriangleGap gap = triangleGap(a, b);
+    const DistanceBounds gap = triangleGap(a, b);
     EXPECT_LE(gap.lower, gap.upper + 0x1p-58L) << i;
     EXPECT_TRUE(holds(a, gap.onA, 0x1p-58L)) << i;
     EXPECT_TRUE(holds(b, gap.onB, 0x1p-58L)) << i;
@@ -161,7 +161,7 @@ TEST(TriangleGap, BracketIsTightAndItsWitnessesLieInTheTriangles) {
   EXPECT_GT(apart, 10000);
 }
 
-TEST(TriangleGap, ClosedForms) {
+TEST(DistanceBounds, ClosedForms) {
   const RealVec a[3] = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
   const RealVec face[3] = {{1, 1, 0.5L}, {1, 1, 2}, {2, 1, 2}};
   EXPECT_EQ(triangleGap(a, face).upper, 0.5L);
@@ -176,9 +176,9 @@ TEST(BodyDistance, EqualsTheDoubleLoop) {
   std::mt19937_64 random(test::testSeed(2));
   const TriangleMesh meshB = randomSoup(random, 40, 1, 0.2),
                      meshA = randomSoup(random, 150, 3, 0.2);
-  const BoxTree a(meshA), b(meshB);
+  const BodyTree a(meshA), b(meshB);
   BodyDistance distance;
-  PiecePair guess;
+  LeafPair guess;
   const Real infinity = std::numeric_limits<Real>::infinity();
   for (int i = 0; i < 50; ++i) {
     const Placement placement = placementOf(randomPose(random, 3));
@@ -187,12 +187,12 @@ TEST(BodyDistance, EqualsTheDoubleLoop) {
     std::size_t within = 0;
     for (std::uint32_t s = 0; s < meshA.triangles.size(); ++s)
       for (std::uint32_t t = 0; t < meshB.triangles.size(); ++t) {
-        const TriangleGap gap = distance.gap({s, t});
+        const DistanceBounds gap = distance.gap({s, t});
         lower = std::min(lower, gap.lower);
         upper = std::min(upper, gap.upper);
         within += gap.upper < 0.5L;
       }
-    const auto never = [](PiecePair) { return false; };
+    const auto never = [](LeafPair) { return false; };
     const BodyGap found = distance.measure(guess, 0, infinity, never);
     // A pair within 2^-30 of the closest may be returned in its place.
     EXPECT_LE(std::abs(found.upper - upper), 0x1p-29L * upper);
@@ -202,14 +202,14 @@ TEST(BodyDistance, EqualsTheDoubleLoop) {
     // If the search stops early, `lower` is still a lower bound.
     EXPECT_LE(distance.measure({}, 0, upper / 2, never).lower, upper);
     EXPECT_GE(distance.measure({}, 0, lower / 2, never).lower, lower / 2 * (1 - 0x1p-29L));
-    std::vector<PiecePair> near;
+    std::vector<LeafPair> near;
     const auto none = [](const CentredBox&, const CentredBox&) { return false; };
-    ASSERT_TRUE(distance.near(0.5L, SIZE_MAX, none, near));
+    ASSERT_TRUE(distance.collectNear(0.5L, SIZE_MAX, none, near));
     std::size_t among = 0;
-    for (const PiecePair& pair : near) among += distance.gap(pair).upper < 0.5L;
+    for (const LeafPair& pair : near) among += distance.gap(pair).upper < 0.5L;
     EXPECT_EQ(among, within);
     if (within > 1) {
-      EXPECT_FALSE(distance.near(0.5L, within - 1, none, near));
+      EXPECT_FALSE(distance.collectNear(0.5L, within - 1, none, near));
     }
   }
 }
@@ -220,12 +220,12 @@ TEST(BodyDistance, BoxesOfTwoPointsNeverClaimMore) {
   std::mt19937_64 random(test::testSeed(61));
   std::uniform_real_distribution<double> exponent(-250, 250);
   BodyDistance distance;
-  const auto never = [](PiecePair) { return false; };
+  const auto never = [](LeafPair) { return false; };
   for (int i = 0; i < 4000; ++i) {
     const double scale = i % 2 ? 1 : std::pow(10.0, exponent(random));
     const ConvexPart partA{{scale * randomVec(random, 1)}, 0, false};
     const ConvexPart partB{{scale * randomVec(random, 1)}, 0, false};
-    const BoxTree a(std::span(&partA, 1)), b(std::span(&partB, 1));
+    const BodyTree a(std::span(&partA, 1)), b(std::span(&partB, 1));
     Placement X_AB;  // as of the verifier: a rotation up to the rounding of long double
     X_AB.rotation = Eigen::Quaternion<Real>(randomPose(random, 1).q.cast<Real>())
                         .normalized()
@@ -308,12 +308,12 @@ TEST(ConvexGap, BracketsTheDistanceOfAllKinds) {
   for (int i = 0; i < 20000; ++i) {
     const ConvexSet a = randomSet(random, i % 5, Vec3::Zero()),
                     b = randomSet(random, i / 5 % 5, randomVec(random, 1.5));
-    const TriangleGap gap = convexGap(a, b);
+    const DistanceBounds gap = convexGap(a, b);
     EXPECT_LE(gap.lower, gap.upper + 0x1p-50L);
     if (gap.upper == 0) continue;
     ++apart;
     worst = std::max(worst, gap.upper - gap.lower);
-    const TriangleGap swapped = convexGap(b, a);
+    const DistanceBounds swapped = convexGap(b, a);
     EXPECT_NEAR(static_cast<double>(swapped.upper), static_cast<double>(gap.upper), 1e-13);
     // No two points of the sets are closer than `lower`.
     std::normal_distribution<double> normal;

@@ -89,9 +89,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::readsOrRefuses([&] {
       TrajectoryRows rows = readTrajectory("t", text, model);
       checkText(rows, model);
-      for (const auto wanted : {std::optional<Between>(), std::optional(Between::linear),
-                                std::optional(Between::cubic)}) {
-        const Between between = betweenOf(rows, wanted);
+      for (const auto wanted :
+           {std::optional<RowInterpolation>(), std::optional(RowInterpolation::linear),
+            std::optional(RowInterpolation::cubic)}) {
+        const RowInterpolation between = interpolationOf(rows, wanted);
         checkCurve(curveOf(rows, model.space, between), model.space);
       }
     });
