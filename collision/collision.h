@@ -1,6 +1,7 @@
 #pragma once
 
-/// Corridor's collision library in one header: its manual, and all that most programs need.
+/// Corridor's collision library in one header. This comment is the library's manual. The header
+/// includes everything that most programs need.
 ///
 /// Everything is in namespace `corridor`. Lengths are metres, angles are radians. Vectors and
 /// matrices are Eigen's. `p_A` is a point in the coordinates of frame A; `X_WA` maps points of
@@ -12,17 +13,18 @@
 ///   shears or mirrors is legal.
 /// * `TriangleMesh`: a point set, the union of its triangles with their interiors. `readMeshFile`
 ///   reads OBJ, STL, PLY, OFF, Collada, glTF and more. It throws InputError, which names the file
-///   and the line.
+///   and, where it is known, the line.
 /// * `ConvexPart`: a convex solid that is never tessellated: `placed(Box{size}, X)`, and Sphere,
 ///   Capsule, Cylinder, Convex.
-/// * `Body`: a named mesh (its surface, or with `solid` also what it encloses), a convex part, or
-///   the union of many of them. Its trees are built when a query first needs them. The constructor
-///   throws std::invalid_argument for a mesh without triangles, for an index out of range, for a
-///   coordinate that is not finite, for a solid mesh that is not watertight, and for a convex part
-///   that is not valid.
+/// * `Body`: a named mesh, a convex part, or the union of many convex parts. A mesh stands for its
+///   surface, and with `solid` also for the space that the surface encloses. Its trees are built
+///   when a query first needs them. The constructor throws std::invalid_argument for these faults:
+///   a mesh without triangles, an index out of range, a coordinate that is not finite, a solid mesh
+///   that is not watertight, a convex part that is not valid.
 /// * `readPointCloud` and `readOccupancyMap` read the points of a scan, and the occupied cubes of a
-///   map of OctoMap. Balls about the points, and the cubes, are the parts of a `Body`.
-/// * `Posed`: a body or tree with its pose: `Posed(cup, X_WCup)`. `Posed(table)` is at the origin.
+///   map of OctoMap. A `Body` can have balls about the points, or the cubes, as its convex parts.
+/// * `Posed`: a body or tree with its pose: `Posed(cup, X_WCup)`. `Posed(table)` has the identity
+///   as its pose.
 /// * `QueryContext`: counters and scratch memory. Each thread needs its own.
 /// * `LastPair`: the pair of triangles that decided the last query of two bodies. If the bodies are
 ///   meshes and move in small steps, passing the pair to the next query saves a tenth to two thirds
@@ -67,9 +69,10 @@
 ///
 ///        if (closerThan(a, b, 0.05, context)) …
 ///
-/// 5. Is one body inside the other, which is a solid mesh? Questions 1, 3, 4 and 6 include this
-///    question. If asked alone, it requires that the surfaces do not touch. "No" is a proof. "Yes"
-///    is exact, except that a point counts as inside if none of 64 rays can decide.
+/// 5. Is one body inside the other? The other body must be a solid mesh. Questions 1, 3, 4 and 6
+///    include this question. A call of `findOneInsideOther` alone requires that the surfaces do not
+///    touch. The answer "no" is a proof. The answer "yes" is exact, except that a point counts as
+///    inside if none of 64 rays can decide.
 ///
 ///        if (findOneInsideOther(a, b, context)) …
 ///
@@ -89,9 +92,10 @@
 ///        const MotionResult r = scene.certifyEdge(from, to, options, context);
 ///        if (r.verdict == MotionVerdict::free) …
 ///
-/// 7. How deep are they in each other? The answer is two proved bounds of the length by which b
-///    must move to leave a, and a direction along which it leaves a by the larger one. The bounds
-///    may be far apart for bodies that are not convex. This question costs some 15 times as much as
+/// 7. How deep are they in each other? The depth is the length of the shortest translation of b
+///    that separates the bodies. The answer has two proved bounds of the depth, and a direction. A
+///    translation of b along this direction by the upper bound separates the bodies. The two bounds
+///    may differ much for bodies that are not convex. This question costs some 15 times as much as
 ///    question 6.
 ///
 ///        // X_CupTable maps the table into the frame of the cup.
@@ -111,10 +115,10 @@
 ///
 /// # What every query assumes
 ///
-/// The processor rounds to nearest, and long double keeps 64 bits. If not, the constructors of
-/// bodies and trees throw std::runtime_error. The program is compiled with -ffp-contract=off, which
-/// the CMake target adds, and without -ffast-math or any part of it (core/floating_point.h).
-/// Threads may share bodies, trees and scenes.
+/// The processor rounds to nearest, and long double keeps 64 bits. If either does not hold, the
+/// constructors of bodies and trees throw std::runtime_error. The program is compiled with
+/// -ffp-contract=off, which the CMake target adds, and without -ffast-math or any of the options
+/// that -ffast-math sets (core/floating_point.h). Threads may share bodies, trees and scenes.
 
 #include "collision/core/error.h"
 #include "collision/geometry/convex_part.h"

@@ -1,5 +1,5 @@
-# `cmake --install` installs the program, and the libraries of planner/ for find_package(corridor COMPONENTS planner):
-# target corridor::planner, and corridor::verify, which it contains.
+# `cmake --install` installs the program, and the libraries of planner/ for find_package(corridor COMPONENTS planner).
+# That component has the targets corridor::planner, corridor::model and corridor::verify.
 foreach(name verify model planner)
   set_target_properties(corridor_${name} PROPERTIES EXPORT_NAME ${name})
   target_include_directories(corridor_${name} INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/corridor>)

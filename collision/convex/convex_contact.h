@@ -12,7 +12,7 @@ namespace corridor {
 /// axis exists, with all rounding covered. `true` is right unless the sets are closer than a band
 /// of 2^-44 of the largest coordinate involved (times ‖M‖ if a map is not rigid). Within the band
 /// either answer is possible for sets that do not touch. (PROMISES.md, promise 1.)
-/// @param cache  if not null, of the same two sets (convex_cache.h).
+/// @param cache  if not null, the cache of the same two sets (convex_cache.h).
 PredicateResult convexSetsTouch(const PosedSet& a, const PosedSet& b, ConvexCache* cache = nullptr);
 
 }  // namespace corridor

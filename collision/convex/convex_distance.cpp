@@ -8,10 +8,11 @@
 #include "collision/convex/gjk.h"
 #include "collision/core/rounding.h"
 
-/// The bounds. Let g_A and g_B be the closest points of the cores, d = g_B − g_A, n = d/|d|, and r
-/// the radii of the swept spheres.
-/// * Upper bound: g_A + r_A·M_A m_A/|m_A| and g_B − r_B·M_B m_B/|m_B|, with m = Mᵀn, are points of
-///   the sets for any n and M. The distance of these two points is the upper bound.
+/// The bounds. Let g_A and g_B be the closest points of the cores, d = g_B − g_A, n = d/|d|, M_A
+/// and M_B the matrices of the maps, and r_A and r_B the radii of the swept spheres.
+/// * Upper bound: g_A + r_A·M_A m_A/|m_A| and g_B − r_B·M_B m_B/|m_B|, with m_A = M_Aᵀn and m_B =
+///   M_Bᵀn, are points of the sets for any n and any maps. The distance of these two points is the
+///   upper bound.
 /// * Lower bound: the widest gap of the cores that GJK has found, minus the sum r_A|m_A| + r_B|m_B|
 ///   for the direction of that gap.
 ///
@@ -111,8 +112,8 @@ class Pair {
         size_(a.reach() + a.pose().t.norm() + b.reach() + b.pose().t.norm()),
         radii_(a.set().ball + b.set().ball),
         // The first two terms are the errors of the projections. The third covers the rounding of
-        // their sum and of subtracting this bound. It also covers that n is not a unit vector: |n|
-        // ≤ 1 + 5u scales a gap, which is below `size`, by that factor.
+        // their sum and of subtracting this bound. It also covers that n is not exactly a unit
+        // vector: a gap, which is below `size`, is scaled by |n| ≤ 1 + 5u.
         error_(roundedUp(a.error() + b.error() + 7 * kUnit * size_)) {}
 
   double size() const { return size_; }
@@ -123,12 +124,14 @@ class Pair {
   /// Returns the band: if the sets are farther apart than this, `convexSetsTouch` returns false.
   double band() const { return 0x1p-44 * size_; }
 
-  /// Returns the gap along n, proved, with all rounding covered; metres.
-  /// @param pointA, pointB  points of the sets that are likely extreme along n.
+  /// Returns a proved lower bound of the gap along n, with all rounding covered; metres.
+  /// @param pointA, pointB  indices of points that are likely extreme along n, as starts of the
+  /// search for the extreme points.
   double gap(const Vec3& n, std::uint32_t pointA, std::uint32_t pointB) const {
     return -b_.highest(-n, pointB) - a_.highest(n, pointA) - error_;
   }
-  /// The same, after a search: its last points are likely extreme.
+  /// Returns the gap along the direction that a search has found. The search for extreme points
+  /// starts at a corner of the simplex of that search.
   double gap(const gjk::Answer& found, const gjk::Search<double>& search) const {
     const bool none = search.simplex.count == 0;
     const gjk::Corner<double>& corner = search.simplex.corner[0];
@@ -140,7 +143,7 @@ class Pair {
 
   /// Returns whether the closest points of the search's simplex confirm the contact that the search
   /// found. They do not confirm it if the cores overlap so little that the four corners are nearly
-  /// in one plane: then the weights of the corners are noise.
+  /// in one plane, because then the weights of the corners are mostly rounding error.
   template <class Real>
   bool met(const gjk::Search<Real>& search) const {
     return search.unit * static_cast<double>(gjk::length(closest(search.simplex).w)) <=
@@ -204,10 +207,10 @@ class Pair {
 ConvexDistance convexDistance(const PosedSet& a, const PosedSet& b, double relative,
                               double absolute, ConvexCache* cache) {
   const Pair pair(a, b);
-  // Searches end when half of the allowed error is reached; rounding may take the other half. 1e-12
-  // > 2^-40, so the relative half is 2^-41. The promised absolute error is 4·2^-53·S = 2^-51·S.
-  // Half of it is above 2^-55·`size`, because ‖M‖|p| + |t| is below 3 S, and `size`, the sum over
-  // both sets, below 6 S.
+  // Searches end when half of the allowed error is reached, because rounding may take the other
+  // half. 1e-12 > 2^-40, so half of the promised relative error is above 2^-41. The promised
+  // absolute error is 4·2^-53·S = 2^-51·S. Half of this is above 2^-55·`size`, because ‖M‖|p| + |t|
+  // is below 3 S, so `size`, the sum over both sets, is below 6 S.
   const double share = relative / 2 + 0x1p-41, least = absolute / 2 + 0x1p-55 * pair.size();
   const auto never = [](const Vec3&, double, std::uint32_t, std::uint32_t) { return false; };
   const auto agreed = [&](double radii, double near, double finest) {
@@ -222,8 +225,8 @@ ConvexDistance convexDistance(const PosedSet& a, const PosedSet& b, double relat
   };
 
   gjk::Search<double> quick(a, b, pair.size());
-  // No difference below 2^-50·size is required: in double the two bounds cannot come closer to each
-  // other.
+  // The search does not require a difference of the bounds below 2^-50·size, because in double they
+  // cannot come closer.
   const gjk::Answer found =
       quick.run(gjk::startOf<double>(cache),
                 agreed(pair.radii(), pair.touchDistance(), 0x1p-50 * pair.size()), never);

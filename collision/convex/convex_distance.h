@@ -16,19 +16,19 @@ struct ConvexDistance {
 
 /// Computes the distance of two convex sets, each under its own affine map, and witness points.
 ///
-/// Let S be the largest Σ|m||p| + |t| over the mapped points p of both sets, radii included. (For
-/// maps that are not rigid: the largest ‖M‖_F·|p| + |t|.) Guaranteed:
+/// Let S be the largest Σ_k |M_ik||p_k| + |t_i| over all coordinates i and all points p of both
+/// sets, radii included. (For maps that are not rigid: the largest ‖M‖_F·|p| + |t|.) Guaranteed:
 /// * `distance` is 0 if and only if `convexSetsTouch` returns true. Then both witness points are
-///   the same point. It lies in both sets, up to the band of that predicate, or up to 2^-30·S if
-///   the sets overlap by less than 2^-30·S.
-/// * Otherwise `distance` exceeds the true distance by at most relative·true + absolute +
-/// 1e-12·true + 4·2^-53·S.
+///   the same point. This point lies in both sets, up to the band of `convexSetsTouch`, or up to
+///   2^-30·S if the sets overlap by less than 2^-30·S.
+/// * Otherwise `distance` exceeds the true distance d by at most relative·d + absolute + 1e-12·d +
+///   4·2^-53·S.
 /// * `lower` is at most the true distance, proved in real arithmetic. Up to rounding, the error of
 ///   `distance` is at most `distance` − `lower`.
 /// * The witness points are on the surfaces of the sets, up to 2^-50·S.
 ///
-/// Any finite map is allowed. Under a map that is not rigid a sphere is an ellipsoid, which costs
-/// more time.
+/// Any finite map is allowed. A map that is not rigid makes an ellipsoid of a sphere; such queries
+/// take more time.
 ///
 /// Method: GJK in double. If its bounds, with all rounding covered, differ by more than the
 /// requested error, the search continues in double-double, from the simplex found. With the default
@@ -36,15 +36,16 @@ struct ConvexDistance {
 /// surfaces every other direction is a Newton step. Cost: a mean of 2 to 5 rounds in double (2 to
 /// 20 with a cylinder), and less than 2 in double-double. No test needed more than 100 rounds, at
 /// gaps down to 10^-13; `tests/collision/convex/gjk_test.cpp` prints the numbers.
-/// @param relative, absolute  allowed error, ≥ 0; `absolute` in metres. 0, 0: full accuracy.
-/// @param cache  if not null, of the same two sets (convex_cache.h).
+/// @param relative, absolute  allowed error, ≥ 0; `absolute` in metres. If both are 0, the accuracy
+/// is the best that the guarantees above give.
+/// @param cache  if not null, the cache of the same two sets (convex_cache.h).
 ConvexDistance convexDistance(const PosedSet& a, const PosedSet& b, double relative = 0,
                               double absolute = 0, ConvexCache* cache = nullptr);
 
 /// Computes the distance of two convex sets without swept spheres that are known to share no point,
 /// although they are so close that `convexSetsTouch` returns true. Guaranteed as for
 /// `convexDistance`; `distance` is above 0. Computed in double-double.
-/// @param from  what a search of the same two sets has kept.
+/// @param from  the cache that a search of the same two sets has kept.
 ConvexDistance separatedDistance(const PosedSet& a, const PosedSet& b, const ConvexCache& from);
 
 /// A proved range of a distance, metres. If lower > 0, the sets do not touch.
@@ -54,9 +55,9 @@ struct ConvexRange {
 /// Computes a proved range of the distance of two convex sets, in double only.
 ///
 /// The search stops as soon as the lower end exceeds `beyond`, or the upper end is at most `near`.
-/// If neither happens, both ends differ from the distance by at most 2^-41·S, or 2^-20 of the
-/// distance. The range may be wider if caps of cylinders face each other, or if the map of a sphere
-/// is not rigid.
+/// If neither happens, both ends differ from the distance by at most 2^-41·S (S as for
+/// `convexDistance`), or 2^-20 of the distance. The range may be wider if caps of cylinders face
+/// each other, or if the map of a sphere is not rigid.
 /// @param beyond, near  metres.
 ConvexRange convexDistanceRange(const PosedSet& a, const PosedSet& b, double beyond, double near);
 

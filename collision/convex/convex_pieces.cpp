@@ -13,10 +13,11 @@ namespace {
 using Diagonal = std::array<std::uint32_t, 2>;
 using Index = std::uint32_t;
 
-/// Returns diagonals that cut a counterclockwise simple polygon into monotone ones: no vertical
-/// line crosses the boundary of one more than twice. The status has the edges with the inside above
-/// them, those that go to the right. The helper of such an edge is the last vertex, of those that
-/// see the edge straight below them, that the sweep has reached.
+/// Returns diagonals that cut a counterclockwise simple polygon into monotone polygons: a vertical
+/// line crosses the boundary of a monotone polygon at most twice. `status` has the edges on the
+/// sweep line that have the inside above them, which are those that go to the right. The `helper`
+/// of such an edge is the last vertex that the sweep has reached of those that see the edge
+/// straight below them.
 std::vector<Diagonal> monotoneDiagonals(const PolygonSweep& sweep) {
   std::set<Index, PolygonSweep::Below> status{PolygonSweep::Below{&sweep}};
   std::vector<Index> helper(sweep.size());
@@ -94,7 +95,7 @@ class Subdivision {
     }
   }
 
-  /// Removes each diagonal that no corner needs: without it, both of its ends stay convex.
+  /// Removes each diagonal without which the corners at both of its ends stay convex.
   void removeNeedless() {
     for (Index h = count_; h < origin_.size(); h += 2)
       if (isConvexWithout(h) && isConvexWithout(twin(h))) {
@@ -139,8 +140,8 @@ class Subdivision {
       return halfA != halfB ? halfA < halfB : sweep_.side(v, a, b) > 0;
     });
   }
-  /// Whether the corner at the origin of h stays convex without h. The two angles that h divides
-  /// are at most half a turn each.
+  /// Returns whether the corner at the origin of h stays convex without h. The angles on both sides
+  /// of h are at most half a turn each.
   bool isConvexWithout(Index h) const {
     const Index v = origin_[h];
     return sweep_.side(origin_[previous_[h]], v, target(next_[twin(h)])) >= 0;
@@ -152,8 +153,8 @@ class Subdivision {
   std::vector<char> alive_;
 };
 
-/// Adds the diagonals that cut a monotone polygon into triangles, none of which is flat. `face` has
-/// its vertices, counterclockwise.
+/// Appends the diagonals that cut a monotone polygon into triangles, none of which is flat. `face`
+/// has the vertices of the polygon, counterclockwise.
 void triangulate(const PolygonSweep& sweep, const std::vector<Index>& face,
                  std::vector<Diagonal>& diagonals) {
   const std::size_t n = face.size();

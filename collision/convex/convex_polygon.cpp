@@ -17,7 +17,8 @@ bool isBefore(const Vec2& p, const Vec2& q) {
   return p.x() < q.x() || (p.x() == q.x() && p.y() < q.y());
 }
 
-/// Whether edge i, from vertex i to vertex i + 1, goes up along a direction: its sign.
+/// Returns 1 if edge i, from vertex i to vertex i + 1, goes up along a direction, −1 if it goes
+/// down, 0 if it is level. Exact.
 int rise(const ConvexPolygon& polygon, std::size_t i, const Vec3& direction) {
   return alongSign(direction, lifted(polygon[i]), lifted(polygon[i + 1]));
 }
@@ -51,14 +52,15 @@ ConvexPolygon::ConvexPolygon(std::span<const Vec2> points) {
 }
 
 std::size_t ConvexPolygon::extreme(const Vec2& direction) const {
-  // The edges that go up follow each other, and so do those that go down. The search keeps an edge
-  // `low` that goes up, or is level, or from whose start all up to the top goes up, and looks for
-  // the first edge after it that goes down.
+  // The edges that go up follow each other, and so do those that go down. The search looks for the
+  // top: it keeps an edge `low` at or before the last edge that goes up, and an edge `high` after
+  // it.
   const Vec3 d = lifted(direction);
   const std::size_t n = size();
   if (direction.isZero(0)) return 0;
   if (rise(*this, 0, d) <= 0 && rise(*this, n - 1, d) >= 0) return 0;  // 0 is a top
-  // Vertices 0 … n of the unrolled boundary. `up(i)`: edge i goes up and is before the top.
+  // `low` and `high` count along the unrolled boundary, from vertex 0 to vertex n, which is vertex
+  // 0 again.
   const bool firstUp = rise(*this, 0, d) > 0;
   std::size_t low = 0, high = n;
   while (high - low > 1) {
@@ -84,7 +86,7 @@ std::size_t ConvexPolygon::extreme(const Vec2& direction) const {
 }
 
 std::optional<std::string> ConvexPolygon::check() const {
-  std::size_t turns = 0;  // changes from leftwards to rightwards, of which a convex polygon has one
+  std::size_t turns = 0;  // changes from leftwards to rightwards; a convex polygon has exactly one
   for (std::size_t i = 0; i < size(); ++i) {
     if (lineSide((*this)[i], (*this)[i + 1], (*this)[i + 2]) <= 0)
       return "the corner at vertex " + std::to_string((i + 1) % size()) + " is not convex";

@@ -12,7 +12,8 @@ namespace corridor {
 
 using Vec2 = Eigen::Vector2d;
 
-/// Returns the side of the line from p to q that r is on: 1 left, −1 right, 0 on it. Exact.
+/// Returns 1 if r is left of the line from p to q, −1 if it is right of the line, 0 if it is on the
+/// line. Exact.
 /// @pre all numbers are finite.
 int lineSide(const Vec2& p, const Vec2& q, const Vec2& r);
 
@@ -27,15 +28,16 @@ class ConvexPolygon {
 
   std::span<const Vec2> vertices() const { return vertices_; }
   std::size_t size() const { return vertices_.size(); }
-  /// Vertex i, counted around the polygon any number of times.
+  /// Vertex i modulo `size()`.
   const Vec2& operator[](std::size_t i) const { return vertices_[i % vertices_.size()]; }
 
   /// Returns the index of a vertex that is farthest along a direction; vertex 0 for a direction of
-  /// 0. Exact; O(log n), by a binary search over the directions of the edges. @pre finite.
+  /// 0. Exact; O(log n), by a binary search over the directions of the edges.
+  /// @pre the direction is finite.
   std::size_t extreme(const Vec2& direction) const;
 
-  /// Reports what is wrong with the polygon, or nothing: that each corner turns left, and that the
-  /// boundary goes around once. Exact.
+  /// Checks that each corner turns left, and that the boundary goes around once. Returns what is
+  /// wrong, or nothing. Exact.
   std::optional<std::string> check() const;
 
  private:

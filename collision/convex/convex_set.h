@@ -18,7 +18,7 @@ class Polytope;
 ///
 /// Queries find the point that is farthest along a direction by testing all points of a part, by
 /// hill climbing on a `Polytope`, and by the hierarchy of a `DobkinKirkpatrick`, in O(n), some
-/// O(√n) and O(log n). The answers are the same up to the promised errors.
+/// O(√n) and O(log n). The choice changes no answer beyond its promised error.
 struct ConvexSet {
   ConvexSet(const ConvexPart& part)  // NOLINT: a part is a convex set
       : points(part.points), ball(part.radius) {
@@ -30,9 +30,9 @@ struct ConvexSet {
 
   static constexpr std::uint32_t kCold = ~std::uint32_t{0};
 
-  /// Returns the index of a point that is farthest along m. For polytopes the answer is exact; else
-  /// it is that of the largest rounded product.
-  /// @param start  a vertex that is likely near the answer, which saves time; `kCold`: none is
+  /// Returns the index of a point that is farthest along m. For polytopes the answer is exact. For
+  /// other sets it is the point whose rounded product with m is the largest.
+  /// @param start  a vertex that is likely near the answer, which saves time; `kCold` if none is
   /// known.
   std::uint32_t farthest(const Vec3& m, std::uint32_t start = kCold) const {
     if (polytope) return farthestVertex(m, start);
@@ -53,22 +53,24 @@ struct ConvexSet {
   const DobkinKirkpatrick* hierarchy = nullptr;  ///< null, unless the view is of a hierarchy
 
  private:
-  void sweepDisc();  ///< makes a cylinder of a capsule
+  void sweepDisc();  ///< turns a capsule into a cylinder
   std::uint32_t farthestVertex(const Vec3& m, std::uint32_t start) const;
 };
 
-/// A convex set under an affine map, with *certified* projections: a proof along any direction
-/// holds in real arithmetic on the given doubles, for any finite map. The projection of the image
-/// onto n is that of the set onto Mᵀn, so orthogonality of M is not used.
+/// A convex set under an affine map x ↦ M x + t, with *certified* projections. Each projection has
+/// a proved error bound, in real arithmetic on the given doubles, for any direction and any finite
+/// map. The projection of M x onto n is the projection of x onto Mᵀn, so M need not be orthogonal.
 ///
-/// Error of a projection. Let F = ‖M‖_F, |n|₂ ≤ 1 + 5u and ρ ≥ |p| + ball + disc for all points.
-/// * Mᵀn has three roundings per component, so it is off by at most γ3·‖|M|‖₂·|n| < 3.1uF. In the
-/// product with p this is 3.1uFρ.
-/// * The product with p: γ3·|Mᵀn||p| < 3.1uFρ. The product n·t: 3.1u|t|.
+/// Error of a projection. Let u = 2^-53, F = ‖M‖_F, |n|₂ ≤ 1 + 5u and ρ ≥ |p| + ball + disc for all
+/// points p. γ3 = 3u/(1 − 3u) bounds the relative error of three roundings.
+/// * Mᵀn has three roundings per component, so it is off by at most γ3·‖|M|‖₂·|n| < 3.1uF. This
+///   changes the product with p by 3.1uFρ.
+/// * The rounding of the product with p: γ3·|Mᵀn||p| < 3.1uFρ. That of the product n·t: 3.1u|t|.
 /// * The sum of these two and of the sphere's or the disc's share: 2u(Fρ + |t|).
 /// * The sphere's share |Mᵀn|: 3.1uF from Mᵀn, 4uF from the norm.
 /// * The disc's share |Mᵀn × axis|: 3.1uF from Mᵀn. The axis is off by 1u (difference of the
-/// points) + 5u (norm and quotient): 6uF. Cross product and norm: 2√2·1.1uF + 4uF. Together < 17uF.
+///   points) + 5u (norm and quotient), which gives 6uF. Cross product and norm: 2√2·1.1uF + 4uF.
+///   Together < 17uF.
 ///
 /// Total: the share of the points is below 6.2uF|p|, that of the sphere below 7.1uF·ball, that of
 /// the disc below 17uF·disc. As |p| + ball + disc ≤ ρ, these three together are below 17uFρ. With
@@ -78,18 +80,19 @@ struct ConvexSet {
 /// vanish. Then contact queries may report a contact that does not exist, and distances may be too
 /// small. A contact is never missed, and a distance is never too large.
 ///
-/// `error`, `localReach` and `reach` are computed by the first call of one of them. So threads must
-/// not share a `PosedSet`.
+/// The first call of `error`, `localReach` or `reach` computes all three. So threads must not share
+/// a `PosedSet`.
 class PosedSet {
  public:
   PosedSet(const ConvexSet& set, const Transform& X) : set_(set), X_(X) {}
 
-  /// Returns max n·x over all points x of the image, off by at most `error()`. @pre |n| ≤ 1 + 5u.
+  /// Returns max n·x over all points x of the image, off by at most `error()`; metres.
+  /// @pre |n| ≤ 1 + 5u.
   /// @param start  as for `ConvexSet::farthest`.
   double highest(const Vec3& n, std::uint32_t start = ConvexSet::kCold) const;
   double error() const { return found(), error_; }
 
-  /// Returns max m·p over the points p of the core, in the set's own frame; rounded.
+  /// Returns max m·p over the points p of the core; m and p are in the set's own frame. Rounded.
   double coreHighest(const Vec3& m, std::uint32_t start = ConvexSet::kCold) const;
 
   /// True if the map takes the sphere to a sphere, up to 3·2^-48 of its radius.
@@ -100,7 +103,8 @@ class PosedSet {
   /// Returns the largest |p| + ball + disc over the points p in the set's own frame; rounded up.
   /// Metres.
   double localReach() const { return found(), localReach_; }
-  /// Returns ‖M‖_F·`localReach()`, rounded up: how far the image reaches from the map's t. Metres.
+  /// Returns ‖M‖_F·`localReach()`, rounded up: an upper bound of the distance of the image's points
+  /// from t. Metres.
   double reach() const { return found(), reach_; }
 
  private:

@@ -12,8 +12,8 @@
 namespace corridor {
 namespace {
 
-/// Returns the first four points of which none is on a plane with the others, by elimination in
-/// rationals.
+/// Returns the indices of the first four points that are not on one plane, by elimination in
+/// rationals; nothing if all points are on one plane.
 std::optional<std::array<std::uint32_t, 4>> independentPoints(std::span<const Vec3> points) {
   using seidel::rational;
   std::array<std::uint32_t, 4> found{};

@@ -23,21 +23,24 @@ class ConvexSurface {
     bool alive = true;  ///< false: the face was removed, and its index may be used again
   };
 
-  /// Begins with a tetrahedron of four of the points, in any order. The points are a view that may
-  /// grow.
-  /// @pre they are not on one plane.
+  /// Begins with a tetrahedron of four of the points, in any order. Later calls may pass a longer
+  /// list of points that begins with these.
+  /// @pre the four points are not on one plane.
   void begin(std::span<const Vec3> points, std::array<std::uint32_t, 4> tetrahedron);
 
-  /// Adds a point that face f sees: replaces all faces that see it by a fan from the point to their
-  /// boundary, the horizon. The indices of removed faces are used again only by the next `add`.
+  /// Adds point p, which face f sees: replaces all faces that see p by a fan from p to the boundary
+  /// of these faces, the horizon. The indices of removed faces are used again only by the next
+  /// `add`.
   void add(std::span<const Vec3> points, std::uint32_t f, std::uint32_t p);
 
-  /// Reports whether a face sees a point: the point is outside its plane. Exact.
+  /// Reports whether a face sees point p, which means that p is outside the plane of the face.
+  /// Exact.
   static bool sees(std::span<const Vec3> points, const Face& face, const Vec3& p);
 
   std::span<const Face> faces() const { return faces_; }
-  std::span<const std::uint32_t> added() const { return fan_; }     ///< faces of the last change
-  std::span<const std::uint32_t> removed() const { return seen_; }  ///< faces of the last change
+  /// The faces that the last change added, and those that it removed.
+  std::span<const std::uint32_t> added() const { return fan_; }
+  std::span<const std::uint32_t> removed() const { return seen_; }
 
  private:
   struct HorizonEdge {
@@ -57,8 +60,9 @@ class ConvexSurface {
   std::vector<Step> steps_;
 };
 
-/// Returns four points that are not on one plane: far apart, if doubles find such; else any.
-/// Returns nothing if all points are on one plane. Exact.
+/// Returns the indices of four points that are not on one plane. They are far apart if a search in
+/// double finds such points; otherwise they are the first four. Returns nothing if all points are
+/// on one plane. Exact.
 std::optional<std::array<std::uint32_t, 4>> findTetrahedron(std::span<const Vec3> points);
 
 }  // namespace corridor

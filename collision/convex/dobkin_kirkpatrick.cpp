@@ -24,7 +24,8 @@ std::uint32_t DobkinKirkpatrick::extreme(const Vec3& direction, Cost* cost) cons
   while (shadow.level() > 0) shadow.refine();
   std::uint32_t v = shadow.top();
   Cost all = shadow.cost();
-  // Compared by their bits: under denormals-are-zero, a subnormal component would count as 0.
+  // The directions are compared by their bits, because under denormals-are-zero a subnormal
+  // component would count as 0.
   const Vec3 scaledBack = d * unit;
   const bool sameDirection =
       std::memcmp(scaledBack.data(), direction.data(), 3 * sizeof(double)) == 0;
@@ -41,7 +42,8 @@ std::size_t DobkinKirkpatrick::bytes() const {
 
 std::optional<std::string> DobkinKirkpatrick::check() const {
   const std::span<const Vec3> points = polytope_.vertices();
-  // The faces of each level: those born by then, and not yet removed with one of their vertices.
+  // The faces of a level are those that were born at this level or before, and of which no vertex
+  // is removed yet.
   const auto lastLevelOf = [&](const Face& face) {
     return std::min(
         {lastLevel(face.corner[0]), lastLevel(face.corner[1]), lastLevel(face.corner[2])});

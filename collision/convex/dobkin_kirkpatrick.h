@@ -12,10 +12,11 @@
 
 namespace corridor {
 
-/// The hierarchy of Dobkin and Kirkpatrick of a convex polytope: P_0 is the polytope, and P_i is
-/// the hull of P_{i−1} without an independent set of vertices, each with at most 8 neighbours, down
-/// to a simplex. Each face of P_i that is not a face of P_{i−1} belongs to one removed vertex,
-/// which is *opposite* to it. Height O(log n); building time and memory O(n).
+/// The hierarchy of Dobkin and Kirkpatrick of a convex polytope. P_0 is the polytope. P_i is the
+/// hull of the vertices of P_{i−1} without an independent set of them, each of which has at most 8
+/// neighbours. The last polytope is a simplex. Each face of P_i that is not a face of P_{i−1}
+/// belongs to one removed vertex, which is *opposite* to it. Height O(log n); building time and
+/// memory O(n).
 ///
 /// Source: D. P. Dobkin, D. G. Kirkpatrick, A linear algorithm for determining the separation of
 /// convex polyhedra, Journal of Algorithms 6 (1985), and Determining the separation of preprocessed
@@ -39,13 +40,13 @@ class DobkinKirkpatrick {
   std::size_t lastLevel(std::uint32_t v) const {
     return rings_[v].removed > 0 ? rings_[v].removed - 1U : levels() - 1;
   }
-  /// The neighbours of vertex v in that polytope, counterclockwise: at most 8. Empty for a vertex
-  /// of the simplex.
+  /// The neighbours of vertex v in P_i with i = `lastLevel(v)`, counterclockwise: at most 8. Empty
+  /// for a vertex of the simplex.
   std::span<const std::uint32_t> ringOf(std::uint32_t v) const {
     return std::span(ringVertex_).subspan(rings_[v].start, rings_[v].size);
   }
 
-  /// What a query did.
+  /// The work of one query.
   struct Cost {
     std::size_t products = 0;  ///< inner products of the direction with vertices
     std::size_t climbs = 0;  ///< steps along edges of P_0 after the hierarchy, because of rounding
@@ -54,15 +55,19 @@ class DobkinKirkpatrick {
   /// doubles. O(log n).
   ///
   /// Method: the hierarchy of projections (polytope_shadow.h), in double. At the end, two edges
-  /// prove in exact arithmetic that the vertex is farthest. If rounding led astray, the query
-  /// climbs from there along edges, with exact comparisons.
-  /// @pre the direction is finite. 0: any vertex.
+  /// prove in exact arithmetic that the vertex is farthest. If this proof fails because of
+  /// rounding, the query climbs from that vertex along edges, with exact comparisons.
+  /// @param direction  if it is 0, any vertex is farthest.
+  /// @param cost  if not null, receives the work.
+  /// @pre the direction is finite.
   std::uint32_t extreme(const Vec3& direction, Cost* cost = nullptr) const;
 
-  /// Reports what is wrong with the hierarchy, or nothing. Exact, for each level: P_i is convex,
-  /// the removed vertices are independent and have at most 8 neighbours, each new face has its
-  /// removed vertex on or above its plane, at least a twentieth of the vertices is removed (one at
-  /// least), and the last polytope is a simplex.
+  /// Returns what is wrong with the hierarchy, or nothing. Exact. Checks at each level that:
+  /// * P_i is convex;
+  /// * the removed vertices are independent and have at most 8 neighbours;
+  /// * each new face has its removed vertex on or above its plane;
+  /// * at least a twentieth of the vertices is removed, and at least one.
+  /// Checks also that the last polytope is a simplex.
   std::optional<std::string> check() const;
 
  private:
@@ -75,8 +80,9 @@ class DobkinKirkpatrick {
     std::uint32_t opposite = kNone;  ///< kNone: a face of P_0
     std::uint16_t born = 0;          ///< the first level i of which it is a face
   };
-  /// The neighbours of a vertex in the last polytope that has it, counterclockwise, and for each
-  /// the face from it to the next.
+  /// The neighbours of a vertex in the last polytope that has the vertex, counterclockwise
+  /// (`ringVertex_`). For each neighbour also the face that has the vertex, this neighbour and the
+  /// next one (`ringFace_`).
   struct Ring {
     std::uint32_t start = 0;
     std::uint16_t size = 0;
@@ -91,7 +97,7 @@ class DobkinKirkpatrick {
   std::vector<Ring> rings_;  ///< of each vertex
   std::vector<std::uint32_t> ringVertex_, ringFace_;
   std::array<std::uint32_t, 4> simplex_{};       ///< the vertices of the last polytope
-  std::array<std::uint32_t, 4> simplexFaces_{};  ///< face k is opposite to vertex k of these
+  std::array<std::uint32_t, 4> simplexFaces_{};  ///< face k is opposite to vertex k of `simplex_`
   std::vector<std::size_t> vertexCounts_;
 };
 

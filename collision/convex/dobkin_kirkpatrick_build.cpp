@@ -65,7 +65,7 @@ class DobkinKirkpatrickBuilder {
     return corner[0] == v ? 0 : corner[1] == v ? 1 : 2;
   }
 
-  /// Removes an independent set of vertices of low degree, those of lowest degree first.
+  /// Removes an independent set of vertices of low degree, in the order of their degrees.
   void removeSet() {
     const std::size_t level = to_.vertexCounts_.size();
     if (level >= std::numeric_limits<std::uint16_t>::max())
@@ -73,7 +73,7 @@ class DobkinKirkpatrickBuilder {
     std::size_t left = alive_.size();
     blocked_.assign(points_.size(), false);
     gone_.assign(points_.size(), false);
-    // Degrees change by removals, but only those of blocked vertices.
+    // A removal changes only the degrees of vertices that it blocks.
     for (int degree = 3; degree <= DobkinKirkpatrick::kMostNeighbours; ++degree)
       for (const std::uint32_t v : alive_) {
         if (blocked_[v] || gone_[v] || degree_[v] != degree || left == 4) continue;
@@ -86,8 +86,9 @@ class DobkinKirkpatrickBuilder {
     to_.vertexCounts_.push_back(alive_.size());
   }
 
-  /// Removes a vertex and fills the hole by the hull of its neighbours. Returns false if the rest
-  /// would be flat: the vertex is the apex of a pyramid.
+  /// Removes a vertex, fills the hole by the hull of its neighbours, and returns true. If the
+  /// remaining polytope would be flat, because the vertex is the apex of a pyramid, changes nothing
+  /// and returns false.
   bool remove(std::uint32_t v, std::size_t level, std::size_t left) {
     ring_.clear();
     star_.clear();
@@ -100,7 +101,8 @@ class DobkinKirkpatrickBuilder {
       f = across_[f][(k + 2) % 3];
       if (f == first) break;
     }
-    // The walk is counterclockwise: face (v, a, b), then the face across the edge b v.
+    // The loop above goes counterclockwise: from face (v, a, b) to the face across the edge from b
+    // to v.
     if (left == ring_.size() + 1 && ringIsFlat()) return false;
     DobkinKirkpatrick::Ring& ring = to_.rings_[v];
     ring = {static_cast<std::uint32_t>(to_.ringVertex_.size()),
@@ -183,12 +185,13 @@ class DobkinKirkpatrickBuilder {
   std::span<const Vec3> points_;
   std::vector<Polytope::Face>
       across_;  ///< of each face: those beyond the edges from corner k to k + 1
-  std::vector<std::uint32_t> anyFace_;  ///< of each vertex
+  std::vector<std::uint32_t> anyFace_;  ///< one face of each vertex
   std::vector<int> degree_;
   std::vector<std::uint32_t> alive_;
   std::vector<bool> blocked_, gone_;
   std::vector<std::uint32_t> ring_, star_, outer_;
-  /// An edge of a hole: from this vertex to the next one, and the face beyond it.
+  /// An edge of a hole, from `vertex` to the vertex of the next side; `outer` is the face beyond
+  /// the edge.
   struct Side {
     std::uint32_t vertex, outer;
   };

@@ -16,13 +16,13 @@
 #include "collision/core/rounding.h"
 
 /// The linear program has the variables (n, s) with |n_i|, s ≤ 1. A corner of the Minkowski
-/// difference, q − p with p in a and q in b, gives the row −n·(q − p) + s ≤ 0; the largest s is
-/// wanted. For any subset of the corners:
+/// difference, q − p with p in a and q in b, gives the row −n·(q − p) + s ≤ 0. The goal is the
+/// largest s. For any subset of the corners:
 /// * If the largest s is 0, the weights of the tight rows make 0 a convex combination of the
 ///   subset. So the hulls share a point.
-/// * Otherwise the corner that is lowest along n decides. If n·(q − p) > 0 there, n separates the
-///   hulls. If not, this corner is not in the subset, because n·(q − p) ≥ s > 0 holds there. So
-///   each round adds another corner, and the search ends.
+/// * Otherwise the corner that is lowest along n decides. If n·(q − p) > 0 at this corner, n
+///   separates the hulls. If not, this corner is not in the subset, because n·(q − p) ≥ s > 0 at
+///   the corners of the subset. So each round adds another corner, and the search ends.
 namespace corridor {
 namespace {
 
@@ -51,7 +51,7 @@ class ExactPoints {
     return x;
   }
 
-  /// Returns the number of a point that is farthest along n, exactly.
+  /// Returns the index of a point that is farthest along n, exactly.
   std::uint32_t farthest(const Direction& n, std::uint32_t start) const {
     Direction m{};  // Mᵀn
     Vec3 rough;
@@ -77,11 +77,11 @@ class ExactPoints {
   }
 
  private:
-  /// Reports whether m·(q − p) > 0 for the points p, q with these numbers.
+  /// Reports whether m·(q − p) > 0 for p = point `from` and q = point `to`. Exact.
   ///
-  /// In double: entries of `rough` are off by at most 2u of themselves, differences and products by
-  /// 1u each, two sums by 2u of all terms: 8u of the sum of magnitudes covers it. Underflow adds at
-  /// most 2^-1022 times the largest factor, or 1, for each.
+  /// In double, entries of `rough` are off by at most 2u of themselves, differences and products by
+  /// 1u each, and two sums by 2u of all terms. 8u of the sum of magnitudes covers all of this.
+  /// Underflow adds at most 2^-1022 times the largest factor, or 1, for each.
   bool isHigher(const Direction& m, const Vec3& rough, std::uint32_t from, std::uint32_t to) const {
     const Vec3 &p = set_.points[from], &q = set_.points[to], d = q - p;
     const double along = rough.dot(d), size = rough.cwiseAbs().dot(d.cwiseAbs());
@@ -198,7 +198,7 @@ std::optional<Vec3> provedCommonPoint(const PosedSet& a, const PosedSet& b,
   }
   point /= sum;
   left /= sum;
-  // The mean of the corners' points with these weights is in a; it plus `left` is in b.
+  // The weighted mean `point` of the corners' points of a is in a, and `point` + `left` is in b.
   if (!(left.cwiseAbs().maxCoeff() <= 0x1p-47 * D)) return std::nullopt;
   return point + left / 2;
 }

@@ -18,15 +18,15 @@
 #include "collision/core/rounding.h"
 
 /// Linear programs in few variables, first in double, then in rationals: the engine of
-/// linear_program.h and separating_plane.h. `Rows` is a function that returns row i, which is the
-/// half-space with normal `normal` and offset `offset`, in doubles; its `name` must be i.
+/// linear_program.h and separating_plane.h. A linear program is given by a function `row` of type
+/// `Rows`. row(i) returns half-space i in doubles, with `name` = i.
 namespace corridor::seidel {
 
 template <std::size_t M>
 using Row = HalfSpace<double, M>;
 
-/// A candidate: the best point in double, and the rows that are tight there. Bounds are not among
-/// them: their names are `count` and above.
+/// A candidate: the best point in double, and the rows and bounds that are tight at this point.
+/// Names below `count` are those of rows; bounds have the names `count` and above.
 template <std::size_t M>
 struct Candidate {
   Point<double, M> x{};
@@ -53,7 +53,7 @@ Candidate<M> candidate(std::size_t count, const Rows& row, const Point<double, M
   return found;
 }
 
-/// The sign of normal·x − offset for a row and a rational point.
+/// Computes the sign of normal·x − offset for rows and one rational point x.
 template <std::size_t M>
 class Side {
  public:
@@ -113,9 +113,10 @@ Determinant determinant(const std::array<Point<double, M>, M>& columns) {
 /// Returns the weights w with Σ w_j normal_j = goal, if they are proved to be above 0. Otherwise
 /// returns nothing.
 ///
-/// By Cramer's rule the signs are those of determinants of up to five rows. Each of their terms has
-/// at most 4 roundings of products and 10 of sums, so 16u of the sum of magnitudes covers them, and
-/// the rounding of that sum. Entries are 0 or within 2^±60, so nothing underflows.
+/// By Cramer's rule the signs are those of determinants of up to five rows. Each term of a
+/// determinant has at most 4 roundings of products and 10 of sums. So 16u of the sum of the terms'
+/// magnitudes covers these roundings, and the rounding of that sum. Entries are 0 or within 2^±60,
+/// so nothing underflows.
 template <std::size_t M>
 std::optional<Point<double, M>> provedWeights(const std::array<Point<double, M>, M>& normals,
                                               const Point<double, M>& goal) {
@@ -148,7 +149,7 @@ struct Optimum {
   /// The rows whose normals, with these weights, sum up to the goal; weights above 0. Bounds are
   /// left out.
   std::vector<std::pair<std::uint32_t, Rational>> weights;
-  bool atBounds = false;  ///< a bound has a weight, too
+  bool atBounds = false;  ///< a bound also has a weight above 0
 };
 
 /// Solves A w = r for a regular M × M matrix A, column by column of `a`.
@@ -173,7 +174,7 @@ Point<Rational, M> weightsOf(std::array<Point<Rational, M>, M> a, Point<Rational
 }
 
 /// Solves a linear program exactly. Begins with the rows that are tight at a candidate, and adds
-/// the row that the result violates most, until there is none.
+/// the row that the result violates most, until the result violates no row.
 /// @pre a point of all rows and bounds exists.
 template <std::size_t M, class Rows>
 Optimum<M> exactOptimum(std::size_t count, const Rows& row, const Point<Rational, M>& goal,

@@ -30,11 +30,11 @@ struct Answer {
 };
 
 /// A corner of the GJK simplex: a point of core a and a point of core b. It also holds the data
-/// from which both can be computed again with more digits.
+/// from which both points can be computed again with more digits.
 template <class Real>
 struct Corner {
   Vector<Real> a, w;  ///< the point of core a; the vector from it to the point of core b
-  std::uint32_t pointA = 0, pointB = 0;  ///< their numbers in the `points` of the sets
+  std::uint32_t pointA = 0, pointB = 0;  ///< their indices in the `points` of the sets
   Vec3 n = Vec3::Zero();  ///< direction from a to b along which the two points are the extreme ones
 };
 
@@ -46,14 +46,14 @@ struct Simplex {  // NOLINT(bugprone-reserved-identifier): the implicit copy has
   int count = 0;
 };
 
-/// One search for the distance of the cores of two posed sets. Its unit of length is a power of
-/// two, about `size`, so that squares and cubes neither overflow nor vanish.
+/// One search for the distance of the cores of two posed sets. Its unit of length is a power of two
+/// near `size`, so that squares and cubes neither overflow nor vanish.
 template <class Real>
 class Search {
  public:
   /// @param size  metres: larger than every coordinate involved.
-  /// @param ballsInCores true: the mapped swept spheres count as parts of the cores. Needed for
-  /// maps that make them ellipsoids (`Support`).
+  /// @param ballsInCores  true: the mapped swept spheres count as parts of the cores. This is
+  /// needed for maps that make ellipsoids of the spheres (`Support`).
   Search(const PosedSet& a, const PosedSet& b, double size, bool ballsInCores = false)
       : unit(powerOfTwo(size)),
         a_(a, 1 / unit, ballsInCores),
@@ -63,11 +63,11 @@ class Search {
 
   /// Runs the search.
   /// @param from  the simplex that another search ended with, to start from; may be empty.
-  /// @param enough  called in every round as enough(upper, lower), in `Real` and metres; true ends
-  /// the search.
-  /// @param accept called as accept(direction, gap, pointA, pointB) whenever the gap, in metres, is
-  /// wider than all earlier ones; the points are those of the sets that are extreme along the
-  /// direction. True ends the search.
+  /// @param enough  called in every round as enough(upper, lower), both of type `Real`, in metres.
+  /// If it returns true, the search ends.
+  /// @param accept  called as accept(direction, gap, pointA, pointB) whenever the gap, in metres,
+  /// is wider than all earlier gaps. `pointA` and `pointB` are the indices of the points that are
+  /// extreme: of a along the direction, of b against it. If it returns true, the search ends.
   template <class Other, class Enough, class Accept>
   Answer run(const Simplex<Other>& from, Enough enough, Accept accept) {
     Answer answer;
@@ -133,8 +133,8 @@ class Search {
     return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
   }
 
-  /// Returns the corner that consists of the two points with these numbers. A point on a disc or
-  /// sphere is the extreme one in direction n.
+  /// Returns the corner that consists of the two points with these indices. If a core has a disc or
+  /// a sphere, the point on it that is extreme is taken: along n for core a, along −n for core b.
   Corner<Real> cornerOf(std::uint32_t pointA, std::uint32_t pointB, const Vector<Real>& n) const {
     const Vector<Real> a = a_.at(pointA, n);
     return {a, b_.at(pointB, -n) - a, pointA, pointB, rough(n)};
@@ -173,8 +173,8 @@ class Search {
     simplex = known_;
   }
 
-  /// Returns the known corners computed again for direction n. Corners that belong to the same two
-  /// points become one corner.
+  /// Returns the known corners, computed again for direction n. Corners with the same two indices
+  /// become one corner.
   Simplex<Real> cornersFor(const Vector<Real>& n) const {
     Simplex<Real> corners;
     for (int i = 0; i < known_.count; ++i) {
@@ -187,10 +187,11 @@ class Search {
     return corners;
   }
 
-  /// Takes a Newton step from n towards the direction of the widest gap, for curved surfaces. The
-  /// face is computed again for the new direction, and replaced if the new face is closer. Returns
-  /// false if no step is defined. The step need not be accurate: for any direction, the gap is a
-  /// lower bound of the distance, and the corner found consists of points of the cores.
+  /// Takes a Newton step from n towards the direction of the widest gap, for curved surfaces.
+  /// Changes n to the new direction. The face is computed again for this direction, and replaced if
+  /// the new face is closer. Returns false if no step is defined. The step need not be accurate:
+  /// for any direction, the gap is a lower bound of the distance, and the corner found consists of
+  /// points of the cores.
   ///
   /// Let w_i(n) be corner i as a function of n, for fixed points of the sets. Then f_i = n·w_i has
   /// the gradient w_i and the Hessian −H, where H is the sum of the Hessians of both sets
@@ -251,7 +252,7 @@ class Search {
   Real upper_{HUGE_VAL};
 };
 
-/// Returns the simplex of a cache, of which only the points and directions are set.
+/// Returns the simplex of a cache. Only the indices and directions of its corners are set.
 template <class Real>
 Simplex<Real> startOf(const ConvexCache* cache) {
   Simplex<Real> from;
@@ -261,7 +262,7 @@ Simplex<Real> startOf(const ConvexCache* cache) {
   }
   return from;
 }
-/// Keeps the corners of a simplex in the cache.
+/// Copies the corners of a simplex to the cache, if there is one.
 template <class Real>
 void keep(const Simplex<Real>& simplex, ConvexCache* cache) {
   if (!cache) return;
@@ -273,10 +274,11 @@ void keep(const Simplex<Real>& simplex, ConvexCache* cache) {
 }
 
 /// Runs a search for a verdict. The search ends when `accept` returns true, when the upper bound is
-/// at most `near`, or when upper and lower bound differ by at most 2^-50·size or by the share
-/// `Effort::agreed` of the distance.
+/// at most `near`, or when the upper and the lower bound differ by at most 2^-50·size or
+/// `Effort::agreed` times the lower bound.
 /// @param size, near  metres.
-/// @param cache  if not null, gives the simplex to start from, and receives the last one.
+/// @param cache  if not null, gives the simplex to start from, and receives the simplex that the
+/// search ends with.
 template <class Real, class Accept>
 Answer search(const PosedSet& a, const PosedSet& b, double size, double near, Accept accept,
               bool ballsInCores = false, ConvexCache* cache = nullptr) {

@@ -10,15 +10,17 @@
 #include "collision/convex/exact_program-inl.h"
 #include "collision/core/rounding.h"
 
-/// Three linear programs over cones answer whether a linear program is infeasible, unbounded or
-/// neither. Each has the origin as a point, and the bounds |y_i| ≤ 1, so each has an optimum.
+/// Up to three linear programs answer whether a linear program is infeasible, unbounded or neither.
+/// The first two are over cones: each contains the origin, and has the bounds |y_i|, s ≤ 1, so each
+/// has an optimum.
 /// * Feasible: maximise s subject to normal·y − offset·s ≤ 0 for all half-spaces. If s > 0, y/s is
 ///   a point of all half-spaces. If s = 0, duality gives weights of half-spaces that sum up to
 ///   (0, …, 0, 1), which is Farkas' lemma.
-/// * Unbounded: maximise goal·y subject to normal·y ≤ 0. If it is above 0, y is a ray. If it is 0,
-///   duality gives weights of normals that sum up to the goal.
-/// * Otherwise there is an optimum. It is found within bounds, which are enlarged until none has a
-///   weight in the proof. The weights then prove that it is optimal without bounds.
+/// * Unbounded: maximise goal·y subject to normal·y ≤ 0. If the maximum is above 0, y is a ray. If
+///   the maximum is 0, duality gives weights of normals that sum up to the goal.
+/// * Otherwise there is an optimum. It is found within bounds, which are enlarged until no bound
+///   has a weight in the proof. The weights then prove that the point is optimal without bounds,
+///   too.
 namespace corridor {
 namespace {
 
@@ -41,7 +43,8 @@ class Program {
   }
 
   LinearProgramAnswer<D> solve() {
-    // By its bits: under denormals-are-zero a comparison takes a subnormal goal for 0.
+    // The goal is tested by its bits, because under denormals-are-zero a comparison takes a
+    // subnormal goal for 0.
     const bool hasGoal = std::any_of(goal_.data(), goal_.data() + D,
                                      [](double x) { return exact::dyadic(x).mantissa != 0; });
     if (!findPoint() || !hasGoal) return std::move(answer_);
@@ -96,9 +99,9 @@ class Program {
     return false;
   }
 
-  /// Looks for a point inside all half-spaces: the middle between the candidate, which is on the
-  /// planes of the tight rows, and the point that is farthest from these. Returns false if it is
-  /// not proved to be inside.
+  /// Sets `answer_.x` to a point inside all half-spaces: the middle between the candidate, which is
+  /// on the planes of the tight rows, and the point that is farthest from these planes. Returns
+  /// false if this middle point is not proved to be inside.
   bool isInside(const seidel::Candidate<kM>& first) {
     Point<double, kM> away{};
     for (std::size_t i = 0; i < first.tight.count; ++i) {
@@ -165,10 +168,10 @@ class Program {
   /// @pre there is an optimum, and `answer_.x` is near a point of all half-spaces.
   void findOptimum() {
     const auto rows = [this](std::uint32_t i) { return plain(i, true); };
-    // The point known may be outside by its rounding, so twice its size is inside the bounds. Each
-    // round squares the bounds: the optimum has rational coordinates of some length.
-    // The coordinates of a point that overflows in double are quotients of determinants of at most
-    // four rows (Cramer's rule), so they are below 2^65536 by far.
+    // The known point may be outside by its rounding, so the bounds are more than twice its largest
+    // coordinate. Each round squares the bounds: the optimum has rational coordinates of some
+    // length. The coordinates of a point that overflows in double are quotients of determinants of
+    // at most four rows (Cramer's rule), so they are below 2^65536 by far.
     const double size = answer_.x.cwiseAbs().maxCoeff();
     Rational reach = std::isfinite(size) ? 2 * seidel::rational(size) + 1
                                          : Rational(boost::multiprecision::cpp_int(1) << 65536);

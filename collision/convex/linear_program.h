@@ -12,7 +12,7 @@
 namespace corridor {
 
 /// The half-space {x : normal·x ≤ offset} of the plane (D = 2) or of space (D = 3). The normal may
-/// have any length; a normal of 0 stands for all points or none.
+/// have any length. If the normal is 0, the set is all points (offset ≥ 0) or none.
 template <int D>
 struct HalfSpace {
   Eigen::Matrix<double, D, 1> normal = Eigen::Matrix<double, D, 1>::Zero();
@@ -24,7 +24,8 @@ enum class LinearProgramStatus { optimal, unbounded, infeasible };
 /// A half-space, by its index in the linear program, with its weight in a proof.
 struct WeightedHalfSpace {
   std::size_t index = 0;
-  double weight = 0;  ///< above 0; rounded, so that tiny and huge weights may be 0 or infinite
+  /// Above 0 before rounding; tiny and huge weights may be rounded to 0 or infinity.
+  double weight = 0;
 };
 
 /// The answer of a linear program. The status is exact: it is that of real arithmetic on the given
@@ -42,30 +43,30 @@ struct LinearProgramAnswer {
   /// * `optimal`: at most D half-spaces. The weighted sum of their normals is the goal, and their
   ///   planes contain an optimal point.
   /// * `infeasible`: at most D + 1 half-spaces (Farkas' lemma). The weighted sum of their normals
-  ///   is 0, that of their offsets is below 0.
+  ///   is 0, and the weighted sum of their offsets is below 0.
   std::vector<WeightedHalfSpace> proof;
   bool exact = false;  ///< the status was decided in rational arithmetic
 };
 
-/// Maximises goal·x over all points x of the half-spaces, in the plane or in space.
+/// Maximises goal·x over all points x that are in all half-spaces, in the plane or in space.
 ///
-/// Method: Seidel's algorithm in double, in random order (seidel-inl.h), gives a candidate. Whether
-/// there is a point is proved by the candidate's own witness, with a bound of all rounding: a point
-/// that is inside all half-spaces, or weights whose signs are those of small determinants. What
-/// this does not decide, and everything about a goal, is decided in rationals, on the few
-/// half-spaces that determine the answer; all others are tested against the result. Cost: O(n) in
-/// the mean for n half-spaces.
+/// Method: Seidel's algorithm in double, in random order (seidel-inl.h), gives a candidate. The
+/// candidate's own witness, with a bound of all rounding, proves whether the half-spaces have a
+/// common point: it is a point inside all half-spaces, or weights whose signs are those of small
+/// determinants. What the witness does not decide is decided in rationals. With a goal, `unbounded`
+/// and the optimum are always decided in rationals. They use the few half-spaces that determine the
+/// answer; all others are tested against the result. Cost: O(n) in the mean for n half-spaces.
 /// @param goal  0: any point of all half-spaces is optimal.
-/// @param seed  of the random order. It changes neither the status nor the optimal value.
+/// @param seed  seed of the random order. It changes neither the status nor the optimal value.
 /// @throws std::invalid_argument if a number is not finite.
 template <int D>
 LinearProgramAnswer<D> solveLinearProgram(std::span<const HalfSpace<D>> halfSpaces,
                                           const Eigen::Matrix<double, D, 1>& goal,
                                           std::uint64_t seed = 1);
 
-/// Finds a point of two polytopes (or unbounded polyhedra), each given by its half-spaces: the
-/// linear program of both together, without a goal. Touching counts. In the proof, indices of b's
-/// half-spaces begin at a.size().
+/// Finds a common point of two polytopes (or unbounded polyhedra), each given by its half-spaces,
+/// by the linear program of all half-spaces without a goal. Touching counts. In the proof, indices
+/// of b's half-spaces begin at a.size().
 template <int D>
 LinearProgramAnswer<D> commonPoint(std::span<const HalfSpace<D>> a, std::span<const HalfSpace<D>> b,
                                    std::uint64_t seed = 1);

@@ -6,16 +6,16 @@
 namespace corridor {
 
 void MatrixGame::solve() {
-  // All entries are moved to [1, 3], so that the value is above 0. Then z = λ/value maximises Σ z
-  // subject to Σ_j a_ij z_j ≤ 1, and the dual solution is μ/value.
+  // All entries are scaled and moved to [1, 3], so that the value of the game is above 0. Then z =
+  // λ/value maximises Σ z subject to Σ_j a_ij z_j ≤ 1, and the dual solution is μ/value.
   double size = 0;
   for (std::size_t i = 0; i < rows; ++i)
     for (std::size_t j = 0; j < columns; ++j) size = std::max(size, std::abs(entry[i][j]));
   const double scale = size > 0x1p-1000 ? 1 / size : 0;
-  // The tableau: a row for each basic variable, a column for each other one; the last row is that
-  // of the costs, the last column that of the values.
+  // The tableau has a row for each basic variable and a column for each other variable. Its last
+  // row has the costs, its last column the values of the basic variables.
   std::array<std::array<double, kMost + 1>, kMost + 1> t;
-  std::array<std::size_t, kMost> basic, other;  // below `columns`: z; else a slack
+  std::array<std::size_t, kMost> basic, other;  // index below `columns`: of z; else of a slack
   for (std::size_t i = 0; i < rows; ++i) {
     for (std::size_t j = 0; j < columns; ++j) t[i][j] = 2 + scale * entry[i][j];
     t[i][columns] = 1;
@@ -23,7 +23,8 @@ void MatrixGame::solve() {
   }
   for (std::size_t j = 0; j < columns; ++j) t[rows][j] = -1, other[j] = j;
   t[rows][columns] = 0;
-  // Usual games take some ten pivots. Rounding may make the method go in a circle.
+  // Usual games take some ten pivots. The limit is needed because rounding may make the method
+  // cycle.
   for (int pivots = 0; pivots < 60; ++pivots) {
     std::size_t c = columns;
     double lowest = -1e-13;  // costs are off by some 100u: sums of a few terms up to 3

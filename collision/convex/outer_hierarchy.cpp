@@ -12,13 +12,15 @@
 namespace corridor {
 namespace {
 
-/// Half an edge of the triangles: from one corner to the next.
+/// An edge of a triangle, from `corner` to the next corner. `low` and `high` are its two vertices,
+/// the lower index first.
 struct Half {
   std::uint32_t low, high, triangle;
   int corner;
 };
 
-/// Returns, for each triangle, those beyond its edges from corner k to k + 1.
+/// Returns for each triangle the three triangles beyond its edges; entry k belongs to the edge from
+/// corner k to corner k + 1.
 std::vector<std::array<std::uint32_t, 3>> trianglesAcross(std::span<const Polytope::Face> faces) {
   std::vector<Half> halves;
   halves.reserve(3 * faces.size());
@@ -47,13 +49,14 @@ OuterHierarchy::OuterHierarchy(const DobkinKirkpatrick& inner) : inner_(&inner) 
   std::vector<Vec3> polar;
   polar.reserve(faceCount());
   for (std::size_t f = 0; f < faceCount(); ++f) {
-    // Of vertices far apart, for a small error: those of a face of many edges are close together.
+    // The normal is computed from three vertices that are far apart, for a small error:
+    // neighbouring vertices of a face of many edges are close together.
     const std::size_t size = start_[f + 1] - start_[f], first = start_[f];
     const Vec3 &a = points[faceVertex_[first]], &b = points[faceVertex_[first + size / 3]],
                &c = points[faceVertex_[first + size * 2 / 3]];
     const Vec3 normal = (b - a).cross(c - a);
     const Vec3 y = normal / normal.dot(a - center_);
-    // Not so if the center is on the plane, or outside, by rounding.
+    // The test fails if, by rounding, the center is on the plane or outside.
     if (!(y.allFinite() && normal.dot(a - center_) > 0)) return;
     polar.push_back(y);
   }
@@ -101,7 +104,8 @@ void OuterHierarchy::findFaces() {
         }
       }
     }
-    // From a boundary edge, the next one begins at its end, beyond the edges inside the face.
+    // The next boundary edge begins at the end of the last one. The edges at that vertex which are
+    // inside the face are skipped.
     std::uint32_t u = edgeOf;
     int k = edge;
     do {

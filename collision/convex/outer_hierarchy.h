@@ -11,16 +11,17 @@
 
 namespace corridor {
 
-/// The outer hierarchy of a convex polytope Q: Q_0 is Q, and Q_j is what remains of the half-spaces
-/// of Q_{j−1} without an independent set of them, each with at most 8 neighbours, down to four. So
-/// Q_0 ⊂ Q_1 ⊂ … contain Q, while the polytopes of the inner hierarchy (`DobkinKirkpatrick`) are in
-/// it. Height O(log n), memory O(n).
+/// The outer hierarchy of a convex polytope Q. Q_0 is Q. Q_j is the intersection of the half-spaces
+/// of Q_{j−1} without an independent set of them, each of which has at most 8 neighbours. The last
+/// Q_j has four half-spaces. So all of Q_0 ⊂ Q_1 ⊂ … contain Q, while Q contains the polytopes of
+/// the inner hierarchy (`DobkinKirkpatrick`). Height O(log n), memory O(n).
 ///
-/// The vertices of Q_j are no doubles, so it is kept as half-spaces. It is the hierarchy of Dobkin
-/// and Kirkpatrick of the polar polytope, whose vertices are y for the half-spaces y·(x − o) ≤ 1
-/// about a center o inside Q. The y are rounded: each is off by a few units in the last place,
-/// measured at the distance of its plane from o. Coplanar triangles make one half-space. So the
-/// hierarchy guides searches, and their answers need a proof by the vertices of Q.
+/// The vertices of Q_j are not representable as doubles, so Q_j is stored as half-spaces. The outer
+/// hierarchy is the hierarchy of Dobkin and Kirkpatrick of the polar polytope. This has a vertex y
+/// for each half-space y·(x − o) ≤ 1 of Q, about a center o inside Q. The y are rounded: each is
+/// off by a few units in the last place, measured at the distance of its plane from o. Coplanar
+/// triangles make one half-space. Because of the rounding, the hierarchy only guides searches;
+/// their answers need a proof by the vertices of Q.
 ///
 /// Building: the hierarchy takes O(n), but the hull of the rounded points is computed anew, in
 /// O(n log n) on usual polytopes.
@@ -29,7 +30,7 @@ namespace corridor {
 /// (SODA 2015).
 class OuterHierarchy {
  public:
-  /// @param inner  the hierarchy of the same polytope, which must outlive this.
+  /// @param inner  the inner hierarchy of the same polytope, which must outlive this object.
   explicit OuterHierarchy(const DobkinKirkpatrick& inner);
 
   const DobkinKirkpatrick& inner() const { return *inner_; }
@@ -46,13 +47,13 @@ class OuterHierarchy {
     const std::size_t f = polar_->polytope().source(k);
     return std::span(faceVertex_).subspan(start_[f], start_[f + 1] - start_[f]);
   }
-  /// The number of faces: planes of Q.
+  /// The number of faces of Q; coplanar triangles count as one face.
   std::size_t faceCount() const { return start_.size() - 1; }
   std::size_t bytes() const;
 
-  /// Reports what is wrong with the hierarchy, or nothing: that of the polar (exactly), and that
-  /// the faces are those of Q: each has its vertices on one plane, all vertices of Q on the plane
-  /// or below it, and each triangle of Q belongs to one face. Exact, O(n²).
+  /// Checks the hierarchy of the polar polytope, and that the faces are those of Q: the vertices of
+  /// each face are on one plane, no vertex of Q is above this plane, and the number of triangles of
+  /// all faces is that of Q. Returns what is wrong, or nothing. Exact, O(n²).
   std::optional<std::string> check() const;
 
  private:

@@ -18,13 +18,13 @@
 #include "collision/core/rounding.h"
 
 /// Rounding. All points of the inner polytope are computed in double, in a unit of length near the
-/// size of the sets, and are then used as they are. Each is off from a point of A − B by at most
-/// twice the errors of the sets' projections (`PosedSet`): the polytope is inside A − B grown by
-/// that, so `lower` subtracts it. `upper` uses certified projections.
+/// size of the sets, and are then used as they are. Each differs from a point of A − B by at most
+/// twice the errors of the sets' projections (`PosedSet`). So the polytope is inside A − B grown by
+/// this error, and `lower` subtracts this error. `upper` uses certified projections.
 ///
 /// The plane of a face is computed in double-double. With edges p and q its normal p × q is off by
-/// some 10·2^-98·|p||q|, so its direction is off by 2^-90·|p||q|/|p × q|, and the distance of the
-/// plane from the origin by that times the distance of the corner.
+/// some 10·2^-98·|p||q|, so its direction is off by 2^-90·|p||q|/|p × q|. The distance of the plane
+/// from the origin is off by this angle times the distance of the corner.
 namespace corridor {
 namespace {
 
@@ -34,7 +34,8 @@ constexpr int kMostRounds = 500;
 
 class Expansion {
  public:
-  /// @param along  the direction of the ray, a unit vector; null: the distance in any direction.
+  /// @param along  the direction of the ray, a unit vector; null for the least depth over all
+  /// directions.
   Expansion(const PosedSet& a, const PosedSet& b, const Vec3* along, bool ballsInCores)
       : a_(a),
         b_(b),
@@ -45,15 +46,15 @@ class Expansion {
         along_(along),
         radii_(ballsInCores ? 0 : a.set().ball + b.set().ball),
         error_(roundedUp(a.error() + b.error() + 7 * kUnit * size_)),
-        // The cores touch, up to the band of `convexSetsTouch`, so the spheres alone reach this
-        // deep. `keepsBall` allows 3·2^-48 of the radii.
+        // The cores touch, up to the band of `convexSetsTouch`, so the spheres alone give at least
+        // this depth. `keepsBall` allows errors of 3·2^-48 of the radii.
         least_(along || ballsInCores
                    ? 0
                    : std::max(0.0, radii_ * (1 - 0x1p-46) - 2 * error_ - 0x1p-44 * size_)) {}
 
   Penetration run(double accuracy) {
     Penetration result;
-    // The ray's direction, and those to the faces, edges and corners of a cube.
+    // The direction of the ray, and the directions to the faces, edges and corners of a cube.
     std::vector<Vec3> directions;
     if (along_) directions.push_back(*along_);
     for (int x = -1; x <= 1; ++x)
@@ -130,7 +131,8 @@ class Expansion {
     return static_cast<std::uint32_t>(points_.size() - 1);
   }
 
-  /// Takes the upper bound of the depth that this normal gives, if it is the least.
+  /// Computes the upper bound of the depth that this normal gives, and keeps it if it is the least
+  /// so far.
   void tryNormal(const Vec3& n) {
     const double upper = upperAlong(n);
     if (upper < best_) best_ = upper, bestNormal_ = n;
@@ -146,12 +148,13 @@ class Expansion {
     return rate > 0 ? roundedUp(width / rate) : HUGE_VAL;
   }
 
-  /// Computes the planes of the new faces, and queues those that the ray may leave through.
+  /// Computes the planes of the new faces, and queues the faces. If there is a ray, queues only the
+  /// faces through which the ray may leave.
   void take() {
     planes_.resize(surface_.faces().size());
     for (const std::uint32_t f : surface_.added()) take(f);
   }
-  /// Does the same for all faces.
+  /// Computes the planes of all faces anew, and queues them as `take` does.
   void requeue() {
     queue_ = {};
     for (std::uint32_t f = 0; f < surface_.faces().size(); ++f)
@@ -173,13 +176,14 @@ class Expansion {
     const double turned = 0x1p-90 * edges / static_cast<double>(size);
     distance -= turned * points_[corner[0]].norm() + 4 * kUnit * std::abs(distance);
     if (along_) {
-      // All lengths are below 8 units. A plane that is nearly parallel to the ray is taken as
-      // less parallel than it is, which makes the bound smaller.
+      // All lengths are below 8 units. For a plane that is nearly parallel to the ray, a larger
+      // angle is used, which makes the bound smaller.
       const double rate = plane.normal.dot(*along_);
       if (rate < -0x1p-40) return;  // the ray does not leave through this face
       distance = (distance - 8 * (turned + 8 * kUnit)) / std::max(rate, 0x1p-40);
     }
-    // A face whose plane is not known (its points are too close) must not be left out.
+    // A face whose plane cannot be computed, because its points are too close, must not be left
+    // out.
     queue_.push({std::isfinite(distance) ? distance : -8.0, f, plane.stamp});
   }
 
@@ -188,12 +192,13 @@ class Expansion {
     result.upper = best_;
     result.lower = std::min(result.lower, result.upper);
     result.direction_W = along_ ? *along_ : bestNormal_;
-    // The point of the face on the ray, or closest to the origin: its barycentric coordinates.
+    // x is the point of the face's plane on the ray, or the point closest to the origin.
     const Plane& plane = planes_[f];
     const double depth = plane.normal.dot(points_[surface_.faces()[f].corner[0]]);
     const Vec3 x =
         along_ ? Vec3(*along_ * (depth / plane.normal.dot(*along_))) : Vec3(plane.normal * depth);
-    // If it belongs to a larger face, that may be another triangle of it: walks there.
+    // If several coplanar triangles form a larger face, x may be in another one of them: the loop
+    // walks there. `weight` holds the barycentric coordinates of x, up to a factor.
     Vec3 weight;
     std::array<std::uint32_t, 3> corner{};
     for (int step = 0; step < 64; ++step) {
@@ -220,8 +225,8 @@ class Expansion {
     result.p_WB = unit_ * p_B - b * bestNormal_;
   }
 
-  /// The result if all points are on one plane: the sets are flat, so that their depth is that of
-  /// the spheres.
+  /// Returns the result if all points are on one plane: the sets are flat, so only the spheres give
+  /// a depth.
   Penetration flat() {
     Penetration result;
     Vec3 n = flatNormal();
@@ -230,7 +235,8 @@ class Expansion {
     result.direction_W = along_ ? *along_ : n;
     result.upper = upperAlong(n);
     result.lower = std::min(least_, result.upper);
-    // A common point of the sets without the spheres, which then reach along the normal.
+    // The sets without their spheres have a common point. From there, each sphere reaches along the
+    // normal.
     ConvexSet coreA = a_.set(), coreB = b_.set();
     if (radii_ > 0) coreA.ball = coreB.ball = 0;
     const ConvexDistance common = convexDistance({coreA, a_.pose()}, {coreB, b_.pose()});
@@ -273,7 +279,8 @@ Penetration penetration(const PosedSet& a, const PosedSet& b, double accuracy) {
   const bool ballsInCores = !(a.keepsBall() && b.keepsBall());
   const double radii = a.set().ball + b.set().ball;
   if (radii > 0 && !ballsInCores) {
-    // The cores alone: the spheres add their radii to the depth.
+    // If the cores do not touch, their distance gives the depth: the sum of the radii minus this
+    // distance.
     ConvexSet coreA = a.set(), coreB = b.set();
     coreA.ball = coreB.ball = 0;
     const PosedSet setA(coreA, a.pose()), setB(coreB, b.pose());

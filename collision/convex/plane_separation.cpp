@@ -16,8 +16,9 @@ struct Height {
   double value, error;
 };
 
-/// normal·x − offset. Three products and three sums: at most 4u of the sum of magnitudes, which is
-/// itself off by as much. Underflow adds at most 2^-1022 times the largest factor, or 1, for each.
+/// Returns normal·x − offset. The rounding of three products and three sums is at most 4u of the
+/// sum of magnitudes, which is itself off by as much. Underflow adds at most 2^-1022 times the
+/// largest factor, or 1, for each operation.
 Height height(const HalfSpace<3>& half, const Vec3& x) {
   const double size = half.normal.cwiseAbs().dot(x.cwiseAbs()) + std::abs(half.offset);
   const double tiny =
@@ -25,7 +26,7 @@ Height height(const HalfSpace<3>& half, const Vec3& x) {
   return {half.normal.dot(x) - half.offset, 8 * kUnit * size + tiny};
 }
 
-/// The sign of normal·x − offset, exactly.
+/// Returns the sign of normal·x − offset, exactly.
 int sideOf(const HalfSpace<3>& half, const Vec3& x) {
   const Height h = height(half, x);
   if (std::abs(h.value) > h.error && std::isfinite(h.error)) return h.value > 0 ? 1 : -1;
@@ -37,14 +38,15 @@ int sideOf(const HalfSpace<3>& half, const Vec3& x) {
 void requirePlane(const HalfSpace<3>& half) {
   if (!half.normal.allFinite() || !std::isfinite(half.offset))
     throw std::invalid_argument("the numbers of a plane must be finite");
-  // By its bits: under denormals-are-zero a comparison takes a subnormal normal for 0.
+  // The normal is tested by its bits, because under denormals-are-zero a comparison takes a
+  // subnormal normal for 0.
   if (std::all_of(half.normal.data(), half.normal.data() + 3,
                   [](double x) { return exact::dyadic(x).mantissa == 0; }))
     throw std::invalid_argument("the normal of a plane must not be 0");
 }
 
-/// All of the polytope is on the side of its innermost and outermost vertices, or it meets the
-/// plane.
+/// Returns the side of the polytope from the sides of its innermost and its outermost vertex: the
+/// common side of both, or 0 if the polytope meets the plane.
 int sideOf(int innermost, int outermost) {
   return innermost > 0 ? 1 : outermost < 0 ? -1 : 0;
 }
@@ -59,7 +61,8 @@ PlaneSeparation planeSeparation(const DobkinKirkpatrick& polytope, const HalfSpa
   found.outermost = polytope.extreme(halfSpace.normal);
   found.side =
       sideOf(sideOf(halfSpace, at(found.innermost)), sideOf(halfSpace, at(found.outermost)));
-  // In units of about the normal's length, so that its square neither overflows nor vanishes.
+  // The half-space is scaled so that its normal has a length of about 1: the square of the length
+  // neither overflows nor vanishes.
   const double unit = powerOfTwo(halfSpace.normal.cwiseAbs().maxCoeff());
   const HalfSpace<3> scaled{halfSpace.normal / unit, halfSpace.offset / unit};
   const Height in = height(scaled, at(found.innermost)), out = height(scaled, at(found.outermost));
@@ -71,7 +74,7 @@ PlaneSeparation planeSeparation(const DobkinKirkpatrick& polytope, const HalfSpa
   };
   const double low = std::max(least(in.value, in.error), least(-out.value, out.error)),
                high = std::max(-least(-in.value, in.error), -least(out.value, out.error));
-  // The length is off by 3u, the quotients by 1u, and so are the sums above.
+  // The length is off by 3u, and the quotients and the sums above by 1u each.
   const double length = scaled.normal.norm();
   const auto down = [](double x) { return x > 0 ? roundedDown(x) : -roundedUp(-x); };
   found.lower = down(low / length);
@@ -84,7 +87,7 @@ PlaneSeparation planeSeparation(const DobkinKirkpatrick& polytope, const HalfSpa
 int sideOfPlane(const DobkinKirkpatrick& polytope, const HalfSpace<3>& halfSpace) {
   requirePlane(halfSpace);
   const double largest = halfSpace.normal.cwiseAbs().maxCoeff();
-  // Walks need a direction of a usual size (polytope_shadow.h).
+  // Walks need a direction whose largest component is within 2^±400 (polytope_shadow.h).
   if (largest > 0x1p-400 && largest < 0x1p400) {
     PolytopeShadow in(polytope, -halfSpace.normal), out(polytope, halfSpace.normal);
     const auto at = [&](const PolytopeShadow& walk) {

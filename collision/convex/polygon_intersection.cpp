@@ -41,9 +41,8 @@ class PolygonSearch {
   PolygonSearch(const ConvexPolygon& p, const ConvexPolygon& q, std::vector<PolygonPruning>* trace)
       : p_(p), q_(q), trace_(trace), chainP_{0, p.size()}, chainQ_{0, q.size()} {
     for (std::size_t k = 0; k < 3; ++k) triangle_.push_back(k * p.size() / 3);
-    // The two edges at each of the extreme vertices along the axes: between the two edges of
-    // neighbouring vertices the boundary turns by less than a quarter turn, so each chain of T_Q
-    // does.
+    // T_Q begins with the two edges at each of the four extreme vertices along the coordinate axes.
+    // So along each chain between two edges of T_Q the boundary turns by less than a quarter turn.
     for (const Vec2& axis : {Vec2(1, 0), Vec2(0, 1), Vec2(-1, 0), Vec2(0, -1)}) {
       const std::size_t v = q.extreme(axis);
       edges_.push_back((v + q.size() - 1) % q.size());
@@ -55,7 +54,7 @@ class PolygonSearch {
 
   PolygonIntersection run() {
     PolygonIntersection result;
-    // Each step halves a chain; rounding may spoil one, but cannot make the loop endless.
+    // Each step halves a chain. The limit of steps is needed because rounding may spoil a step.
     const std::size_t bits = std::bit_width(p_.size()) + std::bit_width(q_.size());
     for (std::size_t most = 4 * bits + 16; result.steps < static_cast<int>(most); ++result.steps) {
       const Step step = next();
@@ -83,7 +82,8 @@ class PolygonSearch {
     return common.empty() ? pruneP() : pruneQ(common);
   }
 
-  /// T_P and T_Q share the polygon `common`: looks for the chain of Q that has all of it outside.
+  /// T_P and T_Q share the polygon `common`: looks for the chain of Q whose chord has all of
+  /// `common` beyond it.
   Step pruneQ(const std::vector<Vec2>& common) {
     for (std::size_t k = 0; k < edges_.size(); ++k) {
       const bool last = k + 1 == edges_.size();
@@ -104,7 +104,8 @@ class PolygonSearch {
 
   /// T_P and T_Q are apart: keeps the chain of P that is beyond the line that separates them.
   Step pruneP() {
-    // The line along an edge of T_Q that all of T_P is beyond: it is moved to the closest vertex.
+    // Tries the line along each edge of T_Q. If all of T_P is beyond the line, the line is moved to
+    // the closest vertex of T_P.
     for (const std::size_t e : edges_) {
       const HalfPlane half = halfPlane(e);
       std::size_t closest = 0;
@@ -118,7 +119,7 @@ class PolygonSearch {
       direction_ = {-d.y(), d.x()};  // towards Q
       return keepBeyond(closest);
     }
-    // The line along an edge of T_P that all of T_Q is beyond.
+    // Tries the line along each edge of T_P, and uses it if all of T_Q is beyond it.
     for (std::size_t k = 0; k < triangle_.size(); ++k) {
       const Vec2 &v = p_[triangle_[k]], &w = p_[triangle_[(k + 1) % triangle_.size()]];
       const Vec2 out(w.y() - v.y(), v.x() - w.x());
@@ -130,7 +131,8 @@ class PolygonSearch {
                          // decide.
   }
 
-  /// Whether T_Q is beyond the line through v with this normal: the least of out·(x − v) over T_Q.
+  /// Returns whether T_Q is beyond the line through v with the normal `out`, which means that the
+  /// least value of out·(x − v) over T_Q is above 0.
   bool isBeyond(const Vec2& out, const Vec2& v, double size) const {
     if (!(size > 0)) return false;
     using Row = seidel::HalfSpace<double, 2>;
@@ -153,7 +155,8 @@ class PolygonSearch {
     return out.x() * x[0] + out.y() * x[1] > 0;
   }
 
-  /// Keeps the chain next to vertex k of T_P that goes beyond the line through it.
+  /// Keeps the chain next to vertex k of T_P that goes beyond the line through this vertex, if
+  /// there is one.
   Step keepBeyond(std::size_t k) {
     const std::size_t v = triangle_[k], n = triangle_.size();
     const auto rises = [&](std::size_t w) { return direction_.dot(p_[w] - p_[v]) > 0; };
@@ -163,7 +166,7 @@ class PolygonSearch {
     return Step::apart;
   }
 
-  /// Keeps the chain from vertex k of T_P to the next one.
+  /// Keeps the chain from vertex k of T_P to the next vertex of T_P.
   Step keepBetween(std::size_t k) {
     const std::size_t n = triangle_.size();
     if (!wholeP_ && k + 1 == n) return Step::apart;  // the chord of the chain: nothing is beyond it
@@ -189,9 +192,10 @@ class PolygonSearch {
     return alongSign({direction_.x(), direction_.y(), 0}, {p.x(), p.y(), 0}, {q.x(), q.y(), 0}) > 0;
   }
 
-  /// Proves with the vertices used that the polygons share a point. (A point of P that was beyond a
-  /// chain of Q is in a triangle used; the segment from there to a common point of T_P and T_Q
-  /// enters Q through the chord of the chain, which is between vertices used.)
+  /// Proves with the vertices used that the polygons share a point. (If points of P were beyond a
+  /// chain of Q, one of the triangles used contains such a point. The segment from this point to a
+  /// common point of T_P and T_Q enters Q through the chord of the chain, whose ends are vertices
+  /// used.)
   bool provedMeeting(PolygonIntersection& result) {
     const auto unique = [](std::vector<std::size_t>& list) {
       std::sort(list.begin(), list.end());

@@ -20,7 +20,7 @@ struct Rings {
     for (const Face& face : faces)
       for (const std::uint32_t v : face) ++start[v + 1];
     for (std::size_t v = 0; v < vertices; ++v) start[v + 1] += start[v];
-    // For each face (v, a, b) of v: the pair a, b.
+    // `pairs` has for each face (v, a, b) of v the pair a, b.
     std::vector<std::array<std::uint32_t, 2>> pairs(start.back());
     std::vector<std::uint32_t> fill(start.begin(), start.end() - 1);
     for (const Face& face : faces)
@@ -70,7 +70,8 @@ Polytope::Polytope(std::span<const Vec3> points) {
   if (faces.empty())
     throw std::invalid_argument("the points of a polytope must not all be on one plane");
   const auto takeVertices = [&] {
-    // Keeps the vertices of the faces that are extreme; returns how many are not.
+    // Stores the extreme ones of the faces' vertices in `source_`; returns the number of the other
+    // vertices.
     const Rings rings(points.size(), faces);
     std::size_t dropped = 0;
     source_.clear();
@@ -99,7 +100,7 @@ Polytope::Polytope(std::span<const Vec3> points) {
   Rings rings(vertices_.size(), faces_);
   start_ = std::move(rings.start);
   neighbours_ = std::move(rings.vertex);
-  // Divided first, so that the sum does not overflow.
+  // Each vertex is divided first, so that the sum does not overflow.
   for (const Vec3& v : vertices_) {
     center_ += v / static_cast<double>(vertices_.size());
     reachSquared_ = std::max(reachSquared_, v.squaredNorm());
@@ -148,13 +149,15 @@ std::optional<std::string> checkConvexBoundary(std::span<const Vec3> points,
     ++used;
     if (!isExtreme(points, rings, v)) return "vertex " + std::to_string(v) + " is not extreme";
     for (std::size_t i = 0, n = ring.size(); i < n; ++i) {
-      // The edge from v to the middle one of three, which follow each other counterclockwise.
+      // Tests the edge from v to the middle one of three neighbours that follow each other
+      // counterclockwise.
       if (planeSide(points[v], points[ring[i]], points[ring[(i + 1) % n]],
                     points[ring[(i + 2) % n]]) > 0)
         return "an edge at vertex " + std::to_string(v) + " is not convex";
     }
-    // The faces of a vertex could go around it twice. Then some have neighbours of it above them;
-    // with many neighbours, 32 of them, evenly spaced, show that.
+    // The faces of a vertex could go around it twice. Then some neighbours of the vertex are above
+    // some of its faces. If there are many neighbours, testing some 32 of them, evenly spaced, is
+    // enough.
     const std::size_t stride = std::max<std::size_t>(1, ring.size() / 32);
     for (std::size_t i = 0, n = ring.size(); i < n; i += stride)
       for (std::size_t k = 0; k < n; k += stride)

@@ -19,12 +19,12 @@ class Polytope {
  public:
   using Face = std::array<std::uint32_t, 3>;  ///< vertices, counterclockwise as seen from outside
 
-  /// Builds the hull of the points: `vertices()` are those of them that are extreme, in their
-  /// order.
+  /// Builds the hull of the points. `vertices()` are the extreme ones of these points, in their
+  /// given order.
   ///
   /// Method: quickhull (C. B. Barber, D. P. Dobkin, H. Huhdanpaa, 1996) with exact predicates, so
-  /// nothing is merged or joggled. If some vertex of the result is not extreme, which coplanar
-  /// points may cause, the hull of the extreme ones is computed once more. O(n log n) on usual
+  /// nothing is merged or joggled. Coplanar points may cause vertices of the result that are not
+  /// extreme. Then the hull of the extreme vertices is computed once more. O(n log n) on usual
   /// points, O(n²) at worst.
   /// @throws std::invalid_argument if all points are on one plane, or a coordinate is not finite,
   /// or there are more than 2^28 points.
@@ -44,24 +44,23 @@ class Polytope {
   /// The largest squared distance of a vertex from the origin, rounded.
   double reachSquared() const { return reachSquared_; }
 
-  /// Returns a vertex that is farthest along a direction, by hill climbing: goes from vertex to
-  /// neighbour as long as one is farther (S. Cameron, Enhancing GJK, 1997). Exact, in real
+  /// Returns a vertex that is farthest along a direction, by hill climbing: goes from a vertex to a
+  /// neighbour as long as a neighbour is farther (S. Cameron, Enhancing GJK, 1997). Exact, in real
   /// arithmetic on the given doubles, from any start, because a local maximum is the global one. A
-  /// start that is close saves most of the time. O(√n) steps on usual polytopes, O(n) at worst.
+  /// start near the answer saves most of the time. O(√n) steps on usual polytopes, O(n) at worst.
   /// @param steps  if not null, is increased by the number of steps.
   /// @pre the direction is finite.
   std::uint32_t climb(std::uint32_t start, const Vec3& direction,
                       std::size_t* steps = nullptr) const;
-  /// The same with a limit of steps. Returns nothing if more are needed.
+  /// Does the same in at most `most` steps. Returns nothing if more steps are needed.
   std::optional<std::uint32_t> climb(std::uint32_t start, const Vec3& direction, int most) const;
 
-  /// Reports what is wrong with the polytope, or nothing: that its boundary is closed and a sphere,
-  /// that it is locally convex at each edge (and therefore convex), and that each vertex is
-  /// extreme. Exact.
+  /// Checks that the boundary is closed and a sphere, that it is locally convex at each edge (and
+  /// therefore convex), and that each vertex is extreme. Returns what is wrong, or nothing. Exact.
   std::optional<std::string> check() const;
 
  private:
-  /// Returns a neighbour that is farther along the direction, or v.
+  /// Returns a neighbour of v that is farther along the direction; v if there is none.
   std::uint32_t higher(std::uint32_t v, const Vec3& direction) const;
 
   std::vector<Vec3> vertices_;
@@ -72,10 +71,10 @@ class Polytope {
   double reachSquared_ = 0;
 };
 
-/// Reports what is wrong with the boundary of a convex polytope, or nothing: that it is closed and
-/// has the Euler characteristic of a sphere, that it is convex at each edge and at each vertex (and
+/// Checks that faces are the boundary of a convex polytope: that the boundary is closed and has the
+/// Euler characteristic of a sphere, that it is convex at each edge and at each vertex (and
 /// therefore as a whole), and that each vertex of a face is an extreme point. Points that no face
-/// uses are ignored. Exact.
+/// uses are ignored. Returns what is wrong, or nothing. Exact.
 std::optional<std::string> checkConvexBoundary(std::span<const Vec3> points,
                                                std::span<const Polytope::Face> faces);
 

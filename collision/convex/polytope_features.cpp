@@ -40,7 +40,7 @@ PolytopeFeatures::PolytopeFeatures(const ConvexSet& set) : set_(set) {
       left_[sides[k]] = f;
     }
     sides_.push_back(sides);
-    // Scaled by a power of two first, so that products neither overflow nor vanish.
+    // Both edges are normalised first, so that products neither overflow nor vanish.
     Vec3 u = vertex(face[1]) - vertex(face[0]), w = vertex(face[2]) - vertex(face[0]);
     u = u.stableNormalized();
     w = w.stableNormalized();

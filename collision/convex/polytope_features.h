@@ -15,8 +15,8 @@ namespace corridor {
 struct Feature {
   enum class Kind : std::uint8_t { vertex, edge, face };
   Kind kind = Kind::vertex;
-  /// Vertex, face: its index in `Polytope::vertices()`, `Polytope::faces()`. Edge: the index of one
-  /// of its two half-edges (`PolytopeFeatures`).
+  /// Vertex: its index in `Polytope::vertices()`. Face: its index in `Polytope::faces()`. Edge: the
+  /// index of one of its two half-edges (`PolytopeFeatures`).
   std::uint32_t index = 0;
 
   friend bool operator==(const Feature&, const Feature&) = default;
@@ -25,7 +25,7 @@ struct Feature {
 /// The adjacency of a polytope's features, for V-Clip (vclip.h). Each edge is two half-edges. A
 /// half-edge goes from its tail to its head, counterclockwise along the face on its left.
 ///
-/// The viewed polytope must outlive it. Memory: about 140 bytes for each vertex. Building takes
+/// The polytope must outlive this object. Memory: about 140 bytes for each vertex. Building takes
 /// O(n log n).
 class PolytopeFeatures {
  public:
@@ -51,7 +51,7 @@ class PolytopeFeatures {
 
   /// Reports whether the feature is one of this polytope's.
   bool has(const Feature& feature) const;
-  /// Returns the vertices of a feature: one, two or three.
+  /// Returns the vertices of a feature: one, two or three. The result may refer to `memory`.
   std::span<const std::uint32_t> corners(const Feature& feature,
                                          std::array<std::uint32_t, 3>& memory) const;
   /// Returns the feature with these vertices; if there is none, the first vertex.

@@ -18,7 +18,7 @@
 namespace corridor {
 namespace {
 
-/// The points n·x ≥ c.
+/// The plane n·x = c, as the function n·x − c, which is above 0 beyond the plane.
 struct Plane {
   Vec3 n = Vec3::Zero();
   double c = 0;
@@ -39,7 +39,7 @@ class PolytopeSearch {
         levelQ_(q.polar() ? q.polar()->levels() - 1 : 0) {}
 
   PolytopeIntersection run() {
-    // Each step refines P or Q, so this many are enough.
+    // Each step refines P or Q, so this number of steps is enough.
     const std::size_t most = q_.polar() ? levelP_ + levelQ_ + 2 : 0;
     if (!placeP()) return decidedByAll();
     for (std::size_t k = 0; k < most; ++k) {
@@ -70,7 +70,8 @@ class PolytopeSearch {
   Vec3 pointP(std::uint32_t v) const { return X_QP_ * p_.polytope().vertices()[v]; }
   const Vec3& polarQ(std::uint32_t k) const { return q_.polar()->polytope().vertices()[k]; }
 
-  /// Takes T_P and T_Q, and how far each point of T_P is outside each half-space of T_Q.
+  /// Prepares T_P (`points_`) and T_Q (`planes_`), and the game whose entries say how far each
+  /// point of T_P is outside each half-space of T_Q.
   void takeParts() {
     namesP_.clear();
     if (v_) {
@@ -100,8 +101,8 @@ class PolytopeSearch {
       for (std::size_t j = 0; j < points_.size(); ++j) game_.entry[i][j] = planes_[i](points_[j]);
   }
 
-  /// Finds the plane in the middle between T_P (g > 0) and T_Q (g < 0). Returns false if there is
-  /// none.
+  /// Sets g_ to the plane in the middle between T_P (g_ > 0) and T_Q (g_ < 0), and returns true.
+  /// Returns false if no plane separates them.
   bool findSeparation() {
     g_ = {};
     for (std::size_t i = 0; i < planes_.size(); ++i) {
@@ -114,8 +115,8 @@ class PolytopeSearch {
     return least > 0;
   }
 
-  /// T_P and T_Q are apart: moves the plane h, and goes down to the first polytope that it does not
-  /// have on one side.
+  /// T_P and T_Q are apart: moves the plane h, and goes down to the first polytope of P that has a
+  /// vertex beyond h.
   Step refineP() {
     Plane next{-g_.n, -g_.c};
     if (v_) {
@@ -138,7 +139,8 @@ class PolytopeSearch {
     return beyond ? Step::refined : Step::decided;
   }
 
-  /// T_P and T_Q share a point: moves x, and goes down to the first polyhedron that excludes it.
+  /// T_P and T_Q share a point: moves x, and goes down to the first polyhedron of Q that excludes
+  /// x.
   Step refineQ() {
     Vec3 next = Vec3::Zero();
     for (std::size_t j = 0; j < points_.size(); ++j) {
@@ -182,8 +184,8 @@ class PolytopeSearch {
     n.normalize();
     if (!n.allFinite()) return false;
     const PosedSet a(p_, X_WP_), b(q_.inner(), X_WQ_);
-    // Each projection is off by its `error`, and the sum of both by 1u of two numbers below `size`
-    // (as in convexSetsTouch).
+    // Each projection is off by the `error` of its set, and the sum of both by 1u of two numbers
+    // below `size` (as in convexSetsTouch).
     const double size = a.reach() + X_WP_.t.norm() + b.reach() + X_WQ_.t.norm();
     const double slack = roundedUp(a.error() + b.error() + 2 * kUnit * size);
     if (!(-b.highest(-n) - a.highest(n, *v_) > slack)) return false;
@@ -192,8 +194,8 @@ class PolytopeSearch {
   }
 
   /// Proves with the vertices used that the polytopes share a point. The hull of the vertices of P
-  /// that were used contains x. The hull of the core of Q and of the face that the ray from the
-  /// center through x meets contains x, too.
+  /// that were used contains x. The hull of the core of Q and of the face of Q that the ray from
+  /// the center through x meets contains x, too.
   bool provedMeeting() {
     const auto core = q_.core();
     result_.verticesQ.assign(core.begin(), core.end());
@@ -211,8 +213,8 @@ class PolytopeSearch {
     return result_.intersects;
   }
 
-  /// Returns the three vertices of a face, one of them its first, between which the ray from the
-  /// center through x meets it.
+  /// Returns three vertices of a face, one of which is its first vertex: the ray from the center
+  /// through x meets the triangle of these three.
   std::array<std::uint32_t, 3> cornersAt(std::span<const std::uint32_t> face) const {
     const auto at = [&](std::size_t i) {
       return Vec3(q_.inner().polytope().vertices()[face[i]] - q_.center());
@@ -240,8 +242,8 @@ class PolytopeSearch {
   Transform X_WP_, X_WQ_, X_QP_;
   std::vector<PolytopePruning>* trace_;
   std::size_t levelP_, levelQ_;        ///< of v_ and half_
-  std::optional<std::uint32_t> v_;     ///< the vertex of P beyond h; none: the simplex is all of P
-  std::optional<std::uint32_t> half_;  ///< the half-space of Q that excludes x, likewise
+  std::optional<std::uint32_t> v_;     ///< vertex of P beyond h; none: T_P is the simplex
+  std::optional<std::uint32_t> half_;  ///< half-space of Q that excludes x; none: likewise for T_Q
   Plane h_;                            ///< the separating plane, P at h ≤ 0. @pre v_
   Vec3 x_ = Vec3::Zero();              ///< the common point. @pre half_
   std::vector<std::uint32_t> namesP_;

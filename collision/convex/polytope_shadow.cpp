@@ -15,8 +15,9 @@ namespace {
 using seidel::Rational;
 using seidel::rational;
 
-/// Returns a second direction. Any will do. An edge whose shadow is a point would be of no use, and
-/// this is the less likely the less the direction has to do with the axes.
+/// Returns a second direction e for the shadow along d. Any direction that is not parallel to d is
+/// legal. The numbers make it unlikely that the shadow of an edge is a single point, for polytopes
+/// with edges along the axes, too.
 Vec3 across(const Vec3& d) {
   const Vec3 u = d.unitOrthogonal();
   return 0.7548776662466927 * u + 0.5698402909980532 * d.cross(u);
@@ -34,7 +35,8 @@ PolytopeShadow::PolytopeShadow(const DobkinKirkpatrick& hierarchy, const Vec3& d
   std::size_t count = 0;
   for (const std::uint32_t v : of_.simplex_)
     if (v != top_) others[count++] = v;
-  // The edge to a vertex is at the two faces that are opposite to the two other vertices.
+  // The edge from the topmost vertex to another vertex belongs to the two faces that are opposite
+  // to the remaining two vertices.
   chooseEdges(others, [&](std::size_t i) {
     std::array<std::uint32_t, 2> faces{};
     std::size_t to = 0;
@@ -58,8 +60,8 @@ void PolytopeShadow::chooseEdges(std::span<const std::uint32_t> neighbours,
   Point l = projected(neighbours[0]), r = l;
   for (std::size_t i = 1; i < neighbours.size(); ++i) {
     const Point p = projected(neighbours[i]);
-    // All neighbours are below the topmost vertex, so the angles span at most a half turn. The one
-    // on the left has the least angle.
+    // All neighbours are below the topmost vertex, so the directions to them span at most a half
+    // turn, counterclockwise from left to right.
     if (turn(p, l) > 0) l = p, leftmost = i;
     if (turn(r, p) > 0) r = p, rightmost = i;
   }
@@ -138,8 +140,9 @@ void PolytopeShadow::refineEdge(Edge& edge, bool isLeft) {
 }
 
 int PolytopeShadow::exactTurn(std::uint32_t p, std::uint32_t q) const {
-  // Each coordinate is off by at most 4u of its terms' magnitudes (`alongSign`), so a product by 9u
-  // of the product of those, and the difference by 10u of both. 2^-900 covers underflow of values
+  // Each projected coordinate is off by at most 4u of the sum of its terms' magnitudes
+  // (`alongSign`). So a product of two coordinates is off by at most 9u of the product of these
+  // sums, and the difference of two products by 10u of both. 2^-900 covers underflow of values
   // below 2^50.
   const Vec3 x = at(p) - at(top_), y = at(q) - at(top_);
   const auto size = [](const Vec3& n, const Vec3& v) { return n.cwiseAbs().dot(v.cwiseAbs()); };

@@ -9,15 +9,15 @@
 
 namespace corridor {
 
-/// The walk down a hierarchy with the farthest vertex along a direction: the *hierarchy of
-/// projections* of Dobkin and Kirkpatrick (1990), one dimension less than the polytope.
+/// The walk down a hierarchy with the farthest vertex along a direction d: the *hierarchy of
+/// projections* of Dobkin and Kirkpatrick (1990), which has one dimension less than the polytope.
 ///
-/// The shadow of P_i on a plane that contains the direction is a polygon: the points (e·x, d·x),
-/// with e any second direction. The walk keeps the topmost vertex v of this polygon and its two
-/// edges at v. A vertex of P_{i−1} that is higher than v, or beyond one of these edges, is opposite
-/// to one of the four faces at these edges. So a level takes constant time (J. O'Rourke,
-/// Computational Geometry in C, section 7.10). All of this is done in double; `isProved` then
-/// proves in exact arithmetic that v is topmost.
+/// The shadow is the projection of P_i onto a plane that contains d: the polygon of the points
+/// (e·x, d·x), with e any second direction. The walk keeps the topmost vertex v of this polygon and
+/// the polygon's two edges at v. A vertex of P_{i−1} that is higher than v, or beyond one of these
+/// edges, is opposite to one of the four faces at these edges. So a level takes constant time (J.
+/// O'Rourke, Computational Geometry in C, section 7.10). All of this is done in double; `isProved`
+/// then proves in exact arithmetic that v is topmost.
 class PolytopeShadow {
  public:
   using Cost = DobkinKirkpatrick::Cost;
@@ -25,21 +25,23 @@ class PolytopeShadow {
   /// Begins at the simplex. The hierarchy must outlive the walk.
   /// @pre d is finite, and its largest component is within 2^±400.
   PolytopeShadow(const DobkinKirkpatrick& hierarchy, const Vec3& d);
-  /// Begins at a vertex, in the last (coarsest) polytope that has it. @pre it is not in the
-  /// simplex, and is the farthest along d there.
+  /// Begins at a vertex, in the last (coarsest) polytope that has this vertex.
+  /// @pre the vertex is not in the simplex, and is the farthest one along d in that polytope.
   PolytopeShadow(const DobkinKirkpatrick& hierarchy, const Vec3& d, std::uint32_t vertex);
 
   std::size_t level() const { return level_; }
   std::uint32_t top() const { return top_; }
   const Cost& cost() const { return cost_; }
 
-  /// Goes from P_i to P_{i−1}. Returns whether the topmost vertex is another one. @pre level() > 0.
+  /// Goes from P_i to P_{i−1}. Returns whether the topmost vertex has changed.
+  /// @pre level() > 0.
   bool refine();
 
-  /// Reports whether it is proved that the topmost vertex is topmost: its two edges are not above
-  /// it, and each is on the boundary of the shadow, because the two faces at the edge are on one
-  /// side of it. (The line through such an edge supports the polytope locally, and so as a whole.)
-  /// The shadow is then between the two edges.
+  /// Reports whether an exact test proves that `top()` is a farthest vertex of the present
+  /// polytope. The test is that the two edges are not above this vertex, and that each edge is on
+  /// the boundary of the shadow, because the two faces at the edge are on one side of it. (The line
+  /// through such an edge supports the polytope locally, and so as a whole.) The shadow is then
+  /// between the two edges.
   bool isProved() const;
 
  private:
@@ -60,19 +62,22 @@ class PolytopeShadow {
     const Vec3 x = at(v) - at(top_);
     return {e_.dot(x), d_.dot(x)};
   }
-  /// Above 0 if q is counterclockwise from p, both as seen from the topmost vertex.
+  /// Returns a number above 0 if q is counterclockwise from p, as seen from the topmost vertex.
   static double turn(const Point& p, const Point& q) {
     return p.across * q.along - p.along * q.across;
   }
   /// Returns the sign of `turn` for two vertices, exactly.
   int exactTurn(std::uint32_t p, std::uint32_t q) const;
 
-  /// Sets the two edges to the outermost of these neighbours of the topmost vertex.
+  /// Sets the two edges to those that end at the leftmost and the rightmost of these neighbours of
+  /// the topmost vertex.
   template <class FacesOf>
   void chooseEdges(std::span<const std::uint32_t> neighbours, const FacesOf& facesOf);
-  /// Makes a removed vertex the topmost one, at the last level that has it.
+  /// Makes vertex v, which is not in the simplex, the topmost vertex. Sets its two edges to those
+  /// in the last (coarsest) polytope that has v.
   void takeTop(std::uint32_t v);
-  /// Replaces an edge of the shadow, at the same vertex, by the one in the finer polytope.
+  /// Replaces an edge of the shadow by the edge of the next finer polytope, at the same topmost
+  /// vertex.
   void refineEdge(Edge& edge, bool isLeft);
 
   const DobkinKirkpatrick& of_;

@@ -1,24 +1,26 @@
 #include "collision/convex/quick_boxes.h"
 
-/// Derivation of `overlap`. u_k are the half edges of a, a_k their lengths, R the cosines of the
-/// edges of a and b, T the coordinates of `between` along a's edges. τ is the largest cosine of two
-/// edges of one box. S = `size` of both sets; every length here is below S, and |T| + Σa + Σb < 4S.
+/// Derivation of the margins. u = 2^-53. The half edges of box a have the lengths a_k, those of b
+/// the lengths b_k. R has the cosines of the angles between edges of a and edges of b, T the
+/// coordinates of `between` along a's edges. τ is the largest cosine of two edges of one box. S =
+/// `size` of both sets; every length here is below S, and |T| + Σa + Σb < 4S.
 ///
-/// * Directions of edges have length 1 up to 8u. This needs squares of lengths far above underflow:
-///   `Edges::usable`. (With flush-to-zero a square may lose all components below 2^-1022.)
+/// * Directions of edges have length 1 up to 8u, if the squares of lengths are far above underflow,
+///   which `Edges::usable` tests. (With flush-to-zero a square may lose all components below
+///   2^-1022.)
 /// * Exact boxes A' and B' exist whose edge directions differ from the computed ones by 3τ + 8u. So
 ///   all entries of R, and of T/S, are off by less than 3τ_A + 3τ_B + 30u.
 /// * If an edge of A' and one of B' are parallel up to 2^-46, B' is turned until they are parallel.
-///   At most three pairs are, and the turns add up to less than 2^-44. Their cross product is then
-///   no axis, and is skipped.
+///   At most three pairs of edges are parallel, and the turns add up to less than 2^-44. The cross
+///   product of parallel edges is no axis, and is skipped.
 /// * A gap is a sum of products of T, a and b with at most two entries of R. So these changes and
-///   its rounding alter it by less than (12τ_A + 12τ_B + 2^-43)·4S.
+///   the rounding of the gap alter the gap by less than (12τ_A + 12τ_B + 2^-43)·4S.
 /// * If all gaps are below −δ after these changes, the origin is deeper than δ in the Minkowski
 ///   difference of A' and B', because no axis is longer than 1. The sets differ from A' and B' by
 ///   at most `boxError` + (3τ + 8u + 2^-44)·2S each.
 ///
-/// All this together is below (54τ_A + 54τ_B + 2^-40)·S + the errors of both boxes, thus below
-/// `margin`.
+/// The sum of all these errors is below (54τ_A + 54τ_B + 2^-40)·S + the errors of both boxes, and
+/// so below `margin`.
 namespace corridor {
 namespace {
 

@@ -10,17 +10,17 @@
 #include "collision/convex/quick_set.h"
 #include "collision/core/rounding.h"
 
-/// Notation. A set is {M p + t} over its points p, with its disc and its sphere. F, ρ and S = Σ(Fρ
-/// + |t|) over both sets: see `QuickSet`. w is the difference of a point of b and a point of a; the
-/// cores touch if and only if the hull of all w contains 0. N = |n|.
+/// Notation. A set is {M p + t} over its points p, with its disc and its sphere. u = 2^-53. F and ρ
+/// are those of `QuickSet`, and S = Σ(Fρ + |t|) over both sets. w is a point of core b minus a
+/// point of core a; the cores touch if and only if the hull of all w contains 0. N = |n|.
 ///
 /// Separation. Let p be the point whose computed product fl(m·p), m = fl(Mᵀn), is the largest. m is
 /// off by 3.1uFN, and the product by 3.1uFNρ more. Therefore no point of the set is farther along n
-/// than p by more than 2·6.2uFNρ. The image of p is off by 4.1u(Fρ + |t|), the difference w by
-/// u|w|, and n·w by 3.1uN|w|. These errors are below 21uSN. The share r|m| of a sphere is off
-/// by 7.1uFNr, and subtracting the shares by 2uSN: together below 31uSN. A box adds `boxError`, and
-/// a disc 35uSN (`QuickSet::radial`). `slack` is 40uS, or 80uS with a disc; the rest of it covers
-/// its own rounding.
+/// than p by more than 2·6.2uFNρ. The image of p is off by 4.1u(Fρ + |t|). The rounding of the
+/// difference w is u|w|, and that of n·w is 3.1uN|w|. These errors are below 21uSN. The share r|m|
+/// of a sphere is off by 7.1uFNr, and subtracting the shares by 2uSN: together below 31uSN. A box
+/// adds `boxError`, and a disc 35uSN (`QuickSet::radial`). `slack` is 40uS, or 80uS with a disc,
+/// which also covers the rounding of `slack` itself.
 ///
 /// Contact of the cores. The origin is inside four corners w_i if the four determinants of three
 /// corners, with their signs, are all positive. A corner is off by e: 4.1u(Fρ + |t|) for each
@@ -28,13 +28,13 @@
 /// 16uS. With |w| ≤ S a determinant is off by at most (18e + 40uS)S² < 328uS³
 /// (predicates/orientation.cpp); `inside` is 512uS³.
 ///
-/// Contact within the band. Let c be the largest coordinate involved. Both maps are nearly rigid, F
-/// ≈ √3, else `near` decides nothing: S would be far above c. So |p| ≤ √3·c, S < 17c and |w| < 4c.
-/// `upper` is a convex combination of differences w. A coordinate of an image is off by 4.1u(√3 +
-/// 1)c, so w is off by 43uc, the combination by 8u|w| more: 75uc together. `toPoint` finds a point
-/// of the solid up to 2√3(r + 6uρ) < 100uc for a box (r < 2^-50·2c), and 40uc for a cylinder. The
-/// maps may shrink each sphere by 3·2^-48·c = 96uc (`keepsBall`), and `near` allows 2^-51·S < 70uc.
-/// The sum is below 75 + 100 + 192 + 70 < 512 = 2^-44/u: the band.
+/// Contact within the band. Let c be the largest coordinate involved. `near` decides only if both
+/// maps are nearly rigid, F ≈ √3 (otherwise S could be far above c). Then |p| ≤ √3·c, S < 17c and
+/// |w| < 4c. `upper` is a convex combination of differences w. A coordinate of an image is off by
+/// 4.1u(√3 + 1)c, so w is off by 43uc, the combination by 8u|w| more: 75uc together. `toPoint`
+/// finds a point of the solid up to 2√3(r + 6uρ) < 100uc for a box (r < 2^-50·2c), and 40uc for a
+/// cylinder. The maps may shrink each sphere by 3·2^-48·c = 96uc (`keepsBall`), and `near` allows
+/// 2^-51·S < 70uc. The sum is below 75 + 100 + 192 + 70 < 512 = 2^-44/u: the band.
 ///
 /// Underflow. S is within 2^±100. A product that underflows is off by 2^-1022, and later factors
 /// are below 2^400. The smallest slack, 40uSN with N > 2^-60·S, is far larger.
@@ -48,7 +48,8 @@ double within(double x) {
   return std::min(std::max(x, 0.0), 1.0);
 }
 
-/// Two corners or three of a simplex that may contain the point closest to the origin.
+/// The smallest face of a simplex that contains the simplex's point closest to the origin: one, two
+/// or three corners.
 struct Face {
   std::array<Vec3, 3> w;  ///< the newest first
   int count = 0;
@@ -69,7 +70,7 @@ Face segment(const Vec3& a, const Vec3& b) {
   return {{a, b, b}, 2, foot - d * (foot.dot(d) / square), foot};
 }
 
-/// Ericson, Real-Time Collision Detection (2005), section 5.1.5.
+/// Method: Ericson, Real-Time Collision Detection (2005), section 5.1.5.
 Face triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 ab = b - a, ac = c - a;
   const double d1 = -ab.dot(a), d2 = -ac.dot(a);
@@ -130,8 +131,8 @@ class Query {
            a_.ball * (m.squaredNorm() + square) + b_.ball * (k.squaredNorm() + square);
   }
 
-  /// Returns true if the cores are close enough for the sets to touch. @param upper the length of a
-  /// vector from a point of core a to a point of core b
+  /// Returns true if the cores are proved to be so close that the sets touch, up to the band.
+  /// @param upper  a vector from a point of core a to a point of core b.
   bool near(const Vec3& upper) const {
     if (!a_.isNearlyRigid || !b_.isNearlyRigid) return false;
     const double limit = radii_ + 0x1p-51 * size_;
@@ -144,7 +145,7 @@ class Query {
     return std::nullopt;
   }
 
-  /// Two capsules, or a sphere and a capsule. Ericson, section 5.1.9.
+  /// Decides for two capsules, or a sphere and a capsule. Method: Ericson, section 5.1.9.
   std::optional<bool> segments() {
     const Vec3 a = a_.image(a_.points[0]), b = b_.image(b_.points[0]);
     if (a_.count == 1) return verdict(segment(b - a, b_.image(b_.points[1]) - a).foot);
@@ -159,8 +160,8 @@ class Query {
     return verdict(e * t - d * s - r);
   }
 
-  /// Returns the vector from a point to the point of a box or cylinder that is closest to it. If
-  /// the map is not rigid it is some point of the solid.
+  /// Returns the vector from a point to the closest point of a box or cylinder. If the map is not
+  /// rigid, the vector leads to some point of the solid.
   Vec3 toPoint(const QuickSet& solid, const QuickSet& point) const {
     const Vec3 p = point.image(point.points[0]), q = solid.local(p - solid.t) - solid.points[0];
     if (solid.box) {
@@ -206,7 +207,8 @@ class Query {
 
   enum class Inside { yes, no, unknown };
 
-  /// Adds `w_` to a triangle, and goes to the face closest to the origin.
+  /// Adds `w_` to a triangle. If the origin is not in the tetrahedron, replaces `face` by the
+  /// tetrahedron's face closest to the origin.
   Inside tetrahedron(Face& face) const {
     const Vec3 &a = w_, b = face.w[0], c = face.w[1], d = face.w[2];
     const Vec3 cd = c.cross(d);

@@ -11,8 +11,9 @@ namespace corridor {
 /// arithmetic, and `true` is right unless the sets are closer than the band.
 ///
 /// Method: the closest points of two segments, and of a point and a box, in closed form; two boxes
-/// by separating axes (Gottschalk, Lin, Manocha 1996); GJK for all other sets. Whatever finds a
-/// direction, a projection of both sets proves the gap. Polytopes are not taken: nullopt.
+/// by separating axes (Gottschalk, Lin, Manocha 1996); GJK for all other sets. To prove separation,
+/// each method only finds a direction; the projections of both sets onto this direction prove the
+/// gap. If a set is a `Polytope` or a `DobkinKirkpatrick`, the function returns nullopt.
 std::optional<bool> quickContact(const PosedSet& a, const PosedSet& b);
 
 }  // namespace corridor

@@ -12,22 +12,23 @@
 
 namespace corridor {
 
-/// A posed convex set as `quickContact` uses it: with the bounds that its proofs need, and, if its
-/// eight points are the corners of a box, with the box's edges. It refers to the posed set.
+/// A posed convex set, as `quickContact` uses it, with the bounds that the proofs of `quickContact`
+/// need. If the set's eight points are the corners of a box, it also has the edges of the box. It
+/// refers to the posed set, which must outlive it.
 ///
 /// Let u = 2^-53, F = ‖M‖_F, and ρ ≥ |p| + ball + disc for all points p. `size` ≥ Fρ + |t|, metres.
 ///
-/// Rounding of the bounds. Each takes at most 16 roundings of positive terms; `roundedUp` covers
-/// them. F is bounded by (F² + 3)/(2√3), which is F for rotations, and never less (the mean of F²
-/// and 3 is at least √3·F). 0.28868 > 1/(2√3).
+/// Rounding of the bounds. Each bound takes at most 16 roundings of positive terms, which
+/// `roundedUp` covers. The code uses (F² + 3)/(2√3) as an upper bound of F (the mean of F² and 3 is
+/// at least √3·F). For rotations this bound equals F. 0.28868 > 1/(2√3).
 ///
 /// Box. Let e_k be the computed edges at point 0, and p'_i = p_0 + Σ e_k over the bits k of i. Each
-/// e_k is off by 2uρ, and each test of an edge by 4uρ. So if the tests find no difference above
-/// `r`, |p_i − p'_i| ≤ 2√3·(r + 6uρ) for all i. Along m, the farthest p'_i has the bits of positive
-/// e_k·m. A wrong sign costs at most 2·3.1u|m||e_k|, with |e_k| ≤ 2ρ, so all three cost below
-/// 38uρ|m|. The stored point with the same bits is therefore below the highest stored point by at
-/// most |m|(4√3·(r + 6uρ) + 38uρ) < |m|(7r + 80uρ), and |m| ≤ 1.001·FN. This is `boxError` for N =
-/// 1.
+/// e_k is off by 2uρ, and each difference that `findEdges` tests by 4uρ. So with r = `residual`,
+/// the largest of these differences, |p_i − p'_i| ≤ 2√3·(r + 6uρ) for all i. Along m, the farthest
+/// p'_i is the one whose index i has the bits k with e_k·m > 0. A wrong sign costs at most
+/// 2·3.1u|m||e_k|, with |e_k| ≤ 2ρ, so three wrong signs cost below 38uρ|m|. The stored point p_i
+/// with the same i is therefore below the highest stored point by at most |m|(4√3·(r + 6uρ) + 38uρ)
+/// < |m|(7r + 80uρ). For m = Mᵀn and N = |n|, |m| ≤ 1.001·FN. `boxError` is this bound for N = 1.
 struct QuickSet {
   explicit QuickSet(const PosedSet& set)
       : posed(set),
@@ -67,8 +68,9 @@ struct QuickSet {
   /// Returns Mᵀn.
   Vec3 local(const Vec3& n) const { return {M.col(0).dot(n), M.col(1).dot(n), M.col(2).dot(n)}; }
 
-  /// Returns the image of the core's point that is farthest along m, in the set's own frame. If a
-  /// disc is omitted, because m is nearly its axis, its share along m is added to `missed`.
+  /// Returns the image of the core's point that is farthest along m; m is in the set's own frame.
+  /// If m is nearly parallel to the axis of the disc, the disc is omitted, and its share along m is
+  /// added to `missed`.
   Vec3 farthest(const Vec3& m, double& missed) const {
     if (box)
       return image(points[unsigned{m.dot(edge[0]) > 0} | unsigned{m.dot(edge[1]) > 0} << 1 |
@@ -89,14 +91,15 @@ struct QuickSet {
   const Vec3& t;
   double ball;
   bool flatEnds, box = false;
-  bool isNearlyRigid = false;  ///< F is √3 up to 2^-11, so `size` is not far above the coordinates
+  bool isNearlyRigid = false;  ///< F² is 3 up to 2^-10, so `size` is not far above the coordinates
   Vec3 middle;
   std::array<Vec3, 3> edge;
-  double residual = 0;  ///< largest difference of parallel edges, per coordinate
+  double residual = 0;  ///< the largest difference of two parallel edges, per coordinate
   double size, boxError = 0;
 
  private:
-  /// Returns the vector to the disc's point that is farthest along m.
+  /// Returns the vector from the centre of the disc to its point that is farthest along m. Returns
+  /// 0, and adds the disc's share to `missed`, if m is nearly parallel to the axis.
   ///
   /// The component of m across the axis is off by 19u|m| (axis 2·6u, rounding 7u). The second
   /// projection removes what rounding has left along the axis, so that m·unit is this component up

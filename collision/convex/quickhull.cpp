@@ -11,12 +11,12 @@ namespace {
 
 constexpr std::uint32_t kNone = ConvexSurface::kNone;
 
-/// The points that a face sees, as a list, each in the list of one face only.
+/// The list of points that a face sees. Each point is in the list of one face only.
 struct Outside {
   std::uint32_t first = kNone;
   std::uint32_t farthest = kNone;  ///< up to rounding
-  double height = 0;               ///< of the farthest above the plane, times |normal|; rounded
-  Vec3 normal = Vec3::Zero();      ///< rounded
+  double height = 0;           ///< of the farthest point above the plane, times |normal|; rounded
+  Vec3 normal = Vec3::Zero();  ///< rounded
 };
 
 class Hull {
@@ -65,7 +65,7 @@ class Hull {
     }
   }
 
-  /// Takes the new faces that see points as open.
+  /// Appends the new faces that see points to `open_`.
   void take() {
     for (const std::uint32_t f : surface_.added())
       if (outside_[f].first != kNone) open_.push_back(f);
@@ -79,8 +79,9 @@ class Hull {
     lists_.clear();
     for (const std::uint32_t gone : surface_.removed()) lists_.push_back(outside_[gone].first);
     prepare();
-    // A point outside the new hull that a removed face saw is seen by a new face: at some edge of
-    // the horizon it is above the removed and the remaining face, and so above the new one between.
+    // If a point outside the new hull was seen by a removed face, a new face sees it: at some edge
+    // of the horizon, the point is above the removed face and the remaining face, and so above the
+    // new face between them.
     for (std::uint32_t q : lists_)
       while (q != kNone) {
         const std::uint32_t after = next_[q];

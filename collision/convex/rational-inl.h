@@ -24,7 +24,7 @@ inline Rational rational(double value) {
   return {cpp_int(d.mantissa), cpp_int(1) << shift};
 }
 
-/// Linearly independent rows of M numbers, in echelon form.
+/// Linearly independent rows of M rationals each, in echelon form.
 template <std::size_t M>
 class Echelon {
  public:
@@ -32,7 +32,7 @@ class Echelon {
 
   std::size_t rank() const { return rows_.size(); }
 
-  /// Adds a row if it is independent of those before, and returns whether it is.
+  /// Adds a row if it is independent of the rows added before. Returns whether it was added.
   bool add(Row row) {
     for (std::size_t r = 0; r < rows_.size(); ++r) {
       const Rational factor = row[pivots_[r]] / rows_[r][pivots_[r]];

@@ -14,18 +14,18 @@
 /// variables take O(D!·n) operations in the mean.
 ///
 /// The result is computed in the arithmetic of `Real`, without any error bound. With rationals it
-/// is exact. With doubles it is a candidate: the caller proves what follows from it.
+/// is exact. With doubles it is a candidate: the caller must prove the answer.
 namespace corridor::seidel {
 
 template <class Real, std::size_t D>
 using Point = std::array<Real, D>;
 
-/// normal·x ≤ offset.
+/// The half-space {x : normal·x ≤ offset}.
 template <class Real, std::size_t D>
 struct HalfSpace {
   Point<Real, D> normal;
   Real offset;
-  std::uint32_t name;  ///< any number of the caller's; may occur more than once
+  std::uint32_t name;  ///< an identifier that the caller chooses; may occur more than once
 };
 
 /// The bounds of the variables: |x_i| ≤ reach_i. They make each linear program bounded.
@@ -36,10 +36,9 @@ struct Bounds {
 };
 
 /// The names of the half-spaces and bounds that determine an answer.
-/// * If there is a best point, there are D of them. It is the only point on all of their planes,
-/// and the
-///   goal is a sum of their normals with weights ≥ 0.
-/// * Otherwise there are at most D + 1, and they have no common point.
+/// * If there is a best point, they are D names. The best point is the only point on all of the D
+///   planes, and the goal is a sum of their normals with weights ≥ 0.
+/// * Otherwise they are at most D + 1 names, and these half-spaces and bounds have no common point.
 template <std::size_t D>
 struct Tight {
   std::array<std::uint32_t, D + 1> name;
@@ -88,9 +87,9 @@ std::array<T, D - 1> without(const std::array<T, D>& all, std::size_t k) {
   return rest;
 }
 
-/// Sets x to the point within the bounds and half-spaces that is farthest along `goal`, and returns
-/// true. Returns false if no point is within all of them. In both cases `tight` names the
-/// half-spaces and bounds that prove the answer.
+/// If a point is within all bounds and half-spaces, sets x to the one that is farthest along
+/// `goal`, and returns true. Otherwise returns false. In both cases `tight` names the half-spaces
+/// and bounds that prove the answer.
 template <class Real, class Memory>
 bool solve(const Bounds<Real, 1>& bounds, std::span<const HalfSpace<Real, 1>> list,
            const Point<Real, 1>& goal, Point<Real, 1>& x, Tight<1>& tight, Memory&) {

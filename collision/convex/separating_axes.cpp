@@ -12,17 +12,18 @@
 #include "collision/predicates/orientation.h"
 
 /// Signs of determinants of three vectors u, v, w, each a difference of two mapped points. Let the
-/// entries of u, before and after rounding, be below D_u and off by at most e_u; v and w likewise.
-/// A determinant has six terms of three factors. So rounding of the entries changes it by at most
-/// 6(e_u D_v D_w + D_u e_v D_w + D_u D_v e_w), and its evaluation adds less than 40u D_u D_v D_w
-/// (as in predicates/orientation.cpp).
+/// entries of u, before and after rounding, be below D_u, and let their errors be at most e_u; D_v,
+/// e_v, D_w and e_w are the bounds for v and w. A determinant has six terms of three factors. So
+/// rounding of the entries changes it by at most 6(e_u D_v D_w + D_u e_v D_w + D_u D_v e_w), and
+/// its evaluation adds less than 40u D_u D_v D_w (as in predicates/orientation.cpp).
 ///
-/// The Gauss map. A half-edge u has the outward normal l of the face on its left and r of the face
-/// on its right, and l × r is a positive multiple of u. The arcs (l, r) of a, with u, and (−l',
-/// −r') of b, with v, cross if l' and r' are on different sides of the plane normal to u, l and r
-/// on different sides of that normal to v, and if both arcs meet that line on its same half: l·v
-/// and l'·u have the same sign. Then u × v = (l·v) r − (r·v) l, up to a positive factor, so the
-/// common normal is u × v if l·v > 0, else its negative.
+/// The Gauss map. Let l and r be the outward normals of the faces on the left and on the right of a
+/// half-edge u. Then l × r is a positive multiple of u. Take the arc (l, r) of an edge u of a, and
+/// the arc (−l', −r') of an edge v of b. The arcs cross if l' and r' are on different sides of the
+/// plane normal to u, l and r are on different sides of the plane normal to v, and both arcs meet
+/// the line of these two planes on the same half. The last condition is that l·v and l'·u have the
+/// same sign. Then u × v = (l·v) r − (r·v) l, up to a positive factor, so the common normal is u ×
+/// v if l·v > 0, else its negative.
 namespace corridor {
 namespace {
 
@@ -72,7 +73,7 @@ class MappedPolytope {
     return planeOf(between(*this, c[0], *this, c[1]), between(*this, c[0], *this, c[2]));
   }
 
-  /// The difference from a vertex of one polytope to one of another.
+  /// Returns the difference from a vertex of one polytope to a vertex of the same or the other one.
   static Edge between(const MappedPolytope& a, std::uint32_t v, const MappedPolytope& b,
                       std::uint32_t w) {
     const Vec3 d = b.points_[w] - a.points_[v];
@@ -143,7 +144,7 @@ class Axes {
   }
 
   /// Tests whether all of y is beyond the plane of a face of x, beginning with the vertex that was
-  /// not beyond the last plane.
+  /// not beyond the last plane. If so, stores this axis in the answer.
   bool testFace(const MappedPolytope& x, const MappedPolytope& y, std::uint32_t f, bool ofA) {
     ++answer_.faces;
     const EdgePlane plane = x.plane(f);
@@ -196,6 +197,8 @@ class Axes {
     return false;
   }
 
+  /// Tests the axis of half-edge h of a and half-edge k of b, if their arcs cross. If it separates,
+  /// stores it in the answer.
   /// @param leftA, rightA  the signs of l·v and r·v.
   bool testEdgePair(std::uint32_t h, std::uint32_t k, const Edge& v, int leftA, int rightA) {
     if (leftA * rightA >= 0) return false;

@@ -8,16 +8,17 @@
 #include "collision/convex/exact_program-inl.h"
 #include "collision/core/rounding.h"
 
-/// The variables are (n, c, s): a plane n·x = c with a gap of s on each side, |n_i|, |c|, s ≤ 1.
-/// The rows are n·p − c + s ≤ 0 for the first set, and −n·q + c + s ≤ 0 for the second. The hulls
-/// are disjoint if and only if the largest s is above 0. Otherwise duality gives weights of points
-/// that sum up to one for each set (times a half), and whose weighted means are the same point.
+/// The variables are (n, c, s): a plane n·x = c with a gap of s on each side, where |n_i|, |c|, s ≤
+/// 1. The rows are n·p − c + s ≤ 0 for the first set, and −n·q + c + s ≤ 0 for the second. The
+/// hulls are disjoint if and only if the largest s is above 0. Otherwise duality gives weights of
+/// the points. The weights of each set sum up to 1/2, and the weighted means of both sets are the
+/// same point.
 ///
-/// Touching and overlapping hulls differ in the planes with s = 0. Let R be rows (p, −1) and (−q,
-/// 1) of rank D + 1, as many. On the cone of all (n, c) that satisfy all rows, the sum of the rows
-/// in R is at most 0, and 0 only where all of R are 0, which is at the origin only. So a plane
-/// exists if and only if the least sum of R over the cone is below 0. If the rank of all rows is
-/// lower, all points are on one plane.
+/// Touching hulls have a plane with s = 0, overlapping hulls have none. Let R be D + 1 linearly
+/// independent rows (p, −1) and (−q, 1). On the cone of all (n, c) that satisfy all rows, the sum
+/// of the rows in R is at most 0. It is 0 only where all rows of R are 0, which is at the origin
+/// only. So a plane exists if and only if the least sum of R over the cone is below 0. If the rank
+/// of all rows is lower, all points are on one plane.
 namespace corridor {
 namespace {
 
@@ -74,7 +75,8 @@ class Hulls {
 
   Row<kPlane> planeRow(std::uint32_t i) const {
     Row<kPlane> row{{}, 0, i};
-    // Negated, not multiplied: a product would flush subnormal numbers.
+    // The coordinates are negated, not multiplied by −1, because a product would flush subnormal
+    // numbers.
     for (std::size_t k = 0; k < kD; ++k) row.normal[k] = isFirst(i) ? at(i)[k] : -at(i)[k];
     row.normal[kD] = isFirst(i) ? -1 : 1;
     return row;
@@ -101,8 +103,8 @@ class Hulls {
       if (!isFirst(i) && along < above) above = along, q = i;
     }
     // Each projection has D roundings of products and D − 1 of sums, together at most D·u of the
-    // sum of magnitudes. `size` has as many. Underflow adds at most 2^-1022 times the largest
-    // factor, or 1, for each; |n_i| ≤ 1.
+    // sum of magnitudes. The computed `size` has as many roundings. Underflow adds at most 2^-1022
+    // times the largest factor, or 1, for each operation; |n_i| ≤ 1.
     const double error = 2 * 4 * kUnit * size + 0x1p-1016 * std::max(1.0, largest);
     if (!(above - below > 2 * error)) return false;  // also if a number is not finite
     answer_.relation = HullRelation::disjoint;
@@ -113,10 +115,10 @@ class Hulls {
     return true;
   }
 
-  /// Proves by the signs of the weights that the hulls of the tight points overlap. Σ w_j x_j = 0
-  /// with Σ w_j = 0 has one solution up to a factor, if the points are in general position;
-  /// `gapRow` contains the signs of the sets, so w must have D + 2 weights above 0 (Radon's
-  /// partition).
+  /// Proves by the signs of the weights that the hulls of the tight points overlap. If the D + 2
+  /// points x_j are in general position, Σ w_j x_j = 0 with Σ w_j = 0 has one solution w up to a
+  /// factor. The rows of `gapRow` contain the signs of the two sets, so all D + 2 weights of these
+  /// rows must be above 0 (Radon's partition).
   bool provedOverlap(const seidel::Tight<kGap>& tight) {
     std::array<Point<double, kGap>, kGap> normals;
     if (tight.count != kGap) return false;
@@ -140,7 +142,8 @@ class Hulls {
     return true;
   }
 
-  /// Takes the plane (n, c) of a rational solution, scaled to a largest entry of n of 1.
+  /// Stores the plane (n, c) of a rational solution in the answer, scaled so that the largest |n_i|
+  /// is 1.
   template <std::size_t M>
   void takePlane(const Point<Rational, M>& x) {
     Rational largest = 0;
@@ -150,7 +153,8 @@ class Hulls {
     answer_.offset = static_cast<double>(Rational(x[kD] / largest));
   }
 
-  /// Takes the common point that these weights prove.
+  /// Stores the common point that these weights prove, and the points that have weights, in the
+  /// answer.
   void takePoint(const std::vector<std::pair<std::uint32_t, Rational>>& weights) {
     Point<Rational, kD> point{};
     Rational sum = 0;
@@ -164,10 +168,11 @@ class Hulls {
       answer_.point[k] = static_cast<double>(Rational(point[k] / sum));
   }
 
-  /// Finds a plane with the first hull on one side and the second on the other. @pre they share a
-  /// point.
+  /// If a plane has the first hull on one side and the second hull on the other, stores it in the
+  /// answer and returns true.
+  /// @pre the hulls share a point.
   bool findTouchingPlane() {
-    // The first rows of full rank, and the goal: minus their sum.
+    // Takes the first D + 1 independent rows. The goal is minus their sum.
     seidel::Echelon<kPlane> independent;
     Point<Rational, kPlane> goal{};
     for (std::uint32_t i = 0; i < count_ && independent.rank() < kPlane; ++i) {

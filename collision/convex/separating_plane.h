@@ -11,12 +11,13 @@
 
 namespace corridor {
 
-/// The relation of the convex hulls of two sets of points. Hulls in one plane (in the plane: on one
-/// line) never overlap: that plane has both on its two sides.
+/// The relation of the convex hulls of two sets of points. In space, two hulls that lie in one
+/// plane never overlap: they are disjoint or touching, because this plane counts as having one hull
+/// on each side. In the plane, the same holds for two hulls on one line.
 enum class HullRelation {
   disjoint,     ///< they share no point
-  touching,     ///< they share points, and a plane (in the plane: a line) has them on its two sides
-  overlapping,  ///< they share points, and no plane has them on its two sides
+  touching,     ///< they share points, and a plane (in 2D a line) has one hull on each side
+  overlapping,  ///< they share points, and no plane (in 2D no line) has one hull on each side
 };
 
 /// The relation of two hulls, with its witness. The relation is exact: it is that of real
@@ -24,15 +25,16 @@ enum class HullRelation {
 template <int D>
 struct SeparatingPlane {
   HullRelation relation = HullRelation::overlapping;
-  /// `disjoint` and `touching`: normal·p ≤ offset for all points p of the first set, and
-  /// normal·q ≥ offset for all points q of the second. If `disjoint`, and if `exact` is not set,
-  /// both hold with < and > for the stored normal in real arithmetic, and the offset is the middle.
+  /// `disjoint` and `touching`: normal·p ≤ offset for all points p of the first set, and normal·q ≥
+  /// offset for all points q of the second. If the relation is `disjoint` and `exact` is not set,
+  /// both inequalities are strict for the stored normal in real arithmetic, and the offset is in
+  /// the middle of the gap.
   Eigen::Matrix<double, D, 1> normal = Eigen::Matrix<double, D, 1>::Zero();
   double offset = 0;
   /// `touching` and `overlapping`: a common point.
   Eigen::Matrix<double, D, 1> point = Eigen::Matrix<double, D, 1>::Zero();
-  /// The points that determine the answer, at most D + 2 in all, by their indices. `touching` and
-  /// `overlapping`: the hulls of these already share the common point.
+  /// The indices of the points that determine the answer, at most D + 2 in all. `touching` and
+  /// `overlapping`: the hulls of these points already share the common point.
   std::vector<std::size_t> first, second;
   bool exact = false;  ///< the relation was decided in rational arithmetic
 };
@@ -43,11 +45,11 @@ struct SeparatingPlane {
 ///
 /// Method: Seidel's algorithm in double gives a candidate (seidel-inl.h). A plane is proved by the
 /// two extreme points along its normal. Overlap is proved by Radon's theorem: D + 2 points have one
-/// partition into two sets whose hulls meet, which the signs of D + 2 orientations give; if it is
-/// the given partition, and no sign is 0, the hulls overlap. What these tests do not decide is
+/// partition into two sets whose hulls meet. The signs of D + 2 orientations give this partition.
+/// If it is the given one, and no sign is 0, the hulls overlap. What these tests do not decide is
 /// decided in rationals, on the few points that determine the answer. Cost: O(n) in the mean for n
-/// points, with a constant of (D + 2)!; GJK (convex_distance.h) is faster.
-/// @param seed  of the random order. It does not change the relation.
+/// points, with a constant of (D + 2)!. GJK (convex_distance.h) is faster.
+/// @param seed  seed of the random order. It does not change the relation.
 /// @throws std::invalid_argument if a set is empty, or a coordinate is not finite.
 template <int D>
 SeparatingPlane<D> separatingPlane(std::span<const Eigen::Matrix<double, D, 1>> first,

@@ -11,17 +11,18 @@ struct SignedDistance {
   /// Bounds of the signed distance in real arithmetic on the given doubles; they include all
   /// rounding.
   double lower = 0, upper = 0;
-  /// The normal, from a to b: unit, rounded. If b moves by −`distance` along it, the sets touch.
+  /// The normal, from a to b: unit, rounded. If b moves by −`distance` along the normal, the sets
+  /// touch.
   Vec3 normal_W = Vec3::Zero();
-  /// A point of each set, with p_WB − p_WA = distance·normal_W: the closest points of sets that are
-  /// apart; of sets that overlap, the points that touch after the move.
+  /// A point of each set, with p_WB − p_WA = distance·normal_W. For sets that are apart, these are
+  /// the closest points. For sets that overlap, they are the points that touch after the move.
   Vec3 p_WA = Vec3::Zero(), p_WB = Vec3::Zero();
 };
 
 /// Computes the signed distance, by `convexDistance` and, for sets in contact, by `penetration`.
 /// The guarantees are those of these two functions. For sets that merely touch, the normal may be
 /// zero.
-/// @param accuracy  of the depth, relative, ≥ 0.
+/// @param accuracy  the relative accuracy of the depth, ≥ 0.
 SignedDistance signedDistance(const PosedSet& a, const PosedSet& b, double accuracy = 1e-9);
 
 }  // namespace corridor

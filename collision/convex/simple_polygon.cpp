@@ -10,7 +10,7 @@
 namespace corridor {
 namespace {
 
-/// Returns whether two edges share a point that a simple polygon's edges must not share.
+/// Returns whether two edges share a point that edges of a simple polygon must not share.
 bool meet(const PolygonSweep& sweep, std::uint32_t a, std::uint32_t b) {
   const std::uint32_t afterA = sweep.next(a), afterB = sweep.next(b);
   const auto overlapFrom = [&](std::uint32_t common, std::uint32_t p, std::uint32_t q) {
@@ -29,8 +29,9 @@ bool meet(const PolygonSweep& sweep, std::uint32_t a, std::uint32_t b) {
 using Status = std::set<std::uint32_t, PolygonSweep::Below>;
 
 /// Returns two edges that meet, or nothing. Until the sweep line reaches the first point that edges
-/// share, the order of the edges along it does not change. Just before, two edges that share this
-/// point are neighbours, since a point of the polygon ends or begins two edges only.
+/// wrongly share, the order of edges along the line does not change. Just before that point, two
+/// edges that share it are neighbours, since each point of the polygon ends or begins two edges
+/// only.
 std::optional<std::pair<std::uint32_t, std::uint32_t>> findMeeting(const PolygonSweep& sweep) {
   Status status{PolygonSweep::Below{&sweep}};
   std::vector<Status::iterator> place(sweep.size(), status.end());

@@ -6,8 +6,8 @@
 
 /// The distance sub-algorithm of GJK: the point of a simplex closest to the origin. The direction
 /// of that point is accurate even for a tiny distance: it is the normal of the face that contains
-/// the point, or the vector from the origin made orthogonal to the edge. It is never only the
-/// difference of two close points.
+/// the point, or the vector from the origin, made orthogonal to the edge. The direction is never
+/// computed only as the difference of two close points.
 namespace corridor::gjk {
 
 /// A vector of three numbers of a scalar type that Eigen does not support.
@@ -71,14 +71,14 @@ template <class Real>
 Nearest<Real> nearest(const Vector<Real>& a, const Vector<Real>& b, const Vector<Real>& c) {
   const Vector<Real> ab = b - a, bc = c - b, ca = a - c, n = cross(ab, bc);
   const Real square = dot(n, n), zero(0);
-  // Tests for each edge whether the projection of the origin onto the triangle's plane is on the
-  // outer side of the edge; true for all edges if the triangle is degenerate.
+  // For each edge: whether the projection of the origin onto the triangle's plane is on the outer
+  // side of the edge. This is true for all edges if the triangle is degenerate.
   const Real areaC = dot(n, cross(a, ab)), areaA = dot(n, cross(b, bc)),
              areaB = dot(n, cross(c, ca));
   const bool outAB = !(areaC > zero), outBC = !(areaA > zero), outCA = !(areaB > zero);
   if (square > zero && !outAB && !outBC && !outCA) {
-    // The distance is that of `foot`, a convex combination of the corners. It is a point of the
-    // triangle, whatever the rounding of the weights. The direction is the normal.
+    // The distance is that of `foot`, a convex combination of the corners: a point of the triangle,
+    // whatever the rounding of the weights. The direction is the normal of the triangle.
     const Vector<Real> foot =
         (a * areaA + b * areaB + c * areaC) * (Real(1) / (areaA + areaB + areaC));
     return {n * (dot(n, a) / square), dot(foot, foot), 3, {a, b, c}};

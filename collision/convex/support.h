@@ -37,8 +37,8 @@ struct Effort<DoubleDouble> {
 /// Two unit tangents of a direction: orthogonal to it and to each other.
 using Tangents = Eigen::Matrix<double, 3, 2>;
 
-/// The support function of a posed set's core in a scalar type: the points farthest along a
-/// direction.
+/// The support function of a posed set's core, computed in a scalar type: returns the point that is
+/// farthest along a direction.
 template <class Real>
 class Support {
  public:
@@ -48,8 +48,8 @@ class Support {
   };
 
   /// @param scale  a power of two that all returned points are multiplied by.
-  /// @param ballInCore true: the sphere is a part of the core. Needed for maps that make it an
-  /// ellipsoid.
+  /// @param ballInCore  true: the sphere is a part of the core. This is needed for maps that make
+  /// an ellipsoid of the sphere.
   Support(const PosedSet& set, double scale, bool ballInCore = false)
       : set_(set),
         scale_(scale),
@@ -69,7 +69,8 @@ class Support {
     const std::uint32_t best = farthest(m);
     return {image(best, m), best};
   }
-  /// Returns the point farthest along n on the disc or the sphere about the given point.
+  /// Returns the point of the core that is farthest along n among those that belong to point
+  /// `number`: of the disc or the sphere about it, or the point itself.
   Vector<Real> at(std::uint32_t number, const Vector<Real>& n) const {
     last_ = number;
     if (!(disc_ > 0 || ball_ > 0)) return image(number, n);
@@ -80,8 +81,8 @@ class Support {
   std::size_t points() const { return set_.set().points.size(); }
   /// True if the core has a curved surface, on which the point farthest along n moves with n.
   bool curved() const { return disc_ > 0 || ball_ > 0; }
-  /// Adds TᵀHT to `sum`, with T the tangents at n and H the Hessian of max n·x over the core.
-  /// Returns false if the farthest point jumps at n.
+  /// Adds TᵀHT to `sum`, with T the tangents at n and H the Hessian of max n·x over the core, as a
+  /// function of n. Returns false if the farthest point jumps at n.
   bool addCurvature(const Vec3& n, const Tangents& tangents, Eigen::Matrix2d& sum) const {
     const Mat3& map = set_.pose().m;
     const Vec3 m = map.transpose() * n;

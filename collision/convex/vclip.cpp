@@ -11,10 +11,10 @@
 #include "collision/convex/exact_contact.h"
 #include "collision/convex/simplex.h"
 
-/// Names are those of the paper, sections 3 and 4. A plane of a Voronoi region separates the
-/// regions of two neighbouring features: of a vertex and an edge, or of an edge and a face. Its two
-/// sides are computed by the same formula wherever it is tested, so two neighbours never both
-/// refuse a point.
+/// Names are those of the paper (vclip.h), sections 3 and 4. A plane of a Voronoi region separates
+/// the regions of two neighbouring features: of a vertex and an edge, or of an edge and a face.
+/// Every test of a plane uses the same formula, so two neighbouring regions never both exclude a
+/// point.
 namespace corridor {
 namespace {
 
@@ -32,13 +32,14 @@ struct Body {
   void goToEdge(std::uint32_t h) { at = {Kind::edge, h}; }
   void goToFace(std::uint32_t f) { at = {Kind::face, f}; }
 
-  /// Above 0: p is beyond the plane between vertex `tail(h)` and the edge of h, on the edge's side.
+  /// Returns a number above 0 if p is on the edge's side of the plane between the regions of vertex
+  /// `tail(h)` and of the edge of h.
   double alongEdge(std::uint32_t h, const Vec3& p) const {
     const Vec3& v = shape.vertex(shape.tail(h));
     return (p - v).dot(shape.vertex(shape.head(h)) - v);
   }
-  /// Above 0: p is beyond the plane between the edge of h and the face on the left of h, on the
-  /// face's side.
+  /// Returns a number above 0 if p is on the face's side of the plane between the regions of the
+  /// edge of h and of the face on the left of h.
   double ontoFace(std::uint32_t h, const Vec3& p) const {
     const Vec3& v = shape.vertex(shape.tail(h));
     return shape.normal(shape.leftFace(h)).cross(shape.vertex(shape.head(h)) - v).dot(p - v);
@@ -52,8 +53,9 @@ struct Body {
 /// The part of a segment that is within some planes of a Voronoi region.
 class Clip {
  public:
-  /// Keeps the part with a value of at least 0. Returns false if nothing is left.
-  /// @param atTail, atHead  the values at the ends of the segment; linear between them.
+  /// Keeps the part of the segment on which a linear function is at least 0. Returns false if
+  /// nothing is left.
+  /// @param atTail, atHead  the values of this function at the ends of the segment.
   /// @param neighbour  the half-edge or face beyond the plane.
   bool keep(double atTail, double atHead, std::uint32_t neighbour) {
     const double atLow = atTail + low * (atHead - atTail),
@@ -77,8 +79,8 @@ class Clip {
   bool excluded = false;  ///< the whole segment is beyond the plane of `beyondLow`
 };
 
-/// `trapped`: the polytopes overlap there, or a feature is on the far side of the other polytope, a
-/// local minimum that is no global one.
+/// `trapped`: the polytopes overlap at these features, or a feature is on the far side of the other
+/// polytope, at a local minimum that is not the global one.
 enum class Step { moved, closest, trapped };
 
 class Walk {
@@ -95,7 +97,8 @@ class Walk {
   }
 
  private:
-  /// A start with two faces, which is no state of V-Clip: begins with a corner of the first.
+  /// For a start with two faces, which V-Clip does not have as a state: replaces the first face by
+  /// one of its corners.
   static Step lowered(Body& x) {
     x.goToVertex(x.shape.polytope().faces()[x.at.index][0]);
     return Step::moved;
@@ -105,7 +108,7 @@ class Walk {
     for (const bool ofA : {true, false}) {
       Body &x = ofA ? a_ : b_, &y = ofA ? b_ : a_;
       const Vec3 p = y.inOther(y.at.index);
-      // If several edges lead closer, takes the one along which the distance falls fastest.
+      // If several edges lead closer, takes the edge along which the distance decreases fastest.
       std::uint32_t best = Clip::kNone;
       double most = 0;
       for (std::uint32_t h = first(x); h < last(x); ++h) {
@@ -137,7 +140,7 @@ class Walk {
     // Between coplanar faces, the region of an edge contains points below them, too.
     if (y.height(y.shape.leftFace(h), p) < 0 && y.height(y.shape.leftFace(back), p) < 0)
       return Step::trapped;
-    // The edge against the region of the vertex.
+    // Clips the edge of y to the region of the vertex of x.
     const Vec3 tail = y.inOther(y.shape.tail(h)), head = y.inOther(y.shape.head(h));
     Clip clip;
     for (std::uint32_t each = first(x); each < last(x); ++each)
@@ -183,8 +186,9 @@ class Walk {
         x.goToFace(x.shape.leftFace(side));
         return Step::moved;
       }
-      // Where a plane of the region crosses the other edge, the distance to the face is that to the
-      // edge only above the face. Below it, the slopes do not exclude that the edge is elsewhere.
+      // At a point where a plane of the region crosses the other edge, the distance to the face
+      // equals the distance to the edge only if the point is above the face. Below the face, the
+      // slopes do not prove that the pair is closest.
       if (below || clip.low > clip.high) return Step::trapped;
     }
     return Step::closest;
@@ -255,10 +259,10 @@ class Walk {
     return height > 0 ? Step::closest : Step::trapped;
   }
 
-  /// Returns the neighbour on whose side of its plane the closest point of a clipped segment is, or
-  /// none.
-  /// @param slope  called as slope(at, neighbour): the sign of the derivative of the distance along
-  /// the segment, there.
+  /// If the closest point of a clipped segment is beyond the plane of a neighbour, returns this
+  /// neighbour; otherwise `kNone`.
+  /// @param slope  called as slope(at, neighbour): returns a number with the sign of the distance's
+  /// derivative along the segment, at the share `at` of the segment.
   template <class Slope>
   static std::uint32_t beyond(const Clip& clip, const Slope& slope) {
     if (clip.excluded) return clip.beyondLow;
@@ -275,7 +279,7 @@ class Walk {
   }
 
  public:
-  /// Returns where on two segments their closest points are, as shares of each; rounded.
+  /// Returns the closest points of two segments, each as a share of its segment; rounded.
   static std::pair<double, double> closestParameters(const Vec3& p0, const Vec3& p1, const Vec3& q0,
                                                      const Vec3& q1) {
     const Vec3 u = p1 - p0, v = q1 - q0, r = p0 - q0;
@@ -303,7 +307,8 @@ ConvexCache simplexOf(const Body& a, const Body& b) {
     cache.corner[static_cast<std::size_t>(cache.count++)] = {v, w, Vec3::Zero()};
   };
   if (p.size() == 2 && q.size() == 2) {
-    // The differences of two edges are a parallelogram; the closest point is in one half of it.
+    // The differences of the points of two edges form a parallelogram; the closest point is in one
+    // of its two triangles.
     const auto [s, t] = Walk::closestParameters(a.shape.vertex(p[0]), a.shape.vertex(p[1]),
                                                 b.inOther(q[0]), b.inOther(q[1]));
     add(p[1], q[0]);
@@ -348,10 +353,10 @@ void goTo(const ConvexCache& simplex, Body& a, Body& b) {
   take(b, &ConvexCache::Corner::pointB);
 }
 
-/// Walks until the pair is closest or meets an overlap, or repeats itself, or takes more steps than
-/// the polytopes have edges. The next pair depends on the last one only, so a walk that comes back
-/// to a pair would never end. R. Brent's method (1980) notices this: it keeps the pair after 1, 2,
-/// 4, 8, … steps.
+/// Walks until a pair is closest or trapped, a pair occurs again, or the walk has taken as many
+/// steps as the polytopes have half-edges. The next pair depends on the last one only, so a walk
+/// that comes back to a pair would never end. R. Brent's method (1980) notices this: it stores the
+/// pair after 1, 2, 4, 8, … steps, and compares each pair with the last stored one.
 Step walkFrom(Body& a, Body& b, int& steps) {
   Walk walk(a, b);
   const std::size_t most = a.shape.halfEdges() + b.shape.halfEdges();
@@ -393,8 +398,9 @@ ClosestFeatures closestFeatures(const PolytopeFeatures& a, const Transform& X_WA
   }
   const auto walk = [&] { return rigid && walkFrom(bodyA, bodyB, result.steps) == Step::closest; };
   // A walk among degenerate features may end elsewhere, so its end is compared with the proof.
-  // `size` is below 9.5 times the largest coordinate, so 2^-44 of it is below 2^-40 of that.
-  // Outside of 2^±440 m, squares of distances vanish or overflow, and the comparison means nothing.
+  // `size` is below 9.5 times the largest coordinate, so 2^-44·size is below 2^-40 of that
+  // coordinate. Outside of 2^±440 m, squares of distances vanish or overflow, and the comparison
+  // means nothing.
   const auto isClosest = [&](const ConvexCache& simplex) {
     const double size = setA.reach() + X_WA.t.norm() + setB.reach() + X_WB.t.norm();
     return distanceOf(simplex, setA, setB) <=

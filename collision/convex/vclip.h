@@ -7,24 +7,25 @@
 
 namespace corridor {
 
-/// A feature of each of two polytopes: where V-Clip ends, and where the next query begins. The
-/// caller owns it. Any pair is a legal start, so the pair never changes a verdict, nor a distance
-/// beyond its error bound.
+/// A feature of each of two polytopes. V-Clip ends with such a pair, and the next query begins with
+/// it. The caller owns it. Any pair is a legal start, so the pair never changes a verdict, nor a
+/// distance beyond its error bound.
 struct FeaturePair {
-  bool cold = true;  ///< true: start with the vertices that face each other; `a`, `b` are ignored
+  bool cold = true;  ///< true: starts with vertices that face each other; `a`, `b` are ignored
   Feature a, b;
-  ConvexCache overlap;  ///< four corners that proved that the polytopes overlap, if they did
+  ConvexCache overlap;  ///< the four corners that proved an overlap, if the polytopes overlapped
 };
 
-/// The distance of two polytopes, and what it cost.
+/// The distance of two polytopes, and the steps and rounds that the query took.
 struct ClosestFeatures {
   ConvexDistance distance;
-  /// The distance of the pair's features is that of the polytopes, up to 1e-10 of it and 2^-40 of
-  /// the largest coordinate. This holds for coordinates that are 0 or within 2^±440 m. False if the
-  /// polytopes touch, or if the walk has failed. Then the pair is only a start for the next query.
+  /// True: the distance of the pair's features is the distance of the polytopes, up to 1e-10 of
+  /// that distance and 2^-40 of the largest coordinate. This holds for coordinates that are 0 or
+  /// within 2^±440 m. False: the polytopes touch, or the walk has failed, and the pair is only a
+  /// start for the next query.
   bool closest = false;
   int steps = 0;   ///< pairs of features that V-Clip visited
-  int rounds = 0;  ///< rounds of GJK: the proof; none if the last proof of an overlap still holds
+  int rounds = 0;  ///< rounds of GJK for the proof; 0 if the last proof of an overlap still holds
 };
 
 /// Computes the distance of two convex polytopes from their closest features.
@@ -32,25 +33,26 @@ struct ClosestFeatures {
 /// Guaranteed, for any finite maps and any pair:
 /// * `distance.distance` is 0 if and only if the polytopes touch, in real arithmetic on the given
 ///   doubles (exact_contact.h).
-/// * Otherwise the distance, its lower bound and the witness points are those that
-///   `convexDistance` promises, with the error 1e-12·d + 4·2^-53·S. This holds for coordinates that
-///   are 0 or within 2^±440 m. If the gap is below the rounding of double-double, `lower` may be 0,
-///   and then `normal_W` may be zero.
-/// * It ends: the walk has a limit of steps, and notices when it repeats a pair.
+/// * Otherwise the distance, its lower bound and the witness points are those that `convexDistance`
+///   promises, with the error 1e-12·d + 4·2^-53·S for the true distance d. This holds for
+///   coordinates that are 0 or within 2^±440 m. If the gap is below the rounding of double-double,
+///   `lower` may be 0, and then `normal_W` may be zero.
+/// * The query ends: the walk has a limit of steps, and notices when it repeats a pair.
 ///
 /// Method: B. Mirtich, V-Clip: fast and robust polyhedral collision detection, ACM TOG 17(3), 1998,
 /// the robust form of M. Lin and J. Canny's algorithm (1991). From a pair of features, the walk
 /// goes to a neighbouring pair that is closer, or of lower dimension and as close, as long as one
 /// feature is not in the other's Voronoi region. The walk computes in double without proof. GJK,
-/// started with the simplex of the last pair, proves the answer. That takes one round if the pair
-/// is right. GJK also decides when the walk meets an overlap or a local minimum that is no global
-/// one (a vertex below the plane of a face), and after the limit of steps. Mirtich's algorithm
-/// tests all faces there; GJK visits fewer. If the polytopes overlapped at the last query, the four
-/// corners that proved it are tested first.
+/// started with the simplex of the last pair, proves the answer. The proof takes one round if the
+/// pair is right. GJK also decides when the walk meets an overlap or a local minimum that is no
+/// global one (a vertex below the plane of a face), and after the limit of steps. At a local
+/// minimum, Mirtich's algorithm tests all faces; GJK visits fewer. If the polytopes overlapped at
+/// the last query, the four corners that proved the overlap are tested first.
 ///
-/// Maps that are not rotations (up to 2^-30) are legal, but their query is GJK only: the Voronoi
-/// regions are those of rigid bodies.
-/// @param pair  where to start; becomes the pair where the walk ended.
+/// Maps that are not rotations (up to 2^-30) are legal, but then the query uses GJK only, because
+/// the Voronoi regions are valid for rigid bodies only.
+/// @param pair  the pair to start with; the query replaces it by the pair with which the walk
+/// ended.
 ClosestFeatures closestFeatures(const PolytopeFeatures& a, const Transform& X_WA,
                                 const PolytopeFeatures& b, const Transform& X_WB,
                                 FeaturePair& pair);

@@ -23,13 +23,13 @@ struct CircleTurn {
 /// Returns the shorter rotation from one angle to another; radians. The angles may be of any size.
 ///
 /// Error, with S = |from| + |to|:
-/// * S < 64, or a difference of at most π: the difference rounds once, by at most 2^-53·S. If the
-///   difference exceeds π, then at most S/2π + 1/2 ≤ S/π whole turns are subtracted. Each turn is
-///   off by 2.5e-16, because 2π is rounded to a double. The sum of these errors is below 2^-52·S;
-///   the bound stored is twice that sum.
+/// * S < 64, or a difference of at most π: the difference `to` − `from` is rounded once, by at most
+///   2^-53·S. If the difference exceeds π, then at most S/2π + 1/2 ≤ S/π whole turns are
+///   subtracted. Each turn is off by 2.5e-16, because 2π is rounded to a double. The sum of these
+///   errors is below 2^-52·S; the bound stored is twice that sum.
 /// * All other angles: the rotation is computed from sines and cosines in long double. The C
 ///   library reduces their arguments with as many digits of π as necessary. Sines and cosines then
-///   cause an error of 2^-58, and rounding the result one of 2^-52.
+///   cause an error of 2^-58, and rounding the result causes an error of 2^-52.
 inline CircleTurn circleTurn(double from, double to) {
   if (from == to) return {};
   const double turn = to - from, size = std::abs(from) + std::abs(to);
@@ -42,8 +42,9 @@ inline CircleTurn circleTurn(double from, double to) {
 }
 
 /// Returns the angle minus whole turns, in [−π, π]; radians. Before its last rounding to double,
-/// the result is within 2^-53 of the real value: 1,000 rad are 160 turns, each of which is off by
-/// 2^-62 because 2π is rounded to long double.
+/// the result is within 2^-53 of the real value. Below 1,000 rad, at most 160 turns are subtracted.
+/// Each of these turns is off by 2^-62, because 2π is rounded to long double. Larger angles are
+/// computed from sines and cosines, as in `circleTurn`.
 inline double intoCircle(double angle) {
   if (std::abs(angle) <= std::numbers::pi) return angle;
   using Real = long double;

@@ -11,7 +11,7 @@ constexpr std::uint64_t kNoWorkLimit = ~std::uint64_t{0};
 struct Counters {
   std::uint64_t boxTests = 0;       ///< N_v: pairs of bounding volumes tested
   std::uint64_t triangleTests = 0;  ///< N_p: tested pairs of triangles or convex parts
-  /// The number of `triangleTests` that double could not decide. They are repeated in exact
+  /// The number of `triangleTests` that double could not decide. These tests are repeated in exact
   /// arithmetic, or in double-double for convex parts.
   std::uint64_t exactTests = 0;
   std::uint64_t poses = 0;   ///< poses computed along motions

@@ -12,13 +12,15 @@ struct Fault {
   int line = 0;      ///< counted from 1; 0: the file as a whole
   std::string text;
 
-  /// Returns "file:line: text".
+  /// Returns "file:line: text". Without a line: "file: text". Without a file: "line 3: text", or
+  /// only the text.
   std::string str() const;
   bool operator==(const Fault&) const = default;
 };
 
-/// The exception for bad input. It carries all faults found; `what()` lists them one per line, with
-/// control characters in their texts replaced by '?'. The program then ends with exit status 2.
+/// The exception for bad input. It carries all faults found; `what()` lists them one per line. In
+/// both, control characters in the texts of the faults are replaced by '?'. Corridor's commands
+/// then end with exit status 2.
 class InputError : public std::runtime_error {
  public:
   explicit InputError(std::vector<Fault> faults);

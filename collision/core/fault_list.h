@@ -8,8 +8,8 @@
 
 namespace corridor {
 
-/// Collects the faults of an input and of the files that it names, so that the user sees all of
-/// them at once. When the list is full, `add` throws all faults.
+/// Collects the faults of an input and of the files that the input names, so that the user sees all
+/// faults at once. When the list is full, `add` throws all faults (`throwIfAny`).
 class FaultList {
  public:
   static constexpr std::size_t kMost = 1000;
@@ -21,7 +21,8 @@ class FaultList {
   void add(std::string file, int line, std::string text);
   void add(const std::vector<Fault>& faults);
   void add(const InputError& error) { add(error.faults()); }
-  /// Calls `step`. If `step` throws an InputError, adds its faults to the list.
+  /// Calls `step`. If `step` throws an InputError, adds the error's faults to the list. If the list
+  /// is already full, rethrows the error instead.
   template <class Step>
   void collect(const Step& step) {
     try {
@@ -34,9 +35,10 @@ class FaultList {
 
   std::size_t size() const { return faults_.size(); }
 
-  /// @throws InputError with all distinct faults, if there are any: first the main file's, then
-  /// those of the other files in the order of their first faults; within a file by line. (A file
-  /// that is read twice with different options has the same faults twice.)
+  /// @throws InputError with all distinct faults, if there are any. The faults of the main file
+  /// come first. The other files follow in the order of their first faults. The faults of one file
+  /// are sorted by line. If the list is full, a last fault reports that reading stopped. (The list
+  /// contains a fault twice if a file is read twice, with different options.)
   void throwIfAny() const;
 
  private:

@@ -31,8 +31,8 @@ enum class FloatingPoint {
   precision  ///< long double does not keep all of its digits
 };
 
-/// Tests whether the processor computes in this thread as assumed; returns the kind of difference
-/// if it does not. Costs a dozen additions, which raise the flag "inexact".
+/// Tests the assumption in the calling thread. Returns `standard` if it holds, and otherwise what
+/// is different. Costs a dozen additions, which raise the floating-point flag "inexact".
 inline FloatingPoint floatingPoint() {
 #ifdef CORRIDOR_UNDER_VALGRIND  // CMakeLists.txt: for counting instructions; no proof holds
   return FloatingPoint::standard;
@@ -54,7 +54,7 @@ inline bool standardFloatingPoint() {
   return floatingPoint() == FloatingPoint::standard;
 }
 
-/// Returns a phrase for messages that says what is wrong.
+/// Returns a phrase that describes the state, for messages.
 inline const char* described(FloatingPoint state) {
   switch (state) {
     case FloatingPoint::standard:
@@ -67,7 +67,8 @@ inline const char* described(FloatingPoint state) {
   return "floating-point arithmetic is standard";
 }
 
-/// Requires the arithmetic that proofs assume. Constructors of trees and bodies call it.
+/// Throws if the calling thread does not have the arithmetic that proofs assume. Constructors of
+/// trees and bodies call this function.
 /// @throws std::runtime_error
 void requireStandardFloatingPoint();
 

@@ -38,7 +38,8 @@ void onThreads(unsigned threads, const Work& work) {
   if (error) std::rethrow_exception(error);
 }
 
-/// Calls `work(begin, end)` on several threads for subranges that partition [0, n), in any order.
+/// Partitions [0, n) into subranges and calls `work(begin, end)` once for each subrange, in any
+/// order, on at most `threads` threads. Rethrows the first exception.
 template <class Work>
 void inParts(unsigned threads, std::size_t n, const Work& work) {
   constexpr std::size_t kPart = 16384;
@@ -59,9 +60,10 @@ void inParts(unsigned threads, std::size_t n, const Work& work) {
   });
 }
 
-/// Runs a task and all tasks that it creates, on several threads, in any order. Each thread calls
-/// `makeWorker()` once, then calls the result as `worker(task, more)`, which appends new tasks to
-/// `more`.
+/// Runs the task `first` and all tasks that tasks create, on several threads, in any order. Each
+/// thread calls `makeWorker()` once and runs each of its tasks by calling the result, `worker(task,
+/// more)`. The worker appends new tasks to `more`. If a worker throws, no further task is started,
+/// and the first exception is rethrown.
 template <class Task, class MakeWorker>
 void runTasks(unsigned threads, Task first, const MakeWorker& makeWorker) {
   std::mutex mutex;

@@ -11,14 +11,14 @@ namespace corridor {
 /// All that a query may write apart from its result. Each thread needs its own context. The
 /// context's contents never change a verdict, nor a distance beyond its error bound.
 struct QueryContext {
-  Counters counters;  ///< the work of all queries since it was last cleared
+  Counters counters;  ///< the work of all queries since the counters were last cleared
   /// The pairs of triangles from which queries of scenes and motions start. Entry k belongs to pair
   /// k of the query's bodies. Queries enlarge the list. The entries may change the counters, and
   /// which of several closest or touching triangles is reported.
   std::vector<LastPair> lastPairs;
   Scratch scratch;
 
-  /// Returns the entry of the pair of bodies with number `pair`. The reference is valid until a
+  /// Returns the entry of pair number `pair` of the query's bodies. The reference is valid until a
   /// call with a larger number.
   LastPair& lastPair(std::size_t pair) {
     if (lastPairs.size() <= pair) lastPairs.resize(pair + 1);

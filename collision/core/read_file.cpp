@@ -125,7 +125,8 @@ std::string notBlank(std::string text, const std::string& name, const std::strin
   return text;
 }
 
-/// Returns all bytes up to the end of the pipe.
+/// Returns all bytes up to the end of the pipe. Throws if there are only blanks, more than
+/// `kMostFileBytes` bytes, or a byte 0.
 std::string readPipe(int descriptor, const std::string& name, const std::string& what) {
   std::vector<char> part(std::size_t{1} << 18);
   std::string text;

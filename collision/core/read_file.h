@@ -5,8 +5,8 @@
 #include <string>
 
 /// Functions that read input files. No other code opens input files, except the helper program that
-/// uses assimp. The functions open only ordinary files, and test the size of a file before they
-/// allocate memory for it. They never wait for a device or a pipe. The exception is
+/// uses assimp. The functions open only ordinary files, never wait for a device or a pipe, and test
+/// the size of a file before they allocate memory for its contents. The exception is
 /// `readTextStream`, for inputs that are documented to accept a pipe.
 namespace corridor {
 
@@ -26,19 +26,20 @@ std::string whyNotOrdinaryFile(const std::filesystem::path& file);
 void requireFile(const std::filesystem::path& file, const std::string& what,
                  std::uint64_t most = kMostFileBytes);
 
-/// Returns the bytes of a file. @throws InputError: as `requireFile`.
+/// Returns the bytes of a file. @throws InputError in the cases of `requireFile`.
 std::string readFile(const std::filesystem::path& file, const std::string& what,
                      std::uint64_t most = kMostFileBytes);
 
 /// Returns the text of a document. @param what  for messages: "a problem".
-/// @throws InputError: as `requireFile`; also if the file has more than 256 MiB, only blanks, or a
-/// byte 0, which no text has.
+/// @throws InputError in the cases of `requireFile`; also if the file has more than 256 MiB
+/// (`kMostDocumentBytes`), only blanks, or a byte 0, which no text has.
 std::string readTextFile(const std::filesystem::path& file, const std::string& what);
 
 /// Returns the text of a list that may be long or come from a pipe; "-" and "/dev/stdin" are the
 /// standard input. Reads a pipe to its end, and waits for its writer.
-/// @throws InputError: as `requireFile`; also if the text has only blanks, or a byte 0. A byte 0
-/// ends the reading of a pipe at once.
+/// @throws InputError for an ordinary file: in the cases of `requireFile`. For every input: if the
+/// text has more than 4 GiB (`kMostFileBytes`), only blanks, or a byte 0. A byte 0 ends the reading
+/// of a pipe at once.
 std::string readTextStream(const std::filesystem::path& file, const std::string& what);
 
 }  // namespace corridor

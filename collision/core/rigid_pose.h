@@ -7,8 +7,8 @@
 namespace corridor {
 
 /// A placement of a rigid body: the position of its reference point (metres) and its orientation.
-/// The quaternion may be any finite one except zero: motions normalise it in real arithmetic, so
-/// that the stored doubles need not have norm 1.
+/// The quaternion may be any finite quaternion except zero. Motions normalise it in real
+/// arithmetic, so the stored doubles need not have norm 1.
 struct RigidPose {
   Vec3 p = Vec3::Zero();
   Eigen::Quaterniond q = Eigen::Quaterniond::Identity();

@@ -12,7 +12,7 @@ namespace corridor {
 inline constexpr double kUnit = 0x1p-53;
 
 /// An upper bound of the error that underflow causes in a product of numbers below 2^20, with or
-/// without flush-to-zero. It is far below the coordinates of any mesh.
+/// without flush-to-zero. The bound is far below the coordinates of any mesh.
 inline constexpr double kTiny = 0x1p-1000;
 
 /// Returns an upper bound of the real value of `bound`, if `bound` was computed from positive terms
@@ -21,13 +21,15 @@ inline double roundedUp(double bound) {
   return bound * (1 + 0x1p-48) + kTiny;
 }
 
-/// Returns a lower bound of the real value of `bound`, under the condition of `roundedUp`.
+/// Returns a lower bound of the real value of `bound`, if `bound` was computed as `roundedUp`
+/// requires.
 inline double roundedDown(double bound) {
   return bound * (1 - 0x1p-48) - kTiny;
 }
 
-/// Returns the root of a computed sum of squares: a lower bound, except for relative rounding
-/// errors. Returns 0 if the sum is so small that rounding to subnormals may have made it too large.
+/// Returns the square root of a computed sum of squares. The result is a lower bound of the real
+/// root, except for relative rounding errors. Returns 0 if the sum is so small that rounding to
+/// subnormals may have made it too large.
 inline double rootOrZero(double square) {
   return square > 0x1p-960 ? std::sqrt(square) : 0;
 }

@@ -4,13 +4,13 @@
 
 namespace corridor {
 
-/// A bounding sphere of a body at the middle of a time interval, with a bound on the motion of its
-/// centre in the interval, both in the frame from which the motion is seen (the world, or body a).
-/// Rotation of the body about the centre does not move the sphere. The sphere separates distant
-/// bodies before any tree is built (motion/may_meet.h).
+/// A bounding sphere of a body at the middle of a time interval, with a bound on the motion of the
+/// sphere's centre in the interval. Both are in the frame from which the motion is seen (the world,
+/// or body a). Rotation of the body about the centre does not move the sphere. Queries use the
+/// sphere to prove that distant bodies are separated, before any tree is built (motion/may_meet.h).
 struct SweptSphere {
   Vec3 center = Vec3::Zero();
-  double radius = 0;     ///< includes tube and rounding; rounded up; metres
+  double radius = 0;     ///< includes the motion's tube and rounding; rounded up; metres
   double isotropic = 0;  ///< isotropic motion bound of the centre, rounded up; metres
   /// Directional motion bound: along a unit vector n the centre moves by at most |n·first| + |n ×
   /// angular|·secondOrderAcross + secondOrder.

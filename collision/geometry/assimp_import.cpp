@@ -21,9 +21,9 @@
 #include <assimp/scene.h>
 
 /// Replaces assimp's handler of failed assertions, which would end the program. Debian's assimp is
-/// built with assertions, and damaged files violate some of them. The dynamic linker finds this
-/// definition first, because the program precedes assimp in the symbol search order. Throwing is
-/// safe: assimp's importers throw errors, and clean up, in the same way.
+/// built with assertions, and some damaged files violate an assertion. The dynamic linker finds
+/// this definition first, because the program precedes assimp in the symbol search order. An
+/// exception is safe here: assimp's importers also throw exceptions for errors, and clean up.
 namespace Assimp {
 ASSIMP_API void aiAssertViolation(const char* expression, const char*, int) {
   throw std::runtime_error(std::string("assimp's assertion fails: ") + expression);
@@ -64,8 +64,8 @@ void addNode(const aiScene& scene, const aiNode& node, const Eigen::Affine3d& pa
   for (unsigned i = 0; i < node.mNumChildren; ++i) addNode(scene, *node.mChildren[i], map, to);
 }
 
-/// Returns the number that the file most likely had where assimp keeps a float: the shortest
-/// decimal that rounds to it.
+/// Returns the number that the file most likely has where assimp keeps a float: the shortest
+/// decimal that rounds to that float.
 double shortestDecimal(float value) {
   char text[32];
   const char* const end = std::to_chars(text, text + sizeof text, value).ptr;

@@ -13,7 +13,8 @@ namespace corridor {
 enum class AssimpRules {
   /// Coordinates as stored: Collada's up-axis is not applied, and its unit is returned separately.
   Stored,
-  /// As in OMPL.app: its import steps, with Collada's up-axis and unit applied as assimp does.
+  /// As in OMPL.app: the import steps of OMPL.app. Collada's up-axis and unit are applied, as
+  /// assimp applies them.
   OmplApp,
 };
 
@@ -39,14 +40,15 @@ struct AssimpImport {
 /// unlimited time and memory. Throws nothing. Defined in the helper program only.
 AssimpImport importByAssimp(const std::string& file, AssimpRules rules);
 
-/// The helper's exit status when its memory limit is reached. (An exception would reach assimp,
-/// which would report a damaged file.)
+/// The helper program's exit status when it reaches its memory limit. (An exception instead would
+/// reach assimp, and assimp would report a damaged file.)
 constexpr int kOutOfMemoryStatus = 9;
 
 /// Returns the bytes that the helper program writes to its standard output. The format is not
 /// portable: both ends are the same build on the same machine.
 std::string packed(const AssimpImport& import);
-/// Reads what `packed` returned. @returns false if `bytes` are incomplete or something else.
+/// Reads what `packed` returned. @returns false if `bytes` are incomplete, or are not the output of
+/// `packed`.
 bool unpack(std::string_view bytes, AssimpImport& import);
 
 }  // namespace corridor

@@ -18,7 +18,7 @@ struct Sphere {
   double radius;
 };
 struct Capsule {
-  double radius, length;  ///< along z; length between the centres of the two end spheres
+  double radius, length;  ///< along z; `length`: between the centres of the end spheres
 };
 struct Cylinder {
   double radius, length;  ///< along z; full length
@@ -37,17 +37,19 @@ std::string nameOf(const Primitive& primitive);
 /// A convex part: a convex solid in the frame of its body. Queries treat the stored doubles as
 /// exact; curved surfaces are not tessellated.
 /// * Without `flatEnds`: the hull of `points` swept by a sphere of `radius`. A sphere has one
-/// point, a capsule two, a box eight and radius 0.
-/// * With `flatEnds`: a cylinder, the segment between two points swept by a disc of `radius`
-/// orthogonal to it.
+///   point, and a capsule has two. A box has eight points and radius 0. A `Convex` has its own
+///   points and radius 0.
+/// * With `flatEnds`: a cylinder. It is the segment between two points, swept by a disc of `radius`
+///   that is orthogonal to the segment.
 struct ConvexPart {
   std::vector<Vec3> points;
   double radius = 0;
   bool flatEnds = false;
 };
 
-/// Returns the primitive in the frame of a body. The pose is applied once, here. Queries use the
-/// rounded result. Points are mapped; radii stay the same, even under a pose that is not rigid.
+/// Returns the primitive in the frame of a body. This function applies the pose once, and queries
+/// use its rounded result. Points are mapped; radii stay the same, even under a pose that is not
+/// rigid.
 /// @pre `checkPrimitive` reports nothing; `placed` does not call it.
 ConvexPart placed(const Primitive& primitive, const Transform& X_BodyPrimitive);
 

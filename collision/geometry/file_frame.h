@@ -9,7 +9,7 @@ namespace corridor {
 /// Maps the coordinates of a file to metres, with z up (`MeshFileOptions`).
 class FileFrame {
  public:
-  /// @param metresPerUnit the unit to use if the options don't state one.
+  /// @param metresPerUnit the unit to use if the options do not state a unit.
   FileFrame(const MeshFileOptions& options, double metresPerUnit)
       : scale_(options.metresPerUnit.value_or(metresPerUnit)), up_(options.up.value_or('z')) {}
 

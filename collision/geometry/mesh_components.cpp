@@ -53,7 +53,7 @@ MeshComponents findComponents(const TriangleMesh& mesh) {
   std::sort(uses.begin(), uses.end(), [](const Use& u, const Use& v) { return u.edge < v.edge; });
 
   Sets sets(count);
-  std::vector<std::uint32_t> open;  // triangles at an edge that makes its component not watertight
+  std::vector<std::uint32_t> open;  // triangles of components that are not watertight
   for (std::size_t i = 0; i < uses.size();) {
     std::size_t end = i;
     int forward = 0, backward = 0;

@@ -24,30 +24,30 @@ struct MeshFile {
   std::string unitRule;  ///< one line for people: which unit was used, and why
   std::string upRule;    ///< one line for people: which rotation was applied, and why
   /// The up-axis that a Collada file states ('x', 'y' or 'z'; 'y' if it states none). Unset: not
-  /// Collada. `readMeshFile` does not apply it, which is ROS's rule; set MeshFileOptions::up to
-  /// apply it.
+  /// Collada. By ROS's rule, `readMeshFile` does not apply this axis; `MeshFileOptions::up` applies
+  /// an axis.
   std::optional<char> fileUp = {};
   /// True if assimp read the file, and therefore rounded the vertices to float.
   bool floatVertices = false;
 };
 
-/// Reads a mesh file. The extension decides how: Corridor's own readers read OBJ, STL, PLY and OFF
-/// in double. assimp reads Collada, glTF, FBX, 3DS, X3D, 3MF and AMF, in a process of its own with
-/// limits of time and memory. Scale and rotation are applied here, once; queries use the rounded
-/// result.
+/// Reads a mesh file. The extension decides which reader is used. Corridor's own readers read OBJ,
+/// STL, PLY and OFF in double. assimp reads Collada, glTF, FBX, 3DS, X3D, 3MF and AMF, in a process
+/// of its own with limits of time and memory. This function applies scale and rotation once, and
+/// queries use its rounded result.
 /// @throws InputError that names the file and the line, face or byte: unreadable, no faces, not
 /// finite, index out of range, truncated, too large, unknown extension, …
 MeshFile readMeshFile(const std::filesystem::path& file, const MeshFileOptions& options = {});
 
-/// A mesh as OMPL.app places it: read with its import steps, with node transforms and the rotation
-/// to y-up applied.
+/// A mesh as OMPL.app places it: read with OMPL.app's import steps. The transforms of nodes and the
+/// rotation to y-up are applied.
 struct OmplAppMesh {
   TriangleMesh mesh;
-  /// The mean of all imported vertices, each counted as often as assimp keeps it.
+  /// The mean of all imported vertices. Each vertex counts as often as assimp keeps it.
   Vec3 vertexAverage = Vec3::Zero();
   int importedVertices = 0;
 };
-/// Reads a mesh file by OMPL.app's rules. @throws InputError as `readMeshFile`.
+/// Reads a mesh file by OMPL.app's rules. @throws InputError in the cases of `readMeshFile`.
 OmplAppMesh readOmplAppMesh(const std::filesystem::path& file);
 
 }  // namespace corridor

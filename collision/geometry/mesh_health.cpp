@@ -13,8 +13,8 @@ namespace {
 
 using Indices = std::array<std::uint32_t, 3>;
 
-/// The bounds of the corners of triangles. Lengths relative to their diagonal have squares that
-/// neither overflow nor underflow, whatever the mesh's size.
+/// The bounds of the corners of triangles. For meshes of any size, squares of lengths relative to
+/// the bounds' diagonal neither overflow nor underflow.
 struct Bounds {
   Vec3 min, max;
   /// 1/4 if the diagonal overflows; else 1, because subnormals times 1/4 would lose bits.
@@ -80,7 +80,8 @@ void countEdges(const std::vector<Indices>& distinctFair, MeshHealth& health) {
   });
 }
 
-/// Counts of edges by how many triangles use them. Triangles with two equal corners do not count.
+/// The numbers of edges, by the number of triangles that use the edge. Triangles with two equal
+/// corners do not count.
 struct EdgeUses {
   std::size_t sound = 0;   ///< edges of two triangles, in opposite directions
   std::size_t open = 0;    ///< edges of one triangle
@@ -112,8 +113,7 @@ struct EdgeUses {
   bool areWatertight() const { return sound > 0 && open + turned + many == 0; }
 };
 
-/// Returns the first reason why a mesh is not watertight. @pre The mesh is not
-/// watertight.
+/// Returns the first reason why a mesh is not watertight. @pre the mesh is not watertight.
 std::string whyNotWatertight(const EdgeUses& edges, bool repeated) {
   const auto ofEdges = [](std::size_t count) { return std::to_string(count) + " of its edges"; };
   if (edges.open > 0) return ofEdges(edges.open) + " have a triangle on one side only";

@@ -19,19 +19,19 @@ struct MeshHealth {
   std::size_t distinctTriangles = 0;
   std::size_t degenerateTriangles = 0;
   std::size_t sliverTriangles = 0;
-  std::size_t boundaryEdges = 0;     ///< edges of only one distinct triangle that is not degenerate
+  std::size_t boundaryEdges = 0;     ///< edges of exactly one distinct, not degenerate triangle
   std::size_t nonManifoldEdges = 0;  ///< edges of three or more such triangles
-  /// Edges used by two triangles in the same direction: one triangle faces out, the other in.
-  /// Triangles with two equal corners do not count.
+  /// Edges that two triangles use in the same direction: one of the two triangles faces outwards,
+  /// the other inwards. Triangles with two equal corners do not count.
   std::size_t misorientedEdges = 0;
   /// Sets of triangles connected through shared corners. (`findComponents` requires shared edges.)
   std::size_t components = 0;
   /// True if every edge is used by exactly two triangles, in opposite directions. Triangles with
   /// two equal corners do not count.
   bool watertight = false;
-  std::string whyNotWatertight;  ///< the first reason, for messages; "" if it is watertight
-  /// The volume in m³, rounded; negative if the triangles face inwards. Set only for a watertight
-  /// mesh, if its volume is in the range of doubles.
+  std::string whyNotWatertight;  ///< the first reason, for messages; "" if watertight
+  /// The volume in m³, rounded; negative if the triangles face inwards. Set only if the mesh is
+  /// watertight and its volume is in the range of doubles.
   std::optional<double> volume;
   Vec3 min = Vec3::Zero();  ///< bounds of the corners of triangles, metres
   Vec3 max = Vec3::Zero();

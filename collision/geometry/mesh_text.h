@@ -18,7 +18,7 @@ std::string printable(std::string_view word);
 /// Returns `printable(word)` in double quotes.
 std::string inQuotes(std::string_view word);
 
-/// Collects the faults of one mesh file. Throws at the tenth, since the rest rarely adds
+/// Collects the faults of one mesh file. Throws at the tenth fault, since further faults rarely add
 /// information.
 class MeshFaults {
  public:
@@ -44,9 +44,10 @@ class MeshFaults {
   FaultList faults_;
 };
 
-/// Reads a whole word as a finite coordinate into `value`. Numbers too small for a double become 0,
-/// the nearest double. @returns a complaint, or nullopt on success.
-/// @param notFiniteToo true: "nan" and "inf" are no faults; sensors write them for directions
+/// Reads a whole word as a finite coordinate, and stores the coordinate in `value`. Numbers that
+/// are too small for a double become 0, the nearest double. @returns a complaint, or nullopt on
+/// success.
+/// @param notFiniteToo true: accepts "nan" and "inf", too, which sensors write for directions
 /// without a measurement.
 std::optional<std::string> parseCoordinate(std::string_view word, double& value,
                                            bool notFiniteToo = false);
@@ -54,7 +55,7 @@ std::optional<std::string> parseCoordinate(std::string_view word, double& value,
 /// Reads a whole word as a decimal integer of 64 bits. @returns false if the word is not one.
 bool parseInteger(std::string_view word, std::int64_t& value);
 
-/// True for the blanks within a line.
+/// Returns whether `c` is a blank within a line (not a line end).
 inline bool isBlank(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
 }
@@ -64,7 +65,7 @@ class TextCursor {
  public:
   explicit TextCursor(std::string_view text, int line = 1) : rest_(text), line_(line) {}
 
-  /// Returns the next word of this line; empty at its end.
+  /// Returns the next word of this line; empty at the end of the line.
   std::string_view wordInLine();
   /// Returns the next word of this or a later line; empty at the end of the text. Then `line()` is
   /// the word's line.
@@ -81,8 +82,8 @@ class TextCursor {
 };
 
 /// Reads a vertex of three coordinates from the words that `next` returns; an empty word means that
-/// no more words follow. If a coordinate is missing or wrong, adds a fault at the cursor's line,
-/// and leaves that coordinate and those after it 0.
+/// no more words follow. If a coordinate is missing or wrong, adds a fault at the cursor's line;
+/// that coordinate and all later ones stay 0.
 template <class Next>
 Vec3 parseVertex(const Next& next, const TextCursor& cursor, MeshFaults& faults) {
   Vec3 vertex = Vec3::Zero();

@@ -79,7 +79,7 @@ class MapReader {
     return std::move(map_);
   }
 
-  /// Returns what contains the map, for messages.
+  /// Returns the word for what contains the map, `file` or `message`, for error messages.
   std::string container() const { return promised_ ? "file" : "message"; }
 
   /// Checks the type of the tree and the resolution.
@@ -159,7 +159,7 @@ class MapReader {
       faults_.fail(0, "the tree is deeper than 16 levels: the " + container() + " is damaged");
   }
 
-  /// .bt: an inner node has two bits for each child, and then its inner children follow.
+  /// Reads an inner node of a .bt file: two bits for each child, and then the inner children.
   /// @returns whether the whole cube is occupied; it is then stored as one cube.
   bool readChildren(const Cube& cube, int depth) {
     requireDepth(depth);
@@ -197,7 +197,8 @@ class MapReader {
     }
   }
 
-  /// .ot: a node has its log-odds, its colour in a ColorOcTree, and a bit for each child.
+  /// Reads a node of a .ot file: its log-odds, its colour in a ColorOcTree, a bit for each child,
+  /// and then the children.
   /// @returns whether the whole cube is occupied; it is then stored as one cube.
   bool readNode(const Cube& cube, int depth) {
     const auto logOdds = take<float>();
@@ -226,8 +227,8 @@ class MapReader {
     return joinIfFull(cube, full, before);
   }
 
-  /// If all eight children of the cube are occupied, replaces them by the cube. Returns whether
-  /// they are.
+  /// If all eight children of the cube are occupied, replaces the children by the cube. Returns
+  /// whether all eight are occupied.
   /// @param full the number of children that are occupied as a whole.
   /// @param before the number of cubes before those of the children.
   bool joinIfFull(const Cube& cube, int full, std::size_t before) {
@@ -293,7 +294,7 @@ class MapReader {
   float least_;  // log-odds of the threshold, in float, as OctoMap stores and compares them
   MeshFaults faults_;
   OccupancyMap map_;
-  std::vector<Cube> missing_;  // children that inner nodes don't have
+  std::vector<Cube> missing_;  // cubes of the children that inner nodes do not have
   std::array<std::int32_t, 3> low_{INT32_MAX, INT32_MAX, INT32_MAX},
       high_{INT32_MIN, INT32_MIN, INT32_MIN};
   std::size_t at_ = 0;

@@ -13,26 +13,27 @@ namespace corridor {
 
 /// Which cells of a map are obstacles.
 struct OccupancyRules {
-  /// If true, cells without a measurement count as obstacles, too, within the bounding box of the
-  /// measured cells.
+  /// If true, cells without a measurement count as obstacles, too, if they are in the bounding box
+  /// of the measured cells.
   bool unknownIsOccupied = false;
-  /// A cell is occupied if its probability is at least `threshold`, which must be in (0, 1). Both
-  /// are compared as log-odds in float, as OctoMap does. Files of .bt have no probabilities: their
-  /// cells are either free or occupied.
+  /// A cell is occupied if its probability is at least `threshold`, which must be in (0, 1).
+  /// Probability and threshold are compared as log-odds in float, as OctoMap compares them. Files
+  /// of .bt have no probabilities: their cells are either free or occupied.
   double threshold = 0.5;
 };
 
-/// The obstacles of an octree map of OctoMap (Hornung, Wurm, Bennewitz, Stachniss, Burgard 2013).
+/// The obstacles of an octree map of the library OctoMap (Hornung, Wurm, Bennewitz, Stachniss,
+/// Burgard 2013).
 struct OccupancyMap {
-  /// A cube of cells. Its corner nearest to −∞ is at `corner` times the resolution, and its edges
-  /// are `size` times the resolution long.
+  /// A cube of cells. Its corner with the lowest coordinates is at `corner` times the resolution.
+  /// Its edges are `size` times the resolution long.
   struct Cube {
     std::array<std::int32_t, 3> corner{};
     std::int32_t size = 1;
   };
   double resolution = 0;  ///< edge length of the smallest cell, metres
-  /// The occupied cubes, and the unknown ones if requested. Eight occupied children of one octree
-  /// node are joined into one cube.
+  /// The occupied cubes, and the unknown cubes if requested (`unknownIsOccupied`). Eight occupied
+  /// children of one octree node are joined into one cube.
   std::vector<Cube> cubes;
   std::size_t free = 0;           ///< number of free cubes
   bool hasProbabilities = false;  ///< true for .ot
@@ -47,7 +48,8 @@ struct OccupancyMap {
 /// levels, more than 10^7 cubes, a threshold that is not in (0, 1).
 OccupancyMap readOccupancyMap(const std::filesystem::path& file, const OccupancyRules& rules = {});
 
-/// The same for the bytes of a file. @param name  of the file, for messages.
+/// Reads an octree map like `readOccupancyMap`, from the bytes of a file. @param name the file's
+/// name, for messages.
 OccupancyMap parseOccupancyMap(std::string_view bytes, const OccupancyRules& rules,
                                const std::string& name);
 
@@ -59,7 +61,8 @@ struct OccupancyMessage {
   std::string data;       ///< bytes; no bytes: a map without any measured cell
 };
 
-/// The same for a message. @param name  of the message, for messages of errors.
+/// Reads an octree map like `readOccupancyMap`, from a ROS message. @param name the name of that
+/// message, for error messages.
 OccupancyMap parseOccupancyMessage(const OccupancyMessage& message, const OccupancyRules& rules,
                                    const std::string& name);
 

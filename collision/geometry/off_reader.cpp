@@ -21,7 +21,8 @@ class OffReader {
     // The count of edges must end this line. Otherwise the first vertex would be read as that
     // count, or be skipped.
     if (wordInLine().empty())
-      faults_.fail(cursor_.line(), "the number of edges is missing; any number will do");
+      faults_.fail(cursor_.line(),
+                   "the number of edges is missing; add a third number to the line, for example 0");
     if (const std::string_view more = wordInLine(); !more.empty())
       faults_.fail(cursor_.line(), "the numbers of vertices, faces and edges are followed by " +
                                        inQuotes(more) + "; a new line is needed");
@@ -42,7 +43,7 @@ class OffReader {
     while (word.starts_with('#')) word = cursor_.nextLine() ? cursor_.word() : std::string_view();
     return word;
   }
-  /// Returns the next word of this line; empty at its end or at a comment.
+  /// Returns the next word of this line; empty at the end of the line or at a comment.
   std::string_view wordInLine() {
     const std::string_view word = cursor_.wordInLine();
     return word.substr(0, word.starts_with('#') ? 0 : word.npos);

@@ -249,9 +249,9 @@ std::vector<Vec3> readBinary(std::string_view body, const Header& header, MeshFa
 }
 
 /// Expands LZF (liblzf's format). A control byte c below 32 is followed by c + 1 literal bytes. Any
-/// other c stands for a copy of (c >> 5) + 2 bytes of the output written so far. The copy starts
-/// d + 1 bytes before the output's end, where the low 5 bits of c and the next byte give d. If c >>
-/// 5 is 7, one more byte comes before the byte of d, and adds to the length.
+/// other c stands for a copy of (c >> 5) + 2 bytes of the output written so far. The copy starts (d
+/// + 1) bytes before the output's end, where the low 5 bits of c and the next byte give d. If c >>
+/// 5 is 7, one more byte comes before the byte of d, and its value is added to the length.
 /// @returns nullopt if the data are not sound or give another size.
 std::optional<std::string> expanded(std::string_view in, std::uint64_t size) {
   std::string out;

@@ -20,7 +20,7 @@ inline bool isInteger(PlyType type) {
 struct PlyProperty {
   std::string name;
   PlyType type;
-  /// Set for lists, which store their length in this type before their values of `type`.
+  /// Set for lists: a list stores its length in this type, and then its values in `type`.
   std::optional<PlyType> countType;
 };
 
@@ -39,11 +39,11 @@ struct PlyHeader {
   int lines = 0;
 };
 
-/// Reads the header. Checks that vertices have scalar x, y, z; for a mesh, also that there are
-/// faces, with a list of integer indices.
+/// Reads the header. Checks that vertices have scalar properties x, y, z. For a mesh, also checks
+/// that there are faces, with a list of integer indices.
 PlyHeader readPlyHeader(std::string_view bytes, bool isMesh, MeshFaults& faults);
 
-/// True for the two common names of the list of a face's corners.
+/// Returns whether the property has one of the two common names of the list of a face's corners.
 inline bool isCornerList(const PlyProperty& property) {
   return property.name == "vertex_indices" || property.name == "vertex_index";
 }

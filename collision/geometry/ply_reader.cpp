@@ -183,8 +183,9 @@ class BodyReader {
   }
 
  private:
-  /// Requires that the file has enough bytes for an element's count, before memory is allocated for
-  /// it. Returns false for elements without properties, which take no bytes and are skipped.
+  /// Requires that the file has enough bytes for the count of an element. Called before memory is
+  /// allocated for the element. Returns false for elements without properties, which take no bytes
+  /// and are skipped.
   bool hasRoom(const PlyElement& element) {
     std::uint64_t size = 0;
     for (const PlyProperty& p : element.properties)

@@ -19,8 +19,9 @@ bool isRead(const std::string& extension) {
   return false;
 }
 
-/// Returns the reader of a file. The content decides, because files of every kind are called .xyz
-/// or .txt; the extension decides only about files that begin like none.
+/// Returns the reader of a file. The content decides, because files of every format may have the
+/// extension .xyz or .txt. The extension decides only if the content does not begin like a known
+/// format.
 CloudReader readerOf(std::string_view bytes, const std::string& extension) {
   if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return readPlyPoints;
   if (bytes.starts_with("# .PCD") || bytes.starts_with("# PCD")) return readPcd;

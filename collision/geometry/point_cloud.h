@@ -10,16 +10,16 @@
 
 namespace corridor {
 
-/// Points in space, such as a sensor's measurements. As obstacles they are taken as the union of
-/// balls about them (`Body` of many spheres).
+/// Points in space, such as a sensor's measurements. As an obstacle, a cloud is the union of balls
+/// about its points (a `Body` of many spheres).
 struct PointCloud {
   std::vector<Vec3> points;  ///< metres
   std::string format;        ///< "PLY (ASCII)", "PCD (binary)", …
   /// Number of points that were left out because a coordinate is NaN or infinite. Sensors mark
   /// directions without a measurement in this way.
   std::size_t notFinite = 0;
-  /// True if a PCD file has a viewpoint (the pose of the sensor) other than the identity. It is not
-  /// applied.
+  /// True if a PCD file has a viewpoint (the pose of the sensor) other than the identity.
+  /// `readPointCloud` does not apply the viewpoint.
   bool hasViewpoint = false;
 };
 

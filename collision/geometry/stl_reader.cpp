@@ -45,8 +45,8 @@ ReadMesh readBinary(std::string_view bytes, MeshFaults& faults) {
   return {std::move(mesh), "STL (binary)"};
 }
 
-/// Returns whether `a` is the keyword (of lower-case letters), ignoring case. Setting bit 5 makes
-/// capitals lower-case, and no other character a letter.
+/// Returns whether `a` is the keyword (of lower-case letters), ignoring case. Setting bit 5 turns
+/// capitals into lower-case letters, and turns no other character into a letter.
 bool sameWord(std::string_view a, std::string_view keyword) {
   return a.size() == keyword.size() && std::equal(a.begin(), a.end(), keyword.begin(),
                                                   [](char x, char y) { return (x | 0x20) == y; });

@@ -13,7 +13,8 @@ class VertexWelder {
  public:
   explicit VertexWelder(std::size_t expectedPoints);
 
-  /// Returns the number of a point, new or seen before. @pre the point is finite.
+  /// Returns the number of a point. Adds the point if no equal point was added before. @pre the
+  /// point is finite.
   std::uint32_t addOrFind(const Vec3& point);
 
   const std::vector<Vec3>& points() const { return points_; }
@@ -27,7 +28,8 @@ class VertexWelder {
   void grow();
 
   std::vector<Vec3> points_;
-  /// A hash table with open addressing; its size is a power of two, at most half of it is used.
+  /// A hash table with open addressing. Its size is a power of two, and at most half of its slots
+  /// are used.
   std::vector<std::uint32_t> slots_;
 };
 

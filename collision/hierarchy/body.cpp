@@ -26,9 +26,9 @@ struct LazyTree {
 };
 
 struct Body::Impl {
-  /// A model's shapes and several bodies may share it.
+  /// The mesh. A model's shapes and several bodies may share it.
   std::shared_ptr<const TriangleMesh> mesh = noMesh();
-  /// Shared with the 4-wide tree, which refers to the parts by number.
+  /// The parts. The body shares them with the 4-wide tree, which refers to them by number.
   std::shared_ptr<const std::vector<ConvexPart>> parts = noParts();
   bool solid = false;
   TreeParams params;
@@ -68,7 +68,7 @@ Vec3 reachOf(const ConvexPart& part) {
   const auto& points = part.points;
   const Vec3 a = part.flatEnds ? (points[1] - points[0]).stableNormalized() : Vec3(Vec3::Zero());
   // Along coordinate axis i, a disc of normal a reaches √(1 − a_i²) times its radius. If rounding
-  // leaves no usable normal, the whole radius is taken (as in `ConvexSet`).
+  // leaves no usable normal, the whole radius is used (as in `ConvexSet`).
   if (std::abs(a.norm() - 1) < 0x1p-20) {
     for (int i = 0; i < 3; ++i)
       reach[i] *= std::min(1.0, std::hypot(a[(i + 1) % 3], a[(i + 2) % 3]) + 16 * kUnit);

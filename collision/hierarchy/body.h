@@ -15,25 +15,26 @@ namespace corridor {
 
 /// A named mesh, or a union of convex parts, in the coordinates of the frame that it is fixed to.
 /// Each tree is built when a query first needs it; this is thread-safe. Otherwise a body is
-/// immutable. Equal bodies at different places can share one mesh and its trees (`renamed`). A
-/// body can be made only if standardFloatingPoint() holds, else std::runtime_error is thrown.
+/// immutable. Equal bodies at different places can share one mesh and its trees (`renamed`). The
+/// public constructors throw std::runtime_error unless standardFloatingPoint() holds.
 class Body {
  public:
   /// A mesh: its surface, or with `solid` also everything that it encloses.
   /// @throws std::invalid_argument if the mesh has no triangle, if `checkMesh` finds a fault, or if
   /// `solid` is set and a component isn't watertight.
   Body(std::string name, TriangleMesh mesh, bool solid = false, const TreeParams& params = {});
-  /// The same, without a copy of the mesh. @pre `mesh` is not null.
+  /// A mesh that the body shares with the caller instead of copying it. Otherwise this constructor
+  /// equals the one above. @pre `mesh` is not null.
   Body(std::string name, std::shared_ptr<const TriangleMesh> mesh, bool solid = false,
        const TreeParams& params = {});
   /// A convex part, which is solid. (`checkPrimitive` checks a primitive before it is made a part.)
   /// @throws std::invalid_argument if the part has no point, or a point that is not finite; if its
   /// radius is negative or not finite; or if it has flat ends and not exactly two points.
   Body(std::string name, ConvexPart part);
-  /// The union of many parts, such as the balls about the points of a cloud. They may overlap. One
-  /// tree holds all of them.
-  /// @throws std::invalid_argument if there are no parts, or if one of them is not legal as a
-  /// single part.
+  /// The union of many parts, such as the balls about the points of a cloud. The parts may overlap.
+  /// One tree holds all of them.
+  /// @throws std::invalid_argument if there are no parts, or if the constructor for a single part
+  /// would throw for one of them.
   Body(std::string name, std::vector<ConvexPart> parts);
   ~Body();
   Body(Body&&) noexcept;
@@ -47,14 +48,14 @@ class Body {
   const TriangleMesh& mesh() const;              ///< empty for convex parts
   const std::vector<ConvexPart>& parts() const;  ///< empty for a mesh
   bool solid() const;                            ///< true for convex parts
-  /// Returns whether this is a solid mesh. Only then may another body be inside it without touching
-  /// its surface; so containment is a test of its own.
+  /// Returns whether this is a solid mesh. Only a solid mesh may have another body inside it that
+  /// does not touch its surface. Such containment needs a separate test.
   bool isSolidMesh() const { return solid() && isMesh(); }
   const Obb4Tree& tree() const;  ///< builds the tree if necessary
   /// Returns the binary tree of one kind of volume. Builds it if necessary.
   template <BoundingVolume Volume>
   const VolumeTree<Volume>& volumeTree() const;
-  /// The binary OBB tree, for queries that have no 4-wide variant.
+  /// Returns the binary OBB tree, for queries that have no 4-wide variant. Builds it if necessary.
   const ObbTree& binaryTree() const { return volumeTree<Obb>(); }
   const MeshComponents& components() const;  ///< only for a mesh; found at the first call
   /// The boxes of the parts, in the order of `parts()`; only for parts. Built at the first call.
@@ -62,7 +63,7 @@ class Body {
   bool treeBuilt() const;  ///< true if any tree has been built
   /// The largest distance of a point of the body from the frame's origin, metres, rounded up.
   double radius() const { return bounds_.radius; }
-  /// A bounding sphere: its centre, and its radius rounded up.
+  /// A bounding sphere: its centre, and its radius, rounded up; metres.
   const Vec3& sphereCenter() const { return bounds_.center; }
   double sphereRadius() const { return bounds_.sphereRadius; }
   const BoundingBox& box() const { return bounds_.box; }

@@ -11,11 +11,11 @@
 namespace corridor {
 namespace {
 
-/// Numbers of items are below this.
+/// All item numbers are below this limit.
 constexpr std::size_t kItems = std::size_t{1} << 31;
 
-/// @throws std::invalid_argument if a bound is not a number: bounds of distances from such a box
-/// mean nothing, and a walk could miss it.
+/// @throws std::invalid_argument if a bound is not a number. A lower bound of the distance from
+/// such a box would mean nothing, and a walk could miss the box.
 void requireNumbers(const BoundingBox& box) {
   if (box.lower.hasNaN() || box.upper.hasNaN())
     throw std::invalid_argument("the bounds of a box must be numbers");
@@ -39,7 +39,7 @@ double area(const BoundingBox& box) {
   return d[0] * d[1] + d[1] * d[2] + d[2] * d[0];
 }
 
-/// Bins along one axis, for centres from `low` to `high` (both twice the centre).
+/// Bins along one axis, for boxes whose centres, times 2, are from `low` to `high`.
 struct Bins {
   Eigen::Index axis = 0;
   double low = 0, high = 0;
@@ -159,9 +159,9 @@ std::uint32_t BoxTree::buildNode(std::span<const BoundingBox> boxes,
 std::size_t BoxTree::split(std::span<const BoundingBox> boxes, std::span<std::uint32_t> items,
                            const BoundingBox& all, const Vec3& low, const Vec3& high,
                            std::size_t depth) {
-  // Halving at the median takes at most as many levels as the items' number has bits. Only while
-  // there are levels to spare, the heuristic may make unequal halves. In a flat box it can't
-  // compare splits: all surfaces may be 0.
+  // Halving at the median takes at most as many levels as the items' number has bits. The heuristic
+  // may make unequal halves only while there are levels to spare. In a flat box it can't compare
+  // splits, because all surfaces may be 0.
   if (area(all) > 0 && depth + std::bit_width(items.size()) < kMaxDepth) {
     Split best;
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
@@ -226,7 +226,8 @@ void BoxTree::rotateUpwards(std::uint32_t node) {
     const std::uint32_t low = links_[left].height, high = links_[right].height;
     if (std::max(low, high) > std::min(low, high) + 1) {
       const std::uint32_t taller = low > high ? left : right;
-      // The taller child takes the place of the node, which takes the shorter of its children.
+      // The taller child takes the place of the node and becomes its parent. The shorter child of
+      // the taller child becomes a child of the node.
       const bool leftTaller =
           links_[nodes_[taller].left].height > links_[nodes_[taller].right].height;
       const std::uint32_t moved = leftTaller ? nodes_[taller].right : nodes_[taller].left;
@@ -263,7 +264,8 @@ std::uint32_t BoxTree::siblingFor(const BoundingBox& box) const {
   };
   std::uint32_t at = root_;
   while (!nodes_[at].isLeaf()) {
-    // A new parent here costs its own surface. Further down, this node's growth comes in addition.
+    // A new parent at this node costs the new parent's surface. A new parent further down also
+    // costs the growth of this node.
     const double here = with(at), growth = here - area(nodes_[at].box);
     const auto below = [&](std::uint32_t child) {
       const double whole = with(child);
@@ -272,7 +274,8 @@ std::uint32_t BoxTree::siblingFor(const BoundingBox& box) const {
     const std::uint32_t left = nodes_[at].left, right = nodes_[at].right;
     const double costLeft = below(left), costRight = below(right);
     if (here < costLeft && here < costRight) break;
-    // Equal costs, or infinite boxes, whose growth is not a number: the shorter side.
+    // If the costs are equal, or are not numbers because a box is infinite, the walk takes the
+    // shorter side.
     const bool isShorter = links_[left].height <= links_[right].height;
     at = costLeft < costRight || (!(costRight < costLeft) && isShorter) ? left : right;
   }
@@ -297,11 +300,12 @@ void BoxTree::insert(std::size_t item, const BoundingBox& box) {
   setChild(above, sibling, parent);
   links_[sibling].parent = links_[leaf].parent = parent;
   fitUpwards(parent);
-  // A tree by surfaces may be deeper than a balanced one. Only a tree that is far deeper is
-  // balanced where it grows.
+  // A tree built by surfaces may be deeper than a balanced tree. Only a tree that is far deeper is
+  // balanced, by rotations above the new leaf.
   const std::size_t balanced = std::bit_width(size_);
   if (links_[root_].height > std::min(2 * balanced + 4, kMaxDepth - 4)) rotateUpwards(parent);
-  // Counting from half of the depth leaves levels for the next insertions.
+  // Building as if the root were at half of the largest depth leaves levels for the next
+  // insertions.
   if (links_[root_].height > kMaxDepth) rebuild(kMaxDepth / 2);
 }
 

@@ -14,20 +14,22 @@ namespace corridor {
 /// An axis-aligned box around a body, metres. Initially it is empty.
 struct BoundingBox {
   Vec3 lower = Vec3::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
-  /// The sum of the magnitudes of all bounds, or more. The rounding of differences with the bounds
-  /// is proportional to it.
+  /// The sum of the magnitudes of all six bounds, or more, metres. Differences of coordinates and
+  /// these bounds have rounding errors. The part of the errors that the bounds cause is at most
+  /// proportional to this sum.
   double terms = 0;
 };
 
 /// A binary tree of boxes, for the broad phase: it finds the boxes near a body without a test of
 /// each box. A leaf is one of the given boxes. Boxes are split by the surface-area heuristic
-/// (Goldsmith and Salmon 1987; in bins, as Wald 2007 does), so that a group of boxes far from all
-/// others is passed over near the root. The depth is at most `kMaxDepth`.
+/// (Goldsmith and Salmon 1987; in bins, as Wald 2007 does). A walk therefore excludes a group of
+/// boxes that is far from all others near the root. The depth is at most `kMaxDepth`.
 ///
-/// Bodies that move, come or go change the tree in the time of its depth (`refit`, `insert`,
-/// `remove`; Catto's dynamic tree in Box2D is similar). Where an insertion makes it far deeper than
-/// a balanced tree, it is balanced by rotations. Answers of `walk` do not depend on how a tree came
-/// about, but their cost does: `rebuild` a tree whose bodies have changed places.
+/// If a body moves, comes or goes, one call of `refit`, `insert` or `remove` changes the tree. Its
+/// time is proportional to the tree's depth (Catto's dynamic tree in Box2D is similar). If an
+/// insertion makes the tree far deeper than a balanced one, the tree is balanced by rotations. The
+/// items that `walk` finds do not depend on the tree's history, but the cost of `walk` does. Call
+/// `rebuild` after the bodies have changed places.
 class BoxTree {
  public:
   BoxTree() = default;  ///< no items
@@ -37,7 +39,7 @@ class BoxTree {
   std::size_t size() const { return size_; }  ///< number of items
   bool contains(std::size_t item) const { return item < leaves_.size() && leaves_[item] != kNone; }
 
-  /// Adds an item. Memory is proportional to the largest number of an item.
+  /// Adds an item. The tree's memory is proportional to the largest item number.
   /// @throws std::invalid_argument if the tree contains the item, its number is 2^31 or more, or a
   /// bound of the box is not a number.
   void insert(std::size_t item, const BoundingBox& box);
@@ -56,8 +58,9 @@ class BoxTree {
   /// within its limit, and each item is one leaf.
   bool check() const;
 
-  /// Calls visit(item) for each item whose boxes, from the root to the leaf, satisfy bound(box) ≤
-  /// within. The child with the lower bound is visited first. Stops if `visit` returns true.
+  /// Calls visit(item) for each item for which all boxes from the root to its leaf satisfy
+  /// bound(box) ≤ within. The child with the lower bound is visited first. Stops if `visit` returns
+  /// true.
   /// @param bound returns a lower bound of the distance from a box, metres
   /// @param within may be lowered by `visit`
   /// @returns whether `visit` stopped the walk.
@@ -89,8 +92,8 @@ class BoxTree {
   }
 
  private:
-  /// A tree of 2^31 items that is halved at the median has 31 levels. The others are for unequal
-  /// halves.
+  /// A tree of 2^31 items that is halved at the median has 31 levels. The other levels allow
+  /// unequal halves.
   static constexpr std::size_t kMaxDepth = 48;
 
   static constexpr std::uint32_t kNone = 0xffffffff;
@@ -101,7 +104,7 @@ class BoxTree {
     std::uint32_t left = kNone, right = kNone;  ///< the children; of a leaf: the item, and kNone
     bool isLeaf() const { return right == kNone; }
   };
-  /// What only changes of the tree need.
+  /// Data of a node that `walk` does not need, but changes of the tree need.
   struct Link {
     std::uint32_t parent = kNone;
     std::uint32_t height = 0;  ///< levels below the node
@@ -109,28 +112,31 @@ class BoxTree {
 
   std::uint32_t add(const BoundingBox& box, std::uint32_t left, std::uint32_t right);
   std::uint32_t leafOf(std::size_t item) const;
-  /// Returns the node beside which a new leaf costs the least surface.
+  /// Returns a node beside which a new leaf with this box adds little surface area to the tree. The
+  /// search is greedy: it descends into the cheaper child while that is cheaper than to stop.
   std::uint32_t siblingFor(const BoundingBox& box) const;
   void setChild(std::uint32_t parent, std::uint32_t before, std::uint32_t after);
   /// Fits a node and all nodes above it to their children.
   void fitUpwards(std::uint32_t node);
-  /// The same; also rotates each node with children of heights that differ by more than 1.
+  /// The same as `fitUpwards`, but also rotates each of these nodes whose children's heights differ
+  /// by more than 1.
   void rotateUpwards(std::uint32_t node);
   void fit(std::uint32_t node);
 
-  /// @param depth  the depth at which the root counts: the larger, the fewer levels the tree gets.
+  /// @param depth the depth that is counted for the root. The larger it is, the fewer levels the
+  /// tree may get.
   void rebuild(std::size_t depth);
-  /// @param numbers  of the items, in the order of the boxes
+  /// @param numbers the numbers of the items, in the order of the boxes.
   void build(std::span<const BoundingBox> boxes, std::span<const std::uint32_t> numbers,
              std::size_t depth);
-  /// @param order  the boxes of this node, by their places in `boxes`; it is sorted.
+  /// @param order the boxes of this node, by their indices in `boxes`. The function reorders it.
   std::uint32_t buildNode(std::span<const BoundingBox> boxes,
                           std::span<const std::uint32_t> numbers, std::span<std::uint32_t> order,
                           std::size_t depth);
-  /// Sorts the items so that those of the left child come first, and returns their number. Both
-  /// children get at least one item.
+  /// Reorders the items so that those of the left child come first. Returns the number of items of
+  /// the left child. Both children get at least one item.
   /// @param all  the box around all items.
-  /// @param low, high  the bounds of twice the centres of the items.
+  /// @param low, high the least and the largest coordinates of twice the items' centres.
   static std::size_t split(std::span<const BoundingBox> boxes, std::span<std::uint32_t> items,
                            const BoundingBox& all, const Vec3& low, const Vec3& high,
                            std::size_t depth);

@@ -12,7 +12,8 @@
 
 namespace corridor::exact {
 
-/// Returns whether p is in the tetrahedron, by the signs of its barycentric coordinates.
+/// Returns whether p is in the tetrahedron, by the signs of p's barycentric coordinates. Returns
+/// false if the corners are on one plane.
 inline bool inTetrahedron(const std::array<Row, 4>& corners, const Row& p) {
   const auto volume = [](const Row& a, const Row& b, const Row& c, const Row& d) -> Rational {
     return dot(minus(a, d), cross(minus(b, d), minus(c, d)));
@@ -36,11 +37,12 @@ inline bool inTriangle(const Row& a, const Row& b, const Row& c, const Row& p) {
   return inSegment(a, b) || inSegment(b, c) || inSegment(c, a);
 }
 
-/// Proves that the centre of a sphere is in the hull of the vertices, and compares its radius with
-/// `size`. The centre must be a point of doubles. It is a vertex, or in a simplex of vertices: by
-/// Carathéodory's theorem there is one with the first vertex if the centre is in the hull. The
-/// simplices tried are those of the first vertex with the faces of the hull, or with the pairs of
-/// the others if all are on one plane.
+/// Proves that the centre of a sphere is in the hull of the vertices, and that the sphere's radius
+/// is at most the hull's `size`. The proof works only for a centre whose coordinates are doubles.
+/// It shows that the centre is a vertex, or is in a simplex of vertices. By Carathéodory's theorem,
+/// each point of the hull is in a simplex that has the first vertex as a corner. The simplices that
+/// are tried join the first vertex to each face of the hull. If all vertices are on one plane, they
+/// join it to each pair of vertices.
 template <>
 class ExactVolume<Hull> {
  public:

@@ -9,10 +9,11 @@
 namespace corridor::exact {
 
 /// Tests two conditions for a sphere: that its centre is in the core ellipsoid, and that its radius
-/// is at most `size`. Let u_k be the axes, v_k = u_i × u_j the crosses of the other two, and det =
-/// u_0·v_0. By Cramer's rule the centre p is at x_k = (p − c)·v_k/det along the axes. The condition
-/// Σ (x_k/half_k)² ≤ 1 is multiplied by (half_0 half_1 half_2 det)², because divisions would make
-/// the numbers long: `rows_` are the v_k·half_i·half_j.
+/// is at most `size`. Let c be the centre of the ellipsoid, u_k its axes and half_k its half
+/// lengths. Let v_k = u_i × u_j be the cross product of the other two axes, and det = u_0·v_0. By
+/// Cramer's rule the sphere's centre p has the coordinates x_k = (p − c)·v_k/det along the axes.
+/// The condition Σ (x_k/half_k)² ≤ 1 is multiplied by (half_0 half_1 half_2 det)², because
+/// divisions would make the numbers long. Therefore `rows_` has the vectors v_k·half_i·half_j.
 template <>
 class ExactVolume<Ellipsoid> {
  public:
@@ -46,9 +47,10 @@ class ExactVolume<Ellipsoid> {
 };
 
 /// Tests the centre and the radius of a sphere separately, as for ellipsoids. A triangle is inside
-/// if its corners are in the outer sphere and the cone, which are convex, and if a direction n
-/// proves that it is outside of the inner sphere. The only candidate for n is that of the fit, so
-/// the proof may fail for a triangle that is inside.
+/// if two conditions hold. Its corners are in the outer sphere and in the cone, which are convex.
+/// And a direction n proves that the triangle is outside of the inner sphere. The only direction
+/// that is tried is the one that the fit of the shell uses, so the proof may fail for a triangle
+/// that is inside.
 template <>
 class ExactVolume<Shell> {
  public:

@@ -17,7 +17,8 @@ namespace corridor::exact {
 
 using Rational = boost::multiprecision::cpp_rational;
 
-/// Returns "node 3", for the messages of `check()` of trees.
+/// Returns `what` and the number i, for example "node 3". The function is for the messages of
+/// `check()` of trees.
 inline std::string named(const char* what, std::size_t i) {
   return std::string(what) + " " + std::to_string(i);
 }
@@ -37,14 +38,15 @@ inline Row minus(const Row& a, const Row& b) {
 }
 
 /// Each specialisation has `contains(p, r)`. It returns true if the solid sphere of radius r about
-/// p is proved to be in a convex subset of the volume. The subset is the same for all spheres, so
+/// p is proved to be in a convex subset of the volume. This subset is the same for all spheres, so
 /// the hull of several such spheres is inside, too. Where the volume itself isn't convex, there is
 /// also `containsTriangle`.
 template <class Volume>
 class ExactVolume;
 
-/// The box {c + U x : |x_i| ≤ e_i}. By Cramer's rule p is inside if and only if |det(U with column
-/// i replaced by p − c)| ≤ e_i·|det U| for every i.
+/// The box {c + U x : |x_i| ≤ e_i} with the centre c, the axes as the columns of U, and the half
+/// extents e_i. By Cramer's rule p is inside if and only if |det(U with column i replaced by p −
+/// c)| ≤ e_i·|det U| for every i.
 template <>
 class ExactVolume<Obb> {
  public:
@@ -55,11 +57,11 @@ class ExactVolume<Obb> {
   }
   bool contains(const Row& p, const Rational& radius) const { return contains(p, radius, {}); }
   /// Returns whether the box contains the disc of this radius about p that is orthogonal to `axis`.
-  /// A zero `axis` stands for the sphere instead.
+  /// If `axis` is zero, returns whether the box contains the sphere of this radius about p.
   ///
   /// Let d be the axis, and g_i = crosses_i/volume, which is row i of U⁻¹. Along coordinate i of
-  /// the box a sphere extends r|g_i| from its centre, and a disc r|g_i × d|/|d|. The squares of
-  /// these conditions are rational.
+  /// the box a sphere extends r|g_i| from its centre, and a disc r|g_i × d|/|d|. The conditions are
+  /// squared, so that both sides are rational.
   bool contains(const Row& p, const Rational& radius, const Row& axis) const {
     const Row d = minus(p, center_);
     for (int k = 0; k < 3; ++k) {

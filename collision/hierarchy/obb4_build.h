@@ -10,7 +10,7 @@ namespace corridor {
 struct Obb4Frame {
   Vec3 origin = Vec3::Zero();
   double length = 1;  ///< length of the tree's unit, metres
-  double radius = 0;  ///< of all points about the origin, metres, rounded up
+  double radius = 0;  ///< largest distance of a point from `origin`, metres, rounded up
 };
 
 /// The result of building: all data of an `Obb4Tree` except the mesh or the parts.
@@ -24,7 +24,8 @@ struct Obb4Layout {
 /// Returns the layout of the tree over `mesh`. The layout is the same for any number of threads and
 /// any instruction set.
 Obb4Layout layOutObb4(const TriangleMesh& mesh, ObbFit fit, unsigned threads);
-/// Returns the layout of the tree over convex parts. Each leaf holds one part. @pre not empty.
+/// Returns the layout of the tree over convex parts. Each leaf holds one part. @pre `parts` is not
+/// empty.
 Obb4Layout layOutObb4(std::span<const ConvexPart> parts, unsigned threads);
 /// Returns the layout of a tree of one box, which holds the part.
 Obb4Layout layOutObb4(const ConvexPart& part);

@@ -143,7 +143,7 @@ class BuildItems {
   ObbFit fit;
   Vec3 origin = Vec3::Zero();
   double length = 1, scale = 1;  ///< the tree's unit in metres, and its reciprocal
-  double radius = 0;             ///< of all points about the origin, metres, rounded up
+  double radius = 0;  ///< largest distance of a point from the origin, metres, rounded up
   PrimitiveReferences records;
 
  private:

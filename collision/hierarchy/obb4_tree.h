@@ -44,8 +44,8 @@ class Obb4Tree {
   };
   /// The box around the whole tree: queries test it first.
   const Obb1& root() const { return root_; }
-  /// The child of a box is the number of an inner node, or a leaf: a range of triangles. `isLeaf`
-  /// is also true for `kNone`.
+  /// The child of a box is the number of an inner node, or a leaf: a range of triangles or parts.
+  /// `isLeaf` is also true for `kNone`.
   static bool isLeaf(std::uint32_t child) { return child >> 31 != 0; }
   static std::uint32_t leafFirst(std::uint32_t child) { return (child & 0x7fffffff) >> 2; }
   static std::uint32_t leafCount(std::uint32_t child) { return (child & 3) + 1; }
@@ -59,7 +59,8 @@ class Obb4Tree {
   /// A tree over convex parts, which may overlap. Each leaf holds one part. The tree shares the
   /// parts with the caller. @pre All parts are valid: they were made of primitives in which
   /// `checkPrimitive` finds no fault.
-  /// @throws std::invalid_argument if there are no parts, std::length_error for 2^29 − 1 or more.
+  /// @throws std::invalid_argument if there are no parts, std::length_error for 2^29 − 1 parts or
+  /// more.
   explicit Obb4Tree(std::shared_ptr<const std::vector<ConvexPart>> parts, unsigned threads = 1);
   /// A tree of one box, which holds one part.
   explicit Obb4Tree(const ConvexPart& part)
@@ -73,8 +74,9 @@ class Obb4Tree {
   const std::vector<Node>& nodes() const { return nodes_; }
   std::size_t triangleCount() const { return triangles_.size(); }  ///< 0 for parts
   std::size_t itemCount() const { return meshTriangle_.size(); }   ///< triangles or parts
-  /// Return corner k of the i-th triangle in leaf order, the whole triangle, and its number in the
-  /// mesh. `meshTriangle` is also the number of a part in the list of parts.
+  /// These return, for the i-th triangle in leaf order, its corner k, the whole triangle, and its
+  /// number in the mesh. For a tree over parts, `meshTriangle` returns the number of the i-th part
+  /// in the list of parts.
   const Vec3& corner(std::uint32_t i, int k) const { return vertices_[triangles_[i][k]]; }
   Triangle triangle(std::uint32_t i) const { return {corner(i, 0), corner(i, 1), corner(i, 2)}; }
   std::uint32_t meshTriangle(std::uint32_t i) const { return meshTriangle_[i]; }
@@ -88,10 +90,10 @@ class Obb4Tree {
   double reach() const { return reach_; }
 
   /// Fits the boxes to triangles that have moved. The tree keeps its structure, and each box keeps
-  /// its axes; frame and unit are those of the new coordinates. Refitting is cheaper than building,
-  /// but boxes get looser the more the mesh deforms. The result depends on the axes, the
-  /// structure and `moved`. The positions before the call affect only rounding and the order of a
-  /// box's sides. No query may run at the same time.
+  /// its axes; the frame and the unit of the tree are computed again from the new coordinates.
+  /// Refitting is cheaper than building, but boxes get looser the more the mesh deforms. The result
+  /// depends on the axes, the structure and `moved`. The positions before the call affect only
+  /// rounding and the order of a box's sides. No query may run at the same time.
   /// @throws std::invalid_argument if the leaves hold parts, if `moved` has another number of
   /// triangles than the tree, or if `checkMesh` finds a fault. The tree is then unchanged.
   void refit(const TriangleMesh& moved);

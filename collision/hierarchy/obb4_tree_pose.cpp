@@ -109,8 +109,8 @@ struct Columns {
   }
 };
 
-/// Returns an upper bound of ‖MMᵀ − I‖₂ = ‖MᵀM − I‖₂: the sum of the magnitudes of all entries.
-/// Returns NaN if an entry of M is NaN or infinite.
+/// Returns an upper bound of ν = ‖MMᵀ − I‖₂ = ‖MᵀM − I‖₂: the sum of the magnitudes of all entries
+/// of MMᵀ − I. Returns NaN if an entry of M is NaN or infinite.
 HWY_INLINE double defectOf(const Mat3& m, const Columns& columns) {
   static constexpr double kIdentity[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const auto off = [&](int j) {
@@ -129,7 +129,7 @@ void relate(const Obb4Tree& a, const Transform& X_WA, const Obb4Tree& b, const T
   const Triple tA = Triple::load(X_WA.t.data()), tB = Triple::load(X_WB.t.data());
   // With the trees' origins o_A and o_B, y = M_A⁻¹(M_B x + D) and D = M_B o_B + t_B − M_A o_A −
   // t_A. The code uses M_Aᵀ instead of M_A⁻¹. The difference M_A⁻¹ − M_Aᵀ = (I − M_AᵀM_A) M_A⁻¹ has
-  // a norm ≤ ν_A/√(1 − ν_A).
+  // a norm ≤ ν_A/√(1 − ν_A), where ν_A is the ν of M_A (`defectOf`).
   const Triple D = tB.plus(B.col[0], oB[0]).plus(B.col[1], oB[1]).plus(B.col[2], oB[2]) -
                    tA.plus(A.col[0], oA[0]).plus(A.col[1], oA[1]).plus(A.col[2], oA[2]);
   const double defectA = defectOf(X_WA.m, A), defectB = defectOf(X_WB.m, B);

@@ -16,9 +16,9 @@ struct Obb4TreePose {
   alignas(32) double columns[4][4];  ///< the columns of M, and t; the last entry of each is unused
   double scale = 1;
   double unitA = 1;   ///< 2^-unit of a
-  double shrink = 0;  ///< a distance in a's frame, times `shrink`, is at most that in the world
-  /// Error of the pose in a's unit, rounded up: two triangles that touch may be this far apart
-  /// under the rounded pose.
+  double shrink = 0;  ///< the distance of two points in the world ≥ shrink × that in a's frame
+  /// Error of the pose in a's unit, rounded up: two triangles that touch may appear up to this far
+  /// apart under the rounded pose.
   float leafError = 0;
   Obb4Pose floats;
 
@@ -29,7 +29,7 @@ struct Obb4TreePose {
   /// exceeds the result, the distance in the world exceeds `metres`.
   float inUnitsOfA(double metres) const;
 
-  /// @param pad metres, for `apart`. If `pad` is infinite, `apart` is false.
+  /// @param pad the distance for `apart`, metres. If `pad` is infinite, `apart` is false.
   Obb4TreePose(const Obb4Tree& a, const Transform& X_WA, const Obb4Tree& b, const Transform& X_WB,
                double pad);
 };

@@ -18,12 +18,12 @@ struct OctreeParams {
 };
 
 /// A tree over space, for comparison with trees over objects. The root is a cube around the mesh. A
-/// cell with many triangles is divided into eight. A leaf lists all triangles whose box meets its
-/// closed cell. Large triangles are therefore listed often, and the cells don't follow the surface
-/// of the body.
+/// cell with many triangles is divided into eight. A leaf lists all triangles whose bounding boxes
+/// meet the leaf's closed cell. Large triangles are therefore listed often, and the cells don't
+/// follow the surface of the body.
 ///
 /// Each point of a triangle is in a cell that lists the triangle. Two bodies therefore touch only
-/// in cells that are not separated. Immutable.
+/// in cells that are not separated. An octree is immutable.
 class Octree {
  public:
   struct Node {
@@ -45,7 +45,7 @@ class Octree {
     for (std::uint32_t c = node.children; c-- > 0;) f(node.firstChild + c);
   }
   /// The triangles of all leaves, leaf by leaf. A triangle occurs once for each leaf that lists it.
-  /// `meshTriangle` is its number in the mesh.
+  /// `meshTriangle(i)` is the number of `triangles()[i]` in the mesh.
   const std::vector<Triangle>& triangles() const { return triangles_; }
   std::uint32_t meshTriangle(std::uint32_t i) const { return numbers_[i]; }
   static constexpr bool hasParts() { return false; }

@@ -66,14 +66,16 @@ bool SweepAndPrune::overlaps(std::size_t a, std::size_t b) const {
 }
 
 void SweepAndPrune::move(std::size_t item, const BoundingBox& box) {
-  if (item >= boxes_.size()) throw std::invalid_argument("sweep and prune has no such item");
+  if (item >= boxes_.size())
+    throw std::invalid_argument("SweepAndPrune: item " + std::to_string(item) + " does not exist");
   requireBox(box);
   boxes_[item] = {box.lower, box.upper};
   const auto lower = static_cast<std::uint32_t>(2 * item), upper = lower + 1;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto k = static_cast<Eigen::Index>(axis);
     const std::uint32_t place = places_[axis][upper];
-    // The end in front moves first, so that the two never pass each other.
+    // The end that is in front, as seen in the direction of motion, moves first. The two ends of
+    // the box therefore never pass each other.
     if (box.upper[k] > ends_[axis][place].value) {
       moveEnd(axis, upper, box.upper[k]);
       moveEnd(axis, lower, box.lower[k]);
@@ -84,10 +86,10 @@ void SweepAndPrune::move(std::size_t item, const BoundingBox& box) {
   }
 }
 
-/// Moves an end to its new place. Where a lower end passes an upper one downwards, or an upper end
-/// a lower one upwards, the two boxes begin to overlap along the axis; the other way round, they no
-/// longer do. All boxes are already at their new places, so a pair that overlaps along all axes is
-/// found at the last axis along which it begins to.
+/// Moves an end to its new place. Two boxes begin to overlap along the axis if a lower end passes
+/// an upper end downwards, or an upper end passes a lower end upwards. They cease to overlap if the
+/// ends pass each other the other way round. `boxes_` already has the new boxes. A pair that
+/// overlaps along all axes is therefore found at the last axis along which it begins to overlap.
 void SweepAndPrune::moveEnd(std::size_t axis, std::uint32_t id, double value) {
   std::vector<End>& ends = ends_[axis];
   std::vector<std::uint32_t>& places = places_[axis];

@@ -13,25 +13,27 @@
 namespace corridor {
 
 /// All pairs of boxes that overlap, kept up to date while boxes move: sweep and prune. Touching
-/// boxes overlap. Exact, on the stored bounds.
+/// boxes overlap. The pairs are exact for the stored bounds.
 ///
 /// The ends of all boxes are sorted along each axis. If a box moves, its ends are moved to their
-/// new places, and only the boxes whose ends it passes are tested. So the cost of a step is that of
-/// the boxes that move and of the ends that they pass, which is small if bodies move little (D.
-/// Baraff, Dynamic simulation of non-penetrating rigid bodies, 1992; J. D. Cohen, M. C. Lin, D.
-/// Manocha, M. K. Ponamgi, I-COLLIDE, 1995). A box that jumps passes up to all other ends.
+/// new places, and only the boxes whose ends it passes are tested. The cost of a step is therefore
+/// proportional to the number of boxes that move plus the number of ends that they pass. It is
+/// small if bodies move little (D. Baraff, Dynamic simulation of non-penetrating rigid bodies,
+/// 1992; J. D. Cohen, M. C. Lin, D. Manocha, M. K. Ponamgi, I-COLLIDE, 1995). A box that moves far
+/// may pass the ends of all other boxes.
 class SweepAndPrune {
  public:
   using Pair = std::pair<std::uint32_t, std::uint32_t>;  ///< the smaller number first
 
-  /// Box number k is item k. O(n log n), plus the pairs that overlap along the first axis.
-  /// @throws std::invalid_argument if a bound is not a number, an upper bound is below a lower one,
-  /// or there are 2^31 boxes or more.
+  /// Box number k is item k. Takes time O(n log n), plus a constant time for each pair that
+  /// overlaps along the first axis.
+  /// @throws std::invalid_argument if a bound is not a number, if an upper bound is below the lower
+  /// bound of the same box and axis, or if there are 2^31 boxes or more.
   explicit SweepAndPrune(std::span<const BoundingBox> boxes);
 
   std::size_t size() const { return boxes_.size(); }
-  /// Moves an item to another box. @throws std::invalid_argument for a box as above, or an item
-  /// that does not exist.
+  /// Replaces the box of an item. @throws std::invalid_argument if the box has one of the faults
+  /// named above, or if the item does not exist.
   void move(std::size_t item, const BoundingBox& box);
 
   std::size_t pairCount() const { return pairs_.size(); }
@@ -42,11 +44,11 @@ class SweepAndPrune {
     for (const std::uint64_t key : pairs_)
       visit(static_cast<std::uint32_t>(key >> 32), static_cast<std::uint32_t>(key));
   }
-  /// The number of times that an end has passed another one since the beginning.
+  /// The number of times that an end has passed another one since construction.
   std::uint64_t swaps() const { return swaps_; }
 
  private:
-  /// One end of a box along an axis. Ends are sorted by value; at the same value lower ends come
+  /// One end of a box along an axis. Ends are sorted by value. If values are equal, lower ends come
   /// first, so that touching boxes overlap.
   struct End {
     double value;
@@ -67,7 +69,7 @@ class SweepAndPrune {
 
   std::vector<Box> boxes_;
   std::array<std::vector<End>, 3> ends_;
-  std::array<std::vector<std::uint32_t>, 3> places_;  ///< of each end, by its id
+  std::array<std::vector<std::uint32_t>, 3> places_;  ///< for each end id: its index in `ends_`
   std::unordered_set<std::uint64_t> pairs_;
   std::uint64_t swaps_ = 0;
 };

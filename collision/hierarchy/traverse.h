@@ -22,13 +22,13 @@ inline void fillStack(std::span<const NodePair4> start, NodePairs& stack) {
 }
 
 /// Traverses two trees from the node pairs on `stack`. All queries that walk two binary trees use
-/// it. An Item has the nodes' numbers as `a` and `b`. If both nodes are inner nodes, the one of
-/// larger radius is descended. The traversal is not recursive, and allocates nothing once `stack`
-/// has grown. Pairs that are left on the stack at the end were not visited.
+/// this function. An Item has the nodes' numbers as `a` and `b`. If both nodes are inner nodes, the
+/// one of larger radius is descended. The traversal is not recursive, and allocates nothing once
+/// `stack` has grown. Pairs that are left on the stack at the end were not visited.
 ///
 /// A query decides which pairs are visited, and in which order:
 /// * `bool enter(const Item&, const NodeA&, const NodeB&)` returns true to continue with this pair.
-///   It makes the overlap test, or compares the pair with results found since it was pushed.
+///   It makes the overlap test, or compares the pair with results found since the pair was pushed.
 /// * `bool leaves(const NodeA&, const NodeB&)` handles two leaves, and returns true to end the
 ///   traversal.
 /// * `void push(std::vector<Item>&, std::uint32_t a, std::uint32_t b)` pushes a pair to continue

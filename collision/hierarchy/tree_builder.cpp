@@ -39,7 +39,7 @@ std::uint32_t splitAtMean(TreePrimitives& items, std::uint32_t first, std::uint3
 }
 
 /// The same with the plane through the median centroid: the lower half of the leaf primitives comes
-/// first. Returns 0 if all centroids are at the same height.
+/// first. Returns 0 if all centroids have the same height above the plane.
 std::uint32_t splitAtMedian(TreePrimitives& items, std::uint32_t first, std::uint32_t count,
                             const Vec3& mean, const Vec3& normal) {
   struct Side {

@@ -37,10 +37,11 @@ struct VolumeKind {
 const std::vector<VolumeKind>& volumeKinds();
 
 /// Reports whether a kind has its volume's default overlap test, the first in
-/// `VolumeKind::overlaps`. Distance queries require this.
+/// `VolumeKind::overlaps`. Distance queries make no overlap test. The program and the checker
+/// therefore refuse all other kinds for methods that measure distances.
 bool hasDefaultOverlap(TreeKind trees);
 
-/// The words by which users choose trees. An empty word stands for the default.
+/// The words by which users choose trees. An empty word stands for the default word.
 struct TreeNames {
   std::string volume, fit, overlap;
   /// `top-down`: nodes are split at the mean. `median`: the same, at the median. `bottom-up`: nodes

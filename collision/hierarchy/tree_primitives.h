@@ -22,11 +22,11 @@ struct TreePrimitives {
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(numbers.size()); }
   void swap(std::uint32_t i, std::uint32_t k);
-  /// Moves leaf primitive order[i] to place i.
+  /// Reorders the leaf primitives: the one at index order[i] moves to index i.
   void reorder(std::span<const std::uint32_t> order);
 
-  /// Returns three times the signed distance of the leaf primitive's centroid from the plane
-  /// through `mean`. For a convex part, the centroid is that of its points.
+  /// Returns three times the signed distance of leaf primitive i's centroid from the plane through
+  /// `mean` with the unit normal `normal`. For a convex part, the centroid is that of its points.
   double side(std::uint32_t i, const Vec3& mean, const Vec3& normal) const;
   /// Calls f with the `Content` of the leaf primitives [first, first + count).
   template <class F>

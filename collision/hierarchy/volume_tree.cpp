@@ -12,7 +12,8 @@
 namespace corridor {
 namespace {
 
-/// Returns the length, or infinity for NaN, which `std::max` could drop. Then no test separates.
+/// Returns the length, or infinity for NaN, which `std::max` could drop. With an infinite length no
+/// test separates anything.
 double orInfinite(double length) {
   return length < HUGE_VAL ? length : HUGE_VAL;
 }

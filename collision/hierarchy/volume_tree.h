@@ -17,8 +17,8 @@ namespace corridor {
 
 /// A binary tree of bounding volumes over the triangles of a mesh, or over convex parts. Top-down
 /// building splits a node's leaf primitives (`SplitRule`) across the longest axis of the node's
-/// box. If this axis does not separate any, the second and then the third axis is tried. If no axis
-/// separates any, the node is a leaf. All other leaves hold one leaf primitive.
+/// box. If this axis separates no primitives, the second and then the third axis is tried. If no
+/// axis separates any primitives, the node is a leaf. All other leaves hold one leaf primitive.
 ///
 /// Immutable except for `refit`. The tree keeps a copy of the corners, in leaf order, so the mesh
 /// need not outlive it. The depth is not bounded: triangles of the sizes 2^-i around a point give a
@@ -42,8 +42,8 @@ class VolumeTree {
   /// A tree of one leaf, which holds a convex part. @pre The part is valid: it was made of a
   /// primitive in which `checkPrimitive` finds no fault.
   explicit VolumeTree(const ConvexPart& part);
-  /// A tree over many parts, which may overlap. @pre All parts are valid, as above. @throws
-  /// std::invalid_argument if the list is empty.
+  /// A tree over many parts, which may overlap. @pre All parts are valid, as for a single part.
+  /// @throws std::invalid_argument if the list is empty.
   explicit VolumeTree(std::vector<ConvexPart> parts, const TreeParams& params = {});
 
   bool hasParts() const { return !items_.parts.empty(); }  ///< false: the leaves hold triangles
@@ -60,8 +60,8 @@ class VolumeTree {
     f(nodes_[i].right);
     f(i + 1);
   }
-  /// The triangles in leaf order. `meshTriangle` is the number of each in the mesh, or the number
-  /// of a part in the list of parts.
+  /// The triangles in leaf order. `meshTriangle(i)` is the number of the i-th triangle in the mesh,
+  /// or the number of the i-th part in the list of parts.
   const std::vector<Triangle>& triangles() const { return items_.triangles; }
   const Triangle& triangle(std::uint32_t i) const { return items_.triangles[i]; }
   const std::vector<ConvexPart>& parts() const { return items_.parts; }

@@ -7,7 +7,7 @@
 namespace corridor {
 
 /// Calls `f.operator()<Volume, Overlap>()` for a kind of binary trees. The call turns the kind into
-/// types, once per query. @pre not `TreeKind::obb4`.
+/// types, once per query. @pre `trees` is not `TreeKind::obb4`.
 template <class F>
 decltype(auto) withVolume(TreeKind trees, const F& f) {
   switch (trees) {

@@ -10,9 +10,9 @@ namespace corridor {
 /// Pairs are bisected independently of each other.
 ///
 /// Cost: a body that slides along a wall at a distance d needs about length/d intervals. The
-/// default method has directional motion bounds and needs only a few. Therefore a motion that
-/// passes an obstacle closely for a long way may be `undecided` here, because it reaches the work
-/// limit.
+/// default method has directional motion bounds and needs only some tens of intervals. Therefore a
+/// motion that passes an obstacle closely for a long way may be `undecided` here, because it
+/// reaches the work limit.
 MotionResult certifyAdaptively(MotionSource& motion, std::span<const MotionPair> pairs,
                                const MotionOptions& options, QueryContext& context);
 

@@ -15,17 +15,17 @@ namespace corridor {
 /// Finds the pairs of bodies that may come close to each other, without a test of each pair. If a
 /// moving body has many partners at rest in the world, a tree of the partners' boxes gives the
 /// pairs that its swept sphere may reach. Moving bodies with the same partners share one tree.
-/// Pairs without such a tree are found without a test.
+/// Pairs that no tree covers are reported without a test.
 ///
-/// Const after construction, so threads may share it.
+/// The object does not change after construction, so threads may share it.
 class BroadPhase {
  public:
   /// @param pairs the pairs of a scene, in the order of `Scene::motionPairs()`: the pairs of a body
   /// b with all bodies at rest are adjacent. The span must stay valid as long as the object exists.
   explicit BroadPhase(std::span<const MotionPair> pairs);
 
-  /// Calls visit(k) for each pair k that may come closer than `within` metres, and for some that do
-  /// not. Stops if `visit` returns true; `visit` may lower `within`.
+  /// Calls visit(k) for each pair k that may come closer than `within` metres, and for some pairs
+  /// that cannot. Stops if `visit` returns true; `visit` may lower `within`.
   /// @param sphereOf returns the swept sphere of body b of a pair, as seen from the world.
   template <class SphereOf, class Visit>
   void forEach(const SphereOf& sphereOf, const double& within, const Visit& visit) const {
@@ -44,8 +44,8 @@ class BroadPhase {
     }
   }
 
-  /// Finds the pairs that may come closer than `within` metres in the selected interval, in
-  /// ascending order.
+  /// Writes to `found`, in ascending order, the numbers of all pairs that may come closer than
+  /// `within` metres in the selected interval, and of some other pairs.
   void find(IntervalMotions& motions, double within, std::vector<std::uint32_t>& found) const;
 
   /// Returns one more than the largest index of a body.

@@ -119,8 +119,8 @@ class Certifier {
   }
 
   /// Walks the open intervals depth first, the earlier half first. Everything before the interval
-  /// on top of the stack is therefore proved. If some time cannot be decided, it is found without
-  /// refining the later intervals first.
+  /// on top of the stack is therefore proved. A time that cannot be decided is found before the
+  /// later intervals are refined.
   MotionResult walkInOrder() {
     while (!open_.empty()) {
       const Interval w = open_.back();
@@ -176,9 +176,10 @@ class Certifier {
     return true;
   }
 
-  /// Finds a contact of the pair that was not separated, at the interval's end, or later, but
-  /// within the time tolerance of the interval's beginning. (An interval at whose end a contact
-  /// begins can never be proved.) Keeps it in `known_`, and returns whether there is one.
+  /// Finds a contact of the pair of bodies that was not separated. The contact is at the interval's
+  /// end, or at a later time that is at most the time tolerance after the interval's beginning. (An
+  /// interval at whose end a contact begins can never be proved.) Keeps it in `known_`, and returns
+  /// whether there is one.
   bool findContactAfter(const Interval& w, std::uint32_t bodies) {
     for (double after = 0; !source_.still(); after = std::max(2 * after, 0x1p-40)) {
       const double t = std::min(w.t1 + after, 1.0);

@@ -13,9 +13,9 @@
 
 namespace corridor {
 
-/// Two bodies, by their indices in the scene, and a triangle of each, by its number in the mesh:
-/// those that touch, or, in an undecided answer, those that could not be decided. For a body of
-/// convex parts, the number of the triangle is that of the part.
+/// Two bodies, by their indices in the scene, and one triangle of each body, by its number in the
+/// mesh. The two triangles touch or, in an undecided answer, could not be decided. For a body of
+/// convex parts, the number is that of a part.
 struct Contact {
   std::size_t bodyA = 0, bodyB = 0;
   std::uint32_t triangleA = 0, triangleB = 0;
@@ -91,12 +91,12 @@ struct MotionOptions {
   double clearanceSlack = 0;
   bool earliest = false;  ///< find `certifiedUntil` too, not just the verdict
   /// With `earliest`: the largest width of the bracket [certifiedUntil, contactTime], as a share of
-  /// the motion. During this share of the motion, the bodies should approach each other by more
-  /// than a few tolerances. Otherwise the beginning of the bracket is too close to the contact to
-  /// be proved free, and a plain contact is reported as `grazing` or as `undecided`.
+  /// the motion. Choose it so that, during this share of the motion, the bodies approach each other
+  /// by more than a few tolerances. Otherwise the beginning of the bracket is too close to the
+  /// contact to be proved free. A plain contact is then reported as `grazing` or as `undecided`.
   double timeTolerance = 1.0 / 1024;
   /// Number of box and triangle tests after which the answer is `undecided`. The default method
-  /// stops at most one node pair later: 16 box tests and 256 triangle tests.
+  /// stops at most one node pair later, which is at most 16 box tests and 256 triangle tests.
   std::uint64_t workLimit = 20'000'000;
   /// The kind of trees to walk. The bounds of whole bodies, which are tested before any tree, are
   /// the same for all kinds.
@@ -128,7 +128,7 @@ class MotionSource {
   /// turn (to within 1e-9 rad), whose shorter way is not unique; a displacement that overflows; and
   /// unsuitable processor settings.
   virtual bool ambiguous() const = 0;
-  /// Reports whether nothing moves. One pose then stands for the whole edge (apart from the tube).
+  /// Reports whether nothing moves. One pose then stands for the whole edge, except for the tube.
   virtual bool still() const = 0;
 
  protected:
@@ -171,8 +171,8 @@ struct FreeInterval {
 /// The proof of an answer. If the query had no `earliest` and its answer is not `free`, the
 /// certificate contains what was proved before the query stopped.
 struct MotionCertificate {
-  /// For each pair, these intervals cover [0, certifiedUntil] without a gap. They are in any order.
-  /// Further intervals may be among them.
+  /// For each pair, these intervals cover [0, certifiedUntil] without a gap. The list may have
+  /// further intervals. Its order is unspecified.
   std::vector<FreeInterval> free;
   /// `contact`: a point of body a where the two bodies touch (with a margin: where they are
   /// closest), in a's frame at `contactTime`, metres. The point is off by the rounding of its

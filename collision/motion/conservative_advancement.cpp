@@ -23,7 +23,7 @@ struct Progress {
   double t;
   std::uint32_t pair;
 
-  // Makes the pair that is proved for the shortest time the top of a heap.
+  // Puts the pair that is proved for the shortest time on top of a heap.
   friend bool operator<(const Progress& a, const Progress& b) { return a.t > b.t; }
 };
 

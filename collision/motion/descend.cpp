@@ -87,7 +87,8 @@ class Moving {
   }
 
   float* clearances() { return options_.clearance ? clearances_ : nullptr; }
-  /// Notes the clearances of these separated pairs, if requested.
+  /// Lowers the clearance of the result to the clearances of these separated pairs, if clearances
+  /// are requested.
   void noteClearances(unsigned pairs) {
     if (!options_.clearance) return;
     for (; pairs; pairs &= pairs - 1)

@@ -30,8 +30,10 @@ struct Descent {
   std::uint32_t s = 0, t = 0;  ///< numbers of the leaf primitives in their meshes
   double gap = 0;              ///< `undecided`: distance at the middle beyond the margin, metres
   bool wide = false;           ///< `undecided`: the motion bound exceeds the tolerance
-  /// If requested: a proved lower bound, throughout the interval, of the distance of everything
-  /// that was separated, less margin and pads. Metres; infinite if nothing was separated.
+  /// If requested: a proved lower bound of the distance, throughout the interval, of everything
+  /// that was separated, minus the margin. The motion bound and all errors of the relative motion
+  /// (rounding, tube, clearance slack) are already subtracted. Metres; infinite if nothing was
+  /// separated.
   double clearance = HUGE_VAL;
 };
 
@@ -44,8 +46,9 @@ struct DescentOptions {
   bool clearance = false;  ///< whether `Descent::clearance` is requested, which costs time
 };
 
-/// The result for a pair of leaf primitives. `apart`: separated throughout the interval.
-/// `deferred`: to shorter intervals. `last`: ends the walk, for the reason in `Descent::kind`.
+/// The result for a pair of leaf primitives. `apart`: the pair is separated throughout the
+/// interval. `deferred`: the pair is left to shorter intervals. `last`: the walk ends, for the
+/// reason in `Descent::kind`.
 enum class LeafOutcome { apart, deferred, last };
 
 /// Adds the result for two leaf primitives to the result of the interval. `s` and `t` are their
@@ -88,8 +91,8 @@ inline LeafOutcome outcomeOf(const MovingPairAnswer& answer, std::uint32_t s, st
 Descent descend(std::span<const NodePair4> start, const Obb4Tree& a, const Obb4Tree& b,
                 const RelativeMotion& relative, const DescentOptions& options,
                 std::vector<NodePair4>& later, QueryContext& context);
-/// The same for code that is generic over the kinds of trees (`withTrees`). 4-wide trees have only
-/// one overlap test.
+/// The same function for code that is generic over the kinds of trees (`withTrees`). 4-wide trees
+/// have only one overlap test.
 template <std::same_as<StandardOverlap> Overlap>
 Descent descend(std::span<const NodePair4> start, const Obb4Tree& a, const Obb4Tree& b,
                 const RelativeMotion& relative, const DescentOptions& options,

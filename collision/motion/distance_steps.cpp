@@ -84,7 +84,8 @@ DistanceSteps::Measurement DistanceSteps::measureAt(std::uint32_t pair, double t
   measured.t = found.b;
   const double margin = options_.marginOf(pair);
   measured.gap = std::max(0.0, found.distance - margin);
-  // If the pose overflows, a distance of 0 only means that nothing is known.
+  // If the pose overflows, a measured distance of 0 is no contact: it only means that nothing is
+  // known.
   measured.contact = w.X_AB.isFinite() &&
                      (found.distance == 0 || distanceUpperBound(posedA, posedB, found) <= margin);
   measured.hopeless = !(found.distance > needed - bound);

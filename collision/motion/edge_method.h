@@ -10,8 +10,8 @@
 namespace corridor {
 
 /// The methods that prove a motion. All answer the same query with the same promises
-/// (`certifyMotion`). They differ in cost, and therefore in what is left undecided at the work
-/// limit.
+/// (`certifyMotion`). They differ in cost, and therefore in the motions that stay undecided because
+/// of the work limit.
 enum class EdgeMethod {
   /// Trees over space and time, with directional motion bounds: certify_motion.h. The default,
   /// which users call `certified`.
@@ -25,8 +25,8 @@ const std::vector<std::string>& edgeMethodNames();
 /// Returns the method with this name, or nothing if there is none.
 std::optional<EdgeMethod> edgeMethodNamed(std::string_view name);
 
-/// Answers the query of `certifyMotion` by the given method. Counts an edge, or a state if nothing
-/// moves.
+/// Answers the query of `certifyMotion` by the given method. The context's counters count the query
+/// as an edge, or as a state if nothing moves.
 MotionResult certifyMotionBy(EdgeMethod method, MotionSource& motion,
                              std::span<const MotionPair> pairs, const MotionOptions& options,
                              QueryContext& context);

@@ -13,7 +13,7 @@
 namespace corridor {
 namespace {
 
-/// Records in the certificate that all of the group is separated in [t0, t1].
+/// Records in the certificate that the whole group is separated in [t0, t1].
 /// @param clearance a lower bound for all that was separated in this interval, beyond margin,
 /// clearance slack and motion, metres. `group.clearance` is the bound for node pairs that were
 /// separated in longer intervals.

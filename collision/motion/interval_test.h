@@ -54,8 +54,8 @@ struct IntervalAnswer {
   std::uint32_t bodies = 0;
 };
 
-/// Tests the interval's work. Appends the groups that cannot be separated, and those that were not
-/// tested, to the list. Records what is proved in the certificate.
+/// Tests the interval's work. Appends to the list the groups that cannot be separated and the
+/// groups that were not tested. Records in the certificate what is proved.
 IntervalAnswer testInterval(const MotionQuery& query, const Interval& interval,
                             IntervalMotions& motions, WorkList& list);
 
@@ -65,9 +65,10 @@ IntervalAnswer testInterval(const MotionQuery& query, const Interval& interval,
 /// @param far set to true if one of these bodies moves far (`IntervalMotions::Separation`).
 Interval testBodies(const MotionQuery& query, IntervalMotions& motions, WorkList& list, bool& far);
 
-/// Returns two triangles that touch at the pose X_AB, by their numbers in the meshes, or nothing.
-/// Tests the node pairs `start` of pair number `bodies`, and its last pair (`LastPair`). Gives up
-/// at the work limit. For a pose that overflows, returns nothing.
+/// Returns two leaf primitives (triangles or convex parts) that touch at the pose X_AB, by their
+/// numbers in the meshes or lists, or nothing. Tests the node pairs `start` of the pair of bodies
+/// with the number `bodies`, and its last touching pair (`LastPair`). Gives up at the work limit.
+/// For a pose that overflows, returns nothing.
 std::optional<PrimitivePair> contactBelow(const MotionQuery& query, std::uint32_t bodies,
                                           const Transform& X_AB, std::span<const NodePair4> start);
 

@@ -17,12 +17,12 @@ SweptSphere sweptSphere(const Body& b, const RelativeMotion& relative);
 /// Returns 0 if no distance is proved. If the bound exceeds `enough`, the result may be any proved
 /// bound above `enough`.
 double clearanceBound(const BoundingBox& box, const SweptSphere& sphere, double enough = HUGE_VAL);
-/// The same, for body a's axis-aligned box.
+/// Returns the same bound for the axis-aligned box of body a.
 inline double clearanceBound(const Body& a, const SweptSphere& sphere, double enough = HUGE_VAL) {
   return clearanceBound(a.box(), sphere, enough);
 }
-/// Returns a lower bound of the distance of two swept spheres, in the same way. Both must be seen
-/// from the same frame in the same interval.
+/// Returns a lower bound of the distance of two swept spheres, metres; `enough` has the same
+/// meaning. @pre Both spheres are seen from the same frame in the same interval.
 double clearanceBound(const SweptSphere& a, const SweptSphere& b, double enough = HUGE_VAL);
 /// Reports whether the swept sphere may come nearer to body a than `margin`. `false` is a proof.
 inline bool mayMeet(const Body& a, const SweptSphere& sphere, double margin) {

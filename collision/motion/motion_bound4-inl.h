@@ -41,8 +41,8 @@ struct NodeMotionBound : Obb4MotionBound {
 };
 
 /// Computes `motionBound` (derivation: relative_motion.cpp) for the bounding spheres of a node's
-/// four boxes at once. Caches the bounds of the nodes requested last. All lengths are in the unit
-/// of tree a.
+/// four boxes at once. Caches the bounds of the nodes that were requested last. All lengths are in
+/// the unit of tree a.
 ///
 /// Rounding in addition to that of `motionBound`:
 /// * The lever of a centre, M(o + 2^unit·c), has terms up to |o| + |2^unit·c|, where |2^unit·c| ≤
@@ -97,8 +97,8 @@ class MotionBound4 {
     return leaves;
   }
 
-  /// Sets `linear` for corners that are relative to `center`, a point in a's unit, relative to a's
-  /// origin.
+  /// Sets `linear` for corners that are relative to `center`. `center` is a point in a's unit,
+  /// relative to a's origin.
   void setLinear(LeafMotionBound& leaves, const double* center, const Vec3& originA) const {
     const Vec3 y = Vec3(center[0], center[1], center[2]) / unitA_ + originA - relative_.X_AB.t;
     const Vec3 linear = (relative_.linear + relative_.angular.cross(y)) * unitA_;

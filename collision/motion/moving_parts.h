@@ -13,8 +13,8 @@ namespace corridor {
 /// within the margin.
 MovingPairAnswer decideMovingParts(const ConvexPart& a, const ConvexPart& b,
                                    const RelativeMotion& relative, double margin);
-/// The same for a triangle and a convex part. The triangle is a closed patch of surface, not a
-/// solid.
+/// The same decision for a triangle and a convex part. The triangle is a closed patch of surface,
+/// not a solid.
 MovingPairAnswer decideMovingParts(const Triangle& a, const ConvexPart& b,
                                    const RelativeMotion& relative, double margin);
 MovingPairAnswer decideMovingParts(const ConvexPart& a, const Triangle& b,

@@ -24,9 +24,10 @@
 /// The variable `displaced` is D_(j+1) before joint j is added to it.
 ///
 /// Remainder. ∂x/∂φ_j is a_j × (z_(j+1) − p_j), rotated by the joints before j. Its length is the
-/// distance of z_(j+1) from axis j, at most r̄_j = r_j + D_(j+1); for a translation it is 1. A
-/// second derivative by a joint i ≤ j rotates that vector about axis i: if i is a rotation, it is
-/// at most as long as the first derivative, and if i is a translation, it is 0. Therefore
+/// distance of z_(j+1) from axis j, at most r̄_j = r_j + D_(j+1); for a translation it is 1. The
+/// second derivative by the joints j and i ≤ j differentiates this vector by the motion of joint i.
+/// If joint i is a rotation, the result is at most as long as the vector. If joint i is a
+/// translation, the result is 0. Therefore
 ///   |x''(s)| ≤ Σ_(rotations j) δ_j² r̄_j + 2 Σ_(rotations i) δ_i Σ_(j > i) δ_j r̄_j
 /// with r̄_j = 1 for translations. By Taylor's formula, for any n,
 ///   |n·(x(s) − x − s x'(0))| ≤ ½ max|x''|·|n|.

@@ -16,8 +16,8 @@ struct Tube {
   double rotation = 0;
 };
 
-/// The motion of one joint of a kinematic chain in a time interval. Axis and point are those at the
-/// interval's middle, in frame A of body a.
+/// The motion of one joint of a kinematic chain in a time interval. The axis and the point are
+/// given at the interval's middle, in frame A of body a.
 struct ScrewMotion {
   enum class Kind {
     revolute,   ///< rotation about `axis` through `point`
@@ -40,8 +40,9 @@ struct ScrewMotion {
 /// The motion of a body b relative to a body a in a time interval [t − h, t + h], described from
 /// the interval's middle t.
 ///
-/// Both bodies may move; frame A of a is at rest here. The motion is that of the kinematic chain
-/// from a to b. At time t + s·h, |s| ≤ 1, its exact map is
+/// Both bodies may move in the world. The motion is seen from frame A of a, so A is at rest here.
+/// The motion is that of the kinematic chain from a to b. At time t + s·h, |s| ≤ 1, its exact map
+/// is
 ///   X_AB(s) = T_1(s·δ_1 + η_1(s) + ε_1) … T_k(s·δ_k + η_k(s) + ε_k),
 ///   |δ_j| = screws[j].amount, η_j(0) = 0, |η_j| ≤ screws[j].deviation, |ε_j| ≤ screws[j].tube.
 /// Each T_j is a rotation about an axis, or a translation along an axis. The axis of joint j is
@@ -54,7 +55,7 @@ struct RelativeMotion {
   Vec3 linear = Vec3::Zero();   ///< half of the displacement of b's origin in the interval, metres
   Vec3 angular = Vec3::Zero();  ///< half of the interval's rotation vector, radians
   double speed = 0;             ///< |linear|, rounded up; metres
-  double angle = 0;             ///< |angular|, rounded up
+  double angle = 0;             ///< |angular|, rounded up; radians
   std::span<const ScrewMotion> screws;  ///< the joints in order from a to b
   /// Bounds of the errors of all numbers above. At every s, each point of the real b is within
   /// fixedError + reachError·|y| metres of the place that these numbers, taken as exact, give it.

@@ -26,9 +26,8 @@ class RigidMotion {
   static RigidMotion planar(const Vec3& from, const Vec3& to, const Tube& tube);
 
   /// Reports whether the edge defines no curve, or no bound holds. The reason is one of these:
-  /// * The rotation is a half turn to within 1e-9 rad, or to within the rounding of large yaws:
-  /// then
-  ///   the shorter way is not unique.
+  /// * The rotation is a half turn to within 1e-9 rad, or to within the rounding of large yaws. The
+  ///   shorter way is then not unique.
   /// * The displacement overflows.
   /// * The motion was made with floating-point settings under which no bound holds
   ///   (core/floating_point.h).
@@ -43,8 +42,9 @@ class RigidMotion {
   RelativeMotion relativeMotion(double t, double h, std::span<ScrewMotion, 2> screws) const;
   /// Returns a tolerance in metres that is large enough for rounding: no edge whose clearance
   /// exceeds twice this tolerance is undecided because of rounding.
-  /// @pre `size` metres is at least the norm of each body's position in the world, and of each of
-  /// its points, both in the world and in its own frame.
+  /// @pre `size`, in metres, is at least each of these norms: of the position of each body in the
+  /// world, of each point of a body in the world, and of each point of a body in the body's own
+  /// frame.
   ///
   /// Derivation, with u = 2^-53. Rounding reduces a clearance by 64u·3·size in the comparison of
   /// triangles (moving_triangles.cpp), by 16u·size in the position, and by 1024u·size in the

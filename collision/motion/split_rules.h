@@ -10,9 +10,9 @@ struct SplitThresholds {
   /// Once this many pairs of boxes of two bodies are left to the halves, all other pairs of boxes
   /// of these bodies are left, too.
   unsigned boxPairsLeft;
-  /// Once this many pairs of bodies are left to the halves, whole or in part, and they are more
-  /// than three quarters of the pairs of bodies counted so far, the other pairs of bodies are left
-  /// untested. Pairs that their bounds separate are neither counted nor left.
+  /// The other pairs of bodies are left untested once two things hold. At least this many pairs of
+  /// bodies are left to the halves, whole or in part. And these are more than three quarters of the
+  /// pairs of bodies counted so far. Pairs that their bounds separate are neither counted nor left.
   std::size_t bodyPairsLeft;
 };
 

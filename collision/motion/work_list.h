@@ -18,12 +18,12 @@ struct WorkList {
   struct Group {
     std::uint32_t bodies;  ///< the number of the pair of bodies in the query
     std::size_t begin, end;
-    /// Some node pairs of these bodies may already be separated, in intervals that contain this
-    /// one: a lower bound of their clearance, metres. Has a meaning only if the query records a
-    /// certificate.
+    /// Some node pairs of these bodies may have been separated already, in longer intervals that
+    /// contain the group's interval. This is a lower bound of their clearance, metres; infinite if
+    /// there are none. It has a meaning only if the query records a certificate.
     double clearance = HUGE_VAL;
   };
-  /// The lengths of both lists at some time.
+  /// The lengths of `nodePairs` and `groups` at some time.
   struct Mark {
     std::size_t nodePairs = 0, groups = 0;
   };
@@ -47,8 +47,8 @@ struct WorkList {
   std::span<const NodePair4> nodePairsOf(const Group& group) const {
     return std::span(nodePairs).subspan(group.begin, group.end - group.begin);
   }
-  /// Reports whether the group is the pair of both roots: the trees of these bodies are not walked
-  /// yet.
+  /// Reports whether the group consists of the pair of both roots, so that the trees of these
+  /// bodies have not been walked yet.
   bool isNotWalkedYet(const Group& group) const {
     const NodePair4& pair = nodePairs[group.begin];
     return group.end - group.begin == 1 && pair.a == 0 && pair.b == 0 &&

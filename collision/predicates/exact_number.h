@@ -16,8 +16,8 @@
 #include "collision/predicates/triangle.h"
 
 /// Points under affine maps as integers on a common power-of-two grid. The integers are exact, and
-/// so are the signs of polynomials in them. The grid's scale is dropped, since it does not change
-/// signs.
+/// so are the signs of polynomials in these integers. The scale of the grid is dropped, since it
+/// does not change signs.
 namespace corridor::exact {
 
 /// Signed integers of a fixed width, on the stack. Results of more than `Bits` bits would wrap:
@@ -56,7 +56,8 @@ template <class Int>
 const Int& coordinate(const Vector<Int>& v, int i) {
   return i == 0 ? v.x : i == 1 ? v.y : v.z;
 }
-/// Returns an axis along which a plane with normal n ≠ 0 can be projected one to one.
+/// Returns the number of a coordinate axis such that the projection along this axis is one to one
+/// on planes with normal n. @pre n ≠ 0.
 template <class Int>
 int dropAxis(const Vector<Int>& n) {
   return !n.x.is_zero() ? 0 : !n.y.is_zero() ? 1 : 2;
@@ -65,8 +66,8 @@ int dropAxis(const Vector<Int>& n) {
 template <class Int>
 using TriangleCorners = std::array<Vector<Int>, 3>;
 
-/// A double as mantissa · 2^exponent with |mantissa| < 2^53. The mantissa is odd, to keep grids
-/// coarse, or 0 for zero.
+/// A double as mantissa · 2^exponent with |mantissa| < 2^53. The mantissa is 0 for zero. Otherwise
+/// it is odd, which keeps grids coarse.
 struct Dyadic {
   std::int64_t mantissa = 0;
   int exponent = 0;
@@ -117,7 +118,8 @@ struct Grid {
         for (int i = 0; i < 3; ++i) include(points.m[i][k], points.corners[p][k]);
     for (int i = 0; i < 3; ++i) include(points.t[i], {1, 0});
   }
-  /// Returns the bits of a mapped coordinate: a sum of 4 terms, below 2^(high + 2).
+  /// Returns how many bits a mapped coordinate needs, in units of the grid. The coordinate is a sum
+  /// of 4 terms, so its magnitude is below 2^(high + 2).
   int coordinateBits() const { return high <= low ? 3 : high + 2 - low; }
 };
 

@@ -4,7 +4,8 @@
 
 namespace corridor {
 
-/// A point under an affine map. Holds a reference to the map: the map must outlive it.
+/// A point under an affine map. Holds a reference to the map: the map must outlive the
+/// `MappedPoint`.
 struct MappedPoint {
   const Transform& X;
   Vec3 p;
@@ -22,11 +23,12 @@ struct MappedEdge {
   MappedPoint from, to;
 };
 
-/// Returns the sign of det(u, v, w) for three vectors. Exact, as `orientationSign`, but always in
-/// integers: for callers that have a filter.
+/// Returns the sign of det(u, v, w) for three vectors. Exact, like `orientationSign`, but always
+/// computed in integers: for callers that have their own filter.
 int exactDeterminantSign(const MappedEdge& u, const MappedEdge& v, const MappedEdge& w);
 
-/// The same as `orientationSign` for points as they are; faster.
+/// Returns the same sign as `orientationSign` for points that no map moves, and is faster. @pre all
+/// numbers are finite.
 int planeSide(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s);
 
 }  // namespace corridor

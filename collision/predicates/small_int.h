@@ -14,8 +14,8 @@ namespace corridor::exact {
 __extension__ using SignedWide = __int128;
 __extension__ using UnsignedWide = unsigned __int128;
 
-/// Integers stored as doubles, or integers times one common power of two. Results are exact as long
-/// as the integers are below 2^53.
+/// Integers stored as doubles. All integers of a computation may be scaled by one common power of
+/// two. Results are exact as long as the integers are below 2^53 in magnitude.
 class Int53 {
  public:
   Int53() = default;

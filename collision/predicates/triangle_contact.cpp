@@ -61,7 +61,7 @@ struct Filter {
     return det > bound ? 1 : det < -bound ? -1 : 0;
   }
 
-  /// Returns 1 for contact, 0 for none, −1 if undecided.
+  /// Returns 1 for contact, 0 for no contact, −1 if undecided.
   int decide() const {
     int sideB[3], sideA[3];  // sides of b's corners with respect to a's plane, and vice versa
     for (int i = 0; i < 3; ++i) sideB[i] = orientation(a[0], a[1], a[2], b[i]);

@@ -20,7 +20,7 @@ PredicateResult trianglesTouch(const Triangle& a, const Transform& X_WA, const T
                                const Transform& X_WB);
 
 /// Returns the same answer without the filter in double. `trianglesTouch` calls this function if
-/// the filter cannot decide; tests use it as an independent path.
+/// the filter cannot decide; tests call it to check the filter.
 bool trianglesTouchExact(const Triangle& a, const Transform& X_WA, const Triangle& b,
                          const Transform& X_WB);
 

@@ -37,7 +37,7 @@ bool segmentsTouch(const Vector<Int>& p, const Vector<Int>& q, const Vector<Int>
   const Vector<Int> d = q - p, e = s - r, f = r - p;
   const auto n = cross(d, e);
   // Segments that are not parallel meet if and only if they are coplanar and their projections
-  // meet.
+  // along axis `drop` meet.
   if (!n.isZero()) {
     if (sign(dot(n, f)) != 0) return false;
     const int drop = dropAxis(n);
@@ -121,9 +121,9 @@ bool equalUpToSigns(const Array& x, const Array& y) {
   return different << 1 == 0;
 }
 
-/// Tests two triangles in doubles, if these are exact: the entries of both maps' matrices are 0 or
-/// ±1, as for quarter turns, and all coordinates are on a coarse grid. Returns nullopt otherwise.
-/// Most triangles that touch by construction are of this kind.
+/// Tests two triangles in doubles, if the computation is exact in doubles: the entries of both
+/// maps' matrices are 0 or ±1, as for quarter turns, and all coordinates are on a coarse grid.
+/// Returns nullopt otherwise. Most triangles that touch by construction are of this kind.
 std::optional<bool> touchInDoubles(const Triangle& a, const Transform& X_WA, const Triangle& b,
                                    const Transform& X_WB) {
   double size = 0;

@@ -1,5 +1,5 @@
-// A filter for sixteen pairs of triangles; foreach_target.h includes this file once per SIMD
-// target.
+// A filter in float for sixteen pairs of triangles. Highway's foreach_target.h includes this file
+// once per SIMD target.
 
 // clang-format off
 #if defined(CORRIDOR_TRIANGLE_FILTER_INL_H_) == defined(HWY_TARGET_TOGGLE)  // Highway's include guard
@@ -23,23 +23,25 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 /// Tests sixteen pairs of triangles and returns one bit per pair: set if the pair may touch. A
 /// clear bit proves that the triangles are more than `error` + `pad` apart.
-/// @param error  how far the given corners may be off, both triangles together.
-/// @param pad a clearance to prove in addition. Both lengths are in the unit of the corners.
+/// @param error a bound on the errors of the given corners: the sum of the bounds of both
+/// triangles.
+/// @param pad a clearance to prove in addition. Both `error` and `pad` are in the unit of the
+/// corners.
 ///
 /// Method: separating axes, namely the normals of both triangles and the nine cross products of
 /// their edges.
 ///
-/// Rounding, with u = 2^-24 and D the size of a pair (`TrianglePairs`): corners are off by 3u·D per
-/// coordinate. A vector L of any direction separates the triangles if their projections onto it are
-/// disjoint.
-/// * Two projections together are off by less than 2(3u + 3u)·|L|₁·D. The error of the given
-///   corners adds |L|₂·error.
+/// Rounding, with u = 2^-24 and D the `size` of a pair (`TrianglePairs`): corners are off by 3u·D
+/// per coordinate. A vector L of any direction separates the triangles if their projections onto it
+/// are disjoint.
+/// * The errors of the two projections together are less than 2(3u + 3u)·|L|₁·D. The error of the
+///   given corners adds |L|₂·error.
 /// * The code assumes that both ends of an edge e have the same projection onto L = e × f. The
 ///   difference of the two projections is L·e, which is 0 except for the rounding of L. This
 ///   rounding is |δL| ≤ 2u|e||f| per coordinate, so the difference is below 2√3·u|e||f|·√3D.
 /// * With |L|₁ ≤ √3|L|₂ and |L|₂ ≤ |e||f|(1 + 4u), the sum of these errors is below |e||f|·(error +
-///   28u·D). The same holds for normals. The code takes 40u, and |e|₁ ≥ |e|₂ as the length of an
-///   edge.
+///   28u·D). The same holds for normals. The code uses 40u in place of 28u, and |e|₁ ≥ |e|₂ as the
+///   length of an edge.
 /// * Products that underflow lose less than 2^-124, flushed or not, times an edge below 2^30.
 ///
 /// `pad` is multiplied by the true length of each axis.
@@ -48,7 +50,8 @@ HWY_INLINE unsigned touchingTriangles(const TriangleCorners& a, const TriangleCo
   const LaneTag d;
   using V = LaneFloat;
   using Vec = LaneVec;
-  // Returns pad·|L|, rounded up. 2^-60 is added because squares of lengths below 2^-63 vanish.
+  // Returns pad·|L|, rounded up. 2^-60 is added to |L|, because squares of lengths below 2^-63
+  // vanish.
   const bool padded = pad > 0;
   const auto padding = [&](const Vec& L) {
     return hn::Mul(hn::Set(d, pad * (1 + 0x1p-20F)),

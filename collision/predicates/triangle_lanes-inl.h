@@ -1,4 +1,5 @@
-// Pairs of triangles, one per SIMD lane; foreach_target.h includes this file once per SIMD target.
+// Pairs of triangles, one per SIMD lane. Highway's foreach_target.h includes this file once per
+// SIMD target.
 
 // clang-format off
 #if defined(CORRIDOR_TRIANGLE_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)  // Highway's include guard
@@ -71,21 +72,22 @@ HWY_INLINE LaneFloat lookedUp(const float* HWY_RESTRICT sixteen,
   }
 }
 
-/// The pairs to test. Each pair has the numbers, below 16, of a triangle of `a` and of a triangle
-/// of `b`.
+/// The pairs to test. Each pair consists of the number of a triangle of `a` and the number of a
+/// triangle of `b`; both are below 16.
 struct TriangleNumbers {
   const std::uint8_t *a, *b;  ///< sixteen readable numbers each
 };
 
-/// The corners of the pairs `at`, `at` + 1, …, one pair per lane. All corners are relative to a's
-/// first corner. So this corner, s_0, is 0.
+/// The corners of the pairs `at`, `at` + 1, …, one pair per lane. s_k are the corners of a's
+/// triangle, and t_k those of b's. All corners are relative to the first corner of a's triangle, so
+/// s_0 is 0.
 ///
-/// Rounding, u = 2^-24. Let o be a's first corner and ΔC the difference of the two `center`s. The
-/// corners of b are t = b.x + (ΔC − o), in floats rounded at each step. Each of b.x, o, ΔC, w = ΔC
-/// − o and t is off by at most u times its own size. With |ΔC| ≤ |w| + |o|, |b.x| ≤ |t| + |w| and w
-/// = t_0 − b.x_0 the error is less than u(2|t| + 3|t_0| + 3|b.x_0| + 2|o|) ≤ 3u·size per
-/// coordinate. (Bounds by
-/// |b.x| would be worse: for small triangles far from `center` it is much larger than t.)
+/// Rounding, u = 2^-24. Let o be the first corner of a's triangle relative to a's `center`, and ΔC
+/// the difference of the two `center`s (b's minus a's). The corners of b's triangle are t = b.x +
+/// (ΔC − o), in floats rounded at each step. Each of b.x, o, ΔC, w = ΔC − o and t is off by at most
+/// u times its own magnitude. With |ΔC| ≤ |w| + |o|, |b.x| ≤ |t| + |w| and w = t_0 − b.x_0, the
+/// error is less than u(2|t| + 3|t_0| + 3|b.x_0| + 2|o|) ≤ 3u·size per coordinate. (Bounds in terms
+/// of |b.x| would be worse: for small triangles far from `center`, |b.x| is much larger than |t|.)
 struct TrianglePairs {
   LaneVec s1, s2, t[3];
   LaneVec away;    ///< from o to the center of b: t = b.x + away

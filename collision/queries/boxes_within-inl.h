@@ -45,12 +45,12 @@ class BoxesWithin {
         counters_(counters),
         limit_(pose.inUnitsOfA(limit)) {}
 
-  /// Returns whether the square of a distance, in a's unit, exceeds that of the limit.
+  /// Returns whether the square of a distance, in a's unit, exceeds the square of the limit.
   bool isBeyond(float square) const {
     return square > 0 && square > limit_ * limit_ * (1 + 0x1p-20F);
   }
-  /// Lowers the limit, given that the distance is at most `metres`: pairs that can't improve it by
-  /// more than the options allow are skipped.
+  /// Lowers the limit, given that the distance is at most `metres`. Pairs that can't improve this
+  /// distance by more than the options allow are then skipped.
   void lowerLimit(double metres, const DistanceOptions& options) {
     const double most = (metres - options.absolute) / (1 + options.relative);
     limit_ = std::min(limit_, pose_.inUnitsOfA(std::max(0.0, most)));

@@ -8,7 +8,7 @@
 namespace corridor {
 
 /// Tests whether two triangles are at most `d` apart: the leaf test of tolerance queries, for any
-/// kind of tree. Keeps references to both maps, which must outlive it.
+/// kind of tree. The object keeps references to both maps, so the maps must outlive it.
 class CloserTriangles {
  public:
   /// @param reachA, reachB  metres: each triangle lies within this distance of its frame's origin.

@@ -16,7 +16,8 @@ struct WitnessPoints {
 ///
 /// The distance is off by less than u·(S/4 + 2·distance), where S is the largest Σ|m||v| + |t| of
 /// the mapped corners and u = 2^-53. The points are rounded to doubles and off by less than u·S per
-/// coordinate. The distance of crossing triangles is of the size of rounding errors, not exactly 0.
+/// coordinate. For crossing triangles the computed distance is as small as rounding errors, but not
+/// exactly 0.
 WitnessPoints witnessPoints(const Triangle& a, const Transform& X_WA, const Triangle& b,
                             const Transform& X_WB);
 

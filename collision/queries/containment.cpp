@@ -145,7 +145,8 @@ std::optional<PrimitivePair> findEnclosed(const Posed<MeshWithComponents>& solid
 namespace {
 
 /// Finds a part that is inside the solid mesh. `around` is the mesh of the body `solid`. Parts
-/// whose boxes are away from the mesh's box are left out, many at a time.
+/// whose boxes are separated from the mesh's box are not tested; a tree excludes many of them at a
+/// time.
 std::optional<PrimitivePair> findEnclosedPart(const Posed<MeshWithComponents>& around,
                                               const Body& solid, const Posed<Body>& inner,
                                               QueryContext& context) {

@@ -6,9 +6,9 @@ namespace corridor {
 
 /// The closest points over all pairs of features of two triangles: two edges, or a corner and a
 /// face. If the triangles don't cross, these are their closest points up to rounding; if they
-/// cross, the result means nothing. The result is never a proof by itself. A caller that uses, for
-/// example, the direction between the points must verify it by projections. Source: Ericson,
-/// Real-Time Collision Detection, 2005, sections 5.1.5 and 5.1.9.
+/// cross, the result means nothing. The result alone is never a proof. A caller that uses, for
+/// example, the direction between the points to separate the triangles must verify the separation
+/// by projections. Source: Ericson, Real-Time Collision Detection, 2005, sections 5.1.5 and 5.1.9.
 struct ClosestPoints {
   Vec3 a = Vec3::Zero(), b = Vec3::Zero();
   double squaredDistance = 0;

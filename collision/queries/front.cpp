@@ -43,8 +43,9 @@ class FrontQuery {
     if (front_.X_AB_)
       front_.moved_ =
           roundedUp(front_.moved_ + displacementBound(*front_.X_AB_, X_AB_, b_.reach()));
-    // After a long path the sum's rounding would use up small gaps. A front that has grown much has
-    // pairs deep in the trees whose volumes are far apart. In both cases it starts from the roots.
+    // After a long path, the rounding of `moved_` would use up small gaps. If a front has grown
+    // much, many of its pairs are deep in the trees although their volumes are far apart. In both
+    // cases the query starts from the roots.
     const double size = a_.reach() + b_.reach();
     const bool start = !front_.X_AB_ || !(front_.moved_ < 0x1p20 * size) ||
                        front_.size() > 4 * front_.sizeAfterStart_ + 256;
@@ -53,8 +54,8 @@ class FrontQuery {
       keep({0, 0}, -HUGE_VAL);
     }
     front_.X_AB_ = X_AB_;
-    // All pairs that are due are taken before one is tested: a pair without a gap is due again at
-    // once, for the next query.
+    // All pairs that are due are taken from the front before any of them is tested. A pair that is
+    // found to have no gap is put back as due at once, but only for the next query.
     stack_.clear();
     while (!front_.pairs_.empty() && !(front_.pairs_.front().until > front_.moved_)) {
       std::pop_heap(front_.pairs_.begin(), front_.pairs_.end());
@@ -68,8 +69,8 @@ class FrontQuery {
   }
 
  private:
-  /// Tests the pairs on the stack and those below them. Returns the first contact. The pairs that
-  /// are left on the stack then are kept as due.
+  /// Tests the pairs on the stack and those below them. Returns the first contact. If there is one,
+  /// the pairs that are left on the stack are kept as due.
   std::optional<PrimitivePair> descend() {
     while (!stack_.empty()) {
       const NodePair pair = stack_.back();

@@ -17,8 +17,8 @@ namespace corridor {
 /// surface decomposition", 2001). Every pair keeps its gap, a proved lower bound of the distance.
 /// The pair is not tested again until the body may have moved by as much as the gap.
 ///
-/// A value that the caller owns. It belongs to two trees: `clear` it before it is used with others,
-/// or after a tree was refitted. Copies are independent.
+/// The caller owns the front. A front belongs to two trees: call `clear` before the front is used
+/// with other trees, and after one of its trees was refitted. Copies are independent.
 class Front {
  public:
   void clear() { *this = {}; }
@@ -44,10 +44,10 @@ class Front {
 /// Returns a pair of triangles that touch, or nullopt, as `interference` (interference.h): the
 /// verdict is exact for the map with precisely the stored numbers, for any finite map. Which
 /// touching pair is reported may differ. If b moves by small steps, most pairs of the front are not
-/// tested; if it moves by much, the query costs somewhat more than `interference`.
+/// tested. If b moves far, the query costs somewhat more than `interference`.
 ///
-/// Each motion is bounded by |Δt| + ‖ΔM‖_F·reach, where `reach` is that of b's tree. The bounds are
-/// added up. So the length of the path uses up the gap, even if the body comes back.
+/// Each motion is bounded by |Δt| + ‖ΔM‖_F·reach, where `reach` is that of b's tree. The bounds of
+/// all motions are added up. So the length of b's path uses up the gaps, even if b comes back.
 /// @param b  the tree that moves, under the map from its frame to a's.
 /// @pre Both are trees of triangles. The map is finite. Instantiated for `Obb` and `Rss`.
 template <BoundingVolume Volume>

@@ -26,9 +26,9 @@ double toSegment(const Vec3& p, const Vec3& a, const Vec3& b) {
   return (p - (a + (t > 0 ? std::min(t, 1.0) : 0.0) * ab)).norm();  // also if t is not a number
 }
 
-/// Returns the distance of p from a point of the triangle that is closest to p, up to rounding. The
-/// point is in the triangle even where the search for it is off, so the result is never less than
-/// the distance by more than the rounding of the coordinates.
+/// Returns the distance of p from a point of the triangle that is closest to p, up to rounding.
+/// Even if the search for this point is inaccurate, the point found is in the triangle. The result
+/// is therefore less than the true distance by at most the rounding of the coordinates.
 double toTriangle(const Vec3& p, const Triangle& t) {
   double least =
       std::min({toSegment(p, t[0], t[1]), toSegment(p, t[1], t[2]), toSegment(p, t[2], t[0])});
@@ -68,8 +68,9 @@ class Search {
     tree_ = BoxTree(boxes);
   }
 
-  /// Finds the triangle for which the largest distance from the points is least. `guess` becomes
-  /// this triangle. Boxes are rounded by less than `rounding()`, which only decides between equals.
+  /// Finds the triangle for which the largest distance from the points is least. Returns this
+  /// distance, and sets `guess` to this triangle. Boxes are rounded by less than `rounding()`,
+  /// which only decides between equals.
   double fromOneTriangle(std::span<const Vec3> points, std::uint32_t& guess) const {
     const auto farthest = [&](const auto& distance) {
       double most = 0;

@@ -14,10 +14,9 @@
 
 namespace corridor {
 
-/// Returns the first pair found of leaf primitives, one of each tree, that share a point, or
-/// nullopt.
-/// Leaf primitives are closed triangles, or convex parts, which are solid. All volumes and all
-/// builders give the same verdict.
+/// Returns the first pair found of two leaf primitives, one of each tree, that share a point, or
+/// nullopt if there is none. Leaf primitives are closed triangles, or convex parts, which are
+/// solid. All volumes and all builders give the same verdict.
 ///
 /// For triangles the verdict is exact for the two maps with precisely the stored numbers, for any
 /// finite maps (collision/PROMISES.md, promise 1). Queries are fast only if the maps are nearly

@@ -23,8 +23,8 @@ namespace corridor {
 /// are nearly rigid. Convex parts are tested by `convexSetsTouch`, with its guarantee.
 /// @pre The maps are finite.
 ///
-/// Gives up and returns nullopt soon after the box and triangle tests, as the context counts them,
-/// reach `workEnd` in sum.
+/// Gives up and returns nullopt soon after the sum of the box tests and triangle tests that the
+/// context has counted reaches `workEnd`.
 ///
 /// Uses the best SIMD target of the machine, chosen at run time. Every target gives the same
 /// verdict. All targets with fused multiply-add (all except SSE) give the same counts.
@@ -57,8 +57,8 @@ std::optional<PrimitivePair> interferenceBelow(std::span<const NodePair4> start,
   return interferenceBelow(start, a, b, context, last, workEnd);
 }
 
-/// The same test for queries that have already computed the pose. The result numbers triangles in
-/// leaf order. @pre `!pose.apart`.
+/// The same test for queries that have already computed the relative pose of the trees. The result
+/// has the numbers of the triangles in leaf order. @pre `!pose.apart`.
 std::optional<PrimitivePair> touchingLeafTriangles(std::span<const NodePair4> start,
                                                    const Posed<Obb4Tree>& a,
                                                    const Posed<Obb4Tree>& b,

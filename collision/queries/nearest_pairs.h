@@ -18,9 +18,9 @@ struct BoundedPair {
   double bound;
 };
 
-/// The part of a distance query that tests leaf primitives, for any kind of trees. Keeps the pairs
-/// that may be the closest, each with a proved lower bound of its distance, and in the end measures
-/// them with all digits.
+/// The part of a distance query that tests leaf primitives, for any kind of trees. It keeps the
+/// pairs that may be the closest, each with a proved lower bound of its distance. In the end it
+/// measures these pairs with all digits.
 class NearestPairs {
  public:
   NearestPairs(const DistanceOptions& options, QueryContext& context)
@@ -36,9 +36,9 @@ class NearestPairs {
   /// Returns the least upper bound of the distance so far, metres.
   double upper() const { return upper_; }
 
-  /// Returns whether a pair at least `bound` apart may be closer than the best by more than the
-  /// options allow. Always true for a pair that may touch (bound 0), so that only contact gives 0,
-  /// and for a NaN.
+  /// Returns whether a pair that is at least `bound` metres apart may be closer than the best pair
+  /// so far by more than the options allow. Always true for a pair that may touch (bound 0), so
+  /// that only contact gives the distance 0. Also true for a NaN.
   bool canImprove(double bound) const {
     return bound == 0 || !(bound * (1 + relative_) + options_.absolute >= upper_);
   }
@@ -91,9 +91,9 @@ class NearestPairs {
   };
   /// A part of the error 1e-12·d that distance.h allows. If the distances of two pairs differ by
   /// less than this part, one pair is not measured: for example, pairs of triangles around one
-  /// corner. The part may be used twice, because the pair that ruled out another may be left
-  /// unmeasured itself. If that pair is measured, `convexDistance` uses 2^-41·d instead of the
-  /// second part. In both cases the sum is below 1e-12·d and leaves room for rounding.
+  /// corner. The part may be used twice, because the pair that ruled out another pair may itself be
+  /// left unmeasured. If it is measured, the error 2^-41·d of `convexDistance` takes the place of
+  /// the second part. In both cases the sum is below 1e-12·d and leaves room for rounding.
   static constexpr double kTieShare = 0.49e-12;
 
   const DistanceOptions& options_;

@@ -23,8 +23,8 @@ auto withLeafSets(const Tree& a, std::uint32_t s, const Tree& b, std::uint32_t t
   }
 }
 
-/// The part of a distance query that tests leaf primitives, for convex parts, or convex parts and
-/// triangles. `NearestTriangles` is its counterpart for triangles.
+/// The part of a distance query that tests leaf primitives if at least one tree holds convex parts.
+/// `NearestTriangles` is its counterpart for triangles.
 class NearestParts : public NearestPairs {
  public:
   NearestParts(const Transform& X_WA, double reachA, const Transform& X_WB, double reachB,
@@ -37,8 +37,8 @@ class NearestParts : public NearestPairs {
               (X_WA.m.norm() * reachA + X_WA.t.norm() + X_WB.m.norm() * reachB + X_WB.t.norm())),
         context_(context) {}
 
-  /// Bounds the distance of a pair of leaf primitives, numbered in leaf order; returns whether they
-  /// touch.
+  /// Bounds the distance of a pair of leaf primitives, numbered in leaf order, and keeps the pair
+  /// if it may be the closest. Returns whether the two touch.
   bool testPair(std::uint32_t s, const ConvexSet& a, std::uint32_t t, const ConvexSet& b,
                 Counters& counters) {
     const PosedSet posedA(a, X_WA_), posedB(b, X_WB_);

@@ -18,8 +18,8 @@ class NearestTriangles : public NearestPairs {
         X_WB_(X_WB),
         bounds_(X_WA, reachA, X_WB, reachB) {}
 
-  /// Bounds the distance of a pair of triangles, numbered in leaf order. Returns true if they
-  /// touch: then no other pair can be closer.
+  /// Bounds the distance of a pair of triangles, numbered in leaf order, and keeps the pair if it
+  /// may be the closest. Returns true if the two touch: then no other pair can be closer.
   bool testPair(std::uint32_t s, const Triangle& a, std::uint32_t t, const Triangle& b,
                 Counters& counters) {
     const DistanceRange range = bounds_(a, b);

@@ -74,7 +74,8 @@ class NodeLeafPairs {
  public:
   NodeLeafPairs(const Obb4Tree::Node& na, const Obb4Tree::Node& nb) : na_(na), nb_(nb) {}
 
-  /// Returns how many pairs of triangles a leaf pair has; `pair` is 4·i + j for lanes i and j.
+  /// Returns how many pairs of triangles a leaf pair has; `pair` is 4·i + j for lane i of a and
+  /// lane j of b.
   unsigned sizeOf(unsigned pair) const {
     return Obb4Tree::leafCount(na_.child[pair / 4]) * Obb4Tree::leafCount(nb_.child[pair % 4]);
   }
@@ -88,8 +89,8 @@ class NodeLeafPairs {
     lanesA_ |= 1U << i;
     lanesB_ |= 1U << j;
   }
-  /// Must be called after the last `add`: then entries that are read beyond the last pair are
-  /// valid, too.
+  /// Must be called after the last `add`. Entries that are read beyond the last pair are valid only
+  /// after this call.
   void finish() {
     std::fill_n(a_ + count_, 16, a_[0]);
     std::fill_n(b_ + count_, 16, b_[0]);
@@ -128,10 +129,10 @@ class Obb4Leaves {
   Obb4Leaves(const Obb4Tree& a, const Obb4Tree& b, const Obb4TreePose& pose, Counters& counters)
       : a_(a), b_(b), pose_(pose), counters_(counters) {}
 
-  /// Finishes `pairs` and filters them sixteen at a time. If some of the sixteen pairs from `first`
-  /// on are not proved to be farther apart than `pad()` (in a's unit), calls `near(corners_a,
-  /// corners_b, first, open)`; the bits of `open` are these pairs. Ends when `near` returns true;
-  /// returns whether `near` returned true.
+  /// Finishes `pairs` and filters them sixteen at a time. Let `open` be the pairs, among the
+  /// sixteen from `first` on, that are not proved to be farther apart than `pad()` (in a's unit);
+  /// one bit each. If there are any, calls `near(corners_a, corners_b, first, open)`. Ends when
+  /// `near` returns true; returns whether `near` returned true.
   template <class Pad, class Near>
   bool forEachNearSixteen(NodeLeafPairs& pairs, Pad&& pad, Near&& near) {
     pairs.finish();

@@ -16,8 +16,8 @@ double relativePoseError(const Transform& X_WA, const Transform& X_AB, const Tra
       (X_WA.m.cwiseAbs() * X_AB.t.cwiseAbs() + X_WA.t.cwiseAbs() + X_WB.t.cwiseAbs()).sum();
   const double error = ((back.m - X_WB.m).norm() + 8 * kUnit * size) * reach +
                        (back.t - X_WB.t).norm() + 8 * kUnit * sizeT;
-  // Uses |M x| ≥ √(1 − 3η)·|x| ≥ (1 − 3η)|x|. If that factor is at most 1/2, the bound is infinite
-  // and nothing is pruned.
+  // Uses |M x| ≥ √(1 − 3η)·|x| ≥ (1 − 3η)|x| for M = X_WA.m, with η the `orthonormalityDefect` of
+  // M. If 1 − 3η is at most 1/2, the bound is infinite and nothing is pruned.
   const double shrink = 1 - 3 * orthonormalityDefect(X_WA.m);
   return shrink > 0.5 ? roundedUp(error / shrink) : HUGE_VAL;
 }

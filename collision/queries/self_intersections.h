@@ -13,9 +13,9 @@ namespace corridor {
 /// Corners are the same if their positions are equal, whatever their indices. A corner that touches
 /// a triangle without being one of its corners counts as an intersection.
 ///
-/// Skipped: triangles whose corners lie on a line, and pairs with the same three corners.
-/// `inspectMesh` counts these as degenerate and as repeated. Cost: about a microsecond for each of
-/// the roughly twelve neighbours of a triangle.
+/// Two kinds are skipped: triangles whose corners lie on a line, and pairs with the same three
+/// corners. `inspectMesh` counts the former as degenerate and the latter as repeated. Cost: about a
+/// microsecond for each of the roughly twelve neighbours of a triangle.
 /// @pre `checkMesh` finds no fault.
 std::vector<PrimitivePair> selfIntersections(const TriangleMesh& mesh, QueryContext& context);
 

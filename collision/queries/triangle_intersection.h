@@ -11,9 +11,9 @@ struct Segment {
 
 /// Computes the longest segment within the intersection of two triangles, each under its map. For
 /// triangles that cross, the segment is the whole intersection. For coplanar triangles it joins the
-/// two corners of their common polygon that are farthest apart; if several pairs of corners are
-/// equally far apart up to rounding, it joins any of them. For a single point both ends are equal,
-/// bit for bit.
+/// two corners of their common polygon that are farthest apart. If several pairs of corners are
+/// equally far apart up to rounding, it joins any of these pairs. If the intersection is a single
+/// point, both ends are equal, bit for bit.
 ///
 /// Each coordinate of an end is off by at most 2^-50·S, where S is the largest Σ|m||v| + |t| of the
 /// mapped corners. Double-double arithmetic is used where it can prove this bound, integers

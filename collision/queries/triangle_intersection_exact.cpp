@@ -28,7 +28,7 @@ double roundedQuotient(Int numerator, Int denominator, int exponent) {
   denominator = abs(denominator);
   // The quotient has 63 or 64 bits; 53 of them remain after rounding. If there is a remainder, the
   // last bit is set as a sticky bit. The sticky bit is below the bit that is half an ulp of the
-  // result, so it changes the rounding only where the quotient without its remainder would be a
+  // result. It therefore changes the rounding only if the quotient without its remainder would be a
   // tie.
   const int shift = 63 - (static_cast<int>(msb(numerator)) - static_cast<int>(msb(denominator)));
   if (shift > 0)
@@ -42,8 +42,8 @@ double roundedQuotient(Int numerator, Int denominator, int exponent) {
   return negative ? -value : value;
 }
 
-/// The corners of the intersection of two triangles. For each edge, the part that is inside the
-/// other triangle is found; the ends of these parts are the corners.
+/// The corners of the intersection of two triangles. For each edge, the part of the edge that is
+/// inside the other triangle is found. The ends of these parts are the corners.
 template <class Int>
 class ExactSection {
  public:

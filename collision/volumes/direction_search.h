@@ -8,11 +8,11 @@
 
 namespace corridor::internal {
 
-/// Shares for `widestGap`: for verdicts, and for bounds of distances, of which a few digits
-/// suffice.
+/// Values of the parameter `agreed` of `widestGap`: `kVerdict` for verdicts, `kBound` for lower
+/// bounds of distances, for which a few digits suffice.
 inline constexpr double kVerdict = 0x1p-20, kBound = 0x1p-4;
 
-/// What a pair of sets returns for a direction n, from a to b.
+/// The result of testing a pair of sets along a direction n, from a to b.
 struct AlongDirection {
   /// A proved lower bound of the distance of the sets, metres; negative if n does not separate them
   double gap;
@@ -22,17 +22,19 @@ struct AlongDirection {
 
 /// Searches for a direction along which two sets are separated, by the simplices of Gilbert,
 /// Johnson, Keerthi (1988). `along(n)` returns an `AlongDirection` for a vector n of length 1, up
-/// to 4u. Each direction is proved by that call, so rounding in the search does no harm. Returns
-/// the widest gap that was proved, or 0. Ends at a gap above `enough`, or if two points of the
-/// hulls of the sets are found that are at most `near` apart.
+/// to 4u. That call proves the gap along each direction, so rounding in the search does no harm.
+/// Returns the widest gap that was proved, or 0. Ends at a gap above `enough`, or if two points of
+/// the hulls of the sets are found that are at most `near` apart. It also ends if no progress is
+/// possible, and after 24 rounds.
 /// @param size  metres: about the largest coordinate of a corner.
 /// @param near, enough  metres.
-/// @param agreed  ends if the gap and the distance of two points differ by less than this share.
+/// @param agreed  the search ends if a gap and the distance of two points differ by less than this
+/// share of the distance.
 template <class Along>
 double widestGap(Vec3 direction, double size, double near, double enough, double agreed,
                  const Along& along) {
-  // Polyhedra need up to some ten rounds. Round surfaces would come closer in each round, at a cost
-  // that exceeds that of descending.
+  // Polyhedra need up to some ten rounds. For round surfaces each further round improves the gap a
+  // little, but costs more than descending to the children of the volumes.
   constexpr int kRounds = 24;
   // The search multiplies up to five lengths. `scale` avoids underflow and overflow.
   const double scale = size > 0x1p-60 && size < 0x1p60 ? 1 : 1 / powerOfTwo(size);

@@ -13,8 +13,8 @@ namespace {
 // More steps make the ellipsoid smaller by less than 1 % of its volume.
 constexpr int kFitSteps = 24;
 
-/// Keeps points that are extreme along 13 lines. They decide most of the ellipsoid's shape; its
-/// scale is found from all points.
+/// Keeps the points that are extreme along 13 lines. These points decide most of the ellipsoid's
+/// shape. The ellipsoid's scale is found from all points.
 class ExtremePoints {
  public:
   void add(const Vec3& z) {
@@ -64,7 +64,8 @@ struct Shape {
   Vec3 center, semiAxes;
 };
 
-/// Returns about the smallest ellipsoid around the points, axes along those of the coordinates.
+/// Returns the shape of nearly the smallest ellipsoid around the points, with axes parallel to the
+/// coordinate axes.
 /// @param z  points whose extent along each axis is about [−1, 1].
 Shape smallest(const std::vector<Vec3>& z) {
   std::vector<double> weight(z.size(), 1 / static_cast<double>(z.size()));
@@ -86,7 +87,7 @@ Shape smallest(const std::vector<Vec3>& z) {
     for (double& w : weight) w /= sum;
     if (most <= 1.01 * sum) break;
   }
-  // A semi-axis below half of the extent only occurs if the extent is rounding.
+  // A semi-axis below 1, half of the extent, occurs only if the extent is rounding error.
   return {mean, (3 * variance).cwiseMax(1).cwiseSqrt()};
 }
 
@@ -111,10 +112,11 @@ Ellipsoid Ellipsoid::around(const Obb& box, const Content& content) {
   e.core.center = box.center + unit * (box.axes * shape.center.cwiseProduct(scale));
   const Vec3 semiAxes = shape.semiAxes.cwiseProduct(scale);
 
-  // This factor makes the ellipsoid contain its content, for any centre and semi-axes. In
-  // coordinates x = U⁻¹(p − centre) a point is off its computed y by at most pad = 2(η + 6u)·Σ|y_k|
-  // per coordinate (`enclosingObb`); kTiny covers underflow. If Σ((|y_i| + pad)/semiAxis_i)² ≤ s²,
-  // then the ellipsoid of the semi-axes s·semiAxis_i contains x.
+  // This factor makes the ellipsoid contain its content, for any centre and semi-axes. Let U be the
+  // axes of the box and η their defect. In coordinates x = U⁻¹(p − centre), a point differs from
+  // its computed y by at most pad = 2(η + 6u)·Σ|y_k| per coordinate (`enclosingObb`); kTiny covers
+  // underflow. If Σ((|y_i| + pad)/semiAxis_i)² ≤ s², then the ellipsoid of the semi-axes
+  // s·semiAxis_i contains x.
   const double defect = orthonormalityDefect(box.axes);
   double square = 0;
   content.forEach([&](const Vec3& p, double) {

@@ -19,9 +19,10 @@ bool isBefore2(const Vec2& p, const Vec2& q) {
   return std::pair(p[0], p[1]) < std::pair(q[0], q[1]);
 }
 
-/// Returns the corners of a flat hull: those of the points' image on a coordinate plane. The image
-/// shows them all if their plane is not orthogonal to the coordinate plane. Else the image is on
-/// one line, and the next coordinate plane is tried.
+/// Returns the corners of the hull of points on one plane: the points whose images on a coordinate
+/// plane are corners of the hull of all images. This finds all corners if the plane of the points
+/// is not orthogonal to the coordinate plane. Otherwise the image is on one line, and the next
+/// coordinate plane is tried.
 std::vector<Vec3> flatVertices(const std::vector<Vec3>& points) {
   for (int dropped = 0; dropped < 3; ++dropped) {
     const auto image = [&](const Vec3& p) {

@@ -8,9 +8,9 @@
 namespace corridor {
 
 /// A convex hull swept by a sphere: the points at most `size` from the hull of `vertices`. For
-/// triangles `size` is 0, and the set is their hull itself, without any rounding. Metres.
+/// triangles `size` is 0, and the set is exactly their hull. Metres.
 struct Hull {
-  std::vector<Vec3> vertices;  ///< points of the content: the extreme ones, and maybe a few others
+  std::vector<Vec3> vertices;  ///< the content's extreme points, and maybe a few of its others
   double size = 0;             ///< the largest radius of the content's spheres
   Vec3 boundingCenter = Vec3::Zero();  ///< centre of a sphere that contains the volume
   double boundingRadius = 0;           ///< its radius, rounded up
@@ -29,10 +29,10 @@ struct Hull {
   std::size_t extraBytes() const { return vertices.capacity() * sizeof(Vec3); }
 };
 
-/// Returns a subset of the points that has the same convex hull, exactly; also for points on one
-/// plane, on one line or at one place. It contains all extreme points, and maybe a few others that
-/// are on the boundary. O(n log n) on usual points.
-/// @pre finite; not empty; at most 2^28 points.
+/// Returns a subset of the points that has exactly the same convex hull. The points may be on one
+/// plane, on one line, or equal. The subset contains all extreme points, and maybe a few others on
+/// the boundary of the hull. O(n log n) on usual points.
+/// @pre the points are finite; there are at least one and at most 2^28 of them.
 std::vector<Vec3> hullVertices(std::vector<Vec3> points);
 
 }  // namespace corridor

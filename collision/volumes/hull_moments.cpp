@@ -11,9 +11,9 @@ extern "C" {
 namespace corridor {
 namespace {
 
-/// One run of Qhull, whose memory is always freed. Qhull writes its messages to a FILE. They are
-/// discarded, because every failure has the same consequence: there is no hull, and another fit is
-/// used.
+/// One run of Qhull. The destructor frees the memory of Qhull. Qhull writes its messages to a FILE.
+/// The messages are discarded, because every failure has the same consequence: there is no hull,
+/// and another fit is used.
 class QhullRun {
  public:
   explicit QhullRun(std::vector<double>& xyz) : sink_(std::fopen("/dev/null", "w"), &std::fclose) {

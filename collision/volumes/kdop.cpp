@@ -31,8 +31,8 @@ Kdop<K> Kdop<K>::around(const Obb&, const Content& content) {
   content.forEach([&](const Vec3& p, double r) {
     for (std::size_t i = 0; i < kSlabs; ++i) {
       // Along a coordinate axis the projection of p is exact. Along another direction it takes at
-      // most two sums of terms below |p|₁, which lose 2.1u·|p|₁. The product |n|·r and two more
-      // sums lose 5u of the sum of the terms.
+      // most two sums of terms below |p|₁, whose rounding is at most 2.1u·|p|₁. The rounding of the
+      // product |n|·r and of two more sums is at most 5u of the sum of the terms.
       const double along = n[i].dot(p), reach = n[i].norm() * r;
       const double pad =
           i < 3 && r == 0 ? 0 : roundedUp(8 * kUnit * (p.cwiseAbs().sum() + 2 * r)) + reach;

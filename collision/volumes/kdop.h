@@ -9,9 +9,9 @@
 
 namespace corridor {
 
-/// Returns the directions of a k-DOP's K/2 slabs, not of unit length. The three coordinate axes
-/// come first. K = 18 and K = 26 add the six diagonals of faces of the cube; K = 14 and K = 26 add
-/// its four space diagonals. Entries are −1, 0 or 1.
+/// Returns the directions of a k-DOP's K/2 slabs. They are not unit vectors. The three coordinate
+/// axes come first. K = 18 and K = 26 add the six diagonals of faces of the cube; K = 14 and K = 26
+/// add its four space diagonals. Entries are −1, 0 or 1.
 template <int K>
 const std::array<Vec3, K / 2>& slabDirections();
 
@@ -27,7 +27,7 @@ struct Kdop {
 
   static constexpr bool kOriented = false;
   static Kdop around(const Obb& box, const Content& content);
-  /// Returns a k-DOP around both, as tight as a new fit.
+  /// Returns a k-DOP around both k-DOPs, as tight as a new fit.
   static Kdop merged(const Kdop& a, const Kdop& b) {
     Kdop both;
     for (std::size_t i = 0; i < kSlabs; ++i) {

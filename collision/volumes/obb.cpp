@@ -31,7 +31,7 @@ double orthonormalityDefect(const Mat3& m) {
       worst = std::max(worst, std::abs(dot - (i == j)));
       if (i == j) longest = std::max(longest, dot);
     }
-  // An entry takes three products, two sums and a difference, and these lose at most
+  // An entry takes three products, two sums and a difference, whose rounding is at most
   // 4u·(Σ|m_ki||m_kj| + 1). The sum is at most the longest column's square (Cauchy). `std::max` may
   // drop a NaN, but the term 0·Σm keeps it: this term is NaN if an entry is NaN or infinite.
   return roundedUp(worst + 8 * kUnit * (1 + longest)) + 0 * m.sum();

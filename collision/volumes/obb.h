@@ -10,14 +10,15 @@
 namespace corridor {
 
 /// An oriented box: the set {center + axes·x : |x_i| ≤ half_i}, in real arithmetic on the doubles
-/// stored. `axes` is orthonormal to a few ulp. Its defect is covered twice: by `half` for
-/// containment, and by the margins of `obbsSeparated`. Metres.
+/// stored. `axes` is orthonormal up to 2^-40, and mostly to a few ulp. Two things cover the defect
+/// of `axes`: `half`, so that the box contains its content, and the margins of `obbsSeparated`.
+/// Metres.
 struct Obb {
   Vec3 center = Vec3::Zero();
   Mat3 axes = Mat3::Identity();
   Vec3 half = Vec3::Zero();
 
-  // As a `BoundingVolume` (volumes/volume.h).
+  // The members that the concept `BoundingVolume` (volumes/volume.h) requires.
   static constexpr bool kOriented = true;
   static Obb around(const Obb& box, const Content&) { return box; }
   const Mat3& frameAxes() const { return axes; }
@@ -42,7 +43,8 @@ std::optional<ObbFit> obbFitNamed(std::string_view name);
 /// Mean and principal axes of a content.
 struct ObbFrame {
   Vec3 mean = Vec3::Zero();
-  /// Columns, largest variance first; right-handed, orthonormal to a few ulp.
+  /// The axes are the columns, the axis of the largest variance first; right-handed, orthonormal up
+  /// to 2^-40, and mostly to a few ulp.
   Mat3 axes = Mat3::Identity();
 };
 /// Returns the frame of a content by `fit`. Spheres count as points at their centres. If the hull
@@ -51,8 +53,8 @@ ObbFrame fitFrame(const Content& content, ObbFit fit);
 /// Returns the mean of all corners or sphere centres, with the identity as axes.
 ObbFrame alignedFrame(const Content& content);
 
-/// Returns the smallest box with these axes around the content, rounded outward: it contains the
-/// content in real arithmetic.
+/// Returns the smallest box with these axes around the content, rounded outward. The box contains
+/// the content in real arithmetic.
 Obb enclosingObb(const Content& content, const Mat3& axes);
 
 /// Returns ‖MᵀM − I‖_max, rounded up: the defect of M from an orthonormal matrix.

@@ -7,7 +7,7 @@
 namespace corridor {
 
 /// Tests axis-aligned boxes, each in the frame of its own mesh. In the frame of the other mesh,
-/// each is an oriented box, and the relative rotation is the same for all pairs. So this is the
+/// each box is an oriented box, and the relative rotation is the same for all pairs. So this is the
 /// test of `obbsSeparated`, with its 15 axes and margins, for boxes whose own axes are the
 /// identity.
 template <>

@@ -11,13 +11,15 @@
 namespace corridor {
 namespace {
 
-/// The maximum number of steps of one search. Most need two or three, gaps of 1e-9 of the size up
-/// to eight.
+/// The maximum number of steps of one search. Most searches need two or three steps; searches at
+/// gaps of 1e-9 of the size need up to eight.
 constexpr int kOverlapSteps = 12;
-/// If the swept spheres and the distance to be proved exceed this share of the semi-axes, inflated
-/// ellipsoids are a bad approximation, and a second search by simplices follows.
+/// If the radii of the swept spheres plus the distance to be proved exceed this share of the sum of
+/// the semi-axes, ellipsoids with longer semi-axes are a bad approximation. Then a second search,
+/// by simplices, follows.
 constexpr double kRound = 0x1p-6;
-/// An upper bound of what underflow takes from both norms of a gap. Gaps below it are not proved.
+/// An upper bound of what underflow takes from both norms of a gap. Gaps below this bound are not
+/// proved.
 constexpr double kNorms = 0x1p-500;
 
 /// A pair of ellipsoids in the coordinates of ellipsoid a, with a test along a given direction that
@@ -38,16 +40,18 @@ class EllipsoidPair {
     if (!(size_ > 0x1p-60 && size_ < 0x1p60)) scale_ = 1 / powerOfTwo(size_);
   }
 
-  /// False: nothing can be proved for such sizes, or for maps that are far from rigid.
+  /// Returns false if nothing can be proved, because sizes are extreme or the map is far from
+  /// rigid.
   bool usable() const { return size_ > kNorms && slack_ < HUGE_VAL && relative_ < 1; }
   double radii() const { return radii_; }
   double best() const { return best_; }  ///< the widest gap proved so far, metres; or 0
 
   void alongCenters() { along(T_); }
 
-  /// Searches from the share of the last direction. Ends at a gap above `enough`.
-  /// @param inflation  metres: grows all semi-axes. If it is half of a distance that is to be
-  /// proved, the search finds the direction for sets that nearly touch.
+  /// Searches by the contact function, starting at the s that the last direction gives (`share_`).
+  /// Ends at a gap above `enough`.
+  /// @param inflation  metres: added to all semi-axes. If it is half of the distance that is to be
+  /// proved, the search finds the right direction for sets that are just this distance apart.
   void search(double inflation, double enough) {
     const Vec3 A = ((a_.array() + inflation) * scale_).square(),
                B = ((b_.array() + inflation) * scale_).square(), T = T_ * scale_;
@@ -77,7 +81,8 @@ class EllipsoidPair {
       // S is concave: it stays below its tangent.
       if (!(value + slope * ((slope > 0 ? high : low) - s) > 1)) return;
       const double rootA = std::sqrt(ofA), rootB = std::sqrt(ofB);
-      // The share at the maximum is a fixed point: first a plain step, then secant steps.
+      // The s at the maximum is a fixed point of rootA/(rootA + rootB). The first step takes this
+      // value, the next steps are secant steps.
       const double rest = rootA / (rootA + rootB) - s;
       if (std::abs(rest) < 0x1p-26 * std::min(s, 1 - s)) return;
       double next = step == 0 ? s + rest : s - rest * (s - lastShare) / (rest - lastRest);
@@ -88,8 +93,9 @@ class EllipsoidPair {
   }
 
   bool isRound(double pad) const { return radii_ + pad > kRound * (a_.sum() + b_.sum()); }
-  /// Searches by simplices, for sets that are rounder than ellipsoids. @param pad as for
-  /// `separated`
+  /// Searches by simplices, if the spheres and `pad` are large relative to the semi-axes
+  /// (`isRound`).
+  /// @param pad  as for `separated`.
   void searchBySimplices(double pad, double enough, double agreed) {
     if (!isRound(pad)) return;
     const double found =
@@ -141,8 +147,8 @@ double PairTest<Ellipsoid>::distanceBound(const Ellipsoid& a, const Ellipsoid& b
   EllipsoidPair pair(a, b, X_AB_, margins_);
   if (!pair.usable()) return 0;
   pair.alongCenters();
-  // Close ellipsoids are separated best where they would touch if they grew; others along the line
-  // between their closest points.
+  // For ellipsoids that are close, the best direction is the normal at the point where they would
+  // touch if they grew. For others it is the line between their closest points.
   if (!pair.isRound(pair.best())) pair.search(0.5 * (pair.radii() + pair.best()), HUGE_VAL);
   pair.searchBySimplices(pair.best(), HUGE_VAL, internal::kBound);
   return pair.best();

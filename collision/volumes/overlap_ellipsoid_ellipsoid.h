@@ -9,21 +9,23 @@ namespace corridor {
 /// Searches for a direction along which two ellipsoids are separated, first along the line of the
 /// centres, then by the contact function of J. W. Perram and M. S. Wertheim ("Statistical mechanics
 /// of hard ellipsoids", J. Comp. Phys. 58, 1985). Let A and B be the matrices of the ellipsoids
-/// xᵀA⁻¹x ≤ 1, and T the vector between the centres. The function S(s) = s(1 − s) TᵀG⁻¹T with
-/// G = (1 − s)A + sB is concave on [0, 1], and its maximum is above 1 if and only if the ellipsoids
-/// are disjoint. Then n = G⁻¹T at the maximum separates them. The search narrows an interval of s;
-/// it ends if S is bounded by 1 there.
+/// xᵀA⁻¹x ≤ 1, and T the vector between the centres. The function S(s) = s(1 − s) TᵀG⁻¹T with G =
+/// (1 − s)A + sB is concave on [0, 1], and its maximum is above 1 if and only if the ellipsoids are
+/// disjoint. Then n = G⁻¹T at the maximum separates them. The search narrows an interval of s that
+/// contains the maximum. It ends if S is proved to be at most 1 on this interval.
 ///
-/// The search proves nothing, the projections of both sets onto the direction found do.
+/// The search proves nothing. The proof is the projection of both sets onto the direction that the
+/// search finds.
 ///
-/// Derivation. It is that for boxes (overlap_obb_obb.h) in the coordinates of ellipsoid a: every
-/// bound there is used for a point of the box, and the ellipsoid is in its box. For a direction n
-/// the gap is n·T − |D_a n| − |D_b Rᵀn| minus the radii times |n|, with D the diagonal matrices of
-/// the semi-axes. This uses no orthogonality. It takes 14 roundings of terms whose sum is below
-/// |n|(|T|₁ + Σa + Σb), and `relative` includes 16u for them. The radii of the swept spheres grow
-/// by at most the factor 1 + `relative`, as for `Rss`. Directions have a largest entry of at least
-/// 1/2. Underflow makes each of the two norms too small by less than 2^-510, as it takes less than
-/// 2^-1020 from the sum of squares; 2^-500 in the gap covers this and the underflow of products.
+/// Derivation. The derivation for boxes (overlap_obb_obb.h) holds, in the coordinates of ellipsoid
+/// a: each of its bounds is a bound for the points of a box, and an ellipsoid is in its box. For a
+/// direction n the gap is n·T − |D_a n| − |D_b Rᵀn| minus the radii times |n|, with D_a and D_b the
+/// diagonal matrices of the semi-axes. This formula uses no orthogonality. Computing the gap takes
+/// 14 roundings of terms whose sum is below |n|(|T|₁ + Σa + Σb), and `relative` includes 16u for
+/// them. The radii of the swept spheres grow by at most the factor 1 + `relative`, as for `Rss`.
+/// Directions have a largest entry of at least 1/2. Underflow takes less than 2^-1020 from each sum
+/// of squares, so each of the two norms is too small by less than 2^-510. The term 2^-500 in the
+/// gap covers this and the underflow of products.
 template <>
 class PairTest<Ellipsoid> {
  public:

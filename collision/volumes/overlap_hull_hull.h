@@ -12,13 +12,15 @@ namespace corridor {
 /// Derivation. For a direction n with |n| ≤ 1 + 5u the gap is min (Mᵀn)·q + n·t − max n·p over the
 /// vertices p of a and q of b, minus the radii times |n| and |Mᵀn|. With F = ‖M‖_F and ρ_A, ρ_B the
 /// largest |p| and |q|, the rounding is at most:
-/// * Mᵀn: 3.1uF, which is 3.1uFρ_B in its product with q. That product: 3.1uFρ_B. n·t: 3.1u|t|.
-///   n·p: 3.1uρ_A.
+/// * Mᵀn: 3.1uF, which changes its product with q by 3.1uFρ_B. The product itself: 3.1uFρ_B. n·t:
+///   3.1u|t|. n·p: 3.1uρ_A.
 /// * three sums: 4u(ρ_A + Fρ_B + |t|).
-/// In total below 12u(ρ_A + Fρ_B + |t|). It is computed once per query, with 16u. The rest covers
-/// two more terms: the roundings of the slack itself, and 5u·`error`, as |n| may exceed 1. A gap
-/// can only be proved if `error` < |t| + ρ_A + 1.001ρ_B, and F ≥ 1.7. The radii get the factor 1 +
-/// `relative` of `boxPairMargins`, as for `Rss`. `roundedDown` covers the division by |n|.
+///
+/// The total is below 12u(ρ_A + Fρ_B + |t|). The slack, computed once per query, has 16u instead of
+/// 12u. The additional 4u cover two more terms: the roundings of the slack itself, and 5u·`error`,
+/// because |n| may exceed 1. (A gap can only be proved if `error` < |t| + ρ_A + 1.001ρ_B, and F ≥
+/// 1.7.) The radii get the factor 1 + `relative` of `boxPairMargins`, as for `Rss`. `roundedDown`
+/// covers the division by |n|.
 template <>
 class PairTest<Hull> {
  public:

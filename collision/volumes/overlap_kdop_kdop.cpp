@@ -3,7 +3,8 @@
 namespace corridor::internal {
 namespace {
 
-/// Returns the slab whose direction is d or −d, and the sign; sign 0 if there is none.
+/// Returns the slab whose direction is d or −d, and the sign 1 or −1; the sign is 0 if there is no
+/// such slab.
 template <int K>
 std::pair<std::size_t, double> slabOf(const Vec3& d) {
   const auto& n = slabDirections<K>();
@@ -16,7 +17,8 @@ std::pair<std::size_t, double> slabOf(const Vec3& d) {
 
 struct Term {
   double weight;
-  std::array<int, 3> direction;  // entries for the largest, the middle and the least |component|
+  std::array<int, 3> direction;  // entries that belong to the largest, the middle and the least
+                                 // |component| of the vector
 };
 
 /// Returns the terms for x ≥ y ≥ z ≥ 0. Other vectors are mirrored and permuted into this cone,
@@ -50,8 +52,8 @@ SlabSum slabSum(const Vec3& n) {
     sum.weight[k] = sign * terms[k].weight;
     left -= terms[k].weight * d;
   }
-  // Each component of `left` takes three differences, which lose 3u of the numbers involved. The
-  // vector loses √3 times as much.
+  // Each component of `left` takes three differences, whose rounding is at most 3u of the numbers
+  // involved. The error of the vector `left` is at most √3 times as large.
   sum.error = roundedUp(left.norm() + 8 * kUnit * (n.cwiseAbs().sum() + sum.size()));
   return sum;
 }

@@ -10,11 +10,11 @@
 
 /// Tests two k-DOPs under any affine map, along the slab directions of both.
 ///
-/// Derivation. Points x of b are at M x + t in frame A. Their projections on L are m·x + L·t with m
-/// = MᵀL. If m = Σ w_k d_k for slab directions d_k of b, then m·x ≤ Σ w_k·(high_k where w_k > 0,
-/// else low_k), and m·x ≥ the same sum with the other ends. The remainder m − Σ w_k d_k adds at
-/// most its length times the largest |x| (`VolumeBounds::reach`). So any three weights give a
-/// proof. The cone of slab directions that contains m gives the weights of the best bound. The
+/// Derivation. In frame A, a point x of b is at M x + t. Its projection onto a direction L is m·x +
+/// L·t with m = MᵀL. If m = Σ w_k d_k for slab directions d_k of b, then m·x ≤ Σ w_k·(high_k where
+/// w_k > 0, else low_k), and m·x ≥ the same sum with the other ends. The remainder m − Σ w_k d_k
+/// adds at most its length times the largest |x| (`VolumeBounds::reach`). So any three weights give
+/// a proof. The three slab directions whose cone contains m give the weights of the best bound. The
 /// weights are the same for all nodes, so they are computed once per query. Then an axis takes
 /// three products per node.
 namespace corridor {
@@ -44,7 +44,7 @@ struct SlabSum {
   double size() const { return std::abs(weight[0]) + std::abs(weight[1]) + std::abs(weight[2]); }
 };
 
-/// Returns the decomposition of n in the cone of slab directions that contains n.
+/// Returns n as a sum of three slab directions, those whose cone contains n.
 template <int K>
 SlabSum slabSum(const Vec3& n);
 
@@ -59,7 +59,7 @@ class PairTest<Kdop<K>> {
       ofA_[i] = axis(n[i], X_AB, a, b, error);
       ofA_[i].other = internal::slabSum<K>(X_AB.m.transpose() * n[i]);
       ofA_[i].slack += spill(ofA_[i].other, b.reach);
-      // Here m is a slab direction of b itself, except for M's defect from a rotation.
+      // Here MᵀL is a slab direction of b itself, except for the defect of M from a rotation.
       const Vec3 L = X_AB.m * n[i];
       ofB_[i] = axis(L, X_AB, a, b, error);
       ofB_[i].other = internal::slabSum<K>(L);
@@ -93,12 +93,12 @@ class PairTest<Kdop<K>> {
 
   static bool apart(double gap, double pad) { return gap > pad && gap < HUGE_VAL; }
 
-  /// Returns axis L with the slack that every axis needs: the caller's error, and rounding. L is a
-  /// slab direction of a, or M times a slab direction of b; then |L|₁ ≤ 3F and F ≥ |L|/√3, with F =
-  /// ‖M‖_F. So the weights of either body sum up to at most 9(1 + F)². Slab ends are below 4·reach:
-  /// |n_i| ≤ √3, and the slabs of a convex part that is a cylinder are around the corners of its
-  /// box. A gap takes ten sums and products. L·t takes 4u, and so does the rounding of MᵀL, from
-  /// which `SlabSum::error` was computed.
+  /// Returns axis L with the slack that every axis needs, for the caller's error and for rounding.
+  /// L is a slab direction of a, or M times a slab direction of b; then |L|₁ ≤ 3F and F ≥ |L|/√3,
+  /// with F = ‖M‖_F. So the weights of either body sum up to at most 9(1 + F)². Slab ends are below
+  /// 4·reach: |n_i| ≤ √3, and the slabs of a convex part that is a cylinder are around the corners
+  /// of its box. A gap takes ten sums and products. L·t takes 4u, and so does the rounding of MᵀL,
+  /// from which `SlabSum::error` was computed.
   static Axis axis(const Vec3& L, const Transform& X_AB, const VolumeBounds& a,
                    const VolumeBounds& b, double error) {
     Axis made;

@@ -1,4 +1,4 @@
-// Tests four oriented boxes against four that move. Included once per SIMD target by
+// Tests four oriented boxes against four moving oriented boxes. Included once per SIMD target by
 // foreach_target.h.
 
 // clang-format off
@@ -17,10 +17,10 @@
 HWY_BEFORE_NAMESPACE();
 namespace corridor::HWY_NAMESPACE {
 
-/// Sixteen pairs of boxes, of which the boxes of b move. Computes the motion bound of b's box along
-/// each tested axis.
+/// Pairs of boxes, one per lane, of which the boxes of b move. Computes the motion bound of b's box
+/// along each tested axis.
 struct MovingBoxPairs : BoxPairs {
-  V v[3], w[3], wB[3];  // V and W in coordinates of a's box, and W·R_j (obb4.h)
+  V v[3], w[3], wB[3];  // obb4.h: V and W in coordinates of a's box, and W·R_j
   V secondOrderAcross, secondOrder, isotropic;
   V rounding;  // the slack without `pad`
 
@@ -57,8 +57,8 @@ struct MovingBoxPairs : BoxPairs {
     y = hn::Abs(y);
     return hn::MulAdd(set(0.41422F), hn::Min(x, y), hn::Max(x, y));
   }
-  /// Returns the smaller of the isotropic and the directional bound. Each bound is a proof by
-  /// itself, so it does no harm if the minimum drops a NaN of one of them.
+  /// Returns the smaller of the isotropic and the directional bound. Each bound alone is a proof,
+  /// so it does no harm if the minimum drops a NaN of one bound.
   V least(V directional) const { return hn::Min(directional, isotropic); }
 
   V alongFaceA(int i) const {
@@ -99,18 +99,18 @@ struct MovingBoxes {
   unsigned coarse = 0;
 };
 
-/// Thresholds, relative to the boxes' size, above which halving the interval helps more than
-/// descending to smaller boxes. `kTravelOfSize` is for the isotropic bound. For the remainder
-/// beyond first order the threshold is 1/`kRemainderOfSize`. Both values were found by measurement;
-/// no proof depends on them.
+/// Thresholds of motion bounds, relative to the size of the boxes. Above them, halving the interval
+/// helps more than descending to smaller boxes. `kTravelOfSize` is the threshold of the isotropic
+/// bound. The threshold of the remainder beyond first order is 1/`kRemainderOfSize`. Both values
+/// were found by measurement; no proof depends on them.
 constexpr float kTravelOfSize = 1, kRemainderOfSize = 32;
 
-/// Tests the sixteen pairs over a time interval (obb4.h has the derivation). `keys` gets, for each
-/// pair, the largest difference of the gap along a face normal and the motion bound of b along that
-/// normal.
-/// @param clearances if not null, gets for each separated pair a lower bound of its distance beyond
-/// `pad`, valid over the whole interval, in a's unit. The factor 1 − 2^-18 covers axes of length up
-/// to 1 + 2^-20, and the rounding of the difference by 2^-24 of itself.
+/// Tests the sixteen pairs over a time interval (obb4.h has the derivation). `keys` receives for
+/// each pair the largest value, over the face normals, of the gap along the normal minus the motion
+/// bound of b along that normal, in a's unit.
+/// @param clearances  if not null, receives for each separated pair a lower bound of (distance
+/// minus `pad`), valid over the whole interval, in a's unit. The factor 1 − 2^-18 covers axes of
+/// length up to 1 + 2^-20, and the relative rounding error 2^-24 of the difference.
 HWY_INLINE MovingBoxes movingBoxes(const Obb4& a, const Obb4& b, const Obb4Pose& pose,
                                    const Obb4MotionBound& bound, float* HWY_RESTRICT keys,
                                    float* HWY_RESTRICT clearances = nullptr) {

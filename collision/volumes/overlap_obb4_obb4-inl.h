@@ -1,4 +1,4 @@
-// Tests four oriented boxes against four. Included once per SIMD target by foreach_target.h.
+// Tests four oriented boxes against four others. Included once per SIMD target by foreach_target.h.
 
 // clang-format off
 #if defined(CORRIDOR_OVERLAP_OBB4_OBB4_INL_H_) == defined(HWY_TARGET_TOGGLE)  // Highway's include guard
@@ -20,8 +20,9 @@ namespace corridor::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Lane l is the pair of boxes (l / 4, l % 4). A row of b's four boxes is repeated in all groups of
-/// four lanes. From a row of a, lane l takes element kRowOfLane[l].
+/// Lane l is the pair of boxes (l / 4, l % 4). A row of four values, one for each of b's boxes, is
+/// repeated in all groups of four lanes. From a row of a's values, lane l takes element
+/// kRowOfLane[l].
 alignas(64) inline constexpr std::int32_t kRowOfLane[16] = {0, 0, 0, 0, 1, 1, 1, 1,
                                                             2, 2, 2, 2, 3, 3, 3, 3};
 
@@ -53,7 +54,7 @@ struct BoxPairs {
   static_assert(kLanes % 4 == 0,
                 "rows of four lanes are needed; Highway's target SCALAR has too few");
 
-  // Centre and axes of b's box in coordinates of a's box, and |R|.
+  // Centre T and axes R of b's box in coordinates of a's box, and Q = |R|.
   V T[3], R[3][3], Q[3][3];
   V a[3], b[3];  // half extents
   V slack;       // a gap must exceed this to separate: rounding, and the pose's `absoluteMargin`
@@ -98,8 +99,9 @@ struct BoxPairs {
     slack = hn::MulAdd(set(pose.relative), sizes, set(pose.absoluteMargin));
   }
 
-  /// These functions return gaps along axis i of a, along axis j of b, and along the cross product
-  /// of both axes, which is not a unit vector.
+  /// These three functions return gaps, in a's unit, before `slack` is subtracted: along axis i of
+  /// a, along axis j of b, and along the cross product of both axes. The cross product is not a
+  /// unit vector.
   V faceOfA(int i) const {
     return hn::Sub(hn::Abs(T[i]), dotAnd(a[i], b[0], b[1], b[2], Q[i][0], Q[i][1], Q[i][2]));
   }
@@ -135,7 +137,7 @@ struct BoxPairs {
   }
 };
 
-/// Returns the bits of a mask, placed for pair `at` and the following ones.
+/// Returns the bits of a mask, shifted so that the first bit is that of pair `at`.
 template <class M>
 HWY_INLINE unsigned bitsOf(const hn::CappedTag<float, 16> d, M mask, std::size_t at) {
   std::uint8_t bits[8] = {};  // StoreMaskBits may write up to eight bytes
@@ -145,13 +147,13 @@ HWY_INLINE unsigned bitsOf(const hn::CappedTag<float, 16> d, M mask, std::size_t
 
 /// Returns which of the sixteen pairs of two nodes' boxes may touch: bit 4·i + j for box i of a and
 /// box j of b. A cleared bit proves that the boxes are farther apart than the error that
-/// `pose.absoluteMargin` covers (obb4.h has the derivation). `gaps` gets the largest gap along a
-/// face normal for each pair: the smaller it is, the deeper the boxes overlap.
+/// `pose.absoluteMargin` covers (obb4.h has the derivation). `gaps` receives for each pair the
+/// largest gap along a face normal; a smaller gap means a deeper overlap.
 ///
 /// Operations have a fixed order, and are fused on every target that supports it, so that these
-/// targets give the same bits. SSE has no fused operations: there one box more or less may count as
-/// overlapping, but the query's answer is the same. Each axis alone is a proof. A maximum may drop
-/// the NaN of one axis, but a NaN never separates.
+/// targets give the same bits. SSE has no fused operations. There, the test may report one pair
+/// more or less as overlapping, but the query's answer is the same. Each axis alone is a proof. A
+/// maximum may drop the NaN of one axis, but a NaN never separates.
 HWY_INLINE unsigned overlappingBoxes(const Obb4& a, const Obb4& b, const Obb4Pose& pose,
                                      float* HWY_RESTRICT gaps) {
   const hn::CappedTag<float, 16> d;
@@ -171,8 +173,8 @@ HWY_INLINE unsigned overlappingBoxes(const Obb4& a, const Obb4& b, const Obb4Pos
 }
 
 /// Returns which of the sixteen pairs may be at most `limit` apart (in a's unit). A cleared bit
-/// proves that the boxes are farther apart. `squares` gets a proven lower bound of each pair's
-/// squared distance.
+/// proves that the boxes are farther apart. `squares` receives for each pair a proved lower bound
+/// of the squared distance, in the square of a's unit.
 ///
 /// Gaps along three orthogonal axes u_i bound the distance by √Σ gap_i²: for any vector d,
 /// Σ(u_i·d)² ≤ (1 + 3η)|d|². For a's axes, and for b's (R̂) if the map is rigid, η < 2^-17. The
@@ -180,8 +182,8 @@ HWY_INLINE unsigned overlappingBoxes(const Obb4& a, const Obb4& b, const Obb4Pos
 /// reduced each gap by 10η·(|T|₁ + Σa + Σb) ≥ 9η·|u_i·d|, and (1 − 9η)²(1 + 3η) < 1. The same holds
 /// for the gap along the line between the centres.
 ///
-/// `kFar` adds that line as an axis. This axis is the best one for boxes that are far apart
-/// relative to their sizes. The test then takes a fifth longer.
+/// `kFar` adds the line between the centres as an axis. This axis is the best one for boxes that
+/// are far apart relative to their sizes. With it, the test takes a fifth longer.
 template <bool kFar>
 HWY_INLINE unsigned nearBoxes(const Obb4& a, const Obb4& b, const Obb4Pose& pose, float limit,
                               float* HWY_RESTRICT squares) {

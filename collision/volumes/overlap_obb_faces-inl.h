@@ -1,5 +1,5 @@
-// Tests one oriented box against one by their face normals. Included once per SIMD target by
-// foreach_target.h.
+// Tests one oriented box against one other, along the face normals of both. Included once per SIMD
+// target by foreach_target.h.
 
 // clang-format off
 #if defined(CORRIDOR_OVERLAP_OBB_FACES_INL_H_) == defined(HWY_TARGET_TOGGLE)  // Highway's include guard
@@ -41,8 +41,8 @@ HWY_INLINE bool facesSeparate(const Obb1& a, const Obb1& b, const Obb4Pose& pose
   };
   const auto p0 = posed(0), p1 = posed(1), p2 = posed(2);
   const auto halfB = hn::Mul(set(pose.scale), hn::Load(d, b.half));
-  // Row i: the products of a's axis i with b's axes; lane 3 is the centres' distance along a's axis
-  // i.
+  // Row i has the products of a's axis i with b's axes; lane 3 is the distance of the centres along
+  // a's axis i.
   const auto row = [&](int i) {
     return hn::MulAdd(set(a.vectors[2][i]), p2,
                       hn::MulAdd(set(a.vectors[1][i]), p1, hn::Mul(set(a.vectors[0][i]), p0)));

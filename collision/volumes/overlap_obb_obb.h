@@ -15,11 +15,12 @@
 /// Derivation. Let A be the frame of box a, and x ↦ M x + t the map from b's frame (doubles, taken
 /// as exact). In coordinates y = U_Aᵀ(x − c_A), box a is {U_AᵀU_A x}, which is inside the
 /// axis-aligned box of half extents a + η_A·Σa. Box b is {T + R x} with T = U_Aᵀ(M c_B + t − c_A),
-/// R = U_Aᵀ M U_B in real arithmetic. The computed T̂, R̂ are off by at most ε_T and ε_R per
-/// coordinate. So box b is inside {T̂ + R̂ x} grown by ε_T + ε_R·Σb per coordinate. That growth is
-/// added to box a instead of box b. It remains to test whether an exactly axis-aligned box and an
-/// exact parallelepiped, given by doubles, are apart. Any direction L may be used:
-///   L = e_i:        radius of a: a_i; of b: Σ b_k |R̂_ik|, both as written, no orthogonality used.
+/// R = U_Aᵀ M U_B in real arithmetic. η_A, η_B and η_M are the defects of U_A, U_B and M from
+/// orthonormal matrices. The computed T̂, R̂ are off by at most ε_T and ε_R per coordinate. So box
+/// b is inside {T̂ + R̂ x} grown by ε_T + ε_R·Σb per coordinate. That growth is added to box a
+/// instead of box b. It remains to test whether an exactly axis-aligned box and an exact
+/// parallelepiped, given by doubles, are apart. Any direction L may be used:
+///   L = e_i:        radius of a: a_i; of b: Σ b_k |R̂_ik|. Both need no orthogonality.
 ///   L = R̂_j:        of a: Σ a_i |R̂_ij|; of b: Σ b_k |R̂_j·R̂_k| ≤ b_j + η_R Σ b_k.
 ///   L = e_i × R̂_j:  of a: as written; of b: Σ b_k |e_i·(R̂_j × R̂_k)|, where R̂_j × R̂_k = ±R̂_l up to
 ///                   3η_R.

@@ -9,13 +9,13 @@ namespace corridor::internal {
 /// A pair of boxes, with a test that proves separation along a given direction. The test does not
 /// depend on how the direction was found.
 ///
-/// In the coordinates of box a (overlap_obb_obb.h), the test is whether an axis-aligned box and the
-/// exact parallelepiped {T + R y, |y_j| ≤ b_j} are more than `margin` apart. `margin` is the
-/// absolute margin plus `pad` plus `slack`; `slack` covers all growth and rounding. For any L the
-/// gap |L·T| − Σ a_i|L_i| − Σ b_j|L·R_j| uses no orthogonality. Growth by a sphere of radius ρ
-/// costs ρ|L|. Evaluating the gap takes 11 roundings of terms whose sum is below |L|(|T|₁ + Σa +
-/// Σb): `slack` includes 16u times that sum. L is scaled to a largest entry of 1, so that kTiny
-/// covers underflow. The proof is for the scaled and rounded direction.
+/// In the coordinates of box a (overlap_obb_obb.h), the test decides whether the axis-aligned box
+/// {|x_i| ≤ a_i} and the exact parallelepiped {T + R y, |y_j| ≤ b_j} are more than `margin` apart.
+/// `margin` is the absolute margin plus `pad` plus `slack`; `slack` covers all growth and rounding.
+/// For any L the gap |L·T| − Σ a_i|L_i| − Σ b_j|L·R_j| uses no orthogonality. Growth by a sphere of
+/// radius ρ costs ρ|L|. Evaluating the gap takes 11 roundings of terms whose sum is below |L|(|T|₁
+/// + Σa + Σb): `slack` includes 16u times that sum. L is scaled to a largest entry of 1, so that
+/// kTiny covers underflow. The proof is for the scaled and rounded direction.
 struct DirectedBoxes : BoxPair {
   const Vec3 &a, &b;
   double slack, margin;
@@ -40,7 +40,7 @@ struct DirectedBoxes : BoxPair {
     const Vec3 L = direction / direction.cwiseAbs().maxCoeff();
     return apartAlong(L, R.transpose() * L);
   }
-  /// Tries all 15 axes, for the few pairs for which rounding made a search fail.
+  /// Tests all 15 axes, for the few pairs for which rounding made a search fail.
   bool apartAlongAny() const {
     for (int i = 0; i < 3; ++i)
       if (apartAlong(Vec3::Unit(i)) || apartAlong(R.col(i))) return true;

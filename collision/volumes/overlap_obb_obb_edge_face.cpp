@@ -2,9 +2,9 @@
 #include "collision/volumes/overlap_obb_obb_variants.h"
 
 /// If two closed boxes share a point, an edge of one meets a face of the other, or one box is
-/// inside the other. Proof: if neither is inside the other, their surfaces meet, so two faces meet.
-/// A corner of the intersection of these faces is on an edge of one of them. (A flat box consists
-/// of its surface only.)
+/// inside the other. Proof: if neither box is inside the other, their surfaces meet, so two faces
+/// meet. A corner of the intersection of these faces is on an edge of one of them. (A flat box
+/// consists of its surface only.)
 ///
 /// The two boxes here are A and B. A is box a grown by `margin` along its axes; it contains the
 /// grown box a of overlap_obb_obb.h. B is the exact parallelepiped {T + R y, |y_j| ≤ b_j}. Points
@@ -17,8 +17,8 @@ namespace {
 
 /// A segment {q + t·d, low ≤ t ≤ high}, clipped to |q_i + t·d_i| ≤ e.
 ///
-/// A rounded quotient is the exact quotient for an e that is off by 2.1u(e + |q|), which `slack`
-/// covers. A NaN clips nothing.
+/// A rounded quotient is the exact quotient for a value of e that is off by 2.1u(e + |q|), which
+/// `slack` covers. A NaN clips nothing.
 struct Cut {
   double low = -1, high = 1;
   void slab(double q, double d, double e) {

@@ -15,8 +15,9 @@ double signOf(double x) {
 
 }  // namespace
 
-/// Searches for the point of the difference b − a that is closest to the origin. Each direction of
-/// the search is tested by a proof of its own, so rounding in the search does no harm.
+/// Searches for the point of the difference b − a that is closest to the origin. Along each
+/// direction of the search, projections prove separation or not (`apartAlong`), so rounding in the
+/// search does no harm.
 bool Gjk::separated(const Obb& boxA, const Obb& boxB, const Transform& X_AB,
                     const BoxPairMargins& margins, double pad) {
   using gjk::nearest;

@@ -10,21 +10,21 @@
 
 namespace corridor {
 /// The linear program: the variables are bounded by the six half-spaces of box a, and the other
-/// half-spaces are those of box b. Their names are the axes of the boxes, 0 to 2 for a, 3 to 5 for
-/// b.
+/// half-spaces are those of box b. The `name` of a half-space is the index of its axis: 0 to 2 for
+/// box a, 3 to 5 for box b.
 ///
 /// If the boxes share no point, then by Helly's theorem four of the half-spaces have no common
 /// point. By Farkas' lemma their normals have weights ≥ 0 that sum up to zero, while the weighted
 /// offsets sum up to less than zero. The weighted sum of one box's normals is then a direction
 /// along which the boxes are apart. If only one of the four normals belongs to box a, or only one
 /// to box b, the direction is that normal. If two normals belong to each box, e_i, e_j and R_k,
-/// R_l, the direction is in the span of both pairs: (e_i × e_j) × (R_k × R_l). So the direction is
-/// one of the 15 axes, and is proved like them.
+/// R_l, the direction is in the plane of e_i and e_j and in that of R_k and R_l: it is (e_i × e_j)
+/// × (R_k × R_l). So the direction is one of the 15 axes, and is proved in the same way.
 ///
-/// The linear program separates the boxes after box a has grown by `margin`, and both by another
-/// `slack` for the rounding of the proof. The algorithm's own rounding needs no bound. If edges are
-/// parallel up to rounding, it finds a wrong axis for some in 10,000 of such pairs; then all 15
-/// axes are tried.
+/// The linear program is that of box a grown by `margin` + `slack`, and of box b grown by `slack`.
+/// The two `slack` are for the rounding of the proof. The algorithm's own rounding needs no bound.
+/// For some in 10,000 pairs with edges that are parallel up to rounding, the algorithm finds a
+/// wrong axis; then all 15 axes are tested.
 bool LinearProgram::separated(const Obb& boxA, const Obb& boxB, const Transform& X_AB,
                               const BoxPairMargins& margins, double pad) {
   const internal::DirectedBoxes pair(boxA, boxB, X_AB, margins, pad);

@@ -2,10 +2,10 @@
 
 #include "collision/volumes/overlap_obb_obb.h"
 
-/// Overlap tests of boxes that the separating-axis theorem replaced (Gottschalk, Lin, Manocha 1996,
-/// section 5), for comparison. Each is as conservative as `obbsSeparated`: `true` is a proof that
-/// the boxes, as sets in real arithmetic, are apart by more than the requested margin. `false`
-/// proves nothing.
+/// For comparison: older overlap tests of boxes, which the separating-axis theorem replaced
+/// (Gottschalk, Lin, Manocha 1996, section 5). Each is as conservative as `obbsSeparated`: `true`
+/// is a proof that the boxes, as sets in real arithmetic, are apart by more than the requested
+/// margin. `false` proves nothing.
 ///
 /// In tests of millions of pairs, every test reported "separated" for all pairs that are farther
 /// apart than 4·(margins.absolute + pad) + 32·margins.relative·L, where L is the sum of all half
@@ -20,15 +20,15 @@ struct Gjk {
                         const BoxPairMargins& margins, double pad);
 };
 
-/// Linear programming: searches for a point in all twelve half-spaces of the two boxes, by Seidel's
-/// incremental algorithm (1991) in three variables.
+/// Linear programming: searches for a point in all twelve half-spaces of the two boxes, by the
+/// incremental algorithm of Seidel (1991) in three variables.
 struct LinearProgram {
   static bool separated(const Obb& a, const Obb& b, const Transform& X_AB,
                         const BoxPairMargins& margins, double pad);
 };
 
-/// Tests each edge of one box against each face of the other, 144 tests, and whether the centre of
-/// each box is inside the other box.
+/// Edges and faces: tests each edge of one box against each face of the other, in 144 tests, and
+/// whether the centre of each box is inside the other box.
 struct EdgeFace {
   static bool separated(const Obb& a, const Obb& b, const Transform& X_AB,
                         const BoxPairMargins& margins, double pad);

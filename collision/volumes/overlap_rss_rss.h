@@ -10,16 +10,16 @@
 namespace corridor {
 
 /// Tests whether two rectangles are farther apart than the sum of their spheres' radii. The first
-/// test treats the rectangles as flat boxes with 15 axes; it decides if faces or crossing edges are
-/// closest. The second test is along the line between the closest points, which alternating
-/// projections find (Cheney, Goldstein, Proc. AMS 10, 1959). If the projections have not converged,
-/// the direction is still valid but the gap is smaller: the proof is the projection of both
-/// rectangles onto that direction.
+/// test treats the rectangles as flat boxes with 15 axes; it suffices if the closest features are a
+/// face and a vertex, or two crossing edges. The second test is along the line between the closest
+/// points, which alternating projections find (Cheney, Goldstein, Proc. AMS 10, 1959). The proof is
+/// the projection of both rectangles onto the direction of that line. So if the alternating
+/// projections have not converged, the proof is still valid, but the proved gap is smaller.
 ///
-/// Derivation. It is that for boxes (overlap_obb_obb.h), in the coordinates of rectangle a. For a
-/// direction n, the gap is that of the two cores minus the radii times |n|. In these coordinates
-/// the radii of the swept spheres are at most r_a(1 + 1.5η_A) and r_b(1 + 1.5η_A + 2η_M). The
-/// factor 1 + `relative` covers both.
+/// Derivation. The derivation for boxes (overlap_obb_obb.h) holds, in the coordinates of rectangle
+/// a. For a direction n, the gap is that of the two cores minus the radii times |n|. In these
+/// coordinates the radii of the swept spheres are at most r_a(1 + 1.5η_A) and r_b(1 + 1.5η_A +
+/// 2η_M). The factor 1 + `relative` covers both.
 template <>
 class PairTest<Rss> {
  public:
@@ -48,9 +48,9 @@ class PairTest<Rss> {
  private:
   static constexpr int kSteps = 8;
 
-  /// Returns the largest gap along the directions that the projections produce, or 0. Stops at a
-  /// gap above `enough`, or when two points of the rectangles are found that are at most radii +
-  /// pad apart.
+  /// Returns the largest gap proved along the directions that the alternating projections produce,
+  /// or 0; metres. Stops at a gap above `enough`, or when two points of the rectangles are found
+  /// that are at most radii + pad apart.
   double alongClosest(const internal::BoxPair& pair, const Vec3& a, const Vec3& b, double radii,
                       double pad, double enough) const {
     const double slack = margins_.relative * (pair.T.cwiseAbs().sum() + a.sum() + b.sum() + radii) +

@@ -23,7 +23,7 @@ class Cone {
     if (whole_ || across <= slope_ * along) return m.norm();
     return (along + slope_ * across) * cosine_;
   }
-  /// Returns that unit vector, rounded.
+  /// Returns the unit vector of the cone that has this largest product with m; rounded.
   Vec3 towards(const Vec3& m) const {
     const double along = axis_.dot(m);
     const Vec3 across = m - along * axis_;
@@ -46,7 +46,7 @@ struct Range {
 /// Returns the distances of all points of a shell from another point: the nearest rounded down, the
 /// farthest rounded up.
 /// @param d  the vector from that point to the shell's centre, in the frame of that point
-/// @param m  the same in the frame of the shell
+/// @param m  the same vector in the frame of the shell
 /// @param stretch  3η of the map between these frames
 Range distances(const Shell& shell, const Cone& cone, const Vec3& d, const Vec3& m,
                 double stretch) {

@@ -11,10 +11,11 @@ namespace corridor {
 
 /// Tests whether the distance of the centres exceeds the sum of the radii.
 ///
-/// Derivation. In frame A the image of sphere b is within r_b(1 + 2η) of M c_B + t, with η = ‖MᵀM −
-/// I‖_max, since ‖M‖₂² ≤ 1 + 3η. The computed d = M c_B + t − c_A is off by less than the 24u·S of
-/// `boxPairMargins`. The computed |d| is off by another 4u·|d|. Both 2η and 4u are covered by the
-/// margin `relative` of `boxPairMargins`, which exceeds 12η + 200u.
+/// Derivation. Let x ↦ M x + t be the map from b's frame to a's, and η = ‖MᵀM − I‖_max. In frame A
+/// the image of sphere b is within r_b(1 + 2η) of M c_B + t, since ‖M‖₂² ≤ 1 + 3η. The computed d =
+/// M c_B + t − c_A is off by less than the margin `absolute` of `boxPairMargins`, 24u·S. The
+/// computed |d| is off by another 4u·|d|. The margin `relative` of `boxPairMargins`, which exceeds
+/// 12η + 200u, covers both 2η and 4u.
 template <>
 class PairTest<BoundingSphere> {
  public:

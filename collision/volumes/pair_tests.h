@@ -17,8 +17,8 @@
 // names that users write.
 //
 // CORRIDOR_EACH_OVERLAP(F) expands F(name in TreeKind, Volume, Overlap, the volume's name for
-// users, the test's name for users). The tests of one volume are adjacent; the first is its
-// default.
+// users, the test's name for users). The tests of one volume are adjacent; the first of them is the
+// volume's default.
 // clang-format off
 #define CORRIDOR_EACH_VOLUME(F) \
   F(Obb) F(Aabb) F(BoundingSphere) F(Rss) F(Kdop<14>) F(Kdop<18>) F(Kdop<26>) \

@@ -32,7 +32,7 @@ const Obb& smaller(const Obb& a, const Obb& b) {
   return a.half.sum() <= b.half.sum() ? a : b;
 }
 
-/// Reports whether all points are corners of the box, up to rounding: no box is smaller then.
+/// Reports whether all points are corners of the box, up to rounding. If so, no box is smaller.
 bool isCornersOf(const Obb& box, const std::vector<Vec3>& points) {
   return std::all_of(points.begin(), points.end(), [&](const Vec3& p) {
     const Vec3 x = (box.axes.transpose() * (p - box.center)).cwiseAbs();

@@ -7,17 +7,18 @@
 
 namespace corridor {
 
-/// Returns a tight box around a convex part, rounded outward: it contains the part in real
+/// Returns a tight box around a convex part, rounded outward. The box contains the part in real
 /// arithmetic. Capsules and cylinders get a box along their axis. Other parts get the smaller of
-/// two boxes. The first has its axes along the edges at the first corner; if the part is a box,
-/// this box is exact, and the second one is not tried. The second has its axes from the moments of
-/// the hull's surface.
+/// two boxes. The axes of the first box are along the edges at the part's first corner. If the part
+/// is a box, the first box is tight, and the second box is not tried. The axes of the second box
+/// are from the moments of the hull's surface.
 Obb enclosingObb(const ConvexPart& part);
 
-/// Returns solid spheres whose hull contains the part: spheres of its radius about its points. A
-/// cylinder has discs instead of spheres, so it gets the corners of its box.
+/// Returns solid spheres whose hull contains the part: spheres of its radius about its points. For
+/// a cylinder, which has discs instead of spheres, returns spheres around the corners of its box;
+/// their radius covers rounding.
 std::vector<Ball> ballsOf(const ConvexPart& part);
-/// Appends these spheres to `balls`.
+/// Appends the spheres that `ballsOf` returns to `balls`.
 void addBallsOf(const ConvexPart& part, std::vector<Ball>& balls);
 
 }  // namespace corridor

@@ -19,7 +19,8 @@ namespace corridor::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Eight symmetric matrices, and their axes as `principalAxes` (principal_axes.h) defines them.
+/// Eight symmetric matrices. `Axes8` holds their axes, as `principalAxes` (principal_axes.h)
+/// defines them.
 struct alignas(64) Covariances8 {
   double entry[6][8];  ///< xx, xy, xz, yy, yz, zz
 };
@@ -28,13 +29,13 @@ struct alignas(64) Axes8 {
 };
 
 /// Computes the axes of eight covariances as in Eberly, A Robust Eigensolver for 3x3 Symmetric
-/// Matrices, 2014. The first eigenvalue computed is the largest or the smallest: the one that is
+/// Matrices, 2014. The first eigenvalue computed is the largest or the smallest, whichever is
 /// farther from the middle eigenvalue. Its eigenvector is the largest cross product of two rows.
-/// The other two eigenvectors are found in the plane orthogonal to it. For the matrix divided by
-/// its trace, minus a third of the identity, the first eigenvalue is ±p·x. Here p² is a sixth of
-/// the sum of the squared entries, and x in [√3, 2] is the largest root of x³ − 3x =
-/// |determinant|/p³. Newton's method finds x, since the cubic is steep there: the start has an
-/// error of 1e-3, and the two steps reduce it to 1e-6 and 1e-12.
+/// The other two eigenvectors are found in the plane orthogonal to the first. For the matrix
+/// divided by its trace, minus a third of the identity, the first eigenvalue is ±p·x. Here p² is a
+/// sixth of the sum of the squared entries, and x in [√3, 2] is the largest root of x³ − 3x =
+/// |determinant|/p³. Newton's method finds x, since the cubic is steep at this root: the start has
+/// an error of 1e-3, and the two steps reduce the error to 1e-6 and 1e-12.
 HWY_INLINE void principalAxes8(const Covariances8& c, Axes8& out) {
   const hn::CappedTag<double, 8> d;
   using V = hn::Vec<decltype(d)>;
@@ -60,7 +61,8 @@ HWY_INLINE void principalAxes8(const Covariances8& c, Axes8& out) {
   const V zero = hn::Zero(d), one = set(1), third = set(1.0 / 3);
   // Eigenvalues that differ by less than `even` (relative) count as equal, since sums of floats are
   // off by some 2^-22; otherwise noise would rotate the axes of a cube. If all three are equal, the
-  // axes are those of the coordinates. If two are equal, the axes of their plane are s and t below.
+  // axes are those of the coordinates. If two eigenvalues are equal, the axes of their plane are s
+  // and t below.
   const V even = set(0x1p-20);
   for (std::size_t at = 0; at < 8; at += hn::Lanes(d)) {
     const auto load = [&](int k) { return hn::Load(d, c.entry[k] + at); };
@@ -124,7 +126,8 @@ HWY_INLINE void principalAxes8(const Covariances8& c, Axes8& out) {
     sine = hn::IfThenElse(turned, hn::Mul(sine, shorten), zero);
     const Vec3V us = times(cosine, s), ut = times(sine, t);
     const Vec3V u = {hn::Add(us.x, ut.x), hn::Add(us.y, ut.y), hn::Add(us.z, ut.z)};
-    // The larger and the smaller axis of the plane; w × u = v, so that u × v = w.
+    // u is the axis of the larger eigenvalue in the plane, v that of the smaller; w × u = v, so
+    // that u × v = w.
     const Vec3V v = cross(w, u);
     const Vec3V axes[3] = {select(largest, w, u), select(largest, u, v), select(largest, v, w)};
     // The axes are used only if they are orthonormal and not NaN; else the result is the identity.

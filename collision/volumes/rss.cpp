@@ -16,8 +16,8 @@ struct Side {
   }
 };
 
-/// A point lies beyond a corner of the rectangle by (dx, dy). Returns how far the corner must move
-/// out along the diagonal, so that the point is within √square of it.
+/// For a point that lies beyond a corner of the rectangle by (dx, dy): returns how far the corner
+/// must move out, by the same length along both axes, so that it is within √square of the point.
 double push(double dx, double dy, double square) {
   const double apart = 0.5 * (dx - dy);
   return 0.5 * (dx + dy) - std::sqrt(std::max(0.0, 0.5 * square - apart * apart));
@@ -44,8 +44,8 @@ Rss Rss::around(const Obb& box, const Content& content) {
   };
   const double radius = box.half[normal] / unit;
 
-  // First the rectangle gets the interval that it needs along each axis alone. Then its corners
-  // move out where necessary.
+  // First the rectangle gets the interval that it needs along each axis, regardless of the other.
+  // Then its corners move out where necessary.
   Side x, y;
   // Returns the square of the sphere's reach in the rectangle's plane, for a solid sphere of radius
   // r at height z.
@@ -75,9 +75,9 @@ Rss Rss::around(const Obb& box, const Content& content) {
   const Vec3 half(std::max(0.0, x.high - middle[0]), std::max(0.0, y.high - middle[1]), 0);
   rss.core.half = unit * half;
 
-  // This radius makes the volume contain its content, for any rectangle. In coordinates x = U⁻¹(p −
-  // centre) a point is off its computed y by at most 2(η + 6u)·Σ|y_k| per coordinate
-  // (`enclosingObb`). U stretches by at most 1 + 1.5η.
+  // This radius makes the volume contain its content, for any rectangle. Let U be the axes and η
+  // their defect. In coordinates x = U⁻¹(p − centre), a point differs from its computed y by at
+  // most 2(η + 6u)·Σ|y_k| per coordinate (`enclosingObb`). U stretches by at most 1 + 1.5η.
   double farthest = 0;
   Vec3 reach = Vec3::Zero();
   content.forEach([&](const Vec3& p, double r) {

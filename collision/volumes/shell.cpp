@@ -13,13 +13,15 @@
 namespace corridor {
 namespace {
 
-/// The farthest centre, in sizes of the content. A flat content of radius ρ then has a shell of
-/// thickness ρ/512. Farther centres would cost digits: margins grow with the outer radius.
+/// The largest distance of a shell's centre from its content, relative to the size of the content.
+/// A flat content of radius ρ then has a shell of thickness ρ/512. A larger distance would cost
+/// digits, because margins grow with the outer radius.
 constexpr double kFarthest = 256;
-/// Wider cones than this are dropped.
+/// Cones with a larger slope than this are dropped.
 constexpr double kWidest = 64;
 
-/// The sums of which the fits are made, in the unit of length, relative to the box's centre.
+/// The sums from which the fits are computed. Points q are relative to the box's centre, in the
+/// unit of length of `Shell::around`.
 struct Sums {
   Eigen::Matrix4d squares = Eigen::Matrix4d::Zero();  // of (q, 1)
   Eigen::Vector4d cubes = Eigen::Vector4d::Zero();    // |q|²(q, 1)
@@ -54,11 +56,11 @@ double volumeOf(const Shell& shell, double unit) {
 
 /// Returns the shell about this centre, with a cone towards `towards` if all points allow one.
 ///
-/// All lengths are computed in the unit, from d = p − center, which is off by u|d|. Dot and cross
-/// products with the axis, of length 1 up to 2u, are off by less than 8u|d|, and so are projections
-/// on another direction. 32u|d| covers them and the norms. Underflow takes less than kTiny
-/// metres from a difference, and less than 2^-510 units from the squares of a norm; `tiny` covers
-/// both.
+/// All lengths are computed in this `unit`, from d = p − center, which is off by u|d|. Dot and
+/// cross products with the axis, of length 1 up to 2u, are off by less than 8u|d|, and so are
+/// projections on another direction. 32u|d| covers them and the norms. Underflow takes less than
+/// kTiny metres from a difference, and less than 2^-510 units from the squares of a norm; `tiny`
+/// covers both.
 Shell shellAbout(const Vec3& center, const Vec3& towards, const Content& content, double unit) {
   Shell shell;
   shell.center = center;
@@ -96,9 +98,11 @@ Shell shellAbout(const Vec3& center, const Vec3& towards, const Content& content
   shell.inner = std::max(0.0, unit * roundedDown(inner - pad));
   shell.outer = roundedUp(unit * (outer + pad));
 
-  // The sphere about a point m of the axis that contains the rims of both spheres. All other points
-  // of the core are nearer: the squared distance of d from m is |d|² + m² − 2m·|d|·cos, which is
-  // convex in |d|, and the larger the wider the angle. The middle is off by 4u of its terms.
+  // The bounding sphere is about a point of the axis, at the distance m from the centre, and
+  // contains the rims of both spheres. All other points of the core are nearer to the centre of
+  // this sphere: the squared distance of a point d is |d|² + m² − 2m·|d|·cos α for its angle α with
+  // the axis. This is convex in |d|, and grows with the angle. The centre of the sphere is off by
+  // 4u of its terms.
   double m = 0;
   shell.boundingRadius = shell.outer;
   shell.boundingCenter = shell.center;

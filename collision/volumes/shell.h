@@ -8,21 +8,22 @@
 namespace corridor {
 
 /// A spherical shell (Krishnan, Pattekar, Lin, Manocha, "Spherical shell: a higher order bounding
-/// volume for fast proximity queries", 1998), swept by a sphere. It is the set of the points at
-/// most `size` from the core
+/// volume for fast proximity queries", 1998), swept by a sphere. The shell is the set of the points
+/// at most `size` from the core
 ///
 ///   {center + d : inner ≤ |d| ≤ outer, |d × axis| ≤ slope·(d·axis)}
 ///
-/// of two concentric spheres and a cone. Without a cone (`hasCone`), the last condition is dropped.
-/// For triangles `size` is 0. Metres.
+/// which is bounded by two concentric spheres and a cone. If there is no cone (`hasCone()` is
+/// false), the last condition is dropped. For triangles `size` is 0. Metres.
 ///
-/// The only volume that is not convex: it contains each triangle, but not the triangles' hull. A
-/// shell follows a curved surface, whose hull is thicker. Convex parts, which are solid, are in a
-/// convex subset of the shell: the points d with d·axis ≥ inner·|axis|.
+/// The shell is the only volume that is not convex: it contains each triangle, but not the hull of
+/// the triangles. A shell follows a curved surface, whose hull is thicker. Convex parts, which are
+/// solid, are in a convex subset of the shell: the points center + d with d·axis ≥ inner·|axis|,
+/// swept by the sphere.
 struct Shell {
   Vec3 center = Vec3::Zero();  ///< of the spheres: often outside of the content
   Vec3 axis = Vec3::UnitZ();   ///< of the cone: unit, rounded. Only its direction matters.
-  double slope = kNoCone;      ///< tangent of the half angle, which is below 90°
+  double slope = kNoCone;      ///< tangent of the cone's half angle, which is below 90°
   double inner = 0, outer = 0;
   double size = 0;  ///< radius of the swept sphere: the largest of the content
   /// A sphere that contains the volume: its centre, and its radius rounded up.

@@ -6,16 +6,16 @@
 
 namespace corridor {
 
-/// The requirements of a `VolumeTree` on a volume. A volume is a closed set, which its doubles
-/// define in real arithmetic. It contains each triangle of its content, or the hull of the
+/// The requirements that a `VolumeTree` has of a volume. A volume is a closed set, which its
+/// doubles define in real arithmetic. It contains each triangle of its content, or the hull of the
 /// content's spheres. All volumes except `Shell` are convex, and so contain the hull of the
-/// triangles, too; nothing in trees and queries needs that.
+/// triangles, too. Trees and queries do not rely on this.
 ///
 /// Every volume is fitted in the frame of a box around the same content. The frame's axes are those
-/// of the content's moments if `kOriented`, else those of the mesh. `PairTest<Volume>`, in the
-/// file `overlap_<volume>_<volume>.h`, tests two volumes against each other. A
-/// volume may also have `merged(a, b)`, if the result is as tight as a fit around the contents of
-/// both; then refitting uses it.
+/// of the content's moments if `kOriented`, else those of the mesh. `PairTest<Volume>`, in the file
+/// `overlap_<volume>_<volume>.h`, tests two volumes against each other. A volume may also have a
+/// function `merged(a, b)`, which refitting then uses. Its result must be as tight as a fit around
+/// the contents of both.
 template <class V>
 concept BoundingVolume = requires(const V v, const Obb& box, const Content& content) {
   { V::kOriented } -> std::convertible_to<bool>;
@@ -35,11 +35,11 @@ concept BoundingVolume = requires(const V v, const Obb& box, const Content& cont
   { v.ballCenter() } -> std::convertible_to<Vec3>;
 };
 
-/// Bounds that hold for all volumes of a tree.
+/// Upper bounds that hold for all volumes of a tree.
 struct VolumeBounds {
-  double axisDefect = 0;
-  double centerReach = 0;  ///< metres
-  double reach = 0;        ///< metres: largest |x|₂ of all points of their contents
+  double axisDefect = 0;   ///< of `V::axisDefect()`
+  double centerReach = 0;  ///< metres: of `V::centerReach()`
+  double reach = 0;        ///< metres: of |x|₂ for all points x of the contents
 };
 
 /// Tests volumes of two trees against each other under one relative map. It is constructed once per
@@ -47,11 +47,11 @@ struct VolumeBounds {
 /// metres. Each specialisation has:
 ///
 /// `bool separated(const Volume& a, const Volume& b, double pad) const`. `true` is a proof that the
-/// content of a, and the image under X_AB of the content of b, are apart by more than error + pad
-/// metres in real arithmetic. `false` proves nothing.
+/// content of a and the image of the content of b under X_AB are more than error + pad metres
+/// apart, in real arithmetic. `false` proves nothing.
 ///
 /// `double distanceBound(const Volume& a, const Volume& b) const` returns a proved lower bound of
-/// the distance of the contents minus `error`, or 0 if nothing is known.
+/// (distance of the contents, in metres, minus `error`), or 0 if nothing is known.
 ///
 /// If a NaN or an overflow occurs, nothing is separated.
 ///

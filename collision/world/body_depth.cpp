@@ -16,7 +16,7 @@
 namespace corridor {
 namespace {
 
-/// The touching pair of primitives with the largest least depth.
+/// The touching pair of primitives whose lower bound of the depth is largest.
 struct Deepest {
   Penetration depth;
   std::optional<PrimitivePair> pair;
@@ -49,7 +49,8 @@ double depthAlong(const Body& a, const Body& b, const Transform& X_AB, const Vec
   MotionOptions options;
   options.earliest = true;
   options.timeTolerance = accuracy;
-  // During this share of the motion, b approaches by four tolerances.
+  // In the time `accuracy`, b approaches by accuracy·far metres: four tolerances, unless the
+  // rounding of motions requires a larger tolerance.
   const double size = a.radius() + b.radius() + X_AB.t.stableNorm() + far;
   options.tolerance = std::max(accuracy * far / 4, RigidMotion::roundingTolerance(size));
   const MotionResult result = certifyMotion(approach, {&pair, 1}, options, context);
@@ -94,8 +95,8 @@ DepthBounds depthBounds(const Body& a, const Body& b, const Transform& X_AB,
         directions.push_back(sign * X_AB.m.col(i));
       }
   }
-  // At this distance the bounding spheres are apart. The 1 % covers rounding, and the map's
-  // difference from a rotation.
+  // A translation of b by `far` metres separates the bounding spheres. The 1 % covers rounding, and
+  // the difference of the map from a rotation.
   const double far =
       1.01 * (a.sphereRadius() + b.sphereRadius() + (centerB - a.sphereCenter()).stableNorm());
   bounds.upper = HUGE_VAL;

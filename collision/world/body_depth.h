@@ -20,27 +20,30 @@ struct DepthOptions {
 };
 
 /// Bounds of the penetration depth of two bodies that touch: the length of the shortest translation
-/// of b that separates them. Metres. 0, 0: the bodies are apart.
+/// of b that separates the bodies. Metres. If the bodies are apart, both bounds are 0.
 struct DepthBounds {
   /// No translation by less than `lower` separates the bodies. Each pair of primitives (triangles
-  /// or convex parts) that touch has a depth; this is a lower bound of the largest one. If no
-  /// primitives touch, because one body is inside a solid mesh, it is the distance of the surfaces.
+  /// or convex parts) that touch has a depth; `lower` is a lower bound of the largest of these
+  /// depths. If no primitives touch, because one body is inside a solid mesh, `lower` is a lower
+  /// bound of the distance of the surfaces.
   double lower = 0;
-  /// A translation by `upper` along `direction_A` separates the bodies; so does any longer one.
-  /// This is the least depth along the directions that were tried. Infinite: nothing is proved.
+  /// A translation by `upper` along `direction_A` separates the bodies, and so does every longer
+  /// translation along `direction_A`. `upper` is the least bound over the directions that were
+  /// tried. Infinite: nothing is proved.
   double upper = 0;
   Vec3 direction_A = Vec3::Zero();       ///< in a's frame; of unit length, rounded
   std::optional<PrimitivePair> deepest;  ///< the pair that gives `lower`, if primitives touch
 };
 
-/// Computes bounds of the penetration depth. Both hold in real arithmetic on the given doubles.
-/// `lower` needs sizes and coordinates that are 0 or within 2^±440 m, as `penetration` does.
+/// Computes bounds of the penetration depth. Both hold in real arithmetic on the given doubles. The
+/// bound `lower` requires that sizes and coordinates are 0 or within 2^±440 m, because
+/// `penetration` requires it.
 ///
 /// The exact depth of bodies that are not convex is costly: it is a distance on the Minkowski sum,
 /// which may have n⁶ faces. The lower bound takes a pair of primitives at a time (`penetration` in
 /// convex/penetration.h). The upper bound is the first contact of b as it approaches from far away
-/// along a direction (`certifyMotion`), so b may be deeper in a than `lower` says, and may leave it
-/// by a shorter way than `upper` says.
+/// along a direction (`certifyMotion`). Therefore b may be deeper in a than `lower`, and may leave
+/// a by a translation that is shorter than `upper`.
 /// @param X_AB  the map from b's frame to a's.
 /// @throws std::invalid_argument for a map that is not finite, or not within 2^-20 of a rotation;
 /// for a direction that is 0 or not finite; and for an accuracy outside its limits.

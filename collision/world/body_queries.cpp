@@ -58,7 +58,7 @@ Distance distance(const Posed<Body>& a, const Posed<Body>& b, const DistanceOpti
   require(options.relative, "a distance's relative error");
   require(options.absolute, "a distance's absolute error");
   if (!(options.upTo >= 0))
-    throw std::invalid_argument("a distance's limit must be a number of 0 or more");
+    throw std::invalid_argument("DistanceOptions::upTo must be 0 or more; it may be infinite");
   Distance d = surfaceDistance(a, b, options, context, trees, last);
   if (d.distance == 0) return d;
   if (const auto hit = findEnclosed(a, b, context)) {

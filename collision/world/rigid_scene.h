@@ -10,7 +10,7 @@ namespace corridor {
 /// each with its own `QueryContext`.
 class RigidScene {
  public:
-  /// In `scene()` the fixed bodies come first, on frame 0; the moving ones follow, on frame 1.
+  /// In `scene()` the fixed bodies come first, on frame 0; the moving bodies follow, on frame 1.
   /// @throws std::invalid_argument if `moving` is empty.
   RigidScene(std::vector<Body> moving, std::vector<Body> fixed);
 
@@ -20,7 +20,7 @@ class RigidScene {
     return std::span(scene_.bodies()).subspan(fixedCount_);
   }
   /// Returns `Scene::defaultTolerance`.
-  /// @param farthest the largest distance of edges' poses from the origin, metres.
+  /// @param farthest the largest distance of a pose of any edge from the origin, metres.
   double defaultTolerance(double farthest = 0) const { return scene_.defaultTolerance(farthest); }
 
   /// All queries throw std::invalid_argument for poses that are not finite, a zero quaternion, and
@@ -30,13 +30,13 @@ class RigidScene {
   /// how exact the answer is.
   std::optional<Contact> interference(const Transform& X_WB, QueryContext& context) const;
 
-  /// Decides whether the motion from `from` to `to` is free: a straight line, and slerp along the
-  /// shorter arc (collision/PROMISES.md, "What an edge is").
+  /// Decides whether the motion from `from` to `to` is free. The position moves on a straight line,
+  /// and the orientation by slerp along the shorter arc (collision/PROMISES.md, "What an edge is").
   /// @param tube the deviations from the nominal curve that the proof covers.
   MotionResult certifyEdge(const RigidPose& from, const RigidPose& to, const MotionOptions& options,
                            QueryContext& context, const Tube& tube = {}) const;
-  /// The same for a motion in the plane z = 0. Poses are (x, y, yaw), in metres and radians; the
-  /// yaw goes the shorter way round.
+  /// Decides whether a motion in the plane z = 0 is free. Poses are (x, y, yaw), in metres and
+  /// radians; the yaw goes the shorter way round.
   MotionResult certifyEdgePlanar(const Vec3& from, const Vec3& to, const MotionOptions& options,
                                  QueryContext& context, const Tube& tube = {}) const;
   /// Decides whether a state is free: an edge of zero length.

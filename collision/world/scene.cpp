@@ -29,8 +29,8 @@ namespace {
 /// describes a frame as seen from the world, the second a frame as seen from another frame. Both
 /// accept all affine maps, not only rigid ones.
 RelativeMotion atRest(const Transform& X_WB) {
-  // A matrix M of doubles is rarely an exact rotation. With its defect η, |Mx| is between
-  // (1 − 3η)|x| and (1 + 3η)|x|.
+  // A matrix M of doubles is rarely an exact rotation. If η is its defect (`orthonormalityDefect`),
+  // then |Mx| is between (1 − 3η)|x| and (1 + 3η)|x|.
   const double defect = orthonormalityDefect(X_WB.m);
   RelativeMotion still;
   still.X_AB = X_WB;
@@ -54,8 +54,8 @@ RelativeMotion atRest(const Transform& X_WA, const Transform& X_WB) {
   return still;
 }
 
-/// Returns a box around the body under the maps that differ from X by as much as `Scene::Placed`
-/// allows.
+/// Returns a box that contains the body under X, and under every map that differs from X by at most
+/// what `Scene::Placed` allows.
 BoundingBox boxUnder(const Body& body, const Transform& X) {
   BoundingBox box;
   const auto add = [&](const Vec3& p, double radius) {
@@ -78,11 +78,11 @@ BoundingBox boxUnder(const Body& body, const Transform& X) {
 
 void require(const PairMargins& margins, std::size_t pairs) {
   if (margins.size() != pairs)
-    throw std::invalid_argument("a query with margins of pairs needs one for each pair");
+    throw std::invalid_argument("margins of pairs: one for each pair is required");
 }
 
-/// Checks the numbers of every motion query. With a negative margin, for example, `free` would be
-/// possible although bodies touch.
+/// Checks the options of a motion query. With a negative margin, for example, the verdict `free`
+/// would be possible although bodies touch.
 void require(const MotionOptions& options, std::size_t pairs) {
   const auto finite = [](double x, bool zeroToo) {
     return std::isfinite(x) && (zeroToo ? x >= 0 : x > 0);
@@ -107,7 +107,7 @@ Scene::Scene(std::vector<Placed> bodies, std::vector<Pair> pairs)
       restBoxes_[i] = boxUnder(bodies_[i].body, *X_WF);
     }
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> motions;
-  auto last = motions.end();  // most pairs have the frames of the one before
+  auto last = motions.end();  // most pairs have the frames of the pair before
   const auto motionOf = [&](std::size_t frameA, std::size_t frameB) {
     const std::pair frames(frameA, frameB);
     if (last != motions.end() && last->first == frames) return last->second;
@@ -197,8 +197,8 @@ double Scene::defaultTolerance(double farthest) const {
                   RigidMotion::roundingTolerance(size));
 }
 
-/// Visits the pairs of bodies whose bounds do not prove them farther apart than `within` metres,
-/// until the visitor returns true. The visitor may lower `within`.
+/// Visits the pairs of bodies, except pairs whose bounds prove a distance of more than `within`
+/// metres. Stops when the visitor returns true. The visitor may lower `within`.
 template <class Visit>
 void Scene::forNearPairs(std::span<const Transform> X_WF, const double& within,
                          QueryContext& context, Visit visit) const {
@@ -291,8 +291,8 @@ std::vector<Scene::NearPair> Scene::pairsWithin(std::span<const Transform> X_WF,
 namespace {
 
 /// Returns a relative pose at a time in [0, until] at which the surfaces of the two bodies are
-/// farther apart than the pose's rounding and tube. Returns nullopt if none of the times tried has
-/// such a pose. Nearly all motions have such a pose at t = 0.
+/// farther apart than the pose's rounding and tube. Returns nullopt if no such pose is found at the
+/// times that are tried. Nearly all motions have such a pose at t = 0.
 std::optional<Transform> poseApart(const MotionPair& pair, MotionSource& motion, double until,
                                    QueryContext& context) {
   for (const double t : {0.0, until, until / 2, until / 4, until / 8}) {

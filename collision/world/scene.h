@@ -29,23 +29,24 @@ class Scene {
     std::size_t frame = 0;
     /// Set only if the frame is at rest in the world: the pose of the frame. If it is set, the
     /// broad phase finds the body as it finds bodies on frame 0. Queries of states use this pose,
-    /// whatever they are given for the frame. In queries of motions, the frame's pose must take
-    /// each point of the body to within 2^-46·(r + |t|) metres of where this pose takes it; r is
-    /// the body's radius.
+    /// and ignore the transform that the caller passes for the frame. In queries of motions, the
+    /// pose of the frame in the `MotionSource` may differ from this pose a little: each point of
+    /// the body must be within 2^-46·(r + |t|) metres of where this pose places it. Here r is the
+    /// body's radius, and t is the translation of this pose.
     std::optional<Transform> restX_WF = std::nullopt;
   };
   struct Pair {
     std::size_t a = 0, b = 0;  ///< bodies, by index
   };
-  /// A pair of frames. Its motion is that of b as seen from a, and has the index in `framePairs()`
-  /// as its number.
+  /// A pair of frames, which stands for a motion: that of b as seen from a. The number of the
+  /// motion is the index of the pair in `framePairs()`.
   struct FramePair {
     std::size_t a = 0, b = 0;
   };
 
-  /// Only `pairs` are ever tested. In `pairs()`, a is the body on the world or at rest, if one of
-  /// the two is, or else the body on the frame of lower index: the constructor exchanges the two
-  /// bodies of a pair if necessary.
+  /// Only `pairs` are ever tested. In `pairs()`, a is the body that is on frame 0 or at rest, if
+  /// the pair has such a body. Otherwise a is the body on the frame of lower index. The constructor
+  /// exchanges the two bodies of a pair if necessary.
   /// @throws std::invalid_argument if a pair names a body that does not exist, or the map of a
   /// frame at rest is not finite.
   Scene(std::vector<Placed> bodies, std::vector<Pair> pairs);
@@ -56,8 +57,8 @@ class Scene {
   const std::vector<Placed>& bodies() const { return bodies_; }
   const std::vector<Pair>& pairs() const { return pairs_; }
   /// Returns the pairs of frames whose motions a `MotionSource` has to supply: the distinct pairs
-  /// of frames among `pairs()`, and each frame of these that is not at rest, as seen from the
-  /// world.
+  /// of frames among `pairs()`, and, for each of these frames that is not at rest, the pair of the
+  /// world and that frame.
   const std::vector<FramePair>& framePairs() const { return framePairs_; }
   /// Returns a tolerance in metres: 1e-7 of the smallest radius of a frame, or the tolerance that
   /// the rounding of rigid motions requires (`RigidMotion::roundingTolerance`) if that is larger.
@@ -89,10 +90,10 @@ class Scene {
     std::size_t pair = 0;  ///< its index in `motionPairs()`
     Distance distance;     ///< with witness points in the world
   };
-  /// Returns the pairs whose measured distance is at most a length of their own, with their
-  /// distances, in the order of `motionPairs()`. The errors of the distances are those of
-  /// queries/distance.h; the option `upTo` is not used.
-  /// @param within metres, one length for each pair.
+  /// Returns the pairs whose measured distance is at most the length that `within` states for the
+  /// pair, with these distances, in the order of `motionPairs()`. The errors of the distances are
+  /// those of queries/distance.h; the option `upTo` is ignored.
+  /// @param within metres, one length for each pair, in the order of `motionPairs()`.
   std::vector<NearPair> pairsWithin(std::span<const Transform> X_WF, const PairMargins& within,
                                     const DistanceOptions& options, QueryContext& context,
                                     TreeKind trees = TreeKind::obb4) const;
@@ -102,17 +103,18 @@ class Scene {
   /// of `motion` is that of `framePairs()[i]`.
   MotionResult certify(MotionSource& motion, const MotionOptions& options, QueryContext& context,
                        EdgeMethod method = EdgeMethod::directional) const;
-  /// The same, by the method `EdgeMethod::directional`, with a certificate. `checkCertificate`
-  /// (motion/check_certificate.h) can prove the certificate again, given `motionPairs()`. The
-  /// certificate is about surfaces: it is empty if the verdict follows from containment in a solid
-  /// mesh.
+  /// Decides whether the motion is free, by the method `EdgeMethod::directional`, and writes a
+  /// certificate. `checkCertificate` (motion/check_certificate.h) can check the certificate later,
+  /// given `motionPairs()`. The certificate is about surfaces: it is empty if the answer follows
+  /// from containment in a solid mesh, or if containment cannot be decided.
   MotionResult certify(MotionSource& motion, const MotionOptions& options, QueryContext& context,
                        MotionCertificate& certificate) const;
   /// Returns `pairs()` in the form and order in which motion queries take them. A certificate
-  /// numbers its pairs in this order. Valid as long as the scene exists and is not moved.
+  /// numbers its pairs in this order. The span is valid as long as the scene exists and is not
+  /// moved.
   std::span<const MotionPair> motionPairs() const { return motionPairs_; }
-  /// Returns the answer of `certify` for each pair of bodies on its own, in the order of `pairs()`.
-  /// Counts one query.
+  /// Returns the answer of `certify` for each pair of bodies alone, in the order of `pairs()`. All
+  /// pairs together count as one query.
   std::vector<MotionResult> certifyEachPair(MotionSource& motion, const MotionOptions& options,
                                             QueryContext& context) const;
 
@@ -120,8 +122,9 @@ class Scene {
   MotionResult certifyPairs(MotionSource& motion, const MotionOptions& options,
                             QueryContext& context, EdgeMethod method,
                             MotionCertificate* certificate = nullptr) const;
-  /// Corrects the answer about the surfaces of these pairs (indices of `motionPairs_`) if a body is
-  /// inside a solid mesh.
+  /// Returns `result`, the answer about surfaces, corrected if a body of these pairs (indices of
+  /// `motionPairs_`) is inside a solid mesh, or if this cannot be decided. In both cases also
+  /// clears the certificate.
   MotionResult withContainment(MotionResult result, std::span<const std::uint32_t> pairs,
                                MotionSource& motion, QueryContext& context,
                                MotionCertificate* certificate) const;
@@ -129,7 +132,7 @@ class Scene {
   std::size_t frameOrWorld(std::size_t body) const {
     return bodies_[body].restX_WF ? 0 : bodies_[body].frame;
   }
-  /// Returns the map of a body; @pre its frame has one.
+  /// Returns the map of a body. @pre the body's frame is at rest, or `X_WF` has a transform for it.
   const Transform& mapOf(std::size_t body, std::span<const Transform> X_WF) const {
     const Placed& placed = bodies_[body];
     return placed.restX_WF ? *placed.restX_WF : X_WF[placed.frame];

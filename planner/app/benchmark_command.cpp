@@ -259,7 +259,7 @@ void addBenchmark(CLI::App& program, int& status) {
           "inserted where samples touch)")
       ->allow_extra_args(false)
       ->group(compared);
-  const char* runs = "Runs (replaces settings of the campaign or the problems)";
+  const char* runs = "Runs (these options replace settings of the campaign or the problems)";
   command
       ->add_option("--runs", a.runs,
                    "runs of each combination of problem, variant and planner (default 10); all "

@@ -16,11 +16,13 @@ struct BenchmarkTarget {
 };
 
 /// Warns of what readers of the results must know, writes the reports into the folder, and prints
-/// the tables or the JSON. Without any run nothing is written, nor any table printed.
+/// the tables or the JSON. If no run is finished, no report is written and no table is printed; the
+/// JSON, if chosen, is printed in any case.
 /// @param campaign gets the notes on the results.
-/// @throws InputError if a file can't be written; the results are printed before.
+/// @throws InputError if a file can't be written; the results are printed first.
 void giveResults(Campaign& campaign, const CampaignResult& result, const BenchmarkTarget& target);
 
+/// Returns whether any cell has a finished run.
 bool anyRun(const std::vector<CampaignCell>& cells);
 
 }  // namespace corridor::app

@@ -61,8 +61,8 @@ std::string largestAngle(const ConfigurationSpace& space, const Configuration& q
   return largest ? largest->name : "";
 }
 
-/// Sets values that exceed a limit only by rounding to the limit, and notes it. Returns the names
-/// of the coordinates, and of joints that mimic, that are out of their limits.
+/// Sets each value that exceeds a limit by no more than a rounding error to that limit, and adds a
+/// note. Returns the names of the coordinates and of the mimic joints that are out of their limits.
 std::vector<std::string> limitValues(const ConfigurationSpace& space, Configuration& q,
                                      std::vector<Note>& notes) {
   std::vector<std::string> outOfBounds;
@@ -177,7 +177,7 @@ CheckedEdge checkEdge(const Checker& checker, EdgeRow row, std::vector<Note>& no
     edge.verdict = "out_of_bounds";
     return edge;
   }
-  // A contact at the beginning is found as one of the first state.
+  // A contact at the beginning of the edge is reported as a contact of its first state.
   MotionResult result = checker.certifyState(row.from);
   if (result.verdict == MotionVerdict::contact)
     result.contactTime = result.certifiedUntil = 0;
@@ -188,7 +188,7 @@ CheckedEdge checkEdge(const Checker& checker, EdgeRow row, std::vector<Note>& no
   edge.t0 = result.certifiedUntil;
   if (result.contactTime >= 0) edge.t1 = result.contactTime;
   if (result.pair) {
-    // In the order of the bodies, as for states.
+    // The two bodies are named in the order of the model's bodies, as for states.
     const auto [a, b] =
         std::minmax({checker.bodyOf(result.pair->bodyA), checker.bodyOf(result.pair->bodyB)});
     edge.pair = checker.model().bodies[a].name + "~" + checker.model().bodies[b].name;

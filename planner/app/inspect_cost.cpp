@@ -27,9 +27,11 @@ using nlohmann::ordered_json;
 /// The time of a pose is the median of this many passes.
 constexpr int kPasses = 5;
 
-/// One line of the table: the cost of queries with one bounding volume. Poses at which the root
-/// boxes are separate are left out. N_v and N_p are means over the other poses. T is the mean time
-/// over one half of these poses; it is predicted with the costs that were fitted to the other half.
+/// One line of the table: the cost of queries with one bounding volume. The model is T = N_v·C_v +
+/// N_p·C_p (cost_model.h): N_v tests of volumes and N_p tests of triangle pairs, at C_v and C_p per
+/// test. Poses at which the root boxes are separate are left out. N_v and N_p are means over the
+/// other poses. T is the mean time over one half of these poses; it is predicted with the costs
+/// that were fitted to the other half.
 struct CostRow {
   std::string volume;
   double boxTests = 0, triangleTests = 0;  ///< N_v, N_p

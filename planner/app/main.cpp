@@ -24,7 +24,8 @@ int main(int argc, char** argv) {
   // By default SIGXFSZ ends the program when a file reaches the size limit (ulimit -f). If the
   // signal is ignored, writing fails instead, and is reported like a full disk.
   std::signal(SIGXFSZ, SIG_IGN);
-  // Where a parent ignores SIGCHLD, the exit status of a child process would be lost.
+  // If the parent process ignores SIGCHLD, this process inherits that, and the exit statuses of its
+  // own children would be lost.
   std::signal(SIGCHLD, SIG_DFL);
   if (const auto arithmetic = corridor::floatingPoint();
       arithmetic != corridor::FloatingPoint::standard) {

@@ -12,7 +12,8 @@ namespace corridor::app {
 struct MotionFile {
   std::optional<Solution> solution;
   std::optional<TrajectoryRows> trajectory;
-  /// What lies between the rows of a trajectory by the option --between; unset: as interpolationOf.
+  /// The curve between the rows of a trajectory, as the option --between chooses it. Unset: the
+  /// default of `interpolationOf`.
   std::optional<RowInterpolation> between;
 };
 

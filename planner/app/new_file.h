@@ -22,9 +22,10 @@ struct NewRobotArguments {
   std::optional<std::string> srdf;
   std::vector<std::string> packages;  ///< NAME=FOLDER
   std::optional<std::string> visuals, limits, colladaUp;
-  double margin = 0.01;          ///< metres that a pair must keep to count as never in contact
-  double beyondLimits = 0.01;    ///< how far beyond a joint limit a proof also holds, rad or m
-  std::uint64_t work = 250'000;  ///< for the proofs of all pairs, as PairSurveyOptions::work
+  double margin = 0.01;        ///< metres that a pair must keep to count as never in contact
+  double beyondLimits = 0.01;  ///< how far beyond a joint limit a proof also holds, rad or m
+  /// Work limit for the proofs of all pairs together, in the unit of `PairSurveyOptions::work`.
+  std::uint64_t work = 250'000;
   std::uint64_t samples = 1000;
   std::uint64_t seed = 1;
   NewFileArguments file;
@@ -39,8 +40,8 @@ struct NewProblemArguments {
 int newRobot(const NewRobotArguments& arguments);
 int newProblem(const NewProblemArguments& arguments);
 
-/// Tests that the new file can be written, and replaces no file unless `force` is set. Commands
-/// call this before they spend time on the file's contents.
+/// Tests that the new file can be written, and that it would not replace an existing file unless
+/// `force` is set. Commands call this before they spend time on the file's contents.
 /// @throws InputError that names the option.
 void requireNewFile(const NewFileArguments& file);
 /// Writes the text to the file, whole or not at all, or to the standard output.

@@ -114,7 +114,7 @@ std::optional<Configuration> configurationOf(const Model& model, const NamedStat
 }
 
 /// Returns whether a problem may refer to the state by its name: each held joint that the state
-/// names has the held value there.
+/// names has the held value in the state.
 bool holdsAgree(const ModelRobot& robot, const NamedState& state) {
   return std::all_of(state.values.begin(), state.values.end(), [&](const auto& value) {
     const auto j = findJoint(robot.description, value.first);
@@ -139,12 +139,12 @@ class StateFinder {
     return std::move(found_);
   }
 
-  /// Returns which pairs were in contact in most of the states that `find` tried, and what to do;
-  /// "" if none was. The pairs are written as the key `allow` lists them.
+  /// Returns the pairs that were in contact most often in the states that `find` tried, and what to
+  /// do; "" if no pair was in contact. The pairs are written as the key `allow` lists them.
   std::string whyNotValid() const {
     std::vector<std::pair<std::size_t, std::pair<std::size_t, std::size_t>>> most;
     for (const auto& [pair, count] : contacts_) most.emplace_back(count, pair);
-    // The map's order remains among equal counts.
+    // Pairs with equal counts stay in the order of the map.
     std::stable_sort(most.begin(), most.end(),
                      [](const auto& a, const auto& b) { return a.first > b.first; });
     std::string text;
@@ -206,8 +206,8 @@ class StateFinder {
   }
 
   /// A random state becomes the goal only if the edge from the start to it is proved free: then a
-  /// path exists. The first valid state without such an edge is kept, as the goal in case no other
-  /// is found.
+  /// path exists. The first valid state without such an edge is kept: it becomes the goal if no
+  /// better one is found.
   void addRandom() {
     Configuration q = randomConfiguration(model_.space, [&] { return random_(); });
     // Three decimals are easy to read and to edit. The state is tested as it is written.
@@ -232,7 +232,7 @@ class StateFinder {
   std::mt19937_64 random_;
   std::vector<FoundState> found_;
   std::optional<FoundState> spare_;
-  std::size_t tried_ = 0;                                                // states
+  std::size_t tried_ = 0;                                                // number of states
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> contacts_;  // number of states
 };
 
@@ -268,7 +268,7 @@ std::string worldText(const Alone& alone) {
          "0.75]}\n";
 }
 
-/// Start and goal of a rigid robot: on both sides of the wall of `worldText`.
+/// Start and goal of a rigid robot: on opposite sides of the wall of `worldText`.
 std::vector<FoundState> rigidStates(const Alone& alone, const Checker& checker) {
   std::vector<FoundState> found;
   for (const double x : {0.0, 3.9 * alone.size}) {

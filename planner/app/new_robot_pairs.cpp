@@ -67,7 +67,7 @@ std::string contactsText(const NewRobotArguments& a, const SurveyedPair& pair) {
   return "in " + grouped(pair.contacts) + " of " + grouped(a.samples);
 }
 
-/// Returns which pairs have to be decided by the user, as comments.
+/// Returns, as comments, the pairs about which the user has to decide.
 std::string decideText(const NewRobotArguments& a, const Model& model,
                        const std::vector<SurveyedPair>& nearlyAlways) {
   if (nearlyAlways.empty()) return "";

@@ -32,7 +32,7 @@ CLI::Validator isWithin(Number low, Number high, const std::string& needed) {
   return {complaint, ""};
 }
 CLI::Validator isWithin(const ClosedRange& range);
-/// Accepts these words; the error suggests the one that may be meant.
+/// Accepts these words only. The error for another word suggests the most similar one of them.
 CLI::Validator isOneOf(std::vector<std::string> words);
 CLI::Validator isSeconds();  ///< a number above 0
 CLI::Validator isMetres();   ///< a number of 0 or more

@@ -197,9 +197,11 @@ std::vector<std::string> condensed(const std::vector<std::string>& notes, const 
   for (const std::string& note : notes) {
     std::size_t& count = counts[kindOf(note)];
     if (count == 0) continue;  // counted with an earlier one
-    lines.push_back(
-        note +
-        (count == 1 ? "" : " (and " + std::to_string(count - 1) + " more like this" + rest + ")"));
+    const std::size_t others = count - 1;
+    lines.push_back(note);
+    if (others > 0)
+      lines.back() += " (and " + std::to_string(others) +
+                      (others == 1 ? " similar note" : " similar notes") + rest + ")";
     count = 0;
   }
   return lines;

@@ -39,9 +39,9 @@ inline void addFirst(const std::vector<Note>& notes, std::vector<Note>& to) {
   to.insert(to.begin(), notes.begin(), notes.end());
 }
 
-/// Returns the notes for people to read. If notes differ in names and numbers only, it returns the
-/// first of them, with the number of the others.
-/// @param rest how to see the others, for the end of the note.
+/// Returns the notes for people to read. Among notes that differ only in quoted names and in
+/// numbers, only the first is returned, with the number of the others.
+/// @param rest the end of such a note: how to list the others.
 std::vector<std::string> condensed(const std::vector<std::string>& notes,
                                    const std::string& rest = "; inspect --json lists all");
 
@@ -75,11 +75,11 @@ void requireWritable(const std::optional<std::string>& file, const char* option)
 
 /// Tests that writing a file does not overwrite one of the files `read`.
 /// @param what the owner of these files, for the message: "the problem".
-/// @throws InputError that names the option, if it would be overwritten.
+/// @throws InputError that names the option, if one of them would be overwritten.
 void requireNotAnInput(const std::optional<std::string>& file, const char* option,
                        const std::vector<std::filesystem::path>& read, const std::string& what);
 
-/// Returns four significant digits, for people to read.
+/// Returns the value with four significant digits, for people to read.
 std::string rounded(double value);
 std::string rounded(const Vec3& v, int dimension = 3);  ///< "[1, 2, 3]"
 /// Returns roll, pitch and yaw in degrees.
@@ -102,7 +102,7 @@ nlohmann::ordered_json numbersJson(const Configuration& q);  ///< a Vec3 convert
 /// Returns null for an infinity and for NaN, which JSON cannot represent.
 nlohmann::ordered_json numberJson(double value);
 
-/// Returns digits in groups of three: 12,345.
+/// Returns the count with its digits in groups of three: "12,345".
 std::string grouped(std::uint64_t count);
 /// "1 edge", "2 edges"
 std::string counted(std::uint64_t count, const std::string& noun);

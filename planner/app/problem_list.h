@@ -14,8 +14,9 @@ struct ListedProblem {
 /// The problems that a command is given.
 struct ProblemList {
   std::vector<ListedProblem> problems;
-  /// There is more than one argument, or an argument may stand for several problems. The form of
-  /// the results depends on this, not on how many problems an argument happens to have.
+  /// True if there is more than one argument, or if an argument may stand for several problems. The
+  /// form of the results depends on this, not on the number of problems that an argument happens to
+  /// stand for.
   bool several = false;
 };
 

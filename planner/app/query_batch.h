@@ -90,14 +90,15 @@ using NextShape = std::function<std::optional<TriangleMesh>()>;
 /// not octrees, which can't be refitted.
 std::vector<FrameResult> runFrames(const Batch& batch, const NextShape& next);
 
-/// Computes bounds of the penetration depth at all poses. It takes the trees that it needs.
+/// Computes bounds of the penetration depth at all poses, with the 4-wide and the binary OBB trees,
+/// which depth queries need.
 /// @param direction  along which b leaves a; unset: the default of `DepthOptions`.
 BatchResult runDepths(TriangleMesh a, TriangleMesh b, const std::vector<Transform>& poses,
                       const std::optional<Vec3>& direction, int repeat);
 
 /// Computes the first contact along each motion of b, with a at rest, and measures it.
-/// @param tolerance metres; unset: the larger of 1e-7 of the smaller bounding sphere's radius and
-/// `RigidMotion::roundingTolerance`.
+/// @param tolerance metres; unset: the larger of 1e-7 times the radius of the smaller bounding
+/// sphere and `RigidMotion::roundingTolerance`.
 BatchResult runMotions(TriangleMesh a, TriangleMesh b, const std::vector<PoseMotion>& motions,
                        const TreeChoice& trees, std::optional<double> tolerance, int repeat,
                        EdgeMethod method);

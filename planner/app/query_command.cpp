@@ -95,7 +95,7 @@ void checkOptions(const QueryArguments& a) {
   if (a.poses && a.grid)
     throw InputError(Fault{"--grid", 0, "can't be used with --poses; give one of the two"});
   if (!a.poses && !a.grid && !a.motions)
-    throw InputError(Fault{"--poses", 0, "a file of poses is needed, or --grid, or --motions"});
+    throw InputError(Fault{"--poses", 0, "one of --poses, --grid and --motions is required"});
   const auto ofGrid = [&](const char* option, bool given) {
     if (given && !a.grid) throw InputError(Fault{option, 0, "needs --grid, which is not given"});
   };
@@ -175,7 +175,8 @@ void checkHullOptions(const QueryArguments& a) {
     if (given)
       throw InputError(Fault{option, 0, "can't be used with --hulls, which needs no trees"});
   };
-  if (a.motions) throw InputError(Fault{"--hulls", 0, "takes poses, not --motions"});
+  if (a.motions)
+    throw InputError(Fault{"--hulls", 0, "can't be used with --motions; leave one of them out"});
   ofTrees("--deform", !a.deform.empty());
   ofTrees("--volume", a.volume.has_value());
   ofTrees("--fit", a.fit.has_value());
@@ -385,7 +386,8 @@ void addQuery(CLI::App& program, int& status) {
           "--tolerance", a.tolerance,
           "metres. With --query tolerance: report whether A and B are at most this far apart. With "
           "--motions, above 0: a motion whose clearance is below twice this may be undecided "
-          "(default: 1e-7 of the smaller mesh's radius, or what the rounding of poses needs, if "
+          "(default: 1e-7 times the radius of the smaller mesh's bounding sphere, or what the "
+          "rounding of poses needs, if "
           "that is more)")
       ->check(isWithin(0.0, std::numeric_limits<double>::max(), "a number of metres, 0 or more,"))
       ->group(asked);
@@ -432,7 +434,8 @@ void addQuery(CLI::App& program, int& status) {
           "  distance: pose,distance,ax,ay,az,bx,by,bz,nx,ny,nz, with a closest point of each mesh "
           "and the direction from A to B (0 for contact)\n"
           "  depth: pose,lower,upper,dx,dy,dz,triangle_a,triangle_b: B must move by at least "
-          "lower, and leaves A by upper along the direction; the deepest pair of triangles\n"
+          "lower, and leaves A by upper along the direction; triangle_a and triangle_b are the "
+          "deepest pair\n"
           "  with --hulls: interference: pose,hit,steps; distance: pose,distance,lower,nx,ny,nz,ax,"
           "ay,az,bx,by,bz,steps, with a proved lower bound, the direction that proves it, and a "
           "closest point of each hull; depth: pose,lower,upper,nx,ny,nz,ax,ay,az,bx,by,bz,steps, "

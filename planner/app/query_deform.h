@@ -8,7 +8,7 @@
 /// The option --deform of `corridor query`: A changes its shape from frame to frame.
 namespace corridor::app {
 
-/// Refuses a query, or trees, that --deform can't be used with. @throws InputError
+/// Refuses queries and trees that can't be combined with --deform. @throws InputError
 void requireFrames(const NamedQuery& query, const TreeNames& trees);
 
 /// All frames of a query together.
@@ -17,8 +17,8 @@ struct AllFrames {
   double refitMs = 0;  ///< mean time to refit the tree of A to a frame
 };
 /// Runs a batch for A and each further shape of A, and prints one line per frame and pose. The tree
-/// of A is refitted from frame to frame. Files are read one after another, so that only one shape
-/// is in memory.
+/// of A is refitted from frame to frame. The files of the further shapes are read one after
+/// another, so that only one of these shapes is in memory.
 /// @param nameA the file of A, for messages. @param files the files of its further shapes.
 /// @throws InputError if a file can't be read, or has another number of triangles than A. Nothing
 /// is printed then.

@@ -9,15 +9,19 @@
 
 namespace corridor::app {
 
-/// The methods of `corridor query --hulls`; the first is the default: how GJK finds the vertex of a
-/// hull that is farthest along a direction; or `lp`, linear programming; `vclip`, closest features;
-/// `axes`, separating axes; `barba-langerman`, inner and outer hierarchies.
+/// Returns the names of the methods of `corridor query --hulls`. The first one is the default.
+/// - `hierarchy`, `climbing`, `every-vertex`: GJK. The name says how GJK finds the vertex of a hull
+///   that is farthest along a direction.
+/// - `lp`: linear programming.
+/// - `vclip`: closest features.
+/// - `axes`: separating axes.
+/// - `barba-langerman`: inner and outer hierarchies.
 const std::vector<std::string>& hullMethods();
 
 /// Checks the names that `queryHulls` takes.
 /// @param query  interference, distance or depth; unset: interference.
 /// @throws InputError for an unknown query or method, for a query that the method does not have,
-/// and for `coherent` if the method keeps nothing from pose to pose.
+/// and for `coherent` if the method, or the query `depth`, keeps nothing from pose to pose.
 void requireHullQuery(const std::string& method, const std::optional<std::string>& query,
                       bool coherent);
 

@@ -42,7 +42,7 @@ TreeNames chosenTrees(const TreeNames& words) {
 void requireNoOctree(const TreeNames& trees, const std::string& asked) {
   if (trees.volume == kOctree)
     throw InputError(Fault{"--volume", 0,
-                           "octree has only --query interference, at poses, not " + asked +
+                           "octree supports only --query interference at poses, not " + asked +
                                "; choose another volume, such as aabb"});
 }
 

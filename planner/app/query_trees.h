@@ -15,13 +15,16 @@ inline constexpr const char* kOctree = "octree";
 /// words. @throws InputError for a word that is unknown, or that the volume does not have.
 TreeNames chosenTrees(const TreeNames& words);
 
-/// Refuses a query that octrees don't have. @throws InputError
-/// @param trees as `chosenTrees` returns them. @param asked the query, for the message.
+/// Refuses octrees for a query that they don't support. @throws InputError if the volume is the
+/// octree.
+/// @param trees as `chosenTrees` returns them. @param asked the name of the query that was chosen,
+/// for the message.
 void requireNoOctree(const TreeNames& trees, const std::string& asked);
 
 /// Refuses an --overlap other than the volume's default, for a query that computes distances
 /// between volumes and so runs no overlap test. @throws InputError
-/// @param of the options with which overlap tests are run. @param asked the name of the query.
+/// @param of the options whose queries run overlap tests, for the message. @param asked the name of
+/// the query that was chosen, for the message.
 void requireDefaultOverlap(const TreeNames& trees, const std::string& of, const std::string& asked);
 
 }  // namespace corridor::app

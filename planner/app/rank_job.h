@@ -11,21 +11,24 @@
 /// Commands under `mpirun`.
 namespace corridor::app {
 
-/// The part of this process in a job under `mpirun`, or that it is alone.
+/// The part that this process has in a job under `mpirun`. A process that was started without
+/// `mpirun` is alone.
 class RankJob {
  public:
-  /// Joins the job, if there is one. @param jobs tasks at a time on each rank.
+  /// Joins the job, if there is one. @param jobs number of tasks at a time on each rank.
   /// @throws InputError as joinRanks.
   explicit RankJob(std::size_t jobs);
 
-  /// Whether rank 0 hands out the tasks of this process, which has to call `serve`.
+  /// Whether rank 0 hands out the tasks of this process. If so, this process must call `serve`.
   bool serves() const { return ranks_ && ranks_->rank() > 0; }
-  /// The other ranks' executor; null for a process that is alone. @pre !serves()
+  /// The executor that does tasks on the other ranks; null for a process that is alone.
+  /// @pre !serves()
   RankExecutor* executor() { return executor_ ? &*executor_ : nullptr; }
   /// Listens for interrupts as `listenForInterrupts`. In a job, a second signal does nothing, since
   /// each rank may get several.
   const std::atomic<bool>& listen() const;
-  /// Does what rank 0 hands out. @pre serves(). @returns the exit status.
+  /// Does the tasks that rank 0 hands out, until rank 0 ends the job.
+  /// @pre serves(). @returns the exit status.
   int serve(const RankSetUp& setUp);
 
  private:
@@ -33,8 +36,9 @@ class RankJob {
   std::optional<RankExecutor> executor_;  // ends before `ranks_`
 };
 
+/// Returns at once on rank 0, and in a process that is alone; on any other rank, waits up to 30 s.
 /// Under `mpirun`, all ranks find the same faults in the command line. Rank 0 reports them and
-/// ends, and `mpirun` then ends the others, which wait here meanwhile.
+/// ends. While the other ranks wait here, `mpirun` ends them.
 void letRank0Report();
 
 }  // namespace corridor::app

@@ -6,7 +6,7 @@
 namespace corridor::app {
 namespace {
 
-/// @throws InputError if a clearance is preferred, but can't be.
+/// @throws InputError if a clearance is preferred, but the other settings don't allow that.
 void requireClearance(const SolveArguments& a, const Problem& problem) {
   if (!(problem.settings.prefer.clearance.value_or(0) > 0)) return;
   if (const auto why = whyNoClearance(problem.task.margin, problem.settings))
@@ -61,7 +61,8 @@ std::map<std::string, std::string> applyArguments(const SolveArguments& a, Probl
   TrajectorySettings& trajectory = problem.settings.trajectory;
   if (a.smooth && a.cornerDeviation && *a.smooth != wordOf(Smoothing::corners))
     throw InputError(
-        Fault{"--corner-deviation", 0, "means --smooth corners; leave out --smooth " + *a.smooth});
+        Fault{"--corner-deviation", 0,
+              "can't be combined with --smooth " + *a.smooth + "; leave one of them out"});
   if (a.smooth) {
     trajectory.smooth = choiceNamed<Smoothing>(*a.smooth).value();
     trajectory.cornerDeviation.reset();  // of the problem's file: it rounds corners only

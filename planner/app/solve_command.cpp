@@ -139,7 +139,7 @@ void addSolve(CLI::App& program, int& status) {
                    "SET.json#INDEX: one problem of a set of MotionBenchMaker; several problems: "
                    "SET.json#1-50, or a folder of folders with problems")
       ->required();
-  const char* planning = "Planning (replaces settings of the problem)";
+  const char* planning = "Planning (these options replace settings of the problem)";
   command
       ->add_option("--planner", a.planner,
                    "OMPL's name of the planner; the error for an unknown name lists all names")

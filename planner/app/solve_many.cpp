@@ -28,7 +28,8 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-/// Seconds that the parent waits for a child: children end by the time limits of their problems.
+/// Seconds that the parent waits for a child: practically without limit, because the time limits of
+/// the problems end the children.
 constexpr double kPatience = 1e9;
 constexpr int kPollMs = 200;
 
@@ -111,14 +112,14 @@ ChildProcess::Work workFor(const ListedProblem& problem, const SolveArguments& a
   };
 }
 
-/// Returns the report on a problem, by the end of its process.
+/// Returns the report on a problem, made from the end of its child process.
 ordered_json reportOf(const ListedProblem& problem, const ChildEnd& end) {
   if (end.messages.size() == 2) return ordered_json::parse(end.messages.back());
   return {{"problem", problem.file}, {"result", kFailedResult}, {"why", end.failure}};
 }
 
-/// Solves all problems, or until it is interrupted. @param done is called with each report and the
-/// number of its problem.
+/// Solves the problems until all are done, or until an interrupt.
+/// @param done is called with the number of each problem and the end of its child process.
 template <class Done>
 void solveAll(std::size_t problems, Executor& executor, const std::atomic<bool>& interrupted,
               const Done& done) {
@@ -192,7 +193,7 @@ void printTable(const std::vector<ordered_json>& reports, const ResultPrinter& o
     if (solved.empty()) continue;
     std::string times;
     for (const auto& [key, name] : kSolvePhases) {
-      if (key == std::string_view("trajectory_s")) continue;  // of single problems only
+      if (key == std::string_view("trajectory_s")) continue;  // not made for several problems
       std::vector<double> seconds;
       for (const ordered_json* report : solved) seconds.push_back((*report)["phases"][key]);
       times +=

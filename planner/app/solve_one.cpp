@@ -32,8 +32,9 @@ bool isBetter(const ConfigurationSpace& space, const SolveReport& a, const Solve
   return distanceAlong(space, a.path) < distanceAlong(space, b.path);
 }
 
-/// Solves the problem as often as the arguments say, each time with another seed. Returns the best
-/// solution, or the report on the first try if there is none. An interrupt ends the tries.
+/// Solves the problem as often as the arguments say, each time with another seed. Returns the
+/// report with the best solution. If there is no solution, returns the report on the first try, or
+/// on the interrupted one. An interrupt ends the tries.
 /// @param tries gets the number of tries that ended.
 SolveReport bestOf(const SolveArguments& a, Problem& problem, const SolveOptions& options,
                    std::uint64_t& tries) {

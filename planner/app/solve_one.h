@@ -12,8 +12,8 @@ namespace corridor::app {
 TrajectoryFileKind trajectoryKindOf(const std::string& file);
 
 /// Solves one problem, and writes the solution and the picture that the arguments name. With
-/// several tries, each has a seed of its own, from the problem's seed upwards; the best path is
-/// kept.
+/// several tries, each try has a seed of its own, from the problem's seed upwards. The best path is
+/// kept: the shortest or the clearest, as `SolveArguments::keep` says.
 /// @param beforeWriting called after solving, before a file is written.
 /// @throws InputError.
 Solved solveOne(const std::string& file, const SolveArguments& a,

@@ -11,8 +11,8 @@ namespace corridor::app {
 void openStandardStreams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(stream, F_GETFD) >= 0) continue;
-    // open() returns the lowest free number, which is this one. The access mode is the opposite of
-    // what the stream needs, so that using the stream fails.
+    // open() returns the lowest free descriptor, which is `stream`. The access mode is the opposite
+    // of what the stream needs, so that using the stream fails.
     [[maybe_unused]] const int same =
         ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
   }

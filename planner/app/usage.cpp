@@ -9,8 +9,8 @@ namespace corridor::app {
 namespace {
 
 /// Returns a message on a word or an option that the command does not take, with the nearest name
-/// of an option; "" if there is none. (CLI11's own message lists the words in reverse, and suggests
-/// nothing.) Words before the command, or after a --, are in `program.remaining()`.
+/// of an option; "" if there is no such word. (CLI11's own message lists the words in reverse, and
+/// suggests nothing.) Words before the command, or after a --, are in `program.remaining()`.
 std::string unknownWord(const CLI::App& program, const CLI::App& command) {
   std::vector<std::string> words = command.remaining();
   if (words.empty()) words = program.remaining();
@@ -25,7 +25,8 @@ std::string unknownWord(const CLI::App& program, const CLI::App& command) {
   return "unknown option " + quotedWord(name) + didYouMean(name, names);
 }
 
-/// Returns a message on an option that is given several times but taken once; "" if there is none.
+/// Returns a message on an option that is given several times but may be given only once; "" if
+/// there is no such option.
 std::string repeatedOption(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options())
     if (option->get_items_expected_max() == 1 && option->count() > 1)

@@ -174,7 +174,8 @@ void print(const VerifyReport& r, const Problem& problem, const VerifyArguments&
   if (r.limits)
     out.line("limits over time", limitsText(problem, *r.limits),
              exceedsLimits(*r.limits) ? Tone::bad : Tone::plain);
-  std::size_t findings = 0, notExamined = 0;  // edges after the work limit: one stands for all
+  // The edges after the work limit are counted, and only the first of them is printed.
+  std::size_t findings = 0, notExamined = 0;
   for (const PathFinding& finding : r.pathReport.findings)
     if ((finding.reason != kWorkLimit || ++notExamined == 1) && ++findings <= kMostLines)
       out.line("finding", text(finding, r, problem));

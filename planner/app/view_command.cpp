@@ -180,7 +180,8 @@ int viewCommand(const ViewArguments& a) {
     out.line("page", *pageFile);
   }
   if (a.image) {
-    // A second signal is ignored: after the first, the browser ends and its folder is removed soon.
+    // A second signal is ignored: soon after the first one, the browser has ended and its folder is
+    // removed.
     const std::atomic<bool>& interrupted = listenForInterrupts(SecondInterrupt::isIgnored);
     if (!writePicture(page, *browser, size, *a.image, interrupted)) return interruptedStatus();
     out.line("image", *a.image);

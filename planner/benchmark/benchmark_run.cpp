@@ -230,7 +230,7 @@ std::vector<double> patienceOf(const Problem& planned, const BenchmarkLimits& li
   return patience;
 }
 
-/// Adds the trajectories that the process did not get to, with the reason.
+/// Adds an entry for each trajectory that the process did not reach, with the reason as its fault.
 void addMissing(std::size_t limitSets, std::size_t makers, const std::string& why,
                 BenchmarkRun& run) {
   run.trajectories.resize(limitSets);

@@ -47,8 +47,8 @@ struct BenchmarkRun {
   std::string finding;
   /// Computed by the verifier, in metres, without subtracting the margin. The whole path, tube
   /// included, is proved to keep a distance of at least `provenClearance`. `leastDistance` is the
-  /// least distance of a tested pair that the verifier met along the path. −1: none (no tested
-  /// pair, or no verdict).
+  /// least distance of a tested pair at the poses that the verifier tested. Both are −1 without a
+  /// tested pair or a verdict.
   double provenClearance = -1, leastDistance = -1;
 
   /// Everything that `corridor solve` does except reading files; see SolveReport. `time` is the sum
@@ -70,14 +70,15 @@ struct BenchmarkRun {
   /// For each set of limits of the campaign; empty if the run is not solved, or the campaign makes
   /// no trajectories.
   std::vector<LimitedTrajectories> trajectories;
-  /// Never null; without a record all of its texts are empty. Runs may share it.
+  /// Never null. If OMPL kept no record, all texts in it are empty. Several runs may share one
+  /// record.
   std::shared_ptr<const OmplRecord> ompl = noOmplRecord();
 };
 
 /// The trajectories that are made along the path of a run.
 struct RunTrajectories {
   std::vector<TrajectoryMaker> makers;  ///< empty: no trajectories
-  std::vector<JointLimits> limits;      ///< the sets of limits, for the run's problem
+  std::vector<JointLimits> limits;      ///< one for each set of limits, for the run's problem
 };
 
 struct BenchmarkLimits {
@@ -102,13 +103,14 @@ BenchmarkRun runUnderOmpl(const Problem& planned, const std::string& digest,
 
 /// Verifies a run's path with the independent verifier: sets verdict, finding, verificationTime,
 /// provenClearance and leastDistance.
-/// @param problem the problem as its file has it, without the variant: all variants are verified
-/// alike.
+/// @param problem the problem as its file has it, without the variant, so that all variants are
+/// verified alike.
 void verifyRun(const Problem& problem, const Path& path, BenchmarkRun& run);
 
-/// Makes trajectories along a path, and verifies them. Calls `done` after each.
-/// @param problem as for verifyRun. Its checker proves the trajectories: those of all variants are
-/// made alike.
+/// Makes trajectories along a path, verifies them, and adds them to `run.trajectories`. Calls
+/// `done` after each.
+/// @param problem as for verifyRun. The problem's own checker proves the trajectories, so they are
+/// made the same way for all variants.
 void runTrajectories(const Problem& problem, const RunTrajectories& trajectories, const Path& path,
                      BenchmarkRun& run, const std::function<void()>& done);
 
@@ -116,7 +118,8 @@ void runTrajectories(const Problem& problem, const RunTrajectories& trajectories
 /// memory is then a failure of this run only. Planning is stopped after twice planner.time plus a
 /// minute.
 /// @param problem the problem as its file has it, for verifying the path; null: the path is not
-/// verified. @pre without a problem there are no trajectories; as ChildProcess.
+/// verified. @pre if `problem` is null, `trajectories` has no makers; and the preconditions of
+/// ChildProcess.
 ChildProcess startRun(const Problem* problem, const Problem& planned, const std::string& digest,
                       const std::optional<BenchmarkCompetitor>& competitor,
                       const BenchmarkLimits& limits, const RunTrajectories& trajectories = {});

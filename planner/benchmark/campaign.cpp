@@ -123,7 +123,8 @@ RunSource runsOf(const std::vector<CampaignCell>& cells) {
 
 bool hasRun(const Campaign& campaign, std::size_t cell, std::size_t cells, std::uint64_t seed) {
   if (seed < campaign.seed || seed - campaign.seed >= campaign.runs) return false;
-  const std::size_t variants = campaign.variants.size();  // they are next to each other
+  // cellsOf puts the variants of a problem and planner next to each other.
+  const std::size_t variants = campaign.variants.size();
   return !campaign.shard ||
          campaign.shard->contains(cell / variants, cells / variants, seed - campaign.seed);
 }

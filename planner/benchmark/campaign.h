@@ -22,7 +22,8 @@ struct CampaignPlanner {
   /// Parameters. Unset: the problem's, if this is the problem's own planner; else OMPL's defaults.
   std::optional<std::map<std::string, std::string>> params;
   std::optional<Simplifier> simplify = {};  ///< unset: the campaign's, or the problem's
-  /// For error messages: "lecture.yaml:5: planners". Empty: the place of all planners.
+  /// For error messages: "lecture.yaml:5: planners". Empty: the place of the key or option for all
+  /// planners.
   std::string place = {};
 };
 
@@ -37,12 +38,12 @@ struct Campaign {
   std::vector<Variant> variants;
   std::vector<CampaignPlanner> planners;  ///< empty: each problem's own planner
   std::uint64_t runs = 10, seed = 1;      ///< seeds: seed … seed + runs − 1
-  std::optional<CampaignShard> shard;     ///< the shard of the runs that is made; unset: all
+  std::optional<CampaignShard> shard;     ///< the part of the runs to make; unset: all runs
   std::optional<double> time;             ///< seconds per run; unset: the problem's own limit
   std::optional<Simplifier> simplify;     ///< unset: the problem's own setting
-  /// Whether every path is verified. If not, nothing reports which paths are in collision.
+  /// Whether every path is verified. If false, nothing reports which paths are in collision.
   bool verify = true;
-  CampaignTrajectories trajectories;  ///< made along each returned path; need `verify`
+  CampaignTrajectories trajectories;  ///< made along each returned path; only with `verify`
   BenchmarkLimits limits;
   /// For error messages: the places where variants, planners and runs are set ("--planners",
   /// "lecture.yaml:4: planners").
@@ -52,7 +53,7 @@ struct Campaign {
 
 /// Sets the problems' names in the results, printable and distinct ("plate", "plate-2"), and their
 /// digests. Call it immediately after reading the problems, before their files can change.
-/// @throws InputError if one of their files can't be read.
+/// @throws InputError if a file of a problem can't be read.
 void identifyProblems(Campaign& campaign);
 
 /// A combination of a problem, a variant and a planner, and its runs.
@@ -65,15 +66,17 @@ struct CampaignCell {
 /// Returns all cells, without runs, in order of problem, then planner, then variant.
 std::vector<CampaignCell> cellsOf(const Campaign& campaign);
 
-/// Returns whether the campaign has a run of this seed, and it belongs to the campaign's shard.
+/// Returns whether the campaign has a run of this cell and seed, and this run belongs to the
+/// campaign's shard.
 /// @param cell the index of a cell in `cellsOf`. @param cells their number.
 bool hasRun(const Campaign& campaign, std::size_t cell, std::size_t cells, std::uint64_t seed);
 
-/// Calls `visit` for each run of a cell (an index) with all of its data, in order of seed.
+/// Calls `visit` for each run of the cell with index `cell`, in order of seed. The runs have all of
+/// their data.
 using RunSource =
     std::function<void(std::size_t cell, const std::function<void(const BenchmarkRun&)>& visit)>;
 
-/// Returns a source of the runs in the cells. @pre the cells outlive it.
+/// Returns a source of the runs in the cells. @pre the cells outlive the source.
 RunSource runsOf(const std::vector<CampaignCell>& cells);
 
 struct CampaignResult {

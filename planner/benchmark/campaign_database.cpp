@@ -148,7 +148,7 @@ class CampaignDatabase::Tables {
         step();
         transaction.commit();
       } catch (...) {
-        // The transaction may have added what is known here.
+        // The transaction may have added rows and columns whose ids and names are cached here.
         rows_->forget();
         known_ = {};
         together_ = false;
@@ -157,11 +157,11 @@ class CampaignDatabase::Tables {
       together_ = false;
     });
   }
-  /// Writes runs to a log beside the file first. If the process is killed, no run is lost; if the
-  /// machine loses power, the last runs may be. The file is consistent in both cases, and a run
-  /// does not wait for the disk (https://sqlite.org/pragma.html#pragma_synchronous). SQLite needs
-  /// no shared memory for it, since this process has the file alone. If the file system has no such
-  /// log, SQLite keeps its usual journal, and each run waits.
+  /// Makes SQLite write runs to a log beside the file first. If the process is killed, no run is
+  /// lost; if the machine loses power, the last runs may be. The file is consistent in both cases,
+  /// and a run does not wait for the disk (https://sqlite.org/pragma.html#pragma_synchronous).
+  /// SQLite needs no shared memory for the log, since no other process has the file open. If the
+  /// file system does not support such a log, SQLite keeps its usual journal, and each run waits.
   void keepLog() {
     if (base_->execAndGet("PRAGMA journal_mode = WAL").getString() == "wal")
       base_->exec("PRAGMA synchronous = NORMAL");

@@ -47,15 +47,16 @@ class CampaignDatabase {
   /// it can't be written; the runs that were stored before remain.
   void add(std::size_t cell, const BenchmarkRun& run);
 
-  /// Stores many runs quickly, all or none: calls `adds`, which calls `add`. @throws as `add` and
-  /// `adds`; then none of these runs is stored.
+  /// Stores many runs quickly, all or none. Calls `adds`, which must call `add` for each run.
+  /// @throws the exceptions of `add` and `adds`; then none of these runs is stored.
   void addTogether(const std::function<void()>& adds);
 
-  /// Returns a source of the stored runs, whole. It reads one run at a time. It throws InputError
-  /// as `add`. @pre this object outlives it.
+  /// Returns a source of the stored runs, with their texts. The source reads one run at a time, and
+  /// throws InputError if the file can't be read. @pre this object outlives the source.
   RunSource runs() const;
 
-  /// Returns the sessions that made at least one run, oldest first. @throws InputError as `add`.
+  /// Returns the sessions that made at least one run, oldest first. @throws InputError if the file
+  /// can't be read.
   std::vector<CampaignSession> sessions() const;
 
  private:

@@ -209,7 +209,8 @@ class Merger {
     return base_.execAndGet("SELECT ifnull(max(id), 0) FROM main." + table).getInt64();
   }
 
-  /// An experiment has all runs of a problem and variant. Its setup ends with the planners.
+  /// An experiment has all runs of a problem and variant. Its setup text ends with the descriptions
+  /// of its planners.
   void addExperiments() {
     SQLite::Statement cells(
         base_,
@@ -247,8 +248,8 @@ class Merger {
     stored.executeStep();
     if (!stored.getColumn(0).isNull()) return;
     stored.reset();
-    // The first file with this planner. If the experiment was there already, without the planner,
-    // its setup gets the planner's part.
+    // This is the first file that has this planner. If an earlier file already gave the experiment,
+    // its setup text lacks the planner, so the planner's part is added.
     if (!copied_.count(now)) addPlannerSetup(cellWas, now);
     execute("UPDATE main.corridor_cells SET experimentid = ? WHERE id = ?", now, cell);
   }
@@ -280,7 +281,7 @@ class Merger {
   }
 
   void addPlannerSetup(std::int64_t cellWas, std::int64_t now) {
-    // Runs of version 2 have OMPL's record in their own.
+    // Runs of version 2 have OMPL's record within their own record.
     SQLite::Statement run(base_,
                           "SELECT ifnull(json_extract(setup, '$.setup'), json_extract(record, "
                           "'$.ompl.setup')) FROM source.corridor_runs LEFT JOIN "
@@ -325,7 +326,8 @@ SeedRange joinedSeeds(std::vector<SeedRange> ranges, const fs::path& file) {
   return all;
 }
 
-/// Attributes faults to a source, except for faults of writing, which are the new file's.
+/// Attributes faults to a source file, except for faults of writing, which are attributed to the
+/// new file.
 void withSourceInErrors(const fs::path& source, const std::function<void()>& step) {
   try {
     step();

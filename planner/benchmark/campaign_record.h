@@ -6,13 +6,13 @@
 
 namespace corridor {
 
-/// Returns a campaign as JSON, for its database: all that reports, and the database itself, need of
-/// it. Bodies, robots, starts and goals are left out.
+/// Returns a campaign as JSON, for its database: everything that reports and the database itself
+/// need to know about it. Bodies, robots, starts and goals are left out.
 std::string recordOf(const Campaign& campaign);
 
-/// Reads a record. The campaign gives the same reports and `specOf` as the one that was recorded,
-/// on any machine and without its files. It can't be run: its problems have no bodies, and its
-/// competitors have names only.
+/// Reads a record. The returned campaign gives the same reports and the same `specOf` as the
+/// recorded one, on any machine and without the recorded campaign's files. It can't be run: its
+/// problems have no bodies, and its competitors have names only.
 /// @throws nlohmann::json::exception or InputError if the record is damaged.
 Campaign campaignOfRecord(const std::string& record);
 

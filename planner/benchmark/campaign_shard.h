@@ -12,15 +12,17 @@ namespace corridor {
 ///
 /// The runs are dealt out in groups. A group has the runs of all variants for one problem, planner
 /// and seed, so that one machine measures all that is compared. Groups are dealt in turn, seed by
-/// seed. So the shards differ by at most one group. Of any `count` successive seeds (the first of
-/// them the campaign's first one plus a multiple of `count`), each shard gets one of each problem
-/// and planner. More runs of the campaign don't change who makes the first ones.
+/// seed. So the sizes of the shards differ by at most one group. Take any `count` successive seeds
+/// of which the first is the campaign's first seed plus a multiple of `count`: from these, each
+/// shard gets exactly one group of each problem and planner. If the campaign gets more seeds later,
+/// the earlier groups stay in their shards.
 struct CampaignShard {
   std::uint64_t index = 1, count = 1;
 
   /// Returns whether a group belongs to this shard.
-  /// @param group the number of the problem and planner, from 0. @param groups their count.
-  /// @param seed the number of the seed, from 0.
+  /// @param group the index, from 0, of the combination of problem and planner. @param groups the
+  /// number of these combinations.
+  /// @param seed the index of the seed, from 0.
   bool contains(std::size_t group, std::size_t groups, std::uint64_t seed) const;
 };
 

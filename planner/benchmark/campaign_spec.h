@@ -4,7 +4,7 @@
 
 #include "planner/benchmark/campaign.h"
 
-/// The settings by which two databases are of one campaign.
+/// The settings that must be equal in two databases that belong to one campaign.
 namespace corridor {
 
 /// Returns, as JSON, the settings of a cell that must be the same in all sessions: the problem's
@@ -15,7 +15,7 @@ std::string specOf(const Campaign& campaign, const CampaignCell& cell);
 struct SpecDifference {
   std::string key, a, b;
 };
-/// @pre the specs differ. @throws nlohmann::json::exception if one is no JSON.
+/// @pre the specs differ. @throws nlohmann::json::exception if one of them is no JSON.
 SpecDifference specDifference(const std::string& a, const std::string& b);
 
 /// Returns "problem, variant, planner", for messages.

@@ -32,7 +32,7 @@ YamlValue withPrefix(YamlValue limits, const std::string& robot) {
   return limits;
 }
 
-/// Returns the numbers of a configuration that belong to a robot.
+/// Returns the indices of those numbers of a configuration that belong to a robot.
 std::vector<Eigen::Index> numbersOf(const Model& model, const ModelRobot& robot) {
   std::vector<std::size_t> first;  // the first coordinate of every joint
   for (const ModelRobot& each : model.robots)

@@ -28,17 +28,18 @@ CampaignLimits ownLimits(const std::vector<Problem>& problems);
 /// Adds notes on the problems' own limits, such as accelerations that are assumed.
 void addOwnNotes(const std::vector<Problem>& problems, std::vector<std::string>& notes);
 
-/// Returns the makers of these names. @param place for messages.
+/// Returns the makers that have these names. @param place for messages.
 /// @throws InputError for a name that is unknown or repeated.
 std::vector<TrajectoryMaker> trajectoryMakersNamed(const std::vector<std::string>& names,
                                                    const std::string& place);
 
 /// Reads the key `trajectories` of a campaign file: a list of makers, or a map of `makers` and
-/// `limits`. Under `limits` are named sets, and in a set the limits of robots, by the robots' names
-/// and in the form of problem files. A robot without limits in a set keeps those of its problem.
-/// Faults: an unknown maker; a set whose name is no word; a robot that no problem has; and all
-/// faults that the limits of a problem file can have.
-/// @param folder of the campaign's file. @param notes get what is assumed.
+/// `limits`. The key `limits` has a map of named sets. A set maps the names of robots to their
+/// limits, which have the form of problem files. A robot without limits in a set keeps those of its
+/// problem. Faults: an unknown maker; a set whose name is no word; a robot that no problem has; and
+/// all faults that the limits of a problem file can have.
+/// @param folder of the campaign's file. @param notes receives what is assumed, such as
+/// accelerations.
 CampaignTrajectories readTrajectories(const YamlMap& campaign, const std::filesystem::path& folder,
                                       const std::vector<Problem>& problems,
                                       std::vector<std::string>& notes);

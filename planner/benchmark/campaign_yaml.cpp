@@ -55,7 +55,7 @@ std::size_t countExpanded(const YamlValue& checker) {
   return count;
 }
 
-/// Reads a number of digits only, nine at most.
+/// Reads a whole number of one to nine digits, and nothing else; nullopt for any other text.
 std::optional<std::size_t> problemNumber(const std::string& digits) {
   std::size_t number = 0;
   const char* const end = digits.data() + digits.size();

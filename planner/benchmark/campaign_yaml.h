@@ -13,10 +13,10 @@ namespace corridor {
 /// `checkers` without any format. Returns false for a file that can't be read as YAML.
 bool isCampaignFile(const std::filesystem::path& file);
 
-/// Reads a campaign file, and the problems that it names; their paths are relative to its folder.
-/// planner/benchmark/README.md lists every key. A key of a checker may have a list of values; then
-/// each combination is a variant (1,000 variants at most). Competitors that are not available are
-/// left out, with a note.
+/// Reads a campaign file and the problems that it names. The problems' paths are relative to the
+/// folder of the campaign file. planner/benchmark/README.md lists every key. A key of a checker may
+/// have a list of values; then each combination is a variant (1,000 variants at most). Competitors
+/// that are not available are left out, with a note.
 /// @throws InputError with all faults of the file and its problems at once.
 Campaign readCampaign(const std::filesystem::path& file);
 

@@ -14,7 +14,8 @@ namespace corridor {
 struct CheckingTally {
   std::atomic<std::uint64_t> states = 0;  ///< states tested, including the samples of motions
   std::atomic<std::uint64_t> motions = 0;
-  std::atomic<std::int64_t> nanoseconds = 0;  ///< a state test within a motion test counts once
+  /// The time of a state test within a motion test counts once.
+  std::atomic<std::int64_t> nanoseconds = 0;
 
   double seconds() const { return 1e-9 * static_cast<double>(nanoseconds); }
 };

@@ -20,14 +20,16 @@ struct ChildLimits {
 /// How a child process ended.
 struct ChildEnd {
   std::vector<std::string> messages;  ///< those that arrived
-  /// Why messages are missing: "killed by signal 11 (Segmentation fault)". Empty if all arrived.
+  /// Why messages are missing: "killed by signal 11 (Segmentation fault)". Empty if all messages
+  /// arrived.
   std::string failure;
 };
 
 /// Work in a process of its own: a crash, an endless loop or a lack of memory there costs that work
-/// only. The child has a copy of all of the caller's memory. Its changes are lost, except for the
-/// messages that it sends: any text without line breaks, one for each number in `patience`. The
-/// child ends without running destructors. It is killed when its parent ends.
+/// only. The child has a copy of all of the caller's memory, and what it changes there is lost. Its
+/// only result is the messages that it sends, one for each number in `ChildLimits::patience`. A
+/// message is any text without line breaks. The child ends without running destructors. It is
+/// killed when its parent ends.
 class ChildProcess {
  public:
   using Work = std::function<void(const std::function<void(const std::string&)>& send)>;
@@ -40,7 +42,8 @@ class ChildProcess {
   ChildProcess(ChildProcess&& other) noexcept;
   ChildProcess& operator=(ChildProcess&&) = delete;
 
-  /// Reads the messages sent so far, and kills the child if it took too long. @returns `over()`.
+  /// Reads the messages sent so far, and kills the child if its next message is overdue
+  /// (`ChildLimits::patience`). @returns `over()`.
   bool poll();
   /// Kills the child, with `reason` as its failure. Does nothing if the child has ended.
   void stop(const std::string& reason);
@@ -64,7 +67,7 @@ class ChildProcess {
 };
 
 /// Does the work in a child process, and waits for its end.
-/// @param interrupted kills the child when it becomes true, with the failure "interrupted".
+/// @param interrupted when it becomes true, the child is killed, and the failure is "interrupted".
 /// @pre, @throws as ChildProcess.
 ChildEnd inChild(const ChildProcess::Work& work, const ChildLimits& limits,
                  const std::atomic<bool>* interrupted = nullptr);

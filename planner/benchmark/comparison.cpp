@@ -21,7 +21,7 @@ double lengthShare(const BenchmarkRun& run) {
 }
 
 /// Fits the costs of tests. Their quality is judged on runs that were not fitted: each half of the
-/// runs is predicted with the other half's costs. With fewer than four runs it is NaN.
+/// runs is predicted with the other half's costs. With fewer than four runs the quality is NaN.
 VariantScore::Cost costOf(const std::vector<QueryCost>& queries) {
   VariantScore::Cost cost{fittedCosts(queries), kNone, kNone, kNone};
   if (queries.size() < 4) return cost;

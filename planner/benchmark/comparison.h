@@ -34,9 +34,9 @@ struct VariantScore {
     double ratioP5 = 0, ratioMedian = 0, ratioP95 = 0;
   };
   std::optional<Cost> cost;
-  /// Medians over the solved runs; NaN if there are none. `checkingShare`: the share of the time
-  /// that was spent in checking. `lengthShare`: the path's length after simplifying, divided by its
-  /// length before.
+  /// Medians over the solved runs; NaN if there are none. `checkingShare`: the share of the run's
+  /// time that was spent in checking. `lengthShare`: the path's length after simplifying, divided
+  /// by its length before.
   double checkingShare = 0, lengthShare = 0;
 
   std::size_t judged() const { return proved + refuted + undecided; }

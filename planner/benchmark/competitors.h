@@ -13,8 +13,8 @@ namespace corridor {
 class CompetitorScene {
  public:
   virtual ~CompetitorScene() = default;
-  /// Returns whether any tested pair touches. @param X_WF poses of all frames of the problem's
-  /// tree.
+  /// Returns whether any tested pair touches. @param X_WF poses, in the world, of all frames of the
+  /// problem's kinematic tree.
   virtual bool touches(const std::vector<Transform>& X_WF) = 0;
 
  protected:

@@ -16,20 +16,22 @@ struct QueryCost {
 /// Nanoseconds of one test within a query, including its share of the tree traversal.
 struct CostModel {
   double box = 0, triangle = 0;  ///< C_v, C_p
-  /// Whether the queries determine each cost: its standard error is at most half of it. If the
-  /// counts are nearly proportional, they do not, although the sum may predict well: a report shows
-  /// a dash.
+  /// Whether the queries determine each cost: the standard error of the cost is at most half of the
+  /// cost. If N_v and N_p are nearly proportional, the queries determine neither cost, although the
+  /// sum may predict well. A report shows a dash for an unknown cost.
   bool boxKnown = false, triangleKnown = false;
   double predicted(const QueryCost& c) const {
     return c.boxTests * box + c.triangleTests * triangle;
   }
 };
 
-/// Returns the nanoseconds that a query takes for each of its box tests besides the test itself:
-/// its share of the traversal. Fitted by least squares of the errors, each divided by √T, with the
-/// costs of single tests given. It is determined even if N_v and N_p are proportional. It may be
-/// negative, if tests take less time in a query than in the measurement of single tests.
-/// @param tests  the costs of single tests. @param call  nanoseconds that each query takes besides.
+/// Returns the traversal's share per box test: the nanoseconds that a query takes for each of its
+/// box tests in addition to the test itself. It is fitted by least squares of the errors, each
+/// divided by √T, with the costs of single tests given. This share is determined even if N_v and
+/// N_p are proportional. It may be negative if tests take less time in a query than in the
+/// measurement of single tests.
+/// @param tests  the costs of single tests. @param call  nanoseconds that each query takes besides
+/// its tests and the traversal.
 inline double traversalShare(const std::vector<QueryCost>& queries, const CostModel& tests,
                              double call) {
   double vv = 0, v = 0;

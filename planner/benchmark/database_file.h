@@ -18,19 +18,20 @@ constexpr int kCampaignApplication = 0x636f7272, kCampaignVersion = 3, kFirstCam
 
 [[noreturn]] void refuseFile(const std::filesystem::path& file, const std::string& why);
 
-/// Does a step, and turns SQLite's exceptions into InputError, since users can mend the cause, such
-/// as a full disk or a file of another program. The same for damaged JSON that the file holds.
+/// Does a step, and turns the exceptions of SQLite, and those of damaged JSON in the file, into
+/// InputError. Users can mend the causes, such as a full disk or a file of another program.
 /// @param kept what remains if the file can't be written.
 void withFileInErrors(const std::filesystem::path& file, const std::function<void()>& step,
                       const std::string& kept = "finished runs are kept; continue with --resume");
 
 /// Removes a database with the files that SQLite keeps beside it, if they are there.
 void removeDatabase(const std::filesystem::path& file);
-/// Gives a closed database another name. A log that is left from an earlier file of that name is
-/// removed before, because SQLite would apply it to the new one. @throws InputError
+/// Renames a closed database to `to`. First removes an earlier file of the name `to` and its log,
+/// because SQLite would apply that log to the renamed database. @throws InputError
 void renameDatabase(const std::filesystem::path& from, const std::filesystem::path& to);
 
-/// Tests that an open file is a whole campaign database. @returns its version. @throws InputError
+/// Tests that an open file is an undamaged campaign database. @returns the version of its tables.
+/// @throws InputError
 int requireCampaignFile(SQLite::Database& base, const std::filesystem::path& file);
 
 }  // namespace corridor

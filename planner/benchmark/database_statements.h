@@ -29,7 +29,7 @@ class DatabaseStatements {
 
   /// Inserts a row. @param properties values by OMPL's words for a column's name and type: "graph
   /// states INTEGER" is the column graph_states. An empty value, nan and inf are stored as NULL, as
-  /// OMPL's script does. @param ids values of further columns, which exist.
+  /// OMPL's script does. @param ids values of further columns, which must exist already.
   /// @returns the row's id.
   std::int64_t addRow(const std::string& table,
                       const std::map<std::string, std::string>& properties,
@@ -38,8 +38,8 @@ class DatabaseStatements {
   void setValue(const std::string& table, std::int64_t id, const std::string& words,
                 const std::string& value);
 
-  /// Forgets the columns and the statements. Call it after a failed transaction, which may have
-  /// removed columns again.
+  /// Forgets the columns and the statements. Call this after a failed transaction: its rollback
+  /// removes the columns that it added.
   void forget();
 
  private:

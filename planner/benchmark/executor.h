@@ -12,7 +12,8 @@ namespace corridor {
 /// How one of many tasks ended. A task is a number; what it stands for is up to the caller.
 struct TaskEnd {
   std::uint64_t task = 0;
-  /// Its child process. Only the last of its messages is kept; the others are empty texts.
+  /// How the child process of the task ended. Only its last message is kept; the others are empty
+  /// texts.
   ChildEnd end;
 };
 
@@ -25,7 +26,7 @@ class Executor {
   Executor(const Executor&) = delete;
   Executor& operator=(const Executor&) = delete;
 
-  virtual std::size_t places() const = 0;    ///< the number of tasks at a time
+  virtual std::size_t places() const = 0;    ///< the number of tasks that can run at a time
   virtual std::size_t underWay() const = 0;  ///< tasks that were started and have not ended
   /// Starts a task. @pre `underWay() < places()`. @returns false if the system has no room for a
   /// further process: then a task that is under way must end first.
@@ -34,8 +35,10 @@ class Executor {
   /// Waits until a task ends, or a signal arrives, for at most `milliseconds`.
   /// @returns the tasks that have ended since the call before.
   virtual std::vector<TaskEnd> wait(int milliseconds) = 0;
-  /// Kills the tasks that may be killed; `wait` does not return them. The others end by themselves.
-  /// @returns those that are killed already; an executor with other ranks does not wait for theirs.
+  /// Kills the tasks that may be killed; `wait` does not return them. All other tasks continue to
+  /// their normal end.
+  /// @returns the tasks that are already killed. For tasks on other ranks, this function does not
+  /// wait, and returns none.
   virtual std::vector<std::uint64_t> stop() = 0;
 };
 

@@ -42,8 +42,8 @@ struct FclShape {
   fcl::Transform3d at = fcl::Transform3d::Identity();
 };
 
-/// @throws std::runtime_error for convex hulls, polygons, point clouds and octrees: no problem that
-/// is compared has one.
+/// @throws std::runtime_error for convex hulls, polygons, point clouds and octrees, which are not
+/// converted: no problem of Corridor's own comparisons has one.
 inline FclShape fclShape(const PlacedShape& shape, std::size_t frame) {
   FclShape made{nullptr, frame};
   if (shape.mesh) {

@@ -5,14 +5,15 @@
 namespace corridor {
 
 /// A shared library of Corridor that is opened when it is first needed, so that the program does
-/// not depend on the libraries that it uses.
+/// not depend on the libraries that the module uses.
 struct OpenModule {
   void* handle = nullptr;  ///< null if the module can't be opened
-  std::string why;         ///< then the reason
+  std::string why;         ///< why the module can't be opened; "" if it is open
 };
 
-/// Opens a module: beside the program, or else in the folder of the build, or else on the program's
-/// run path. It stays open. @param name of its file. @param buildFolder where it was built.
+/// Looks for a module in the folder of the program, then in `buildFolder`, then on the program's
+/// run path, and opens the first one that can be opened. The module stays open. @param name the
+/// file name of the module. @param buildFolder the folder in which the module was built.
 OpenModule openModule(const std::string& name, const std::string& buildFolder);
 
 /// Returns a function of an open module, or null.

@@ -26,7 +26,7 @@ class MpiRanks final : public corridor::Ranks {
   int rank() const override { return world_.rank(); }
   int size() const override { return world_.size(); }
   void send(int to, std::string text) override {
-    // As bytes: Boost sends each as one message of MPI.
+    // The text is sent as bytes, because Boost sends an array of bytes as one MPI message.
     Sending& one = sending_.emplace_back();
     one.text = std::move(text);
     one.request = world_.isend(to, kTag, one.text.data(), static_cast<int>(one.text.size()));
@@ -35,8 +35,9 @@ class MpiRanks final : public corridor::Ranks {
   std::optional<corridor::RankMessage> receive() override {
     clear();
     auto status = world_.iprobe(mpi::any_source, kTag);
-    // Open MPI looks for what has arrived after it has looked into its queue: the second call finds
-    // it. Otherwise each message would wait for one more pause of the caller.
+    // A call of iprobe first searches Open MPI's queue, and only then fetches new messages into it.
+    // So only the second call finds a message that has just arrived. With one call, each message
+    // would wait for one more pause of the caller.
     if (!status) status = world_.iprobe(mpi::any_source, kTag);
     if (!status) return std::nullopt;
     corridor::RankMessage message{status->source(), std::string(bytesOf(*status), '\0')};
@@ -53,14 +54,14 @@ class MpiRanks final : public corridor::Ranks {
   static std::size_t bytesOf(const mpi::status& status) {
     return static_cast<std::size_t>(status.count<char>().value_or(0));
   }
-  /// Forgets what has left.
+  /// Removes the texts that MPI has sent.
   void clear() {
     std::erase_if(sending_, [](Sending& one) { return one.request.test().has_value(); });
   }
 
   mpi::environment environment_;
   mpi::communicator world_;
-  std::list<Sending> sending_;  // MPI reads a text until it has left
+  std::list<Sending> sending_;  // a text must stay until MPI has sent it
 };
 
 }  // namespace

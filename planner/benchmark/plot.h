@@ -13,7 +13,7 @@ struct PlotPoint {
   double x = 0, y = 0;
   /// The ends of the error bars; NaN: no bar.
   double fromX = std::numeric_limits<double>::quiet_NaN(), toX = fromX, fromY = fromX, toY = fromX;
-  std::string text = {};  ///< shown where a pointer rests on the point
+  std::string text = {};  ///< shown while the mouse pointer is on the point
   std::size_t shape = 0;  ///< index into `Plot::shapes`
 };
 

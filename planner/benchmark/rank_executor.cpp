@@ -20,20 +20,21 @@ using std::chrono::microseconds;
 constexpr microseconds kLeastPause{50}, kLongestPause{2000};
 /// Milliseconds between a rank's looks for messages while a task is under way.
 constexpr int kPollMs = 5;
-/// Seconds that rank 0 waits for the other ranks at the end. Only a rank that died needs so long.
+/// Seconds that rank 0 waits, at most, for the other ranks at the end. The wait is that long only
+/// if a rank has died.
 constexpr double kFarewell = 30;
 
 // The first byte of each message. To other ranks:
-constexpr char kSetUp = 'u';  ///< and the text of the set-up
-constexpr char kTask = 't';   ///< and its number
+constexpr char kSetUp = 'u';  ///< followed by the text of the set-up
+constexpr char kTask = 't';   ///< followed by the task's number
 constexpr char kStop = 's', kEnd = 'e';
 // To rank 0:
 /// Followed by the task's number, the count of its messages, its failure, and its last message.
 constexpr char kDone = 'd';
-constexpr char kKilled = 'k';  ///< and the task's number
+constexpr char kKilled = 'k';  ///< followed by the task's number
 constexpr char kReady = 'r';   ///< the rank is set up
-constexpr char kSignal = 'i';  ///< and the signal's number
-constexpr char kFault = 'f';   ///< and its text
+constexpr char kSignal = 'i';  ///< followed by the signal's number
+constexpr char kFault = 'f';   ///< followed by the fault's text
 constexpr char kBye = 'b';     ///< the last message of a rank
 
 /// Pauses that grow while nothing happens.
@@ -67,7 +68,7 @@ std::uint64_t rankNumberIn(const std::string& text) {
   return rankNumberAt(text, at);
 }
 
-/// "d17 2 FAILURE\nMESSAGE": a failure is one line.
+/// Returns the message "d17 2 FAILURE\nMESSAGE", in which the failure is one line.
 std::string textOf(const TaskEnd& one) {
   const std::vector<std::string>& messages = one.end.messages;
   std::string failure = one.end.failure;

@@ -15,7 +15,8 @@ struct RankMessage {
 /// Between two ranks, messages arrive in the order in which they were sent.
 class Ranks {
  public:
-  virtual ~Ranks() = default;  ///< waits until all ranks are here; then no message can be sent
+  /// Waits until all ranks have reached their destructors. No message can be sent afterwards.
+  virtual ~Ranks() = default;
   Ranks() = default;
   Ranks(const Ranks&) = delete;
   Ranks& operator=(const Ranks&) = delete;
@@ -31,16 +32,16 @@ class Ranks {
 
 extern "C" {
 /// The function that the MPI module exports under this name. The module is opened only under
-/// `mpirun`, so that the program does not depend on MPI. The caller owns the object; there may be
-/// one in the life of a process. @throws std::exception if MPI can't be started.
+/// `mpirun`, so that the program does not depend on MPI. The caller owns the object. A process may
+/// make at most one in its life. @throws std::exception if MPI can't be started.
 Ranks* corridorRanks();
 }
 
 /// Returns whether `mpirun`, or `srun --mpi=pmix`, started this process.
 bool startedByMpirun();
 
-/// The number of this process in its job, as the environment has it: Open MPI's `mpirun`, and
-/// Slurm's `srun --mpi=pmix`, set it. 0 if it is alone.
+/// Returns the rank of this process from the environment variables that Open MPI's `mpirun` and
+/// Slurm's `srun --mpi=pmix` set. Returns 0 for a process that is alone.
 int rankInEnvironment();
 
 /// Joins the job. @returns null if this process was not started by `mpirun`, or is alone in its

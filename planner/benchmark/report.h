@@ -12,7 +12,7 @@ namespace corridor {
 /// Writes a campaign's report into a folder: `report.html`, which loads no other file, its plots as
 /// `plots/NAME.svg`, and their data as `plots/NAME.csv`. Existing files of these names are
 /// replaced. Without gnuplot there are no plots, and the page says so.
-/// @param sessions of the campaign's database, to be listed in the page.
+/// @param sessions the sessions of the campaign's database, which the page lists.
 /// @returns the files, the page first. @throws InputError if a file can't be written.
 std::vector<std::filesystem::path> writeReport(const Campaign& campaign,
                                                const std::vector<CampaignCell>& cells,

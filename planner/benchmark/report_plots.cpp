@@ -144,8 +144,8 @@ struct CostGrid {
   }
 
  private:
-  /// Returns the place of a value along an axis, which is logarithmic: 0 for values that it leaves
-  /// out.
+  /// Returns the index, from 1, of a value's grid cell along an axis. The axis is logarithmic, so
+  /// the index is 0 for values that are not above 0.
   std::size_t along(double value) const {
     if (!(value > 0)) return 0;
     const double share = std::log(value / range.first) / std::log(range.second / range.first);

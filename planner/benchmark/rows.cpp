@@ -46,8 +46,8 @@ std::string csvText(const RowValue& value) {
 std::string tableText(const RowValue& value) {
   if (const auto* number = std::get_if<double>(&value)) {
     char text[32];
-    // Whole numbers are written without an exponent. So are numbers from 1000 on: these are counts,
-    // or medians of counts, which may be halves.
+    // Whole numbers are written without an exponent. Numbers from 1000 on are rounded to whole
+    // numbers, too: they are counts, or medians of counts, which may be halves.
     const bool whole =
         (*number == std::floor(*number) || std::abs(*number) >= 1000) && std::abs(*number) < 0x1p53;
     std::snprintf(text, sizeof text, whole ? "%.0f" : "%.4g", *number);

@@ -22,7 +22,8 @@ using Row = std::vector<std::pair<std::string, RowValue>>;
 Row runRow(const Campaign& campaign, const CampaignCell& cell, const BenchmarkRun& run);
 
 /// Returns the row of all runs of a cell: counts of their results, and medians over the solved
-/// runs. `pathSummaryRow` has the columns of paths only, `summaryRow` those of trajectories, too.
+/// runs. `pathSummaryRow` has the columns of paths only; `summaryRow` also has the columns of
+/// trajectories.
 Row pathSummaryRow(const Campaign& campaign, const CampaignCell& cell);
 Row summaryRow(const Campaign& campaign, const CampaignCell& cell);
 

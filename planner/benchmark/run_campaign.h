@@ -20,15 +20,17 @@ struct CampaignOptions {
   /// Called with each finished run and the index of its cell. It may change the run before the run
   /// becomes a part of the result (`RunTrimmer`). If it throws, the campaign ends.
   std::function<void(std::size_t cell, BenchmarkRun&)> done;
-  /// Makes the runs: each is a task, `runStarter` starts it. Null: processes of this one, `jobs`
-  /// at a time. With several at a time, times are those of a busy machine.
+  /// Makes the runs: each run is a task that `runStarter` starts. Null: the runs are child
+  /// processes of this process, `jobs` at a time. If several run at a time, the measured times are
+  /// those of a busy machine.
   Executor* executor = nullptr;
   std::size_t jobs = 1;
   /// When it becomes true, unfinished runs are killed; the result has the finished runs.
   const std::atomic<bool>* interrupted = nullptr;
 };
 
-/// Returns how a campaign's runs are started, for executors. @pre the campaign outlives the result.
+/// Returns the function with which executors start the runs of a campaign. @pre the campaign
+/// outlives the result.
 TaskStarter runStarter(const Campaign& campaign);
 
 /// Makes the runs that are missing in the cells, each in a process of its own. The variants take

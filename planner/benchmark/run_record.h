@@ -31,11 +31,13 @@ BenchmarkRun readRecord(const std::string& figures, const std::string& ompl,
 /// Makes runs small, so that a campaign can keep 10^6 of them in memory.
 class RunTrimmer {
  public:
-  /// Removes what only rows of single runs and OMPL's logs show: `why`, `finding`, and OMPL's
-  /// record except the machine. The fault of a trajectory becomes `kFault`. The run then takes less
-  /// than half a kilobyte, and 0.2 KB for each of its trajectories.
+  /// Removes what is shown only in rows of single runs and in OMPL's logs: `why`, `finding`, and
+  /// OMPL's record except the machine. A trajectory's fault, if it has one, becomes `kFault`.
+  /// Afterwards the run takes less than half a kilobyte, and 0.2 kB more for each of its
+  /// trajectories.
   void trim(BenchmarkRun& run);
-  static constexpr const char* kFault = "not kept";  ///< as short as a text without memory
+  /// Short enough for a std::string without heap memory.
+  static constexpr const char* kFault = "not kept";
 
  private:
   std::map<std::pair<std::string, std::string>, std::shared_ptr<const OmplRecord>> machines_;

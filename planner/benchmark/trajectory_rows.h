@@ -23,8 +23,10 @@ struct TrajectoryScore {
   double rows = 0;  ///< median
   /// Duration divided by `optimumAlong`: the median.
   double overOptimum = 0;
-  /// The share of what stopping costs that is saved, (stop − T) / (stop − optimum): the median over
-  /// the paths on which stopping costs more than a thousandth. NaN without the maker `stop`.
+  /// The share of the cost of stopping that the trajectory saves, (stop − T) / (stop − optimum),
+  /// where T is its duration, `stop` that of the maker `stop`, and the optimum is `optimumAlong`.
+  /// The median over the paths on which stopping costs more than a thousandth of the optimum. NaN
+  /// without the maker `stop`.
   double saved = 0;
   /// The largest shares of limits of all trajectories; NaN: no such limit.
   double velocity = 0, acceleration = 0, jerk = 0, link = 0;

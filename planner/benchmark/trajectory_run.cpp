@@ -16,7 +16,8 @@
 namespace corridor {
 namespace {
 
-/// The angle of a corner that no law stops at: larger than every angle.
+/// Radians. The time law stops at corners with a larger angle; no corner has one, so it never
+/// stops.
 constexpr double kEveryCorner = 4;
 
 MadeTrajectory noTrajectory(std::string why) {
@@ -29,7 +30,9 @@ MadeTrajectory makeSpline(bool inserts, const Problem& problem, const Checker& c
                           const std::vector<CurvePiece>& lines) {
   const ConfigurationSpace& space = problem.model.space;
   if (hasRotation(space))
-    return noTrajectory("a spline of quaternions is no rotation: there is none of a free body");
+    return noTrajectory(
+        "splines of quaternions are not rotations, so there is no spline for a body that rotates "
+        "freely");
   const std::vector<Configuration> states = statesOfLines(lines);
   const auto touches = [&](const Configuration& q) { return checker.interference(q).has_value(); };
   const std::vector<CurvePiece> pieces =

@@ -26,14 +26,16 @@ std::optional<TrajectoryMaker> trajectoryMakerNamed(const std::string& name);
 
 /// Makes a trajectory along a path, and lets the checker prove it. Blends and stops are made again
 /// with a smaller deviation if they are not proved; splines are made once, since nothing about them
-/// is expected to be proved. Result: as `makeTrajectory`. Splines have a fault if the path has a
-/// rotation of a rigid body or of a floating joint, because a spline of quaternions is no rotation.
+/// is expected to be proved.
+/// @returns a result as that of `makeTrajectory`. Splines have a fault if the configuration space
+/// has a rotation in space, that of a rigid body or of a floating joint, because a spline through
+/// unit quaternions does not keep their norm.
 MadeTrajectory makeBy(TrajectoryMaker maker, const Problem& problem, const Checker& checker,
                       const Path& path);
 
 /// Returns the duration of the fastest law along a path, in seconds, if the robot need not stop at
-/// corners, and jerk is not limited: no motion along these edges is faster. Usually no robot can
-/// execute it, since its velocity jumps at corners. NaN if there is no law.
+/// corners and jerk is not limited. No motion along these edges is faster. Usually no robot can
+/// execute this law, since the velocity jumps at corners. NaN if there is no law.
 double optimumAlong(const Problem& problem, const Path& path);
 
 /// What one maker made along the path of a run. Units: seconds, radians, metres.
@@ -41,8 +43,8 @@ struct TrajectoryRun {
   std::string fault;  ///< one line: why there is no trajectory; empty if there is one
   double duration = 0;
   std::size_t rows = 0;
-  /// The largest share of each limit that is used at any instant, proved. −1: no such limit, or the
-  /// rows don't determine what it limits.
+  /// The largest share of each limit that is used at any instant, proved. −1: there is no such
+  /// limit, or the rows don't determine the limited quantity.
   double velocity = -1, acceleration = -1, jerk = -1, link = -1;
   double beyondBounds = 0;  ///< the largest distance by which a joint leaves its bounds
   /// The independent verifier's verdict on the rows as they are written: "proved", "refuted" or
@@ -53,8 +55,8 @@ struct TrajectoryRun {
   double verifyTime = 0;
 };
 
-/// Makes a trajectory and verifies it. @param problem with the limits. Its trees should be built,
-/// so that their time is not measured.
+/// Makes a trajectory and verifies it. @param problem has the limits. @param checker its trees
+/// should be built already, so that the time to build them is not measured.
 TrajectoryRun runTrajectory(TrajectoryMaker maker, const Problem& problem, const Checker& checker,
                             const Path& path);
 

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 /// Tests whether files can be created in a folder, by creating one: permissions don't show whether
 /// the file system is read-only.
-/// @returns the reason if they can't, else "".
+/// @returns the reason why files can't be created, or "" if they can.
 std::string whyNoFiles(const fs::path& folder) {
   std::string probe = (folder / ".corridor-benchmark-XXXXXX").string();
   const int file = ::mkstemp(probe.data());  // a new file, never an existing one

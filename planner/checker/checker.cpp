@@ -45,7 +45,7 @@ void requireValid(const CheckerOptions& options, const ConfigurationSpace& space
   require(
       options.tube.size() == 0 || (options.tube.size() == static_cast<Eigen::Index>(space.size()) &&
                                    (options.tube.array() >= 0).all()),
-      "tube must have a number of 0 or more for each number of a configuration");
+      "tube must have a half width of 0 or more for each number of a configuration");
   require(options.method == EdgeMethod::directional || hasDefaultOverlap(options.trees.trees),
           "trees must have the default overlap test of their volume if method is adaptive or "
           "advancement, which measure distances");
@@ -102,12 +102,12 @@ struct Checker::Workspace {
   EdgeMotion motion;
   FramePoses poses;
   std::thread::id thread = std::this_thread::get_id();
-  Workspace* next = nullptr;  // the one added before; not owned
+  Workspace* next = nullptr;  // the workspace that was added before; not owned
 };
 
 /// One workspace per thread, created by the thread's first query. Later queries find it without a
 /// lock, in a list that only grows at its head. If a new thread gets the id of a thread that has
-/// ended, it reuses that thread's workspace.
+/// ended, the new thread reuses that thread's workspace.
 class Checker::Pool {
  public:
   Workspace& workspaceOfThread(const Checker& checker) {

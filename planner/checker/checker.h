@@ -23,7 +23,7 @@ Scene makeScene(const Model& model, const TreeParams& params = {});
 /// The options of a checker: the margin, tube and tolerance of its proofs, the method, the trees.
 struct CheckerOptions {
   double margin = 0;     ///< metres that all tested pairs must keep apart; 0: touching is contact
-  Padding padding = {};  ///< what single bodies and pairs keep in addition
+  Padding padding = {};  ///< distances of bodies and pairs beyond the margin
   /// The tube that the proofs cover, as `tubeOf` returns it; empty: rounding only.
   Configuration tube = {};
   std::optional<double> tolerance = {};  ///< metres; unset: default_tolerance.h
@@ -81,20 +81,22 @@ class Checker {
   /// Decides whether an edge is free, by the method of the options. Doesn't test the bounds. @pre
   /// finite.
   MotionResult certifyEdge(const Configuration& from, const Configuration& to, bool earliest) const;
-  /// The same, always by `EdgeMethod::directional`, with a certificate. Its pairs are those of
-  /// `Scene::motionPairs()`. It is about surfaces: it is empty if the verdict follows from
-  /// containment in a solid mesh. Takes longer: without a broad phase, every pair is proved.
+  /// Decides whether an edge is free, and stores in `certificate` what was proved. The method is
+  /// always `EdgeMethod::directional`. The pairs of the certificate are those of
+  /// `Scene::motionPairs()`. A certificate is about surfaces, so it is empty if the verdict follows
+  /// from containment in a solid mesh. Takes longer than the query without a certificate, because
+  /// every pair is proved, without a broad phase.
   MotionResult certifyEdge(const Configuration& from, const Configuration& to, bool earliest,
                            MotionCertificate& certificate) const;
   /// Checks a certificate of an edge by another method, and returns its first fault
   /// (collision/motion/check_certificate.h). @pre finite.
-  /// @param until `certifiedUntil` of the answer.
+  /// @param until `certifiedUntil` of the result that came with the certificate.
   std::optional<CertificateFault> faultOf(const MotionCertificate& certificate,
                                           const Configuration& from, const Configuration& to,
                                           double until) const;
-  /// Decides whether every pair keeps its margin on an edge: that of the options plus its own,
-  /// which is in place of its padding. The method is always `EdgeMethod::directional`. Doesn't test
-  /// the bounds. @pre finite.
+  /// Decides whether every pair keeps its margin on an edge: the margin of the options, plus the
+  /// pair's number in `more`, which replaces the pair's padding. The method is always
+  /// `EdgeMethod::directional`. Doesn't test the bounds. @pre finite.
   /// @param more one margin for each pair of `Scene::motionPairs()`, metres.
   /// @throws std::invalid_argument for numbers that are not finite or are negative.
   MotionResult certifyEdge(const Configuration& from, const Configuration& to,
@@ -125,7 +127,8 @@ class Checker {
     std::size_t a = 0, b = 0;
     bool tooLarge = false;  ///< undecided, because the rounding of a large value may exceed the gap
   };
-  /// Returns all pairs of bodies for which `certifyState` is not free, each once. @pre finite.
+  /// Returns all pairs of bodies because of which `certifyState` does not return `free`, each pair
+  /// once. @pre finite.
   std::vector<PairNotFree> pairsNotFree(const Configuration& q) const;
 
   /// Returns whether q is in bounds and `certifyState` is `free`.
@@ -149,7 +152,7 @@ class Checker {
   std::vector<std::size_t> bodyOf_;
   Configuration tube_;
   Padding padding_;
-  std::optional<PairMargins> paddings_;  // of the pairs of the scene, if there is any
+  std::optional<PairMargins> paddings_;  // for each pair of the scene; unset: no padding
   MotionOptions options_;                // refers to `paddings_`
   EdgeMethod method_;
   std::unique_ptr<Pool> pool_;

@@ -12,9 +12,9 @@ namespace corridor {
 /// Base of the motion validators: counts motions and writes `lastValid`. It guarantees OMPL's
 /// contract of `lastValid`, parts of which OMPL's own classes break:
 /// - On success neither member of `lastValid` is written.
-/// - On failure lastValid.second = t0, the time up to which this validator finds the edge free.
-///   If lastValid.first is given, it is set to a state, and this validator finds the edge from s1
-///   to this state valid. For t0 = 0 the state is s1 itself, bit for bit.
+/// - On failure lastValid.second = t0, the time up to which this validator finds the edge free. If
+///   lastValid.first is given, a state is written to it, such that this validator finds the edge
+///   from s1 to this state valid. For t0 = 0 the state is s1 itself, bit for bit.
 /// - lastValid.first may be s1 or s2: both are read before anything is written.
 /// As everywhere in OMPL, s1 is assumed to be valid. Several threads may use one validator at once.
 ///
@@ -40,7 +40,7 @@ class CountingMotionValidator : public ompl::base::MotionValidator {
     Configuration state;  ///< the state at t; set only if t > 0
   };
   virtual bool isFree(const Configuration& from, const Configuration& to) const = 0;
-  /// Returns the part of the motion that is free, or nullopt if the whole motion is.
+  /// Returns the part of the motion that is free, or nullopt if the whole motion is free.
   virtual std::optional<FreePart> lastFree(const Configuration& from,
                                            const Configuration& to) const = 0;
 

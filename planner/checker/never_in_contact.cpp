@@ -54,7 +54,7 @@ std::optional<VariableRange> rangeOf(const ConfigurationSpace& space, std::size_
 
 /// The frames between two bodies, as a separate tree. Its root is the lowest common ancestor of the
 /// two bodies' frames. All its variables are lines, numbered in the order of their first use.
-struct Between {
+struct ChainBetween {
   KinematicTree tree;
   ConfigurationSpace space;
   Scene::FramePair pair;
@@ -63,9 +63,9 @@ struct Between {
 };
 
 /// Returns nullopt if the proof can't be tried.
-std::optional<Between> framesBetween(const Model& model, std::size_t a, std::size_t b,
-                                     double beyond) {
-  Between between;
+std::optional<ChainBetween> framesBetween(const Model& model, std::size_t a, std::size_t b,
+                                          double beyond) {
+  ChainBetween between;
   const std::vector<Frame>& frames = model.tree.frames;
   const std::size_t top = model.tree.commonAncestor(a, b);
   const std::vector<std::size_t> toA = upTo(model.tree, a, top), toB = upTo(model.tree, b, top);
@@ -121,7 +121,8 @@ struct Box {
 
 class Subdivision {
  public:
-  Subdivision(const Between& between, const NeverInContactOptions& options, QueryContext& context)
+  Subdivision(const ChainBetween& between, const NeverInContactOptions& options,
+              QueryContext& context)
       : between_(between), options_(options), context_(context) {}
 
   NeverInContactResult run(std::vector<MotionPair> pairs) {
@@ -185,9 +186,10 @@ class Subdivision {
     query_.margin = options_.margin;
   }
 
-  /// Removes from `box.open` the pairs that are separated throughout the box. Sets `tooClose_` if
-  /// some pair cannot be separated in any smaller box.
-  /// @returns the variable along which the box should be halved, if pairs are left.
+  /// Removes from `box.open` the pairs that are separated throughout the box. Sets `tooClose_` if,
+  /// at the middle of the box, a pair that is left is not farther apart than the margin: no smaller
+  /// box can then prove this pair.
+  /// @returns the variable along which the box should be halved, if pairs are left; else 0.
   std::size_t test(Box& box) {
     const auto count = static_cast<Eigen::Index>(box.ranges.size());
     Configuration middle(count), halfWidths(count);
@@ -232,7 +234,7 @@ class Subdivision {
     }
   }
 
-  const Between& between_;
+  const ChainBetween& between_;
   const NeverInContactOptions& options_;
   QueryContext& context_;
   MotionOptions query_;

@@ -15,8 +15,8 @@ namespace corridor {
 struct NeverInContactOptions {
   double margin = 0;  ///< metres that the two bodies must keep apart; 0: they must not touch
   /// How far the proof reaches beyond each limit of a joint: rad, or m for a prismatic joint. With
-  /// this reach, the proof also covers a tube around paths. It is not used for a joint that covers
-  /// the whole circle.
+  /// this reach, the proof also covers a tube around paths. This option is not used for a joint
+  /// that covers the whole circle.
   double beyondLimits = 0;
   /// Work limit: at most this many boxes of joint values are tested.
   std::uint64_t boxes = 20000;
@@ -41,8 +41,8 @@ struct NeverInContactResult {
   Verdict verdict = Verdict::notTried;
   std::uint64_t boxes = 0;  ///< number of boxes of joint values that were tested
   std::uint64_t tests = 0;  ///< number of tests of volumes and triangles
-  /// The share of all joint values for which the pair is proved, from 0 to 1. It estimates how far
-  /// a proof got that reached a work limit; only the verdict `proved` is a proof.
+  /// The share of all joint values for which the pair is proved, from 0 to 1. If a work limit was
+  /// reached, this share estimates how far the proof got. Only the verdict `proved` is a proof.
   double provedShare = 0;
   /// True if the proof ended for another reason than `boxes`, `tests` or an interrupt: too many
   /// boxes are open, or a box is too small to be halved. Larger limits don't help then.
@@ -58,13 +58,14 @@ struct NeverInContactResult {
 /// base. A joint with a range of a full turn or more is proved for all angles. The other verdicts
 /// prove nothing.
 ///
-/// Only joints between the two bodies count: those on the path through the tree of frames. Their
-/// ranges form a box of joint values. A box is proved by one motion query in which nothing moves,
-/// at the middle of the box, with the half widths of the box as its tube (collision/PROMISES.md,
-/// promise 2: `free` holds for every configuration within the tube, with all rounding). A box that
-/// is not proved is halved along the joint that can displace the second body the most. Only the
-/// pairs of shapes that were not separated are tested in the halves. The boxes are tested breadth
-/// first, so that a contact is soon found at the middle of a box.
+/// Only the joints between the two bodies count, which are the joints on the path between the
+/// bodies' frames in the tree of frames. Their ranges form a box of joint values. A box is proved
+/// by one motion query in which nothing moves, at the middle of the box, with the half widths of
+/// the box as its tube (collision/PROMISES.md, promise 2: `free` holds for every configuration
+/// within the tube, with all rounding). A box that is not proved is halved along the joint that can
+/// displace the second body the most. Only the pairs of shapes that were not separated are tested
+/// in the halves. The boxes are tested breadth first, so that a contact is soon found at the middle
+/// of a box.
 ///
 /// A proof needs more boxes if more joints are between the bodies, or if the bodies come closer to
 /// each other. If they come as close as the margin anywhere, no proof succeeds.
@@ -89,7 +90,7 @@ class NeverInContact {
 };
 
 /// Returns whether a planar or floating joint that moves lies between the frames of two bodies.
-/// Then no limits of joints keep them apart, and a proof is not tried.
+/// Then no limits of joints keep the bodies apart, and a proof is not tried.
 bool movesFreely(const Model& model, std::size_t a, std::size_t b);
 
 }  // namespace corridor

@@ -17,8 +17,8 @@ using Verdict = NeverInContactResult::Verdict;
 /// The first attempt to prove a pair gets this many boxes, and each further attempt four times as
 /// many as the one before. All attempts at a pair together take at most 4/3 of its last attempt.
 constexpr std::uint64_t kFirstBoxes = 80, kMoreBoxes = 4, kMostBoxes = 20480;
-/// So many tests of volumes and triangles count as one box. They take about as long as those parts
-/// of a box's test that are not counted, such as making its motion.
+/// This many tests of volumes and triangles count as one box. They take about as long as those
+/// parts of a box's test that are not counted, such as making its motion.
 constexpr std::uint64_t kTestsPerBox = 100;
 /// An attempt may take this many tests for each of its boxes, on average.
 constexpr std::uint64_t kMostTestsPerBox = 1000;

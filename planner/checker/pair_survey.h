@@ -12,7 +12,7 @@
 
 namespace corridor {
 
-/// What a survey did so far.
+/// The progress of a survey.
 struct PairSurveyProgress {
   std::size_t samples = 0;  ///< random states tested
   /// The work of the proofs, in the unit of `PairSurveyOptions::work`; 0 until all states are
@@ -26,7 +26,7 @@ struct PairSurveyOptions {
   double margin = 0;        ///< as `NeverInContactOptions::margin`, metres
   double beyondLimits = 0;  ///< as `NeverInContactOptions::beyondLimits`, rad or m
   /// Work limit for the proofs of all pairs together: the number of boxes of joint values that are
-  /// tested, where 100 tests of volumes and triangles count as one box more. 0: no proof is tried.
+  /// tested, where 100 tests of volumes and triangles count as one more box. 0: no proof is tried.
   std::uint64_t work = 250'000;
   std::size_t samples = 1000;  ///< how many random states are tested
   std::uint64_t seed = 1;      ///< seed of the random states
@@ -39,9 +39,9 @@ struct PairSurveyOptions {
 /// The result of a survey for one pair of bodies that the model's filter does not exclude.
 struct SurveyedPair {
   std::size_t a = 0, b = 0;  ///< bodies of the model, by index
-  std::size_t contacts = 0;  ///< number of random states in which the two are not proved free
-  /// True if a planar or floating joint lies between the two. Then nothing is proved, and the
-  /// count has no meaning.
+  std::size_t contacts = 0;  ///< number of random states in which the pair is not proved free
+  /// True if a planar or floating joint lies between the two bodies. Then nothing is proved, and
+  /// `contacts` has no meaning.
   bool movesFreely = false;
   /// The answer of the last attempt by `NeverInContact`; unset if no proof was tried.
   std::optional<NeverInContactResult> proof;

@@ -10,7 +10,7 @@ Configuration startOf(const Problem& problem);
 std::vector<Configuration> goalsOf(const Problem& problem);
 
 /// Returns whether q is in the goal. If the task has a goal region, q must be in the region about
-/// one of `goals`. If it has a threshold (`.cfg`), q must be at most that far from a goal.
+/// one of `goals`. If it has a threshold (`.cfg`), q must be at most that distance from a goal.
 /// Otherwise q must be equal to a goal (`ConfigurationSpace::equal`).
 /// @param slack enlarges (> 0) or shrinks (< 0) the region or threshold by this fraction.
 bool inGoal(const Problem& problem, const std::vector<Configuration>& goals, const Configuration& q,

@@ -156,8 +156,8 @@ void ProblemStateSpace::read(const ob::State* state, double* q) const {
     double* numbers = q + part.first;
     if (part.kind == Kind::line) {
       const double* values = compound->as<Lines>(i)->values;
-      // Most often there are two or three numbers. For three, assignments cost less than the call
-      // of a copy function.
+      // Most often there are two or three numbers. For three numbers, assignments cost less than
+      // the call of a copy function.
       if (part.count == 3) {
         numbers[0] = values[0], numbers[1] = values[1], numbers[2] = values[2];
       } else {
@@ -204,7 +204,8 @@ void ProblemStateSpace::interpolate(const ob::State* from, const ob::State* to, 
 }
 
 double ProblemStateSpace::distance(const ob::State* a, const ob::State* b) const {
-  // Planners compute distances more often than anything else. Small spaces need no allocation.
+  // Planners compute distances more often than anything else. So the numbers of small spaces are
+  // kept on the stack.
   constexpr std::size_t kFew = 32;
   if (space_.size() > kFew) return space_.distance(read(a), read(b));
   double numbersA[kFew], numbersB[kFew];

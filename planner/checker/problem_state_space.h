@@ -15,7 +15,7 @@ namespace corridor {
 ///
 /// `interpolate`, `distance` and `equalStates` are Corridor's own. OMPL 1.5.2 computes the distance
 /// 0 for rotations below 9e-5 rad, and its `interpolate` then returns `from`, even at t = 1. Near
-/// half turns, the last bit of a number decides in which direction OMPL rotates.
+/// half turns, OMPL's direction of rotation depends on the last bit of a number.
 ///
 /// Samplers, bounds and `validSegmentCount` (the largest count of a subspace) are OMPL's. A single
 /// rigid body is sampled as by SE2StateSpace or SE3StateSpace.

@@ -126,7 +126,8 @@ std::vector<Note> notesOnStillPairs(const Checker& checker, const Configuration&
                          : checker.options().pairMargins ? "are closer than margin and padding"
                                                          : "are closer than the margin") +
              ": " + joinedFirst(names, kShown) +
-             "; no proof covers them, since they never move against each other (allow: [[" +
+             "; no proof covers these pairs, because their bodies never move against each other "
+             "(allow: [[" +
              model.bodies[first->a].name + ", " + model.bodies[first->b].name +
              "]] if this is intended)",
          NoteWeight::coverage});

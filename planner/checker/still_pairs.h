@@ -13,8 +13,8 @@ struct StillPair {
   bool touches = false;  ///< false: the bodies are apart, but not farther than the margin
 };
 
-/// Returns whether the model has bodies that never move against each other, and are not excluded
-/// from the tests for another reason.
+/// Returns whether the model has a pair of bodies that is not tested only because the two never
+/// move against each other.
 bool hasStillPairs(const Model& model);
 
 /// Returns the pairs of bodies that are not tested, because they never move against each other, and

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::infinity();
 
-/// Returns the values of `first`, and those of `second` where `first` has none.
+/// Returns the values of `first`; where `first` has no value, the value of `second`.
 LimitValues orElse(const LimitValues& first, const LimitValues& second) {
   return {first.velocity ? first.velocity : second.velocity,
           first.acceleration ? first.acceleration : second.acceleration,

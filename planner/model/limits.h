@@ -19,21 +19,22 @@ struct LinkSpeed {
   std::size_t frame = 0;  ///< in Model::tree
   double speed = 0;       ///< m/s, for each of `points`
   /// The frame's origin, and the corners of a box around the link's shapes, in the frame's
-  /// coordinates, m. No point of a convex hull is faster than the fastest corner, so these limit
-  /// every point of the link.
+  /// coordinates, m. No point of a convex hull is faster than the hull's fastest corner. So a limit
+  /// for these points holds for every point of the link.
   std::vector<Eigen::Vector3d> points;
 };
 
 /// The limits of a motion over time, for each number of a Configuration. Values are > 0; infinity
 /// means that there is no limit.
 /// - The limits of a single joint (a joint with one number) are at the index of that number: rad/s,
-///   rad/s², rad/s³, or m/s and so on if it is prismatic. Joints that mimic it may make them lower.
+///   rad/s², rad/s³, or m/s and so on if it is prismatic. A joint that mimics this joint may make
+///   the limits lower.
 /// - The position of a planar or floating joint has limits of the length of the vector (ṗ, p̈, p⃛),
-///   at the first of its numbers (x); those of its other numbers are infinite. So a diagonal motion
-///   is as fast as one along an axis.
+///   at the first of its numbers (x); the limits of its other numbers are infinite. So a diagonal
+///   motion is as fast as one along an axis.
 /// - The rotation of a floating joint has limits of its angular velocity |ω| and angular
-///   acceleration |ω̇|, at the first of its four numbers. The yaw of a planar joint is like a single
-///   joint.
+///   acceleration |ω̇|, at the first of its four numbers. The yaw of a planar joint has limits like
+///   those of a single joint.
 struct JointLimits {
   Configuration velocity, acceleration, jerk;
   std::vector<LinkSpeed> links;
@@ -41,7 +42,7 @@ struct JointLimits {
   std::vector<std::string> notes;
 };
 
-/// Limits that a user gives. Unset: the user gives no such limit.
+/// Limits that a user gives. If a value is unset, the user gives no such limit.
 struct LimitValues {
   std::optional<double> velocity, acceleration, jerk;
 };
@@ -59,15 +60,15 @@ struct LimitSpec {
   double velocityScale = 1, accelerationScale = 1;  ///< in (0, 1]; jerk is not scaled
 };
 
-/// Acceleration of every joint without a given one: 1 rad/s² or 1 m/s². URDF has no limit of
-/// acceleration, and a time law without one would be meaningless.
+/// The limit of acceleration of every joint for which none is given: 1 rad/s² or 1 m/s². URDF has
+/// no limits of acceleration, and a time law without such limits would be meaningless.
 inline constexpr double kAssumedAcceleration = 1;
 
 /// Applies limits to a model. A limit in `named` comes first. Otherwise, let d be the limit in
 /// `joints`, or in `slides` for a prismatic joint: the velocity is the smaller one of d and the
-/// URDF's; acceleration and jerk are d. An acceleration that nothing gives is kAssumedAcceleration,
-/// with a note. If a mimicking joint is in `named`, its limit L limits
-/// its leader by L/|multiplier|; otherwise it limits nothing.
+/// URDF's; acceleration and jerk are d. If nothing gives the acceleration, the limit is
+/// kAssumedAcceleration, and a note says so. If a mimicking joint is in `named`, its limit L limits
+/// its leader by L/|multiplier|; a mimicking joint that is not in `named` limits nothing.
 /// @pre names in `spec` are those of the model (`jointsWithLimits`, links).
 JointLimits limitsOf(const Model& model, const LimitSpec& spec = {});
 
@@ -76,10 +77,10 @@ struct LimitedJoint {
   std::string name;        ///< "elbow", "left/elbow"
   std::string plain;       ///< the URDF's name: "elbow"
   std::size_t number = 0;  ///< index, in a Configuration, of the number that moves the joint
-  double multiplier = 1;   ///< of a mimic; else 1
+  double multiplier = 1;   ///< that of a mimic; for other joints 1
   bool isMimic = false;
   bool isPrismatic = false;
-  double velocity = 0;  ///< by the URDF; infinite if it gives none
+  double velocity = 0;  ///< the URDF's limit; infinite if it gives none
 };
 /// Returns the single joints that move with a planned coordinate, including those that mimic one.
 std::vector<LimitedJoint> jointsWithLimits(const Model& model);

@@ -146,8 +146,8 @@ std::vector<std::size_t> moversOf(const KinematicTree& tree);
 /// configuration of zeros, whose quaternions are no rotations.
 std::vector<Transform> staticFramePoses(const Model& model);
 
-/// The poses of a model's frames, for states that follow each other. Those that never move are
-/// computed once, so that a state costs nothing for obstacles on frames of their own.
+/// The poses of a model's frames, for states that follow each other. The poses of frames that never
+/// move are computed once, so that obstacles on frames of their own add no cost per state.
 class FramePoses {
  public:
   /// @param model must outlive the object.

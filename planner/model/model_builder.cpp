@@ -61,9 +61,9 @@ void skipLinks(Model& model, std::size_t robot) {
       break;
     }
   }
-  // Last, so that a pair keeps any other reason not to be tested. If the proof does not cover the
-  // margin or tube of a problem, the problem's reader removes the reason kNeverInContact, and no
-  // other: the pair is tested again (testBeyondProofs).
+  // Pairs with a proof come last, so that such a pair keeps any other reason not to be tested. If
+  // the proof does not cover the margin or tube of a problem, the problem's reader removes the
+  // reason kNeverInContact, but no other reason. The pair is then tested again (testBeyondProofs).
   skipAllowed(true);
 }
 
@@ -112,7 +112,7 @@ ModelBuilder& ModelBuilder::addRobot(RobotParts parts, const RigidPose& base,
   return *this;
 }
 
-/// @param place the robot's URDF, or what else messages name.
+/// @param place the robot's URDF, or another text with which messages name the robot.
 void ModelBuilder::addDescribed(ModelRobot robot, const std::vector<std::string>& joints,
                                 const std::string& place) {
   const std::size_t before = faults_.size();

@@ -62,12 +62,13 @@ class ModelBuilder {
   /// Returns the model. Two links are not tested against each other if their robot's SRDF allows
   /// them to touch, if they are adjacent, or if they never move against each other. Afterwards the
   /// builder is empty.
-  /// @throws InputError with all faults: those of the URDF and SRDF files; unknown or repeated
-  /// names; those of described robots (`makeRobot`); illegal primitives; a robot that was added
+  /// @throws InputError with all faults: faults of the URDF and SRDF files; unknown or repeated
+  /// names; faults of described robots (`makeRobot`); illegal primitives; a robot that was added
   /// after an obstacle; missing or bad bounds; more than 10^7 pairs of bodies.
   Model build();
-  /// Returns the model for readers, which set bounds and allowed pairs afterwards. It ignores
-  /// `bound` and `allow`: all bounds of positions are NaN. The number of pairs is not limited.
+  /// Returns the model for readers, which set bounds and allowed pairs afterwards. This function
+  /// ignores the calls of `bound` and `allow`: all bounds of positions are NaN. The number of pairs
+  /// is not limited.
   Model buildForReader();
 
  private:

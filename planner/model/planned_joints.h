@@ -14,7 +14,7 @@ bool canMove(const JointModel& joint);
 /// Returns all joints that can move, except those that are held already.
 std::vector<std::size_t> allMoving(const ModelRobot& robot);
 
-/// Returns the complaint about a robot of which `allMoving` returns no joint: "has no joint that
+/// Returns the complaint about a robot for which `allMoving` returns no joint: "has no joint that
 /// can be planned for", followed by the reason or by what to do.
 std::string whyNoneMoves(const ModelRobot& robot);
 

@@ -129,8 +129,8 @@ class RobotAssembly {
     return turn;
   }
 
-  /// Returns the pose of a joint's child link in its parent link. The joint is planar or floating,
-  /// and held at `pose`.
+  /// Returns the pose of a joint's child link in its parent link. @pre the joint is planar or
+  /// floating, and held at `pose`.
   static RigidPose heldAt(const JointModel& joint, const RigidPose& pose) {
     if (joint.type == JointType::floating) return joint.X_PJ * pose;
     const Eigen::Quaterniond plane = fromZ(joint.axis);

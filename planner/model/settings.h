@@ -15,7 +15,7 @@ namespace corridor {
 /// How edges are checked: by a method that proves them, or by samples, as a baseline. The values
 /// before `discrete` correspond to those of `EdgeMethod`, in the same order.
 enum class EdgeCheck { certified, adaptive, advancement, discrete };
-/// OMPL's samplers of valid states: its classes …ValidStateSampler.
+/// OMPL's samplers of valid states, which are the classes …ValidStateSampler.
 enum class ValidSampler { uniform, gaussian, obstacleBased, bridgeTest, maxClearance };
 /// The objectives that planners can optimise.
 enum class Objective { length, maxMinClearance, mechanicalWork };
@@ -78,8 +78,8 @@ struct PlannerSettings {
   /// others stop at the first solution.
   std::optional<bool> stopAtFirst;
   /// The number of edges after which the search starts again, with other random numbers. Each
-  /// search may test twice as many edges as the one before. 0: it never starts again. A planner
-  /// that uses all its time never does, whatever this number is. Unset: see
+  /// search may test twice as many edges as the one before. 0: it never starts again. The search of
+  /// a planner that uses all its time never starts again, whatever this number is. Unset: see
   /// `Solve::defaultRestart`.
   std::optional<std::uint64_t> restart;
   std::map<std::string, std::string> params;  ///< by OMPL's own names
@@ -93,12 +93,14 @@ struct CheckerSettings {
   TreeNames trees = {"obb", "", "", ""};
 };
 
-/// What paths should keep where this is possible, besides what they must.
+/// The preferences for paths: followed where possible, in addition to margin, padding and tube,
+/// which every path must keep.
 struct PreferSettings {
-  /// Metres that the pairs should keep apart (solve/clearance_targets.h); 0: as close as the
-  /// shortest path gets. Unset: see `preferredClearance`.
+  /// Metres that the two bodies of each tested pair should keep apart (solve/clearance_targets.h);
+  /// 0: as close as the shortest path gets. Unset: see `preferredClearance`.
   std::optional<double> clearance;
-  /// By how much the path may be longer than the shortest that was found, as a share of its length.
+  /// By how much the path may be longer than the shortest path that was found, as a share of the
+  /// shortest path's length.
   double detour = 0.1;
 };
 
@@ -118,8 +120,9 @@ struct TrajectorySettings {
   Smoothing smooth = Smoothing::time;
   /// The largest distance of the file's curve from the smoothed path, in each number; rad or m.
   double deviation = 1e-4;
-  /// The largest distance of the smoothed path from the path, in each number; rad or m. Unset: as
-  /// far as it is proved free. If it is set, only corners are rounded.
+  /// The largest distance of the smoothed path from the path, in each number; rad or m. If unset,
+  /// the smoothed path may be as far from the path as proofs allow. If set, only corners are
+  /// rounded.
   std::optional<double> cornerDeviation;
   std::optional<double> rate;  ///< rows per second; unset: rows where they are needed
 };
@@ -142,9 +145,9 @@ struct Settings {
 /// clearance that is preferred; nullopt if it can be.
 std::optional<std::string> whyNoClearance(double margin, const Settings& settings);
 
-/// Returns the first word of `trees` that is unknown or does not belong to the volume, or nullopt.
-/// The methods `adaptive` and `advancement` measure distances. With these two methods, an overlap
-/// test other than the volume's default is wrong, too.
+/// Returns the first word of `checker.trees` that is unknown or does not belong to the volume, or
+/// nullopt if there is none. The methods `adaptive` and `advancement` measure distances. With these
+/// two methods, an overlap test other than the volume's default is wrong, too.
 std::optional<InvalidName> invalidNameIn(const CheckerSettings& checker);
 
 }  // namespace corridor

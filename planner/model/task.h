@@ -22,14 +22,15 @@ struct GoalRegion {
 /// Distances that bodies keep in addition to the margin of a task. Bodies are given by their
 /// indices in the model. Metres, 0 or more.
 struct Padding {
-  /// Of bodies: from all bodies, except those of the same robot.
+  /// For single bodies: the distance that the body keeps from all bodies, except those of the same
+  /// robot.
   std::map<std::size_t, double> bodies;
-  /// Of pairs, the lower index first: in place of the paddings of both bodies.
+  /// For pairs, with the lower index first: the distance that replaces the paddings of both bodies.
   std::map<std::pair<std::size_t, std::size_t>, double> pairs;
 
   bool empty() const { return bodies.empty() && pairs.empty(); }
   /// Returns the padding of two bodies, rounded up.
-  /// @param sameRobot whether both belong to one robot.
+  /// @param sameRobot whether both bodies belong to the same robot.
   double of(std::size_t a, std::size_t b, bool sameRobot) const;
   /// Returns a padding that no pair exceeds.
   double largest() const;
@@ -51,11 +52,11 @@ struct Task {
   JointLimits limits;
 };
 
-/// The deviation from the path that a proof shall cover, in each coordinate that is planned for. It
-/// is for errors of these coordinates: the tracking error of joints, offsets of encoders, the
-/// localisation of a mobile base whose planar joint is planned for. The robot as a whole may also
-/// be early or late on the path. A joint or robot that lags behind another is covered only up to
-/// these values.
+/// The deviation from the path that a proof shall cover, in each coordinate that is planned for.
+/// The tube is for errors of these coordinates: the tracking error of joints, offsets of encoders,
+/// the localisation of a mobile base whose planar joint is planned for. The robot as a whole may
+/// also be early or late on the path. A joint or robot that lags behind another is covered only up
+/// to these values.
 ///
 /// All other errors are excluded: the pose of a fixed base, the poses and axes of joints in their
 /// links, the values of held joints, the deviation of a mimic joint from its rule, and the shapes
@@ -68,7 +69,7 @@ struct TubeSpec {
   std::optional<double> position;  ///< for each coordinate of planar and floating joints, m
   std::optional<double> rotation;  ///< for the rotation of planar and floating joints, rad
   /// For single joints, by the names of their coordinates ("left/elbow"): rad, or m if prismatic.
-  /// These values replace `joints` and `slides`.
+  /// For the named joints, these values replace `joints` and `slides`.
   std::map<std::string, double> named = {};
 };
 

@@ -36,8 +36,9 @@ double largestTube(const ModelRobot& robot, const Problem& problem) {
   return largest;
 }
 
-/// Includes the pairs that were proved never in contact in the tests, if the proof is for a smaller
-/// margin or tube than the problem's. If a pair was included, adds a note.
+/// For each pair that was proved never in contact: if the proof covers less than the problem's
+/// margin plus the pair's padding, or less than the problem's tube, the pair is tested. Adds a note
+/// if there are such pairs.
 void testBeyondProofs(Problem& problem) {
   std::size_t tested = 0;
   AllowedPair::Proof covered;

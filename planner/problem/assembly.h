@@ -20,9 +20,9 @@ void addRobots(std::vector<RobotSetup> robots, ModelBuilder& builder, Source& so
 /// Pairs of bodies that may touch, by index.
 using AllowedBodies = std::vector<std::array<std::size_t, 2>>;
 
-/// Completes a problem whose other members are set: excludes the allowed pairs from the tests, and
-/// sets the tube. Adds a note if no pair is tested, and one for each obstacle that is far larger
-/// than the robots, or far away.
+/// Completes a problem: excludes the allowed pairs from the tests, and sets the tube. Adds a note
+/// if no pair is tested, and one for each obstacle that is far larger than the robots, or far away.
+/// @pre everything else in the problem is set.
 /// @throws InputError if the problem has more than 10^7 pairs, or a coordinate above 1e100 m.
 void finishProblem(const AllowedBodies& allowed, const TubeSpec& tube, Problem& problem);
 

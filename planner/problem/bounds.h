@@ -11,8 +11,8 @@ namespace corridor {
 /// contained start and goals before.
 bool enlargeBounds(Problem& problem, const CoordinateGroup& group);
 
-/// If the group's position in `q` is outside of the bounds, returns the reason, such as "outside of
-/// the bounds: x = 9 is not in [0, 1]". Otherwise returns "".
+/// If the group's position in `q` is outside of the group's bounds, returns the reason, such as
+/// "outside of the bounds: x = 9 is not in [0, 1]". Otherwise returns "".
 std::string whyOutside(const ConfigurationSpace& space, const CoordinateGroup& group,
                        const Configuration& q);
 

@@ -15,7 +15,7 @@ namespace corridor {
 ///
 /// The function reads all other files again. If no file has changed since `readProblem`, the digest
 /// is that of the problem that was read. Callers should therefore compute the digest directly after
-/// `readProblem`. At the end of their work, a file may have changed.
+/// `readProblem`, and not at the end of their work, when a file may have changed.
 /// @throws InputError if a file can't be read.
 std::string digestOf(const Problem& problem);
 

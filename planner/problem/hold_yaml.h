@@ -17,8 +17,8 @@ struct YamlPlace {
   int line = 0;
 };
 
-/// Reads the values of joints in a robot's `hold`. Returns the name of the state in it (`hold:
-/// NAME` or `from: NAME`), or nullopt.
+/// Reads the key `hold` of a robot's file: sets the held values of joints in `setup`. Returns the
+/// name of the state that `hold` refers to (`hold: NAME` or `from: NAME`), or nullopt.
 std::optional<std::string> readHold(const YamlMap& file, RobotSetup& setup);
 
 /// For each joint to which a named state gives a value: holds the joint at that value. Skips the

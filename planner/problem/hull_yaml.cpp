@@ -12,13 +12,14 @@
 namespace corridor {
 namespace {
 
-/// The default of `deviation`, as a share of the longest side of the mesh's box. Meshes of convex
-/// parts in float, and of rounded coordinates, are within it; no visible hollow is.
+/// The default of `deviation`, as a share of the longest side of the mesh's box. A convex mesh
+/// whose coordinates were stored as floats or rounded is within this deviation; a mesh with a
+/// visible hollow is not.
 constexpr double kDefaultDeviation = 1e-4;
 
 /// A `deviation` below this share of the largest coordinate may be impossible to prove.
-/// `hullDeviation` adds 2^-38 of this coordinate to each distance, for its rounding; 2^-35 leaves
-/// room for the distances.
+/// `hullDeviation` adds 2^-38 of this coordinate to each distance, for the rounding of the
+/// distance; 2^-35 leaves room for the distances themselves.
 constexpr double kProvableShare = 0x1p-35;
 
 /// Returns the length in metres with three digits, rounded up or down. A length that is a decimal

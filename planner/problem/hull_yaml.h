@@ -20,9 +20,9 @@ HullKey readHullKey(const YamlMap& map);
 bool isBoolean(const YamlValue& value);
 
 /// Replaces the mesh by its convex hull, one convex part, with a note on the hull's largest
-/// distance from the mesh. The corners are placed already, so the shape's `at` becomes the
-/// identity. Returns false if a fault was added: the hull is farther from the mesh than `deviation`
-/// allows.
+/// distance from the mesh. The hull's corners are in their final place, so the shape's `at` becomes
+/// the identity. Returns false if a fault was added: the hull is farther from the mesh than
+/// `deviation` allows.
 /// @pre the mesh's placement is applied.
 bool replaceByHull(const YamlMap& map, PlacedShape& shape);
 

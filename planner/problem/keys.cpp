@@ -95,8 +95,8 @@ Words volumeNames() {
   return names;
 }
 
-/// Returns the names of the fits, of the overlap tests or of the ways of building, of all volumes,
-/// each once.
+/// Returns the names of one kind (fits, overlap tests or ways of building) of all volumes, each
+/// name once.
 Words ofAnyVolume(Words VolumeKind::*variants) {
   Words all;
   for (const VolumeKind& kind : volumeKinds())

@@ -13,8 +13,8 @@ namespace corridor {
 namespace {
 
 /// Reads {velocity: …, acceleration: …, jerk: …}.
-/// @param isLength whether they are for lengths, which have no degrees.
-/// @param owner what they are for, for messages.
+/// @param isLength whether the limits are those of a length, which can't be in degrees.
+/// @param owner what the limits apply to, for messages: "elbow", "limits.position".
 LimitValues readValues(const YamlMap& map, bool isLength, const std::string& owner) {
   LimitValues values;
   const auto read = [&](const std::string& key) {
@@ -50,8 +50,8 @@ void readNamed(const YamlMap& limits, const std::vector<LimitedJoint>& joints, L
       return each.name == entry->key;
     });
     if (joint == joints.end()) {
-      map.fault(entry->key, "there is no joint of that name that is planned for" +
-                                didYouMean(entry->key, known) + knownWords(known));
+      map.fault(entry->key, "no planned joint has this name" + didYouMean(entry->key, known) +
+                                knownWords(known));
       continue;
     }
     const YamlMap own(entry->value, map.pathOf(entry->key), &problemKeys().at("limits.joints.*"),

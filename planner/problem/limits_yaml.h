@@ -17,17 +17,19 @@ LimitSpec readLimits(const YamlMap& problem, const std::filesystem::path& folder
                      const Model& model, bool isComplete,
                      std::vector<std::filesystem::path>& files);
 
-/// Reads the same from the map of the limits itself. A problem file has it under the key `limits`.
+/// Reads limits as `readLimits` does, but from their map itself, which a problem file has under the
+/// key `limits`.
 LimitSpec readLimitMap(const YamlMap& limits, const std::filesystem::path& folder,
                        const Model& model, bool isComplete,
                        std::vector<std::filesystem::path>& files);
 
-/// Reads a factor of limits, above 0 and at most 1, if the map has the key.
+/// If the map has the key, sets `scale` to its value: a factor of limits, above 0 and at most 1.
 void readScale(const YamlMap& map, const char* key, double& scale);
 
-/// Reads a joint_limits.yaml of MoveIt into `spec`: the limits of joints, by their plain names, and
-/// the default scaling factors. Deceleration limits narrow those of acceleration. Adds notes on
-/// joints that do not move in the model, and on limits of positions, which are not used.
+/// Reads a joint_limits.yaml of MoveIt into `spec`: the limits of joints, by the joints' names
+/// without a robot's name, and the default scaling factors. Deceleration limits narrow those of
+/// acceleration. Adds notes on joints that do not move in the model, and on limits of positions,
+/// which are not used.
 void readMoveitLimits(const std::filesystem::path& file, const Model& model, bool isComplete,
                       LimitSpec& spec, FaultList& faults, std::vector<Note>& notes);
 

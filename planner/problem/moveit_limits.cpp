@@ -122,8 +122,7 @@ void readMoveitLimits(const std::filesystem::path& file, const Model& model, boo
   const YamlValue document =
       parseYaml(file.string(), readTextFile(file, "limits of joints (MoveIt's joint_limits.yaml)"));
   YamlSource source{file.string(), faults, {}};
-  // Files of parameters and for launch files have the limits under this key, and other keys beside
-  // it.
+  // Parameter files, and files for launch files, have the limits under this key, beside other keys.
   const YamlValue& parameters = parametersOf(document);
   const YamlValue* const inner = valueIn(parameters, "robot_description_planning");
   readFile(YamlMap(inner ? *inner : parameters, inner ? "robot_description_planning" : "", &kFile,

@@ -61,7 +61,7 @@ struct PoseForm {
 };
 /// Reads a pose. Returns nullopt if a fault was added. If the pose is planar but the form is
 /// spatial, or the other way round, the only fault is "goal of the wrong kind: …".
-/// @param path of the value: "start", "goal[0].left".
+/// @param path the path of the value in its file: "start", "goal[0].left".
 /// @param notes gets a note if whole turns were subtracted from a yaw.
 std::optional<PlanarOrSpatialPose> readPose(const YamlValue& value, const std::string& path,
                                             const PoseForm& form, YamlSource& source,

@@ -11,8 +11,8 @@ namespace corridor {
 /// shape's `polygon`, and its parts. Returns false if a fault was added.
 bool readPolygon(const YamlMap& map, const Transform& X, PlacedShape& shape);
 
-/// Translates a polygon, and makes its convex parts anew: corners are rounded to doubles. Returns
-/// why this is not possible, or "".
+/// Translates a polygon. The moved corners are rounded to doubles, so its convex parts are made
+/// anew. Returns why this is not possible, or "".
 std::string shiftPolygon(PlacedShape& shape, const Vec3& by);
 
 }  // namespace corridor

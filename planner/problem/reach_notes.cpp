@@ -28,9 +28,8 @@ bool hasObstaclesOutOfReachOnly(const Problem& problem, const std::vector<ReachB
   return obstacles > 0;
 }
 
-/// Returns half of the longest side of the box that contains all bodies of a robot in all
-/// configurations, for the robot with the longest side; metres. Sets `boxes` to these boxes, one a
-/// robot. 0 without bodies of robots.
+/// Sets `boxes` to one box for each robot, which contains the robot's bodies in all configurations.
+/// Returns half of the longest side of these boxes, in metres. Returns 0 if no robot has a body.
 double halfReach(const Model& model, const std::vector<ReachBox>& reach,
                  std::vector<ReachBox>& boxes) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -66,8 +65,8 @@ std::string metres(double length) {
 /// must be long, or one side of a mesh or cloud must be very long.
 void addNotesOnSizes(const Problem& problem, const std::vector<ReachBox>& reach,
                      std::vector<Note>& notes) {
-  // An arm reaches 0.3 m to 3 m. A floor of 100 m gets no note. A shelf of 0.4 m does, if it is in
-  // millimetres; so does a mesh whose three sides are all above 0.09 m.
+  // An arm reaches 0.3 m to 3 m. A floor of 100 m gets no note. A file in millimetres gets one if
+  // it contains a shelf of 0.4 m, or a mesh whose three sides are all above 0.09 m.
   constexpr double longestPerReach = 100, leastLongest = 200, thickPerReach = 30;
   constexpr int mostNotes = 100;
   const Model& model = problem.model;

@@ -6,9 +6,9 @@
 
 namespace corridor {
 
-/// Returns notes on lengths that are probably in another unit than metres: if no obstacle is within
-/// reach of a robot, and for each obstacle that is far larger than the robots, or far away. If
-/// there are polygons, also on bodies that do not reach their plane.
+/// Returns notes on lengths that are probably in another unit than metres: one note if no robot can
+/// reach any obstacle, and one for each obstacle that is far larger than the robots, or far away.
+/// If there are polygons, the notes also name bodies that do not reach the plane of the polygons.
 std::vector<Note> notesOnReach(const Problem& problem);
 
 }  // namespace corridor

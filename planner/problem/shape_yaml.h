@@ -19,7 +19,7 @@ struct ShapePlace {
   std::string name;              ///< the shape's name
   std::filesystem::path folder;  ///< the folder that file names are relative to
   Placement outer = {};          ///< placement of the obstacle that lists the shape in `shapes`
-  bool isPlanar = false;         ///< of an SE2 robot, or in the world of such robots
+  bool isPlanar = false;  ///< the shape belongs to an SE2 robot, or to the world of such robots
 };
 
 /// Reads meshes for shapes, each file once.

@@ -43,7 +43,7 @@ void readNamed(const YamlMap& map, const ConfigurationSpace& space, TubeSpec& tu
     const bool degrees = joint == joints.end() && entry->key.ends_with("_deg");
     if (degrees) joint = find(entry->key.substr(0, entry->key.size() - 4));
     if (joint == joints.end()) {
-      map.fault(entry->key, "there is no such key, and no joint of that name that is planned for" +
+      map.fault(entry->key, "this is no key of tube, and no planned joint has this name" +
                                 didYouMean(entry->key, known) + knownWords(known));
     } else if (degrees && slides(**joint)) {
       map.fault(entry->key,
@@ -77,8 +77,7 @@ TubeSpec readTube(const YamlMap& file, const ConfigurationSpace& space, bool isC
                 "rotation_deg");
   const bool anySlides = std::any_of(joints.begin(), joints.end(),
                                      [](const Coordinate* joint) { return slides(*joint); });
-  if (map.find("slides") && !anySlides)
-    map.fault("slides", "there is no prismatic joint here that is planned for");
+  if (map.find("slides") && !anySlides) map.fault("slides", "there is no planned prismatic joint");
   for (const char* key : {"position", "rotation", "rotation_deg"})
     if (map.find(key) && !hasPoseJoints(space))
       map.fault(key,

@@ -86,8 +86,8 @@ std::optional<RobotModel> readModel(const std::filesystem::path& urdf, const Urd
 
 using JointList = std::vector<std::size_t>;
 
-/// Lets the problem name the group's states without the group: if the group is "arm", "home" also
-/// means "arm/home".
+/// Lets the problem use the names of the group's states without the group's name: if the group is
+/// "arm", "home" also means "arm/home".
 void addStatesOf(const std::string& group, RobotModel& model) {
   const std::string prefix = group + "/";
   std::map<std::string, NamedState> added;

@@ -22,10 +22,11 @@ std::vector<PlacedShape> readGroup(const YamlMap& map, ShapePlace place, ShapeFi
   return readShapes(map, problemKeys().at("world.*.shapes[]"), place, files);
 }
 
-/// Smallest numbers of triangles: of one mesh, and of all copies that sharing saves. Among 20
-/// obstacles of one mesh, an edge of an arm takes 6.9 µs instead of 5.5 µs, since each obstacle has
-/// a relative motion of its own. A saved copy takes 0.1 kB and 0.23 µs a triangle. So 50,000
-/// triangles are worth the time of 10^4 edges (equal_meshes_benchmark).
+/// Obstacles share a mesh if it has at least `kLeastShared` triangles, and if sharing saves at
+/// least `kLeastSaved` triangles. Among 20 obstacles of one mesh, an edge of an arm takes 6.9 µs
+/// instead of 5.5 µs, since each obstacle has a relative motion of its own. A saved copy would take
+/// 0.1 kB and 0.23 µs for each triangle. So 50,000 triangles are worth the time of 10^4 edges
+/// (equal_meshes_benchmark).
 constexpr std::size_t kLeastShared = 1'000, kLeastSaved = 50'000;
 
 /// Counts the obstacles that are the same mesh: those with equal `mesh`, `unit`, `up` and `solid`.
@@ -72,9 +73,9 @@ std::vector<std::size_t> bodiesCalled(const std::string& name, const Model& mode
   return found;
 }
 
-/// Returns whether this is the name of a link. A link without shapes is no body, so a pair with it
-/// needs no `allow`; to list such a pair is no fault.
-bool isBareLink(const std::string& name, const Model& model) {
+/// Returns whether this is the name of a link. If a link's name is not the name of a body, the link
+/// has no shapes. A pair with such a link needs no `allow`, but it may be listed.
+bool isLinkName(const std::string& name, const Model& model) {
   for (const ModelRobot& robot : model.robots)
     for (const LinkModel& link : robot.description.links)
       if (name == (robot.name.empty() ? link.name : robot.name + "/" + link.name)) return true;
@@ -139,7 +140,7 @@ class BodyNames {
       fault(quotedWord(name) + " names a link and an obstacle; write " +
             (robot.name.empty() ? quotedWord(robot.description.name + "/" + name) + " or " : "") +
             quotedWord("world/" + name));
-    else if (!isBareLink(name, model_))
+    else if (!isLinkName(name, model_))
       fault("there is no body " + quotedWord(name) + didYouMean(name, names_) + knownWords(names_));
     return std::nullopt;
   }

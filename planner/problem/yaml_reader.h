@@ -76,9 +76,9 @@ class YamlMap {
   void fault(std::string_view key, const std::string& text) const;
 
   const YamlValue* find(std::string_view key) const;  ///< nullptr: absent
-  /// Returns the same as `find`. Adds a fault if the key is absent, unless an earlier fault
-  /// explains its absence: the value is not a map, or the map has an unsupported key, or the map
-  /// has an unknown key that is similar to this one.
+  /// Returns the value of the key, or nullptr if the key is absent. If it is absent, adds a fault,
+  /// unless an earlier fault explains its absence: the value is not a map, or the map has an
+  /// unsupported key, or the map has an unknown key that is similar to this one.
   /// @param purpose the value that the key should have, for the message.
   const YamlValue* require(std::string_view key, const std::string& purpose) const;
 

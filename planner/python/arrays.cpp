@@ -9,8 +9,8 @@
 namespace corridor::python {
 namespace {
 
-/// How far an element of MᵀM may be from the identity's, for the matrix M of a rigid pose. Numbers
-/// with seven digits are off by up to 3·1e-7.
+/// For the matrix M of a rigid pose, each element of MᵀM may differ from that of the identity by
+/// this much. If M's numbers are written with seven digits, the elements differ by up to 3·1e-7.
 constexpr double kOrthonormal = 1e-6;
 
 void requireFinite(const Array& array, const char* name) {

@@ -40,8 +40,8 @@ Array arrayOf(const std::vector<Configuration>& rows, std::size_t columns);
 /// Reads 4×4 matrices of rigid motions or other affine maps: an array of N×4×4 numbers, or of 4×4
 /// for one. The last row must be 0, 0, 0, 1.
 std::vector<Transform> transformsOf(const Array& array, const char* name);
-/// Reads a 4×4 matrix of a rigid motion. Its rotation must be orthonormal within 1e-6; it stands
-/// for the nearest rotation, which moves a point by less than 2e-6 of its distance to the origin.
+/// Reads a 4×4 matrix of a rigid motion. Its rotation must be orthonormal within 1e-6, and stands
+/// for the nearest rotation: this moves a point by less than 2e-6 of its distance to the origin.
 RigidPose rigidPoseOf(const Array& array, const char* name);
 
 /// Reads points, an array of N×3 numbers.

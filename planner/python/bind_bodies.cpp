@@ -14,7 +14,7 @@ namespace {
 
 using BodyPointer = std::shared_ptr<Body>;
 
-/// The poses of two bodies, one row for each query. One pose serves for all queries.
+/// The poses of two bodies, one row for each query. A single pose of a body is used in all queries.
 struct Poses {
   Poses(const Array& a, const Array& b)
       : X_WA(transformsOf(a, "pose_a")), X_WB(transformsOf(b, "pose_b")) {
@@ -76,7 +76,7 @@ py::tuple distances(const Body& a, const Body& b, const Array& poseA, const Arra
   return py::make_tuple(metres, onA, onB);
 }
 
-/// The pairs of triangles that touch, N×2, and their segments, N×2×3.
+/// Returns the pairs of triangles that touch, N×2, and the segments that they share, N×2×3.
 py::tuple contactsOf(const Body& a, const Body& b, const Array& poseA, const Array& poseB) {
   const Poses poses(poseA, poseB);
   if (poses.count != 1) refuse("pose_a", "one pair of poses is needed");
@@ -98,7 +98,7 @@ py::tuple contactsOf(const Body& a, const Body& b, const Array& poseA, const Arr
   return py::make_tuple(pairs, segments);
 }
 
-/// The first contact of A, which moves from one pose to another, with B, which rests.
+/// Returns the first contact of A, which moves from one pose to another, with B, which rests.
 py::tuple firstContact(const Body& a, const Body& b, const Array& from, const Array& to,
                        double tolerance) {
   const RigidPose start = rigidPoseOf(from, "start"), end = rigidPoseOf(to, "end");

@@ -10,7 +10,7 @@
 namespace corridor::python {
 namespace {
 
-/// The intervals of a certificate, as Python passes them back: pairs, t0, t1 and clearances.
+/// Makes a certificate from the arrays that Python passes: pairs, t0, t1 and clearances.
 MotionCertificate certificateFrom(const Indices& pair, const Array& t0, const Array& t1,
                                   const Array& clearance) {
   const py::ssize_t n = pair.size();
@@ -18,7 +18,7 @@ MotionCertificate certificateFrom(const Indices& pair, const Array& t0, const Ar
       t0.size() != n || t1.size() != n || clearance.size() != n)
     refuse("certificate", "pair, t0, t1 and clearance must be arrays of one length");
   MotionCertificate certificate;
-  for (py::ssize_t i = 0; i < n; ++i)  // a negative index becomes one that no pair has
+  for (py::ssize_t i = 0; i < n; ++i)  // a negative index becomes an index that no pair has
     certificate.free.push_back(
         {static_cast<std::size_t>(pair.at(i)), t0.at(i), t1.at(i), clearance.at(i)});
   return certificate;
@@ -158,7 +158,7 @@ void writeMatrix(const Transform& X, double* out) {
   out[15] = 1;
 }
 
-/// The poses of the bodies' frames at each state, N×B×4×4.
+/// Returns the poses of the bodies' frames at each state, N×B×4×4.
 Array poses(const NativeProblem& problem, const Array& states) {
   const Model& model = problem.problem().model;
   const std::vector<Configuration> rows = configurationsOf(states, model.space, "states");

@@ -9,7 +9,7 @@
 namespace corridor::python {
 namespace {
 
-/// Results of many queries, as arrays with one element for each.
+/// Results of many queries, as arrays with one element or row for each query.
 struct Results {
   explicit Results(std::size_t n)
       : verdict(static_cast<py::ssize_t>(n)),

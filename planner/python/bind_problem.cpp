@@ -18,7 +18,7 @@ namespace {
 
 using ProblemPointer = std::shared_ptr<NativeProblem>;
 
-/// Builds a problem of descriptions of robots and obstacles (corridor/problem.py).
+/// Builds a problem from descriptions of robots and obstacles (corridor/problem.py).
 ProblemPointer build(const py::list& robots, const py::dict& obstacles, const py::list& allowed) {
   ModelBuilder builder;
   for (const py::handle each : robots) addRobot(builder, each.cast<py::dict>());
@@ -38,7 +38,8 @@ ProblemPointer build(const py::list& robots, const py::dict& obstacles, const py
   return std::make_shared<NativeProblem>(std::move(problem));
 }
 
-/// Converts the value of an edit. @param what it must be, for the message: "a number".
+/// Converts the value of an edit. @param what words for the message, which say what the value must
+/// be: "a number".
 template <class T>
 T valueFrom(const py::handle value, const char* key, const char* what) {
   try {
@@ -71,7 +72,8 @@ double numberWithin(const py::handle value, const char* key, const ClosedRange& 
   refuse(key, range.text() + " is needed, not " + shortest(number));
 }
 
-/// Applies one edit to a problem. The keys are those of problem files where there are such.
+/// Applies one edit to a problem. The keys are those of problem files, where problem files have
+/// such a key.
 void apply(const std::string& key, const py::handle value, Problem& problem) {
   const ConfigurationSpace& space = problem.model.space;
   constexpr double kPositive = std::numeric_limits<double>::min();

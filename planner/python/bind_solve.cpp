@@ -31,7 +31,7 @@ SolveReport solveInThread(const Problem& problem, SolveOptions& options,
     const std::lock_guard lock(mutex);
     latest = p;
   };
-  bool failed = false;  // Python has an exception
+  bool failed = false;  // a call of Python raised an exception
   std::future<SolveReport> report;
   {
     const py::gil_scoped_release unlocked;
@@ -82,7 +82,7 @@ py::dict solve(const NativeProblem& native, const std::optional<std::string>& tr
   std::string digest;  // computed before planning, because the files may change while it runs
   try {
     if (!problem.source.files.empty()) digest = digestOf(problem);
-  } catch (const InputError&) {  // a file is gone: there is no solution file then
+  } catch (const InputError&) {  // a file is missing: no digest, so no solution file
   }
   const SolveReport r = solveInThread(problem, options, callback);
   py::dict d;
@@ -137,8 +137,8 @@ py::dict reportDict(const VerifyReport& report) {
   return d;
 }
 
-/// Returns a path as the solution of a problem, without a digest: the problem in memory counts, and
-/// not its files.
+/// Returns a path as the solution of a problem. It has no digest, because it belongs to the problem
+/// in memory, not to the problem's files.
 Solution solutionFrom(const Problem& problem, const Array& path) {
   Solution solution;
   solution.numbers = problem.model.space.numberNames();
@@ -149,7 +149,8 @@ Solution solutionFrom(const Problem& problem, const Array& path) {
   return solution;
 }
 
-/// @param clearance the bound of the path's clearance is refined until it reaches this, metres.
+/// @param clearance metres: the bound of the path's clearance is refined until it reaches this
+/// value.
 py::dict verifyPathOf(const NativeProblem& native, const Array& path, double clearance) {
   const Problem& problem = native.problem();
   Solution solution = solutionFrom(problem, path);
@@ -162,7 +163,7 @@ py::dict verifyPathOf(const NativeProblem& native, const Array& path, double cle
   return reportDict(report);
 }
 
-/// @param text of a file of rows, or of a message.
+/// @param text the content of a file of rows, or of a message.
 py::dict verifyTrajectoryOf(const NativeProblem& native, const std::string& text) {
   const Problem& problem = native.problem();
   VerifyReport report;
@@ -184,7 +185,8 @@ std::string page(const NativeProblem& native, const std::optional<Array>& states
   return viewPage(problem, path);
 }
 
-/// Returns an SVG. @param seenFrom as `viewDirection`. @throws InputError for another direction.
+/// Returns an SVG. @param seenFrom a direction that `viewDirection` accepts. @throws InputError for
+/// any other text.
 std::string picture(const NativeProblem& native, const Array& states,
                     const std::optional<std::string>& seenFrom) {
   std::optional<ViewDirection> from;

@@ -1,4 +1,4 @@
-/// The module corridor._native: what the package `corridor` (corridor/__init__.py) is made of.
+/// The module corridor._native: the compiled part of the package `corridor` (corridor/__init__.py).
 #include <pybind11/pybind11.h>
 
 #include "collision/core/error.h"

@@ -22,7 +22,7 @@ inline Code codeOf(bool inBounds, MotionVerdict verdict) {
                                              : kUndecided;
 }
 
-/// A problem, and the checker of it, which is made when a query first needs it. Immutable: edits
+/// A problem and its checker. The checker is made when a query first needs it. Immutable: edits
 /// make another NativeProblem. Threads may share it.
 class NativeProblem {
  public:

@@ -16,8 +16,9 @@ namespace corridor::python {
 
 /// Calls work(i) for each i below `count`, on several threads.
 /// @param threads 0: as many as the machine has.
-/// @param stop is asked now and then by the calling thread, which does not work; true: ends soon.
-/// @returns false if it was stopped. @throws what `work` throws first.
+/// @param stop is called every 50 ms by the calling thread, which does no other work; if it returns
+/// true, the function ends soon. With 16 items or fewer on one thread, `stop` is not called.
+/// @returns false if `stop` ended it. @throws the first exception that `work` throws.
 template <class Work, class Stop>
 bool forEachInParallel(std::size_t count, std::size_t threads, const Work& work, const Stop& stop) {
   if (threads == 0) threads = std::max(1U, std::thread::hardware_concurrency());
@@ -40,7 +41,7 @@ bool forEachInParallel(std::size_t count, std::size_t threads, const Work& work,
   };
   threads = std::min(threads, (count + kChunk - 1) / kChunk);
   if (threads <= 1 && count <= kChunk) {
-    run();  // short: not worth a thread
+    run();  // little work: not worth a thread
   } else {
     std::vector<std::jthread> workers;
     running = threads;
@@ -62,7 +63,8 @@ bool forEachInParallel(std::size_t count, std::size_t threads, const Work& work,
   return !stopped;
 }
 
-/// The same, without Python's lock. Ctrl-C ends it, and raises KeyboardInterrupt.
+/// Calls `forEachInParallel` without Python's lock. Ctrl-C ends the calls, and raises
+/// KeyboardInterrupt.
 template <class Work>
 void forEachUnlocked(std::size_t count, std::size_t threads, const Work& work) {
   bool done = false;

@@ -17,7 +17,7 @@ Corners cornersOf(const py::handle bounds, const char* name) {
   return {rows[0], rows[1]};
 }
 
-/// Bounds the planar and floating joints.
+/// Sets the bounds of planar and floating joints.
 void addBounds(ModelBuilder& builder, const std::string& robot, const py::dict& bounds) {
   for (const auto& [key, corners] : bounds) {
     const auto joint = key.cast<std::string>();
@@ -58,7 +58,7 @@ RobotParts partsFrom(const std::string& name, const py::dict& robot) {
       read();
     } catch (const py::value_error& error) {
       faults.push_back({robotLabel(name), 0, error.what()});
-    } catch (const InputError& error) {  // of a mesh file
+    } catch (const InputError& error) {  // a fault of a mesh file
       faults.insert(faults.end(), error.faults().begin(), error.faults().end());
     }
   };

@@ -11,8 +11,8 @@ namespace corridor::python {
 
 namespace py = pybind11;
 
-/// A pose as the user gave it, and the same pose as a map of points. Both are rounded from the
-/// given numbers, not from each other, as in the reader of URDF.
+/// A pose as the user gave it, and the same pose as a map of points. Each is computed from the
+/// given numbers, not from the other, as in the reader of URDF.
 struct GivenPose {
   RigidPose pose;
   Transform X;
@@ -22,7 +22,7 @@ struct GivenPose {
 GivenPose givenPose(const py::object& value, const char* name);
 RigidPose poseOf(const py::object& value, const char* name = "pose");
 
-/// Makes a shape of a tuple: its kind, its numbers and its pose.
+/// Makes a shape from a tuple of its kind, its numbers and its pose.
 PlacedShape shapeFrom(const std::string& name, const py::tuple& shape);
 
 /// Makes the shapes of a body.

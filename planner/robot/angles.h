@@ -10,14 +10,15 @@
 
 namespace corridor {
 
-/// Returns whether an angle that is given in radians is probably meant in degrees: its size is a
-/// multiple of 15 and larger than 2π, such as 90 or -180.
+/// Returns whether an angle that is given in radians is probably meant in degrees: its magnitude is
+/// a multiple of 15 and larger than 2π, as for 90 or -180.
 inline bool seemsDegrees(double radians) {
   return std::abs(radians) > 2 * std::numbers::pi && std::remainder(radians, 15) == 0;
 }
 
 /// Returns whether a value in radians that is outside of [lower, upper] is obviously meant in
-/// degrees: it is more than a full turn, and within the limits if it is read as degrees.
+/// degrees: its magnitude is more than a full turn, and the value is within the limits if it is
+/// read as degrees.
 inline bool fitsAsDegrees(double value, double lower, double upper) {
   const double radians = value * (std::numbers::pi / 180);
   return std::abs(value) > 2 * std::numbers::pi && lower <= radians && radians <= upper;
@@ -36,11 +37,13 @@ inline Eigen::Quaterniond unitQuaternion(const Eigen::Quaterniond& q) {
 /// b. The result is in [0, π/2] radians, for quaternions of any norm; it is 0 for equal
 /// quaternions.
 ///
-/// Error, with u = 2^-53: 4u·√3 from the vector part's sums of four products, and a few ulp.
+/// Error, with u = 2^-53: 4u·√3 from the sums of four products in the vector part, plus a few ulp
+/// of the result.
 ///
-/// Planners spend half of their own time in this function. The relative quaternion has a vector
-/// part (the sine) and a scalar part (the cosine). The function takes the arc sine or arc cosine of
-/// the smaller one: this is well conditioned, and costs half as much as an arc tangent.
+/// Planners spend half of their own time in this function, so it is fast. The relative quaternion
+/// has a vector part (the sine) and a scalar part (the cosine). The function takes the arc sine or
+/// the arc cosine of the smaller of the two. This is well conditioned, and costs half as much as an
+/// arc tangent.
 inline double quaternionAngle(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) {
   const double squares = a.squaredNorm() * b.squaredNorm();
   const bool plain = squares > 1e-200 && squares < 1e200;

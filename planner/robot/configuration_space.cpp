@@ -27,14 +27,14 @@ Quaterniond nearer(const Quaterniond& a, const Quaterniond& b) {
 Quaterniond slerp(const Quaterniond& from, const Quaterniond& to, double t) {
   const Quaterniond a = unitQuaternion(from), b = nearer(a, unitQuaternion(to));
   const double angle = quaternionAngle(a, b);
-  // sin(tθ)/sin θ = t(1 + θ²(1 − t²)/6 + …): for θ < 2^-27 this is t to half an ulp.
+  // sin(tθ)/sin θ = t(1 + θ²(1 − t²)/6 + …): for θ < 2^-27 the quotient is t to half an ulp.
   const bool tiny = angle < 0x1p-27;
   const double wa = tiny ? 1 - t : std::sin((1 - t) * angle) / std::sin(angle);
   const double wb = tiny ? t : std::sin(t * angle) / std::sin(angle);
   return Quaterniond(Eigen::Vector4d(wa * a.coeffs() + wb * b.coeffs())).normalized();
 }
 
-/// Returns the Euclidean norm, also if the squares of the numbers overflow or underflow.
+/// Returns the Euclidean norm, even if the squares of the numbers overflow or underflow.
 template <class Vector>
 double lengthOf(const Vector& v) {
   const double norm = v.norm();

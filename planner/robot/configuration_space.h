@@ -25,7 +25,7 @@ struct Coordinate {
   std::size_t first = 0;  ///< index of its first number in a Configuration
   double lower = 0, upper = 0;  ///< used for lines only; inclusive
   bool angular = false;         ///< line only: in radians, not metres
-  double weight = 1;            ///< factor of the difference (m or rad) in distances
+  double weight = 1;            ///< factor of this coordinate's difference (m or rad) in distances
 
   std::size_t size() const { return kind == Kind::rotation ? 4 : 1; }
 };
@@ -72,8 +72,8 @@ class ConfigurationSpace {
   /// `to` at t = 1 bit for bit, except that a circle's angle is brought into [−π, π]. Lines never
   /// leave [from, to].
   Configuration interpolate(const Configuration& from, const Configuration& to, double t) const;
-  /// Returns the sum of the groups' distances. The distance of the single joints is the root of Σ
-  /// (weight·difference)². The distance of a planar or floating joint is weight·|Δp| +
+  /// Returns the sum of the groups' distances. The distance of the single joints is the square root
+  /// of Σ (weight·difference)². The distance of a planar or floating joint is weight·|Δp| +
   /// weight·angle, with the weights of its coordinates. The angle of a `rotation` is its quaternion
   /// angle, half of the rotation angle. The distance is 0 only for equal configurations.
   double distance(const Configuration& a, const Configuration& b) const {

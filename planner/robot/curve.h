@@ -16,7 +16,7 @@ namespace corridor {
 ///   curve never goes "the shorter way", and angles may leave [−π, π].
 /// - A rotation is the slerp from the quaternion in the first column to that in the last column,
 ///   normalised in real arithmetic, along the shorter arc and at a constant rate. The columns
-///   between are not used.
+///   between these two are not used.
 /// A joint that mimics another joint has the value multiplier·q + offset for the literal q, so it
 /// never jumps.
 ///
@@ -24,12 +24,14 @@ namespace corridor {
 struct CurvePiece {
   static constexpr int kLargestDegree = 9;
 
-  /// One row for each number of a Configuration, and one column for each Bernstein coefficient:
-  /// degree + 1, from 2 to kLargestDegree + 1. Metres, radians; quaternions as (x, y, z, w).
+  /// One row for each number of a Configuration, and one column for each Bernstein coefficient. The
+  /// number of columns is the degree + 1, from 2 to kLargestDegree + 1. Metres, radians;
+  /// quaternions as (x, y, z, w).
   Eigen::MatrixXd coefficients;
-  /// For each number, a bound of how far the curve that is meant may be from this polynomial, ≥ 0:
-  /// the rounding of a conversion. Proofs add it to the tube. The deviation of a rotation is an
-  /// angle, and is at the first of its four numbers. Metres, radians.
+  /// For each number, an upper bound (≥ 0) of the deviation of the curve that is meant from this
+  /// polynomial, such as the rounding of a conversion. Proofs add this bound to the tube. For a
+  /// rotation, the bound is an angle, and is stored at the first of its four numbers. Metres,
+  /// radians.
   Configuration error;
 
   int degree() const { return static_cast<int>(coefficients.cols()) - 1; }

@@ -24,9 +24,10 @@ constexpr std::size_t kItself = SIZE_MAX;  // instead of a view: the frame is th
 
 /// Poses are cached in *views*. A view is the pose of a frame in the coordinates of one of its
 /// ancestors. A view is computed once per t, by one product of poses from the view of the parent
-/// frame. All pairs with this lowest common ancestor share the view. So for these pairs the joints
-/// between the world and the ancestor are not evaluated, and their rounding is not counted. If one
-/// frame of a pair is the ancestor itself, the view of the other frame is the relative pose.
+/// frame. All pairs of frames whose lowest common ancestor is this ancestor share the view. So for
+/// these pairs the joints between the world and the ancestor are not evaluated, and their rounding
+/// is not counted. If one frame of a pair is the ancestor itself, the view of the other frame is
+/// the relative pose.
 struct EdgeMotion::Impl {
   struct LeverError {  // metres, for a point at lever y from frame b's origin: fixed + reach·|y|
     double fixed = 0, reach = 0;
@@ -75,7 +76,7 @@ struct EdgeMotion::Impl {
   Impl(const KinematicTree& tree, const ConfigurationSpace& moved,
        std::span<const Scene::FramePair> pairs, const Configuration& tube);
 
-  /// Begins an edge or a piece. `setJoint` sets it in a joint.
+  /// Begins an edge or a piece of a curve. `setJoint` sets the edge or piece in one joint.
   template <class SetJoint>
   void begin(bool hasNoCurve, const SetJoint& setJoint);
   const View& viewAt(std::size_t index);
@@ -206,20 +207,22 @@ const EdgeMotion::Impl::View& EdgeMotion::Impl::viewWithErrors(std::size_t index
   return view;
 }
 
-/// Computes the error bounds of a path for the current edge. Notation: u is the unit roundoff, ρ
-/// the error of a rotation (operator norm), τ that of a position. Every computed matrix is within
-/// 2^-20 of norm 1. Products of errors are left out here; `relativeMotion` adds them.
+/// Computes the error bounds of a path, which leads from one frame of a pair to the other, for the
+/// current edge. Notation: u is the unit roundoff, ρ the error of a rotation (operator norm), τ the
+/// error of a position. Every computed matrix is within 2^-20 of norm 1. Products of errors are
+/// left out here; `relativeMotion` adds them.
 ///
 /// Poses. Each entry of a product is a sum of three products.
 /// - A view X·Y: ρ_X + ρ_Y + 3u·√3·√3, and τ_X + τ_Y + ρ_X·|Y.t| + 4u(√3|Y.t| + |X.t + …|).
 /// - The relative pose X_CA⁻¹·X_CB of frames A and B on two branches from their common ancestor C,
 ///   with |t| < T, the length of the path: ρ_A + ρ_B + 9u, and τ_A + τ_B + ρ_A·T + 7uT.
 ///
-/// Screws. An axis is off by ρ, by its own 32u, and by 6u for the product; its point is off by τ.
-/// With two branches, axis and point are also transformed into A's frame. Consider a point at lever
-/// y from b's origin, and an axis at distance L from that origin. The point is off by pose(y), the
-/// error of the pose. Its lever from the axis is off by e(y) = pose(y) + τ + axis error·(|y| + L).
-/// The same bound holds for its distance from the axis in `motionBound`.
+/// Screws. An axis is off by ρ, by its own 32u, and by 6u for the product; the point on the axis is
+/// off by τ. With two branches, axis and point are also transformed into A's frame. Consider a
+/// point at lever y from b's origin, and an axis at distance L from that origin. The point is off
+/// by pose(y), the error of the pose. Its lever from the axis is off by e(y) = pose(y) + τ + axis
+/// error·(|y| + L). The bound e(y) also holds for the distance of the point from the axis, which
+/// `motionBound` uses.
 ///
 /// Twist. From the middle of the interval, a joint turns or slides by at most w = h·rate. So the
 /// displacement of the point by the joints is off by Σ w·e(y), by the errors of the rates, and, for

@@ -16,14 +16,14 @@ namespace corridor {
 /// included: each frame has an error bound, accumulated along the chain.
 ///
 /// Poses are computed on demand, at most once per time interval. Use one object per thread. Call
-/// `set` for every edge; after the first edge it doesn't allocate.
+/// `set` for every edge; after the first edge, `set` allocates no memory.
 class EdgeMotion final : public MotionSource {
  public:
   /// `tree` and `space` must outlive the object.
   /// @param pairs frames whose relative motions are queried; motion i is that of pairs[i].
   /// @param tube for each number of a Configuration, the deviation from the edge that the motion
-  /// bounds cover, ≥ 0 (metres or radians). The deviation of a rotation is at the first of its four
-  /// numbers, radians.
+  /// bounds cover, ≥ 0 (metres or radians). The deviation of a rotation is an angle in radians,
+  /// stored at the first of the rotation's four numbers.
   /// @throws std::runtime_error if the processor's floating-point mode makes the bounds invalid
   /// (collision/core/floating_point.h).
   EdgeMotion(const KinematicTree& tree, const ConfigurationSpace& space,

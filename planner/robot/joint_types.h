@@ -11,7 +11,7 @@
 
 namespace corridor {
 
-/// In place of the index of a link, joint or group: there is none.
+/// Stands in place of the index of a link, joint or group if there is no such index.
 inline constexpr std::size_t kNoIndex = SIZE_MAX;
 
 /// Convert between joint types and their names in URDF. `jointType` returns nullopt for an unknown
@@ -26,7 +26,7 @@ bool isPoseJoint(JointType type);
 /// Returns whether the joint has a value of its own: it is neither fixed nor a mimic.
 bool hasOwnValue(const JointModel& joint);
 
-/// Returns the index of the joint with this name.
+/// Returns the index of the joint with this name, or nullopt if the model has no such joint.
 std::optional<std::size_t> findJoint(const RobotModel& model, std::string_view name);
 
 }  // namespace corridor

@@ -13,7 +13,7 @@ namespace corridor {
 
 /// A frame of a kinematic tree. Its pose in the parent's frame is a fixed pose followed by one
 /// elementary joint: X_PF(q) = fixed · joint(q). This definition is meant in real arithmetic on the
-/// stored doubles, where quaternions and axes are also normalised.
+/// stored doubles. Quaternions and axes are normalised in real arithmetic, too.
 ///
 /// A joint with several degrees of freedom is a chain of frames. Planar: `translation`, then
 /// `revolute`. Floating: `translation`, then `rotation`.
@@ -33,19 +33,19 @@ struct Frame {
   std::size_t parent = 0;
   RigidPose fixed;  ///< X_P0: pose in the parent's frame
   Joint joint = Joint::none;
-  Vec3 axis = Vec3::UnitZ();  ///< in the frame after `fixed`; of any length except 0
-  /// Index of the first number in a Configuration. If it is `noVariable`, a `revolute` or
-  /// `prismatic` joint is held at `offset`.
+  Vec3 axis = Vec3::UnitZ();  ///< in the frame after `fixed`; of any length above 0
+  /// Index of the joint's first number in a Configuration. If the index is `noVariable`, a
+  /// `revolute` or `prismatic` joint is held at `offset`.
   std::size_t variable = noVariable;
-  std::size_t count = 1;              ///< `translation` only: the number of its numbers, 2 or 3
+  std::size_t count = 1;              ///< `translation` only: how many numbers it has: 2 or 3
   double multiplier = 1, offset = 0;  ///< `revolute`, `prismatic`: value = multiplier·q + offset
 
   bool moves() const { return joint != Joint::none && variable != noVariable; }
 };
 
-/// The frames of all robots, of the world, and of obstacles that have their own. Frame 0 is the
-/// world; parents come before their children. The tree is plain data. Both the planner's kinematics
-/// and the verifier's independent kinematics read it.
+/// The frames of all robots, of the world, and of the obstacles that have a frame of their own.
+/// Frame 0 is the world; parents come before their children. The tree is plain data. Both the
+/// planner's kinematics and the verifier's independent kinematics read it.
 struct KinematicTree {
   std::vector<Frame> frames{Frame{}};
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::string_view packageScheme = "package://", fileScheme = "file://";
 
-MeshStore::Place checked(const std::filesystem::path& file) {
+MeshStore::FoundMesh checked(const std::filesystem::path& file) {
   const std::string why = whyNotOrdinaryFile(file);
   return {file, why.empty() ? "" : file.string() + ": " + why};
 }
@@ -115,7 +115,7 @@ const std::vector<MeshStore::Folder>& MeshStore::foldersAbove() {
   return above_;
 }
 
-MeshStore::Place MeshStore::inPackage(const std::string& name) {
+MeshStore::FoundMesh MeshStore::inPackage(const std::string& name) {
   std::string inside = name.substr(packageScheme.size());
   if (inside.starts_with('/') && inside.size() > 1) {
     inside.erase(0, 1);
@@ -134,7 +134,7 @@ MeshStore::Place MeshStore::inPackage(const std::string& name) {
   if (whyNotOrdinaryFile(beside).empty()) return {beside, ""};
   // The usual layout of a package is PACKAGE/urdf/robot.urdf. Other packages are beside it.
   const std::vector<Folder>& above = foldersAbove();
-  const auto found = [&](const std::filesystem::path& folder) -> Place {
+  const auto found = [&](const std::filesystem::path& folder) -> FoundMesh {
     foundByName_.insert(folder);
     return {folder / rest, ""};
   };
@@ -153,8 +153,8 @@ MeshStore::Place MeshStore::inPackage(const std::string& name) {
   for (const Folder& folder : above)
     if (whyNotOrdinaryFile(folder.path / package / rest).empty())
       return found(folder.path / package);
-  // A package may have been copied into a folder of another name, without its package.xml. All of
-  // its files are then in one folder.
+  // A package may have been copied into a folder of another name, without its package.xml. All
+  // files of the package are then in one folder.
   const auto guess = guessed_.find(package);
   for (const Folder& folder : above) {
     const bool isCandidate =
@@ -179,7 +179,7 @@ MeshStore::Place MeshStore::inPackage(const std::string& name) {
                    : near)};
 }
 
-MeshStore::Place MeshStore::locate(const std::string& name) {
+MeshStore::FoundMesh MeshStore::locate(const std::string& name) {
   if (name.starts_with(packageScheme)) return inPackage(name);
   if (name.starts_with(fileScheme)) {
     const std::filesystem::path file = name.substr(fileScheme.size());
@@ -191,8 +191,8 @@ MeshStore::Place MeshStore::locate(const std::string& name) {
   return checked((folder_ / name).lexically_normal());
 }
 
-MeshStore::Place MeshStore::add(const std::string& name) {
-  Place place = locate(name);
+MeshStore::FoundMesh MeshStore::add(const std::string& name) {
+  FoundMesh place = locate(name);
   if (!place.file.empty() && std::find(files_.begin(), files_.end(), place.file) == files_.end())
     files_.push_back(place.file);
   if (!place.complaint.empty() || meshes_.contains(place.file)) return place;

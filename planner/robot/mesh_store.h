@@ -17,7 +17,7 @@ namespace corridor {
 class MeshStore {
  public:
   /// The file that a mesh name in a URDF stands for.
-  struct Place {
+  struct FoundMesh {
     std::filesystem::path file;
     std::string complaint;  ///< empty if the file was read, or if its fault was reported before
   };
@@ -26,20 +26,20 @@ class MeshStore {
   MeshStore(const std::filesystem::path& urdf, const UrdfRules& rules,
             std::vector<std::filesystem::path>& files);
 
-  /// Finds and reads the mesh that the URDF calls `name`.
-  Place add(const std::string& name);
+  /// Finds and reads the mesh that the URDF calls `name`. Reads each file only once.
+  FoundMesh add(const std::string& name);
   /// Returns the names of the Collada files whose up-axis is not z, and was not applied.
   std::vector<std::string> ignoredUpAxes() const;
-  /// Returns the packages that no folder has the name of, but whose meshes are in a folder of
-  /// another name above the URDF.
+  /// Returns the packages whose meshes were found in a folder of another name above the URDF,
+  /// because no folder has the package's name. Maps the package to that folder.
   const std::map<std::string, std::filesystem::path>& guessedPackages() const { return guessed_; }
   /// Returns whether the folder of a guessed package is also the folder of another package. The
   /// meshes may then be those of the other package, with the same file names.
   bool isDoubtful(const std::string& package) const;
   /// Returns the note on names that begin with package:///, or "". Other readers, such as
-  /// Pinocchio, accept them, too.
+  /// Pinocchio, accept such names, too.
   std::string noteOnSlashes() const;
-  /// @pre `file` was returned by add(), and it was readable.
+  /// Returns a mesh file that was read. @pre `file` was returned by add(), and was readable.
   const std::shared_ptr<const MeshFile>& get(const std::filesystem::path& file) const {
     return meshes_.at(file);
   }
@@ -52,8 +52,8 @@ class MeshStore {
   };
   /// Returns the folders that contain the URDF, the innermost first; without the root.
   const std::vector<Folder>& foldersAbove();
-  Place locate(const std::string& name);
-  Place inPackage(const std::string& name);
+  FoundMesh locate(const std::string& name);
+  FoundMesh inPackage(const std::string& name);
 
   std::filesystem::path folder_;
   const UrdfRules& rules_;

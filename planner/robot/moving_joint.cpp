@@ -40,8 +40,8 @@ std::pair<LongPose::Mat, LongPose::Mat> rodrigues(const LongPose::Vec& axis) {
 // - sine and cosine, 1 ulp each, doubled as a reserve for libm: 4u each; with the rounding of 1 −
 //   cos φ: 9u;
 // - the sum, 3 roundings of terms with norms √3, √2, 2√2: 18u.
-// Together below 40u. The error of φ is added separately.
-constexpr double kFoldError = 0x1p-58;
+// The sum of these errors is below 40u. The error of φ is added separately.
+constexpr double kConstantPoseError = 0x1p-58;
 constexpr double kTurnError = 40 * kUnit;
 // Free rotation (collision/motion/rigid_motion.cpp derives the first two items):
 // - normalising: 6u per quaternion; the relative quaternion: 20u;
@@ -78,7 +78,7 @@ LongPose LongPose::then(const Frame& frame) const {
     }
   }
   ++next.poses;
-  next.error = 2 * kUnit + next.poses * kFoldError;
+  next.error = 2 * kUnit + next.poses * kConstantPoseError;
   return next;
 }
 
@@ -147,9 +147,9 @@ void MovingJoint::set(const Configuration& from, const Configuration& to) {
   largestRate_ = rate_ == 0 ? 0 : std::abs(rate_) + rateError_;
 }
 
-// A piece of degree n, with u the unit roundoff. V bounds the joint's value: each coefficient of a
-// value, or the length of the vector of the largest coordinates. The coefficients c_i of the value
-// m·q + o are rounded by 2uV.
+// A piece of degree n, with u the unit roundoff. V is an upper bound: of the magnitude of each
+// coefficient, or, for a translation, of the length of the vector of the largest coordinates. The
+// coefficients c_i of the value m·q + o are rounded by 2uV.
 //
 // Evaluation by de Casteljau. A step (1 − t)a + tb rounds by at most 4uV: 1 − t, two products and
 // the sum, each u times terms whose sum is at most V. After n steps, with the coefficients: (4n +

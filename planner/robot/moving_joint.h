@@ -21,15 +21,15 @@ struct LongPose {
   double length = 0;  ///< metres: sum of the lengths of the translations of all poses so far
   int poses = 0;      ///< number of poses multiplied so far
 
-  /// Returns this pose followed by the fixed pose of `frame` and, if its joint is held, by that
-  /// joint.
+  /// Returns this pose followed by the fixed pose of `frame` and, if its joint is held, by the
+  /// motion of that joint.
   LongPose then(const Frame& frame) const;
 };
 
 /// The pose X(t) = fixed · joint(t) of a frame along an edge or a piece of a curve, relative to the
-/// nearest ancestor that EdgeMotion keeps as a frame. (`fixed` includes the constant poses of all
-/// frames between.) Everything that is constant on the edge is computed once per edge. One rounding
-/// bound holds for the whole edge. Below, "edge" also stands for a piece of a curve.
+/// frame's nearest ancestor that EdgeMotion keeps. (`fixed` includes the constant poses of all
+/// frames between the two.) Everything that is constant on the edge is computed once per edge. One
+/// rounding bound holds for the whole edge. Below, "edge" also stands for a piece of a curve.
 class MovingJoint {
  public:
   /// Makes the pose `fixed`, followed by the joint of the frame. `fixed` is constant, and includes
@@ -48,7 +48,8 @@ class MovingJoint {
   Transform at(double t);
 
   Frame::Joint joint() const { return joint_; }  ///< `none`: a constant pose
-  /// Metres or radians. On a piece of a curve, the tube includes the piece's `error`.
+  /// Half width of the tube for this joint, metres or radians. On a piece of a curve, it includes
+  /// the piece's `error`.
   double tube() const { return tube_ + curveError_; }
 
   // Properties of the current edge:
@@ -58,13 +59,14 @@ class MovingJoint {
   bool still() const { return largestRate_ == 0; }
   const Vec3& axis() const { return axis_; }  ///< unit vector, in the frame itself
   /// Signed speed of the joint per unit of t, about or along the axis; rad or m. On a piece of a
-  /// curve, that at the t of the last call of `at`.
+  /// curve, the speed at the t of the last call of `at`.
   double rate() const { return rate_; }
   /// Upper bound of |rate| + rateError on the whole edge.
   double largestRate() const { return largestRate_; }
-  /// Returns an upper bound of the joint's deviation, in [t − h, t + h], from the uniform motion
-  /// with `rate`, for the t of the last call of `at`; rad or m. 0 on an edge. Infinite, so that
-  /// nothing is proved, if the interval is not within [0, 1].
+  /// Returns an upper bound of the joint's deviation from the uniform motion with `rate`; rad or m.
+  /// The bound holds in [t − h, t + h], for the t of the last call of `at`. It is 0 on an edge from
+  /// state to state. It is infinite, so that nothing is proved, if the interval is not within [0,
+  /// 1].
   double deviation(double h) const { return curve_.cols() == 0 ? 0 : curveDeviation(h); }
   /// Upper bounds, valid on the whole edge. `rateError`: the error of the vector rate·axis; the
   /// direction of `axis` may be off by another 32u. `rotationError`: the error of the matrix of

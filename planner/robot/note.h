@@ -28,7 +28,7 @@ inline void addAll(const std::vector<Note>& from, std::vector<Note>& to) {
   to.insert(to.end(), from.begin(), from.end());
 }
 
-/// Bad input, with the notes on what was read before.
+/// An error in the input, with the notes on what was read before the error.
 class NotedInputError : public InputError {
  public:
   NotedInputError(std::vector<Fault> faults, std::vector<Note> notes)

@@ -14,8 +14,8 @@
 
 namespace corridor {
 
-/// A shape in the coordinates of its body's frame: of a link, of the world, or of an obstacle's own
-/// frame. Scale, up-axis rotation, local pose, and the translation to a rigid robot's reference
+/// A shape in the coordinates of its body's frame: the frame of a link, the world, or an obstacle's
+/// own frame. Scale, up-axis rotation, local pose, and the translation to a rigid robot's reference
 /// point are already applied to its vertices or points.
 struct PlacedShape {
   std::string name;  ///< "table"; if a link has several shapes, "hand/2"
@@ -24,7 +24,7 @@ struct PlacedShape {
   std::shared_ptr<const MeshFile> mesh;
   std::vector<ConvexPart> parts;  ///< one for a primitive; many for a cloud, an octree, a polygon
   std::filesystem::path file;     ///< the file that was read for this shape, if any
-  std::optional<Primitive> primitive;  ///< the primitive as the user wrote it, if it is one
+  std::optional<Primitive> primitive;  ///< as the user wrote it; nullopt: no primitive
   RigidPose at;                        ///< the pose that the user gave, for reports and FCL
   bool solid = false;                  ///< mesh only; a part is always solid
   std::vector<Note> notes = {};        ///< about how the file was read

@@ -8,14 +8,15 @@
 
 namespace corridor {
 
-/// Collects the faults of one robot: of its file, or of a robot that a program describes. At most
-/// `FaultList::kMost` are kept.
+/// Collects the faults of one robot, which a file or a program describes. Keeps at most
+/// `FaultList::kMost` faults.
 class RobotFaults {
  public:
-  /// @param label the file's name, or what else messages begin with.
+  /// @param label the beginning of messages: the file's name, or another name for the robot.
   explicit RobotFaults(std::string label) : label_(std::move(label)) {}
 
-  /// @param line counted from 1; 0: the robot as a whole, or no file.
+  /// Adds a fault. @param line counted from 1; 0: the fault concerns the robot as a whole, or there
+  /// is no file.
   void fault(int line, std::string text);
   /// Formats "label:line: text", for notes.
   std::string at(int line, const std::string& text) const;
@@ -23,10 +24,11 @@ class RobotFaults {
   /// Returns the number of all faults, including those that are not kept because the list is
   /// limited.
   std::size_t faultCount() const { return faultCount_; }
-  /// Returns whether to search for similar names for messages. The search is skipped after 100
-  /// faults, because its time grows with the number of names.
+  /// Returns whether to search for similar names, which messages suggest. The search is skipped
+  /// after 100 faults, because its time grows with the number of names.
   bool hints() const { return faultCount_ < 100; }
-  /// Returns the faults, sorted by line.
+  /// Returns the faults that were kept, sorted by line, and removes them. If more were reported, a
+  /// last entry gives the number of the others.
   std::vector<Fault> takeFaults();
 
  protected:

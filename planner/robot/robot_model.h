@@ -27,13 +27,13 @@ struct JointModel {
   JointType type = JointType::fixed;
   std::size_t parent = 0, child = 0;  ///< indices of links
   RigidPose X_PJ;  ///< pose of the joint's frame in the parent link's frame; at value 0 the child
-                   ///< link has the same pose
-  Vec3 axis = Vec3::UnitX();  ///< in the joint's frame, not 0; a planar joint's normal
+                   ///< link has this pose, too
+  Vec3 axis = Vec3::UnitX();  ///< in the joint's frame, not 0; for a planar joint: its normal
   /// Inclusive limits, rad or m. Revolute and prismatic joints only.
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
-  /// The largest speed by the URDF, rad/s or m/s. Infinite if the URDF gives none, or 0, and for
-  /// planar and floating joints, whose speed is not one number.
+  /// The largest speed that the URDF allows, rad/s or m/s. Infinite if the URDF gives no speed or
+  /// the speed 0, and for planar and floating joints, whose speed is not one number.
   double velocity = std::numeric_limits<double>::infinity();
   std::optional<Mimic> mimic;
   int line = 0;  ///< in the URDF file

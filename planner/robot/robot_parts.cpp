@@ -93,14 +93,14 @@ class PartsCheck {
     if (joint.velocity && !(*joint.velocity > 0 && std::isfinite(*joint.velocity)))
       faults_.fault(0, owner + ": its velocity must be a finite number above 0");
     result.mimic = mimicOf(joint, owner);
-    // The fault of a mimic is reported, so its missing limits are not.
+    // The fault of the mimic was reported, so missing limits of this joint are not reported, too.
     if (joint.mimic && !result.mimic && isRanged(joint.type) && !result.limit)
       result.limit = UrdfLimit{0.0, 0.0, {}, 0};
     return result;
   }
 
   std::optional<UrdfLimit> limitOf(const PartsJoint& joint, const std::string& owner) {
-    UrdfLimit limit{0.0, 0.0, {}, 0};  // after a fault, so that no other is reported for it
+    UrdfLimit limit{0.0, 0.0, {}, 0};  // the result after a fault: no other fault is then reported
     if (!isRanged(joint.type)) {
       if (joint.lower || joint.upper)
         faults_.fault(0, owner + " is " + nameOf(joint.type) +

@@ -11,7 +11,7 @@ namespace corridor {
 
 /// A robot that a program describes by links and joints, in place of a URDF. Metres and radians.
 struct RobotParts {
-  /// The joint moves as another one does: its value is multiplier·(value of `joint`) + offset.
+  /// The joint mimics another joint: its value is multiplier·(value of `joint`) + offset.
   struct Mimicry {
     std::string joint;
     double multiplier = 1, offset = 0;
@@ -35,11 +35,12 @@ struct RobotParts {
 };
 
 /// Makes the description that `readUrdf` makes of a URDF with these links and joints: from equal
-/// numbers, it is equal to the last bit. All faults are appended to `faults`; the result is nullopt
-/// if there is one. Faults are: names that are missing, unknown or not unique; links that are not a
-/// tree with one root; numbers that are not finite; illegal primitives; an axis of length 0; limits
-/// that are missing, exchanged, or given to a joint that has none; mimics in a cycle, of an
-/// unknown joint, or that would make a joint jump.
+/// numbers, both functions make descriptions that are equal to the last bit. All faults are
+/// appended to `faults`; the result is nullopt if there is a fault. Faults are: names that are
+/// missing, unknown or not unique; links that are not a tree with one root; numbers that are not
+/// finite; illegal primitives; an axis of length 0; limits that are missing, in the wrong order, or
+/// given to a joint that has no limits; mimics that form a cycle, that follow an unknown joint, or
+/// that would make a joint jump.
 std::optional<RobotModel> makeRobot(RobotParts parts, std::vector<Fault>& faults);
 
 }  // namespace corridor

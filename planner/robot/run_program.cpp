@@ -89,7 +89,7 @@ ProgramEnd runProgram(const ProgramCall& call) {
   ProgramEnd end;
   int status = 0;
   bool ended = false;
-  while (!ended && end.why == ProgramEnd::Why::itself) {
+  while (!ended && end.why == ProgramEnd::Why::exited) {
     const pid_t found = ::waitpid(child, &status, WNOHANG);
     if (found < 0 && errno == EINTR) continue;
     // If SIGCHLD is ignored, the status of a child is lost, and its success is unknown.
@@ -97,12 +97,12 @@ ProgramEnd runProgram(const ProgramCall& call) {
     ended = found != 0;
     if (ended) break;
     if (call.interrupted && *call.interrupted) end.why = ProgramEnd::Why::interrupted;
-    if (std::chrono::steady_clock::now() > latest) end.why = ProgramEnd::Why::late;
+    if (std::chrono::steady_clock::now() > latest) end.why = ProgramEnd::Why::timedOut;
     if (out.size() > call.bytes || err.size() > call.bytes)
       end.why = ProgramEnd::Why::tooMuchOutput;
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
-  ::kill(-child, SIGKILL);  // the whole group: the program, or children that it has left behind
+  ::kill(-child, SIGKILL);  // the whole group: the program, and children that it has left behind
   if (!ended)
     while (::waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
     }

@@ -14,26 +14,26 @@ struct ProgramCall {
   std::filesystem::path folder = {};          ///< its working folder; empty: the current folder
   std::vector<std::string> environment = {};  ///< "NAME=value"; empty: that of this process
   double seconds = 60;                        ///< time limit
-  /// Limit of each output, bytes. The outputs are kept in memory, which a program without a limit
-  /// could use up.
+  /// Limit of each output, bytes. The outputs are kept in memory. Without a limit, a program could
+  /// use up the memory.
   std::size_t bytes = std::size_t{1} << 28;
   const std::atomic<bool>* interrupted = nullptr;  ///< stops the program when it becomes true
 };
 
-/// How a program ended. With `late` and `interrupted`, it was killed. With `tooMuchOutput`, it was
+/// How a program ended. With `timedOut` and `interrupted`, it was killed. With `tooMuchOutput`, it was
 /// killed or had already ended. In every case, the processes that remained in its group were
 /// killed.
 struct ProgramEnd {
-  enum class Why { itself, late, interrupted, tooMuchOutput };
-  Why why = Why::itself;
+  enum class Why { exited, timedOut, interrupted, tooMuchOutput };
+  Why why = Why::exited;
   int exitStatus = -1;   ///< −1: the program was killed, or ended by a signal
   std::string out, err;  ///< its standard output and error; empty with `tooMuchOutput`
 };
 
 /// Runs a program to its end. Its standard input is empty. The program runs in a process group of
 /// its own, and is killed when the calling thread ends.
-/// @throws std::system_error if no process can be created. If the program can't be started, its
-/// exit status is 127.
+/// @throws std::system_error if no process can be created. If a process was created but can't run
+/// the program, the exit status is 127.
 ProgramEnd runProgram(const ProgramCall& call);
 
 /// Searches PATH for a program. Returns "" if PATH has no program of this name.

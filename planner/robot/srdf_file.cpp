@@ -54,9 +54,9 @@ bool isTooLarge(XmlFile& file, std::size_t links) {
   return file.faultCount() != before;
 }
 
-/// Reads the pairs of links that are not tested. If an element can't be read, no pair that the file
-/// wants to be tested may be left out. So the elements <disable_default_collisions> are ignored
-/// unless all <enable_collisions> can be read.
+/// Reads the pairs of links that are not tested. Every pair that the file wants to be tested must
+/// be tested, even if an element can't be read. So the elements <disable_default_collisions> are
+/// used only if all <enable_collisions> can be read.
 class PairReader {
  public:
   PairReader(XmlFile& file, SrdfNames& names, RobotModel& model)
@@ -131,8 +131,8 @@ class PairReader {
   UnknownNames unknown_;
 };
 
-/// Reads the virtual joints. A note names each planar or floating one, unless the URDF has such a
-/// joint above the same link.
+/// Reads the virtual joints. A note names each planar or floating virtual joint, unless the URDF
+/// has such a joint above the same link.
 void readVirtualJoints(XmlFile& file, SrdfNames& names, RobotModel& model) {
   forEach(*file.root(), "virtual_joint", [&](Element& element) {
     const char* const name = element.Attribute("name");

@@ -97,7 +97,8 @@ class GroupReader {
     if (const std::string fault = noteFaults(); !fault.empty()) group.unusable = fault;
   }
 
-  /// Returns a suggestion for the name of a group: a similar name, or a longer one: lf_leg for lf.
+  /// Returns a suggestion for the name of a group: a similar name, or a longer name, such as lf_leg
+  /// for lf.
   std::string similarGroup(const std::string& name) const {
     const std::string hint = didYouMean(name, groupNames_.all());
     if (!hint.empty()) return hint;
@@ -114,7 +115,7 @@ class GroupReader {
     return above;
   }
 
-  /// Adds the joints between two links: those above exactly one of the two.
+  /// Adds the joints between two links, which are the joints above exactly one of the two.
   void addChain(Element& element, const std::string& owner, Group& group) {
     const auto base = names_.findLink(element, "base_link", owner, group.missing);
     const auto tip = names_.findLink(element, "tip_link", owner, group.missing);

@@ -19,7 +19,7 @@ class NameIndex {
     indices_.emplace(name, names_.size());
     names_.push_back(name);
   }
-  /// nullopt: unknown name.
+  /// Returns the index of a name, or nullopt for an unknown name.
   std::optional<std::size_t> find(const std::string& name) const {
     const auto found = indices_.find(name);
     return found == indices_.end() ? std::nullopt : std::optional(found->second);
@@ -63,17 +63,18 @@ class SrdfNames {
   /// Adds a virtual joint, unless the URDF has a joint of this name. `findJoint` does not find a
   /// virtual joint, and does not report it as unknown either. Virtual joints are not used, because
   /// the problem file places the robot in the world.
-  /// @returns whether it was added.
+  /// @returns whether the virtual joint was added.
   bool addVirtual(const std::string& joint, bool moves);
   bool isVirtual(const std::string& joint) const { return virtualJoints_.contains(joint); }
-  /// Returns whether this is a virtual joint that was added with `moves`.
+  /// Returns whether `joint` is a virtual joint that was added with `moves`.
   bool isMovingVirtual(const std::string& joint) const {
     const auto found = virtualJoints_.find(joint);
     return found != virtualJoints_.end() && found->second;
   }
 
   /// Return the index of the link or joint that an attribute names. nullopt: the attribute is
-  /// missing (a fault was reported), the name was added to `unknown`, or it is a virtual joint's.
+  /// missing (a fault was reported), the name was added to `unknown`, or the name is that of a
+  /// virtual joint.
   std::optional<std::size_t> findLink(const XmlFile::Element& element, const char* attribute,
                                       const std::string& owner, UnknownNames& unknown);
   std::optional<std::size_t> findJoint(const XmlFile::Element& element, const char* attribute,

@@ -35,7 +35,8 @@ TangentStep tangentWeights(const ConfigurationSpace& space) {
   TangentStep weights(tangentSize(space));
   Eigen::Index at = 0;
   for (const Coordinate& c : space.coordinates()) {
-    // The distance of a rotation is that of its quaternion angle, half of the rotation angle.
+    // In the space's distance, a rotation counts with its quaternion angle, which is half of the
+    // rotation angle.
     const bool rotation = c.kind == Coordinate::Kind::rotation;
     weights.segment(at, stepSize(c)).setConstant(rotation ? c.weight / 2 : c.weight);
     at += stepSize(c);

@@ -11,7 +11,7 @@ namespace corridor {
 /// coordinates.
 using TangentStep = Eigen::VectorXd;
 
-/// Returns the number of numbers of a step: the degrees of freedom of the space.
+/// Returns the length of a step's vector: the number of degrees of freedom of the space.
 Eigen::Index tangentSize(const ConfigurationSpace& space);
 
 /// Returns the factor of each number of a step in the space's distance: a step of length x in one

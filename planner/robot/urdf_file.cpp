@@ -19,11 +19,11 @@
 namespace corridor {
 namespace {
 
-/// Reports everything that urdfdom printed as one fault, at the line of the joint or link that the
-/// text names.
+/// Reports a single fault with everything that urdfdom printed. The fault's line is the line of the
+/// joint or link that the text names.
 void faultErrors(const std::vector<std::string>& errors, const UrdfOutline& outline,
                  XmlFile& file) {
-  std::string text = "urdfdom, the reader of URDF, refuses it";
+  std::string text = "the library urdfdom refuses this URDF";
   for (const std::string& error : errors) text += (&error == errors.data() ? ": " : "; ") + error;
   const auto lineOf = [&](const auto& all) {
     for (const auto& named : all) {
@@ -135,8 +135,8 @@ class UrdfBuilder {
     return mesh;
   }
 
-  /// Adds a note if a mesh is longer than 20 m. It is then probably in millimetres: a link of more
-  /// than 20 mm.
+  /// Adds a note if a mesh is longer than 20 m. Such a mesh is probably in millimetres, for a link
+  /// of more than 20 mm.
   void noteLargeMesh(const MeshFile& file, const std::string& shape, int line) {
     Vec3 lower = file.mesh.vertices.front(), upper = lower;
     for (const Vec3& vertex : file.mesh.vertices) {
@@ -150,7 +150,8 @@ class UrdfBuilder {
                               NoteWeight::coverage});
   }
 
-  /// Adds a note if a coordinate of a joint's origin is larger than 20 m, as for a mesh.
+  /// Adds a note if a coordinate of a joint's origin is larger than 20 m: such an origin is
+  /// probably in millimetres, too.
   void noteFarOrigin(const JointModel& joint) {
     const Vec3& p = joint.X_PJ.p;
     if (p.cwiseAbs().maxCoeff() > kLongest)
@@ -182,7 +183,7 @@ class UrdfBuilder {
       joint.lower = limit.lower.value_or(0);  // 0 as in urdfdom
       joint.upper = limit.upper.value_or(0);
     }
-    // urdfdom requires the attribute, so files that don't know the velocity have 0.
+    // urdfdom requires the attribute, so files whose authors don't know the velocity have 0.
     if (joint.type != JointType::fixed && !isPoseJoint(joint.type) && outline.limit &&
         outline.limit->velocity.value_or(0) > 0)
       joint.velocity = *outline.limit->velocity;

@@ -48,10 +48,11 @@ std::optional<RobotModel> readUrdf(const std::filesystem::path& file, const Urdf
 /// disabled collisions with their reasons. End effectors are ignored. Virtual joints are not used;
 /// a note names each planar or floating one.
 ///
-/// Only a file that can't be read at all is a fault. For names that the model lacks, and for
-/// elements that can't be used, notes are added, as in other readers of SRDF. A group with unknown
-/// members consists of its other members (`JointGroup::missing`). A group or state that can't be
-/// used is kept with the reason (`unusable`); it is a fault only for a problem that names it.
+/// Only a file that can't be read at all is a fault. Names that the model lacks, and elements that
+/// can't be used, are not faults but notes, since other readers of SRDF accept them, too. A group
+/// with unknown members consists of its other members (`JointGroup::missing`). A group or state
+/// that can't be used is kept with the reason (`unusable`); it is a fault only in a problem that
+/// names it.
 /// @param xacro arguments for a .xacro file.
 void readSrdf(const std::filesystem::path& file, RobotModel& model, std::vector<Fault>& faults,
               const std::vector<std::string>& xacro = {});

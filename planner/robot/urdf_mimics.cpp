@@ -73,8 +73,9 @@ class Mimics {
     leader_[j] = found->second;
   }
 
-  /// Handles a joint whose <mimic> names an unusable joint: one that is not in the robot, or not of
-  /// one variable. The mimicking joint is then used as a joint of its own, within its own limits.
+  /// Handles a joint whose <mimic> names an unusable joint: a joint that is not in the robot, or
+  /// that is not of one variable. The mimicking joint is then used as a joint of its own, within
+  /// its own limits.
   void addLost(const UrdfJoint& joint, const std::string& why, const std::string& hint) {
     const std::string text = owned("joint", joint.name) + " mimics " +
                              quotedWord(joint.mimic->joint) + ", which is " + why;
@@ -103,7 +104,7 @@ class Mimics {
       chain.push_back(j);
     }
     if (leader_[j] != kNoIndex &&
-        !rules_[j]) {  // a circle; it was reported if an earlier walk met it
+        !rules_[j]) {  // a cycle; an earlier walk that met it has reported it
       if (walk_[j] == start && !chain.empty()) faultCycle(j);
       return;
     }
@@ -150,7 +151,7 @@ class Mimics {
                               "; use a whole multiplier or a revolute " + quotedWord(leader.name));
   }
 
-  /// Checks the range of a joint that is no mimic.
+  /// Checks the range of a joint that mimics no other joint.
   void checkRange(const UrdfJoint& joint) {
     if (!hasRange(joint)) return;
     const std::string owner = owned("joint", joint.name);
@@ -230,9 +231,9 @@ class Mimics {
   std::unordered_map<std::string, std::size_t> indices_;
   std::vector<std::string> names_;
   std::vector<std::size_t> leader_;  // for each joint: the joint that it mimics
-  std::vector<std::size_t> walk_;    // for each joint: the first joint of the walk that met it
+  std::vector<std::size_t> walk_;    // for each joint: the joint where the walk that met it began
   std::vector<std::optional<Mimic>> rules_;
-  int hints_ = 10;  // searches for similar names that are left; each takes time for all names
+  int hints_ = 10;  // how many more searches for similar names are allowed; each visits all names
 };
 
 }  // namespace

@@ -35,7 +35,7 @@ void checkMesh(XmlFile& file, Element& shape, MeshStore& meshes, UrdfCollision& 
                owner + ": mesh scale must not be 0, which makes the mesh flat");
   const auto name = file.text(shape, "filename", owner);
   if (!name) return;
-  const MeshStore::Place place = meshes.add(*name);
+  const MeshStore::FoundMesh place = meshes.add(*name);
   collision.mesh = place.file;
   if (!place.complaint.empty())
     file.fault(shape.FindAttribute("filename")->GetLineNum(),
@@ -210,8 +210,8 @@ std::optional<UrdfMimic> readMimic(XmlFile& file, Element& joint, const std::str
   return mimic;
 }
 
-/// Reads the soft limits of <safety_controller>, and with `apply` narrows the joint's limits by
-/// them. @returns whether they are narrower, and were not applied.
+/// Reads the soft limits of <safety_controller>, and narrows the joint's limits by them if `apply`
+/// is true. @returns whether the soft limits are narrower, and were not applied.
 bool narrow(XmlFile& file, Element& element, bool apply, const std::string& owner,
             UrdfJoint& joint) {
   Element* const safety = element.FirstChildElement("safety_controller");
@@ -283,7 +283,7 @@ using Lines = std::unordered_map<std::string, int>;
 
 /// Appends `named` to `all`, unless its name is missing or already taken; a taken name is a fault.
 /// @param lines the line of each name so far.
-/// @returns whether it was appended.
+/// @returns whether `named` was appended.
 template <class Named>
 bool addUnique(Named named, const char* kind, std::vector<Named>& all, Lines& lines,
                XmlFile& file) {
@@ -332,7 +332,7 @@ bool isTooLarge(XmlFile& file, const UrdfRules& rules, const Element& root) {
 }
 
 /// Reports a fault if all shapes together have too many triangles. A mesh counts once for each
-/// shape that uses it: most of them need a copy. @pre the file has no fault.
+/// shape that uses it: most of these shapes need a copy. @pre the file has no fault.
 void checkTriangles(const UrdfOutline& outline, const MeshStore& meshes, XmlFile& file) {
   std::size_t triangles = 0;
   for (const UrdfLink& link : outline.links)

@@ -53,12 +53,12 @@ struct UrdfOutline {
   std::string name;
   std::vector<UrdfLink> links;
   std::vector<UrdfJoint> joints;
-  bool complete = true;  ///< no link or joint was left out because it has no unique name
+  bool complete = true;  ///< false: a link or joint without a unique name was left out
 };
 
-/// Reads the elements and the mesh files that they name. Numbers in the XML are rewritten in plain
-/// decimals, for urdfdom. If visuals collide, the <visual> of a link without <collision> becomes a
-/// <collision>. @pre file.root() is not null.
+/// Reads the elements, and the mesh files that they name. Also changes the XML for urdfdom: numbers
+/// are rewritten in plain decimals. If visuals collide, the <visual> of a link without <collision>
+/// becomes a <collision>. @pre file.root() is not null.
 UrdfOutline readUrdfOutline(XmlFile& file, const UrdfRules& rules, MeshStore& meshes,
                             std::vector<Note>& notes);
 
@@ -67,17 +67,17 @@ UrdfOutline readUrdfOutline(XmlFile& file, const UrdfRules& rules, MeshStore& me
 /// if the robot has any fault.
 std::vector<std::size_t> checkUrdfTree(const UrdfOutline& outline, RobotFaults& faults);
 
-/// Resolves chains of mimics, and checks the limits of the joints that are no mimics. Only the
-/// limits of the leader count, as in other programs that read URDF; a note is added if a follower's
-/// own limits disagree. If the leader is not in the robot, or is not a joint of one variable, the
-/// follower is used as a joint of its own, with a note. Mimics in a cycle and mimics that would
-/// make a joint jump are faults.
+/// Resolves chains of mimics, and checks the limits of the joints that mimic no other joint. Only
+/// the limits of the leader count, as in other programs that read URDF; a note is added if a
+/// follower's own limits disagree. If the leader is not in the robot, or is not a joint of one
+/// variable, the follower is used as a joint of its own, with a note. Mimics that form a cycle, and
+/// mimics that would make a joint jump, are faults.
 /// @returns the rule of each joint, in the outline's order; `Mimic::joint` is an index in the
 /// outline. nullopt: the joint follows no other.
 std::vector<std::optional<Mimic>> resolveMimics(const UrdfOutline& outline, RobotFaults& faults,
                                                 std::vector<Note>& notes);
 
-/// Completes a description that has its links, and its joints in the order of `checkUrdfTree`: sets
+/// Completes a description that already has links, and joints in the order of `checkUrdfTree`: sets
 /// the rules of mimics and the root, and allows adjacent links to touch.
 /// @param order, mimics as `checkUrdfTree` and `resolveMimics` return them.
 void finishRobot(const std::vector<std::size_t>& order,

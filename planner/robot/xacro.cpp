@@ -56,7 +56,7 @@ std::string expandXacro(const std::filesystem::path& file,
   } catch (const std::system_error& error) {
     fail(program.string() + " can't be started: " + error.code().message());
   }
-  if (end.why == ProgramEnd::Why::late)
+  if (end.why == ProgramEnd::Why::timedOut)
     fail("xacro took more than " + shortest(seconds) + " s and was stopped");
   if (end.why == ProgramEnd::Why::tooMuchOutput)
     fail("xacro has printed more than 256 MiB, and was stopped");

@@ -43,13 +43,13 @@ class XmlFile : public RobotFaults {
   /// if a fault was reported.
   std::optional<std::vector<double>> numbers(Element& element, const char* attribute,
                                              std::size_t count, const std::string& owner);
-  /// Reports a fault if the attribute is missing.
+  /// Reports a fault if the element lacks the attribute.
   void require(const Element& element, const char* attribute, const std::string& owner);
   /// Returns the first child of that name, or nullptr. Each further child of that name is a fault.
   Element* child(Element& parent, const char* name, const std::string& owner);
   /// Checks for children that are in neither list. Such a child is a fault if its name is similar
-  /// to one in `read`, or if it has collision geometry: ignoring the child may lose data. For each
-  /// other name of a child, one note is added, for at most 100 names. Elements of other formats
+  /// to one in `read`, or if it has collision geometry: ignoring the child may lose data. For the
+  /// other children, one note is added per name, for at most 100 names. Elements of other formats
   /// ("drake:joint") are ignored.
   void checkChildren(Element& parent, const std::vector<std::string>& read,
                      const std::vector<std::string>& ignored, const std::string& owner,

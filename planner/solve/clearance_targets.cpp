@@ -12,7 +12,7 @@ namespace corridor {
 
 namespace {
 
-/// The share of its distance at an end of the path that a pair should keep.
+/// A pair should keep this share of its distance at either end of the path.
 constexpr double kShareOfEnds = 0.7;
 /// How far pairs are moved apart, in multiples of their targets. The path near such a state then
 /// keeps the targets as well.
@@ -28,9 +28,11 @@ constexpr int kSweeps = 20;
 constexpr double kLeastPart = 1.0 / 16;
 /// A step may fall short of the requested change by this share, since sweeps only converge to it.
 constexpr double kUnmet = 0.1;
-/// The longest step of `movedApart` in the space's distance: for arms, radians in a joint.
+/// The longest Newton step of `movedApart`, in the space's distance: for arms, radians if one joint
+/// of weight 1 moves.
 constexpr double kLongestStep = 0.5;
-/// Samples of an edge: one for each 0.05 of its length, but at least and at most:
+/// An edge gets one sample for each 0.05 of its length (in the space's distance), but at least
+/// kLeastSamples and at most kMostSamples.
 constexpr double kSampleLength = 0.05;
 constexpr int kLeastSamples = 4, kMostSamples = 32;
 /// The share of a pair whose target is not proved, although no sample is below it.
@@ -38,8 +40,8 @@ constexpr double kJustMissed = 0.99;
 /// Halvings of the step between samples, in the search for the worst place.
 constexpr int kRefinements = 4;
 
-/// @param smallestAtEnds gets the smallest distance at start and goal, if one is below the
-/// clearance.
+/// @param smallestAtEnds receives the smallest distance at start and goal if this is below the
+/// clearance; otherwise it stays.
 PairMargins targetsOf(const Checker& checker, double clearance, const Configuration& start,
                       const Configuration& goal, double& smallestAtEnds) {
   std::vector<double> targets(checker.scene().motionPairs().size(), clearance);
@@ -57,7 +59,8 @@ PairMargins targetsOf(const Checker& checker, double clearance, const Configurat
   return PairMargins(std::move(targets));
 }
 
-/// Returns these frames and all frames above them, in ascending order.
+/// Returns the given frames and all frames above them in the tree, in ascending order of their
+/// indices.
 std::vector<std::size_t> framesAbove(const KinematicTree& tree, std::vector<std::size_t> frames) {
   for (std::size_t i = 0; i < frames.size(); ++i)
     if (frames[i] != 0) frames.push_back(tree.frames[frames[i]].parent);
@@ -66,8 +69,9 @@ std::vector<std::size_t> framesAbove(const KinematicTree& tree, std::vector<std:
   return frames;
 }
 
-/// A pair that should get farther apart by `need` metres, to first order. A step of `step` changes
-/// its distance by `change` > 0; `step` is the direction of the largest change.
+/// A pair that should get farther apart by `need` metres, to first order. The step `step` has the
+/// direction of the largest change of the pair's distance, and changes this distance by `change` >
+/// 0.
 struct Constraint {
   std::size_t pair = 0;
   double distance = 0;
@@ -189,8 +193,8 @@ double ClearanceTargets::least() const {
 /// fixed to their frames: to first order, this does not change the distances.
 std::vector<TangentStep> ClearanceTargets::gradientsOf(const std::vector<Scene::NearPair>& near,
                                                        const Configuration& q) const {
-  // Rounding of positions (some 1e-15 m) causes an error of the quotient of 1e-15 m over this step.
-  // Curvature causes one of about this step times the size of the robot.
+  // The rounding of positions (some 1e-15 m) causes an error of the quotient of 1e-15 m /
+  // kDifference. Curvature causes an error of about kDifference times the size of the robot.
   constexpr double kDifference = 1e-6;
   struct Ends {
     std::size_t frameA, frameB;
@@ -218,7 +222,8 @@ std::vector<TangentStep> ClearanceTargets::gradientsOf(const std::vector<Scene::
   const Eigen::Index size = weights_.size();
   std::vector<TangentStep> gradients(near.size(), TangentStep::Zero(size));
   for (Eigen::Index i = 0; i < size; ++i)
-    // The difference is one-sided. Near an upper bound the step would end early, so it goes down.
+    // The difference is one-sided. Near an upper bound, a step upwards would end early, so a step
+    // downwards is used.
     for (const double difference : {kDifference, -kDifference}) {
       const Configuration moved =
           displaced(checker_.space(), q, difference * TangentStep::Unit(size, i));

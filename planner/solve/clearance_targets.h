@@ -10,14 +10,15 @@
 namespace corridor {
 
 /// The distances that the pairs of a scene should keep along a path from a start to a goal. The
-/// target of a pair is the smallest of `clearance` and 70 % of its distances at the start and at
-/// the goal, since a path can't keep more than its ends do. It is never below the pair's padding.
-/// (With 70 %, it takes little work to prove that the edges at the ends keep the targets.)
+/// target of a pair is the smallest of three lengths: `clearance`, 70 % of the pair's distance at
+/// the start, and 70 % of its distance at the goal. The reason: a path can't keep more than its
+/// ends do. A target is never below the pair's padding. (With 70 %, it takes little work to prove
+/// that the edges at the ends keep the targets.)
 ///
 /// The share of a pair in a state is its distance over its target, at most 1.
 class ClearanceTargets {
  public:
-  /// @param checker has the margin 0; it must outlive the object.
+  /// @param checker must have the margin 0, and must outlive the object.
   /// @param clearance metres, above 0. @pre start and goal are free and finite.
   ClearanceTargets(const Checker& checker, double clearance, const Configuration& start,
                    const Configuration& goal);
@@ -35,26 +36,28 @@ class ClearanceTargets {
   bool areKept(const Configuration& from, const Configuration& to) const {
     return checker_.certifyEdge(from, to, targets_).verdict == MotionVerdict::free;
   }
-  /// The pair with the smallest share at a place of an edge.
+  /// The pair with the smallest share on an edge, and the time at which it has this share.
   struct Worst {
-    double share = 1;     ///< 1: no sampled pair is below its target
-    double t = 0;         ///< time on the edge
+    double share = 1;     ///< 1: no pair is below its target at a sample
+    double t = 0;         ///< time on the edge, in [0, 1]
     double distance = 0;  ///< metres; 0 if no pair is below its target
     std::size_t pair = 0;
   };
   /// Returns nullopt if every pair is proved to keep its target on the whole edge. Otherwise
-  /// returns the pair with the smallest share at samples of the edge. If no sample is below its
-  /// target, returns the place where the proof failed, with a share just below 1: the target is
-  /// missed by little, or by the tube only.
+  /// returns the pair with the smallest share at samples of the edge. If no sampled distance is
+  /// below its target, returns the time at which the proof failed, with a share just below 1: the
+  /// target is missed by little, or only because of the tube. If the proof gives no time either,
+  /// the share is 1.
   std::optional<Worst> missedOn(const Configuration& from, const Configuration& to) const;
   /// Returns the closest pair at samples of an edge, whatever its target, or nullopt if no pair is
-  /// closer than `clearance()` there.
+  /// closer than `clearance()` there. In this result, `share` is the distance over `clearance()`.
   std::optional<Worst> closestOn(const Configuration& from, const Configuration& to) const;
 
-  /// Returns a configuration near q at which the pairs that miss their targets are farther apart:
-  /// they reach 1.5 times their targets, to first order, or less if other pairs are in the way. The
-  /// step is the shortest in the space's distance that does so. It ends at joint limits. Returns
-  /// nullopt if no step helps, or none is needed.
+  /// Returns a configuration near q at which pairs that are closer than 1.5 times their targets are
+  /// farther apart: to first order, they reach 1.5 times their targets, or less if other pairs are
+  /// in the way. Up to three Newton steps lead there. Each step is the shortest in the space's
+  /// distance that has this effect; it is cut at a length of 0.5, and at joint limits. Returns
+  /// nullopt if no step helps, or if none is needed.
   std::optional<Configuration> movedApart(const Configuration& q) const;
 
  private:

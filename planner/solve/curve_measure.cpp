@@ -9,7 +9,7 @@ namespace corridor {
 namespace {
 
 constexpr int kPoints = 12;
-constexpr double kContinuous = 1e-6;  ///< an angle; the time law allows for the same
+constexpr double kContinuous = 1e-6;  ///< rad: a smaller angle is no corner, as in the time law
 constexpr double kStopArc = 1e-3;
 
 }  // namespace
@@ -90,8 +90,8 @@ MeasuredPiece CurveRuler::of(const CurvePiece& piece) const {
     result.length += length;
     result.bend += bend.squaredNorm() * length;
     result.lengths[k] = length;
-    // |t·u + n·x| ≤ 1/seconds for each number, with the tangent t and the bend n. The bounds of u
-    // and −u are (1/seconds ∓ sgn(t)·n·x)/|t|.
+    // Let u = d²s/dt² and x = (ds/dt)². For each number, with its tangent t and its bend n,
+    // |t·u + n·x| ≤ 1/seconds. So the bounds of u and −u are (1/seconds ∓ sgn(t)·n·x)/|t|.
     for (Eigen::Index i = 0; i < tangent.size(); ++i) {
       const double t = tangent[i], along = bend[i], size = std::abs(t) * seconds_[i];
       const bool limits = size > 1e-12;  // otherwise this number never limits the gain

@@ -8,68 +8,74 @@
 
 namespace corridor {
 
-/// A piece, as CurveRuler measures it, at points that divide it into parts of equal parameter.
-/// Numbers are divided by their scales (CurveRuler), and lengths are Euclidean; s is the length
-/// along the curve. One column for each point.
+/// The measures of a piece, by CurveRuler. The piece is divided into parts of equal parameter, with
+/// a point in the middle of each. The matrices have one column, and the vectors one entry, for each
+/// point.
+///
+/// The numbers of a configuration are divided by their scales, which are velocities (CurveRuler).
+/// Therefore Euclidean lengths are in seconds. Let s be the length along the curve: ds/dt has no
+/// unit.
 struct MeasuredPiece {
-  /// For each number, how fast ds/dt may grow at (ds/dt)² = x: by less than gains − slopes·x; and
-  /// how fast it may shrink: by less than gains + slopes·x. 1/s, and 1/s for each unit of x.
+  /// For each number, the bounds of d²s/dt² that its largest acceleration allows, in 1/s, where
+  /// x = (ds/dt)²: ds/dt grows by at most gains − slopes·x, and shrinks by at most gains +
+  /// slopes·x.
   Eigen::MatrixXd gains, slopes;
-  Eigen::VectorXd lengths;  ///< of the part around the point, s; 0: the point is not used
-  Eigen::VectorXd fastest;  ///< the largest (ds/dt)² at a constant speed
-  double time = 0;          ///< least time if speed along the piece is gained and lost at once, s
-  double length = 0;        ///< s
-  double bend = 0;          ///< ∫ κ² ds, with the curvature κ; 1/s
+  Eigen::VectorXd lengths;  ///< of the part around each point, seconds; 0: not used
+  Eigen::VectorXd fastest;  ///< largest (ds/dt)² that the limits allow at a constant speed
+  double time = 0;          ///< least time if the speed may change in jumps, seconds
+  double length = 0;        ///< seconds
+  double bend = 0;          ///< ∫ κ² ds, with the curvature κ; 1/seconds
 };
 
-/// What smoothing makes small.
+/// Measures of a whole curve. Smoothing reduces one of them, or a product of them (`valueFor`).
 struct CurveMeasure {
-  double time = 0;    ///< estimate of the least time from rest to rest, s
-  double length = 0;  ///< s
-  double bend = 0;    ///< ∫ κ² ds, 1/s
+  double time = 0;    ///< estimate of the least time from rest to rest, seconds
+  double length = 0;  ///< seconds (MeasuredPiece)
+  double bend = 0;    ///< ∫ κ² ds, 1/seconds
 
-  /// Returns the value that a goal makes small:
-  /// - `acceleration`: length³·bend. It is proportional to the mean square of the acceleration if
-  ///   the curve is passed through at constant speed in a fixed time.
-  /// - `length`, and otherwise the time.
+  /// Returns the value that smoothing with a goal reduces:
+  /// - `acceleration`: length³·bend. This is proportional to the mean square of the acceleration if
+  ///   the robot passes along the curve at constant speed in a fixed time.
+  /// - `length`: the length.
+  /// - all other goals: the time.
   double valueFor(Smoothing goal) const;
 };
 
-/// Measures curves, with the limits of the numbers as their scales, so that radians and metres
-/// compare. The scale of a number is its largest velocity; without one, the velocity after 1 s of
-/// its largest acceleration; without both, 1. Rotations are left out.
+/// Measures curves. Each number of a configuration is divided by a scale, so that radians and
+/// metres compare. The scale is the number's largest velocity; without a limit of velocity, the
+/// velocity after 1 s of its largest acceleration; without both limits, 1. Rotations are left out.
 class CurveRuler {
  public:
   /// @param velocity, acceleration for each number, > 0; rad/s, m/s and so on. Infinity: no limit.
   /// Empty: all are 1.
   CurveRuler(const ConfigurationSpace& space, Configuration velocity, Configuration acceleration);
 
-  /// Returns the time in which the fastest number passes through a difference at the velocity that
-  /// is its scale.
+  /// Returns the time, seconds, that a difference takes if every number moves at the velocity that
+  /// is its scale: the largest |difference| / scale of a number.
   double timeOf(const Configuration& difference) const;
 
   /// Measures a piece, by the midpoint rule with twelve points.
   MeasuredPiece of(const CurvePiece& piece) const;
 
-  /// Measures a curve of pieces, in this order. The time is that of a forward and a backward pass
-  /// over the samples, in which the acceleration along the curve is what the curvature leaves of
-  /// the limits: an estimate of the law of time_law.h, without its backtracking.
-  /// A robot stops between two pieces whose tangents differ by more than 10^-6. For the bend, it
-  /// turns there on an arc of 10^-3 of the length.
+  /// Measures a curve of pieces, in this order. A forward and a backward pass over the points give
+  /// the time. In them, the acceleration along the curve is what the curvature leaves of the
+  /// limits. This estimates the law of time_law.h, without its backtracking.
+  /// @param angles between each piece and the next, radians (angleBetween()). Where an angle is not
+  /// 0, the robot stops. For the bend, it turns there on an arc of 10^-3 of the curve's length.
   CurveMeasure along(const std::vector<const MeasuredPiece*>& pieces,
                      const std::vector<double>& angles) const;
 
-  /// Returns the angle between two tangents, in the scales of the numbers; 0 if it is below 10^-6.
+  /// Returns the angle between two tangents, whose numbers are divided by their scales; radians.
+  /// The result is 0 for an angle of up to 10^-6.
   double angleBetween(const Configuration& first, const Configuration& second) const;
 
  private:
   /// The Bernstein polynomials of a degree at the points, one column for each point.
   using Basis = Eigen::MatrixXd;
 
-  // 0 for rotations:
-  Configuration weight_;      // 1/scale
-  Configuration seconds_;     // scale/acceleration
-  Configuration fastest_;     // the largest velocity over the scale, squared; infinity: no limit
+  Configuration weight_;      // 1/scale; 0 for rotations
+  Configuration seconds_;     // scale/acceleration; 0 for rotations
+  Configuration fastest_;     // (largest velocity / scale)²; infinity: no limit of velocity
   std::vector<Basis> bases_;  // by degree
 };
 

@@ -12,8 +12,8 @@ namespace corridor {
 /// Returns whether the edge between two configurations is free.
 using EdgeTest = std::function<bool(const Configuration& from, const Configuration& to)>;
 
-/// Remembers the answers of an edge test, so that no edge is tested twice. Edges are equal if the
-/// numbers of both ends are.
+/// Remembers the answers of an edge test, so that no edge is tested twice. Two edges are the same
+/// if both have the same first and the same last configuration, number for number.
 class EdgeMemory {
  public:
   explicit EdgeMemory(EdgeTest isFree) : isFree_(std::move(isFree)) {}

@@ -21,9 +21,9 @@ using Path = std::vector<Configuration>;
 /// Returns the configurations of an OMPL path. @pre the path's space is a ProblemStateSpace.
 Path configurationsOf(const ompl::geometric::PathGeometric& path);
 
-/// Shortens a path by OMPL's `PathSimplifier::simplify`, with random numbers and edge tests of its
-/// own: the baseline of `simplifiedVersions` (simplify_path.h). It ends when OMPL finds no more
-/// improvement, or soon after `stop` returns true. The first and the last state stay.
+/// Shortens a path by OMPL's `PathSimplifier::simplify`, which uses random numbers and its own edge
+/// tests. It is the baseline for `simplifiedVersions` (simplify_path.h). Simplifying ends when OMPL
+/// finds no more improvement, or soon after `stop` returns true. The first and the last state stay.
 void simplifyByOmpl(const std::shared_ptr<ompl::base::SpaceInformation>& si,
                     ompl::geometric::PathGeometric& path, const std::function<bool()>& stop);
 
@@ -34,8 +34,8 @@ Path withShortTurns(const ConfigurationSpace& space, const Path& path);
 
 /// Tests the path again, by the checker's certified method, whatever method the planner used.
 /// Returns whether all states are in bounds and all edges are certified.
-/// @param proved if not null, the edges that it knows to be free are not tested again. @pre
-/// the certified method has proved them, with this checker.
+/// @param proved if not null, the edges that this memory knows to be free are not tested again.
+/// @pre the certified method has proved these edges, with this checker.
 bool isCertified(const Checker& checker, const Path& path, const EdgeMemory* proved = nullptr);
 
 /// The length of a path, summed over its edges. `metres`: |Δp| of planar and floating joints, and
@@ -48,8 +48,8 @@ PathLength lengthOf(const ConfigurationSpace& space, const Path& path);
 /// Returns the length of a path in the space's distance.
 double distanceAlong(const ConfigurationSpace& space, const Path& path);
 
-/// Returns words for messages that state what a length adds up, besides the edges: "sum over the
-/// joints". Returns "" if the space has only one joint or body.
+/// Returns words for a message about a length: over what the length of each edge is summed, such as
+/// "sum over the joints". Returns "" if the space has only one joint or body.
 std::string summands(const ConfigurationSpace& space);
 
 }  // namespace corridor

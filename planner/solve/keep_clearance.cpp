@@ -9,12 +9,12 @@ namespace corridor {
 
 namespace {
 
-/// A change must enlarge the smallest ratio of distance to target on an edge by kLeastGain, or to
-/// kAlmost.
+/// A change must enlarge the smallest share of an edge (keep_clearance.h) by at least kLeastGain,
+/// or the new share must be at least kAlmost.
 constexpr double kLeastGain = 0.05, kAlmost = 0.98;
 /// The maximum number of times that a step away from obstacles is halved.
 constexpr int kHalvings = 2;
-/// A place within this share of an edge from its end counts as near this end: the end is moved.
+/// If the smallest share is this near to an end of the edge (in t), the end is moved instead.
 constexpr double kNearEnd = 0.25;
 /// The maximum number of changes that are tried.
 constexpr int kTries = 60;
@@ -39,7 +39,7 @@ class PathMover {
     double length = 0;
     bool kept = false;  // every pair is proved to keep its target
     ClearanceTargets::Worst worst;
-    int halvings = 0;      // of the next step away from obstacles
+    int halvings = 0;      // halvings of the next step away from obstacles
     bool changed = false;  // not an edge of the original path
   };
 
@@ -74,7 +74,7 @@ PathMover::Edge PathMover::measured(const Configuration& from, const Configurati
   return {from, space_.distance(from, to), !missed, missed.value_or(ClearanceTargets::Worst())};
 }
 
-/// Returns the edge with the smallest ratio of distance to target, of those that can be changed.
+/// Returns the edge with the smallest share among the edges that can be changed.
 std::optional<std::size_t> PathMover::worstEdge() const {
   std::optional<std::size_t> worst;
   for (std::size_t i = 0; i < edges_.size(); ++i) {
@@ -85,8 +85,9 @@ std::optional<std::size_t> PathMover::worstEdge() const {
   return worst;
 }
 
-/// Replaces the states between the beginning of edge `first` and the end of edge `last` by one.
-/// @returns false if the new edges are not free, not better or too long.
+/// Replaces the states between the beginning of edge `first` and the end of edge `last` by one
+/// state.
+/// @returns false, and changes nothing, if the new edges are not free, not better or too long.
 bool PathMover::replace(std::size_t first, std::size_t last, const Configuration& by) {
   double length = length_, share = 1;
   for (std::size_t i = first; i <= last; ++i) {

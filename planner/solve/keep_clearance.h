@@ -19,14 +19,16 @@ double preferredClearance(const Problem& problem);
 ///
 /// The share of an edge is the smallest share of a pair on it: 1 if every pair is proved to keep
 /// its target, else the smallest found at samples. Edges are changed in the order of their shares,
-/// the smallest first. A state is inserted at the worst place of the edge, or its nearer end is
-/// moved, so that the pairs are farther apart there (`ClearanceTargets::movedApart`). The change is
-/// taken if all of these hold:
+/// the smallest first. A state is inserted at the time of the smallest share, or an end of the edge
+/// near this time is moved, so that the pairs are farther apart there
+/// (`ClearanceTargets::movedApart`). The change is taken if all of these hold:
 /// * The new edges are free.
-/// * Each of them has a larger share than the smallest of the edges that they replace.
+/// * Each new edge keeps all targets; or its share is at least 0.98, or larger by at least 0.05
+///   than the smallest share of the edges that are replaced.
 /// * The path is not longer than `longest`.
-/// Otherwise the state is moved half as far, and so on. Then states are removed where the edge
-/// between their neighbours keeps all targets.
+/// If a change is not taken, a later try on this edge moves the state half as far, and a third try
+/// a quarter as far. At most 60 changes are tried. At the end, states of changed edges are removed
+/// where the edge between their neighbours keeps all targets.
 ///
 /// The first and the last state stay. The result depends on the arguments only, as long as `stop`
 /// returns false.

@@ -13,8 +13,8 @@
 namespace corridor {
 namespace {
 
-/// Returns the limits of each number by itself. A position of a planar or floating joint has its
-/// limits at its first number, x.
+/// Returns a limit for each number. In `limits`, the limit of the position of a planar or floating
+/// joint stands at its first number, x.
 Configuration eachNumber(const ConfigurationSpace& space, Configuration limits) {
   for (const PositionGroup& group : positionGroups(space))
     limits.segment(group.first, group.count).setConstant(limits[group.first]);
@@ -46,9 +46,9 @@ std::string textOf(const std::vector<TimedRow>& timed, const ConfigurationSpace&
   rows.hasVelocities = between != RowInterpolation::linear;
   rows.hasAccelerations = between == RowInterpolation::quintic;
   for (const TimedRow& row : timed) {
-    // The times of a message are whole nanoseconds. The position is that of the rounded time, up to
-    // 10^-18 s² times the acceleration. With that of the time itself, rows that are near each other
-    // would have other accelerations.
+    // The times of a message are whole nanoseconds. The position is that at the rounded time, up to
+    // 10^-18 s² times the acceleration. With the position at the unrounded time, the acceleration
+    // between two rows that are near each other would change.
     const double time =
         kind == TrajectoryFileKind::message ? nearestNanosecond(row.time) : row.time;
     const Configuration position = row.position + (time - row.time) * row.velocity;
@@ -99,7 +99,7 @@ LawfulCurve smoothCurve(const Problem& problem, const Checker& checker, const Pa
   ShortCurve curve = shortenedCurve(space, smooth.pieces, isFree, options, stop);
   made.curveTests += curve.tests;
   LawfulCurve whole = withLaw(problem, std::move(curve.pieces));
-  // The time that was made smaller is an estimate.
+  // Smoothing reduced an estimate of the time, so the times of the two laws are compared.
   if (options.goal == Smoothing::time && curve.replaced > 0) {
     LawfulCurve corners = withLaw(problem, std::move(smooth.pieces));
     const bool isFaster = !corners.law.fault.empty() || whole.law.duration < corners.law.duration;
@@ -149,7 +149,8 @@ void makeText(const Problem& problem, const Checker& checker, const LawfulCurve&
   prove(checker, made);
 }
 
-/// Makes texts along a curve until one is proved, and keeps the limits. Completes `made`.
+/// Makes texts along a curve until one is proved and keeps the limits. Completes and returns
+/// `made`.
 MadeTrajectory provedAlong(const Problem& problem, const Checker& checker, LawfulCurve curve,
                            TrajectoryFileKind kind, int attempts, MadeTrajectory made) {
   JointLimits limits = problem.task.limits;
@@ -207,7 +208,7 @@ MadeTrajectory makeTrajectory(const Problem& problem, const Checker& checker, co
                                           : stopping.proved() && !made.proved();
   if (!isBetter) return made;
   stopping.whyStops = made.isGood()        ? "stops at the corners are faster"
-                      : made.proved()      ? "the rounded path exceeds limits"
+                      : made.proved()      ? "the trajectory along the rounded path exceeds limits"
                       : made.fault.empty() ? "the rounded path is not proved"
                                            : "the rounded path has no trajectory: " + made.fault;
   return stopping;

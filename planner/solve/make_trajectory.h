@@ -15,23 +15,23 @@ enum class TrajectoryFileKind {
   message  ///< a JointTrajectory of ROS 2, as YAML
 };
 
-/// A trajectory along a path, as it is written to a file, and the proof of that file.
+/// A trajectory along a path: the content of its file, and the proof of this content.
 struct MadeTrajectory {
-  /// The content of the file; "" with a fault.
+  /// The content of the file; "" if there is a `fault`.
   std::string text;
   RowInterpolation between = RowInterpolation::cubic;  ///< what a controller does between the rows
-  Curve curve;                                         ///< what the text means
+  Curve curve;                                         ///< the curve that the text describes
   double duration = 0;                                 ///< seconds
   std::size_t rows = 0;
-  std::size_t corners = 0, rounded = 0;  ///< corners of the path, and those without a stop
+  std::size_t corners = 0, rounded = 0;  ///< corners of the path; corners without a stop
   std::size_t replaced = 0;              ///< parts of the curve that were replaced by better ones
-  std::size_t curveTests = 0;            ///< curves that were tested to smooth the path
-  LimitRatios ratios;                    ///< limitsOfRows, of the file's curve
-  double stretch = 1;                    ///< how much the law was slowed down (Emission::stretch)
-  /// `free`: the checker proved every piece of `curve`. Otherwise the answer for the first piece
-  /// that it could not prove.
+  std::size_t curveTests = 0;            ///< pieces of curves that were tested to smooth the path
+  LimitRatios ratios;                    ///< by limitsOfRows, for the file's curve
+  double stretch = 1;  ///< factor by which the law was slowed down (Emission::stretch)
+  /// Its verdict is `free` if the checker proved every piece of `curve`. Otherwise it is the answer
+  /// for the first piece that the checker could not prove.
   MotionResult proof;
-  std::size_t failedPiece = 0;  ///< without a proof: index into curve.pieces
+  std::size_t failedPiece = 0;  ///< if there is no proof: index into curve.pieces
   std::string fault;            ///< why there is no trajectory, one line; or ""
   /// Why the robot stops at all corners although some were rounded, one line; or "".
   std::string whyStops;
@@ -41,34 +41,37 @@ struct MadeTrajectory {
     return fault.empty() && proof.verdict == MotionVerdict::free &&
            ratios.position.share <= kLimitSlack;
   }
-  /// Whether it is proved and keeps all limits.
+  /// Whether the file's curve is proved (see `proved`) and keeps all limits.
   bool isGood() const { return proved() && keepsLimits(ratios); }
 };
 
-/// How often a trajectory is made at most, each time with a smaller deviation.
+/// The maximum number of times that a trajectory is made, each time with a smaller deviation.
 inline constexpr int kTrajectoryAttempts = 4;
 
 /// Makes a trajectory along a path, by the problem's TrajectorySettings, in these steps:
 /// 1. Corners are rounded by curves that the checker proves (smooth_path.h). Then parts of the
-///    curve are replaced by better ones that the checker proves (shorten_curve.h). If this was to
-///    save time and the law of the result is not faster, the replacements are dropped.
-/// 2. A time law passes along the result in the shortest time that the problem's limits allow
-///    (time_law.h). If a limit of jerk is given, the law keeps it.
-/// 3. Rows are made of it (emit.h), and written as text.
-/// 4. The text is read again. The checker proves each piece of the curve that it means, and its
-///    limits are proved (rows_limits.h). If a piece can't be proved, or limits are exceeded, steps
-///    2 to 4 are repeated up to three times, each time with a quarter of the deviation and, for
-///    messages, with smaller limits. The last result that is proved is returned, even if it exceeds
-///    a limit (`keepsLimits`).
-/// 5. If this may be slower than stops at all corners, or is not good (`isGood`), steps 2 to 4 are
-///    done for the path with stops, too, and the faster result is returned.
+///    curve are replaced by better ones that the checker proves (shorten_curve.h). If the goal of
+///    smoothing is time, and the law along the result is not faster, the replacements are dropped.
+/// 2. A time law passes along the curve in the shortest time that the problem's limits allow
+///    (time_law.h). If a limit of jerk is given, the law keeps this limit, too.
+/// 3. Rows are computed from the law (emit.h), and written as text.
+/// 4. The text is read again. The checker proves each piece of the curve that the text describes.
+///    Then it is proved which limits this curve keeps (rows_limits.h). If a piece can't be proved,
+///    or limits are exceeded, steps 2 to 4 are repeated up to three times, each time with a quarter
+///    of the deviation and, for messages, with smaller limits. The last result that is proved is
+///    returned, even if it exceeds a limit (`keepsLimits`).
+/// 5. If this result may be slower than a path with stops at all corners, or is not good
+///    (`isGood`), steps 2 to 4 are done for the path with stops, too. The result with stops is
+///    returned if it is good and the other is not, if both are good and it is faster, or if only it
+///    is proved.
 ///
-/// The times of a message are whole nanoseconds. Each row has the position of its rounded time.
-/// (That of the time itself would change the acceleration of a cubic by 6|v|·1e-9/T², and the jerk
-/// of a quintic by 60|v|·1e-9/T³, where T is the time between two rows.)
+/// The times of a message are whole nanoseconds. Each row has the position at its rounded time.
+/// (Let v be the velocity, and T the time between two rows. The position at the unrounded time
+/// would change the acceleration of a cubic by 6|v|·1e-9/T², and the jerk of a quintic by
+/// 60|v|·1e-9/T³.)
 ///
-/// The result depends on the arguments only, unless `stop` returns true: then the curve stays
-/// as it is.
+/// The result depends on the arguments only, unless `stop` returns true: then smoothing ends, and
+/// the curve stays as it is.
 /// @param path its edges should be free: if one is not, the result is not proved.
 MadeTrajectory makeTrajectory(
     const Problem& problem, const Checker& checker, const Path& path,
@@ -77,8 +80,8 @@ MadeTrajectory makeTrajectory(
 
 /// Makes a trajectory along a curve: steps 2 to 4 of `makeTrajectory`, for curves from elsewhere.
 /// The members `corners`, `rounded`, `replaced` and `curveTests` of the result are 0.
-/// @param attempts how often steps 2 to 4 are done at most. 1: with the deviation of the settings
-/// only.
+/// @param attempts the maximum number of times that steps 2 to 4 are done. 1: only once, with the
+/// deviation of the settings.
 MadeTrajectory trajectoryAlong(const Problem& problem, const Checker& checker,
                                const std::vector<CurvePiece>& curve,
                                TrajectoryFileKind kind = TrajectoryFileKind::csv,

@@ -21,8 +21,8 @@ namespace {
 /// The goal region is shrunk by this fraction, which is more than a few roundings. So a state that
 /// is inside for the planner is also inside for the verifier, which rounds differently.
 constexpr double kShrink = 0x1p-40;
-/// The maximum number of random states that are tried per wanted sample. Around most goals, nearly
-/// all states are free.
+/// The maximum number of random states that are tried for each sample that is wanted. Around most
+/// goals, nearly all states are free.
 constexpr std::size_t kTriesPerGoal = 20;
 
 double uniform(std::mt19937_64& random, double low, double high) {

@@ -16,12 +16,13 @@ namespace corridor {
 
 /// Properties of one of OMPL's planners.
 struct PlannerInfo {
-  std::string name;   ///< OMPL's
+  std::string name;   ///< OMPL's name of the planner
   std::string about;  ///< a description in a few words
   /// Whether the same seed gives the same path if the time does not run out. This holds for
-  /// planners without threads and without a clock of their own.
+  /// planners that use neither threads nor a clock of their own.
   bool repeatable = true;
-  /// Uses all its time for better paths, unless it is set to stop at the first path.
+  /// Whether the planner uses all its time for better paths, unless it is set to stop at the first
+  /// path.
   bool optimises = false;
 };
 
@@ -41,8 +42,8 @@ struct PlannerParameter {
 
 /// Creates a planner and sets its parameters.
 /// @param nameAt the place where the name was written, for messages; its key and value are ignored.
-/// @throws InputError for an unknown name, or with all wrong parameters: unknown ones (with a list
-/// of those that the planner has), and values of the wrong type or range.
+/// @throws InputError for an unknown name of a planner. Otherwise with all faults of parameters:
+/// unknown names (with a list of the planner's parameters), and values of the wrong type or range.
 std::shared_ptr<ompl::base::Planner> makePlanner(
     const std::shared_ptr<ompl::base::SpaceInformation>& si, const std::string& name,
     const std::vector<PlannerParameter>& parameters, const PlannerParameter& nameAt = {});

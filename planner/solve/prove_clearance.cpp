@@ -11,11 +11,11 @@ namespace corridor {
 
 namespace {
 
-/// The share of the smallest distance found that is tried first. The true smallest distance is a
-/// little less than that at samples. A proof of nearly the whole distance takes many short
+/// The first clearance that is tried, as a share of the smallest distance found at samples. The
+/// true smallest distance is a little less. A proof of nearly the whole distance takes many short
 /// intervals.
 constexpr double kFirstTry = 0.9;
-/// Each further try is for this share of the one before.
+/// Each further clearance is this share of the one before.
 constexpr double kNextTry = 0.8;
 constexpr int kMostTries = 10;
 
@@ -23,7 +23,8 @@ constexpr int kMostTries = 10;
 /// proved to keep, or 0 if none above `least` is.
 double provedClearance(const Checker& checker, const Path& path, double most, double least) {
   double tried = roundedDownTo2Digits(most);
-  // The edges before this one keep what is tried. A path of one state has one edge, of no length.
+  // All edges before this one are proved to keep the clearance that is tried. A path of one state
+  // has one edge, of length 0.
   std::size_t edge = path.size() > 1 ? 1 : 0;
   for (int n = 0; n < kMostTries && tried > least; ++n) {
     const PairMargins margins(std::vector(checker.scene().motionPairs().size(), tried));
@@ -41,7 +42,8 @@ double provedClearance(const Checker& checker, const Path& path, double most, do
 double keptShare(const Checker& checker, const ClearanceTargets& targets, const Configuration& from,
                  const Configuration& to, EdgeMemory& onTarget) {
   if (onTarget.isFree(from, to)) return 1;
-  // The edge in both directions. The two parts overlap only if the whole edge is proved.
+  // The edge is proved from both of its ends. The two proved parts overlap only if the whole edge
+  // is proved.
   const double begin = checker.certifyEdge(from, to, targets.all(), true).certifiedUntil,
                end = checker.certifyEdge(to, from, targets.all(), true).certifiedUntil;
   return std::min(1.0, begin + end);

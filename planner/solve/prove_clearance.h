@@ -11,13 +11,13 @@ namespace corridor {
 
 /// How far a path stays away from contact.
 struct PathClearance {
-  /// Metres: every tested pair is proved to keep more than this on the whole path, tube included.
-  /// Rounded down to two significant digits; at most the preferred clearance. 0: nothing was
-  /// proved.
+  /// Every tested pair is proved to keep more than this distance, metres, on the whole path, tube
+  /// included. The value is rounded down to two significant digits, and is at most the preferred
+  /// clearance. 0: nothing was proved.
   double proved = 0;
-  /// The smallest distance found at samples of the path, and where: the pair of bodies, and the
-  /// time on the edge from state `edge` (from 0) to the next. Infinite, and `a` and `b` empty, if
-  /// no distance below the preferred clearance was found.
+  /// The smallest distance found at samples of the path, metres, and where it was found: the pair
+  /// of bodies, and the time on the edge from state `edge` (counted from 0) to the next. If no
+  /// distance below the preferred clearance was found, it is infinite, and `a` and `b` are empty.
   double smallest = 0;
   std::string a, b;
   std::size_t edge = 0;

@@ -13,13 +13,14 @@ namespace corridor {
 namespace {
 
 constexpr int kScales = 5;      ///< parts are 1, 1/2, … 1/2^(kScales - 1) of the curve
-constexpr int kPasses = 4;      ///< at most
-constexpr double kGain = 5e-4;  ///< least share of the goal that a replacement must save
-/// Places nearer to the end of a piece than this share of it are moved there: a piece that is much
-/// shorter than its coordinates has no exact tangent.
+constexpr int kPasses = 4;      ///< maximum number of passes over all parts
+constexpr double kGain = 5e-4;  ///< least share of the goal's value that a replacement must save
+/// A place that is nearer to an end of its piece than this share of the piece is moved to this end.
+/// Otherwise very short pieces would arise, and a piece that is much shorter than the magnitude of
+/// its coordinates has no exact tangent.
 constexpr double kLeastShare = 0.05;
-/// ∫κ² ds times the length is about the square of the angle by which a curve turns. Below this, it
-/// counts as straight.
+/// ∫κ² ds times the length is about the square of the angle (rad) by which a curve turns. A piece
+/// with a product of at most this value counts as straight.
 constexpr double kAngle2 = 1e-12;
 
 struct CurvePlace {
@@ -64,7 +65,7 @@ class Shortener {
   }
 
   ShortCurve run() {
-    // From the last section to the first one, so that indices of the others stay.
+    // The last section comes first, so that the indices of the sections before it stay valid.
     for (std::size_t end = pieces().size(); end > 0;) {
       if (isRotating(end - 1)) {
         --end;
@@ -140,9 +141,9 @@ class Shortener {
                                b.coefficients.col(1) - b.coefficients.col(0));
   }
 
-  /// Returns the piece of degree 5 between two points, with the speed `speed` at both ends. An end
-  /// of the curve has no tangent: there the piece begins or ends straight. Rotations rest as in
-  /// `resting`.
+  /// Returns the piece of degree 5 between two points, with the speed `speed` at both ends. At an
+  /// end of the curve (`freeStart`, `freeEnd`) no tangent is given: there the piece begins or ends
+  /// straight. Rotations rest as in `resting`.
   CurvePiece pieceBetween(const PointOfCurve& a, bool freeStart, const PointOfCurve& b,
                           bool freeEnd, double speed, const Configuration& resting) const {
     CurvePiece piece;
@@ -154,7 +155,7 @@ class Shortener {
     c.col(2) = 2 * c.col(1) - a.value + speed * speed / 20 * a.second;
     c.col(4) = b.value - speed / 5 * b.first;
     c.col(3) = 2 * c.col(4) - b.value + speed * speed / 20 * b.second;
-    // Three coefficients at equal distances are straight, and have no second derivative.
+    // Three coefficients at equal distances on a line make the second derivative 0 at this end.
     if (freeStart && freeEnd) {
       for (int i = 1; i < 5; ++i) c.col(i) = c.col(0) + i / 5.0 * (c.col(5) - c.col(0));
     } else if (freeStart) {
@@ -172,18 +173,20 @@ class Shortener {
     return isFree_(piece);
   }
 
-  /// Replaces the part between two places, if this is proved and makes the goal smaller.
+  /// Replaces the part between two places if the new piece is proved and reduces the value of the
+  /// goal.
   void replace(const CurvePlace& from, const CurvePlace& to) {
-    const std::size_t last = to.tau > 0 ? to.piece : to.piece - 1;  // piece of the part
+    const std::size_t last = to.tau > 0 ? to.piece : to.piece - 1;  // last piece of the part
     if (to.piece < from.piece || (to.piece == from.piece && to.tau <= from.tau)) return;
     const bool freeStart = from.piece == begin_ && from.tau == 0,
                freeEnd = to.piece + 1 == end_ && to.tau == 1;
-    // The tangents are those of what stays: a corner at an end of the part disappears.
+    // The tangents at the ends are those of the curve outside of the part. So a corner at an end of
+    // the part disappears.
     const bool atJoint = from.tau == 0 && !freeStart;
     const PointOfCurve a = atJoint ? pointAt(from.piece - 1, 1) : pointAt(from.piece, from.tau),
                        b = pointAt(to.piece, to.tau);
 
-    std::vector<CurvePiece> before, after;  // what stays of the first and the last piece
+    std::vector<CurvePiece> before, after;  // the rest of the part's first and last piece
     bool stops = false, isStraight = true, isChanged = false;
     for (std::size_t k = atJoint ? from.piece - 1 : from.piece; k < to.piece; ++k)
       stops = stops || angles_[k] > 0;
@@ -195,7 +198,7 @@ class Shortener {
     if (from.tau > 0) before.push_back(splitAt(pieces()[from.piece], from.tau).first);
     if (to.tau > 0 && !freeEnd) after.push_back(splitAt(pieces()[last], to.tau).second);
 
-    // The section as it would be, with one piece in place of the part.
+    // The section as it would be with one new piece instead of the part.
     std::vector<MeasuredPiece> own;  // of `before`, the new piece and `after`
     for (const CurvePiece& piece : before) own.push_back(ruler_.of(piece));
     const std::size_t place = own.size();
@@ -244,7 +247,7 @@ class Shortener {
       all.insert(at, some.begin(), some.end());
     };
     const std::vector<int> now(own.size(), pass_);
-    // Inside, and at what was there before, the tangent is continuous.
+    // At both ends of the new piece the tangent is continuous.
     std::vector<double> joints(own.size(), 0);
     joints.back() = after.empty() ? 0 : angles_[last];
     if (atJoint) angles_[from.piece - 1] = 0;
@@ -265,7 +268,7 @@ class Shortener {
   std::vector<double> angles_;  // at the end of each piece; 0: the tangent is continuous
   std::vector<int> madeIn_;     // the pass in which each piece was made
   int pass_ = 0;
-  double value_ = 0;  // of the section, for the goal
+  double value_ = 0;  // value of the section for the goal
   ShortCurve result_;
   std::size_t begin_ = 0, end_ = 0;  // pieces of the section, in which no rotation moves
 };

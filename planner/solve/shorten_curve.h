@@ -16,20 +16,20 @@ struct ShortCurve {
 
 /// Replaces parts of a curve by single pieces of degree 5 that make the goal of `options` smaller.
 ///
-/// A replacement has the places, the tangents and the curvatures of the curve at both of its ends:
-/// the result is C² for a suitable speed along it, except where the curve is not and no part was
-/// replaced. At the first and the last place of the curve, where the robot rests, the direction may
-/// change. Each replacement is used only if `isFree` proves it. So if the curve was proved, the
-/// result is, up to the rounding of pieces that were split.
+/// At both of its ends, a replacement has the position, the tangent and the curvature of the curve.
+/// So the result is C² for a suitable speed along it, except where the given curve is not C² and no
+/// part was replaced. At the first and the last point of the curve, where the robot rests, the
+/// direction may change. Each replacement is used only if `isFree` proves it. So if the given curve
+/// was proved, the result is proved, too, up to the rounding of pieces that were split.
 ///
 /// Parts of many lengths are tried in a fixed order, from the whole curve down to a 16th of it, and
 /// again as long as something improves. This is the shortcut method of Hauser and Ng-Thow-Hing
 /// ("Fast Smoothing of Manipulator Trajectories using Optimal Bounded-Acceleration Shortcuts",
 /// ICRA 2010), without a time law and without random numbers.
 ///
-/// Pieces with a rotation that moves stay, and the robot rests before and after them. The result
-/// depends on the arguments only, as long as `stop` returns false. If `stop` returns true, no
-/// further curve is tested.
+/// Pieces in which a rotation moves stay as they are, and the robot rests before and after them.
+/// The result depends on the arguments only, as long as `stop` returns false. If `stop` returns
+/// true, no further curve is tested.
 ShortCurve shortenedCurve(
     const ConfigurationSpace& space, std::vector<CurvePiece> pieces, const CurveTest& isFree,
     const SmoothOptions& options = {}, const std::function<bool()>& stop = [] { return false; });

@@ -13,13 +13,14 @@ namespace corridor {
 
 namespace {
 
-// Measured on paths of two arms (mbm) and of the own problems: with these values, a third of the
-// time of OMPL's simplifyMax gives paths that are 3 % shorter. A third of kLeastGainOfCut takes 1.4
-// times as many edge tests, and gives paths that are 0.3 % shorter.
+// Measured on paths of two arms (mbm) and of problems/: with these values, simplifying takes a
+// third of the time of OMPL's simplifyMax, and the paths are 3 % shorter. With a third of
+// kLeastGainOfCut, it takes 1.4 times as many edge tests, and the paths are 0.3 % shorter.
 
 /// The least gain of a shortcut that is tried, as a share of the path's length.
 constexpr double kLeastGainOfCut = 1e-3;
-/// Rounds end when a round gains less than this share of the path's length, or after kRounds.
+/// No further round is tried after a round that gains less than this share of the path's length, or
+/// after kRounds rounds.
 constexpr double kLeastGainOfRound = 5e-3;
 constexpr int kRounds = 3;
 /// Shortcuts over parts of the path have at least 2^-kLevels of its length.
@@ -115,9 +116,10 @@ void CornersOfPath::join(std::size_t before, std::size_t after) {
   ++states_[after].changes;
 }
 
-/// Returns the two places of a cut at a corner, and what it gains.
-/// @param whole the cut ends at both neighbours. Otherwise it ends at the nearer neighbour, or
-/// after a half, a quarter, … of the way there.
+/// Returns the two places of a cut at a corner, and the length that the cut saves.
+/// @param whole if true, the cut leads from neighbour to neighbour. Otherwise both of its places
+/// have the same distance from the corner: the distance of the nearer neighbour, halved `halvings`
+/// times.
 CornersOfPath::Places CornersOfPath::placesOf(std::size_t state, int halvings, bool whole) const {
   const Configuration& q = states_[state].q;
   const Configuration& before = states_[states_[state].before].q;
@@ -138,7 +140,8 @@ CornersOfPath::Places CornersOfPath::placesOf(std::size_t state, int halvings, b
   return places;
 }
 
-/// Takes the cuts that gain at least `leastGain`, those of the largest gain first.
+/// Tries the cuts that gain at least `leastGain`, the largest gain first, and makes those whose
+/// edge is free.
 /// @param whole see `placesOf`.
 void CornersOfPath::take(double leastGain, bool whole, const EdgeTest& isFree) {
   std::priority_queue<Cut> cuts;

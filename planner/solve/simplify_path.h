@@ -15,9 +15,10 @@ namespace corridor {
 /// 1. From the whole path downwards, a part of the path is replaced by one edge if this edge is
 ///    free. Otherwise both halves of the part are tried.
 /// 2. Up to three rounds try shortcuts over halves, quarters, … of the path, and then shortcuts
-///    across its corners. The corner with the largest gain is next. A shortcut across a corner
-///    first takes the whole shorter edge at this corner; each time it fails, it is halved. A
-///    shortcut that gains less than a thousandth of the length is not tried.
+///    across its corners. The corner with the largest gain is always next. At first, a shortcut
+///    across a corner begins and ends on the two edges at a distance from the corner that is the
+///    length of the shorter edge. Each time it fails, this distance is halved. A shortcut that
+///    gains less than a thousandth of the length is not tried.
 /// 3. States are removed where the edge between their neighbours is free.
 ///
 /// Returns the versions of the path, from the path itself to the shortest, so that an earlier

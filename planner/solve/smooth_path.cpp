@@ -11,15 +11,16 @@
 namespace corridor {
 namespace {
 
-/// A try that fails is halved this often. The smallest curve of a corner takes 1/64 of the edge.
+/// A try that fails is halved at most this often. So the smallest curve of a corner takes 1/64 of
+/// the edge.
 constexpr int kCurveHalvings = 5;
 /// A curve takes at most this share of an edge at the beginning or end of the path, because a robot
 /// that starts from rest needs a part of the edge to gain speed.
 constexpr double kShareOfFirstEdge = 0.9;
 
-/// Directions that differ by at most this share are the same: a state between them is no corner.
-/// Rounding of inserted states causes some 10^-15 of an edge's length; the path without the state
-/// is proved like every other curve.
+/// Two directions that differ by at most this share are the same: a state between two such edges is
+/// no corner. Rounding of inserted states causes some 10^-15 of an edge's length; the path without
+/// the state is proved like every other curve.
 constexpr double kStraight = 1e-9;
 
 /// A curve from a place on one edge to a place on a later one. Places are lengths from the edge's
@@ -110,7 +111,7 @@ class Smoother {
     return isFree_(blend.piece);
   }
 
-  /// Returns the range of places on an edge that no curve takes, except for the curve `own`.
+  /// Returns the range of places on an edge that no curve except `own` takes.
   std::pair<double, double> freeRange(std::size_t edge, const Blend* own) const {
     double from = 0, to = edges_[edge].length;
     for (const Blend& blend : blends_) {
@@ -136,7 +137,8 @@ class Smoother {
     const double shareBefore = isFirstOrLast(k - 1) ? 1 : share;
     const double shareAfter = isFirstOrLast(k) ? 1 : share;
     double most = std::min(shareBefore * before, shareAfter * after);
-    // The middle of the curve is the farthest: 7/64 of the difference of its ends' directions.
+    // The middle of the curve is farthest from the path: `reach` times 7/64 of the difference of
+    // the directions of the two edges.
     const double bend = (direction(k) - direction(k - 1)).cwiseAbs().maxCoeff();
     if (bend > 0) most = std::min(most, deviation_ / (7.0 / 64 * bend));
     const double least = own ? own->to : 0;
@@ -145,7 +147,7 @@ class Smoother {
       const double reach = most / (1 << i);
       if (!(reach > 1.05 * least)) break;
       if (tryCorner(k, reach)) proved = reach;
-      // Between the length that is proved and twice this length, which is not.
+      // A reach between `reach`, which is proved, and 2·reach, which failed.
       if (proved > 0 && i > 0) tryCorner(k, 1.5 * reach);
     }
   }
@@ -190,7 +192,8 @@ class Smoother {
     for (std::size_t edge = 0; edge < edges_.size();) {
       if (next != blends_.end() && next->first == edge) {
         const Configuration begin = next->piece.coefficients.col(0);
-        // Two curves that share an edge meet up to rounding: a line of an ulp has no direction.
+        // Two curves on one edge may meet up to rounding. The line between them would be an ulp
+        // long, without a direction.
         if (ruler_.timeOf(begin - here) <= kStraight * edges_[edge].length)
           next->piece.coefficients.col(0) = here;
         else

@@ -20,7 +20,7 @@ struct SmoothOptions {
   /// For each number, its largest velocity and acceleration: the scales of lengths, and the limits
   /// with which times are estimated (curve_measure.h). Infinity: no limit. Empty: all are 1.
   Configuration velocity = {}, acceleration = {};
-  /// What smoothing makes small.
+  /// What smoothing reduces.
   Smoothing goal = Smoothing::time;
 };
 
@@ -28,7 +28,7 @@ struct SmoothOptions {
 struct SmoothPath {
   std::vector<CurvePiece> pieces;  ///< lines and rounded corners, from the first state to the last
   std::size_t corners = 0;         ///< corners of the path
-  std::size_t rounded = 0;         ///< those that became part of a proved curve
+  std::size_t rounded = 0;         ///< corners that became part of a proved curve
   std::size_t tests = 0;           ///< number of pieces that were tested
 };
 
@@ -41,14 +41,15 @@ struct SmoothPath {
 /// rounding; they are not tested here.
 ///
 /// 1. Each corner gets the largest curve that is proved. The first try takes half of the shorter
-///    edge; a try that fails is halved.
-/// 2. Corners take what their neighbours left of the edges.
+///    edge (up to 90 % of an edge at an end of the path), or less if `deviation` requires it. A try
+///    that fails is halved.
+/// 2. Then each corner may also take what its neighbours left of the edges.
 /// 3. Two adjacent curves, with the edge between them, are replaced by one curve if it is proved
 ///    and the estimated time is shorter.
 ///
 /// A coordinate that is a rotation keeps its slerp on each edge. A corner where such a coordinate
-/// moves on either edge is not rounded: a robot stops there.
-/// A circle's values are unwrapped: they are literal, and continue beyond ±π.
+/// moves on either edge is not rounded: a robot stops there. The values of circles in the result
+/// are unwrapped: they continue beyond ±π, and whole turns count.
 ///
 /// The result depends on the arguments only, as long as `stop` returns false. If `stop` returns
 /// true, no further curve is tested.

@@ -11,7 +11,8 @@ namespace corridor {
 /// The content of a solution file, which `corridor solve -o` writes and `corridor verify` reads:
 /// YAML, format corridor-solution-1 (keys in planner/README.md). Metres, radians.
 struct Solution {
-  /// The problem's file. In a solution file, its name is relative to the folder of that file.
+  /// The name of the problem's file. In a solution file, this name is relative to the folder of the
+  /// solution file.
   std::string problem;
   /// The digest of the problem and all its files; empty: not known (`.path` files).
   std::string digest;
@@ -35,7 +36,7 @@ Solution makeSolution(const Problem& problem, const SolveReport& report, std::st
 /// written whole or not at all.
 /// @throws InputError if it can't be written.
 void writeSolution(const Solution& solution, const std::filesystem::path& file);
-/// Returns the text of a solution file in the current folder.
+/// Returns the text of a solution file that is in the current folder.
 std::string solutionText(const Solution& solution);
 
 /// Returns whether a file begins like a solution file: the format is in its first 4 kB. Returns

@@ -40,9 +40,10 @@ constexpr std::size_t kGoalSamples = 32;
 /// The least share of planner.time that simplifying gets, even if the planner used all of it.
 constexpr double kSimplifyShare = 0.05;
 constexpr double kProgressPeriod = 0.1;  // s
-/// A clearance up to this one is aimed at directly, metres. Measured on arms: it is reached nearly
-/// everywhere. A larger one is approached by doubling, from this share at least.
-constexpr double kSmallClearance = 0.005, kClearanceSteps = 8;
+/// Metres: a clearance of up to kSmallClearance is aimed at directly. Measured on arms, it is
+/// reached nearly everywhere. A larger clearance is approached by doubling, from kSmallClearance or
+/// from the clearance divided by kClearanceDivisor, whichever is larger.
+constexpr double kSmallClearance = 0.005, kClearanceDivisor = 8;
 /// Minimises the length of a path in the space's distance. OMPL's own class samples ellipses
 /// directly, and throws for spaces in which it can't. For such a space this class samples the whole
 /// space and rejects states that can't improve the path.
@@ -76,8 +77,9 @@ std::optional<double> defaultRangeForArms(const ConfigurationSpace& space) {
   return range;
 }
 
-/// Returns the report's words for the trees: ", sphere", ", hull" or ", obb-binary, vertices, gjk,
-/// median". Leaves out defaults; returns "" for the default trees.
+/// Returns the words with which the report describes the trees: ", sphere", ", hull" or ",
+/// obb-binary, vertices, gjk, median". Defaults are left out, so the result is "" for the default
+/// trees.
 std::string treesText(const TreeNames& words) {
   const TreeNames trees = withDefaults(words), usual = withDefaults({trees.volume, "", ""});
   return (trees.volume == withDefaults({}).volume ? "" : ", " + trees.volume) +
@@ -192,7 +194,7 @@ void Solve::setUpEnds() {
   checkEnds();
   ob::ScopedState<> start(si_);
   space_->write(start_, start.get());
-  start_ = space_->read(start.get());  // as the path will have it: a half turn is −π
+  start_ = space_->read(start.get());  // as in the path: an angle of π becomes −π
   definition_->addStartState(start);
   definition_->setGoal(std::make_shared<OmplGoal>(si_, problem_, goalSamples_));
   if (options_.noteStillPairs) report_.notes = notesOnStillPairs(checker_, start_);
@@ -227,7 +229,8 @@ void Solve::setUpObjective() {
   definition_->setOptimizationObjective(objective);
 }
 
-/// Returns whether the time has run out, and remembers it: then the path depends on the clock.
+/// Returns whether the time has run out. If it has, notes that the path depends on the clock
+/// (`repeatable`).
 bool Solve::endsByTime(double until) {
   const bool over = clock_.seconds() >= until;
   if (over) endedByTime_ = true;
@@ -288,7 +291,7 @@ ob::PlannerStatus Solve::search(const ob::PlannerTerminationCondition& stop) {
         validator_->checkedMotions() < until)
       return status;
     definition_->clearSolutionPaths();
-    planner_->clear();  // its random numbers go on
+    planner_->clear();  // but its random numbers continue, so the new search differs
     until = validator_->checkedMotions();
     ++report_.restarts;
   }
@@ -376,7 +379,7 @@ Path Solve::withClearance(const Path& path, const std::function<bool()>& stop) {
   Path clear = path;
   // A large clearance is approached in steps, since a large step away from one obstacle often hits
   // another one.
-  for (double part = std::max(clearance / kClearanceSteps, std::min(clearance, kSmallClearance));;
+  for (double part = std::max(clearance / kClearanceDivisor, std::min(clearance, kSmallClearance));;
        part = std::min(2 * part, clearance)) {
     targets_.emplace(checker_, part, path.front(), path.back());
     onTarget_.emplace(

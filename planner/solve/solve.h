@@ -28,8 +28,8 @@ struct SolveOptions {
   std::function<void(const SolveProgress&)> progress;
   /// When this becomes true, solving ends soon, without a result.
   const std::atomic<bool>* interrupted = nullptr;
-  /// Whether to note pairs of bodies that never move against each other, and touch or are within
-  /// the margin (checker/still_pairs.h).
+  /// Whether to note pairs of bodies that never move relative to each other, and that touch or are
+  /// within the margin (checker/still_pairs.h).
   bool noteStillPairs = false;
   /// For messages: the origins of values that were not read from the problem's file, by key, such
   /// as "planner.name" → "--planner". The keys are planner.name, planner.params.KEY, start and
@@ -40,16 +40,16 @@ struct SolveOptions {
   /// goals, and the final certification, always use the `Checker`.
   std::function<void(const std::shared_ptr<ompl::base::SpaceInformation>&, const Checker&)>
       adaptChecking;
-  /// Whether the tests of edges are still those of the `Checker` after `adaptChecking`. The final
-  /// certification then relies on what they proved.
+  /// Whether the planner's edge tests are still those of the `Checker` after `adaptChecking`. If
+  /// so, the final certification relies on what these tests proved.
   bool adaptedTestsAreProofs = false;
   /// If set, a trajectory along the path is made, too.
   std::optional<TrajectoryFileKind> trajectory;
 };
 
 enum class SolveOutcome {
-  solved,  ///< OMPL calls the path exact, it joins start and goal, and its edges are certified
-           ///< (with `discrete` edges: not certified)
+  solved,  ///< OMPL calls the path exact; the path joins start and goal; its edges are certified,
+           ///< except with `discrete` edges
   notFound,
   approximate,  ///< the planner's path ends outside of the goal; it is not returned
   interrupted,
@@ -62,8 +62,8 @@ const char* nameOf(SolveOutcome outcome);
 struct SolveReport {
   SolveOutcome outcome = SolveOutcome::notFound;
   std::string why;              ///< why not solved, in one line; empty if solved
-  std::vector<Fault> warnings;  ///< goals that are not used, although others are, and why
-  std::vector<Note> notes;      ///< with `SolveOptions::noteStillPairs`
+  std::vector<Fault> warnings;  ///< why some goals are not used, if others are
+  std::vector<Note> notes;      ///< pairs, if `SolveOptions::noteStillPairs` is set
 
   Path path;  ///< empty unless solved; no rotation by more than 90° between two states
   bool certified = false;  ///< every edge of `path` was proved by the final certification
@@ -80,12 +80,13 @@ struct SolveReport {
   double trajectoryTime = 0;          ///< seconds in which the trajectory was made and proved
   double processorTime = 0;           ///< processor time of the whole solve, all threads
   double searchProcessorTime = 0;     ///< the part of processorTime in planner and simplifier
-  /// Counts of all queries: states, edges, undecided, and N_v, N_p of the cost model.
+  /// Counts of all queries: states, edges, undecided answers, and the numbers N_v and N_p of the
+  /// cost model (tests of volumes and of primitives).
   Counters counters;
   PathLength length;
   /// Unset if no clearance is preferred (keep_clearance.h).
   std::optional<PathClearance> clearance;
-  std::optional<MadeTrajectory> trajectory;  ///< set if solved and `SolveOptions::trajectory`
+  std::optional<MadeTrajectory> trajectory;  ///< set if solved and if requested by SolveOptions
   std::size_t rawStates = 0;   ///< states of the planner's own path, before simplifying
   PathLength rawLength;        ///< length of the planner's own path
   int version = 0;             ///< index of the simplified version returned; 0: the planner's own
@@ -98,8 +99,8 @@ struct SolveReport {
 /// certified.
 ///
 /// Planning ends within planner.time, but an edge test that is running when the time runs out is
-/// completed. Simplifying gets the rest of planner.time, but at least 5 % of planner.time. The
-/// final certification takes its time in addition.
+/// completed. Simplifying gets the rest of planner.time, but at least 5 % of planner.time. The time
+/// of the final certification comes in addition.
 ///
 /// The same problem and seed give the same path if `SolveReport::repeatable` is true. OMPL has one
 /// random seed per process: don't call this from two threads at once.

@@ -86,7 +86,8 @@ class Solve {
   bool maximisesClearance() const {
     return problem_.settings.objective == Objective::maxMinClearance;
   }
-  /// A fault of a value: at its line of the problem's file, or at its origin.
+  /// Returns the fault `text` of a value, at the value's line in the problem's file, or at its
+  /// origin (SolveOptions::valueOrigins).
   Fault faultAt(const std::string& place, const std::string& text) const;
   PlannerParameter parameterAt(const std::string& place, const std::string& key = "",
                                const std::string& value = "") const;
@@ -118,7 +119,7 @@ class Solve {
   std::shared_ptr<CountingMotionValidator> validator_;
   ompl::base::ProblemDefinitionPtr definition_;
   ompl::base::PlannerPtr planner_;
-  std::optional<EdgeMemory> edges_;  // set by `simplified`: the edges that are tested in it
+  std::optional<EdgeMemory> edges_;  // set by `simplified`: the edges tested there
   // Set if a clearance is preferred: the targets, and the edges that keep them.
   std::optional<ClearanceTargets> targets_;
   std::optional<EdgeMemory> onTarget_;

@@ -67,13 +67,14 @@ std::vector<std::size_t> readHeader(const std::vector<std::string>& header,
   return columns;
 }
 
-/// A line of numbers, and its number in the file.
+/// The numbers of a line of the file; `line` is counted from 1.
 struct Row {
   int line = 0;
   std::vector<double> values;
 };
 
-/// Reads all lines of numbers. Only `wrongWith` decides whether their count is right.
+/// Reads all lines of numbers. Only `wrongWith` decides whether a line has the right count of
+/// numbers.
 /// @param what  the content of a line: "state" or "edge".
 /// @param allowHeader  the first line may be a header.
 template <class WrongWith>

@@ -12,8 +12,9 @@ namespace corridor {
 // In files, states are rows of numbers in the order of the space's `numberNames`, in metres and
 // radians.
 
-/// Returns "SE3" or "SE2" if a state is the pose of a single rigid robot, planar joint or floating
-/// joint (x y z qx qy qz qw, or x y yaw), whose numbers need no names. Returns "" otherwise.
+/// Returns "SE3" (x y z qx qy qz qw) or "SE2" (x y yaw) if a state is one pose: that of a single
+/// rigid robot, planar joint or floating joint. The numbers of such a state need no names. Returns
+/// "" otherwise.
 std::string rigidSpaceOf(const ConfigurationSpace& space);
 
 /// Returns what is wrong with a row (its length, or a quaternion of zeros), or nullopt.
@@ -40,9 +41,9 @@ struct EdgeRow {
   Configuration from, to;
 };
 
-/// Reads a text file with one edge per line: the numbers of its first state, then those of its
-/// last. The format is that of `readStateRows`, without a header. @throws InputError with all
-/// faults. A file without edges is a fault.
+/// Reads a text file with one edge per line: the numbers of the edge's first state, then the
+/// numbers of its last state. The format is that of `readStateRows`, without a header. @throws
+/// InputError with all faults. A file without edges is a fault.
 std::vector<EdgeRow> readEdgeRows(const std::filesystem::path& file,
                                   const ConfigurationSpace& space);
 

@@ -16,8 +16,9 @@ namespace {
 using Real = long double;
 using RealQuaternion = Eigen::Matrix<Real, 4, 1>;
 
-/// Angles up to this count as equal. A path's quaternions are normalised in double, which rotates
-/// them by less than 32·2^-53 against the start or goal as read (derived in problem_goal.cpp).
+/// Orientations count as equal if the angle between them is at most this, rad. A path's quaternions
+/// are normalised in double, which rotates them by less than 32·2^-53 against the start or goal as
+/// read (derived in problem_goal.cpp).
 constexpr Real kSameAngle = 0x1p-46L;
 /// The radius of a goal region is enlarged by 2^-44 of the radius. Otherwise rounding would decide
 /// whether a state on its rim is inside.
@@ -116,13 +117,13 @@ bool isInGoal(const Problem& problem, const Away& away) {
   return isSame(away);
 }
 
-/// Returns by how much a state is not the start: "it is 0.1 m away"; "" if it is.
+/// Returns how far a state is from the start, such as "it is 0.1 m away"; "" if it is the start.
 std::string notStart(const Problem& problem, const Configuration& state) {
   const Away away = awayFrom(problem.model.space, problem.task.start, state);
   return isSame(away) ? "" : awayText(away);
 }
 
-/// Returns by how much a state is not in the nearest goal; "" if it is in a goal.
+/// Returns how far a state is from the nearest goal; "" if it is in a goal.
 std::string notInGoal(const Problem& problem, const Configuration& state) {
   Away nearest;
   nearest.distance = HUGE_VALL;
@@ -148,7 +149,8 @@ std::string boundsText(const Coordinate& c) {
   return "[" + shortest(c.lower) + ", " + shortest(c.upper) + "]";
 }
 
-/// Returns a hint if a value that is out of bounds would be in them in degrees, or "".
+/// Returns a hint if a value is out of bounds, but would be within them if it were meant in
+/// degrees. Otherwise returns "".
 std::string degreesHintOf(const Coordinate& c, double value) {
   return c.angular && fitsAsDegrees(value, c.lower, c.upper)
              ? "; is it in degrees? These files have radians"
@@ -302,7 +304,8 @@ VerifyReport verifySolution(const Problem& problem, const Solution& solution,
   checkBounds(problem, solution.path, report.violations);
   PathProblem plain = plainProblem(problem);
   plain.wantedClearance = solution.clearance;
-  // A path of many states, such as a trajectory's samples, needs some hundred queries an edge.
+  // A path of many states, such as samples of a trajectory, needs some hundred queries for each
+  // edge.
   plain.workLimit = std::max<std::uint64_t>(plain.workLimit, 2000 * solution.path.size());
   report.pathReport = verifyPath(plain, solution.path);
   report.verdict = report.violations.empty() ? report.pathReport.verdict : PathVerdict::refuted;
@@ -333,7 +336,7 @@ VerifyReport verifyTrajectory(const Problem& problem, TrajectoryRows rows,
   note("the trajectory does not end in the problem's goal: ", fromGoal);
   checkBounds(space, rows, curve, report.violations);
   PathProblem plain = plainProblem(problem);
-  // As for a path of many states.
+  // Needed for a curve of many pieces, as for a path of many states (verifySolution).
   plain.workLimit = std::max<std::uint64_t>(plain.workLimit, 2000 * curve.knots.size());
   // A curve outside the bounds is refuted already, and may be of any length: its times may have
   // another unit, for instance. Contacts that are found quickly are reported, too.

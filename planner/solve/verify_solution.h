@@ -36,15 +36,15 @@ struct VerifyReport {
   bool reachesGoal = true;  ///< the last state is in the goal
   double margin = 0;        ///< metres
   Configuration tube;       ///< the tube of the proof, as Task::tube
-  /// What lies between two rows of a trajectory; empty for a solution.
+  /// The interpolation between the rows of a trajectory; not set for a solution.
   std::optional<RowInterpolation> between;
   /// The time of each row of a trajectory, seconds; empty if it has no times. An edge of
   /// `pathReport` is the curve from one row to the next.
   std::vector<double> times;
-  /// The proved shares of the problem's limits over time, if a trajectory has times. The verdict
-  /// does not depend on them.
+  /// The shares of the problem's limits that the trajectory uses, proved for all times; set only
+  /// for a trajectory with times. The verdict does not depend on them.
   std::optional<LimitRatios> limits;
-  std::vector<Note> notes;  ///< of a trajectory: on its file, its start and its end
+  std::vector<Note> notes;  ///< notes on a trajectory's file, start and end
 };
 
 const char* nameOf(PathVerdict verdict);
@@ -67,9 +67,9 @@ PathProblem plainProblem(const Problem& problem);
 /// Verifies that the path begins at the start, ends in the goal and stays in the bounds. Then
 /// planner/verify verifies that every curve in the problem's tube around the path keeps the
 /// problem's margin. planner/verify shares no bounds, poses or trees with the checker of the
-/// planner. If the solution has a digest, it is first compared with that of the problem's files,
-/// which are read again.
-/// @throws InputError if one of these files can't be read.
+/// planner. If the solution has a digest, this is first compared with the digest of the problem's
+/// files, which are read again for this purpose.
+/// @throws InputError if one of the problem's files can't be read.
 VerifyReport verifySolution(const Problem& problem, const Solution& solution,
                             DigestMismatch other = DigestMismatch::refused);
 
@@ -77,9 +77,10 @@ VerifyReport verifySolution(const Problem& problem, const Solution& solution,
 /// in the problem's tube around the curve between the rows keeps the problem's margin. The whole
 /// curve must be within the bounds, not only its rows.
 ///
-/// A trajectory does not claim to solve the problem. So a note says if it does not begin at the
-/// problem's start, or does not end in the goal; the verdict does not depend on either.
-/// @param between nullopt: by the values that the file has (interpolationOf).
+/// A trajectory does not claim to solve the problem. If it does not begin at the problem's start,
+/// or does not end in the goal, a note says so, and the verdict is the same.
+/// @param between the interpolation between rows. nullopt: interpolationOf chooses it by the values
+/// that the rows have.
 /// @throws InputError: as interpolationOf and curveOf.
 VerifyReport verifyTrajectory(const Problem& problem, TrajectoryRows rows,
                               std::optional<RowInterpolation> between = {});

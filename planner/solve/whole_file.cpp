@@ -12,7 +12,7 @@
 namespace corridor {
 namespace {
 
-/// While it exists, this thread blocks the signals by which users end programs.
+/// While an object of this class exists, its thread blocks the signals by which users end programs.
 class SignalBlocker {
  public:
   SignalBlocker() {

@@ -65,8 +65,8 @@ std::string described(const Checker& checker, const Contact& pair) {
 
 /// Returns an upper bound, metres, of how much the tube can reduce the gap between two shapes: each
 /// joint between the two shapes adds its tube times its lever. The lever of a rotation reaches from
-/// the joint to the farthest point of the shape. The lever of a translation
-/// is 1 for a prismatic joint, and √n for n coordinates of a planar or floating joint.
+/// the joint to the farthest point of the shape. The lever of a translation is 1 for a prismatic
+/// joint, and √n for n coordinates of a planar or floating joint.
 double tubeOf(const Checker& checker, const Configuration& q, const Contact& pair) {
   const std::vector<Frame>& frames = checker.model().tree.frames;
   const std::vector<Transform> poses = framePoses(checker.model().tree, q);
@@ -104,8 +104,9 @@ double tubeOf(const Checker& checker, const Configuration& q, const Contact& pai
 
 /// Returns directions in which to search for a free configuration, as steps of its numbers. For a
 /// pose the directions are evenly spread positions (a circle, or a Fibonacci spiral on the sphere)
-/// with the orientation kept. Otherwise a direction changes one line or circle alone, or it is a
-/// random mixture of all; its largest step is 1, and rotations are kept.
+/// with the orientation kept. Otherwise a direction changes one line or circle alone, or is a
+/// random mixture of all lines and circles. Then the largest step of a number is 1, and rotations
+/// are kept.
 std::vector<Configuration> directions(const ConfigurationSpace& space) {
   constexpr int count = 64;
   const auto size = static_cast<Eigen::Index>(space.size());
@@ -146,8 +147,8 @@ struct NearestFree {
 };
 
 /// Rounds the numbers that the message prints to 4, 6, 9 or 12 digits: the fewest with which
-/// `exact` remains free. If it never does, nothing is rounded. Rounded are the position of a pose,
-/// or else the numbers that differ from `from`.
+/// `exact` remains free. If it remains free with none of them, nothing is rounded. For a pose, the
+/// position is rounded; otherwise the numbers that differ from `from`.
 NearestFree withFewDigits(const Configuration& exact, const Configuration& from, double away,
                           const Checker& checker) {
   const CoordinateGroup* const pose = onlyPose(checker.space());
@@ -163,8 +164,9 @@ NearestFree withFewDigits(const Configuration& exact, const Configuration& from,
   return {exact, 17, away};
 }
 
-/// Searches for a free configuration near q: on shells that grow by a tenth, then by bisection
-/// along the first free direction. Returns nullopt if none of the shells has one.
+/// Searches for a free configuration near q: on shells about q, each larger than the last by a
+/// tenth, and then by bisection along the first direction that is free. Returns nullopt if no free
+/// configuration was found on any shell.
 std::optional<NearestFree> nearestFree(const Configuration& q, const Checker& checker) {
   const auto freeAt = [&](const Configuration& step) { return checker.isProvedFree(q + step); };
   double size = 1, farthest = std::numbers::pi;  // for joints: rad or m
@@ -189,7 +191,8 @@ std::optional<NearestFree> nearestFree(const Configuration& q, const Checker& ch
   return std::nullopt;
 }
 
-/// The text has all numbers, so that those of an arm can be copied into the problem.
+/// The text has all numbers of a configuration, so that a user can copy those of an arm into the
+/// problem.
 std::string describedFree(const std::optional<NearestFree>& free, const Configuration& q,
                           const ConfigurationSpace& space) {
   if (const CoordinateGroup* pose = onlyPose(space)) {

@@ -26,7 +26,7 @@ Polynomial restricted(Polynomial p, double from, double to) {
   if (to < 1)  // the part [0, to]
     for (int level = 1; level <= n; ++level)
       for (int i = n; i >= level; --i) p.c[i] = (1 - to) * p.c[i - 1] + to * p.c[i];
-  if (from > 0) {  // the rest of it, from `from / to` on
+  if (from > 0) {  // of the part [0, to], the part from `from / to` on
     const double t = from / to;
     for (int level = 1; level <= n; ++level)
       for (int i = 0; i <= n - level; ++i) p.c[i] = (1 - t) * p.c[i] + t * p.c[i + 1];
@@ -60,7 +60,7 @@ Composition::Composition(const Polynomial& inner, int degree) {
   Polynomial rest = inner, one;
   for (int i = 0; i <= rest.degree; ++i) rest.c[i] = 1 - rest.c[i];
   one.c[0] = 1;
-  // basis_[i] = C(degree, i) · inner^i · rest^(degree − i)
+  // basis_[i] = C(degree, i) · inner^i · rest^(degree − i), with rest = 1 − inner
   basis_.push_back(one);
   for (int i = 1; i <= degree; ++i) basis_.push_back(product(basis_.back(), inner));
   Polynomial power = one;

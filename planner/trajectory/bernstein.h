@@ -37,15 +37,15 @@ inline void basis(int degree, double t, double* weights) {
   }
 }
 
-/// Returns the polynomial on [from, to], as a polynomial on [0, 1] (de Casteljau, twice).
+/// Returns the part of a polynomial on [from, to], as a polynomial on [0, 1] (de Casteljau, twice).
 Polynomial restricted(Polynomial p, double from, double to);
 /// Returns the same polynomial with a higher degree.
 Polynomial elevated(const Polynomial& p, int degree);
 Polynomial product(const Polynomial& a, const Polynomial& b);
-/// Composes polynomials outer(inner(t)) with the same inner one.
+/// Computes outer(inner(t)) for several outer polynomials and one inner polynomial.
 class Composition {
  public:
-  /// @param degree that of the outer polynomials. @pre its product with the inner degree is at most
+  /// @param degree the degree of the outer polynomials. @pre degree · inner.degree ≤
   /// kLargestDegree.
   Composition(const Polynomial& inner, int degree);
   Polynomial of(const Polynomial& outer) const;

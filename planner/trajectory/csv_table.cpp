@@ -69,8 +69,8 @@ bool isNumber(const std::string& word) {
   return parseNumber(word, Range::Any, value).empty();
 }
 
-/// A line of words is a header if it is not a row of numbers with a misspelt one: it has a known
-/// name, or no number at all. (A joint may have a number as its name.)
+/// Returns whether a line of words is a header: it has a known name, or no number at all. Any other
+/// line is a row of numbers, one of which may be misspelt. (A joint may have a number as its name.)
 bool isHeader(const std::vector<std::string>& words, const JointNames& names) {
   if (std::all_of(words.begin(), words.end(), isNumber)) return false;
   return std::none_of(words.begin(), words.end(), isNumber) ||

@@ -31,9 +31,9 @@ CurvePiece pieceOf(const RealMatrix& coefficients, const RealVector& error) {
   return piece;
 }
 
-/// Sets the rows of rotations: the first quaternion, and the last one. Rotations are not converted.
-/// Their error is that of a controller's slerp in doubles: below 200 roundings of a half turn
-/// (moving_joint.cpp counts those of such a formula), 2^-44 rad.
+/// Sets the coefficient rows of rotations: the first and the last quaternion of each. Rotations are
+/// not converted. Their error is that of a controller's slerp in doubles: below 200 roundings of a
+/// half turn (moving_joint.cpp counts those of such a formula), 2^-44 rad.
 void setRotations(const ConfigurationSpace& space, const Configuration& from,
                   const Configuration& to, CurvePiece& piece) {
   for (const Coordinate& c : space.coordinates()) {
@@ -115,7 +115,7 @@ CurvePiece quinticPiece(const ConfigurationSpace& space, const CurvePoint& from,
 CurvePiece powerPiece(const Eigen::MatrixXd& coefficients, double duration) {
   const Eigen::Index n = coefficients.cols() - 1;
   requireDegree(n);
-  RealMatrix terms = coefficients.cast<Real>();  // of τ = t/duration
+  RealMatrix terms = coefficients.cast<Real>();  // of the power series in τ = t/duration
   Real power = 1;
   for (Eigen::Index k = 0; k <= n; ++k, power *= duration) terms.col(k) *= power;
   // c_i = Σ_{k ≤ i} C(i, k) / C(n, k) · terms_k (Farouki and Rajan 1987, equation 3).

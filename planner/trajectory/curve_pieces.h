@@ -4,19 +4,21 @@
 
 #include "planner/robot/curve.h"
 
-/// Conversions to pieces of curves. A piece means a polynomial in real arithmetic; its `error`
-/// bounds how far that polynomial is from the curve that was given, and from what a controller
-/// computes that evaluates the same formula in doubles.
+/// Conversions to pieces of curves. A piece stands for a polynomial in real arithmetic. Its `error`
+/// bounds the distance of this polynomial from the given curve, and from the positions of a
+/// controller that evaluates the same formula in doubles.
 ///
-/// Error of a Hermite piece, u = 2^-53, T the duration. A controller computes the coefficients of
-/// the power series in t, such as (−3p0 + 3p1 − 2v0·T − v1·T)/T², and sums them up (the controllers
-/// of ros_control and ros2_control do). Its result is a sum of terms that are p0, p1, v0·T, v1·T,
-/// a0·T² or a1·T² times a factor and a power of τ = t/T in [0, 1]. Each term is off by a factor
-/// (1 + u)^±n, where n is the number of the term's roundings, plus 8 for each factor T of v·T and
-/// a·T²: the controller's T may be off by 8u·T. For each of the six quantities, add up the factors
-/// of its terms, and let f be the largest of these sums. The sum of all terms is at most f·M, with
+/// The error of a Hermite piece: let u = 2^-53, let T be the duration, and let p, v and a be the
+/// position, velocity and acceleration at the start (0) and at the end (1). A controller computes
+/// the coefficients of the power series in t, such as (−3p0 + 3p1 − 2v0·T − v1·T)/T², and sums them
+/// up (the controllers of ros_control and ros2_control do). Its result is a sum of terms that are
+/// p0, p1, v0·T, v1·T, a0·T² or a1·T² times a factor and a power of τ = t/T in [0, 1]. Each term is
+/// off by a factor (1 + u)^±n, where n is the number of the term's roundings, plus 8 for each
+/// factor T of v·T and a·T²: the controller's T may be off by 8u·T. For each of the six quantities,
+/// add up the absolute factors of its terms, and let f be the largest of these sums. The sum of the
+/// absolute values of all terms is at most f·M, with
 ///     M = |p0| + |p1| + T(|v0| + |v1|) + T²(|a0| + |a1|).
-/// Hence the error n·f·u·M:
+/// Hence the error is at most n·f·u·M:
 ///
 /// | piece | n | f | n·f | bound |
 /// |---|---|---|---|---|
@@ -31,13 +33,14 @@
 /// The bounds have room for the terms of second order, and for the rounding of the Bernstein
 /// coefficients, which are computed in long double and rounded once: at most 2u·M.
 ///
-/// A controller that takes the duration from times in doubles knows it less exactly: to δ seconds.
-/// Its curve then has T + δ in the terms v·T and a·T². The polynomials that these are multiplied by
-/// are below 1 on [0, 1]. So it deviates by at most δ·(|v0| + |v1|) + (2T + δ)·δ·(|a0| + |a1|): the
-/// functions below add this for their `durationError`.
+/// A controller that takes the duration from times in doubles knows the duration less exactly: with
+/// an error of up to δ seconds. The controller's curve then has up to T + δ in place of T in the
+/// terms v·T and a·T². These terms are multiplied by polynomials that are below 1 on [0, 1]. So the
+/// controller's curve deviates by at most δ·(|v0| + |v1|) + (2T + δ)·δ·(|a0| + |a1|). The functions
+/// below add this for δ = `durationError`.
 namespace corridor {
 
-/// What a trajectory says about one time. m, rad, s. Empty vectors: unknown.
+/// The state of a trajectory at one time, in m, rad and s. Empty vectors: unknown.
 struct CurvePoint {
   Configuration position, velocity, acceleration;
 };
@@ -52,7 +55,8 @@ CurvePiece linearPiece(const ConfigurationSpace& space, const Configuration& fro
 /// @param durationError seconds: how far a controller's duration may be from `duration`.
 CurvePiece cubicPiece(const ConfigurationSpace& space, const CurvePoint& from, const CurvePoint& to,
                       long double duration, long double durationError = 0);
-/// Returns the same, with polynomials of degree 5 that have the accelerations at both ends, too.
+/// Returns the polynomials of degree 5 with the positions, velocities and accelerations at both
+/// ends. All else is as in `cubicPiece`.
 CurvePiece quinticPiece(const ConfigurationSpace& space, const CurvePoint& from,
                         const CurvePoint& to, long double duration, long double durationError = 0);
 
@@ -61,8 +65,8 @@ CurvePiece quinticPiece(const ConfigurationSpace& space, const CurvePoint& from,
 ///
 /// The error bound is 2^-47·Σ_k |coefficients(row, k)|·duration^k, for degrees up to 9. It covers
 /// evaluation by Horner's rule in doubles: at most 18 roundings. The conversion is a weighted mean
-/// of the terms, in long double, rounded once: below 2u. For coefficients that cancel, the bound is
-/// large against the values: a power series is ill-conditioned.
+/// of the terms, in long double, rounded once: an error below 2u of the same sum. If coefficients
+/// cancel, the bound is large compared with the values: a power series is ill-conditioned.
 /// @throws std::invalid_argument for a degree that CurvePiece does not have.
 CurvePiece powerPiece(const Eigen::MatrixXd& coefficients, double duration);
 

@@ -15,10 +15,10 @@ namespace corridor {
 namespace {
 
 /// An interval between rows is halved if it exceeds a limit by more than this factor. If the law is
-/// made slower, it gets this much slower than needed, and intervals may not exceed limits at all:
-/// then the next attempt succeeds.
+/// slowed down, it becomes slower than needed by this factor, and then no interval may exceed a
+/// limit. So the next attempt succeeds.
 constexpr double kMostExcess = 1.0005;
-/// Halvings of one segment of the law.
+/// The largest number of times that one segment of the law is halved.
 constexpr int kLevels = 10;
 constexpr std::size_t kMostRows = 1'000'000;
 
@@ -69,8 +69,9 @@ class Rows {
     std::stable_sort(all.begin(), all.end(), [&](const LawTime& a, const LawTime& b) {
       return clock_.timeOf(a) < clock_.timeOf(b);
     });
-    // Rows that are nearer than this are one: stops that a period meets up to rounding. With a
-    // rate, rows that are very near each other would have derivatives that rounding spoils.
+    // Rows that are closer in time than this are merged, such as a stop and a regular row that
+    // differ by rounding only. With a rate, rounding would spoil the derivatives at rows that are
+    // very close together.
     const double least = std::max(1e-9 * end, options_.rate ? 1e-3 / *options_.rate : 0);
     for (const LawTime& t : all)
       if (required_.empty() || clock_.timeOf(t) > clock_.timeOf(required_.back()) + least)
@@ -87,7 +88,8 @@ class Rows {
     const TimedRow first = rows.back(), last = clock_.row(to);
     const double distance = rowDeviation(segments_, view_, from, to, first, last, options_.degree);
     const bool isNear = distance <= options_.deviation;
-    // A switch inside one segment can't be: there, only the deviation is a reason to halve.
+    // A law does not switch inside a segment. So in one segment, only the deviation is a reason to
+    // halve.
     const bool oneSegment =
         to.segment == from.segment || (to.segment == from.segment + 1 && to.since == 0);
     const bool fine = isNear && (usesLittle(first, last) || (oneSegment && halvings < kLevels - 2));
@@ -136,8 +138,9 @@ class Rows {
         if (sharesOf(at, *limits[kind], view_.space()).maxCoeff() > excess_) return false;
       }
     if (limits_.links.empty()) return true;
-    // The Bernstein coefficients of the velocity, each with the position at either row: near the
-    // speeds between the rows if these are near each other.
+    // The speeds between the rows are estimated by the Bernstein coefficients of the velocity. The
+    // first half of them is evaluated at the first row's position, the others at the last row's. If
+    // the rows are near each other, these estimates are near the speeds.
     for (int i = 0; i <= degrees[0]; ++i) {
       Configuration& velocity = values[0][static_cast<std::size_t>(i)];
       const TimedRow& row = 2 * i < degrees[0] ? first : last;
@@ -190,7 +193,7 @@ void alignRuns(TimeLaw& law, double period) {
   law.stopTimes = std::move(stops);
 }
 
-/// Returns the factor for all times with which the limits hold.
+/// Returns the factor by which all times must be multiplied so that the limits hold.
 double neededFactor(const LimitRatios& ratios) {
   return std::max({ratios.velocity.share, ratios.link.share, std::sqrt(ratios.acceleration.share),
                    std::cbrt(ratios.jerk.share)});

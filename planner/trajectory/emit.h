@@ -26,7 +26,8 @@ struct Emission {
   /// A bound of the distance of the rows' curve from the path, in each number, at every instant, up
   /// to rounding; rad and m. For rotations: the angle.
   double deviation = 0;
-  /// The largest share of each limit that is used at any instant, proved; at most 1.
+  /// Proved bounds of the largest share of each limit that is used at any instant; at most 1.
+  /// Positions are no shares (see LimitRatios): if one leaves its bounds, this is no fault.
   LimitRatios ratios;
   /// The factor by which the law was slowed down, because it exceeded limits between the points of
   /// its grid; 1: not at all.
@@ -41,13 +42,15 @@ struct Emission {
 ///    curve between the rows is within `deviation` of the path, and uses no limit much more than
 ///    the law does. With a rate, each run between two stops first takes up to one period longer, so
 ///    that every stop is at a row. Rows are added where the deviation needs them.
-/// 2. Distance: on each interval of rows ∩ law ∩ pieces, the difference of the rows' curve and of
-///    q(τ(t)) is a polynomial. Its Bernstein coefficients bound it.
+/// 2. Distance: on each time interval between two rows that is in one segment of the law and in one
+///    piece, the difference of the rows' curve and of the path q(τ(t)) is a polynomial. The
+///    Bernstein coefficients of this polynomial bound the distance.
 /// 3. Limits: limits_proof.h. If one is exceeded by a factor r, all times are multiplied by
-///    max(r_velocity, r_acceleration^(1/2), r_jerk^(1/3)), and the proof is repeated.
+///    max(r_velocity, r_link, r_acceleration^(1/2), r_jerk^(1/3)), and the proof is repeated. With
+///    a rate, the law is slowed down instead, and rows are chosen again.
 ///
-/// A law that does not start and end at rest can't be stretched, since this would change its rates.
-/// It is made again with smaller limits instead (`stretch` is 1 then).
+/// A law that does not start and end at rest can't be stretched, since this would change its rates
+/// at the ends. The law is made again with smaller limits instead (`stretch` is 1 then).
 /// @pre law.fault is empty, and the law was made for this path and these limits.
 Emission emitRows(const TimeLaw& law, const std::vector<CurvePiece>& path,
                   const ConfigurationSpace& space, const JointLimits& limits,

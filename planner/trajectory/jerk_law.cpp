@@ -8,7 +8,7 @@
 namespace corridor {
 namespace {
 
-/// Intervals in each piece, at least: a rounded corner has a slow part in its middle.
+/// The least number of intervals in each piece: a rounded corner has a slow part in its middle.
 constexpr int kIntervalsOfPiece = 6;
 /// Intervals of a run, in the first and in the second search, before they are halved.
 constexpr double kFewIntervals = 64, kMostIntervals = 200;

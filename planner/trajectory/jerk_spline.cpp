@@ -99,8 +99,9 @@ void JerkSpline::set(const std::vector<PathState>& states) {
   setRows();
 }
 
-/// The Bernstein coefficients of y in an interval. The second one is the spline's coefficient; the
-/// others divide the way to its neighbours as the knots do.
+/// The Bernstein coefficients of y in an interval. The second one is the spline's coefficient. The
+/// first and the third one lie between it and its two neighbours, at the shares in `blend_`, which
+/// the widths of the intervals determine.
 JerkSpline::Triple JerkSpline::bernstein(const std::vector<double>& c, std::size_t i) const {
   const auto& [left, right] = blend_[i];
   return {c[i] + left * (c[i + 1] - c[i]), c[i + 1], c[i + 1] + right * (c[i + 2] - c[i + 1])};
@@ -309,10 +310,11 @@ JerkSpline::Local JerkSpline::barrierAt(std::size_t place, const Value& value) c
     local.gradient[1] += 2 * au / gap;
     local.addSquare(4 / (gap * gap), ay, au, 0);
     for (const Row* r = row; r != end; ++r) local.addSquare(2 / gap, r->second, r->first, 0);
-    // −log(1 − y·|v|²) is not. In y and ν = |v|, with p = y·ν² and g = 1 − p, its second
-    // derivatives by (yν) and (νν) are 2ν/g² and 2y(1 + p)/g². With (2ν/g²)²/(2y(1 + p)/g²) in
-    // place of (yy), which is larger, the Hessian is semidefinite: 2y(1 + p)/g² times the square of
-    // dν + ν/(y(1 + p))·dy. Here ν·dν = vᵀdv. The other directions of v have 2y/g.
+    // −log(1 − y·|v|²) is not convex. In y and ν = |v|, with p = y·ν² and g = 1 − p, its second
+    // derivatives by (yν) and (νν) are 2ν/g² and 2y(1 + p)/g². The derivative by (yy) is replaced
+    // by (2ν/g²)²/(2y(1 + p)/g²), which is larger. Then the Hessian is positive semidefinite: 2y(1
+    // + p)/g² times the square of dν + ν/(y(1 + p))·dy. Here ν·dν = vᵀdv. The other directions of v
+    // have 2y/g.
     const double share = y * vv, rest = 1 - share;
     local.gradient[0] += (vv + 2 * y * vy) / rest;
     local.gradient[1] += 2 * y * vu / rest;
@@ -332,7 +334,8 @@ JerkSpline::Local JerkSpline::barrierAt(std::size_t place, const Value& value) c
 bool JerkSpline::improve(double weight) {
   Band band(c_.size(), {0, 0, 0});
   std::vector<double> step(c_.size(), 0);
-  // Adds derivatives by values, each of which is the sum of three coefficients times a row.
+  // Adds the derivatives by the values (y, u, w) at a place. Each value is a row of three factors
+  // times the three coefficients from i on.
   const auto add = [&](std::size_t i, const std::array<Triple, 3>& rows, const Local& local) {
     const auto& H = local.hessian;
     const std::array<Triple, 3> full{{{H[0], H[1], H[2]}, {H[1], H[3], H[4]}, {H[2], H[4], H[5]}}};

@@ -22,20 +22,21 @@ class JerkSpline {
   JerkSpline(const PathView& view, const PathRun& run, const JointLimits& limits,
              const KinematicTree& tree);
 
-  /// Sets knots, and a first spline, from states of a law: ascending s, one at each end of a piece.
+  /// Sets knots, and a first spline, from states of a law. @pre s ascends, and one state is at each
+  /// end of a piece.
   void set(const std::vector<PathState>& states);
   /// Slows the law down as a whole until it is strictly within the limits.
   /// @returns false if no factor is small enough.
   bool slowToLimits();
-  /// Shortens the time: minimises weight·time + barrier. @pre it is strictly within the limits.
-  /// @param weight per knot, relative to the duration. The larger it is, the closer to the optimum
-  /// the time gets: it exceeds the optimum by a share of about (terms of the barrier per knot) /
-  /// weight.
+  /// Shortens the time: minimises weight·(number of knots)·time/(present duration) + barrier. @pre
+  /// the law is strictly within the limits.
+  /// @param weight the larger it is, the closer to the optimum the time gets. The time exceeds the
+  /// optimum by a share of about (terms of the barrier per knot) / weight.
   void shorten(double weight);
-  /// Halves intervals: those that exceed a limit at one or three fourths of their width, those in
-  /// which y varies much, and those that take longer than `shortest` seconds and in which the jerk
-  /// varies much, or at whose ends it jumps. The law may exceed limits in the middle of the new
-  /// intervals. @returns whether any was halved.
+  /// Halves intervals of three kinds: those that exceed a limit at one or three fourths of their
+  /// width; those in which y varies much; and those that take longer than `shortest` seconds, if
+  /// the jerk varies much in them or jumps at their ends. The law may exceed limits in the middle
+  /// of the new intervals. @returns whether any interval was halved.
   bool refine(double shortest);
 
   double duration() const { return durationOf(c_); }
@@ -100,7 +101,7 @@ class JerkSpline {
   std::vector<std::array<double, 2>> blend_;  // of each interval: see bernstein()
   std::vector<double> c_;                     // coefficients of the spline: intervals + 2
   std::vector<Row> rows_;                     // three places in each interval
-  std::vector<double> maxY_;                  // y, by velocities, at each place
+  std::vector<double> maxY_;                  // the largest y that velocities allow, at each place
 };
 
 }  // namespace corridor

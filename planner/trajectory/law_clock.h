@@ -26,7 +26,7 @@ class LawClock {
   LawTime at(double time) const;
   LawTime end() const { return {segments_.size() - 1, segments_.back().duration}; }
   /// Returns the row of a time. At the end of the path and at ends of pieces, the position is the
-  /// coefficient itself, bit for bit.
+  /// piece's first or last coefficient itself, bit for bit.
   TimedRow row(const LawTime& t) const;
 
  private:

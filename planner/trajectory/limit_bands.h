@@ -23,8 +23,8 @@ struct LimitedNumbers {
 };
 std::vector<LimitedNumbers> limitedNumbers(const ConfigurationSpace& space);
 
-/// Returns for each number which part of its limit `values` uses. For a position, the length of its
-/// vector counts, and the other numbers have 0; the same holds for rotations.
+/// Returns the share of its limit that each number of `values` uses. For a position or a rotation,
+/// the length of its vector counts: its first number has the share, and its other numbers have 0.
 Configuration sharesOf(const Configuration& values, const Configuration& limits,
                        const ConfigurationSpace& space);
 
@@ -34,7 +34,7 @@ class LimitBands {
   LimitBands(const PathView& view, const JointLimits& limits, const KinematicTree& tree);
 
   std::size_t count() const { return count_; }
-  /// Whether limits vary along a straight line: those of links do.
+  /// Whether limits vary along a straight line: limits of link speeds do.
   bool varies() const { return !limits_.links.empty(); }
   /// Computes the bands of a point of the path.
   /// @param length ds/dτ of the piece.

@@ -46,7 +46,8 @@ struct Vectors {
   }
   double attained() const { return std::max(length(0), length(degree)) - error; }
   /// Splits at 1/2 by de Casteljau's algorithm; this becomes the first half. Each of `degree`
-  /// levels rounds once, by at most 2^-53 of a length that is below the bound; three numbers: ×2.
+  /// levels rounds once, by at most 2^-53 of a length that is below the bound. For vectors of three
+  /// numbers, twice that suffices.
   Vectors split() {
     Vectors second = *this;
     const double rounding = degree * 0x1p-52 * bound();
@@ -64,7 +65,8 @@ struct Vectors {
 
 /// Returns a bound of the largest length on [0, 1]. Parts whose bound is at most `known` are not
 /// improved.
-/// @param limit a bound just above it is improved further, unless it is exceeded.
+/// @param limit a bound above `limit` is improved as far as possible, unless `known` or an attained
+/// length exceeds `limit`.
 double largestLength(Vectors part, double known, double limit, int halvings = kBoundHalvings) {
   const double bound = part.bound();
   if (bound <= known || halvings == 0 || part.degree == 0 || !std::isfinite(bound)) return bound;
@@ -283,8 +285,8 @@ class Prover {
     const double attained = linkSpeedShares(tree_, {link}, q, v).front();
     const double largestAngle = q.cwiseAbs().maxCoeff();
     // The speed changes by at most half of the time times the acceleration. 2^-40 of the largest
-    // speed is far above the rounding of kinematics, some u in each of up to 100 frames, except for
-    // that of large angles: 2u of each angle turns all points after it.
+    // speed is far above the rounding of kinematics, some u in each of up to 100 frames. Only large
+    // angles round more: an error of 2u of each angle turns all points after the joint.
     const double bound = attained + ((b - a) / 2 * duration * bounds.acceleration +
                                      (0x1p-40 + 0x1p-45 * largestAngle) * bounds.speed) /
                                         link.speed * (1 + 0x1p-40);

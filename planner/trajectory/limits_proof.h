@@ -28,7 +28,8 @@ struct LimitShare {
 /// Upper bounds, valid at every instant.
 struct LimitRatios {
   LimitShare velocity, acceleration, jerk, link;
-  /// The largest distance by which a line leaves [lower, upper]; m or rad; share 0: none does.
+  /// Here `share` is no share, but the largest distance by which a line coordinate leaves its
+  /// bounds [lower, upper], in m or rad. 0: none does.
   LimitShare position;
 };
 
@@ -38,16 +39,17 @@ struct LimitRatios {
 ///   such a curve has no bound, and its share is infinite if it is limited and rows have a bend);
 /// - degree 3: the cubic Hermite polynomial of positions and velocities;
 /// - degree 5: the quintic Hermite polynomial of positions, velocities and accelerations.
-/// Its derivatives are Bernstein polynomials. Their coefficients bound them (for positions of
-/// planar and floating joints: the lengths of the coefficient vectors). An interval is halved until
-/// the bound is at most 1, or is within 0.01 % of a value that is attained. All roundings of the
-/// coefficients are included (limits_proof.cpp). The cubic's jerk is not bounded: its acceleration
-/// jumps at rows.
+/// The derivatives of this curve are Bernstein polynomials, which their coefficients bound (for
+/// positions of planar and floating joints: the lengths of the coefficient vectors). An interval is
+/// halved until the bound is at most 1, or is within 0.01 % of a value that is attained. All
+/// roundings of the coefficients are included (limits_proof.cpp). The cubic's jerk is not bounded:
+/// its acceleration jumps at rows.
 /// - Rotations are slerps of constant rate between rows (curve.h), so their velocity jumps at rows.
-///   Bounded: the rate; and the change of rate from one interval to the next, divided by the mean
-///   of the two durations, in place of an acceleration.
+///   The rate is bounded. In place of an acceleration, the change of the rate from one interval to
+///   the next is bounded, divided by the mean of the two durations.
 /// - Speeds of links: the largest speed of the points of LinkSpeed, from the Jacobian in the middle
-///   of an interval and a bound of the points' acceleration, halved as above.
+///   of an interval and a bound of the points' acceleration. Intervals are halved as for the other
+///   limits.
 /// @pre at least one row; ascending times; finite numbers.
 LimitRatios proveLimits(const std::vector<TimedRow>& rows, int degree,
                         const ConfigurationSpace& space, const JointLimits& limits,

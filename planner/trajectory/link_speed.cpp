@@ -87,9 +87,10 @@ std::vector<double> linkSpeedShares(const KinematicTree& tree, const std::vector
 PointBounds pointBounds(const KinematicTree& tree, const LinkSpeed& link,
                         const Configuration& reach, const Configuration& velocity,
                         const Configuration& acceleration) {
-  // Walking from the link to the world, each frame adds a rotation with |ω| ≤ w, |ω̇| ≤ e about its
-  // origin, and a translation with |d| ≤ l, |ḋ| ≤ v, |d̈| ≤ c, to a point that has |r| ≤ L, |ṙ| ≤ V
-  // and |r̈| ≤ A relative to it. The point's new bounds are those of the sum and of the products:
+  // On the way from the link to the world, each frame adds a rotation with |ω| ≤ w, |ω̇| ≤ e about
+  // its origin, and a translation with |d| ≤ l, |ḋ| ≤ v, |d̈| ≤ c, to a point. Relative to that
+  // origin, the point has |r| ≤ L, |ṙ| ≤ V and |r̈| ≤ A. The point's new bounds are those of the
+  // sum and of the products:
   //   r ← R·r + d;  L + l;  V + w·L + v;  A + 2·w·V + e·L + w²·L + c.
   double length = 0, speed = 0, result = 0;
   for (const Eigen::Vector3d& point : link.points) length = std::max(length, point.norm());

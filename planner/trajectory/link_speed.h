@@ -10,8 +10,9 @@
 namespace corridor {
 
 /// Returns, for each link with a limit, the speed of its fastest point as a share of the limit.
-/// @param velocity q̇, or dq/ds for shares per ṡ; a rotation has its rotation vector, in the
-/// coordinates of the frame before the joint, in the first three of its numbers.
+/// @param velocity q̇; or dq/ds, and then the result is the share for ṡ = 1. The first three of a
+/// rotation's four numbers are its angular velocity, in the coordinates of the frame before the
+/// joint.
 std::vector<double> linkSpeedShares(const KinematicTree& tree, const std::vector<LinkSpeed>& links,
                                     const Configuration& q, const Configuration& velocity);
 

@@ -8,8 +8,8 @@ namespace {
 
 /// Returns the second derivatives m of the natural spline at the states, one column each. Inside,
 ///   h_{i−1}·m_{i−1} + 2(h_{i−1} + h_i)·m_i + h_i·m_{i+1} = 6(d_i − d_{i−1}),
-/// where d_i = (q_{i+1} − q_i)/h_i. At both ends m is 0. The matrix is diagonally dominant, so
-/// elimination needs no pivots.
+/// where h_i = |q_{i+1} − q_i| and d_i = (q_{i+1} − q_i)/h_i. At both ends m is 0. The matrix is
+/// diagonally dominant, so elimination needs no pivots.
 Eigen::MatrixXd secondDerivatives(const std::vector<Configuration>& q,
                                   const std::vector<double>& h) {
   const std::size_t n = h.size();
@@ -35,7 +35,8 @@ double largestSpeed(const CurvePiece& piece) {
   return degree * (c.rightCols(degree) - c.leftCols(degree)).colwise().norm().maxCoeff();
 }
 
-/// Returns the first piece with a sample that touches, or the number of pieces.
+/// Returns the index of the first piece with a sample that touches something, or the number of
+/// pieces.
 std::size_t firstTouching(const ConfigurationSpace& space, const std::vector<CurvePiece>& pieces,
                           const std::function<bool(const Configuration&)>& touches, double step) {
   for (std::size_t k = 0; k < pieces.size(); ++k) {

@@ -6,8 +6,8 @@
 namespace corridor {
 namespace {
 
-/// A tangent below this share of the largest one of its piece counts as 0. It is the rounding of
-/// coefficients that were computed from values: 2^-52 times some tens.
+/// A tangent below this share of the largest one of its piece counts as 0. Coefficients that were
+/// computed from values have rounding errors of some tens of 2^-52, which this share exceeds.
 constexpr double kNoTangent = 1e-13;
 
 struct End {

@@ -15,8 +15,8 @@ struct PathRun {
     double length = 0;  ///< > 0
   };
   std::vector<Part> parts;
-  /// Whether dq/ds is 0 at that end, and d²q/ds² is not. Then the robot is at rest there whatever ṡ
-  /// is, so ṡ need not be 0.
+  /// Whether dq/ds is 0 at the start (end) of the run, and d²q/ds² is not. Then the robot is at
+  /// rest there whatever ṡ is, so ṡ need not be 0.
   bool restsAtStart = false, restsAtEnd = false;
 };
 

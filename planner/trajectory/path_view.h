@@ -30,7 +30,8 @@ class PathView {
   bool isStraight(std::size_t piece) const;
   /// Indices of the first numbers of rotations.
   const std::vector<Eigen::Index>& rotations() const { return rotations_; }
-  /// Returns the rotation vector (radians) from the start to the end of a piece, for rotation r.
+  /// Returns the rotation vector (radians) from the start to the end of a piece. @param r index
+  /// into `rotations()`.
   Eigen::Vector3d turn(std::size_t piece, std::size_t r) const {
     return turns_[piece * rotations_.size() + r];
   }

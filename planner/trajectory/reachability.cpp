@@ -59,7 +59,8 @@ class Cell {
 
   /// Returns the x from which `next` can be reached; lower > upper if there is none. The set of
   /// pairs is convex, so the width of u is a concave function of x, and Newton's method from
-  /// outside never steps over its roots. It ends at one, since the function is piecewise linear.
+  /// outside never steps over a root of this function. The method ends at a root, since the
+  /// function is piecewise linear.
   Interval reachableFrom(const Interval& next) const {
     double top = cap_;
     if (!std::isfinite(top)) {
@@ -84,8 +85,8 @@ class Cell {
  private:
   void add(double a, double b) {
     const double size = std::abs(a), slope = a < 0 ? -b : b;
-    // A band with hardly any u bounds x alone. Within the interval, |u| is at most x/(2·width), so
-    // its share of the limit is at most 1e-9 where this is decided.
+    // A band with a negligible coefficient of u counts as a bound of x alone. Within the interval,
+    // |u| is at most x/(2·width), so the term with u is then at most 1e-9 of the limit.
     if (size <= 1e-9 * (2 * width_ * std::abs(b)) || size < 1e-200)
       cap_ = std::min(cap_, std::abs(b) > 0 ? 1 / std::abs(b) : kInfinity);
     else
@@ -133,7 +134,7 @@ Profile fastestProfile(const LimitGrid& grid, double start, double end) {
   std::vector<Interval> sets(n);
   const double last = grid.xMax[n - 1];
   sets[n - 1] = std::isfinite(end) ? Interval{end, end} : Interval{0, last};
-  // Rates that are given may be at the limit itself, up to their rounding.
+  // A given rate may be at the limit itself, up to its rounding.
   if (std::isfinite(end) && end > last * (1 + 0x1p-40))
     return fail(Profile::Failure::end, n - 1, {0, last});
   Cell cell;

@@ -7,8 +7,8 @@ namespace corridor {
 
 /// The limits at the nodes of a grid of path parameters s, in terms of x = ṡ² and u = s̈:
 ///   x ≤ xMax  and  |a_k·u + b_k·x| ≤ 1 for each band k.
-/// The nodes of an interval have limits of their own, since q″ may jump at a node: the node where
-/// two pieces meet is in the grid twice, with an interval of length 0 between.
+/// q″ may jump where two pieces meet. So a node where two pieces meet is in the grid twice, once
+/// with the limits of each piece, and an interval of length 0 is between the two.
 struct LimitGrid {
   std::size_t bands = 0;     ///< per node
   std::vector<double> s;     ///< ascending; equal only where pieces meet
@@ -20,10 +20,11 @@ struct LimitGrid {
 /// The result of a reachability analysis.
 struct Profile {
   std::vector<double> x;  ///< ṡ² at each node
-  std::vector<double> u;  ///< s̈ in each interval, one less; 0 in intervals of length 0
+  std::vector<double> u;  ///< s̈ in each interval, one fewer than nodes; 0 if its length is 0
   enum class Failure { none, start, end, stuck } failure = Failure::none;
-  /// `start` and `end`: the interval of x at the node from which a profile exists; empty if lower >
-  /// upper. `end`: the largest x that the limits at the node allow.
+  /// `start`: the interval of x at node 0 from which a profile exists. `end` at the last node: 0,
+  /// and the largest x that the limits there allow. `end` at another node, and `stuck`: the
+  /// interval of x at the next node from which the rest of a profile exists.
   double lower = 0, upper = 0;
   std::size_t node = 0;  ///< where no profile exists; `stuck`: where x can only be 0
 };

@@ -32,7 +32,8 @@ BoundedPolynomial polynomial(const std::array<Sum, N>& sums) {
   return result;
 }
 
-/// Returns the derivative of a polynomial of degree N − 1 over a duration 1/perTime·(N − 1).
+/// Returns the derivative by time of a polynomial of degree N − 1. @param perTime (N − 1)/T, where
+/// T is the duration in which the polynomial's parameter goes from 0 to 1.
 template <std::size_t N>
 std::array<Sum, N - 1> derivative(const std::array<Sum, N>& sums, double perTime) {
   std::array<Sum, N - 1> result;

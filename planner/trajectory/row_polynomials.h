@@ -19,11 +19,12 @@ struct RowPolynomials {
   /// small against the motion instead of the position.
   BoundedPolynomial rise;
   std::array<double, 6> near{};
-  BoundedPolynomial velocity, acceleration, jerk;  ///< by time
+  BoundedPolynomial velocity, acceleration, jerk;  ///< derivatives by time
 };
 
-/// @param degree 1, 3 or 5. The derivatives that limits do not concern have degree 0 and value 0:
-/// the acceleration of 1, the jerk of 1 and 3.
+/// Returns the curve of number `number` between two rows. Derivatives to which no limit applies are
+/// the constant 0: the acceleration for degree 1, and the jerk for degrees 1 and 3.
+/// @param degree 1, 3 or 5.
 RowPolynomials rowPolynomials(const TimedRow& from, const TimedRow& to, int degree,
                               Eigen::Index number);
 

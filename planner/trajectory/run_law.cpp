@@ -6,8 +6,9 @@
 namespace corridor {
 namespace {
 
-/// An interval is halved if its middle exceeds a limit by more than this share. It is a fourth of
-/// the share that is acceptable as a stretch of time: emitRows slows the law down by about half.
+/// An interval is halved if its middle exceeds a limit by more than this share. If an acceleration
+/// exceeds its limit by this share, emitRows stretches the time by about half of the share: a
+/// fourth of 0.1 %, the stretch that is acceptable.
 constexpr double kGridExcess = 5e-4;
 /// An interval is halved if a jump of u at its end changes x by more than this share within the
 /// interval: the switch is then known up to about this share of x.

@@ -75,7 +75,7 @@ std::vector<double> knotsOf(const PathMotion& motion, double window) {
   std::vector<double> knots;
   for (const double t : motion.time) knots.push_back(t), knots.push_back(t + window);
   std::sort(knots.begin(), knots.end());
-  // Knots that are closer than this make segments without influence.
+  // Segments between knots that are closer than this would have no influence.
   const double least = 1e-7 * knots.back();
   std::vector<double> apart{knots.front()};
   for (const double t : knots)
@@ -84,7 +84,8 @@ std::vector<double> knotsOf(const PathMotion& motion, double window) {
   return apart;
 }
 
-/// Returns the smallest d in [0, most] at which the cubic reaches `target`. @pre it is ascending.
+/// Returns the smallest d in [0, most] at which the cubic reaches `target`. @pre the cubic is
+/// ascending.
 double timeOf(const LawSegment& cubic, double target, double most) {
   double low = 0, high = most;
   for (int step = 0; step < 60; ++step) {
@@ -197,8 +198,8 @@ std::vector<LawSegment> straightLaw(const PathView& view, const PathRun& run,
   return law;
 }
 
-/// Returns the smallest factor for all times with which the limits hold at the ends and the middle
-/// of each segment.
+/// Returns the smallest factor by which all times must be multiplied so that the limits hold at the
+/// ends and in the middle of each segment.
 double neededFactor(const PathView& view, const JointLimits& limits, const KinematicTree& tree,
                     const std::vector<LawSegment>& segments) {
   const std::vector<LimitedNumbers> numbers = limitedNumbers(view.space());
@@ -225,7 +226,7 @@ double neededFactor(const PathView& view, const JointLimits& limits, const Kinem
              third * (rate * rate * rate) + second * (3 * rate * change) + first * segment.jerk,
              limits.jerk);
       }
-      if (!limits.links.empty() && k < 2)  // the end is the begin of the next one, or at rest
+      if (!limits.links.empty() && k < 2)  // the end is the begin of the next segment, or at rest
         for (const double share :
              linkSpeedShares(tree, limits.links, view.value(segment.piece, tau), first * rate))
           velocity = std::max(velocity, share);

@@ -13,11 +13,11 @@ namespace corridor {
 ///
 /// 1. The law s(t) of `segments`, from rest to rest, is averaged over a window w of time:
 ///      ṡ_w(t) = (s(t) − s(t − w))/w,  s̈_w(t) = (ṡ(t) − ṡ(t − w))/w,  s⃛_w(t) = (s̈(t) − s̈(t − w))/w.
-///    It takes w longer. Its jerk is at most the jump of s̈ by w. The best of three windows
-///    is used. This is enough if the limits of jerk are loose.
+///    The averaged law takes w longer. Its jerk is at most (change of s̈ within w)/w. The best of
+///    three windows is used. This is enough if the limits of jerk are loose.
 /// 2. If the result takes more than 1 % longer than `segments`, because of a limit of jerk,
 ///    jerkLimitedLaw searches for a shorter one.
-/// A straight line with a limit of jerk, and without one of a link's speed, has its optimum
+/// A straight line with a limit of jerk, but without a limit of a link's speed, gets its optimum
 /// instead: at most seven intervals of constant jerk. If a limit is still exceeded, all times are
 /// multiplied by one factor. The result is empty only if no law was found (limits that are too
 /// large or too small for doubles), or if `segments` is empty.

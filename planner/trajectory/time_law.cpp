@@ -32,7 +32,8 @@ std::string checked(const PathView& view, const JointLimits& limits) {
   return "";
 }
 
-/// Returns why a path can't be passed through: a number moves whose limit is not positive.
+/// Returns why a path can't be passed through: a number moves, but its limit is not positive.
+/// Returns "" if there is no such number.
 std::string whyStuck(const PathView& view, const JointLimits& limits) {
   Configuration moves = Configuration::Zero(static_cast<Eigen::Index>(view.space().size()));
   for (std::size_t k = 0; k < view.path().size(); ++k) {
@@ -64,7 +65,8 @@ std::string whyStuck(const PathView& view, const JointLimits& limits) {
   return "";
 }
 
-/// Words for a failure of reachability analysis. @param length ds/dτ at the end that is meant.
+/// Returns the message for a failure of reachability analysis. @param rate the given dτ/dt at the
+/// start or end of the path. @param length ds/dτ there.
 std::string faultOf(const RunLaw& law, double rate, double length) {
   const std::string place =
       "piece " + std::to_string(law.piece) + ", τ = " + shortest(law.tau) + ": ";
@@ -80,7 +82,7 @@ std::string faultOf(const RunLaw& law, double rate, double length) {
         return place + "no law ends with the rate " + shortest(rate) +
                " per second within the limits; " + range + " is possible";
       return place + "the rate " + shortest(rate) +
-             " per second at the end can't be reached within the limits; use a smaller one";
+             " per second at the end can't be reached within the limits; use a smaller rate";
     default:
       return place + "the limits allow no motion here";
   }
@@ -127,7 +129,7 @@ TimeLaw timeLaw(const std::vector<CurvePiece>& path, const ConfigurationSpace& s
       return fail("the rates at start and end must be finite, and 0 or more");
   if (options.smooth && (options.startRate > 0 || options.endRate > 0))
     return fail("a smooth law starts and ends at rest; leave the rates at 0");
-  // A view reads columns 0 and the last one, so the sizes are checked first.
+  // A PathView reads the first and the last coefficients of each piece, so sizes are checked first.
   for (const CurvePiece& piece : path)
     if (piece.coefficients.cols() < 2 ||
         piece.coefficients.rows() != static_cast<Eigen::Index>(space.size()))

@@ -22,7 +22,7 @@ struct LawSegment {
   double jerk = 0;                ///< constant, 1/s³
 };
 
-/// How much of the time a limit decides the law: the share of the duration in which the number
+/// How long the limits of a number determine the law: the share of the duration in which the number
 /// uses at least 99 % of its limit.
 struct LimitUse {
   double velocity = 0, acceleration = 0;
@@ -36,7 +36,7 @@ struct TimeLawOptions {
   /// stop, radians. A jump by this angle changes the velocity by |q̇|·angle at once, so it must be
   /// small. The default allows for the rounding of files with seven digits.
   double cornerAngle = 1e-6;
-  /// Makes the acceleration continuous, and keeps the limits of jerk (see below).
+  /// Makes the acceleration continuous, and keeps the limits of jerk (see `timeLaw`).
   bool smooth = false;
   /// Grid intervals of each run between two stops, before refinement.
   int intervals = 96;
@@ -62,10 +62,12 @@ struct TimeLaw {
 /// Parameterization Based on Reachability Analysis", IEEE Transactions on Robotics 34(3)). With
 /// x = ṡ² and u = s̈, the limits at a point of the path are linear in (u, x):
 ///   |q'_j|²·x ≤ v_j²  and  |q'_j·u + q''_j·x| ≤ a_j.
-/// On a grid s_0 … s_N with constant u in each interval, x_{i+1} = x_i + 2·Δ_i·u_i.
+/// On a grid s_0 … s_N with constant u in each interval, x_{i+1} = x_i + 2·Δ_i·u_i with Δ_i =
+/// s_{i+1} − s_i.
 /// 1. Backward pass: the controllable set K_i has all x from which K_{i+1} can be reached; it is an
 ///    interval (the first loop of their algorithm 1, TOPP-RA).
-/// 2. Forward pass: from x_0, the largest u that stays in K_{i+1} (the second loop).
+/// 2. Forward pass: from x_0 on, each interval gets the largest u with which x_{i+1} is in K_{i+1}
+///    (the second loop).
 /// The limits of an interval hold at both of its ends (their interpolation scheme).
 /// Intervals are halved where u jumps, and where a parabola through the ends and the middle exceeds
 /// a limit by more than 0.05 %.
@@ -75,11 +77,12 @@ struct TimeLaw {
 ///   length are skipped.
 /// - The law is optimal up to the grid. It exceeds limits between points of the grid to second
 ///   order only. This is no proof: `emitRows` proves the limits of the trajectory that it makes.
-/// - Positions of planar and floating joints have limits of a vector's length. For accelerations, a
-///   regular polygon of 32 sides inside the circle takes its place, which costs at most 0.5 %.
+/// - For positions of planar and floating joints, the vector's length is limited. For
+///   accelerations, a regular polygon of 32 sides inside the circle replaces the circle, so up to
+///   0.5 % of the limit is not used.
 /// - A limit of a link's speed bounds ṡ by the Jacobian at the points of the grid.
-/// - `smooth`: the law of each run gets a continuous s̈ (smooth_law.h). If the
-///   average of the law takes at most 1 % longer than the law without a limit of jerk, it is used.
+/// - `smooth`: the law of each run gets a continuous s̈ (smooth_law.h). The average of the law over
+///   a window of time is used if it takes at most 1 % longer than the law without a limit of jerk.
 ///   Otherwise a search finds a locally fastest law (jerk_law.h). The result keeps the limits at
 ///   points of its grid. The path must start and end at rest.
 ///

@@ -14,21 +14,20 @@ namespace corridor {
 enum class RowInterpolation {
   linear,  ///< every number is linear in time
   cubic,   ///< the cubic polynomial with the positions and velocities of both rows
-  quintic  ///< the polynomial of degree 5 with the accelerations of both rows, too
+  quintic  ///< degree 5, with positions, velocities and accelerations of both rows
 };
 const char* nameOf(RowInterpolation between);
 
-/// Returns what lies between the rows: what is wanted or, by default, what the trajectory
-/// controllers of ros_control and ros2_control do: quintic if the file has accelerations, cubic if
-/// it has velocities, otherwise linear. Adds a note to the rows if velocities or accelerations are
-/// not used.
+/// Returns `wanted` if it is set. Otherwise returns what the trajectory controllers of ros_control
+/// and ros2_control do between rows: quintic if the file has accelerations, cubic if it has
+/// velocities, else linear. Adds a note to the rows if velocities or accelerations are not used.
 /// @throws InputError if the file lacks the values that `wanted` needs.
 RowInterpolation interpolationOf(TrajectoryRows& rows, std::optional<RowInterpolation> wanted);
 
 /// Returns the curve that the rows mean, with one piece from each row to the next. Its knots are
 /// the times or, if the file has none, 0, 1, 2, … Angles are literal, and rotations go by slerp.
-/// curve_pieces.h derives the error of the pieces. It includes that of a controller's times, if it
-/// counts them from the begin of the file, in doubles.
+/// curve_pieces.h derives the error of the pieces. This error includes the rounding of a
+/// controller's times, if the controller counts them in doubles from the begin of the file.
 /// @throws InputError with all faults: a circle that jumps by more than half a turn from one row to
 /// the next (which is a jump of the angle, not a motion); values that are too large.
 Curve curveOf(const TrajectoryRows& rows, const ConfigurationSpace& space,

@@ -31,7 +31,8 @@ std::string_view nextLine(std::string_view& text) {
   return {};
 }
 
-/// Returns whether a line is YAML's or JSON's: a bracket, a key with a colon, or an item of a list.
+/// Returns whether a line belongs to YAML or JSON: a bracket, a key with a colon, or an item of a
+/// list.
 bool isYamlLine(std::string_view line) {
   if (line.starts_with('{') || line.starts_with('[') || line.starts_with("---") ||
       line.starts_with("%YAML") || line == "-" || line.starts_with("- "))
@@ -42,7 +43,7 @@ bool isYamlLine(std::string_view line) {
          (colon + 1 == line.size() || line[colon + 1] == ' ' || line[colon + 1] == '\t');
 }
 
-/// Makes the rows of a space of the rows of a table.
+/// Converts the rows of a table to rows of a space's numbers.
 class RowMaker {
  public:
   RowMaker(const std::string& file, const Model& model, const JointNames& names)
@@ -163,7 +164,8 @@ class RowMaker {
     result.rows.push_back(std::move(made));
   }
 
-  /// Returns the value of a leader of a mimic in a row, or nullopt if the row has none.
+  /// Returns the value of the joint that a mimic joint follows, in a row with these positions: the
+  /// held value, or the planned joint's position. Returns nullopt if the joint has neither.
   std::optional<double> leaderValue(const ModelRobot& robot, std::size_t joint,
                                     const Configuration& positions) const {
     if (const auto held = robot.held.find(joint); held != robot.held.end()) return held->second;

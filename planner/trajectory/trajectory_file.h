@@ -31,7 +31,7 @@ struct TrajectoryRows {
   bool hasVelocities = false, hasAccelerations = false;  ///< accelerations: only with velocities
   /// The file is a message for a controller. A controller begins with the robot's state at time 0.
   bool isMessage = false;
-  std::vector<Note> notes;  ///< what was not used, and what follows a rule
+  std::vector<Note> notes;  ///< on values that are not used, and on joints that mimic others
 };
 
 /// The kinds of files that describe a motion.
@@ -40,8 +40,8 @@ enum class TrajectoryFormat {
   rows,      ///< rows of numbers (CSV)
   message    ///< a JointTrajectory of ROS, as YAML or JSON, alone or in a message of MoveIt
 };
-/// Recognises the format of a text by its content. Every text has a format: the format's reader
-/// then reports its faults.
+/// Recognises the format of a text by its content. Every text has a format: the reader of this
+/// format then reports the text's faults.
 TrajectoryFormat trajectoryFormatOf(std::string_view text);
 
 /// Returns the text of a file that describes a motion; "-" is the standard input.
@@ -55,11 +55,11 @@ std::string readMotionText(const std::filesystem::path& file, const std::string&
 /// - A joint that is held must have the value at which it is held, up to `limitSlack`
 ///   (planner/problem/urdf_robot.h). Otherwise the file is refused: a proof would be about another
 ///   robot.
-/// - A joint that mimics another one is not read. A note says so, and by how much it is off its
-/// rule.
+/// - A joint that mimics another one is not read. A note says so, and by how much the joint's
+///   values are off its rule.
 /// @param file the name for messages.
 /// @param text a text of the format `rows` or `message`.
-/// @throws InputError with all faults, but of the rows only with those of the first faulty one.
+/// @throws InputError with all faults; from the rows, only the faults of the first faulty row.
 TrajectoryRows readTrajectory(const std::string& file, const std::string& text, const Model& model);
 
 }  // namespace corridor

@@ -30,10 +30,11 @@ class JointNames {
   };
 
   explicit JointNames(const Model& model);
-  /// Returns the meaning of a name. A name without the robot's name has one if it is unambiguous.
+  /// Returns the meaning of a name. A name without the robot's name has a meaning if only one robot
+  /// has such a joint.
   std::optional<Meaning> find(const std::string& name) const;
-  /// Returns the full names ("left/pan or right/pan") that a name may stand for if it is not
-  /// unambiguous, else "".
+  /// If a name is ambiguous, returns the full names that it may stand for ("left/pan or
+  /// right/pan"); else "".
   std::string ambiguous(const std::string& name) const;
   const std::vector<std::string>& known() const { return known_; }
   /// Returns the names of the numbers of a Configuration, in its order.
@@ -56,15 +57,16 @@ struct TrajectoryTable {
     std::vector<double> positions, velocities, accelerations;
   };
   int namesLine = 0;  ///< 0: the file has no names, and the columns are the space's numbers
-  /// The name of each value of a row. A table without velocities has no names of them.
+  /// The name of each value of a row. If a table has no velocities, the list of their names is
+  /// empty; the same holds for accelerations.
   std::vector<std::string> positions, velocities, accelerations;
   std::vector<Row> rows;
   bool isMessage = false;
   std::vector<Note> notes;
 };
 
-// Both readers throw an InputError with all faults, but of the rows only with those of the first
-// faulty one (row_faults.h).
+// Both readers throw an InputError with all faults; from the rows, only the faults of the first
+// faulty row (row_faults.h).
 /// Reads rows of numbers, with or without a header.
 TrajectoryTable readCsvTable(const std::string& file, const std::string& text,
                              const JointNames& names);

@@ -17,8 +17,8 @@ bool hasRotation(const ConfigurationSpace& space);
 
 /// Returns a trajectory_msgs/JointTrajectory of ROS 2 as YAML. Messages count whole nanoseconds, so
 /// the times must be doubles that `nearestNanosecond` returns.
-/// @throws std::invalid_argument for rows without times, another or a negative time, or a space
-/// with rotations.
+/// @throws std::invalid_argument for rows without times, a time that is negative or not such a
+/// double, or a space with rotations.
 std::string messageText(const TrajectoryRows& rows, const ConfigurationSpace& space);
 
 /// Returns the double nearest to the whole number of nanoseconds that is nearest to a time.

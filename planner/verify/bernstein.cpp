@@ -49,8 +49,8 @@ Bernstein derivativeOf(const Bernstein& polynomial, Real length, Real lengthErro
   for (std::size_t i = 0; i <= std::size_t(derivative.degree); ++i) {
     const Rounded step = sumOf(polynomial.c[i + 1], -polynomial.c[i]);
     const Real product = n * step.value, result = product / length;
-    // Let d be the real difference and L the real length. The real result is n·d / L, and
-    // n·d − result·L = (n·d − product) + (product − result·length) + result·(length − L).
+    // Let n be the degree, d the real difference and L the real length. The real result is n·d / L,
+    // and n·d − result·L = (n·d − product) + (product − result·length) + result·(length − L).
     // `ofProduct` and the quotient's rounding are exact numbers.
     const Real ofDifference = n * (step.rounding + 2 * polynomial.error),
                ofProduct = std::abs(std::fma(n, step.value, -product)),

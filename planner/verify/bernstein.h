@@ -12,10 +12,10 @@ namespace corridor::verify {
 /// values at 0 and 1.
 ///
 /// `error` bounds how far each stored coefficient is from the real one. So it also bounds how far
-/// each value of the stored polynomial is from the real value. The functions below add the rounding
-/// that they commit. They measure it: in x87 arithmetic the rounding of a sum or a product is
-/// itself a number, and is computed exactly (Knuth 1997, 4.2.2, theorem B; std::fma). So `error`
-/// stays 0 as long as every result is exact.
+/// each value of the stored polynomial is from the real value. The functions below add their own
+/// rounding to `error`. They measure it: in x87 arithmetic the rounding error of a sum or a product
+/// is itself a floating-point number, and is computed exactly (Knuth 1997, 4.2.2, theorem B;
+/// std::fma). So `error` stays 0 as long as every result is exact.
 struct Bernstein {
   static constexpr int kLargestDegree = 9;
   std::array<Real, kLargestDegree + 1> c{};
@@ -37,8 +37,8 @@ struct Bernstein {
   Real at(Real tau) const;
 };
 
-/// Returns the derivative by τ / `length`. For `length` = 1 this is the derivative by τ. For the
-/// duration of a piece, it is the derivative by time. The derivative of a constant is 0.
+/// Returns the derivative by τ, divided by `length`. If `length` is the duration of a piece, this
+/// is the derivative by time. The derivative of a constant is 0.
 /// @param length > 0.
 /// @param lengthError bounds how far `length` is from the real length; at most 2^-20 of it.
 Bernstein derivativeOf(const Bernstein& polynomial, Real length = 1, Real lengthError = 0);

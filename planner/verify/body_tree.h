@@ -17,7 +17,7 @@ namespace corridor::verify {
 struct LeafPrimitive {
   Corners corners = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};  ///< triangle only
   RealVec normal = RealVec::Zero();  ///< triangle only: unit, rounded; 0 if degenerate
-  std::uint32_t number = 0;          ///< of the triangle or part
+  std::uint32_t number = 0;          ///< index of the triangle or part in the body
   const ConvexPart* part = nullptr;
 };
 
@@ -97,27 +97,29 @@ class BodyDistance {
   /// @param touches decides whether two leaf primitives touch. The first contact ends the search.
   ///
   /// The result's `lower` also covers all pruned pairs: it is the smallest bound of all pruned node
-  /// pairs and all tested pairs of leaf primitives. The box of a node of b, in a's frame, has the
-  /// half extents |R|·(half extents) about the image of its centre. The caller must add the
-  /// rounding of the boxes in long double, and all other rounding. The former is below 32u·S, with
-  /// u = 2^-64: it consists of 3 sums of 3 products, and a root of three squares.
+  /// pairs and all tested pairs of leaf primitives. Let R be the rotation of X_AB. The box of a
+  /// node of b, in a's frame, has the half extents |R|·(half extents) about the image of its
+  /// centre. The caller must add all rounding, also that of the boxes in long double. The rounding
+  /// of the boxes is below 32u·S, with u = 2^-64: it consists of 3 sums of 3 products, and a root
+  /// of three squares.
   BodyGap measure(LeafPair guess, Real doubt, Real stop,
                   const std::function<bool(LeafPair)>& touches);
 
-  /// A function that returns whether `collectNear` may leave out all pairs of leaf primitives in
-  /// two boxes.
+  /// A function that returns whether `collectNear` may leave out all pairs of a leaf primitive in
+  /// one box and a leaf primitive in the other box.
   using Settled = std::function<bool(const CentredBox& a, const CentredBox& b)>;
   /// Collects the pairs of leaf primitives whose boxes are closer than `within`. Pairs in two boxes
   /// for which `settled` returns true are left out.
   /// @param most the largest number of pairs collected.
-  /// @returns false if there are more pairs. If true, all pairs that are not collected are at least
-  /// `within` apart, or settled.
+  /// @returns false if there are more pairs than `most`. If the result is true, all pairs that are
+  /// not collected are at least `within` apart, or are settled.
   bool collectNear(Real within, std::size_t most, const Settled& settled,
                    std::vector<LeafPair>& pairs);
 
   ConvexSet setA(std::uint32_t leaf) const;
   ConvexSet setB(std::uint32_t leaf) const;  ///< in a's frame
-  /// @param guess,enough as in convexGap().
+  /// Returns the bounds of the distance of two leaf primitives. @param guess,enough as in
+  /// convexGap().
   DistanceBounds gap(LeafPair pair, const RealVec& guess = RealVec::Zero(),
                      Real enough = std::numeric_limits<Real>::infinity()) const;
 
@@ -128,7 +130,8 @@ class BodyDistance {
   };
   template <class Number>
   using Vec = Eigen::Matrix<Number, 3, 1>;
-  /// A placement, and the direction of the slab that boxGap() tries. In double: rounded.
+  /// A placement, and the direction of the slab that boxGap() tries. With Number = double, both are
+  /// rounded.
   template <class Number>
   struct Frame {
     Eigen::Matrix<Number, 3, 3> rotation = Eigen::Matrix<Number, 3, 3>::Identity();
@@ -148,7 +151,7 @@ class BodyDistance {
   };
   struct StampedBox {
     PlacedBox<double> box;
-    std::uint64_t stamp = 0;  ///< identifies the placement that it was computed for
+    std::uint64_t stamp = 0;  ///< identifies the placement for which the box was computed
   };
   template <class Number>
   const Frame<Number>& frame() const;

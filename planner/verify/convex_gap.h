@@ -8,16 +8,16 @@
 namespace corridor::verify {
 
 /// A convex set in the verifier's arithmetic: the hull of `points` swept by a sphere of `radius`.
-/// With `flatEnds`, the set is the segment of two points swept by a disc of `radius` perpendicular
-/// to `axis`: a cylinder. A triangle has three points and radius 0.
+/// With `flatEnds`, the set is a cylinder: the segment of two points swept by a disc of `radius`
+/// that is perpendicular to `axis`. A triangle has three points and radius 0.
 struct ConvexSet {
   std::vector<RealVec> points;
   Real radius = 0;
   bool flatEnds = false;
   RealVec axis = RealVec::Zero();  ///< unit; flatEnds only
 
-  /// Returns the farthest point along `direction` of the set without its swept sphere. With
-  /// `flatEnds` the disc is included.
+  /// Returns the point of the set, without its swept sphere, that is farthest along `direction`.
+  /// With `flatEnds` the disc is included.
   RealVec farthest(const RealVec& direction) const;
   /// Returns the radius of the swept sphere, which is 0 with flat ends.
   Real sweptRadius() const { return flatEnds ? 0 : radius; }
@@ -34,7 +34,7 @@ ConvexSet placed(const ConvexPart& part, const Placement& placement);
 /// two sets without their swept spheres. Each step has at most four corners of this difference, and
 /// keeps the subset whose hull contains the point of least norm. It finds this subset by trying all
 /// subsets, which is the simplest way. The rounding is similar to that of DistanceBounds, and far
-/// below 2^-50 of the size.
+/// below 2^-50 of the largest norm of a point.
 /// @param guess the direction in which the search starts, from a to b, of any length. Zero: no
 /// guess.
 /// @param enough the search ends when `lower` reaches this value.

@@ -8,7 +8,7 @@ namespace corridor::verify {
 namespace {
 
 constexpr Real kPi = std::numbers::pi_v<Real>;
-constexpr Real kAmbiguous = 1e-9L;  // radians; as ConfigurationSpace::ambiguous()
+constexpr Real kAmbiguous = 1e-9L;  // radians; as in ConfigurationSpace::ambiguous()
 constexpr Real kUp = 1 + 0x1p-50L;  // exceeds the relative rounding of any sum here
 
 RealMat rotationOf(const Eigen::Matrix<Real, 4, 1>& q) {
@@ -30,8 +30,8 @@ RealVec axisOf(const Frame& frame) {
   return frame.axis.cast<Real>().normalized();
 }
 
-/// Returns whether the circle moves the frame, and the frame has another pose after a full turn of
-/// the circle.
+/// Returns whether the circle moves the frame such that the frame has another pose after a full
+/// turn of the circle.
 bool leavesCircle(const Frame& frame, const Coordinate& circle) {
   if (frame.joint == Frame::Joint::none || frame.variable != circle.first) return false;
   return frame.joint != Frame::Joint::revolute || frame.multiplier != std::trunc(frame.multiplier);

@@ -75,12 +75,12 @@ std::size_t commonAncestor(const KinematicTree& tree, std::size_t a, std::size_t
 /// time t + s of the segment. Then the joint is a_j = q_j(t + s) − q_j(t) + δ_j away from its value
 /// at t, and |a_j| ≤ |s| V_j + τ_j. Let all joints move linearly from their values at t to these
 /// values. This is a motion like an edge, with |a_j| instead of |Δ_j|. (The perturbation of a free
-/// rotation is a rotation by at most τ about any axis, after the slerp's. Two successive rotations
-/// about one point have the same R. They are bounded like one rotation by the sum of their angles.)
-/// So x differs from x(t) + Σ a_j ∂x/∂q_j(t) by at most half of the first line of `bend`, computed
-/// with |s| V_j + τ_j. This line is a quadratic form in these numbers. Moreover, |q_j(t + s) −
-/// q_j(t) − s q_j'(t)| ≤ s² A_j / 2, so Σ a_j ∂x/∂q_j(t) differs from s x'(t) + Σ δ_j ∂x/∂q_j(t) by
-/// at most half of s² times the second line. Hence
+/// rotation is a rotation by at most τ about any axis, after the rotation of the slerp. Two
+/// successive rotations about one point have the same R. They are bounded like one rotation by the
+/// sum of their angles.) So x differs from x(t) + Σ a_j ∂x/∂q_j(t) by at most half of the first
+/// line of `bend`, computed with |s| V_j + τ_j. This line is a quadratic form in these numbers.
+/// Moreover, |q_j(t + s) − q_j(t) − s q_j'(t)| ≤ s² A_j / 2. So Σ a_j ∂x/∂q_j(t) differs from s
+/// x'(t) + Σ δ_j ∂x/∂q_j(t) by at most half of s² times the second line. Hence
 ///   |x − x(t) − s x'(t) − Σ δ_j ∂x/∂q_j(t)| ≤ (s² bend + |s| bendCross + bendTube) / 2.
 ///
 /// The values of all joints stay, during this linear motion too, within the range that R_j assumes:
@@ -93,16 +93,17 @@ struct Reach {
   Real lengths = 0;    ///< `size` before it is increased for large angles
 };
 
-/// Returns the shorter way round a circle, radians, in [−π, π]: the real value of to − from, minus
-/// whole turns. The result is off by at most 32u, u = 2^-64, for angles of any size.
+/// Returns the difference to − from along the shorter way round a circle, radians, in [−π, π]: the
+/// real value of to − from, minus whole turns. The result is off by at most 32u, u = 2^-64, for
+/// angles of any size.
 ///
 /// Error: if |to − from| ≤ π, the difference is rounded by at most πu. Otherwise the sines and
 /// cosines of both angles are off by at most 2u, because the C library reduces its arguments with
-/// enough digits of π. Sine and cosine of the difference are off by at most 11u, and their arc
-/// tangent by at most 11√2·u + 2πu.
+/// enough digits of π. The sine and the cosine of the difference are off by at most 11u. The arc
+/// tangent computed from them is off by at most 11√2·u + 2πu.
 Real circleDifference(double from, double to);
 
-/// A part of the times of an edge or a piece: [index, index + 1] / 2^depth.
+/// A time interval of an edge or a piece: [index, index + 1] / 2^depth.
 struct Segment {
   int depth = 0;
   std::size_t index = 0;
@@ -113,8 +114,9 @@ struct Segment {
 /// normalised in real arithmetic, along the shorter arc. Frames follow by forward kinematics on the
 /// tree's stored doubles, with quaternions and axes normalised.
 ///
-/// Or the curve of a CurvePiece, as defined there, with t = τ. Its bounds are computed for segments
-/// of the piece: for wavy pieces, those of the whole piece would be too large.
+/// The object may also be the curve of a CurvePiece, as CurvePiece defines it, with t = τ. The
+/// bounds are then computed for each segment of the piece: for wavy pieces, bounds of the whole
+/// piece would be too large.
 ///
 /// Rounding, with u = 2^-64, and t of at most 63 bits:
 /// - Normalised quaternions are off by ≤ 5u each, their slerp by < 128u, the rotation by < 256u.
@@ -123,7 +125,7 @@ struct Segment {
 /// - A revolute joint's value m·q0 + o + t·m·Δ is off by ≤ 8u times `Number::terms` (products, sums
 ///   and the rounding of Δ). Sine, cosine and Rodrigues' matrix are off by < 16u. The value of a
 ///   polynomial with coefficients ≤ M is off by < 19u·M (Bernstein::at), and m·q + o by < 21u·|m|·M
-///   + u·|o|. So `terms` = 3M does for it. A prismatic joint is off by < 21u times its length.
+///   + u·|o|. So `terms` = 3M covers m·q + o. A prismatic joint is off by < 21u times its length.
 /// - The derivative of a polynomial is off by < 21u times the V_j of the whole piece (rounding of
 ///   the differences, and of Bernstein::at). This displaces no point by more than 21u·speed.
 /// - Each frame multiplies two such matrices into the rotation, which adds 10u. In all, a frame
@@ -173,11 +175,11 @@ class EdgeCurve {
   };
   struct Arc {
     Eigen::Matrix<Real, 4, 1> q0, q1;  // x, y, z, w
-    Real omega = 0;                    // angle between q0 and q1
+    Real omega = 0;                    // angle between the vectors q0 and q1, rad
     RealVec turn = RealVec::Zero();    // rotation vector of the whole arc, in the joint's frame
   };
   /// Computes the placement of the chain's last frame at t. Calls see(frame, X) for every joint,
-  /// with X the placement before the joint.
+  /// where X is the placement before the joint.
   template <class See>
   Placement walk(const KinematicChain& chain, Real t, const See& see) const;
   void addRotation(std::size_t first, const Configuration& from, const Configuration& to);

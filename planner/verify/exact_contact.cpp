@@ -105,8 +105,8 @@ std::optional<Vec3> exactContact(const RigidPose& pose, const Corners& moving,
       b[corner][i] = scale * world[i];
     }
   }
-  // Two triangles meet if and only if an edge of one meets the other. This holds for degenerate
-  // triangles, too.
+  // Two triangles meet if and only if an edge of one of them meets the other triangle. This holds
+  // for degenerate triangles, too.
   std::optional<Point> common;
   for (int i = 0; i < 3 && !common; ++i) {
     common = segmentMeetsTriangle(a[i], a[(i + 1) % 3], b);

@@ -14,8 +14,8 @@ constexpr Real kMostTurn = 0.125L;
 /// The largest number of pairs of leaf primitives that are proved one by one in a time interval,
 /// each by its own slab. With more pairs it costs less to halve the interval.
 constexpr std::size_t kMostSlabs = 400;
-/// The limit for intervals in which the tube displaces points farther than the motion does.
-/// Halving such an interval gains little.
+/// The limit that replaces kMostSlabs in intervals in which the tube displaces points farther than
+/// the motion does. Halving such an interval gains little.
 constexpr std::size_t kMostSlabsInTube = 64 * kMostSlabs;
 
 }  // namespace
@@ -107,7 +107,7 @@ MovedSlab::Support MovedSlab::supportOf(const Side& side, const CentredBox& box)
           side.forth.at(box.centre) + within(side.forth.slope) + perturbation};
 }
 
-/// @param radii of both swept spheres, added.
+/// @param radii the sum of the radii of both swept spheres.
 Real MovedSlab::widthOf(const Support& a, const Support& b, Real radii) const {
   const Real along = std::min(-a.back - b.back, -a.forth - b.forth) - lost_;
   return along - shorter_ * std::max<Real>(0, along + radii);

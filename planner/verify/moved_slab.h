@@ -22,9 +22,10 @@ BodyMotion motionSeenFrom(const Placement& at, const FrameState& state, Perturba
 /// The width of the slab between two moving bodies along a direction n, to first order of the
 /// motion. The width is a lower bound of their distance in the whole interval and tube, except for
 /// second-order terms, which Reach bounds. The direction n is fixed in the coordinates in which the
-/// bodies move, or it turns with one of the bodies.
+/// bodies move, or turns with one of the bodies.
 ///
-/// Points. At a time s from the middle, |s| ≤ half, a core point x (without its swept sphere) is at
+/// Points. A core point is a point of the body without its swept sphere. Let it be at x at the
+/// middle. At a time s from the middle, |s| ≤ half, it is at
 ///   x + s·v(x) + Σ c_j T_j(x) + Σ w_k × (x − p_k),
 /// except for second-order terms. Here v is the velocity; T_j are the twists of the perturbations,
 /// |c_j| ≤ 1; p_k are the points of their pivot rotations w_k, |w_k| ≤ angle_k. A swept sphere
@@ -35,12 +36,13 @@ BodyMotion motionSeenFrom(const Placement& at, const FrameState& state, Perturba
 ///   h(s) = max over x of ±n·(x + s·v(x)) + Σ |n·T_j(x)| + Σ angle_k |n × (x − p_k)|.
 /// The last term is the largest value of w·((x − p) × n) for vectors w of length at most `angle`.
 /// Since T_j and v are affine, each term is convex in x. So the maximum is attained at a corner of
-/// the core. The maximum is convex in s. So the width is concave, and least at s = −half or s =
-/// half.
+/// the core. The maximum is convex in s. So the width is concave in s, and smallest at s = −half or
+/// s = half.
 ///
 /// For core points the width is attained: at that corner, each c_j can be ±1 and each w_k can be
 /// perpendicular to n. If one variable moves joints in the chains of both bodies (mimics), the
-/// formula treats its perturbations as independent. The true width can only be larger.
+/// formula treats the variable's perturbations in the two chains as independent. The true width can
+/// only be larger.
 ///
 /// Discs and boxes. A disc about the corner x has the points x + d, with d perpendicular to the
 /// axis, |d| ≤ r. Let ⟂ be the component perpendicular to the axis. Then n·(d + s ω × d) = d·(n + s
@@ -57,7 +59,8 @@ BodyMotion motionSeenFrom(const Placement& at, const FrameState& state, Perturba
 /// velocities. The last term and the tube along s·m are at most half·|m|·displacement. Let W be the
 /// width without swept spheres of radii r, minus these terms. The distance is at least W/|n(s)| −
 /// r, and 1/|n(s)| ≥ 1 − (half·|m|)²/2, because m is perpendicular to n. A slab with half·|m| > 1/8
-/// has the width −infinity, so that m adds less than lengths to what is rounded.
+/// is not used: its width is −infinity. So the terms with m are smaller than the lengths
+/// themselves, and hardly increase the rounding.
 ///
 /// The width is rounded by about 2^-58 of lengths that Reach::size includes. PairMotion::rounding
 /// (2^-49 of Reach::size) covers this.
@@ -65,8 +68,8 @@ class MovedSlab {
  public:
   /// @param direction from a to b, of any length; with 0 the width is −infinity.
   /// @param turn the angular velocity of the direction, per unit of t.
-  /// @param displacement upper bound of the displacements of a point of A and one of B within the
-  /// interval and the tube, added; needed only if the direction turns.
+  /// @param displacement upper bound of the sum of two displacements within the interval and the
+  /// tube: of any point of A, and of any point of B. It is needed only if the direction turns.
   MovedSlab(const BodyMotion& a, const BodyMotion& b, Real half, const RealVec& direction,
             const RealVec& turn = RealVec::Zero(), Real displacement = 0);
   Real width(const ConvexSet& a, const ConvexSet& b) const;
@@ -93,8 +96,8 @@ class MovedSlab {
   Support supportOf(const Side& side, const CentredBox& box) const;
 
   RealVec normal_ = RealVec::Zero();  // unit or zero
-  Real lost_ = 0;                     // by the last term and the tube along s·m
-  Real shorter_ = 0;                  // 1 − 1/|n(s)| at most
+  Real lost_ = 0;                     // width lost by the last term and by the tube along s·m
+  Real shorter_ = 0;                  // upper bound of 1 − 1/|n(s)|
   Side a_, b_;
 };
 
@@ -111,7 +114,7 @@ struct PairMotion {
 /// Thresholds for a lower bound of the clearance, metres.
 struct Sought {
   Real needed = 0;  ///< a bound of this or less is useless
-  Real little = 0;  ///< above `needed`; enough if `wanted` costs too much
+  Real little = 0;  ///< above `needed`; a bound of this is enough if `wanted` costs too much
   Real wanted = 0;  ///< a larger bound is of no use
 };
 

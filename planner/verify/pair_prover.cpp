@@ -10,7 +10,8 @@
 namespace corridor::verify {
 namespace {
 
-constexpr const char* kTooLarge = "value too large: its rounding exceeds the clearance";
+constexpr const char* kTooLarge =
+    "a joint value or length is too large: its rounding may exceed the clearance";
 constexpr const char* kErrorTooLarge = "the error of the piece may exceed the clearance";
 
 [[noreturn]] void refuse(const std::string& what) {
@@ -238,10 +239,11 @@ const FrameState& PairProver::stateOf(std::size_t edge, std::size_t chainIndex, 
 }
 
 /// Returns an upper bound of the smallest distance that the pair has within the tube. For most
-/// pairs this is the distance at the pose. It is smaller for a body whose chain begins with a
-/// translation, against a body that is fixed in the base: the tube can displace such a body in any
-/// direction (of the plane, for a planar translation) by the smallest number of its tube. The curve
-/// that is meant may be farther away by the displacement of the piece's error.
+/// pairs this is the distance at the pose. It is smaller if the chain of one body begins with a
+/// translation, and the other body is fixed in the base. The tube can displace the first body in
+/// any direction (of the plane, for a planar translation) by the smallest number of the
+/// translation's tube. The real curve may keep a larger distance, by up to the displacement that
+/// the piece's `error` allows. The result includes this displacement.
 Real PairProver::leastInTube(std::size_t edge, std::size_t pair, const Measured& m) const {
   const RealVec between = m.gap.onB - m.gap.onA;
   const auto isFixed = [&](std::size_t chain) {
@@ -279,7 +281,7 @@ const char* PairProver::whyRefuted(std::size_t edge, std::size_t pair, const Mea
   if (m.gap.touching) return "contact";
   if (margin > 0 && m.gap.upper <= margin)
     return margin > problem_.margin ? "closer than margin and padding" : "closer than the margin";
-  // Some curve in the tube comes this close, so it touches, or violates the margin.
+  // Some curve in the tube comes as close as leastInTube(), so it touches, or violates the margin.
   if (std::isfinite(m.gap.upper) && leastInTube(edge, pair, m) <= margin)
     return "a deviation within the tube comes too close";
   return nullptr;
@@ -339,9 +341,9 @@ PairAnswer PairProver::decide(const TimeInterval& interval, const OpenPair& open
     // Each of the two bounds below subtracts at least `least` from the distance at the middle. If
     // the distance is at most margin + least, the interval can't be proved, and is halved without
     // measuring it. The distance of one pair of primitives is an upper bound that shows this for
-    // most intervals that are too long. If it is at most margin + pad, the pair may be refuted
-    // here, so it is measured. (Other primitives may touch at this middle; a shorter interval finds
-    // them, if the contact is not at this time only.)
+    // most intervals that are too long. If this upper bound is at most margin + pad, the pair may
+    // be refuted here, so its distance is measured. (Other primitives may touch at this middle; a
+    // shorter interval finds them, if the contact is not at this time only.)
     const Real least =
         std::min(motionBound + pad, secondOrder(bounds, interval.half) + whole.rounding);
     const DistanceBounds guessed = distance_.gap(open.guess);

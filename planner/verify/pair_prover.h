@@ -34,7 +34,8 @@ struct OpenPair {
 struct PairAnswer {
   /// - proved: `bound` exceeds the margin and padding.
   /// - refuted: `reason` says why.
-  /// - undecided: no shorter interval about the same middle can be proved; `reason` says why.
+  /// - undecided: not even a shorter interval about the same middle can be proved; `reason` says
+  ///   why.
   /// - empty: halve the interval.
   std::optional<PathVerdict> verdict;
   /// In the whole interval, every curve in the tube keeps at least this distance.
@@ -65,16 +66,16 @@ class PairProver {
   std::size_t edges() const { return curves_.size(); }
   std::size_t pairs() const { return pairs_.size(); }
   /// Returns the finding `refuted` if the edge defines no curve: an end is not a state, a half turn
-  /// is ambiguous, or a joint jumps; or if the piece does not begin where the piece before it ends.
-  /// Such an edge must not be passed to the functions below.
+  /// is ambiguous, or a joint jumps. Also returns it if a piece does not begin where the piece
+  /// before it ends. Such an edge must not be passed to the functions below.
   const std::optional<PathFinding>& noCurve(std::size_t edge) const { return noCurve_[edge]; }
 
   /// Decides a pair of bodies in an interval.
   /// @param usefulBound a bound of the clearance above this value is of no use.
   PairAnswer decide(const TimeInterval& interval, const OpenPair& open, Real usefulBound);
 
-  /// Refutes a pair if, at t = 0 of the first edge, one body has a point inside the other body, a
-  /// solid mesh. Returns nullopt otherwise. @pre the bodies do not touch there.
+  /// Refutes a pair if, at t = 0 of the first edge, a point of one body is inside the other body,
+  /// which is a solid mesh. Returns nullopt otherwise. @pre the bodies do not touch there.
   std::optional<PairAnswer> insideAtStart(std::size_t pair);
 
   /// Returns the finding that reports an answer. @pre the answer has a verdict.
@@ -119,14 +120,16 @@ class PairProver {
   PairReach reachOf(std::size_t edge, std::size_t pair, const Configuration& error) const;
   Reach sumOf(std::size_t edge, std::size_t pair, const Configuration& tube,
               const Segment& segment) const;
-  /// Forgets what belongs to another edge.
+  /// Makes `edge` the current edge, and forgets the cached data of any other edge.
   void enter(std::size_t edge);
   const FrameState& stateOf(std::size_t edge, std::size_t chainIndex, Real t);
-  /// Sets the bodies' placement at the middle of the interval, for `distance_` and the result.
+  /// Places the bodies at the middle of the interval, in `distance_` and in the result.
   Measured place(const TimeInterval& interval, std::size_t pair);
   /// Measures the distance of the placed bodies.
   void measure(const PairReach& reach, std::size_t pair, LeafPair guess, Real stop, Measured& m);
-  /// Returns the terms of second order that reduce the distance in an interval, in any direction.
+  /// Returns an upper bound of the second-order terms, which reduce the distance in an interval in
+  /// any direction. If the tube does not matter (`tubeMatters`), it includes the whole displacement
+  /// by the tube.
   Real secondOrder(const Reach& reach, Real half) const;
   /// Returns a lower bound of the clearance by boundBySlabs().
   Real boundPiecewise(const TimeInterval& interval, std::size_t pair, const Measured& m,
@@ -150,10 +153,10 @@ class PairProver {
   std::vector<Configuration> tubes_;  // one per edge: the problem's tube, and the piece's error
   std::vector<std::optional<PathFinding>> noCurve_;  // one per edge
   std::vector<std::vector<PairReach>> reaches_;      // [edge][pair]
-  std::map<std::pair<std::size_t, std::size_t>, Reach>
-      segments_;  // of currentEdge_, by place and pair
-  std::vector<std::pair<Real, FrameState>>
-      frameStates_;  // one per chain, at a time of currentEdge_
+  // Bounds in segments of currentEdge_; the key is {2^depth + index of the segment, pair}.
+  std::map<std::pair<std::size_t, std::size_t>, Reach> segments_;
+  // For each chain, a time of currentEdge_ and the state of the frame at this time.
+  std::vector<std::pair<Real, FrameState>> frameStates_;
   std::size_t currentEdge_ = SIZE_MAX;
   BodyDistance distance_;
   std::vector<LeafPair> near_;  // scratch memory of boundPiecewise()

@@ -8,17 +8,19 @@
 namespace corridor::verify {
 namespace {
 
-/// τ then has 60 bits. The coefficients of an interval of width 2^-60 differ from its values by
-/// 2^-120 of the second derivative: by far less than one rounding of them.
+/// The largest depth; τ then has 60 bits. In an interval of width 2^-60, the coefficients differ
+/// from the polynomial's values by 2^-120 of the second derivative. This is far less than one
+/// rounding of the coefficients.
 constexpr int kDepth = 60;
-/// A polynomial of degree 9 touches its limits at 10 places at most, with two intervals of each
-/// length around each. Only one that stays within rounding of a limit all along needs more.
+/// A polynomial of degree 9 touches its limits at 10 times at most. Around each of them there are
+/// two intervals of each length. Only a polynomial that stays within rounding of a limit all along
+/// needs more halvings.
 constexpr int kMostHalvings = 4000;
 
 struct Part {
   Bernstein polynomial;
-  Real start = 0;  ///< of its interval
-  int depth = 0;   ///< the interval has width 2^-depth
+  Real start = 0;  ///< start of the part's interval
+  int depth = 0;   ///< the part's interval has width 2^-depth
 };
 
 }  // namespace
@@ -27,8 +29,8 @@ RangeAnswer rangeOf(const Bernstein& polynomial, Real lower, Real upper) {
   RangeAnswer answer;
   /// Returns by how much a value is beyond the limits; negative inside.
   const auto beyond = [&](Real value) { return std::max(value - upper, lower - value); };
-  // A difference is rounded once, so its sign is right. It is compared with an error that has a
-  // factor for this rounding.
+  // A difference is rounded once, so its sign is right. Where it is compared with `error`, a factor
+  // covers this rounding.
   constexpr Real up = 1 + 0x1p-50L, down = 1 - 0x1p-50L;
   const auto record = [&](RangeAnswer::Verdict verdict, Real at, Real value) {
     answer = {verdict, at, value};

@@ -25,11 +25,11 @@ struct RangeAnswer {
 /// velocities or accelerations takes derivativeOf() with the piece's duration, once or twice.
 ///
 /// Method (Lane, Riesenfeld 1980): the polynomial is within its coefficients' range. If this range
-/// is not within the limits, and no end of the interval is beyond them, the interval is halved.
-/// Coefficients approach the polynomial with the square of the interval's width. So only intervals
-/// around a place that touches a limit are halved often. Halving ends where no coefficient is
-/// beyond the limit by more than Bernstein::error. There, no value can be shown to exceed the
-/// limit.
+/// is not within the limits, and no end of the interval is beyond them, the interval is halved. The
+/// distance of the coefficients from the polynomial decreases with the square of the interval's
+/// width. So only intervals around a time at which the polynomial touches a limit are halved often.
+/// Halving ends where no coefficient is beyond the limit by more than Bernstein::error. In such an
+/// interval, no value can be shown to exceed the limit.
 ///
 /// A piece that starts or ends exactly on a limit, and turns inwards there, is usually decided: its
 /// first and last coefficient are its values. If sums of its coefficients are rounded, `undecided`

@@ -41,9 +41,9 @@ bool footInside(const RealVec& p, const RealVec t[3], RealVec& foot) {
   return true;
 }
 
-/// Returns the width of the widest slab along these directions: the normals, the cross products of
-/// edges, and the normals of edges in the planes. It is used for triangles that are so thin that
-/// their computed closest points are wrong.
+/// Returns the width of the widest slab along these directions: the normals of the triangles, the
+/// cross products of their edges, and the normals of edges in the planes of the triangles. This is
+/// needed for triangles that are so thin that their computed closest points are wrong.
 Real widestSlab(const RealVec a[3], const RealVec b[3]) {
   const RealVec normalA = (a[1] - a[0]).cross(a[2] - a[0]);
   const RealVec normalB = (b[1] - b[0]).cross(b[2] - b[0]);
@@ -85,7 +85,7 @@ DistanceBounds triangleGap(const RealVec a[3], const RealVec b[3]) {
   }
   best.upper = std::sqrt(best.upper);
   best.lower = std::max<Real>(0, slabWidth(a, b, best.onB - best.onA));
-  // In the best direction the slab is as wide as the distance. The threshold 1/1024 only decides
+  // In the best direction the width of the slab is the distance. The threshold 1/1024 only decides
   // whether a second attempt is worth its time.
   if (best.lower < best.upper * (1 - Real(1) / 1024)) {
     best.lower = std::max(best.lower, widestSlab(a, b));

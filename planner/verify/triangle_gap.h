@@ -15,17 +15,17 @@ using RealMat = Eigen::Matrix<Real, 3, 3>;
 
 /// Lower and upper bound of the distance of two closed triangles.
 ///
-/// `upper` is the distance of the two witness points: the closest of the 15 pairs of features (6 of
-/// a vertex and a face, 9 of two edges). `lower` doesn't depend on that computation. It is the
-/// width of a slab between two parallel planes, with one triangle on each side. Any direction n
-/// gives a true bound:
+/// `upper` is the distance of the two witness points. These are the closest points of the closest
+/// pair of features, out of 15 pairs: 6 of a vertex and a face, 9 of two edges. `lower` doesn't
+/// depend on that computation. It is the width of a slab between two parallel planes, with one
+/// triangle on each side. Any direction n gives a true bound:
 ///     distance ≥ (min over B of n·b − max over A of n·a) / |n|.
 /// If the triangles meet, every slab has width ≤ 0. So `lower` is right without a test for
 /// intersection.
 ///
 /// Rounding: let S be the largest norm of a corner. A dot product is off by at most 3u|n|S(1 +
-/// O(u)), the difference of two by another u·2|n|S, and the division by |n| by a factor 1 ± 4u. So
-/// `lower` exceeds the true distance of the given triangles by less than (3 + 3 + 2 + 8)u·S =
+/// O(u)). The difference of two dot products adds u·2|n|S, and the division by |n| a factor 1 ± 4u.
+/// So `lower` exceeds the true distance of the given triangles by less than (3 + 3 + 2 + 8)u·S =
 /// 2^-60·S. `upper` may be below the distance of the witness points, also by less than 2^-60·S.
 /// Callers add this error.
 struct DistanceBounds {

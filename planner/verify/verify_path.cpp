@@ -16,8 +16,8 @@ using namespace verify;
 
 constexpr Real kInfinity = std::numeric_limits<Real>::infinity();
 constexpr int kFindings = 100;
-/// The maximum number of times that an edge is halved: t then has 60 bits, and EdgeCurve's bounds
-/// on rounding allow 63.
+/// The maximum number of times that an edge is halved. So t has 60 bits; EdgeCurve's bounds on
+/// rounding allow 63 bits.
 constexpr int kDepth = 60;
 /// An edge is first halved into 2^kCoarse intervals. In this phase the interval with the smallest
 /// estimate is halved next: this order finds a deep collision quickly. Afterwards the shortest
@@ -38,8 +38,8 @@ struct Interval {
   TimeInterval time;
   int depth = 0;  ///< time.half = 2^-(depth + 1), unless it is a single time
   std::vector<OpenPair> pairs;
-  Real bound = -kInfinity;     ///< of a proved interval: the smallest bound of these pairs
-  Real estimate = -kInfinity;  ///< of an open interval: the smallest estimate of these pairs
+  Real bound = -kInfinity;     ///< of a proved interval: the smallest bound of `pairs`
+  Real estimate = -kInfinity;  ///< of an open interval: the smallest estimate of `pairs`
 };
 
 std::array<Interval, 2> halvesOf(const Interval& whole) {
@@ -201,9 +201,9 @@ void Verifier::proveEdge(std::size_t edge) {
   }
 }
 
-/// Tests for each pair whether one body is inside the other at the start. If it is not, it stays
-/// outside along a path without contact. A pair that is undecided at the start is skipped, because
-/// its surfaces may touch.
+/// Tests for each pair whether one body is inside the other at the start. A body that is outside at
+/// the start stays outside along a path without contact. A pair that is undecided at the start is
+/// skipped, because its surfaces may touch.
 void Verifier::proveOutside() {
   for (std::size_t pair = 0; pair < prover_.pairs() && !closed(0); ++pair) {
     if (undecided_.count({0, pair}) > 0) continue;
@@ -230,9 +230,9 @@ void Verifier::refine() {
   }
 }
 
-/// Looks for the first refutation on the edge of a finding: walks the intervals before the contact
-/// that is known, earliest first, and halves those that it cannot prove. Everything before the
-/// interval on top of the stack is proved.
+/// Searches for the first refutation on the edge of a finding. It tests the intervals before the
+/// known refutation, the earliest first, and halves those that it cannot prove. The edge is always
+/// proved up to the interval on top of the stack.
 void Verifier::findFirst(PathFinding& finding) {
   const std::uint64_t limit = 5 * queries_ + kRefinement;
   Real contact = finding.t;
@@ -281,7 +281,8 @@ PathReport Verifier::run() {
   const auto refuted = std::find_if(findings_.begin(), findings_.end(), [](const auto& each) {
     return each.second.verdict == PathVerdict::refuted;
   });
-  // Only a finding with two bodies has a first contact; one about an edge without a curve has none.
+  // Only a finding with two bodies has a first contact. A finding about an edge that defines no
+  // curve has none.
   if (refuted != findings_.end() && !refuted->second.a.empty() && !single_)
     findFirst(refuted->second);
   return report();
@@ -311,7 +312,7 @@ PathReport Verifier::report() const {
   return report;
 }
 
-/// The report of a path that cannot be verified in this arithmetic.
+/// Returns the report of a path that cannot be verified in this arithmetic.
 /// @param startOf returns the configuration at the start of an edge.
 template <class Start>
 PathReport refusal(FloatingPoint arithmetic, std::size_t edges, const Start& startOf) {

@@ -37,13 +37,14 @@ namespace corridor {
 /// Distances come from plain AABB trees in long double, each certified by a slab between the two
 /// triangles or parts. Contacts of triangles are decided in rational arithmetic.
 ///
-/// verifyCurve() does the same for polynomial pieces instead of edges. |Δ_j| is then the largest
-/// |q_j'| in an eighth of the piece that contains the interval, and the second-order term also has
-/// the largest |q_j''| (edge_curve.h).
+/// verifyCurve() uses this method for polynomial pieces instead of edges. A piece is cut into
+/// eighths. The largest |q_j'| in the eighth that contains the interval then replaces |Δ_j|. (For
+/// an interval longer than an eighth: the largest |q_j'| in the interval itself.) The second-order
+/// term also has the largest |q_j''| there (edge_curve.h).
 ///
 /// Files: edge_curve (edges and pieces, forward kinematics, reach weights), bernstein
 /// (polynomials), curve_joins (the ends of pieces), polynomial_range (limits), triangle_gap and
-/// convex_gap (distance of two leaf primitives), moved_slab (two moving leaf primitives), box_tree
+/// convex_gap (distance of two leaf primitives), moved_slab (two moving leaf primitives), body_tree
 /// (two bodies), exact_contact (rational arithmetic), winding (inside a solid), pair_prover (two
 /// bodies in a time interval), verify_path (the bisection).
 
@@ -74,8 +75,9 @@ struct PathProblem {
   double wantedClearance = 0;
   Configuration tube;    ///< the proof holds for all curves in the tube (planner/model/task.h)
   double tolerance = 0;  ///< metres, > 0
-  /// The reason of findings that are undecided because of it: kWorkLimit.
-  std::uint64_t workLimit = 2'000'000;  ///< distance queries; then the edges left are undecided
+  /// The maximum number of distance queries. When it is reached, all edges that are not decided yet
+  /// become undecided, with the reason kWorkLimit.
+  std::uint64_t workLimit = 2'000'000;
 };
 
 enum class PathVerdict {
@@ -83,40 +85,42 @@ enum class PathVerdict {
   /// wrong.
   proved,
   /// At least one finding is a refutation: a contact; a distance that margin or tube do not allow;
-  /// an ambiguous half turn; a joint that would jump; or a state that is not valid data. A contact
-  /// or distance is found at a pose that differs from the path's only by rounding: by at most 2^-48
-  /// of the lengths involved, or by at most the tolerance.
+  /// an ambiguous half turn; a joint that would jump; or a state that is not valid data. The pose
+  /// at which a contact or distance was found differs from the path's pose only by rounding: by at
+  /// most 2^-48 of the lengths involved, or by at most the tolerance.
   refuted,
   /// The path is neither proved nor refuted, for one of these reasons:
   /// - Somewhere the clearance beyond the margin is below twice the tolerance.
-  /// - Somewhere it is below the displacement by the tube. MovedSlab computes the first-order term
-  ///   of this displacement, and Reach the second-order term.
+  /// - Somewhere the clearance beyond the margin is below the displacement by the tube. MovedSlab
+  ///   computes the first-order term of this displacement, and Reach the second-order term.
   /// - The rounding of a large value may exceed the clearance.
   /// - The work limit was reached.
   undecided
 };
 
-/// PathFinding::reason of what was not examined because the work limit was reached.
+/// The PathFinding::reason of edges that are undecided because the work limit was reached.
 inline constexpr const char* kWorkLimit = "work limit reached";
 
-/// A fault of an edge: a refutation, or else an undecided place. On the first refuted edge of a
-/// path, it is the first refutation along the edge (`freeUntil`); on other edges, it is the first
-/// one met.
+/// A fault of an edge: a refutation, or else an undecided time. On the first refuted edge of a
+/// path, it is the first refutation along the edge (`freeUntil`). On other edges, it is the
+/// refutation that the verifier met first, or else the first undecided time that it met.
 struct PathFinding {
   PathVerdict verdict = PathVerdict::undecided;
   int edge = 0;  ///< the edge from state `edge` to state `edge` + 1, from 0; or the piece
   double t = 0;  ///< time on the edge, in [0, 1]
-  /// On the first refuted edge, the edge is proved on [0, freeUntil], and its first refutation is
-  /// in (freeUntil, t]. This bracket is narrowed until the motion bound in it is below the
-  /// tolerance, or a limit of queries is reached. Not set on other edges: there, `t` is not the
-  /// first refutation.
+  /// On the first refuted edge, the edge is proved on [0, freeUntil] unless this is 0, and its
+  /// first refutation is in [freeUntil, t]. This bracket is narrowed until the motion bound in it
+  /// is below the tolerance, or a limit of queries is reached. The value is set only on the first
+  /// refuted edge, and only for a fault of two bodies. On other edges, `t` need not be the time of
+  /// the first refutation.
   std::optional<double> freeUntil;
   /// The state at t. A contact is exact at a pose that differs from this state's by rounding only.
   Configuration configuration;
-  /// The two bodies that touch, or that could not be decided, at t. Empty: the fault is not one of
-  /// two bodies.
+  /// The two bodies that touch or are too close at t, or that could not be decided there. Both
+  /// names are empty if the fault does not concern two bodies.
   std::string a, b;
-  std::uint32_t triangleA = 0, triangleB = 0;  ///< numbers in their meshes or parts
+  /// Indices of the triangles in the meshes, or of the convex parts in the bodies.
+  std::uint32_t triangleA = 0, triangleB = 0;
   Vec3 point = Vec3::Zero();  ///< the contact, or the closest point of `b`; metres, world
   double gap = 0;             ///< distance of the two bodies at t, metres; 0: contact
   std::string reason;         ///< a few words: "contact", "ambiguous half turn", …
@@ -125,7 +129,8 @@ struct PathFinding {
 struct PathReport {
   PathVerdict verdict = PathVerdict::proved;
   /// One finding for each edge that is not proved, in the order of the edges; at most 100. If the
-  /// first finding is a refutation, it is the first contact of the path.
+  /// first finding is a refutation, it is the first refutation of the path (see
+  /// PathFinding::freeUntil).
   std::vector<PathFinding> findings;
   int edges = 0;
   int edgesProved = 0;
@@ -133,11 +138,11 @@ struct PathReport {
   /// path is not proved, the value is 0. If no pair is tested, it is infinite. The value is refined
   /// until one of three conditions holds:
   /// - It reaches 90 % of the difference between `smallestDistanceMet` and the displacement by the
-  ///   tube, and `PathProblem::wantedClearance` if that is below this difference.
+  ///   tube; and also `PathProblem::wantedClearance`, if this is below the difference.
   /// - The motion bound of the worst interval is below the tolerance.
   /// - A limit of queries is reached.
   double provenClearance = 0;
-  /// Metres: the smallest distance met at the poses tested. The path's clearance is not larger.
+  /// Metres: the smallest distance found at the tested poses. The path's clearance is at most this.
   double smallestDistanceMet = std::numeric_limits<double>::infinity();
   std::uint64_t distanceQueries = 0;
 };
@@ -164,7 +169,7 @@ PathReport verifyPath(const PathProblem& problem, const std::vector<Configuratio
 ///
 /// The proof holds for every curve that differs from a piece by at most the tube plus the piece's
 /// `error`. A contact of the polynomial refutes the curve only if `error` displaces no body by more
-/// than the tolerance. Otherwise such a piece is undecided.
+/// than the tolerance. Otherwise a piece with such a contact is undecided.
 ///
 /// These faults give the finding `refuted`:
 /// - "jump": the piece does not begin where the piece before it ends. The ends may differ by the
@@ -172,9 +177,9 @@ PathReport verifyPath(const PathProblem& problem, const std::vector<Configuratio
 /// - "ambiguous half turn": a rotation turns by 180° within 1e-9 rad in one piece.
 /// - "not a valid state": a coefficient is not finite, or a rotation begins or ends with a zero
 ///   quaternion.
-/// @throws std::invalid_argument as verifyPath() does; also if `pieces` is empty, a piece has the
-/// wrong number of rows, a degree outside of [1, CurvePiece::kLargestDegree], or an error that is
-/// negative, not finite, or of another length than a configuration.
+/// @throws std::invalid_argument as verifyPath() does; also if `pieces` is empty, or if a piece has
+/// the wrong number of rows, a degree outside of [1, CurvePiece::kLargestDegree], or an error that
+/// is negative, not finite, or of another length than a configuration.
 PathReport verifyCurve(const PathProblem& problem, std::span<const CurvePiece> pieces);
 
 }  // namespace corridor

@@ -161,7 +161,7 @@ bool writePicture(const std::string& page, const std::filesystem::path& browser,
   const bool drawn = said.find("corridor: the picture is drawn") != std::string::npos;
   if (!drawn || !isWholePng(png)) {
     std::string why = "has not drawn the picture";
-    if (end.why == ProgramEnd::Why::late) why += " in " + std::to_string(kPatience) + " s";
+    if (end.why == ProgramEnd::Why::timedOut) why += " in " + std::to_string(kPatience) + " s";
     if (drawn)
       why = "has not written the whole picture to " + folder.path().parent_path().string() +
             "; free some space there, or set TMPDIR to another folder";

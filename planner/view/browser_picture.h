@@ -11,8 +11,8 @@ namespace corridor {
 struct PictureSize {
   int width = 1366, height = 768;  ///< pixels
 };
-/// Reads a size such as "1200x800", each number from 100 to 8000. @param option its name in the
-/// error message. @throws InputError.
+/// Reads a size such as "1200x800", each number from 100 to 8000. @param option the option's name
+/// in the error message. @throws InputError.
 PictureSize pictureSize(const std::string& text, const std::string& option);
 
 /// Searches PATH for Chromium by its usual names, and returns its path.

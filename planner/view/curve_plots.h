@@ -7,7 +7,7 @@
 
 namespace corridor::view {
 
-/// The numbers of a trajectory over its time: what plots of it show.
+/// The values that plots of a trajectory show: its numbers and their derivatives over time.
 struct CurvePlots {
   struct Number {
     std::size_t coordinate = 0;                            ///< in the space
@@ -22,9 +22,10 @@ struct CurvePlots {
 /// Evaluates a curve at the ends of each piece, and at up to 39 times between them.
 CurvePlots curvePlots(const ConfigurationSpace& space, const Curve& curve);
 
-/// Returns the limit of a line or circle: the element of `limits` for its number or, for the
-/// position of a planar or floating joint, that of the position's first number, which limits the
-/// length of the vector. Infinite if `limits` is empty.
+/// Returns the limit of a line or circle. This is the element of `limits` for the coordinate's
+/// number, with one exception: the coordinates of the position of a planar or floating joint have
+/// the element of the position's first number, which limits the length of the vector. Returns
+/// infinity if `limits` is empty.
 double limitOf(const ConfigurationSpace& space, std::size_t coordinate,
                const Configuration& limits);
 

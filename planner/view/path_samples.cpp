@@ -61,7 +61,8 @@ double turnBetween(const std::vector<Transform>& from, const std::vector<Transfo
   return largest;
 }
 
-/// Returns the values of t of an edge's samples: even steps, and those of its findings.
+/// Returns the values of t of an edge's samples: evenly spaced ones, and those of the edge's
+/// findings.
 std::vector<double> parametersOf(std::size_t edge, double steps,
                                  const std::vector<PathFinding>& findings) {
   std::vector<double> all;

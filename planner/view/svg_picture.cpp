@@ -205,7 +205,7 @@ std::string caption(const Camera& camera, double seconds) {
 }
 
 /// Returns whether the problem is a single planar body, which is drawn as seen from above.
-bool isPlan(const Problem& problem) {
+bool isSeenFromAbove(const Problem& problem) {
   return problem.model.space.groups().size() == 1 &&
          problem.model.space.groups()[0].kind == CoordinateGroup::Kind::planar;
 }
@@ -216,7 +216,7 @@ std::string svgPicture(const Problem& problem, const Path& path,
                        const std::optional<ViewDirection>& from,
                        const std::optional<double>& seconds) {
   constexpr double degree = std::numbers::pi / 180;
-  const bool plan = !from && isPlan(problem);
+  const bool plan = !from && isSeenFromAbove(problem);
   const auto [azimuth, elevation] = from.value_or(plan ? ViewDirection{-90 * degree, 90 * degree}
                                                        : ViewDirection{-60 * degree, 38 * degree});
   Camera camera(azimuth, elevation);

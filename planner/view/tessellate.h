@@ -15,12 +15,12 @@ TriangleMesh tessellated(const ConvexPart& part);
 /// list.
 TriangleMesh tessellated(const std::vector<ConvexPart>& parts);
 constexpr std::size_t kMostParts = 20'000;
-/// Returns flat convex parts, each with its corners in order, as triangles that are seen from both
-/// sides: the pieces of a polygon, exactly.
+/// Returns the exact surface of flat convex parts, such as the pieces of a polygon, as triangles
+/// that are seen from both sides. @pre each part has its corners in order.
 TriangleMesh flatSurface(const std::vector<ConvexPart>& pieces);
 
-/// Returns the surface of a shape that has no mesh: of a polygon's pieces exactly, of other parts
-/// as above.
+/// Returns the surface of a shape that has no mesh: `flatSurface` for the pieces of a polygon,
+/// `tessellated` for other parts.
 TriangleMesh partsSurface(const PlacedShape& shape);
 
 /// Returns a coarser mesh, for pictures in which triangles would be smaller than a pixel: in each

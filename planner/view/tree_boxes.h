@@ -17,7 +17,7 @@ struct TreeBoxes {
   std::vector<std::size_t> counts;   ///< boxes per level; a leaf is counted on its own level only
 };
 
-/// Returns as many levels, from the root down, as have at most `most` boxes together.
+/// Returns the first levels, from the root down: as many as have at most `most` boxes together.
 TreeBoxes treeBoxes(const Obb4Tree& tree, const Vec3& origin, std::size_t most);
 
 }  // namespace corridor::view

@@ -11,7 +11,8 @@ struct ViewDirection {
 };
 
 /// Reads a direction: front (the viewer is at +x), back, left (at +y), right, top, bottom, or
-/// AZIMUTH,ELEVATION in degrees, such as "-60,38". @param option its name in the error message.
+/// AZIMUTH,ELEVATION in degrees, such as "-60,38". @param option the option's name in the error
+/// message.
 /// @throws InputError.
 ViewDirection viewDirection(const std::string& text, const std::string& option);
 

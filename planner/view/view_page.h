@@ -15,11 +15,11 @@ struct ViewedPath {
   /// A trajectory: the curve through its rows, as curveOf returns it. It is played at its true
   /// speed if `report` has its times.
   std::optional<Curve> curve;
-  /// Limits for the plots of a trajectory, for each number: m/s, rad/s; m/s², rad/s². Infinite, or
-  /// empty: none. The position of a planar or floating joint has the limit of the vector's length,
-  /// at the first of its numbers.
+  /// Limits for the plots of a trajectory, one element for each number: m/s, rad/s; m/s², rad/s².
+  /// An infinite element, or an empty vector, is no limit. For the position of a planar or floating
+  /// joint, the element of its first number limits the vector's length.
   Configuration velocityLimits, accelerationLimits;
-  std::string limitsText;  ///< of `report.limits`: the shares of the limits over time, one line
+  std::string limitsText;  ///< the shares of the limits over time (`report.limits`), one line
 };
 
 /// Returns an HTML page that shows a problem as a 3D scene, and plays a path or trajectory of it.

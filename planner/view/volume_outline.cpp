@@ -51,7 +51,7 @@ ConvexPart outline(const Rss& rss) {
   return {corners(rss.core.center, rss.core.axes, rss.core.half), rss.size};
 }
 
-/// The corners are those points where three faces meet that no other slab excludes.
+/// The corners are the points where three faces meet, except points outside of another slab.
 template <int K>
 ConvexPart outline(const Kdop<K>& kdop) {
   constexpr std::size_t slabs = K / 2;
@@ -67,14 +67,14 @@ ConvexPart outline(const Kdop<K>& kdop) {
       m.row(r) = normals[at[r]].transpose();
       offsets[r] = (sides >> r & 1 ? kdop.high : kdop.low)[at[r]];
     }
-    if (std::abs(m.determinant()) < 0.5) return;  // it is a whole number
+    if (std::abs(m.determinant()) < 0.5) return;  // the determinant is a whole number
     const Vec3 p = m.inverse() * offsets;
     for (std::size_t i = 0; i < slabs; ++i)
       if (const double x = normals[i].dot(p);
           x < kdop.low[i] - 1e-9 * size || x > kdop.high[i] + 1e-9 * size)
         return;
     for (const Vec3& q : points)
-      if ((p - q).norm() < 1e-7 * size) return;  // more than three faces meet there
+      if ((p - q).norm() < 1e-7 * size) return;  // found before, from three other faces
     points.push_back(p);
   };
   for (std::size_t i = 0; i < slabs; ++i)

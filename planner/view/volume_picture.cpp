@@ -206,7 +206,8 @@ VolumePicture volumePicture(const TriangleMesh& mesh, const TreeNames& trees, st
                     view::palette('w', {112, 118, 130}, {233, 232, 226}) +
                     "</style>\n<rect width=\"100%\" height=\"100%\" fill=\"#fbfaf7\"/>\n";
   svg += drawVisible(camera, faces, kMeshLimit) + "<g fill-opacity=\".13\" stroke-width=\"1\">\n";
-  // The farthest are drawn first. Colours go by the place in the tree, so that neighbours differ.
+  // The farthest volumes are drawn first. The colour of a volume follows from its index on the
+  // level, so that neighbours differ.
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t i = 0; i < found.volumes.size(); ++i) {
     Vec3 sum = Vec3::Zero();

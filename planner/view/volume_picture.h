@@ -16,13 +16,13 @@ struct VolumePicture {
   std::string svg;  ///< at most some 100 KB
   std::size_t drawn =
       0;  ///< the number of volumes in the picture: the nearest, if some are left out
-  std::size_t volumes = 0;  ///< on the level, with the leaves of the levels above
-  std::size_t levels = 0;   ///< of the tree; the root is level 0
+  std::size_t volumes = 0;  ///< the number of volumes on the level, with the leaves above it
+  std::size_t levels = 0;   ///< the number of levels of the tree; the root is level 0
 };
 
-/// Draws a mesh, and the volumes of a level of its tree. Without such a level, the picture has the
-/// last one.
-/// @param trees the tree; `invalidNameIn` reports nothing.
+/// Draws a mesh, and the volumes of a level of its tree. If the tree has fewer levels, the picture
+/// shows the last one.
+/// @param trees the kind of tree. @pre `invalidNameIn(trees)` is nullopt.
 /// @param from the direction of view; unset: from above, at an angle.
 VolumePicture volumePicture(const TriangleMesh& mesh, const TreeNames& trees, std::size_t level,
                             const std::optional<ViewDirection>& from = {});

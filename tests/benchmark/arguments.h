@@ -89,7 +89,8 @@ class Arguments {
   std::map<std::string, std::vector<std::string>> values_;
 };
 
-/// Pins the program to a core: that of --cpu, or the last one that it may use; returns its number.
+/// Pins the program to the core that --cpu names, or to the last core that the program may use.
+/// Returns the core's number.
 /// @throws std::runtime_error if there is no such core.
 inline int pin(const Arguments& arguments) {
   cpu_set_t set;

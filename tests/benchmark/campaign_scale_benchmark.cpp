@@ -1,11 +1,11 @@
-/// What a campaign of many runs costs: `campaign_scale_benchmark --out FOLDER [--runs N]
+/// Measures what a campaign of many runs costs: `campaign_scale_benchmark --out FOLDER [--runs N]
 /// [--problems N] [--variants N] [--planners N] [--seed N] [--shards N]`.
 ///
 /// Writes a simulated campaign into the folder (simulated_campaign.h), fills its database
 /// `results/campaign.db`, and measures:
 /// * storing a run: each in a transaction of its own, as a campaign does, and many together;
-/// * resuming (the database into memory), the rows and logs, the report: time, and the largest
-///   memory of the process up to then;
+/// * resuming (reading the database into memory), writing the rows and logs, and writing the
+///   report: the time of each, and the largest memory of the process up to then;
 /// * the program itself: `corridor benchmark FOLDER/campaign.yaml -o FOLDER/results --resume`,
 ///   which has no run to make.
 /// With --shards, it stores the runs in turn in the databases `shard_1/campaign.db`, … instead, and
@@ -71,7 +71,8 @@ void inFork(const std::function<void()>& step) {
     throw std::runtime_error("a step failed");
 }
 
-/// Stores all runs; every K-th of a cell in each of K databases.
+/// Stores all runs. With K databases, each gets every K-th run, in the order in which a campaign
+/// makes its runs.
 void store(const Campaign& campaign, SimulatedRuns& simulated, const std::vector<fs::path>& files) {
   constexpr std::uint64_t kAlone = 1000, kTogether = 10'000;
   const std::uint64_t all = simulated.cells() * campaign.runs;

@@ -3,7 +3,7 @@
 ///
 /// Two polytopes of n vertices, hulls of random points on a sphere, pass each other at a gap of 5 %
 /// of their size, or with an overlap of as much, and rotate. For each motion per step (as a share
-/// of the size), the program runs each query cold, and warm: begun with what the query before has
+/// of the size), the program runs each query cold, and warm: begun with what the previous query has
 /// kept (the simplex of GJK, collision/convex/convex_cache.h; the features of V-Clip; the last
 /// separating axis). Prints CSV: mean times in microseconds, each the least of three runs, their
 /// ratio, and mean numbers of steps (rounds of GJK; for V-Clip also pairs of features; for axes the

@@ -32,7 +32,7 @@ struct EdgeCase {
   /// Computes the poses of the scene's frames at t.
   std::function<void(double t, std::vector<Transform>& X_WF)> poses;
 #ifdef CORRIDOR_WITH_FCL
-  /// Makes FCL's models, if not all bodies are meshes.
+  /// Makes FCL's models. If it is empty, they are made from `scene`, whose bodies are all meshes.
   std::function<std::shared_ptr<FclScene>()> fcl;
 #endif
 };

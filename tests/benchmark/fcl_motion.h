@@ -27,11 +27,11 @@ inline FclMotion fclMotion(const Transform& from, const Transform& to) {
   return FclMotion(from.m, from.t, to.m, to.t, fcl::Vector3d::Zero());
 }
 
-/// FCL's own advancement on trees of RSSs, which its continuousCollide never calls. That function
-/// uses the variant for volumes without axes, which moves the stored vertices in every step, and
-/// applies the motion once more in its bounds. FCL fixes the step below which it reports contact.
-/// `leastStep`, which replaces this step, is a static member because FCL constructs the object
-/// itself.
+/// FCL's own advancement on trees of RSSs, which its continuousCollide never calls.
+/// continuousCollide uses the variant for volumes without axes: it moves the stored vertices in
+/// every step, and applies the motion once more in its bounds. FCL fixes the step of t below which
+/// it reports contact. `leastStep` replaces this step. It is a static member because FCL constructs
+/// the object itself.
 struct FclAdvancementNode : fcl::detail::MeshConservativeAdvancementTraversalNodeRSS<double> {
   static inline thread_local double leastStep = 1e-5;  ///< the least step of t
   FclAdvancementNode() { t_err = leastStep; }

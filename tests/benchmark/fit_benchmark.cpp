@@ -6,7 +6,7 @@
 /// where a mesh is unevenly tessellated; triangles mislead where parts are buried inside.
 ///
 /// Models of some 10,000 triangles: a sphere, an ellipsoid with a finely tessellated end, and the
-/// same ellipsoid, evenly tessellated, with small spheres buried in one half. The query is
+/// same ellipsoid, evenly tessellated, with small spheres buried in one quarter of it. The query is
 /// interference with a torus with bumps of 5,000 triangles at random poses (500 by default) at
 /// which the bounding spheres overlap. Prints CSV on stdout:
 /// * for each model, tree (obb, obb-binary, rss) and fit: the means N_v and N_p, the mean time, and
@@ -16,7 +16,7 @@
 /// * the time to build a binary OBB tree over tori of 1,000 to N triangles (100,000 by default),
 ///   with n·log n and n·log² n through the first point.
 ///
-/// FOLDER gets a plot of the last.
+/// FOLDER gets a plot of the building times.
 #include <chrono>
 #include <iostream>
 #include <map>

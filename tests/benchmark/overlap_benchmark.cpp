@@ -1,10 +1,10 @@
 /// Measures the cost of overlap tests of two oriented boxes: `overlap_benchmark [--data DIR]
 /// [--workload TEXT]… [--rounds N] [--cpu N]`.
 ///
-/// The tests are separating axes, and the tests that this one replaced in the literature: closest
-/// features (GJK), linear programming, and edges against faces. Gottschalk, Lin, Manocha 1996,
-/// section 5, found separating axes some 10 times faster than closest features and some 30 times
-/// faster than linear programming.
+/// The tests are separating axes, and the tests that separating axes replaced in the literature:
+/// closest features (GJK), linear programming, and edges against faces. Gottschalk, Lin, Manocha
+/// 1996, section 5, found separating axes some 10 times faster than closest features and some 30
+/// times faster than linear programming.
 ///
 /// Pairs of boxes are those that real queries meet. Trees over the workloads of DIR/collision are
 /// traversed at all their poses. (DIR defaults to $CORRIDOR_DATA; without data, the workload is a

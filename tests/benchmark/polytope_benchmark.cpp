@@ -13,11 +13,11 @@
 ///   of the size, the others overlap by 5 %, along random directions.
 /// * `touching`: the same with a gap or depth of 1e-12 of the size.
 /// * `distance` of the disjoint pairs; `depth` and `depth along` of the overlapping pairs.
-/// * `separation`: the signed separation from such a plane, with its witness. `side`: only the
-/// side.
-/// * The contact queries also by Barba and Langerman's algorithm with inner and outer hierarchies,
-///   by V-Clip, separating axes (up to 1000 vertices) and linear programming (up to 10^4). The
-///   distance also by V-Clip.
+/// * `separation`: the signed separation from a random plane, with its witness. `side`: only the
+///   side.
+/// * The contact queries also run by Barba and Langerman's algorithm with inner and outer
+///   hierarchies, by V-Clip, by separating axes (up to 1000 vertices) and by linear programming (up
+///   to 10^4). The distance also runs by V-Clip.
 /// * `polygon interference`: whether two convex polygons of n vertices touch, in the same way.
 #include <cmath>
 #include <iomanip>
@@ -102,8 +102,8 @@ Pair pairWith(Random& random, const DobkinKirkpatrick& a, const DobkinKirkpatric
   return pair;
 }
 
-/// The axes of larger polytopes take seconds, since their number is O(n²); likewise, the linear
-/// program of larger ones takes long, though O(n).
+/// Larger polytopes are not tested by these two methods. Their separating axes take seconds,
+/// because the number of axes is O(n²). Their linear programs take long, although the time is O(n).
 constexpr std::size_t kMostForAxes = 1000, kMostForPrograms = 10'000;
 
 void measure(std::size_t n, std::size_t queries) {

@@ -63,8 +63,8 @@ class Transcript {
     }
     return value;
   }
-  /// Does the same for an answer that is a state: records its present value, or overwrites it with
-  /// the recorded one.
+  /// Handles an answer that is a state: records its present value, or overwrites it with the
+  /// recorded one.
   void answer(const ompl::base::SpaceInformation& si, ompl::base::State* state) {
     const std::size_t size = si.getStateSpace()->getSerializationLength();
     if (recording_) {

@@ -57,7 +57,8 @@ inline std::filesystem::path writeSimulated(const SimulatedSize& size,
   return folder / "campaign.yaml";
 }
 
-/// Makes runs of a simulated campaign. Each is a function of the seed, its cell and its own seed.
+/// Makes runs of a simulated campaign. Each run is a function of the seed of this object, the run's
+/// cell and the run's seed.
 class SimulatedRuns {
  public:
   /// Makes one real run of each variant and planner of the first problem. @pre one thread.

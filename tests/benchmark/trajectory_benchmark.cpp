@@ -1,10 +1,11 @@
-/// What a robot executes: `trajectory_benchmark --problem FILE… [--count N] [--seed N] [--fcl]`.
-/// FILE is a problem, or a set of MotionBenchMaker, of which the first N problems are taken (20).
+/// Compares trajectories that a robot may execute: `trajectory_benchmark --problem FILE… [--count
+/// N] [--seed N] [--fcl]`. FILE is a problem, or a set of MotionBenchMaker, of which the first N
+/// problems are taken (20).
 ///
 /// Each problem is solved once by its own planner. Along this path, four trajectories are compared,
 /// with the same limits and the same law (planner/benchmark/trajectory_run.h): `blends` (ours),
 /// `stop`, `spline` and `inserted`. The independent verifier judges the rows of all of them.
-/// `corridor benchmark` compares the same in campaigns.
+/// `corridor benchmark` compares the same trajectories in campaigns.
 ///
 /// Prints one CSV line per problem, then the summary. `free` is the law of the path without its
 /// inner corners' limits: no motion along the path is faster. `saved` is (stop − ours)/(stop −

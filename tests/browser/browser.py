@@ -133,7 +133,7 @@ class Browser:
 
     def canvas(self, selector):
         """Returns the number of colours of a canvas that WebGL draws on, and a hash of its pixels."""
-        # A copy to a canvas of 2D, to read that, takes a hundred times as long without a graphics card.
+        # Without a graphics card, copying the pixels to a 2D canvas and reading that takes a hundred times as long.
         return self.driver.execute_script("""
             const canvas = document.querySelector(arguments[0]), gl = canvas.getContext('webgl2') || canvas.getContext('webgl');
             const pixels = new Uint32Array(gl.drawingBufferWidth * gl.drawingBufferHeight);

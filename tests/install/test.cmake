@@ -1,6 +1,7 @@
 # Tests `cmake --install` and find_package(corridor). Installs into a prefix with a space in its name. Configures, builds
-# and runs the project beside this file, which uses collision/ alone, and the one in ompl_program/, which uses the planner.
-# Compares the projects' files with the guides, which show them. Runs the installed program.
+# and runs three projects: the project in this folder, which uses collision/ alone, and those in ompl_program/ and
+# own_programs/, which use the planner. Compares the projects' files with the guides that show them. Runs the installed
+# program.
 # cmake -D BUILD=… -D WORK=… -D CONFIG=… -D GENERATOR=… -D COMPILER=… -D FLAGS=… -P test.cmake
 cmake_minimum_required(VERSION 3.25)
 set(prefix "${WORK}/a prefix")
@@ -46,9 +47,9 @@ function(build_project source build)
 endfunction()
 build_project("${CMAKE_CURRENT_LIST_DIR}" "${build}")
 
-# The headers must refuse compiler options under which no bound holds.
+# The headers must refuse compiler options under which the error bounds do not hold.
 set(refused -ffast-math -ffinite-math-only)
-if(NOT COMPILER MATCHES "clang")  # clang defines no macro for these
+if(NOT COMPILER MATCHES "clang")  # clang defines no macro for the other options
   list(APPEND refused -funsafe-math-optimizations -freciprocal-math)
 endif()
 foreach(option ${refused})
@@ -59,7 +60,7 @@ foreach(option ${refused})
   endif()
 endforeach()
 
-# A unit cube, once as OBJ, which Corridor reads itself, once as Collada, which assimp reads in its own process.
+# A unit cube as OBJ, which Corridor itself reads, and as Collada, which assimp reads in a separate process.
 set(corners "0 0 0" "1 0 0" "1 1 0" "0 1 0" "0 0 1" "1 0 1" "1 1 1" "0 1 1")
 set(quads "0 3 2 1" "4 5 6 7" "0 1 5 4" "1 2 6 5" "2 3 7 6" "3 0 4 7")
 set(obj "")
@@ -105,8 +106,8 @@ if(NOT status EQUAL 2 OR NOT err MATCHES "none.urdf")
 endif()
 run("${prefix}/bin/corridor" inspect "${WORK}/cube.dae")
 
-# A rigid body in an OMPL program, and a trajectory that is made elsewhere: one that goes around the post, and one that
-# goes through it.
+# own_programs/: a rigid body in an OMPL program, and a program that checks trajectories made elsewhere. One of the
+# trajectories stays beside the post, and one goes through it.
 build_project("${CMAKE_CURRENT_LIST_DIR}/own_programs" "${WORK}/own")
 run("${WORK}/own/rigid" "${WORK}/cube.obj")
 if(NOT out MATCHES "(^|\n)certified\n$")
@@ -125,7 +126,7 @@ if(NOT status EQUAL 1 OR NOT out MATCHES "^contact at [01]\\.[0-9]+\n$")
   message(FATAL_ERROR "the program with a trajectory through the post: ${status}\n${out}${err}")
 endif()
 
-# The Python package, if it was built: it finds the installed helper, too.
+# The Python package, if it was built, finds the installed helper program, too.
 file(GLOB package "${prefix}/lib/python3*/dist-packages")
 if(package AND NOT FLAGS MATCHES "sanitize")
   file(WRITE "${WORK}/use.py" "import corridor

@@ -28,7 +28,7 @@ def planar_arm(**edits):
 
 
 def distance(q):
-    """The distance of hand and ball at states (N, 2), by a formula of its own."""
+    """Returns the distance of hand and ball at states (N, 2), by a formula that is independent of Corridor."""
     a, b = q[:, 0], q[:, 0] + q[:, 1]
     x, y = 0.6 * np.cos(a) + 0.6 * np.cos(b), 0.6 * np.sin(a) + 0.6 * np.sin(b)
     return np.hypot(x - CENTRE[0], y - CENTRE[1]) - HAND - BALL
@@ -54,7 +54,7 @@ class Arm(unittest.TestCase):
                 self.assertGreaterEqual(clearance, 0.01)
                 t = np.linspace(t0, t1, 33)[:, None]
                 found = distance((1 - t) * q0 + t * q1)
-                # The formula's rounding: below 40 operations on numbers below 2, each off by 2^-52 at most.
+                # The rounding of the formula: fewer than 40 operations on numbers below 2, each off by at most 2^-52.
                 self.assertGreaterEqual(found.min(), clearance - 40 * 2**-51)
                 closest = min(closest, found.min() - clearance)
                 samples += len(found)
@@ -69,14 +69,15 @@ class Arm(unittest.TestCase):
         proof = problem.certificate([-0.5, 0.0], [1.5, 0.0], earliest=True)
         self.assertEqual(proof.verdict, Verdict.CONTACT)
         q = (1 - proof.time) * proof.q0 + proof.time * proof.q1
-        # The first contact, found within the time tolerance: the distance there is small, and free_until is before.
+        # The first contact is found within the time tolerance: the balls touch or overlap at `time`, and are apart at
+        # free_until.
         self.assertLessEqual(distance(q[None])[0], 0)
         self.assertLessEqual(proof.free_until, proof.time)
         self.assertGreater(distance(((1 - proof.free_until) * proof.q0 + proof.free_until * proof.q1)[None])[0], 0)
         a, b = proof.contact
         self.assertEqual({problem.bodies[a], problem.bodies[b]}, {"hand", "ball"})
         point = (problem.poses(q)[0, a] @ [*proof.point, 1])[:3]
-        # It is on both balls, up to their overlap at the time that was found.
+        # The point of contact is on both balls, up to their overlap at the time that was found.
         hand = problem.poses(q)[0, problem.bodies.index("hand"), :3, 3]
         overlap = -distance(q[None])[0] + 1e-9
         self.assertLessEqual(abs(np.linalg.norm(point - hand) - HAND), overlap)
@@ -89,7 +90,7 @@ class Arm(unittest.TestCase):
         self.assertEqual(proof.free_until, 1)
         self.assertIsNone(proof.check())
         self.assertEqual(repr(proof), f"<Certificate: free, 1 pairs, {len(proof.pair)} intervals>")
-        # A gap, a claim that is too large, and nonsense.
+        # Certificates with a gap, with a claim that is too large, and with nonsense.
         claims = proof.clearance.copy()
         proof.clearance = claims + 10
         self.assertEqual(proof.check().kind, "refuted")
@@ -165,7 +166,7 @@ class ManyPairs(unittest.TestCase):
             self.assertGreaterEqual(problem.clearance(proof.q0)[0], least * (1 - 2**-40) if least < 1 else 0)
 
     def test_inside_a_solid(self):
-        """A small ball inside a solid cube: contact, and the certificate is empty."""
+        """A small ball inside a solid cube is in contact, and the certificate has no intervals."""
         corners = [[x, y, z] for x in (0, 4) for y in (0, 4) for z in (0, 4)]
         faces = [[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1],
                  [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3]]  # fmt: skip
@@ -179,7 +180,7 @@ class ManyPairs(unittest.TestCase):
 
 
 class Tampering(unittest.TestCase):
-    """A certificate that claims more than its intervals, or is of other pairs, is not accepted."""
+    """A certificate that claims more than its intervals, or that has other pairs, is not accepted."""
 
     def test_claims(self):
         problem = corridor.read_problem(pathlib.Path(os.environ["CORRIDOR_SOURCE_DIR"]) / "problems/arm_at_shelf")

@@ -1,4 +1,4 @@
-"""Runs the examples of planner/python/README.md, as one script, and that of README.md."""
+"""Runs the examples of planner/python/README.md as one script, and the example of README.md."""
 
 import os
 import pathlib
@@ -13,7 +13,7 @@ SOURCE = pathlib.Path(os.environ["CORRIDOR_SOURCE_DIR"])
 
 class Examples(unittest.TestCase):
     def printed(self, page, least):
-        """Runs all blocks of Python of a page, and returns what they print."""
+        """Runs all blocks of Python code of a page, and returns the text that they print."""
         blocks = re.findall(r"```python\n(.*?)```", (SOURCE / page).read_text(encoding="utf-8"), re.DOTALL)
         self.assertGreaterEqual(len(blocks), least)
         with tempfile.TemporaryDirectory() as folder:
@@ -28,7 +28,7 @@ class Examples(unittest.TestCase):
         out = self.printed("planner/python/README.md", 6)
         self.assertRegex(out, r"<Solution: solved, \d+ states, certified>")
         self.assertIn("proved\n", out)
-        self.assertRegex(out, r"(?m)^0\.(5|49999)\d*$")  # of the first contact
+        self.assertRegex(out, r"(?m)^0\.(5|49999)\d*$")  # the time of the first contact
 
     def test_front_page(self):
         self.assertRegex(self.printed("README.md", 1), r"^<Solution: solved, \d+ states, certified> proved\n$")

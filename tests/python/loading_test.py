@@ -15,7 +15,7 @@ PACKAGE = pathlib.Path(corridor.__file__).parent
 
 class Loading(unittest.TestCase):
     def imported(self, prepare):
-        """Imports a copy of the package, which `prepare` changes, in a process. Returns the last line of its errors."""
+        """Imports a copy of the package, changed by `prepare`, in a process. Returns the last line of its stderr."""
         with tempfile.TemporaryDirectory() as folder:
             copy = pathlib.Path(folder, "corridor")
             copy.mkdir()

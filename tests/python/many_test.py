@@ -32,7 +32,7 @@ class Many(unittest.TestCase):
             next(solutions)
 
     def script(self, text):
-        """Starts a script in a session of its own."""
+        """Starts a script in a new session, so that its processes form a group."""
         with tempfile.NamedTemporaryFile("w", suffix=".py", delete=False) as file:
             file.write(text)
         self.addCleanup(os.remove, file.name)
@@ -76,7 +76,7 @@ if __name__ == "__main__":
                 time.sleep(0.1)
             _, err = process.communicate(timeout=300)  # the pipes end with the last process
             self.assertEqual(process.returncode, -signal.SIGINT, err)
-            self.assertLessEqual(err.count("Traceback"), interrupts, err)  # none of the processes prints one
+            self.assertLessEqual(err.count("Traceback"), interrupts, err)  # none of the processes prints a traceback
 
     def test_a_killed_process(self):
         process = self.script(self.MANY)

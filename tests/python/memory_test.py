@@ -48,10 +48,11 @@ class Growth(unittest.TestCase):
     def assertNoGrowth(self, call, calls=CALLS):
         """Calls `call` many times, in rounds, and counts what Python and malloc have handed out.
 
-        A leak of one object per call grows every round by `calls` blocks or more, and a leak of one block of malloc by
-        32·`calls` bytes or more: 32 is its smallest block. Caches and lists of free blocks grow, too, but less and
-        less. So there is no leak if some round grows by less than half of both. The pages of the process are measured,
-        too; they may grow by as much, and by 1 MiB for heaps of threads that the first round did not touch.
+        If each call leaks an object, Python's blocks grow by at least `calls` in every round. If each call leaks a
+        block of malloc, the bytes of malloc grow by at least 32·`calls` in every round: malloc's smallest block has 32
+        bytes. Caches and lists of free blocks grow, too, but less and less. So there is no leak if the growth in some
+        round is less than half of both numbers. The pages of the process are measured, too. They may grow by as much,
+        and by 1 MiB for heaps of threads that the first round did not touch.
 
         Under AddressSanitizer, which keeps freed memory for a while, the calls only show that they have no errors.
         """

@@ -25,7 +25,7 @@ def at(x, y=0.0, z=0.0):
 
 
 def cube_in_room(**edits):
-    """A cube of 0.2 m, and a wall that it must go around."""
+    """Returns a problem: a cube of 0.2 m, and a wall that the cube must go around."""
     edits = {"start": [-1, 0, 0, 0, 0, 0, 1], "goals": [1, 0, 0, 0, 0, 0, 1], **edits}
     return corridor.Problem(
         corridor.rigid_body(shapes.box([0.2, 0.2, 0.2]), [[-2, -2, -2], [2, 2, 2]], name="cube"),
@@ -74,10 +74,10 @@ class Checks(unittest.TestCase):
         self.assertGreater(contacts.sum(), 20)
         self.assertTrue(((results.time[contacts] >= 0) & (results.time[contacts] <= 1)).all())
         self.assertTrue(np.isnan(results.time[results.free]).all())
-        # One row serves for all rows of the other array.
+        # An array of one row is used with all rows of the other array.
         fan = self.problem.certify(self.problem.start, q1)
         self.assertEqual(len(fan), 300)
-        # An edge that is free has free states.
+        # All states of an edge that is free are free.
         for i in np.flatnonzero(results.free)[:20]:
             t = np.linspace(0, 1, 50)[:, None]
             self.assertTrue(self.problem.check((1 - t) * q0[i] + t * q1[i]))
@@ -273,7 +273,7 @@ class Problems(unittest.TestCase):
         ):
             with self.assertRaisesRegex(corridor.InputError, "nonsense"):
                 corridor.solve(problem.edited(**edits))
-        # Another planner does not get the parameters of the one before, here and after pickling.
+        # A new planner does not get the parameters of the old planner, neither here nor after pickling.
         other = problem.edited(planner="RRTConnect", params={"range": "0.5"}).edited(planner="PRM")
         self.assertIn("PRM", corridor.solve(pickle.loads(pickle.dumps(other)), time=0.2).figures["planner"])
 
@@ -286,7 +286,7 @@ class Problems(unittest.TestCase):
         np.testing.assert_array_equal(pickle.loads(pickle.dumps(problem)).clearance([-1, 1, 1, 0, 0, 0]), before)
 
     def test_a_wide_tube_tests_pairs_again(self):
-        # The pair is proved never in contact, up to 0.01 rad beyond the limits.
+        # The file says that the pair is proved never in contact, up to 0.01 rad beyond the limits.
         with tempfile.TemporaryDirectory() as folder:
             folder = pathlib.Path(folder)
             (folder / "arm.urdf").write_text(
@@ -343,7 +343,7 @@ class Problems(unittest.TestCase):
             corridor.Problem(body, {"b": shapes.box([1, 1, 1], np.diag([2, 1, 1, 1]))})
         with self.assertRaisesRegex(ValueError, "m: "):
             corridor.Problem(body, {"m": shapes.sphere(-1)})
-        with self.assertRaisesRegex(ValueError, "start: the problem has none"):
+        with self.assertRaisesRegex(ValueError, "start: the problem has no start"):
             corridor.solve(corridor.Problem(body, {"b": shapes.sphere(0.1)}, goals=[1, 0, 0, 0, 0, 0, 1]))
 
     def test_pickle(self):

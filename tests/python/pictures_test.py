@@ -68,7 +68,7 @@ class Loads(html.parser.HTMLParser):
         for name, value in attributes:
             if name == "srcdoc":
                 self.frames.append(value)
-            # href of <a> and of <use> (within the page) load nothing.
+            # The href of <a> loads nothing, and that of <use> refers to the page itself.
             elif name in ("src", "srcset", "data", "poster", "action", "background") or (name == "href" and tag == "link"):
                 self.found.append((tag, name, value))
             elif name == "style":
@@ -82,11 +82,11 @@ class Loads(html.parser.HTMLParser):
             self.text[self.inside] += data
 
     def external(self):
-        """Returns all that comes from elsewhere: not data: nor an address within the page."""
+        """Returns all addresses that are neither `data:` nor within the page."""
         found = [each for each in self.found if not (each[2] or "").startswith(("data:", "#", "blob:"))]
         styles = [u for u in re.findall(r"url\(\s*['\"]?([^)'\"]*)", self.text["style"]) if not u.startswith(("data:", "#"))]
         styles += re.findall(r"@import[^;]*", self.text["style"])
-        # Scripts: imports, and addresses of other machines in calls that load.
+        # In scripts: imports, and calls that load from addresses of other machines.
         script = self.text["script"]
         scripts = re.findall(r"(?:^|[;\s])import\s*(?:[\w{}*,\s]*from\s*)?['\"]https?:[^'\"]*", script)
         scripts += re.findall(r"(?:fetch|importScripts|Worker|EventSource|WebSocket)\(\s*['\"`][^)]{0,80}", script)
@@ -161,7 +161,7 @@ class Pictures(unittest.TestCase):
         self.assertEqual(image.shape[1], 300)
         self.assertGreater(image.shape[0], 50)
         colours = image[..., :3].reshape(-1, 3).astype(int)
-        # The path goes from green to red.
+        # The colours of the path go from green to red.
         red = (colours[:, 0] > colours[:, 1] + 60) & (colours[:, 0] > colours[:, 2] + 60)
         green = (colours[:, 1] > colours[:, 0] + 30) & (colours[:, 1] > colours[:, 2] + 30)
         self.assertGreater(red.sum(), 30)

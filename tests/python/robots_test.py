@@ -16,7 +16,7 @@ from urdf_reader import robot_of
 SOURCE = pathlib.Path(os.environ["CORRIDOR_SOURCE_DIR"])
 ROBOTS = SOURCE / "robots"
 
-# Rotations about all axes, axes of other lengths, a mimic, a fixed joint, shapes with poses of their own.
+# A robot with rotations about all axes, axes that are not unit vectors, a mimic, a fixed joint, and shapes with poses.
 TWISTED = """<robot name="twisted">
   <link name="base"><collision><origin xyz="0 0 0.1" rpy="0.3 -0.2 0.7"/><geometry><box size="0.3 0.2 0.1"/></geometry>
     </collision></link>
@@ -90,7 +90,7 @@ class AsTheUrdf(unittest.TestCase):
                 for robot in (corridor.urdf(file, base=base), robot_of(file, base=base))
             ]
             self.assertSame(*problems)
-            # Two of them, with names, and with fewer planned joints.
+            # Two such robots, with names, and with fewer planned joints.
             two = [
                 corridor.Problem(
                     [make(file, base=Pose((0, y, 0)), name=name, **{key: ["turn", "lift"]}) for name, y in (("a", 0.7), ("b", -0.7))],
@@ -140,7 +140,7 @@ class InPython(unittest.TestCase):
             X = np.eye(4)
             for i in range(4):
                 X = X @ origins[i] @ turn(axes[i], q[i])
-                # 4 products of matrices with entries below 10: rounding of 1e-14, far below 1e-12.
+                # The rounding of 4 products of matrices with entries below 10 is about 1e-14, far below 1e-12.
                 np.testing.assert_allclose(row[i + 1], X, atol=1e-12)
             np.testing.assert_array_equal(row[5], np.eye(4))
 
@@ -290,7 +290,7 @@ class BadRobots(unittest.TestCase):
                 make()
 
     def test_random_robots_are_refused_or_work(self):
-        """Chains in which random parts are random: refused by InputError, or they answer queries. Seed 1."""
+        """Chains with random values in random places are refused by InputError, or answer queries. Seed 1."""
         rng = np.random.default_rng(1)
         names, types = ["a", "b", "c", ""], ["fixed", "revolute", "continuous", "prismatic", "planar", "floating", "x"]
         numbers = [0, 1, -1, 1e300, math.nan, math.inf, 1e-320]

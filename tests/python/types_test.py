@@ -19,7 +19,7 @@ PACKAGE = SOURCE / "planner/python/corridor"
 
 
 def signature(function):
-    """Returns the arguments that pybind11 writes in the first line of a docstring."""
+    """Returns a function's arguments, from the signature that pybind11 writes in the docstring's first line."""
     line = function.__doc__.splitlines()[0]
     inner = line[line.index("(") + 1 : line.rindex(") ->")]
     depth, words, word = 0, [], ""
@@ -84,7 +84,7 @@ class Docstrings(unittest.TestCase):
                 if name.startswith("_") or not public or value.__module__ != module.__name__:
                     continue
                 seen += 1
-                # A dataclass without a docstring gets its signature as one.
+                # A dataclass without a docstring gets its signature as docstring.
                 if not value.__doc__ or value.__doc__.startswith(name + "("):
                     missing.append(f"{module.__name__}.{name}")
                 for member, each in vars(value).items() if inspect.isclass(value) else ():

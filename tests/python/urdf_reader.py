@@ -48,7 +48,7 @@ def _joint(element):
 
 
 def robot_of(file, **options):
-    """Returns the robot of a URDF as corridor.robot describes it. options: those of corridor.robot."""
+    """Builds the robot of a URDF by corridor.robot, and returns it. options: those of corridor.robot."""
     file = pathlib.Path(file)
     root = xml.etree.ElementTree.parse(file).getroot()
     links = {

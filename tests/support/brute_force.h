@@ -13,8 +13,9 @@ namespace corridor::test {
 bool bruteForceTouch(const TriangleMesh& a, const Transform& X_WA, const TriangleMesh& b,
                      const Transform& X_WB);
 
-/// Pairs of triangles by their numbers; `bruteForcePairs` returns all that touch.
+/// Pairs of triangle numbers: first the triangle of mesh a, then that of mesh b.
 using TrianglePairs = std::set<std::pair<std::uint32_t, std::uint32_t>>;
+/// Returns all pairs of triangles that touch.
 TrianglePairs bruteForcePairs(const TriangleMesh& a, const Transform& X_WA, const TriangleMesh& b,
                               const Transform& X_WB);
 

@@ -10,19 +10,19 @@
 
 namespace corridor::test {
 
-/// A kinematic chain of revolute and prismatic joints from a to b. Joint values are linear or
-/// quadratic in t.
-/// Poses are products of exponentials in long double. The poses are the reference for the positions
-/// of points; rounded to double, they are a MotionSource.
+/// A kinematic chain of revolute and prismatic joints from body a to body b. Joint values are
+/// linear or quadratic in t. Poses are products of exponentials in long double. In long double,
+/// they are the reference for the positions of points. Rounded to double, they are what this
+/// MotionSource reports.
 class ChainMotion final : public MotionSource {
  public:
   using Vec3L = Eigen::Matrix<long double, 3, 1>;
   using Mat3L = Eigen::Matrix<long double, 3, 3>;
   struct Joint {
     bool slides = false;
-    Vec3 axis = Vec3::UnitZ(), point = Vec3::Zero();  ///< at joint value 0; |axis| may be any but 0
+    Vec3 axis = Vec3::UnitZ(), point = Vec3::Zero();  ///< at joint value 0; |axis| is not 0
     double from = 0, to = 0;
-    double bend = 0;  ///< the value is from + t(to − from) + bend·t(1 − t)
+    double bend = 0;  ///< the joint value is from + t(to − from) + bend·t(1 − t), rad or m
 
     long double value(long double t) const {
       return from + t * (static_cast<long double>(to) - from) + bend * t * (1 - t);
@@ -91,8 +91,8 @@ class ChainMotion final : public MotionSource {
     w.speed = roundedUp(w.linear.norm());
     w.angle = roundedUp(w.angular.norm());
     w.screws = screws_;
-    // Each number is rounded once. One joint needs 4u of all lengths and 4u of all angles; 16u
-    // leaves room for several joints.
+    // Each number is rounded once. With u the unit roundoff, one joint needs 4u of all lengths and
+    // 4u of all angles; 16u leaves room for several joints.
     w.fixedError = 16 * kUnit * static_cast<double>(size);
     w.reachError = 16 * kUnit * static_cast<double>(1 + angular.norm());
     return w;

@@ -15,11 +15,13 @@ namespace corridor::test {
 struct FloatingPointSetting {
   std::string name;
   int rounding = FE_TONEAREST;  ///< rounding mode of all operations, unless `sseOnly` or `x87Only`
-  bool flushToZero = false;     ///< also reads subnormals as zero
+  bool flushToZero = false;     ///< subnormal results and operands become zero
   bool sseOnly = false;         ///< `rounding` applies only to vectors and doubles
   bool x87Only = false;         ///< `rounding` applies only to long double
   bool shortExtended = false;   ///< the x87 keeps 53 bits
   bool bits24 = false;          ///< with `shortExtended`: the x87 keeps 24 bits
+
+  /// Returns whether all operations round to nearest, with full precision. Ignores `flushToZero`.
   bool standard() const { return rounding == FE_TONEAREST && !shortExtended; }
 };
 

@@ -15,7 +15,7 @@ inline Triangle corners(const TriangleMesh& mesh, std::size_t t) {
   return {mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)};
 }
 
-/// Adds a triangle with corners of its own.
+/// Adds a triangle with three new vertices, which it shares with no other triangle.
 inline void add(TriangleMesh& mesh, const Vec3& p, const Vec3& q, const Vec3& r) {
   const auto n = static_cast<std::uint32_t>(mesh.vertices.size());
   mesh.vertices.insert(mesh.vertices.end(), {p, q, r});
@@ -40,7 +40,7 @@ TriangleMesh sheet(std::uint32_t n, const Point& point) {
   return mesh;
 }
 
-/// Returns the surface of the cube [−1, 1]³ as 12n² triangles, each with corners of its own.
+/// Returns the surface of the cube [−1, 1]³ as 12n² triangles that share no vertices.
 inline TriangleMesh tessellatedCube(int n) {
   TriangleMesh mesh;
   for (int axis = 0; axis < 3; ++axis)
@@ -59,7 +59,8 @@ inline TriangleMesh tessellatedCube(int n) {
   return mesh;
 }
 
-/// Adds a box under x ↦ Mx, facing outward, with corners of its own.
+/// Adds the box [low, high], mapped by x ↦ Mx, with eight new vertices. Its triangles face outward
+/// if det M > 0.
 inline void addBox(TriangleMesh& mesh, const Vec3& low, const Vec3& high,
                    const Mat3& M = Mat3::Identity()) {
   const auto n = static_cast<std::uint32_t>(mesh.vertices.size());
@@ -78,8 +79,8 @@ inline TriangleMesh box(const Vec3& low, const Vec3& high) {
   return mesh;
 }
 
-/// Returns S, the largest Σ|m||v| + |t| of the mapped corners: bounds on rounding are multiples of
-/// it.
+/// Returns S, the largest coordinate of |m||v| + |t| over the corners v, where X maps v to m·v + t.
+/// Bounds on rounding are multiples of S.
 inline double errorScale(const Triangle& t, const Transform& X) {
   double scale = 0;
   for (const Vec3& p : t)

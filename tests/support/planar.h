@@ -14,7 +14,8 @@
 
 namespace corridor::test {
 
-/// The oracle for polygons in the plane, in rationals: by definition, and in O(n²).
+/// A number of the oracle for polygons in the plane. The oracle computes in rationals, directly by
+/// the definitions, in O(n²).
 using Fraction = boost::multiprecision::cpp_rational;
 struct Point2 {
   Fraction x, y;
@@ -25,16 +26,17 @@ struct Point2 {
   bool operator<(const Point2& o) const { return x != o.x ? x < o.x : y < o.y; }
 };
 
+/// Returns 1 if p, q, r turn left, −1 if they turn right, and 0 if they are on a line.
 inline int turn(const Point2& p, const Point2& q, const Point2& r) {
   const Fraction left = (q.x - p.x) * (r.y - p.y), right = (q.y - p.y) * (r.x - p.x);
   return left > right ? 1 : left < right ? -1 : 0;
 }
-/// Whether q is on the closed segment from a to b.
+/// Returns whether q is on the closed segment from a to b.
 inline bool isOn(const Point2& q, const Point2& a, const Point2& b) {
   return turn(a, b, q) == 0 && std::min(a.x, b.x) <= q.x && q.x <= std::max(a.x, b.x) &&
          std::min(a.y, b.y) <= q.y && q.y <= std::max(a.y, b.y);
 }
-/// Whether two closed segments share a point.
+/// Returns whether the closed segments ab and cd share a point.
 inline bool segmentsMeet(const Point2& a, const Point2& b, const Point2& c, const Point2& d) {
   if (isOn(a, c, d) || isOn(b, c, d) || isOn(c, a, b) || isOn(d, a, b)) return true;
   return turn(a, b, c) * turn(a, b, d) < 0 && turn(c, d, a) * turn(c, d, b) < 0;
@@ -44,7 +46,8 @@ inline std::vector<Point2> exactly(const std::vector<Eigen::Vector2d>& points) {
   return {points.begin(), points.end()};
 }
 
-/// Whether two edges of a polygon share more than the common end of edges that follow each other.
+/// Returns whether edges i and k of a polygon share a point. The common end of two edges that
+/// follow each other does not count.
 inline bool edgesMeet(const std::vector<Point2>& p, std::size_t i, std::size_t k) {
   const std::size_t n = p.size(), i1 = (i + 1) % n, k1 = (k + 1) % n;
   if (i1 == k) return isOn(p[i], p[k], p[k1]) || isOn(p[k1], p[i], p[k]);
@@ -69,8 +72,8 @@ inline Fraction twiceArea(const std::vector<Point2>& p) {
   return sum;
 }
 
-/// Whether a point is in the closed polygon: on an edge, or with an odd number of edges to its
-/// right.
+/// Returns whether a point is in the closed polygon: on an edge, or with an odd number of edges to
+/// its right.
 inline bool contains(const std::vector<Point2>& p, const Point2& q) {
   bool inside = false;
   for (std::size_t i = 0; i < p.size(); ++i) {
@@ -82,7 +85,7 @@ inline bool contains(const std::vector<Point2>& p, const Point2& q) {
   return inside;
 }
 
-/// Whether two closed simple polygons share a point.
+/// Returns whether two closed simple polygons share a point.
 inline bool polygonsMeet(const std::vector<Point2>& p, const std::vector<Point2>& q) {
   for (std::size_t i = 0; i < p.size(); ++i)
     for (std::size_t k = 0; k < q.size(); ++k)
@@ -90,7 +93,7 @@ inline bool polygonsMeet(const std::vector<Point2>& p, const std::vector<Point2>
   return contains(p, q[0]) || contains(q, p[0]);
 }
 
-/// Random polygons, which may cross themselves.
+/// Makes random polygons, whose boundaries may cross themselves.
 class Polygons {
  public:
   using Points = std::vector<Eigen::Vector2d>;
@@ -102,8 +105,9 @@ class Polygons {
     return std::uniform_real_distribution(low, high)(engine_);
   }
 
-  /// A polygon of about n points: a star, a spiral, a comb, points of a small grid in random order
-  /// or after their crossings were removed, or a staircase with many points of equal x.
+  /// Returns a polygon of about n points. Kinds: 0 a star, 1 a spiral, 2 a comb, 3 points of a
+  /// small grid in random order, 4 such points, most crossings of their edges removed, 5 a
+  /// staircase with many points of equal x.
   Points polygon(std::size_t n, int kind) {
     Points p;
     const auto size = static_cast<double>(n);
@@ -159,8 +163,9 @@ class Polygons {
     return p;
   }
 
-  /// A variant: points inserted on edges, exactly or up to rounding; rotated; far away; in the
-  /// other orientation; from another first point.
+  /// Returns a variant of a polygon. Points may be inserted on its edges, exactly or up to
+  /// rounding. The polygon may be rotated, mirrored, scaled, moved far away, or given the other
+  /// orientation. Its first point may be another one.
   Points varied(Points p) {
     if (p.size() < 2) return p;
     if (below(3) == 0) {
@@ -188,7 +193,8 @@ class Polygons {
   }
 
  private:
-  /// Reverses parts of the boundary until no edges cross. Points on other edges may remain.
+  /// Reverses parts of the boundary until no two edges cross, in at most 60 rounds. Points on other
+  /// edges may remain.
   void uncross(Points& p) const {
     if (p.size() < 4) return;
     std::vector<Point2> e = exactly(p);

@@ -143,8 +143,8 @@ Polynomial greatestCommonDivisor(Polynomial a, Polynomial b) {
 void Root::halve() {
   n_ *= 2;
   ++k_;
-  // The root is in (n, n + 1] or in (n + 1, n + 2], where p changes its sign at the root and
-  // nowhere else. If the root is n + 2, p is 0 there; n itself may be another root.
+  // In units of 2^-k, the root is in (n, n + 1] or in (n + 1, n + 2]. There p changes its sign at
+  // the root and nowhere else. If the root is n + 2, p is 0 there; n itself may be another root.
   const int middle = p_.signAt(n_ + 1, k_), end = p_.signAt(n_ + 2, k_);
   if (end == 0 || middle * end < 0) ++n_;
 }

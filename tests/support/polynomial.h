@@ -35,8 +35,8 @@ class Polynomial {
   std::vector<Integer> c_;  // the last is not 0
 };
 
-/// Returns the remainder of a divided by b, made primitive, which changes it only by a positive
-/// factor. @pre b is not zero.
+/// Returns the remainder of a divided by b, times the positive factor that makes it primitive.
+/// @pre b is not zero.
 Polynomial remainder(const Polynomial& a, const Polynomial& b);
 /// Returns a/b, or nullopt if b does not divide a. @pre b is primitive and not zero.
 std::optional<Polynomial> quotient(Polynomial a, const Polynomial& b);

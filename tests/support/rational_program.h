@@ -6,14 +6,16 @@
 
 namespace corridor::test {
 
-/// Rows of a system of equations M x = r: the entries of a row of M, then that of r, which is ≥ 0.
+/// A system of equations M x = r, row by row: the entries of a row of M, then the entry of r, which
+/// must be ≥ 0.
 using IntegerSystem = std::vector<std::vector<Integer>>;
 
 /// The oracle for linear programs: returns whether there is an x ≥ 0 with M x = r. Phase one of the
 /// simplex method with Bland's rule, by integer pivoting (Edmonds): exact, and it always ends.
 bool hasSolution(IntegerSystem system);
 
-/// The same for doubles, in the order of `columns[j][i]`, exactly.
+/// Returns, exactly, whether there is an x ≥ 0 with M x = `right`, where `columns[j][i]` is the
+/// entry of M in row i and column j. Entries of `right` may be negative.
 bool hasSolution(const std::vector<std::vector<double>>& columns, const std::vector<double>& right);
 
 /// Returns the rank of the matrix with these rows, exactly.

@@ -6,13 +6,14 @@ namespace corridor::test {
 
 /// The oracle: returns the distance of two triangles under their maps that don't touch, correct to
 /// a unit in the last place (two units for subnormals). The method differs from that of the code
-/// under test, and computes in fractions of integers. It takes the least squared distance of all
-/// corners from the other triangle (by Voronoi regions), and of all edges from the edges of the
-/// other triangle.
+/// under test, and computes in fractions of integers. The result is the root of the least squared
+/// distance: of each corner from the other triangle (by Voronoi regions), and of each edge from
+/// each edge of the other triangle.
 double referenceDistance(const Triangle& a, const Transform& X_WA, const Triangle& b,
                          const Transform& X_WB);
 
-/// Returns the distance of a point of the world from a triangle under its map, equally exact.
+/// Returns the distance of a point in world coordinates from a triangle under its map, with the
+/// same accuracy.
 double referenceDistance(const Vec3& p_W, const Triangle& t, const Transform& X_WT);
 
 }  // namespace corridor::test

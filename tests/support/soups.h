@@ -11,8 +11,9 @@
 
 namespace corridor::test {
 
-/// Returns triangles of very different sizes in a cube of 2 m, with slivers, degenerate ones and
-/// duplicates among them.
+/// Returns triangles of very different sizes, some slivers, some degenerate, some duplicates. Each
+/// lies within about √3·s of a point of the cube [−1, 1]³ (metres), for an s between e^-2 and e^2
+/// times `size`.
 inline TriangleMesh soup(std::mt19937_64& random, int count, double size) {
   std::uniform_real_distribution<double> real(-1, 1);
   const auto any = [&] {
@@ -40,7 +41,8 @@ inline Transform anyPose(std::mt19937_64& random, double distance) {
   return X;
 }
 
-/// Returns spheres, capsules, cylinders, boxes and hulls of about `size` in a cube of 2 m.
+/// Returns spheres, capsules, cylinders, boxes and hulls of about `size` at random poses. The
+/// coordinates of their frames' origins have a standard deviation of 0.5 m.
 inline std::vector<ConvexPart> parts(std::mt19937_64& random, int count, double size) {
   std::uniform_real_distribution<double> real(0.2, 1);
   std::vector<ConvexPart> all;

@@ -30,7 +30,8 @@ class RationalMotion {
   /// argument.
   long double time(long double s) const;
 
-  /// The pose at s, multiplied by a weight > 0 so that it has no fractions: {weight·m, weight·t}.
+  /// The pose at s, multiplied by a weight > 0 so that it has no fractions: X has the pose's matrix
+  /// and translation, each times `weight`.
   struct Scaled {
     Transform X;
     double weight = 1;
@@ -64,7 +65,7 @@ struct FirstContact {
 /// often as possible, which leaves them quadratic.
 /// @param fixed  in the world.
 /// @param moving  in the frame of the motion.
-/// @pre Neither triangle's corners lie on a line.
+/// @pre Both triangles have an area above 0.
 FirstContact sturmContact(const Triangle& fixed, const Triangle& moving,
                           const RationalMotion& motion);
 

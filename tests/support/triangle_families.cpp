@@ -174,11 +174,11 @@ PlacedPair byExactRotation(Random& random, const Triangle& a, const Triangle& b)
   }
   return pair;
 }
-/// Rotated by a rational (Pythagorean) rotation times its denominator, which maps integers to
-/// integers. Without that factor, doubles hold only 24 rotation matrices exactly, the signed
-/// permutations: a row of doubles is (x, y, z)/2^k with integers, and x² + y² + z² = 4^k. If k > 0,
-/// all three are even, because only then is a sum of three squares a multiple of 4. So the row can
-/// be reduced until k = 0.
+/// Rotates the pair by a rational (Pythagorean) rotation times its denominator. This map takes
+/// integers to integers. Without that factor, doubles hold only 24 rotation matrices exactly, the
+/// signed permutations: a row of doubles is (x, y, z)/2^k with integers, and x² + y² + z² = 4^k. If
+/// k > 0, all three integers are even, because only then is the sum of their squares a multiple of
+/// 4. So the row can be reduced until k = 0.
 PlacedPair byRationalRotation(Random& random, const Triangle& a, const Triangle& b) {
   const double w = integer(random, -5, 5), x = integer(random, -5, 5), y = integer(random, -5, 5),
                z = integer(random, 1, 5);
@@ -194,8 +194,8 @@ PlacedPair farAway(Random& random, const Triangle& a, const Triangle& b) {
   const Vec3 shift = anyOffset(random);
   return baked(a, b, [&](const Vec3& p) { return Vec3(p + shift); });
 }
-/// Both triangles get the same map, so contacts remain. The map is rigid up to rounding, or less
-/// rigid.
+/// Gives both triangles the same map, so contacts remain. The map is rigid up to rounding, or
+/// differs from a rigid one by 10^-3 to 10^-12.
 PlacedPair movedTogether(Random& random, const Triangle& a, const Triangle& b) {
   PlacedPair pair{a, b, {}, {}};
   pair.X_WA.m = rotation(random);
@@ -204,7 +204,8 @@ PlacedPair movedTogether(Random& random, const Triangle& a, const Triangle& b) {
   pair.X_WB = pair.X_WA;
   return pair;
 }
-/// Corners in rotated frames of their own, rounded: triangles that touched may not touch any more.
+/// Stores the corners of b, and sometimes of a, in a rotated frame of their own, rounded: triangles
+/// that touched may no longer touch.
 PlacedPair inOwnFrames(Random& random, const Triangle& a, const Triangle& b) {
   PlacedPair pair{a, b, {}, {}};
   pair.X_WB = {rotation(random), random() % 2 ? anyOffset(random) : grid(random, 10)};
@@ -219,13 +220,13 @@ PlacedPair scaledByTwos(Random& random, const Triangle& a, const Triangle& b) {
   const int exponent = integer(random, -332, 332);  // 10^±100
   return baked(a, b, [&](const Vec3& p) { return Vec3(p * std::ldexp(1.0, exponent)); });
 }
-/// Scaled so that each coordinate is rounded.
+/// Scales the pair by a factor that makes each coordinate round.
 PlacedPair scaledByTens(Random& random, const Triangle& a, const Triangle& b) {
   const double scale = std::pow(10.0, integer(random, -100, 100)) / 3;
   return baked(a, b, [&](const Vec3& p) { return Vec3(p * scale); });
 }
-/// Coordinates of very different sizes: a common grid for all of them needs hundreds or thousands
-/// of bits.
+/// Scales each axis by another power of two, so that coordinates have very different magnitudes: a
+/// common grid for all of them needs hundreds or thousands of bits.
 PlacedPair stretched(Random& random, const Triangle& a, const Triangle& b) {
   const Vec3 scale(std::ldexp(1.0, integer(random, -400, 400)), 1,
                    std::ldexp(1.0, integer(random, -40, 40)));
@@ -237,7 +238,7 @@ PlacedPair denormal(Random& random, const Triangle& a, const Triangle& b) {
     return Vec3(p.unaryExpr([&](double x) { return std::ldexp(x, exponent); }));
   });
 }
-/// Some coordinates changed by one last bit, up or down.
+/// Changes some coordinates to the next double, up or down.
 PlacedPair jittered(Random& random, const Triangle& a, const Triangle& b) {
   return baked(a, b, [&](Vec3 p) {
     for (double& x : p)

@@ -14,7 +14,7 @@ struct KnownPair {
   bool touch = false;
 };
 
-/// One file of the shared data's pairs of triangles.
+/// The pairs of triangles in one file of the shared data.
 struct KnownPairs {
   std::string name;
   std::vector<KnownPair> pairs;

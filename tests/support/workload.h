@@ -17,8 +17,8 @@ struct Workload {
   std::string name;
   TriangleMesh a, b;
   std::vector<Transform> poses;
-  std::vector<int> hit;
-  std::vector<double> distance;  ///< 0 where hit, NaN where not computed
+  std::vector<int> hit;          ///< per pose: 1 if the meshes touch, else 0
+  std::vector<double> distance;  ///< per pose: 0 if they touch, NaN if not computed
 
   bool hasDistances() const;  ///< true if at least one distance is known
 };
@@ -26,9 +26,10 @@ std::vector<std::string> workloadNames(const std::filesystem::path& collisionFol
 Workload loadWorkload(const std::filesystem::path& collisionFolder, const std::string& name);
 
 /// Returns the indices of the poses on which the `way`-th of `ways` tree variants is tested. Under
-/// CORRIDOR_STRESS these are all poses. Otherwise, to save time, only every `step`-th pose is
-/// tested, and the variants take turns. If a workload has few poses, building several trees would
-/// take longer than the queries. Then variant 0 gets all of these poses, and the others get none.
+/// CORRIDOR_STRESS every variant gets all poses. Otherwise, to save time, only every `step`-th pose
+/// is tested, and the variants take turns. For a workload of fewer than 100 poses, building several
+/// trees would take longer than the queries: variant 0 gets all of its turns, and the others get
+/// none. In slow builds only every `kSlowdown`-th of these poses is tested.
 std::vector<std::size_t> posesInTurn(const Workload& w, std::size_t step, std::size_t way,
                                      std::size_t ways);
 

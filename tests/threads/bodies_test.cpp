@@ -240,7 +240,7 @@ const char* const kCollada = R"(<?xml version="1.0"?>
 <scene><instance_visual_scene url="#s"/></scene></COLLADA>
 )";
 
-/// Some data of the library are made at their first use. Here all threads use them first at the
+/// The library creates some data at their first use. Here all threads make this first use at the
 /// same time. This works because ctest starts each test in its own process.
 TEST(Threads, FirstUse) {
   const std::filesystem::path folder = test::newFolder();

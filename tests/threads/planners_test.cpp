@@ -36,8 +36,8 @@ struct AskedMotion {
   bool valid;
 };
 
-/// Records the queries of planners, in one log per thread. So recording needs no lock, which would
-/// order the threads' accesses and hide a data race.
+/// Records the queries of planners, in one log per thread. So recording needs no lock: a lock would
+/// order the threads' accesses, and hide a data race.
 class Recorder {
  public:
   struct Log {

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 
 def _array(name: str, value: Any) -> NDArray[np.float64]:
-    """Returns a copy as doubles. Numbers of other types are rounded to the nearest double: proofs are about these."""
+    """Returns a copy as doubles. Other numbers are rounded to the nearest double; proofs are about the doubles."""
     if isinstance(value, np.ma.MaskedArray) or np.iscomplexobj(value):
         raise ValueError(f"{name}: an array of real numbers without a mask is needed")
     try:

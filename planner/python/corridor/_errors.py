@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 
 class Fault(NamedTuple):
-    """One fault in a file: its place, what is wrong, and what would be right."""
+    """One fault of a file or an argument: where it is, what is wrong, and what would be right."""
 
     file: str
     line: int
@@ -17,7 +17,7 @@ class Fault(NamedTuple):
 class InputError(ValueError):
     """Bad input: a file, or a problem that can't be planned.
 
-    `faults` lists all of them. The text of the exception has one line for each.
+    `faults` lists all faults. The text of the exception has one line for each fault.
     """
 
     def __init__(self, text: str, faults: Iterable[tuple[str, int, str]] = ()):

@@ -1,7 +1,7 @@
 """Collision queries of two bodies. Poses are 4×4 matrices, or N×4×4 for N queries at once.
 
-The matrices are taken as they are: any affine maps, also scaled ones. Only the poses of `first_contact` must be rigid:
-their matrices may differ from a rotation by 1e-6, and stand for the nearest one.
+A matrix may be any affine map, also a scaled one, and is used as it is. Only the poses of `first_contact` must be
+rigid: their matrices may differ from a rotation by 1e-6, and then stand for the nearest rotation.
 """
 
 from __future__ import annotations
@@ -23,8 +23,8 @@ _ORIGIN = np.eye(4)
 class Body:
     """A body of one shape (`corridor.shapes`): a mesh or a convex solid.
 
-    Its trees are built when a query first needs them. Raises ValueError for a solid mesh that is not watertight. It can
-    be pickled; a mesh file is read again when it is unpickled, which raises ValueError if the mesh has changed.
+    Its trees are built when a query first needs them. Raises ValueError for a solid mesh that is not watertight. A body
+    can be pickled. Unpickling reads a mesh file again, and raises ValueError if the mesh has changed.
     """
 
     def __init__(self, shape: Shape):
@@ -50,14 +50,14 @@ class Distances(NamedTuple):
 
     distance: NDArray[np.float64]  #: N metres; 0 if and only if the bodies touch
     on_a: NDArray[np.float64]  #: N×3, the closest point of a, world coordinates
-    on_b: NDArray[np.float64]  #: N×3, that of b
+    on_b: NDArray[np.float64]  #: N×3, the closest point of b, world coordinates
 
 
 class Contacts(NamedTuple):
-    """The triangles of two meshes that touch."""
+    """The pairs of triangles of two meshes that touch."""
 
-    pairs: NDArray[np.int64]  #: N×2, the triangles of a and b that touch
-    segments: NDArray[np.float64]  #: N×2×3, the ends of the segment that they share, world coordinates
+    pairs: NDArray[np.int64]  #: N×2, indices of a triangle of a and a triangle of b that touch
+    segments: NDArray[np.float64]  #: N×2×3, the ends of the segment that the two triangles share, world coordinates
 
 
 class FirstContact(NamedTuple):
@@ -65,7 +65,7 @@ class FirstContact(NamedTuple):
 
     verdict: Verdict
     free_until: float  #: the motion is proved free on [0, free_until]
-    time: float  #: CONTACT: the first contact is in [free_until, time]. UNDECIDED: a time that is not decided. Else −1
+    time: float  #: CONTACT: the first contact is in [free_until, time]. UNDECIDED: an undecided time. FREE: −1
 
 
 def _natives(a: Body, b: Body) -> tuple[_native.Body, _native.Body]:
@@ -83,14 +83,14 @@ def _poses(pose_a: ArrayLike, pose_b: ArrayLike) -> tuple[NDArray[np.float64], N
 def touch(
     a: Body, b: Body, pose_a: ArrayLike = _ORIGIN, pose_b: ArrayLike = _ORIGIN, threads: int = 0
 ) -> NDArray[np.bool_]:
-    """Whether the bodies touch: N bool. Exact for meshes; touching is contact."""
+    """Returns whether the bodies touch: N bool. Exact for meshes; one common point is contact."""
     return _native.touch(*_natives(a, b), *_poses(pose_a, pose_b), _whole("threads", threads, 0))
 
 
 def closer_than(
     a: Body, b: Body, distance: float, pose_a: ArrayLike = _ORIGIN, pose_b: ArrayLike = _ORIGIN, threads: int = 0
 ) -> NDArray[np.bool_]:
-    """Whether the bodies are at most `distance` metres apart: N bool. False is a proof."""
+    """Returns whether the bodies are at most `distance` metres apart: N bool. False is a proof."""
     limit = _number("distance", distance)
     return _native.closer_than(*_natives(a, b), limit, *_poses(pose_a, pose_b), _whole("threads", threads, 0))
 
@@ -98,19 +98,20 @@ def closer_than(
 def distance(
     a: Body, b: Body, pose_a: ArrayLike = _ORIGIN, pose_b: ArrayLike = _ORIGIN, threads: int = 0
 ) -> Distances:
-    """The distances of the bodies and their closest points."""
+    """Returns the distances of the bodies and their closest points."""
     return Distances(*_native.distance(*_natives(a, b), *_poses(pose_a, pose_b), _whole("threads", threads, 0)))
 
 
 def contacts(a: Body, b: Body, pose_a: ArrayLike = _ORIGIN, pose_b: ArrayLike = _ORIGIN) -> Contacts:
-    """All pairs of triangles of two meshes that touch, for one pair of poses."""
+    """Returns all pairs of triangles of two meshes that touch, for one pair of poses."""
     return Contacts(*_native.contacts(*_natives(a, b), *_poses(pose_a, pose_b)))
 
 
 def first_contact(a: Body, b: Body, start: ArrayLike, end: ArrayLike, tolerance: float = 0.0) -> FirstContact:
-    """Moves a from pose `start` to pose `end`, along a line and by slerp, while b rests at the origin.
+    """Returns the first contact while a moves from pose `start` to pose `end`, and b rests at the origin.
 
-    tolerance: metres; 0: a default for the sizes of the bodies.
+    The position moves along a line, and the rotation is a slerp.
+    tolerance: metres; 0: a default that depends on the sizes of the bodies.
     """
     if not _number("tolerance", tolerance) >= 0:
         raise ValueError("tolerance: a number of 0 or more is needed")

@@ -36,10 +36,10 @@ class Certificate:
     """The proof of one edge from q0 to q1, as data. Time t is 0 at q0 and 1 at q1.
 
     Interval k states: on all of [t0[k], t1[k]], for every path in the tube, the two shapes of `shapes[pair[k]]` stay
-    at least `clearance[k]` metres apart. This includes the margin and all rounding. For each pair, the intervals
-    cover [0, free_until] without a gap. They are in any order, and some may lie beyond `free_until`. Intervals are
-    about surfaces. The query also tests whether a body is inside a solid mesh; if this alone decides the verdict,
-    there are no intervals.
+    at least `clearance[k]` metres apart. This distance includes the margin; all rounding is covered. For each pair, the
+    intervals cover [0, free_until] without a gap. They are in any order, and some may lie beyond `free_until`.
+    Intervals are statements about surfaces. The query also tests whether a body is inside a solid mesh; if this alone
+    decides the verdict, there are no intervals.
 
     Pairs that are not tested, such as adjacent links, are not listed.
     """
@@ -48,18 +48,18 @@ class Certificate:
     q0: NDArray[np.float64]  #: (J,)
     q1: NDArray[np.float64]  #: (J,)
     verdict: Verdict
-    reason: str  #: why it is undecided: "clearance", "work limit", "ambiguous", "rounding", "floating point"; or ""
-    free_until: float  #: no contact on [0, free_until]; 0 without such a part. Bounds of joints don't count
+    reason: str  #: why undecided: "clearance", "work limit", "ambiguous", "rounding", "floating point"; or ""
+    free_until: float  #: no contact on [0, free_until]; 0: no such part. Bounds of joints are not tested
     shapes: list[tuple[str, str]]  #: P names of shapes, a and b of each tested pair
-    pairs: NDArray[np.int64]  #: P×2, their bodies, indices into `problem.bodies`
+    pairs: NDArray[np.int64]  #: P×2, the bodies of each tested pair, indices into `problem.bodies`
     margins: NDArray[np.float64]  #: P, the distance that each pair must keep, m
     pair: NDArray[np.int64]  #: K, index into `pairs`
     t0: NDArray[np.float64]  #: K, multiples of 2^-48
     t1: NDArray[np.float64]  #: K
     clearance: NDArray[np.float64]  #: K, m
-    contact: tuple[int, int] | None  #: the two bodies in contact, or not decided, indices into `problem.bodies`
-    time: float | None  #: of the contact, or in the part that is not decided
-    point: NDArray[np.float64] | None  #: (3,), of a contact: where it is, in the frame of `contact[0]`, m
+    contact: tuple[int, int] | None  #: the two bodies in contact or undecided, indices into `problem.bodies`
+    time: float | None  #: time of the contact, or a time in the undecided part
+    point: NDArray[np.float64] | None  #: (3,), the point of contact, in the frame of the body `contact[0]`, m
     tolerance: float  #: the clearance beyond margin and tube that FREE needs, m
 
     @property
@@ -77,7 +77,7 @@ class Certificate:
         return ends
 
     def _mismatch(self) -> CertificateFault | None:
-        """Returns a fault if the pairs are not the problem's, or if the verdict is more than the intervals claim."""
+        """Returns a fault if the pairs are not the problem's, or if the verdict is FREE and `free_until` is not 1."""
         known = _native.certificate_pairs(self.problem._native)
         same = (
             self.shapes == known["shapes"]
@@ -93,9 +93,9 @@ class Certificate:
     def check(self) -> CertificateFault | None:
         """Proves the intervals again, by another method on other trees. Returns None, or the first fault.
 
-        It proves that each pair stays farther apart than margin + (clearance − margin)/2 in its intervals, and that
-        they cover [0, free_until]; with a `free_until` of 0 it proves nothing. "unproved" is no refutation. With
-        default options and without a tube, it is the answer for at most one of 100 certificates of random edges.
+        Proves that each pair stays farther apart than margin + (clearance − margin)/2 in its intervals, and that the
+        intervals cover [0, free_until]. If `free_until` is 0, nothing is proved. The fault "unproved" is no refutation.
+        With default options and without a tube, it is the answer for at most one of 100 certificates of random edges.
         """
         if mismatch := self._mismatch():
             return mismatch

@@ -14,7 +14,7 @@ def can_draw() -> bool:
 
 
 def png_of(svg: str, width: int) -> bytes:
-    """Returns an SVG document as the bytes of a PNG file, `width` pixels wide."""
+    """Converts an SVG document to PNG, `width` pixels wide. Returns the bytes of the PNG file."""
     if isinstance(width, bool) or not isinstance(width, int) or not 1 <= width <= 20_000:
         raise ValueError(f"width: a whole number from 1 to 20000 is needed, not {width!r}")
     program = shutil.which(_PROGRAM)

@@ -35,7 +35,7 @@ _EDITS = (
 class Problem:
     """A planning problem. It never changes: `edited` returns another one.
 
-    It can be pickled. Its files are read again when it is unpickled, which raises ValueError if they have changed.
+    It can be pickled. Unpickling reads its files again, and raises ValueError if they have changed.
 
     A configuration is an array of J numbers, whose names are `numbers`: radians, metres, and quaternions
     (qx, qy, qz, qw) of floating bodies.
@@ -50,7 +50,8 @@ class Problem:
     ):  # fmt: skip
         """Builds a problem.
 
-        robots: one, or a list, of `urdf`, `robot` or `rigid_body`. obstacles: shapes by name, in world coordinates.
+        robots: a robot, or a list of robots, made by `urdf`, `robot` or `rigid_body`.
+        obstacles: shapes by name, in world coordinates.
         allow: pairs of names of bodies that may touch. edits: as for `edited`.
         """
         is_list = isinstance(robots, Iterable) and not isinstance(robots, (dict, str))
@@ -86,7 +87,7 @@ class Problem:
                 hint = f" (did you mean {close[0]!r}?)" if close else f"; there are {', '.join(_EDITS)}"
                 raise TypeError(f"a problem has no {key!r} that can be edited{hint}")
         edits = {k: _value(k, v) for k, v in edits.items()}
-        if "planner" in edits:  # parameters belong to a planner
+        if "planner" in edits:  # parameters belong to one planner: a new planner gets none of the old ones
             before = {k: v for k, v in before.items() if k != "params"}
         # The order of `_EDITS` is the order in which they are applied: the planner before its parameters.
         edits = {k: edits[k] for k in _EDITS if k in edits}
@@ -94,15 +95,16 @@ class Problem:
         self._native: _native.Problem = base.edited(edits) if edits else base
 
     def edited(self, **edits: Any) -> Problem:
-        """Returns the problem with other values.
+        """Returns a copy of the problem in which the given values are changed.
 
-        start (J,); goals (J,), or (G, J) for any of G goals; margin, m; tube, {"joints": rad or m, "slides": m,
-        "position": m, "rotation": rad}; planner, OMPL's name; params, the planner's parameters by OMPL's names; time, s;
-        seed; simplify (True, False, "ompl"); edges ("certified", "discrete", ...); clearance, m; tolerance, m. For
-        trajectories: smooth ("time", "length", "acceleration", "corners", "none"); rate, rows per second; deviation
-        and corner_deviation, rad or m; with corner_deviation only corners are rounded, whatever `smooth` is.
-        Raises ValueError if a value is illegal or contradicts another one. Names of planners and of their parameters are
-        checked by `solve`.
+        start (J,); goals (J,), or (G, J): a path may end at any of the G goals; margin, m; tube, {"joints": rad or m,
+        "slides": m, "position": m, "rotation": rad}; planner, OMPL's name; params, the planner's parameters by OMPL's
+        names; time, s; seed; simplify (True, False, "ompl"); edges ("certified", "discrete", ...); clearance, m;
+        tolerance, m.
+        For trajectories: smooth ("time", "length", "acceleration", "corners", "none"); rate, rows per second; deviation
+        and corner_deviation, rad or m. With corner_deviation only corners are rounded, whatever `smooth` is.
+        Raises ValueError if a value is illegal or contradicts another one. Names of planners and of their parameters
+        are checked by `solve`.
         """
         other = object.__new__(type(self))
         other._recipe = self._recipe
@@ -114,14 +116,14 @@ class Problem:
 
     def _require(self, key: str) -> None:
         if self._recipe[0] == "built" and key not in self._edits:
-            raise ValueError(f"{key}: the problem has none; set it by problem.edited({key}=...)")
+            raise ValueError(f"{key}: the problem has no {key}; set it by problem.edited({key}=...)")
 
     def __repr__(self) -> str:
         return f"<Problem: {self.name}, {len(self.numbers)} numbers, {len(self.bodies)} bodies>"
 
     @property
     def name(self) -> str:
-        """The name of the problem, from its file."""
+        """The name of the problem, from its file; "problem" if it was built in Python."""
         return self._native.name
 
     @property
@@ -136,7 +138,7 @@ class Problem:
 
     @property
     def notes(self) -> list[str]:
-        """Decisions of the reader that a user may want to know."""
+        """Notes, one line each: decisions made when the files were read, which a user may want to know."""
         return self._native.notes
 
     @property
@@ -162,7 +164,7 @@ class Problem:
 
     @property
     def tube(self) -> NDArray[np.float64]:
-        """(J,): the deviation from a path that proofs cover."""
+        """(J,): for each number, the largest deviation from a path that proofs cover."""
         return self._native.tube
 
     @property
@@ -187,9 +189,9 @@ class Problem:
     def certify(self, q0: ArrayLike, q1: ArrayLike, earliest: bool = False, threads: int = 0) -> Results:
         """Decides whether edges are proved free, from each row of q0 to that of q1, (J,) or (N, J).
 
-        Continuous joints and rotations go the shorter way. `time` is the time of a contact. With `earliest`, it is that
-        of the first one: at most 1/1024 of the edge before it is not proved free, unless the contact is grazing. The
-        part that is proved free is `free_until` of `certificate`.
+        Continuous joints and rotations go the shorter way. `time` is the time of a contact. With `earliest`, it is the
+        time of the first contact: at most 1/1024 of the edge before it is not proved free, unless the contact is
+        grazing. `certificate` returns the part that is proved free, as `free_until`.
         """
         return Results(
             self.bodies,
@@ -201,8 +203,8 @@ class Problem:
     def certificate(self, q0: ArrayLike, q1: ArrayLike, earliest: bool = False) -> Certificate:
         """Decides one edge, from (J,) to (J,), and returns the proof as data.
 
-        With `earliest`, the part before a contact is proved, too. Takes longer than `certify`: every pair is proved, also
-        those that are far apart all the time. The method is always `certified`, whatever `edges` is.
+        With `earliest`, the part before a contact is proved, too. This takes longer than `certify`: every pair is
+        proved, also pairs that are far apart all the time. The method is always `certified`, whatever `edges` is.
         """
         return certificate_of(self, _array("q0", q0), _array("q1", q1), _flag("earliest", earliest))
 
@@ -210,7 +212,8 @@ class Problem:
         """Returns the poses of all bodies in the world, N×B×4×4, at states, (J,) or (N, J).
 
         The poses are rounded; the proofs take this into account. The shapes of obstacles are in world coordinates, so
-        their pose is the identity. Only obstacles of problem files that share one mesh have the pose of that mesh.
+        the pose of an obstacle is the identity. The only exception: obstacles of a problem file that share one mesh
+        have the poses at which this mesh is placed.
         """
         return _native.poses(self._native, _array("states", states))
 
@@ -253,16 +256,16 @@ def _frame(page: str) -> str:
 
 @dataclass(repr=False, eq=False)
 class Solution:
-    """The result of `solve`. It can be pickled. It is true if the problem is solved."""
+    """The result of `solve`. It can be pickled. As a condition, it is true if the problem is solved."""
 
     problem: Problem
     outcome: str  #: "solved", "not found", "approximate only"
-    why: str  #: why it is not solved, one line
+    why: str  #: why the problem is not solved, one line; empty if solved
     path: NDArray[np.float64]  #: N×J states; empty unless solved
     certified: bool  #: every edge of `path` is proved
     #: times, lengths and counts. `proved_clearance_m` is at most the preferred clearance; `verify` may find more
     figures: dict[str, Any] = field(default_factory=dict)
-    #: text, duration, proved, keeps_limits and why_none. Empty if `solve` was called without `trajectory`
+    #: `text`, `duration`, `proved`, `keeps_limits`, `why_none`. Empty if `solve` was called without `trajectory`
     trajectory: dict[str, Any] = field(default_factory=dict)
     _text: str = ""
 
@@ -283,7 +286,7 @@ class Solution:
         return _native.verify_path(self.problem._native, self.path, self.figures.get("proved_clearance_m") or 0.0)
 
     def verify_trajectory(self) -> dict[str, Any]:
-        """Verifies the trajectory as it is written."""
+        """Verifies the text of the trajectory by the independent verifier. Returns `verdict`, `keeps_limits`, ..."""
         if not self.trajectory.get("text"):
             raise ValueError('there is no trajectory; pass trajectory="csv" to solve')
         return _native.verify_trajectory(self.problem._native, self.trajectory["text"])
@@ -291,8 +294,8 @@ class Solution:
     def save(self, file: str | os.PathLike[str]) -> None:
         """Writes a solution file, which `corridor verify` reads with the problem's file.
 
-        Only for problems that were read from files, which still exist, and whose start, goals, margin and tube were
-        not edited.
+        The problem must have been read from files that still exist, and its start, goals, margin and tube must not have
+        been edited.
         """
         self._require_path()
         edited = [k for k in ("start", "goals", "margin", "tube") if k in self.problem._edits]
@@ -304,7 +307,7 @@ class Solution:
             out.write(self._text)
 
     def page(self) -> str:
-        """Returns an HTML page that plays the path in 3D. It loads nothing else."""
+        """Returns an HTML page that plays the path in 3D. The page loads no other file."""
         self._require_path()
         return _native.page(self.problem._native, self.path)
 
@@ -321,12 +324,12 @@ class Solution:
     def png(self, width: int = 1200, seen_from: str | None = None) -> bytes:
         """Returns the picture of `svg` as the bytes of a PNG file, `width` pixels wide.
 
-        It is drawn by rsvg-convert, of Debian's package librsvg2-bin. Raises RuntimeError if that is missing.
+        The program rsvg-convert of Debian's package librsvg2-bin draws it. Raises RuntimeError if it is missing.
         """
         return pictures.png_of(self.svg(seen_from), width)
 
     def view(self, file: str | os.PathLike[str] | None = None) -> str:
-        """Writes the page to a file, or opens it in a browser. Returns the name of the file."""
+        """Writes the page to a file; without `file`, opens it in a browser. Returns the name of the file."""
         page, opens = self.page(), file is None
         if file is not None:
             file = os.fspath(file)
@@ -354,7 +357,7 @@ def solve(
 
     trajectory: "csv" (rows of numbers) or "yaml" (a JointTrajectory of ROS 2) makes a trajectory, too.
     progress: called ten times a second with the seconds and the number of edges tested. Ctrl-C ends the solve.
-    The same problem and seed give the same path, with most planners. A process solves one problem at a time: a second
+    With most planners, the same problem and seed give the same path. A process solves one problem at a time: a second
     call waits. `solve_many` uses several processes.
     """
     _require_problem(problem)
@@ -413,7 +416,8 @@ def solve_many(problems: Iterable[Problem], processes: int | None = None, **opti
 
     processes: default, as many as there are cores. options: those of `solve`, except progress. Nothing is solved, and no
     argument tested, before the first solution is requested.
-    As with all processes of Python, a script calls it under `if __name__ == "__main__":`. Ctrl-C ends all of them.
+    As always when Python starts processes, a script must call it under `if __name__ == "__main__":`. Ctrl-C ends all
+    of the processes.
     """
     if isinstance(problems, Problem):
         raise TypeError("problems: a list of problems is needed, not one problem")

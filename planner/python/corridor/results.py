@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 class Verdict(enum.IntEnum):
     """The answer for a state or an edge."""
 
-    FREE = 0  #: proved: all pairs keep the margin, with tube and rounding
+    FREE = 0  #: proved: all pairs keep the margin; the proof covers tube and rounding
     CONTACT = 1  #: a pair touches, or is within the margin
-    UNDECIDED = 2  #: neither is proved; usually the clearance is below twice the tolerance
+    UNDECIDED = 2  #: neither FREE nor CONTACT is proved; usually the clearance is below twice the tolerance
     OUT_OF_BOUNDS = 3  #: a joint or a position is out of bounds
 
 
@@ -37,7 +37,7 @@ class Results:
         return free
 
     def pair(self, i: int) -> tuple[str, str] | None:
-        """Returns the names of the two bodies of row i."""
+        """Returns the names of the two bodies of row i; None if the row has no pair."""
         a, b = self.pairs[i]
         return None if a < 0 else (self.bodies[a], self.bodies[b])
 

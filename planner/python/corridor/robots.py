@@ -1,4 +1,4 @@
-"""Robots: of a URDF, of links and joints, or a rigid body. `corridor.Problem` takes what these functions return."""
+"""Robots from a URDF, from links and joints, or from a rigid body. Pass the results to `corridor.Problem`."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from .shapes import Shape, _numbers, _pose, _require_shape
 
 @dataclass(frozen=True)
 class Joint:
-    """A joint between two links. Its child link has the joint's pose at the value 0, and moves with its value.
+    """A joint between two links. At the value 0, the child link is at the joint's `origin`; it moves with the value.
 
     type: "fixed", "revolute", "continuous" (revolute without limits), "prismatic", "planar" or "floating".
     parent, child: names of links. origin: a `Pose` or 4×4, the joint in its parent link. axis: (3,), in the joint's
-    frame, of any length; not of fixed and floating joints. limits: (lower, upper), rad or m; revolute and prismatic
+    frame, of any length; fixed and floating joints have none. limits: (lower, upper), rad or m; revolute and prismatic
     joints need them. velocity: the largest speed, rad/s or m/s, for trajectories. mimic: (joint, multiplier, offset);
-    the value is multiplier·(value of the other joint) + offset, and limits don't count.
+    the value is multiplier·(value of the other joint) + offset, and the joint's own limits have no effect.
     """
 
     name: str
@@ -40,7 +40,7 @@ def robot(
     joints: Iterable[Joint], allow: Iterable[tuple[str, str]] = (), planned: Sequence[str] = (),
     base: ArrayLike | None = None, bounds: Mapping[str, ArrayLike] | None = None, name: str = "",
 ) -> dict[str, Any]:  # fmt: skip
-    """Describes a robot by links and joints, which are a tree with one root.
+    """Describes a robot by links and joints, which form a tree with one root.
 
     links: the shapes of each link by its name, in the link's frame; None or () for a link without shapes.
     joints: in any order. allow: pairs of links that may touch. As in a URDF, two links that a joint connects are not
@@ -49,8 +49,8 @@ def robot(
     nearest to 0. base: a `Pose` or 4×4, the pose of the root link. bounds: for each planar and floating joint
     [[x, y, z], [x, y, z]], the corners of its position, m. name: needed if there are several robots.
 
-    `corridor.Problem` raises InputError with all faults. From equal numbers, it is the same robot as that of a URDF,
-    to the last bit, if poses are given as `Pose`.
+    `corridor.Problem` raises InputError with all faults. If all poses are given as `Pose`, the robot is the same, to
+    the last bit, as the robot of a URDF with equal numbers.
     """
     pairs = links.items() if isinstance(links, Mapping) else links
     return {
@@ -70,7 +70,7 @@ def urdf(
 ) -> dict[str, Any]:  # fmt: skip
     """Describes a robot by a URDF file.
 
-    srdf: a file with pairs of links that may touch. joints: the names of those that are planned for; default: all
+    srdf: a file with pairs of links that may touch. joints: the names of the joints that are planned for; default: all
     that can move. base: a `Pose` or 4×4, the pose of the root link. bounds: for each planar and floating joint
     [[x, y, z], [x, y, z]], the corners of its position, m. name: needed if there are several robots.
     """

@@ -1,7 +1,7 @@
 """Shapes of links, obstacles and rigid bodies. Lengths are metres.
 
-`pose` is a 4×4 matrix, or a `Pose`; default: the origin. A matrix may differ from a rotation by 1e-6, and stands for the
-nearest rotation. The vertices of meshes are rounded once when they are placed.
+`pose` is a 4×4 matrix, or a `Pose`; default: the identity. The rotation of a matrix may differ from a rotation matrix
+by 1e-6, and then stands for the nearest rotation. The vertices of meshes are rounded once when they are placed.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ class Pose:
 
 
 class Shape(tuple[Any, ...]):
-    """A shape: its kind, its numbers, and its pose. The functions of this module make it."""
+    """A shape: its kind, its numbers, and its pose. The functions of this module make shapes."""
 
     __slots__ = ()
 
@@ -109,7 +109,7 @@ def convex(points: ArrayLike, pose: ArrayLike | None = None) -> Shape:
 def mesh(vertices: ArrayLike, triangles: ArrayLike, solid: bool = False, pose: ArrayLike | None = None) -> Shape:
     """A mesh of vertices, (V, 3), and triangles, (T, 3) indices from 0.
 
-    It is a surface. With `solid`, everything inside belongs to it, and it must be watertight.
+    The shape is a surface. With `solid`, everything inside belongs to the shape, and the mesh must be watertight.
     """
     return _shape("mesh", _array("vertices", vertices), _indices(triangles), _flag("solid", solid), pose=pose)
 
@@ -117,6 +117,6 @@ def mesh(vertices: ArrayLike, triangles: ArrayLike, solid: bool = False, pose: A
 def mesh_file(
     file: str | os.PathLike[str], metres_per_unit: float | None = None, solid: bool = False, pose: ArrayLike | None = None
 ) -> Shape:
-    """A mesh file: OBJ, STL, PLY, OFF, Collada, glTF and more. metres_per_unit: default, the unit of the file."""
+    """A mesh file: OBJ, STL, PLY, OFF, Collada, glTF and more. metres_per_unit: None: the unit of the file."""
     unit = None if metres_per_unit is None else _number("metres_per_unit", metres_per_unit)
     return _shape("file", os.path.abspath(file), unit, _flag("solid", solid), pose=pose)

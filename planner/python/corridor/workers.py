@@ -27,8 +27,8 @@ class _Worker:
         context = multiprocessing.get_context("spawn")
         self.pipe, other = context.Pipe()
         self.process = context.Process(target=_serve, args=(function, other), daemon=True)
-        # Ctrl-C is for the parent, which then kills its processes: they inherit a mask that blocks SIGINT. The tracker
-        # must run before, because its start unblocks SIGINT.
+        # Only the parent handles Ctrl-C: it kills its processes, which inherit a mask that blocks SIGINT. The resource
+        # tracker must be started before SIGINT is blocked, because its start unblocks SIGINT.
         multiprocessing.resource_tracker.ensure_running()
         before = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
         try:
@@ -77,7 +77,7 @@ def _end_with_parent() -> None:
 
 
 def _serve(function: Callable[[Any], Any], pipe: multiprocessing.connection.Connection) -> None:
-    """What a process does: it sends None when it is ready, then a result and an exception for each argument."""
+    """The main function of a process: sends None when ready, then a result and an exception for each argument."""
     threading.Thread(target=_end_with_parent, daemon=True).start()
     pipe.send(None)
     while True:
@@ -93,7 +93,7 @@ def _serve(function: Callable[[Any], Any], pipe: multiprocessing.connection.Conn
 
 
 def _pickled(error: Exception) -> bytes:
-    """Returns the answer for an exception. One that can't be pickled becomes a RuntimeError with its text."""
+    """Returns the pickled answer for an exception. If it can't be pickled, a RuntimeError with its text replaces it."""
     try:
         data = pickle.dumps((None, error))
         pickle.loads(data)
@@ -103,7 +103,7 @@ def _pickled(error: Exception) -> bytes:
 
 
 class _Answers:
-    """What threads have received from their processes, by the index of the argument."""
+    """The answers that threads have received from their processes, by the index of the argument."""
 
     def __init__(self, arguments: Sequence[Any]):
         self.arguments = arguments
@@ -112,7 +112,7 @@ class _Answers:
         self.begun = 0
 
     def serve(self, worker: _Worker) -> None:
-        """What a thread does: it gives a process one argument after the other, until none is left or a call is lost."""
+        """The main function of a thread: passes arguments to a process, until none is left or the process has ended."""
         while not worker.is_lost:
             with self.changed:
                 index = self.begun
@@ -136,8 +136,9 @@ class _Answers:
 def in_order(function: Callable[[Any], Any], arguments: Sequence[Any], processes: int | None) -> Iterator[Any]:
     """Yields function(argument) for each argument, in this order, computed by several processes.
 
-    processes: None, as many as there are cores. If the function raises an exception, so does the iterator, at the place of
-    that argument. If the iterator ends early, as by Ctrl-C, it kills its processes. They go on while the caller works.
+    processes: None: as many as there are cores. If the function raises an exception for an argument, the iterator
+    raises it instead of yielding this result. The processes go on while the caller works. When the iterator ends, also
+    early, as by Ctrl-C, it kills them.
     """
     if processes is None:
         processes = os.cpu_count() or 1

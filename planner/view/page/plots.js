@@ -4,7 +4,10 @@ const kQuantities = ['position', 'velocity', 'acceleration'];
 const kPerSecond = ['', '/s', '/s²'];  // their units, after that of the position
 const kDrawnSpans = 600;               // at most so many spans of a curve are drawn, each by its extremes
 
-/** The joints of a trajectory; `at` has the places of their values. Two values at one place: before and after a jump. */
+/**
+ * The joints of a trajectory; `at` has the places of their values. If two values have one place, they are those before
+ * and after a jump.
+ */
 const joints = data.plots && data.plots.joints.map((joint, i, all) => ({...joint,
   values: joint.values.map((values) => data.array(values)),
   colour: `hsl(${Math.round(360 * i / all.length + 212) % 360}, 55%, ${i % 2 ? 36 : 48}%)`}));

@@ -4,7 +4,10 @@ const origin = new THREE.Vector3(...data.origin);
 const kGhostTriangles = 1.5e6;  // at most, for all poses along the path together
 const kPose = 7;                // numbers per pose of a frame
 
-/** Reads the pose (x y z and a quaternion) at index `first` of an array; with u > 0 interpolates to the pose at `next`. */
+/**
+ * Reads the pose (x y z and a quaternion) at index `first` of an array. With u > 0, interpolates to the pose at `next`,
+ * by the share u.
+ */
 function poseOf(array, first, next, u, position, quaternion) {
   position.set(array[first], array[first + 1], array[first + 2]);
   quaternion.set(array[first + 3], array[first + 4], array[first + 5], array[first + 6]);
@@ -15,7 +18,7 @@ function poseOf(array, first, next, u, position, quaternion) {
   }
 }
 
-/** Places an object in the scene that is in the coordinates of an obstacle's mesh. */
+/** Places an object in the scene. The object is given in the coordinates of an obstacle's mesh. */
 function placeObstacle(object, body) {
   object.position.copy(shapes[body.mesh].origin);
   if (!body.pose) {

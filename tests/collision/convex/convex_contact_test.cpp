@@ -156,9 +156,9 @@ TEST(ConvexContact, PolytopesAgainstIntegers) {
         for (const IntVec& f : edges[s]) axes.push_back(e.cross(f));
     for (int s = 0; s < 2; ++s)
       for (const IntVec& e : edges[s]) axes.push_back(e.cross(corners[1][0] - corners[0][0]));
-    // If both sets lie in one plane, all these axes are parallel to its normal. So the test also
-    // uses the normals of the edges within this plane, and, for sets on a line, the line's
-    // direction.
+    // If both sets lie in one plane, all these axes are parallel to its normal. Therefore the test
+    // also uses the normals of the edges within this plane, and, for sets on a line, the direction
+    // of the line.
     const auto normal =
         std::find_if(axes.begin(), axes.end(), [](const IntVec& axis) { return !axis.isZero(); });
     if (normal != axes.end()) {
@@ -191,7 +191,7 @@ TEST(ConvexContact, PolytopesAgainstIntegers) {
 }
 
 /// A corner touches a face exactly, in integers. Both sets have the same map, so they still touch.
-/// With an error bound that is too small, the query would report them as apart.
+/// With an error bound that is too small, the query would report the sets as apart.
 TEST(ConvexContact, TouchingSetsTouchUnderACommonMap) {
   Touching make(test::testSeed(26));
   const auto integers = [&] {
@@ -209,8 +209,8 @@ TEST(ConvexContact, TouchingSetsTouchUnderACommonMap) {
   EXPECT_EQ(falseFree, 0);
 }
 
-/// A set under a map that is not rigid means the image of the set: a sphere becomes an ellipsoid.
-/// Here a sphere and a cylinder are stretched along z, above a plate.
+/// Under a map that is not rigid, the query is about the image of the set: a sphere becomes an
+/// ellipsoid. Here a sphere and a cylinder are stretched along z, above a plate.
 TEST(ConvexContact, AnyAffineMap) {
   const ConvexPart plate = placed(Box{Vec3(4, 4, 1)}, {});
   Transform X;

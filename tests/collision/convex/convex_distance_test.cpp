@@ -165,7 +165,8 @@ TEST(ConvexDistance, RandomPosesAgainstASeparatingPlane) {
   EXPECT_GT(touching, 500 / test::kSlowdown);
 }
 
-/// Compares polytopes with brute force over all triangles of their corners, with a hundred digits.
+/// Compares distances of polytopes with brute force over all triangles of their corners, with a
+/// hundred digits.
 TEST(ConvexDistance, PolytopesAgainstAllTheirTriangles) {
   Touching make(test::testSeed(33));
   int apart = 0;
@@ -173,7 +174,7 @@ TEST(ConvexDistance, PolytopesAgainstAllTheirTriangles) {
     PosedPart a, b;
     for (int i = 0; i < 3 + n % 3; ++i) a.part.points.push_back(make.vector());
     for (int i = 0; i < 3 + n / 3 % 3; ++i) b.part.points.push_back(make.vector());
-    if (n % 2) {  // b gets a face that is nearly parallel to one of a
+    if (n % 2) {  // b gets a face that is nearly parallel to a face of a
       for (int i = 0; i < 3; ++i)
         b.part.points[i] = a.part.points[i] + std::pow(10.0, -n % 13) * make.vector();
     }
@@ -345,9 +346,9 @@ TEST(ConvexDistance, BallsFlattenedByTheirMap) {
     }
 }
 
-/// The error grows with the coordinates after the map, not with those before it. This map takes
-/// points at 10^12 m to within a metre or to one point; the ellipsoid needs all digits of the
-/// bound.
+/// The error grows with the coordinates after the map, not with the coordinates before the map.
+/// This map takes points at 10^12 m to within a metre or to one point; the ellipsoid needs all
+/// digits of the bound.
 TEST(ConvexDistance, FarPointsUnderAMapThatShrinks) {
   ConvexPart ball = placed(Sphere{12.75}, {});
   Transform shear;
@@ -403,7 +404,7 @@ TEST(ConvexDistance, AsCloseAsRequested) {
     EXPECT_LE(d.lower, exact.distance);
     EXPECT_LE(d.distance - d.lower, allowed) << n;
     // The search of the range may stop early, but only if the lower bound exceeds the requested
-    // one.
+    // lower bound.
     EXPECT_GT(convexDistanceRange(a.set(), b.set(), gap / 2, 0).lower, gap / 2);
     EXPECT_LE(convexDistanceRange(a.set(), b.set(), HUGE_VAL, 2 * gap).upper, 2 * gap);
     EXPECT_FALSE(d.exact);

@@ -18,7 +18,7 @@ namespace {
 
 using Rational = boost::multiprecision::cpp_rational;
 
-/// d·x, exactly.
+/// Returns d·x, exactly.
 Rational along(const Vec3& d, const Vec3& x) {
   Rational sum = 0;
   for (int k = 0; k < 3; ++k) sum += Rational(d[k]) * Rational(x[k]);
@@ -37,8 +37,8 @@ class Random {
   }
   double real() { return std::uniform_real_distribution(-1.0, 1.0)(engine_); }
 
-  /// Points of many kinds: on a sphere, an ellipsoid, a grid (coplanar faces), a cone (one vertex
-  /// with many neighbours), a paraboloid far from the origin, a nearly flat disc.
+  /// Makes point sets of many kinds: on a sphere, an ellipsoid, a grid (coplanar faces), a cone
+  /// (one vertex with many neighbours), a paraboloid far from the origin, a nearly flat disc.
   std::vector<Vec3> points(std::size_t kind, std::size_t count) {
     std::vector<Vec3> result;
     for (std::size_t i = 0; i < count; ++i) {
@@ -126,7 +126,8 @@ TEST(DobkinKirkpatrick, ExtremeVerticesAreExact) {
   EXPECT_LT(climbed, queries / 20);
 }
 
-/// The number of operations grows like the logarithm, also where one vertex has many neighbours.
+/// The number of operations grows like the logarithm of the number of vertices, even if a vertex
+/// has many neighbours.
 TEST(DobkinKirkpatrick, QueriesTakeLogarithmicTime) {
   Random random(test::testSeed(23));
   for (const std::size_t kind : {0u, 3u, 4u})

@@ -1,4 +1,4 @@
-// Exact contact of convex hulls against the rational simplex method.
+// Compares exact contact of convex hulls with the rational simplex method.
 #include "collision/convex/exact_contact.h"
 
 #include <iostream>
@@ -23,7 +23,7 @@ TEST(ExactContact, AgreesWithTheRationalSimplexMethod) {
     const ConvexPart a{p, 0, false}, b{q, 0, false};
     const bool expected = test::hullRelation<3>(p, q) != HullRelation::disjoint;
     ASSERT_EQ(convexHullsTouch({a, {}}, {b, {}}), expected) << n;
-    // Whatever a cache holds, rationals decide.
+    // The verdict is that of rationals, whatever the cache contains.
     ConvexCache wrong;
     wrong.count = 4;
     for (auto& corner : wrong.corner) corner = {static_cast<std::uint32_t>(n % 9), 0, {0, 0, 1}};

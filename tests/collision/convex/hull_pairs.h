@@ -15,11 +15,11 @@ namespace corridor::test {
 template <int D>
 using Points = std::vector<Eigen::Matrix<double, D, 1>>;
 
-/// The relation of two convex hulls by the rational simplex method, which shares no code with
-/// Corridor.
-/// * They share a point if Σ λ_i p_i = Σ μ_j q_j, Σ λ = Σ μ = 1 has a solution λ, μ ≥ 0.
-/// * No plane has them on its two sides if the rows (p, −1) and (−q, 1) span all of space with
-///   weights ≥ 0: they have full rank, and Σ w_i row_i = 0 has a solution with all w_i ≥ 1.
+/// Returns the relation of two convex hulls, by the rational simplex method, which shares no code
+/// with Corridor.
+/// * The hulls share a point if Σ λ_i p_i = Σ μ_j q_j, Σ λ = Σ μ = 1 has a solution λ, μ ≥ 0.
+/// * No plane has the hulls on its two sides if the rows (p, −1) and (−q, 1) span all of space with
+///   weights ≥ 0: the rows have full rank, and Σ w_i row_i = 0 has a solution with all w_i ≥ 1.
 template <int D>
 HullRelation hullRelation(const Points<D>& first, const Points<D>& second) {
   std::vector<std::vector<double>> meet, rows;
@@ -49,10 +49,10 @@ HullRelation hullRelation(const Points<D>& first, const Points<D>& second) {
   return hasSolution(all, zero) ? HullRelation::overlapping : HullRelation::touching;
 }
 
-/// Makes pairs of point sets, a quarter of them each: random; on a small grid, where touching and
-/// coplanar points abound; hulls that share a vertex, an edge or a face, on either side of its
-/// plane or not; needles and nearly flat sets. Half of all pairs are moved away from the origin, by
-/// up to 10^6, by grid steps, so that touching sets still touch.
+/// Makes pairs of point sets, of four kinds in equal shares: random; on a small grid, where
+/// touching and coplanar points abound; sets that share some points, mostly with the other points
+/// on opposite sides of a plane; needles and nearly flat sets. Half of all pairs are moved away
+/// from the origin by up to 10^6, in grid steps, so that touching sets still touch.
 template <int D>
 class HullPairs {
  public:
@@ -75,7 +75,7 @@ class HullPairs {
         for (std::size_t i = 0; i < np; ++i) p.push_back(gridPoint());
         for (std::size_t i = 0; i < nq; ++i) q.push_back(gridPoint());
         break;
-      case 2: {  // shared points; the others above and below a plane through the origin
+      case 2: {  // shared points; the other points are on the two sides of a plane through 0
         const std::size_t shared = 1 + random_() % D;
         const Point normal = gridPoint();
         for (std::size_t i = 0; i < shared; ++i) {

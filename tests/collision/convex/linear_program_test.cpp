@@ -20,7 +20,7 @@ namespace {
 template <int D>
 using Vector = Eigen::Matrix<double, D, 1>;
 
-/// The status by the rational simplex method, through duality.
+/// Returns the status of the program, by the rational simplex method and duality.
 /// * Infeasible: Σ w_i normal_i = 0, Σ w_i offset_i = −1 has a solution w ≥ 0.
 /// * Bounded: Σ w_i normal_i = goal has a solution w ≥ 0.
 template <int D>

@@ -32,8 +32,8 @@ Transform moved(Transform X, const Vec3& direction, double length) {
   return X;
 }
 
-/// The depth by the explicit difference: the least distance of the origin from the planes of the
-/// hull of all a − b. Negative: the sets are apart.
+/// Returns the depth by the explicit Minkowski difference: the least distance of the origin from
+/// the planes of the hull of all a − b. Negative: the sets are apart.
 double explicitDepth(const std::vector<Vec3>& a, const std::vector<Vec3>& b,
                      Vec3* along = nullptr) {
   std::vector<Vec3> all;
@@ -63,7 +63,8 @@ std::vector<Vec3> mapped(const Transform& X, std::span<const Vec3> points) {
   return result;
 }
 
-/// Random polytopes: the depth is that of the explicit difference, and its bounds are close.
+/// Random polytopes: the depth is that of the explicit Minkowski difference, and the two bounds of
+/// the depth are close.
 TEST(Penetration, AgreesWithTheExplicitDifference) {
   Touching make(test::testSeed(31));
   const int cases = test::isStressRun() ? 3000 : 150 / test::kSlowdown + 5;
@@ -112,8 +113,8 @@ TEST(Penetration, AgreesWithTheExplicitDifference) {
   EXPECT_LE(widest, 1e-9);
 }
 
-/// All pairs of shapes: b moved by `upper` along the direction does not overlap a; moved by less
-/// than `lower` in any direction, it does.
+/// All pairs of shapes: after a translation by `upper` along the direction, b does not overlap a.
+/// After a translation by less than `lower` in any direction, b overlaps a.
 TEST(Penetration, BoundsHoldForAllShapes) {
   Touching make(test::testSeed(32));
   double widest = 0;
@@ -173,7 +174,7 @@ TEST(Penetration, ClosedForms) {
   EXPECT_NEAR(depth(ball, ball, {0.75, 0, 0}).upper, 0.25, 1e-13);
   EXPECT_NEAR(depth(ball, ball, {0.75, 0, 0}).direction_W.x(), 1, 1e-13);
   EXPECT_NEAR(depth(ball, capsule, {0.5, 0, 0.75}).upper, 0.25, 1e-13);
-  EXPECT_NEAR(depth(ball, ball, {0, 0, 0}).lower, 1, 1e-12);  // any direction will do
+  EXPECT_NEAR(depth(ball, ball, {0, 0, 0}).lower, 1, 1e-12);  // every direction is right
   EXPECT_NEAR(depth(box, box, {1.5, 0, 1}).upper, 0.5, 1e-13);
   EXPECT_NEAR(depth(box, box, {0, 0, 0}).lower, 2, 1e-13);
   EXPECT_NEAR(depth(box, ball, {1.25, 0, 0}).upper, 0.25, 1e-13);
@@ -187,8 +188,8 @@ TEST(Penetration, ClosedForms) {
   EXPECT_NEAR(along.upper, 5, 1e-12);
 }
 
-/// Flat cores: the depth is that of the spheres, and the points are those that touch after the
-/// move.
+/// Flat cores: the depth is that of the spheres, and the reported points are the points that touch
+/// after the translation.
 TEST(Penetration, WitnessesOfFlatCores) {
   const ConvexPart ball = placed(Sphere{0.5}, {}), capsule = placed(Capsule{0.25, 2}, {});
   const Transform across{Eigen::AngleAxisd(M_PI / 2, Vec3::UnitX()).toRotationMatrix(),
@@ -210,7 +211,8 @@ TEST(Penetration, WitnessesOfFlatCores) {
   }
 }
 
-/// Cores that are so small beside their spheres that no plane of theirs is known.
+/// Cores that are so small beside their spheres that the planes of the cores' faces cannot be
+/// computed.
 TEST(Penetration, TinyCores) {
   for (const double s : {1e-40, 1e-90, 1e-130}) {
     const ConvexPart c{

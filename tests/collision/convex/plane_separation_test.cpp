@@ -26,7 +26,8 @@ Rational height(const HalfSpace<3>& half, const Vec3& x) {
   return sum;
 }
 
-/// Planes of all kinds: any; through a vertex; along a face, and one unit in the last place off.
+/// Makes planes of all kinds: random; through a vertex; along a face; and one unit in the last
+/// place off a face.
 HalfSpace<3> plane(test::ExactPairs& random, const Polytope& polytope, int kind) {
   const auto vertices = polytope.vertices();
   const auto any = [&] { return vertices[random.pick(static_cast<int>(vertices.size()))]; };
@@ -58,7 +59,7 @@ TEST(PlaneSeparation, AgreesWithEveryVertexInRationals) {
     for (const Vec3& p : drawn.vertices()) points.push_back(p + away);
     const DobkinKirkpatrick polytope{Polytope(points)};
     HalfSpace<3> half = plane(random, polytope.polytope(), n % 6);
-    if (n % 6 == 5) {  // through the outermost vertex: doubles can't decide on which side it is
+    if (n % 6 == 5) {  // through the outermost vertex: doubles cannot decide the polytope's side
       half.offset = 0;
       Rational most = height(half, points[0]);
       for (const Vec3& p : points) most = std::max(most, height(half, p));
@@ -84,11 +85,12 @@ TEST(PlaneSeparation, AgreesWithEveryVertexInRationals) {
     const Wide separation = Wide(numerator(most)) / Wide(denominator(most)) / length;
     EXPECT_LE(Wide(found.lower), separation) << n;
     EXPECT_GE(Wide(found.upper), separation) << n;
-    // A height is off by 8u of its terms, and a bound rounds by 2^-48 = 32u more: 80u for both.
+    // A height is off by 8u of its terms, and rounding a bound adds 2^-48 = 32u. Together, both
+    // bounds are off by 80u.
     const double size =
         std::sqrt(3.0) * (1e6 * isFar + 4) + std::abs(half.offset) / half.normal.norm();
     EXPECT_LE(found.upper - found.lower, 96 * 0x1p-53 * size) << n;
-    // The witness is where the separation is, up to the bounds.
+    // The height of the witness is the separation, up to the bounds.
     const Rational there = height(half, vertices[found.witness]);
     const Wide value = abs(Wide(numerator(there)) / Wide(denominator(there)) / length);
     EXPECT_LE(abs(value - abs(separation)), Wide(found.upper - found.lower)) << n;
@@ -103,7 +105,8 @@ TEST(PlaneSeparation, AgreesWithEveryVertexInRationals) {
   EXPECT_GT(touching, count / 20);
 }
 
-/// The width of the translation that `upper` and `lower` promise takes the polytope off the plane.
+/// If the plane cuts the polytope, −`lower` is the length of the translation that just takes the
+/// polytope off the plane.
 TEST(PlaneSeparation, DepthsLeadOffThePlane) {
   test::ExactPairs random(test::testSeed(72));
   for (int n = 0; n < 100; ++n) {
@@ -111,7 +114,7 @@ TEST(PlaneSeparation, DepthsLeadOffThePlane) {
     HalfSpace<3> half{random.vector().normalized(), 0.2 * random.real()};
     const PlaneSeparation found = planeSeparation(polytope, half);
     if (found.side != 0) continue;
-    // Moving the plane instead of the polytope.
+    // Moves the plane instead of the polytope.
     const double out = found.witness == found.innermost ? -1 : 1;
     half.offset += out * (-found.lower + 1e-12);
     EXPECT_EQ(sideOfPlane(polytope, half), -out) << n;
@@ -141,7 +144,7 @@ TEST(PlaneSeparation, OneUlpDecides) {
   EXPECT_THROW(sideOfPlane(cube, {n, std::nan("")}), std::invalid_argument);
 }
 
-/// Heights that overflow bound nothing, but the side is exact.
+/// If heights overflow, the bounds prove nothing, but the side is exact.
 TEST(PlaneSeparation, OverflowGivesInfiniteBounds) {
   const double e = 1e308;
   const std::vector<Vec3> points = {{e, e, e}, {1.1 * e, e, e}, {e, 1.1 * e, e}, {e, e, 1.1 * e}};

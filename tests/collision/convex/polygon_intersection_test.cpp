@@ -24,7 +24,7 @@ class RandomPolygons {
   std::uint64_t below(std::uint64_t n) { return engine_() % n; }
   double real() { return std::uniform_real_distribution(-1.0, 1.0)(engine_); }
 
-  /// A polygon of about n vertices: on a circle or ellipse, on a small or a large grid.
+  /// Returns a polygon of about n vertices: on a circle or ellipse, or on a small or a large grid.
   std::optional<ConvexPolygon> polygon(std::size_t n, int kind, const Vec2& center) {
     std::vector<Vec2> points;
     for (std::size_t i = 0; i < n; ++i) {
@@ -57,7 +57,7 @@ TEST(ConvexPolygon, HullsAreExact) {
     if (!polygon) continue;
     EXPECT_EQ(polygon->check(), std::nullopt) << n;
   }
-  // Collinear and equal points are no vertices.
+  // Collinear and equal points do not become vertices.
   const std::vector<Vec2> square = {{0, 0}, {1, 0}, {2, 0}, {2, 2}, {1, 1}, {0, 2}, {0, 1}, {2, 0}};
   EXPECT_EQ(vertices(ConvexPolygon(square)), (std::vector<Vec2>{{0, 0}, {2, 0}, {2, 2}, {0, 2}}));
   EXPECT_THROW(ConvexPolygon(std::vector<Vec2>{{0, 0}, {1, 1}, {3, 3}}), std::invalid_argument);
@@ -89,7 +89,7 @@ TEST(ConvexPolygon, ExtremeVertices) {
   }
 }
 
-/// Against the rational simplex method, and the witness of each answer.
+/// Compares answers with the rational simplex method, and tests the witness of each answer.
 TEST(PolygonIntersection, AgreesWithRationalSimplex) {
   RandomPolygons random(test::testSeed(43));
   const int pairs = test::isStressRun() ? 100'000 : 1500 / test::kSlowdown;
@@ -121,8 +121,8 @@ TEST(PolygonIntersection, AgreesWithRationalSimplex) {
   EXPECT_LT(exact, pairs / 10);
 }
 
-/// Whether the hull of some vertices of p meets the half-planes of some edges of q; all coordinates
-/// are whole numbers below 2^20, so that the half-planes are exact.
+/// Returns whether the hull of some vertices of p meets the half-planes of some edges of q; @pre
+/// all coordinates are whole numbers below 2^20, so that the half-planes are exact.
 bool partsMeet(const ConvexPolygon& p, const ConvexPolygon& q, const PolygonPruning& left) {
   // Σ λ_i (n_k·p_i) + s_k = b_k, Σ λ = 1, λ, s ≥ 0.
   const std::size_t edges = std::min(left.q[1] - left.q[0] + 1, q.size());
@@ -173,7 +173,8 @@ TEST(PolygonIntersection, EachPruningKeepsTheAnswer) {
   EXPECT_GT(steps, static_cast<std::size_t>(pairs));
 }
 
-/// The number of steps grows like the logarithm, also for polygons that nearly touch.
+/// The number of steps grows like the logarithm of the number of vertices, even if the polygons
+/// nearly touch.
 TEST(PolygonIntersection, TakesLogarithmicallyManySteps) {
   RandomPolygons random(test::testSeed(45));
   for (const std::size_t n : {10u, 1000u, 100'000u / test::kSlowdown}) {

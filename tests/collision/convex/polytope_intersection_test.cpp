@@ -79,7 +79,7 @@ void expectRight(const Preprocessed& p, const Transform& X_WP, const Preprocesse
   EXPECT_LT(last, first) << "pair " << tally.pairs;
 }
 
-/// Boxes, grids, needles, nearly flat ones, cones, prisms and random polytopes, also far away.
+/// Boxes, grids, needles, nearly flat polytopes, cones, prisms and random polytopes, also far away.
 TEST(PolytopeIntersection, AgreesWithRationalSimplexUnderPoses) {
   test::ExactPairs random(test::testSeed(61));
   Tally tally;
@@ -101,7 +101,8 @@ TEST(PolytopeIntersection, AgreesWithRationalSimplexUnderPoses) {
   EXPECT_LT(tally.exact, pairs / 4);
 }
 
-/// Point sets that share vertices, edges or faces, or are needles, nearly flat, or far away.
+/// Point sets that share vertices, edges or faces, needles, and sets that are nearly flat or far
+/// away.
 TEST(PolytopeIntersection, AgreesWithRationalSimplexOnDegeneratePairs) {
   test::HullPairs<3> random(test::testSeed(62));
   Tally tally;
@@ -140,8 +141,9 @@ class Random {
   std::normal_distribution<double> normal_;
 };
 
-/// The points and half-spaces are below 4, and the search has some 100 roundings in a row, each
-/// enlarged where planes are nearly parallel. A wrong plane or point is off by far more.
+/// The tolerance of this test. The points and half-spaces are below 4. The search has some 100
+/// roundings in a row, and each error grows if planes are nearly parallel. A wrong plane or point
+/// is off by far more.
 constexpr double kClose = 1e-9;
 
 /// Tests the two invariants after a step, and that at most one vertex or half-space is beyond.
@@ -176,7 +178,7 @@ void expectInvariants(const PolytopePruning& left, const Preprocessed& p, const 
   }
   EXPECT_LE(newBeyond, 1);
   if (left.apart) {
-    // Q_j may be unbounded. Then rounding of the normal would count beyond any bound.
+    // Q_j may be unbounded. Then the effect of the rounding of the normal has no bound.
     for (int k = 0; k < 3; ++k)
       for (const double s : {1.0, -1.0}) polyhedronQ.push_back({s * Vec3::Unit(k), 100});
     const auto lowest = solveLinearProgram<3>(polyhedronQ, Vec3(-left.normal_Q));
@@ -195,7 +197,7 @@ TEST(PolytopeIntersection, EachPruningKeepsBothInvariants) {
   for (int n = 0; n < pairs; ++n) {
     const std::size_t size = n % 8 == 0 ? 1000 : 20 + 10 * static_cast<std::size_t>(n % 7);
     const Preprocessed p{Polytope(random.onSphere(size))}, q{Polytope(random.onSphere(size))};
-    // From far apart to deep, most of them nearly touching.
+    // The pairs range from far apart to deep overlap; most of them nearly touch.
     const double gap = n % 3 == 0 ? random.real() : std::pow(10.0, -1 - n % 5) * random.real();
     Transform X_QP;
     X_QP.m = Eigen::Quaterniond(random.real(), random.real(), random.real(), random.real())
@@ -209,7 +211,8 @@ TEST(PolytopeIntersection, EachPruningKeepsBothInvariants) {
     for (std::size_t i = 0; i < trace.size(); ++i) {
       const PolytopePruning& left = trace[i];
       expectInvariants(left, p, X_QP, q);
-      // A step goes down in one hierarchy: to the level above that of what it has found beyond.
+      // A step goes down in one hierarchy, to the level above the level of the vertex or half-space
+      // that it has found beyond.
       EXPECT_LE(left.levelP, levelP);
       EXPECT_LE(left.levelQ, levelQ);
       EXPECT_EQ(left.apart ? left.levelQ : left.levelP, left.apart ? levelQ : levelP);
@@ -232,7 +235,8 @@ TEST(PolytopeIntersection, EachPruningKeepsBothInvariants) {
   EXPECT_GT(changes, pairs / 2);
 }
 
-/// The number of steps grows like the logarithm, also for polytopes that nearly touch.
+/// The number of steps grows like the logarithm of the number of vertices, even if the polytopes
+/// nearly touch.
 TEST(PolytopeIntersection, TakesLogarithmicallyManySteps) {
   Random random(test::testSeed(64));
   for (const std::size_t n : {10u, 100u, 1000u, 4000u / test::kSlowdown}) {
@@ -364,7 +368,7 @@ TEST(OuterHierarchy, FlatPolytopesHaveNoPolar) {
   EXPECT_FALSE(intersection(q.inner, {Mat3::Identity(), Vec3(0, 0, 1)}, flat.outer, {}).intersects);
 }
 
-/// The weights of both players prove each other's.
+/// The weights of each player prove that those of the other player are optimal.
 TEST(MatrixGame, WeightsAreOptimal) {
   Random random(test::testSeed(68));
   for (int n = 0; n < 2000; ++n) {

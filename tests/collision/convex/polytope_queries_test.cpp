@@ -45,7 +45,7 @@ Transform pose(Touching& make, const Vec3& t) {
   return {q.normalized().toRotationMatrix(), t};
 }
 
-/// The tolerance of two distances: both have the promised error.
+/// Returns the tolerance for comparing two distances: the sum of their promised errors.
 double allowed(double distance, double size) {
   return 2 * (1e-12 * distance + 4 * kUnit * size);
 }
@@ -75,7 +75,7 @@ TEST(PolytopeQueries, EveryFormGivesTheSameAnswer) {
   EXPECT_GT(meeting, pairs / 10);
 }
 
-/// A cache changes no verdict, and no distance beyond its error, whatever it holds.
+/// Whatever a cache contains, it changes no verdict, and no distance beyond the distance's error.
 TEST(PolytopeQueries, CachesDoNotChangeAnswers) {
   Touching make(test::testSeed(52));
   const int runs = test::isStressRun() ? 500 : 30 / test::kSlowdown + 2;

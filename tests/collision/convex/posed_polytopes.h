@@ -16,14 +16,14 @@ namespace corridor::test {
 
 /// Makes polytopes and poses whose mapped vertices are doubles, without any rounding: coordinates
 /// are multiples of 2^-10 below 4, rotations are rounded to multiples of 2^-34, and translations
-/// are multiples of 2^-10. So oracles that take points decide contact of the posed polytopes
-/// exactly. Far from the origin this holds only for maps of axes to axes.
+/// are multiples of 2^-10. Therefore oracles that take points decide contact of the posed polytopes
+/// exactly. Far from the origin, mapped vertices are exact only under maps of axes to axes.
 class ExactPairs {
  public:
   explicit ExactPairs(std::uint64_t seed) : random_(seed) {}
 
-  /// The kinds of polytopes: points on a sphere; a grid, with many coplanar faces; a box; a needle;
-  /// a nearly flat one; a cone of many edges; a prism.
+  /// The kinds of polytopes: points on a sphere; points of a grid, with many coplanar faces; a box;
+  /// a needle; a nearly flat polytope; a cone of many edges; a prism.
   static constexpr int kKinds = 7;
   Polytope polytope(int kind) {
     for (;;) {
@@ -62,13 +62,13 @@ class ExactPairs {
       if (kind == 2 && count < 8) continue;
       try {
         return Polytope(points);
-      } catch (const std::invalid_argument&) {  // all on one plane
+      } catch (const std::invalid_argument&) {  // all points are on one plane
       }
     }
   }
 
-  /// Returns a pose: half of the time (or always) axes to axes, at a translation of the coarse
-  /// grid, so that many pairs touch; else any.
+  /// Returns a pose. Half of the poses (or all) map axes to axes, with a translation on the coarse
+  /// grid, so that many pairs touch. All others are random.
   Transform pose(double far, bool axesToAxes = false) {
     Transform X;
     if (axesToAxes || pick(2) == 0) {
@@ -107,8 +107,9 @@ inline Vec3L mappedL(const Transform& X, const Vec3& p) {
   return X.m.cast<long double>() * p.cast<long double>() + X.t.cast<long double>();
 }
 
-/// Returns the distance of two segments in long double: the least of the distances of their ends
-/// from the other, and of their lines where both feet are within.
+/// Returns the distance of two segments in long double. It is the least of the distances of each
+/// end from the other segment, and of the distance of the two lines if both feet are within the
+/// segments.
 inline long double betweenSegments(const Vec3L& a, const Vec3L& b, const Vec3L& c, const Vec3L& d) {
   long double best =
       std::min({toSegment(a, c, d), toSegment(b, c, d), toSegment(c, a, b), toSegment(d, a, b)});
@@ -139,7 +140,7 @@ inline long double betweenFeatures(const std::vector<Vec3L>& p, const std::vecto
   return best;
 }
 
-/// Returns the distance of two disjoint polytopes: the least of all pairs of faces.
+/// Returns the distance of two disjoint polytopes: the least distance over all pairs of faces.
 inline long double betweenPolytopes(const Polytope& a, const Transform& X_WA, const Polytope& b,
                                     const Transform& X_WB) {
   long double best = HUGE_VALL;

@@ -87,8 +87,8 @@ TEST(QuickContact, DecidesAllButContactsOfAThousandth) {
   std::cout << decided << " of " << cases << "\n";
 }
 
-/// A cache skips the quick step, and never changes a verdict: under maps that scale, mirror or
-/// flatten, too. At scales far from 1, `size` is far above the coordinates.
+/// A query with a cache skips the quick step. A cache never changes a verdict, even under maps that
+/// scale, mirror or flatten. At scales far from 1, `size` is far above the coordinates.
 TEST(QuickContact, AgreesWithTheFullSearchUnderMapsThatAreNotRigid) {
   Touching make(test::testSeed(34));
   int different = 0, contacts = 0, cases = 0;
@@ -121,7 +121,7 @@ TEST(QuickContact, AgreesWithTheFullSearchUnderMapsThatAreNotRigid) {
   EXPECT_FALSE(convexSetsTouch({lowSet, larger}, {highSet, larger}));
 }
 
-/// The square of the plate's thickness underflows, so its direction can't be normalised.
+/// The square of the plate's thickness underflows, so its direction cannot be normalised.
 TEST(QuickContact, PlatesOfAnyThicknessAreNotMissed) {
   const ConvexPart cube = placed(Box{{1, 1, 1}}, {});
   const Transform turned{Eigen::AngleAxisd(std::numbers::pi / 4, Vec3::UnitZ()).matrix(),
@@ -155,9 +155,9 @@ IntMat turned(Touching& make) {
   return about(make.pick(3)) * about(make.pick(3));
 }
 
-/// Boxes with integer corners under integer maps, against the separating-axis theorem in integers.
-/// Many pairs touch exactly. The maps are rotations times 25, and every fourth pair has boxes whose
-/// edges are parallel. Sizes differ by up to a million, so that thin boxes occur.
+/// Compares boxes with integer corners under integer maps with the separating-axis theorem in
+/// integers. Many pairs touch exactly. The maps are rotations times 25, and every fourth pair has
+/// boxes whose edges are parallel. Sizes differ by up to a million, so that thin boxes occur.
 TEST(QuickContact, BoxesAgainstIntegers) {
   Touching make(test::testSeed(33));
   int touching = 0, apart = 0, exactly = 0, decided = 0;

@@ -74,7 +74,8 @@ TEST(SeparatingAxes, AgreesWithTheRationalSimplexMethod) {
     const Vec3L axis = axisOf(fa, p, fb, q, found);
     ASSERT_GT(gapAlong(axis, p, q), 0) << n;
     ASSERT_LT((axis - found.normal_W.cast<long double>()).norm(), 1e-6) << n;
-    // Begun with its own axis, the next test ends at once. From another axis it ends, too.
+    // If the next test starts with the axis that was found, it ends at once. At another pose, a
+    // test that starts with this axis has the verdict of a test without a given axis.
     const SeparatingAxis next = separatingAxis(fa, X_WA, fb, X_WB, &found);
     ASSERT_TRUE(next.separated && next.faces + next.edgePairs == 1) << n;
     const Transform X_WC = make.pose(1.5);
@@ -88,7 +89,8 @@ TEST(SeparatingAxes, AgreesWithTheRationalSimplexMethod) {
   EXPECT_GT(byEdges, pairs / 50);
 }
 
-/// Two boxes whose edges cross at a gap that only the product of the edges shows.
+/// Two boxes whose edges cross at a gap. Only the cross product of the two edges is a separating
+/// axis.
 TEST(SeparatingAxes, TwoCrossedEdgesNeedTheirProduct) {
   std::vector<Vec3> corners;
   for (int i = 0; i < 8; ++i)

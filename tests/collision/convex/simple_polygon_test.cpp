@@ -107,7 +107,7 @@ TEST(SimplePolygon, AgreesWithRationals) {
   EXPECT_GT(count - simple, count / 10);
 }
 
-/// Points of the polygon are those of its pieces.
+/// A point is in the polygon if and only if it is in a piece of the polygon.
 TEST(SimplePolygon, PiecesContainWhatThePolygonContains) {
   test::Polygons random(test::testSeed(52));
   int inside = 0, tested = 0;

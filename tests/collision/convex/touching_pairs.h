@@ -118,8 +118,8 @@ class Touching {
     return f;
   }
 
-  /// Returns a rotation that maps m to n, with a random rotation about n. Some of them are signed
-  /// permutations.
+  /// Returns a rotation that maps m to n, with a random rotation about n. Some of these rotations
+  /// are signed permutations.
   Mat3 turning(const Vec3& m, const Vec3& n) {
     const auto frame = [](const Vec3& z) {
       const Vec3 x = z.unitOrthogonal();

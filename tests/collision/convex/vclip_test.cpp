@@ -1,5 +1,5 @@
-// V-Clip: its verdicts against the rational simplex method, its distances and closest features
-// against all pairs of features in long double.
+// Tests of V-Clip. Verdicts are compared with the rational simplex method. Distances and closest
+// features are compared with all pairs of features in long double.
 #include "collision/convex/vclip.h"
 
 #include <cmath>
@@ -33,7 +33,7 @@ std::vector<Vec3L> cornersOf(const PolytopeFeatures& shape, const Feature& featu
   return corners;
 }
 
-/// The promised error of a distance.
+/// Returns the promised error of a distance.
 long double allowedError(long double distance, double size) {
   return 1e-12L * distance + 4 * kUnit * size;
 }
@@ -105,7 +105,8 @@ TEST(VClip, AgreesWithAllPairsOfFeatures) {
   EXPECT_LT(mostSteps, 200);
 }
 
-/// From every pair of features, the walk itself reaches a closest pair: GJK has nothing to mend.
+/// From every pair of features, the walk itself reaches a closest pair, so GJK need not correct the
+/// result.
 TEST(VClip, EveryStartReachesTheClosestPair) {
   ExactPairs make(test::testSeed(62));
   const int pairs = test::isStressRun() ? 500 : 20 / test::kSlowdown + 1;
@@ -145,7 +146,7 @@ TEST(VClip, EveryStartReachesTheClosestPair) {
   EXPECT_LT(mended, starts / 20);
 }
 
-/// Warm and cold queries agree along motions in small steps, and warm ones take few steps.
+/// Warm and cold queries agree along motions in small steps, and warm queries take few steps.
 TEST(VClip, WarmIsColdOnMotions) {
   ExactPairs make(test::testSeed(63));
   const int motions = test::isStressRun() ? 400 : 20 / test::kSlowdown + 2;
@@ -159,7 +160,7 @@ TEST(VClip, WarmIsColdOnMotions) {
               .normalized()
               .toRotationMatrix();
     const Mat3 turn = Eigen::AngleAxisd(0.005, make.vector().normalized()).toRotationMatrix();
-    const Vec3 move = -0.008 * X.t.normalized();  // towards the other, and through it
+    const Vec3 move = -0.008 * X.t.normalized();  // towards the other polytope, and through it
     FeaturePair warm;
     for (int step = 0; step < 400; ++step) {
       X.m = turn * X.m;
@@ -228,11 +229,11 @@ TEST(VClip, GapsBelowTheBandAreNoContact) {
       EXPECT_EQ(closestFeatures(f, {}, f, overlapping, pair).distance.distance, 0) << k;
       EXPECT_FALSE(convexHullsTouch({box, {}}, {box, X}));
     }
-  EXPECT_GT(inBand, 0);  // else this test tests nothing
+  EXPECT_GT(inBand, 0);  // otherwise this test tests nothing
 }
 
-/// Maps that are no rotations are queried by GJK, with the same guarantee. A pair of features that
-/// do not exist is a cold start.
+/// For maps that are not rotations, the query uses GJK, with the same guarantee. If the cache has
+/// features that do not exist, the query starts cold.
 TEST(VClip, TakesAnyMapAndAnyPair) {
   ExactPairs make(test::testSeed(64));
   int apart = 0;

@@ -29,8 +29,8 @@ TEST(Quantiles, NearestRank) {
   EXPECT_TRUE(std::isnan(quantileOf({}, 0.95)));
 }
 
-/// If 95 % of the count is a whole number, this number is the rank, and rounding must not increase
-/// it.
+/// If 95 % of the count is a whole number, that whole number is the rank, and rounding must not
+/// increase the rank.
 TEST(Quantiles, WholeRanksStayWhole) {
   for (std::size_t n = 20; n <= 20'000; n += 20) {
     std::vector<double> values(n);

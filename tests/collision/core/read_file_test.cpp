@@ -1,5 +1,5 @@
-// Files that must be refused: those that are not ordinary files, and those that are too large.
-// Refusing them must neither wait nor fill memory.
+// Tests of files that must be refused: files that are not ordinary files, and files that are too
+// large. Refusing a file must neither wait nor fill memory.
 #include "collision/core/read_file.h"
 
 #include <fstream>
@@ -27,7 +27,7 @@ class ReadFile : public testing::Test {
     std::ofstream(folder_ / name, std::ios::binary) << bytes;
     return folder_ / name;
   }
-  /// Creates a file of that size that takes no space on the disk.
+  /// Creates a file of the given size that takes no space on the disk.
   std::filesystem::path sparse(const std::string& name, std::uint64_t size) const {
     const auto file = write(name, "x");
     std::filesystem::resize_file(file, size);

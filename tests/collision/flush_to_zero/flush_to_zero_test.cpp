@@ -29,7 +29,7 @@
 namespace corridor {
 namespace {
 
-/// The least normal number; volatile, so that the compiler does not halve it itself.
+/// The least normal number; volatile, so that the compiler does not halve it at compile time.
 volatile double least = 0x1p-1022;
 
 TEST(FlushToZero, IsSetFromTheStart) {
@@ -91,8 +91,8 @@ TEST(FlushToZero, ContactOfTinyPolytopesIsExact) {
   }
 }
 
-/// Contacts of primitives of any scale are never missed, also where squares or products of three
-/// lengths become 0. From 2^-90 m on, gaps are found, too.
+/// Contacts of primitives of any scale are never missed, even if squares or products of three
+/// lengths become 0. At scales of 2^-90 m and more, gaps are found, too.
 TEST(FlushToZero, ContactsOfTinyPrimitivesAreNotMissed) {
   test::Touching make(test::testSeed(11));
   int apart = 0;

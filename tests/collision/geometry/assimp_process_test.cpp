@@ -178,7 +178,8 @@ TEST_F(AssimpProcess, FilesThatAMeshFileRefersTo) {
   EXPECT_EQ(file.format, "glTF2");
   ASSERT_EQ(file.mesh.vertices.size(), 3u);
   EXPECT_EQ(file.mesh.vertices[2], Vec3(10, 2, 0));
-  // Reading a device would never end, and opening a pipe would block: neither may be opened.
+  // Reading a device would never end, and opening a pipe would block: the reader must open neither
+  // of the two.
   ASSERT_EQ(::mkfifo((folder_ / "pipe.bin").c_str(), 0600), 0);
   for (const char* const uri : {"/dev/zero", "pipe.bin", "missing.bin"})
     EXPECT_THAT(MeshFileTest::complaint("b.gltf", gltf(uri)),

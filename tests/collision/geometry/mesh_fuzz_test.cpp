@@ -112,7 +112,7 @@ TEST_F(MeshFuzz, Off) {
 
 TEST_F(MeshFuzz, EveryTruncationIsNoticed) {
   // A file that is cut before the end of its last face must be refused. OBJ is left out: the format
-  // has no end mark, so missing lines can't be detected.
+  // has no end mark, so missing lines cannot be detected.
   const auto noticed = [&](const std::string& name, const std::string& whole, std::size_t tail) {
     for (std::size_t size = 0; size + tail < whole.size(); ++size) {
       EXPECT_THROW(read(name, whole.substr(0, size)), InputError)

@@ -10,7 +10,7 @@ namespace {
 
 class MeshLimits : public MeshFileTest {
  protected:
-  /// Returns the message of reading a file in a process that may allocate 64 MB.
+  /// Returns the message of the error when a file is read in a process that may allocate 64 MB.
   std::string complaintInLittleMemory(const std::string& name, const std::string& bytes) const {
 #ifdef __SANITIZE_ADDRESS__
     const std::size_t memory = 0;  // no limit: the sanitizer would end the process

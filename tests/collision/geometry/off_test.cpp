@@ -44,11 +44,12 @@ TEST_F(Off, Faults) {
   fault("OFF\n-3 1 0\n", "2: the number of vertices is \"-3\"; a whole number is needed");
   fault("OFF\n3\n          ", "3: the number of faces is \"\"; a whole number is needed");
   fault("OFF\n99999 1 0\n", "2: 99999 vertices are more than the file has bytes for");
-  fault("OFF\n3 1\n          ", "2: the number of edges is missing; any number will do");
-  // If this were accepted, a number of the first vertex would be read as the count, and the
-  // additional face would hide the error.
+  fault("OFF\n3 1\n          ",
+        "2: the number of edges is missing; add a third number to the line, for example 0");
+  // If this file were accepted, a number of the first vertex would be read as the count of edges,
+  // and the additional face would hide the error.
   fault("OFF\n3 1\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 1 1\n",
-        "2: the number of edges is missing; any number will do");
+        "2: the number of edges is missing; add a third number to the line, for example 0");
   fault("OFF 3 1 0 0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n",
         "1: the numbers of vertices, faces and edges are followed by \"0\"; a new line is needed");
   fault("OFF\n3 1 0\n0 0 0\n1 0 0\n", "5: ends after 2 of 3 vertices");

@@ -30,7 +30,7 @@ TEST(ReadOmplAppMesh, RobotCentres) {
     SCOPED_TRACE(row.file);
     const OmplAppMesh read = readOmplAppMesh(*folder / row.file);
     EXPECT_EQ(read.importedVertices, row.importedVertices);
-    // The table has seven digits. The last one is inexact, because assimp sums in float.
+    // The table has seven digits. The last digit is inexact, because assimp sums in float.
     for (int i = 0; i < 3; ++i)
       EXPECT_NEAR(read.vertexAverage[i], row.centre[i],
                   2e-6 * std::max(1.0, std::abs(row.centre[i])));

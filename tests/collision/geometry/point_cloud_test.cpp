@@ -29,7 +29,7 @@ std::string pcdHeader(const std::string& points, const std::string& data) {
          points + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + points + "\nDATA " + data + "\n";
 }
 
-/// The point's bytes in the order of the header above.
+/// Returns the point's bytes in the order of the header above.
 std::string pcdPoint(const Vec3& p) {
   return std::string("\x05", 1) + bytesOf(static_cast<float>(p[0])) + bytesOf(p[1]) +
          bytesOf(static_cast<float>(p[2])) + bytesOf(std::int16_t{1}) + bytesOf(std::int16_t{2});
@@ -162,7 +162,7 @@ TEST_F(PointCloudTest, Text) {
   EXPECT_EQ(read("c.txt", "X Y Z intensity\n1 2 3 7\n-0.5 0 4e-3 7\n7 8 9 7\n").points, kThree);
 }
 
-/// Files of every kind are called .xyz or .txt. Some editors write a byte order mark.
+/// Files of every format may have the extension .xyz or .txt. Some editors write a byte order mark.
 TEST_F(PointCloudTest, TheContentDecidesWhatAFileIs) {
   EXPECT_EQ(read("a.csv", "\xEF\xBB\xBFx,y,z\n1,2,3\n-0.5,0,4e-3\n7,8,9\n").points, kThree);
   EXPECT_EQ(read("a.xyz",

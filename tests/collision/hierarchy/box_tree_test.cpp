@@ -1,4 +1,4 @@
-// Tests of the tree of bodies' boxes against tests of all boxes.
+// Compares queries of the tree of bodies' boxes with tests of all boxes.
 #include "collision/hierarchy/box_tree.h"
 
 #include <algorithm>
@@ -87,8 +87,8 @@ BoundingBox cube(const Vec3& c, double half) {
   return {c - h, c + h, (c - h).cwiseAbs().sum() + (c + h).cwiseAbs().sum()};
 }
 
-/// A crowd of boxes far away costs little: near the root, its boxes are tested and passed over.
-/// With halves at the median, the near boxes would be ten levels deep.
+/// A crowd of boxes far away costs little: queries test boxes of the crowd only near the root. With
+/// halves at the median, the near boxes would be ten levels deep.
 TEST(BoxTree, PassesOverAFarCrowdNearTheRoot) {
   std::vector<BoundingBox> near, all;
   for (int i = 0; i < 8; ++i) near.push_back(cube(Vec3(i % 2, i / 2 % 2, i / 4), 0.1));
@@ -109,7 +109,7 @@ TEST(BoxTree, PassesOverAFarCrowdNearTheRoot) {
   EXPECT_LE(testsIn(all), testsIn(near) + 8);
 }
 
-/// Boxes for which the heuristic can't choose, or would make a tree that is too deep.
+/// Boxes for which the heuristic cannot choose, or would make a tree that is too deep.
 TEST(BoxTree, FindsAllOfOddBoxes) {
   std::vector<std::vector<BoundingBox>> sets(4);
   for (int i = 0; i < 1000; ++i) {
@@ -206,8 +206,8 @@ TEST(BoxTree, ChangesLikeAListOfBoxes) {
   }
 }
 
-/// Insertions in an order, or of equal or infinite boxes, that would make a list of an unbalanced
-/// tree. The depth of the walk is what bounds its cost.
+/// Insertions in sorted order, or of equal or infinite boxes. Without balancing, they would turn
+/// the tree into a list. The depth of the walk is what bounds its cost.
 TEST(BoxTree, InsertionsInOrderMakeNoDeepTree) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const BoundingBox everywhere{Vec3::Constant(-infinity), Vec3::Constant(infinity), infinity};

@@ -29,7 +29,7 @@ struct Deformation {
 };
 
 /// Returns maps of a mesh of about the size 1: small, large, mirrored, flat, far, tiny and huge.
-/// Each of them ends far from the frame and the unit of the one before.
+/// The image under each map is far from the frame and the unit of the image under the map before.
 std::vector<Deformation> deformations(std::mt19937_64& random) {
   const auto noise = [&random](double size) {
     return [&random, size](const Vec3& p) {
@@ -144,8 +144,9 @@ TEST(Obb4Refit, ContainsTheMovedTrianglesUnderFlushToZero) {
 }
 #endif
 
-/// A mesh that returns to its place has the boxes of the tree that was built, whatever happened
-/// in between: to a part in 2^20, since a box may list its sides in another order.
+/// If a mesh returns to its original place, the refitted tree has the boxes of the original tree,
+/// whatever happened in between. The boxes are equal to a part in 2^20, since a box may list its
+/// sides in another order.
 TEST(Obb4Refit, BoxesAreAsSmallAsTheirAxesAllow) {
   std::mt19937_64 random(test::testSeed(33));
   const TriangleMesh mesh = test::soup(random, 500, 0.1);

@@ -44,7 +44,7 @@ INSTANTIATE_TEST_SUITE_P(Targets, Obb4TreePoses, testing::ValuesIn(test::simdTar
                          test::targetName);
 
 /// A corner of one box is at a known gap from a face of another box. The tree's boxes are tight
-/// there, so a margin that is too small or too large makes the test fail. Some maps are no
+/// there, so a margin that is too small or too large makes the test fail. Some maps are not
 /// rotations, and some meshes are far from their frames' origins.
 TEST_P(Obb4TreePoses, CornersAtFaces) {
   int apartPairs = 0;

@@ -110,7 +110,7 @@ TEST(Obb4Tree, FewAndDegenerateTriangles) {
   }
 }
 
-/// Triangles of size 2^-i around a point make a very deep tree. Ten thousand equal triangles can't
+/// Triangles of size 2^-i around a point make a very deep tree. Ten thousand equal triangles cannot
 /// be divided between two nodes.
 TEST(Obb4Tree, DeepAndIndivisible) {
   TriangleMesh deep, same;

@@ -87,8 +87,8 @@ TEST(SweepAndPrune, AgreesWithBruteForce) {
   std::cout << pairs << " pairs\n";
 }
 
-/// A step costs what moves: among 10^4 boxes in a row, one that moves by its own size passes few
-/// ends.
+/// The cost of a step depends only on what moves: among 10^4 boxes in a row, a box that moves by
+/// its own size passes few ends of other boxes.
 TEST(SweepAndPrune, OnlyWhatMovedIsVisited) {
   std::vector<BoundingBox> boxes;
   for (int i = 0; i < 10'000; ++i) {

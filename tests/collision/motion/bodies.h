@@ -52,7 +52,7 @@ inline auto everyProof() {
                          Proof(directional, TreeKind::sphere), Proof(directional, TreeKind::rss),
                          Proof(directional, TreeKind::kdop18), Proof(adaptive, TreeKind::sphere));
 }
-/// Returns, for example, "obb_binary_gjk", for the names of tests.
+/// Returns the name of a kind of trees as part of a test's name, for example "obb_binary_gjk".
 inline std::string treeName(TreeKind trees) {
   std::string name;
   for (const VolumeKind& kind : volumeKinds())

@@ -151,7 +151,7 @@ TEST_P(Certificate, AMarginIsProvedInFull) {
     slide.result.certifiedUntil = 1;
     slide.certificate.free = {{0, 0, 1, 0.1}};
     EXPECT_EQ(slide.check().has_value(), gap <= 0.1) << gap;
-    // The tube must also be proved in full: two millimetres along y.
+    // The proof must also cover the full tube: two millimetres along y.
     slide.motion = RigidMotion::spatial(at(Vec3(-5, 0.5 - gap, 0)), at(Vec3(5, 0.5 - gap, 0)),
                                         {.position = 0.002, .rotation = 0});
     EXPECT_EQ(slide.check().has_value(), gap <= 0.102) << gap << " with a tube";

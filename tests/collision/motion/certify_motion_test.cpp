@@ -42,8 +42,8 @@ TEST(CertifyMotion, BoxPastAWall) {
 }
 
 /// A cube moves 10 m along a wall, at a distance of 1e-10 m or less. It moves along one of its
-/// edges, or diagonally. Each motion is also tested with everything rotated, so that coordinates
-/// are off by 1e-15 m. The cost is measured by counters, not by time.
+/// edges, or diagonally. Each motion is also tested with both bodies and the motion rotated, so
+/// that coordinates are off by 1e-15 m. The cost is measured by counters, not by time.
 TEST(CertifyMotion, BoxPastAWallAlmostTouching) {
   const Mat3 turn = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
   for (const Mat3& R : {Mat3(Mat3::Identity()), turn}) {
@@ -180,7 +180,7 @@ TEST(CertifyMotion, GapWhoseSquareUnderflows) {
 /// remainder by 2π in double would give the longer way here: 2π in double is off by 2.4e-16, and
 /// over 10^8 revolutions this error adds up to enough to decide which way is shorter.
 TEST(CertifyMotion, LargeYawsTakeTheShorterWay) {
-  const double yaw = 628318558.99229252;  // 3.141592647 plus whole turns
+  const double yaw = 628318558.99229252;  // 3.141592647 rad plus whole turns
   const RigidMotion turn = RigidMotion::planar(Vec3::Zero(), Vec3(0, 0, yaw), {});
   EXPECT_FALSE(turn.ambiguous());
   EXPECT_NEAR(turn.at(1).m(0, 0), std::cos(yaw), 1e-14);
@@ -237,8 +237,9 @@ TEST(CertifyMotion, WorkLimitHoldsInLeavesAndProbes) {
       EXPECT_LE(context.counters.work(), limit + 16 + 256);
       EXPECT_EQ(r.reason, UndecidedReason::workLimit);
     }
-  // A motion of zero length is not sampled, so the walk of the trees must end by itself. A small
-  // star is in the corner of a large one; each has 300 triangles about one centroid.
+  // A motion of zero length is not sampled, so the walk of the trees must end without a sampled
+  // contact. A small star is in the corner of a large star; each has 300 triangles about one
+  // centroid.
   TriangleMesh star, small;
   for (int i = 0; i < 150; ++i)
     for (const auto& [mesh, s] : {std::pair{&star, 1.0}, std::pair{&small, 0.0625}}) {
@@ -284,8 +285,8 @@ TEST(CertifyMotion, NothingIsClaimedOfUndividedIntervals) {
   }
 }
 
-/// The contact begins at a time at which intervals end and begin. An interval that ends at this
-/// time can never be proved.
+/// The contact begins at a time at which one interval ends and the next interval begins. An
+/// interval that ends at this time can never be proved.
 TEST(CertifyMotion, ContactsThatBeginWithAnInterval) {
   const Body a = bodyOf(box(-0.5 * Vec3::Ones(), 0.5 * Vec3::Ones())),
              b = bodyOf(box(-0.5 * Vec3::Ones(), 0.5 * Vec3::Ones()));
@@ -332,7 +333,8 @@ TEST(CertifyMotion, FarBodiesGetNoTree) {
   for (const Body& body : far) EXPECT_FALSE(body.treeBuilt());
 }
 
-/// The bounding sphere of the cube does not touch the wall, but it is closer than the margin.
+/// The bounding sphere of the cube does not touch the wall, but the sphere is closer to the wall
+/// than the margin.
 TEST(CertifyMotion, AMarginLargerThanTheGapOfSpheres) {
   const Body wall = test::bodyOf(test::box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))),
              cube = test::bodyOf(test::box(Vec3(-0.1, -0.1, -0.1), Vec3(0.1, 0.1, 0.1)));

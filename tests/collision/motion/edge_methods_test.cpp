@@ -77,8 +77,8 @@ TEST_P(EdgeMethods, DisplacementsThatOverflowAreUndecided) {
   }
 }
 
-/// With other rounding modes no bound holds. The query must report this, and must not answer `free`
-/// or `contact`.
+/// With other rounding modes no bound holds. The query must report the rounding mode, and must not
+/// answer `free` or `contact`.
 TEST_P(EdgeMethods, OtherArithmeticIsRefused) {
   const Body wall = bodyOf(box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))),
              cube = bodyOf(box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5)));
@@ -246,8 +246,8 @@ TEST_P(EdgeMethods, LeavesOfManyTriangles) {
   for (const double s : {0.01, 0.02, 0.5})
     add(needle, s * Vec3(0, 0, -2), s * Vec3(0.1, 0, 1), s * Vec3(-0.1, 0, 1));
   const Body plate = bodyOf(nested), tip = bodyOf(needle);
-  // The needle comes down on an edge of the plate's third triangle, inside the third, inside the
-  // fourth only, or beside all of them.
+  // The needle comes down on an edge of the plate's third triangle, inside the third triangle,
+  // inside only the fourth triangle, or beside all triangles.
   for (const double x : {0.0, 3.0, 10.0, 13.0}) {
     const bool hits = x < 12;
     const auto through = [&](double sign) {  // the tips are 1 below the origin: at −1.5 in the end
@@ -302,8 +302,8 @@ TEST_P(EdgeMethods, PointThroughAPointEnds) {
   }
 }
 
-/// At t = 1/4 a tip is within the tube, and at t = 1/2 the body hits a wall. Between these times
-/// nothing grazes.
+/// At t = 1/4 a tip of the obstacle is within the tube, and at t = 1/2 the body hits a wall.
+/// Between these times nothing grazes.
 TEST_P(EdgeMethods, GrazingIsReportedOnlyForNarrowGaps) {
   TriangleMesh robot, tip, wall;
   add(robot, Vec3(-0.01, 0, 0), Vec3(0.01, 0, 0), Vec3(0, 0.01, 0));
@@ -391,8 +391,9 @@ TEST_P(EdgeMethods, GrazingByConstruction) {
   }
 }
 
-/// If the verdict is `free`, no sampled pose may have a contact. If it is `contact`, the pose at
-/// its time must have one. No method, on any kind of trees, may contradict the default one.
+/// If the verdict is `free`, no sampled pose may have a contact. If the verdict is `contact`, the
+/// pose at the reported time must have a contact. No method, on any kind of trees, may contradict
+/// the default method.
 TEST_P(EdgeMethods, RandomEdges) {
   std::mt19937_64 random(test::testSeed(9));
   const int count = test::isStressRun() ? 5'000 : 400;
@@ -432,13 +433,14 @@ TEST_P(EdgeMethods, RandomEdges) {
   EXPECT_LE(verdicts[2], 1 + count / 100'000);
 }
 
-/// Convex parts: a rod of radius 0.1 along z, and a sphere of radius 0.2 that swings away from it,
-/// or moves into it.
+/// Convex parts: a rod of radius 0.1 along z, and a sphere of radius 0.2 that swings away from the
+/// rod, or moves into the rod.
 TEST_P(EdgeMethods, BallAroundARod) {
   const Body ball("ball", placed(Sphere{0.2}, Transform{Mat3::Identity(), Vec3(1, 0, 0)})),
       rod("rod", placed(Cylinder{0.1, 4}, {}));
-  // The sphere's centre is at (gap − 0.7 + cos φ, sin φ), φ in [0, 0.5]. It begins `gap` beside the
-  // rod, or in it, and moves away, since 1.49 − 1.4 cos φ increases.
+  // The sphere's centre is at (gap − 0.7 + cos φ, sin φ), φ in [0, 0.5]. The sphere begins `gap`
+  // beside the rod, or in the rod if `gap` is negative, and moves away, since 1.49 − 1.4 cos φ
+  // increases.
   const auto around = [&](double gap) {
     return RigidMotion::spatial(turned(Vec3(gap - 0.7, 0, 0), 0, Vec3::UnitZ()),
                                 turned(Vec3(gap - 0.7, 0, 0.5), 0.5, Vec3::UnitZ()), {});

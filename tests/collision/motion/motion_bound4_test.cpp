@@ -108,9 +108,9 @@ TEST_P(Obb4MotionBounds, AreThoseOfTheSpheres) {
         const Vec3 y = w.X_AB.m * (tree.origin() + tree.length() * center);
         const MotionBound is = motionBound(w, y + w.X_AB.t, three(node.half).norm());
         const Obb4MotionBound& computed = bounds[i];
-        // The bound must exceed the value in exact arithmetic by at least 2^-16 of it. It may
-        // exceed it by at most 2^-14 of it plus the kernel's allowance for the rounding of the
-        // lever, once per joint.
+        // The bound must exceed the value in exact arithmetic by at least 2^-16 of this value. The
+        // excess may be at most 2^-14 of this value, plus the kernel's allowance for the rounding
+        // of the lever, once per joint.
         const auto covers = [&](float bound, double x) {
           return bound >= unitA * x * (1 + 0x1p-16) &&
                  bound <= unitA * (x * (1 + 0x1p-14) + rounding);

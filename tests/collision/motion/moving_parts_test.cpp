@@ -82,9 +82,10 @@ long double lowest(const ShapeFeature& b, const LineAndTurn& motion, long double
   return origin.dot(nL) + least - set.ball * m.norm() - set.disc * m.cross(axis).norm();
 }
 
-/// Grazing by construction. a is below a plane and touches it at one place. b is above the plane,
-/// and its lowest point is exactly above that place, at a distance `gap`. This holds at the end of
-/// the motion, and throughout the motion if b slides along the plane and rotates about its normal.
+/// Bodies that graze by construction. Body a is below a plane and touches the plane at one place. b
+/// is above the plane, and its lowest point is exactly above that place, at a distance `gap`. This
+/// holds at the end of the motion, and throughout the motion if b slides along the plane and
+/// rotates about its normal.
 TEST(MovingParts, GrazingByConstruction) {
   Touching make(test::testSeed(25));
   const int count = (test::isStressRun() ? 100'000 : 20'000) / test::kSlowdown;
@@ -125,7 +126,7 @@ TEST(MovingParts, GrazingByConstruction) {
     if (gap < 0) {
       falseFree += verdict == Verdict::free;
     } else {
-      // The motion's pose at its end is rounded again, so the bands include the error of that pose.
+      // The pose at the motion's end is rounded again, so the bands include the error of that pose.
       falseContact += verdict == Verdict::contact && amount > 0x1p-44 * 8;
       notFree += verdict != Verdict::free && amount > 2e-7;
       if (slide && amount > 1e-3) slideIntervals += decided, ++slides;

@@ -1,4 +1,5 @@
-// Planar polygons as bodies: contact against rationals, and certified motions that graze.
+// Tests of planar polygons as bodies: contact is compared with rationals, and certified motions
+// graze.
 #include <cmath>
 #include <iostream>
 
@@ -25,7 +26,7 @@ Body bodyOf(const Points& polygon) {
   return Body("", std::move(parts));
 }
 
-/// The polygon under the map with exactly the stored numbers.
+/// Returns the polygon under the map, computed from exactly the stored numbers.
 std::vector<test::Point2> mapped(const Points& polygon, const Transform& X) {
   using test::Fraction;
   std::vector<test::Point2> points;
@@ -37,8 +38,8 @@ std::vector<test::Point2> mapped(const Points& polygon, const Transform& X) {
   return points;
 }
 
-/// Against rationals, on polygons of whole numbers that are moved by whole numbers, where many
-/// pairs touch without overlapping, and under rotations.
+/// Compares contact with rationals, for polygons of whole numbers. Some maps are translations by
+/// whole numbers, under which many pairs touch without overlapping; others are rotations.
 TEST(PolygonBodies, ContactAgreesWithRationals) {
   test::Polygons random(test::testSeed(61));
   const int count = test::isStressRun() ? 50'000 : 600 / test::kSlowdown;
@@ -74,7 +75,8 @@ TEST(PolygonBodies, ContactAgreesWithRationals) {
   EXPECT_GT(touching, 0);
 }
 
-/// An L whose inner corner is the origin: below y = 0 and to the left of x = 0.
+/// Returns an L whose inner corner is the origin: its two arms are below y = 0 and to the left of x
+/// = 0.
 const Points corner{{-1, -1}, {3, -1}, {3, 0}, {0, 0}, {0, 3}, {-1, 3}};
 
 /// Runs motions of random polygons past others, at known gaps of 10^-2 to 10^-8 of the size, half

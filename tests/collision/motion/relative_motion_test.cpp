@@ -24,7 +24,7 @@ Vec3 vector(Random& random) {
   return Vec3(real(random), real(random), real(random));
 }
 
-/// All data at the middle of an interval on which a motion bound depends; also the point, place and
+/// All data of an interval's middle on which a motion bound depends, and the point, position and
 /// direction for which the bound is evaluated.
 struct Trial {
   struct Joint {
@@ -290,7 +290,7 @@ TEST(MotionBounds, Tubes) {
 }
 
 /// Deviations from uniform motion add to the second order, with the arms as far as the joints after
-/// them may reach. They never add to `pad`.
+/// them may reach. Such deviations never add to `pad`.
 TEST(MotionBounds, Deviations) {
   using Kind = ScrewMotion::Kind;
   const ScrewMotion screws[] = {{Kind::revolute, Vec3::UnitZ(), Vec3(4, 0, 0), 0, 0, 0.02},

@@ -1,6 +1,6 @@
 // Tests the oracle for motions (tests/support/sturm_contact.h) by known roots, by first contacts in
-// closed form, by static samples with rational linear programming, and by equivalent descriptions
-// of the same motion.
+// closed form, by static samples with rational linear programming, and by other descriptions of the
+// same motion.
 #include <random>
 
 #include <gtest/gtest.h>
@@ -75,7 +75,7 @@ RationalScene sceneNumber(int n, std::mt19937_64& random) {
                        n % 5 != 0);
 }
 
-/// The oracle's motion must be that of the edge. The test computes the edge's motion from its
+/// The oracle's motion must be the motion of the edge. The test computes the edge's motion from its
 /// definition, in long double.
 TEST(SturmContact, MotionIsThatOfTheEdge) {
   std::mt19937_64 random(testSeed(43));

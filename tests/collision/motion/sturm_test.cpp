@@ -1,5 +1,5 @@
 // Compares certified motions of a triangle with an exact oracle (tests/support/sturm_contact.h),
-// whose motion is exactly that of the edge. So every proof must hold to the last digit.
+// whose motion is exactly that of the edge. Therefore every proof must hold to the last digit.
 #include <array>
 #include <random>
 
@@ -87,9 +87,9 @@ class Sturm : public testing::TestWithParam<Proof> {
         for (const Vec3& p : moving)
           ASSERT_LE((real.point(r.contactTime, p) - (X.m * p + X.t).cast<long double>()).norm(),
                     poseError(moving, from, to) + 0x1p-50 * p.norm() + 0x1p-50 * X.t.norm());
-        // So at the time of the contact, the exact motion is at most the rounding of the pose away
-        // from a contact. The exact motion has a contact by then, too, unless the reported contact
-        // exists only because of that rounding.
+        // Therefore, at the reported time, the exact motion is at most the rounding of the pose
+        // away from a contact. The exact motion has a contact by then, too, unless the reported
+        // contact exists only because of that rounding.
         counts_.onlyRounded += !known.contact || r.contactTime < path.time(known.low) - kTimeError;
         if (!earliest) break;
         if (!r.grazing) {
@@ -135,8 +135,8 @@ TEST_P(Sturm, ClosedForms) {
     }
 }
 
-/// The random scenes are hard on purpose. But queries must decide those that were not constructed
-/// as near misses.
+/// The random scenes are hard on purpose. But queries must decide the scenes that were not
+/// constructed as near misses.
 TEST_P(Sturm, Motions) {
   std::mt19937_64 random(test::testSeed(41));
   const int count = (test::isStressRun() ? 40'000 : 2'000) / test::kSlowdown;

@@ -72,7 +72,8 @@ TEST(OrientationSign, NearlyCoplanarPointsUnderTwoMaps) {
   EXPECT_GT(roundedWrongly, 250) << "the cases must be hard";
 }
 
-/// A point that is off the plane by the least positive double must not count as in the plane.
+/// A point that is off the plane by the least positive double must not count as a point in the
+/// plane.
 TEST(OrientationSign, OneSubnormalOffThePlane) {
   const Transform X;
   const MappedPoint o{X, Vec3::Zero()}, x{X, Vec3::UnitX()}, y{X, Vec3::UnitY()};

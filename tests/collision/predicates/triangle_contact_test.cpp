@@ -67,7 +67,7 @@ TEST_P(RandomTriangles, AgreesWithRationals) {
       for (Vec3& v : *t)
         v = kind == "grid" ? Vec3(integer(2), integer(2), integer(2))
                            : Vec3(real(), real(), real());
-    if (kind == "common corner, moved together") {  // by the same map, so they still touch
+    if (kind == "common corner, moved together") {  // by the same map, so the triangles still touch
       b[0] = a[0];
       X_WA = X_WB = {rotation(), {real() * 1e6, real(), real()}};
     } else if (kind == "maps nearly rigid") {
@@ -131,7 +131,7 @@ TEST(TriangleContact, DegenerateTrianglesAreTheirPointSets) {
   EXPECT_FALSE(touch(segment, point(1, 1, 1.5)));
   const Triangle collinear = {Vec3(1, 1, 1), Vec3(1, 1, 3), Vec3(1, 1, 2)};
   EXPECT_TRUE(touch(segment, collinear));
-  // Segments that have only an end in common. No edge is a single point.
+  // Triangles that are segments and share only an end. No edge is a single point.
   const Triangle first = {Vec3(0, 0, 0), Vec3(1, 1, 0), Vec3(2, 2, 0)};
   for (const Vec3& d : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(1, 3, 2), Vec3(0, 0, 1)}) {
     const Triangle second = {Vec3(2, 2, 0), Vec3(Vec3(2, 2, 0) + d), Vec3(Vec3(2, 2, 0) + 2 * d)};
@@ -144,9 +144,9 @@ TEST(TriangleContact, DegenerateTrianglesAreTheirPointSets) {
 }
 
 #ifdef __SSE2__
-/// A corner touches a face, or is off it by a subnormal number in the corner, in the map's matrix
-/// or in its translation. The verdict must be right although the processor reads subnormals as
-/// zero: a linked library may have set this mode.
+/// A corner touches a face, or is off the face by a subnormal number. This number is a coordinate
+/// of the corner, an entry of the map's matrix, or an entry of its translation. The verdict must be
+/// right although the processor reads subnormals as zero: a linked library may have set this mode.
 TEST(TriangleContact, SubnormalsThatAreReadAsZero) {
   const Triangle face = {Vec3(-8, -8, 0), Vec3(8, -8, 0), Vec3(0, 8, 0)};
   const Triangle tip = {Vec3(1, 2, 0), Vec3(1, 2, 4), Vec3(2, 2, 4)};
@@ -167,9 +167,9 @@ TEST(TriangleContact, SubnormalsThatAreReadAsZero) {
 }
 #endif
 
-/// A corner is in the other triangle's plane, or about one unit off it, on grids of 4 to 200 bits.
-/// Beyond 50 bits, another corner is on a finer grid. Each integer type is therefore used up to its
-/// last bit, so that an overflow would be detected.
+/// A corner is in the other triangle's plane, or about one unit off this plane, on grids of 4 to
+/// 200 bits. Beyond 50 bits, another corner is on a finer grid. Each integer type is therefore used
+/// up to its last bit, so that an overflow would be detected.
 TEST(TriangleContact, GridsOfAnyNumberOfBits) {
   std::mt19937_64 random(test::testSeed(53));
   int touching = 0, cases = 0;

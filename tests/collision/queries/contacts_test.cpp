@@ -115,8 +115,8 @@ void expectEnds(const Triangle& a, const Triangle& b, const Vec3& p, const Vec3&
 
 TEST(TriangleIntersection, ClosedForms) {
   const Triangle flat{Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0)};
-  // Triangles that cross. The shared segment is the whole cut through one triangle, a piece of both
-  // cuts, or ends at a corner inside the other triangle.
+  // Triangles that cross. The shared segment is the whole cut through one triangle, or a piece of
+  // both cuts, or a segment that ends at a corner inside the other triangle.
   expectEnds(flat, {Vec3(1, 1, -1), Vec3(1, 1, 1), Vec3(3, 1, 1)}, {1, 1, 0}, {2, 1, 0});
   expectEnds(flat, {Vec3(1, 1, -1), Vec3(1, 1, 1), Vec3(9, 1, 1)}, {1, 1, 0}, {3, 1, 0});
   expectEnds(flat, {Vec3(1, 1, 0), Vec3(1, 1, 1), Vec3(2, 1, 1)}, {1, 1, 0}, {1, 1, 0});

@@ -32,9 +32,9 @@ bool holds(const Solid& solid, const Vec3& p) {
 
 TEST(MeshComponents, SharedEdgesConnectSharedCornersDoNot) {
   TriangleMesh mesh = cube(Vec3(0, 0, 0), 1);
-  test::addBox(mesh, Vec3(1, 1, 1), Vec3(3, 3, 3));  // meets the first in a corner
+  test::addBox(mesh, Vec3(1, 1, 1), Vec3(3, 3, 3));  // meets the first box in a corner
   test::addBox(mesh, Vec3(8, -1, -1), Vec3(10, 1, 1));
-  mesh.triangles.pop_back();  // leaves the third open
+  mesh.triangles.pop_back();  // leaves the third box open
   const MeshComponents found = findComponents(mesh);
   ASSERT_EQ(found.components.size(), 3U);
   EXPECT_TRUE(found.components[0].watertight);
@@ -112,7 +112,7 @@ TEST(Containment, PrimitivesInSolidMeshes) {
   EXPECT_TRUE(findEnclosed(Posed<MeshWithComponents>(solid), Posed(ball), context));
   EXPECT_FALSE(findEnclosed(Posed<MeshWithComponents>(solid),
                             Posed(ball, {Mat3::Identity(), Vec3(3, 0, 0)}), context));
-  // A convex part is solid by itself: a mesh inside it is reported by `interference`.
+  // A convex part is always solid: `interference` reports a mesh inside the part.
   const ObbTree big(ConvexPart{{Vec3(0, 0, 0)}, 5, false});
   EXPECT_TRUE(interference(Posed(big), Posed(solid.tree), context));
   EXPECT_TRUE(interference(Posed(solid.tree), Posed(big), context));
@@ -124,8 +124,8 @@ bool inComb(int plates, int width, int x, int y, int z) {
   return within && (x % 2 == 0 || y == 0);
 }
 
-/// Returns the surface of a comb: plates of thickness 1 along `axis`, 1 apart, that a spine holds
-/// together. The surface is the boundary of unit cells, with a vertex at every corner of a cell.
+/// Returns the surface of a comb: plates of thickness 1 along `axis`, 1 apart, which a spine joins.
+/// The surface is the boundary of unit cells, with a vertex at every corner of a cell.
 TriangleMesh comb(int axis, int plates, int width) {
   const int length = 2 * plates - 1;
   const auto filled = [&](const Eigen::Vector3i& cell) {
@@ -174,7 +174,8 @@ TEST(Containment, RaysLeaveAndEnterAgain) {
 }
 
 /// At coordinates of 2^51 all doubles are multiples of ½, and so are the coordinates of the ends of
-/// rays. So many rays meet an edge or a vertex of the mesh, or lie in the plane of a triangle.
+/// rays. Therefore many rays meet an edge or a vertex of the mesh, or lie in the plane of a
+/// triangle.
 TEST(Containment, RaysThroughEdgesAndVertices) {
   for (int axis = 0; axis < 3; ++axis) {
     TriangleMesh mesh = comb(axis, 2, 4);

@@ -74,7 +74,7 @@ TEST(ClosestPoints, WithinTheirErrorOfTheExactDistance) {
 }
 
 /// Two triangles in one plane. One triangle is a segment, except for a corner that is 2^-1074 off
-/// it. A hundred digits can't distinguish this triangle's two long sides: an oracle with a hundred
+/// it. A hundred digits cannot distinguish this triangle's two long sides: an oracle with a hundred
 /// digits returned a distance of 0.
 TEST(ClosestPoints, TriangleOneSubnormalWide) {
   const Triangle a = {Vec3(-6, -5, 14), Vec3(-4, -4, std::nextafter(13.0, 0.0)),

@@ -55,7 +55,7 @@ void compare(const Tree& a, const Tree& b, std::mt19937_64& random, int& below, 
     EXPECT_EQ(query(brief).distance, std::numeric_limits<double>::infinity());
     briefWork += context.counters.work();
   }
-  // A short limit saves work, and is used.
+  // A small limit must save work, and some limits must be below the distance.
   EXPECT_LT(2 * briefWork, wholeWork);
   EXPECT_GT(infinite, 0);
 }

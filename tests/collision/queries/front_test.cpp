@@ -1,4 +1,5 @@
-// Tests of fronts: along motions of any step, verdicts are those of queries without a front.
+// Tests of fronts: along motions with steps of any length, verdicts are those of queries without a
+// front.
 #include "collision/queries/front.h"
 
 #include <cmath>
@@ -109,7 +110,7 @@ TYPED_TEST(Fronts, TinyAndHugeBodies) {
   for (const double scale : {0x1p-300, 0x1p300}) walk<TypeParam>(1e-3, 60, random, scale);
 }
 
-/// Maps need not be rigid, and a front may meet any jump.
+/// Maps need not be rigid, and a body may jump by any distance between two queries with one front.
 TYPED_TEST(Fronts, MapsThatScaleAndJump) {
   std::mt19937_64 random(test::testSeed(33));
   std::uniform_real_distribution<double> real(-1, 1);

@@ -16,8 +16,8 @@ Polytope hullOf(const TriangleMesh& mesh) {
   return Polytope(mesh.vertices);
 }
 
-/// The unit cube, turned and far from the origin. On top, it has a hollow: a pyramid with its base
-/// [0.5 − a, 0.5 + a]² and the depth h.
+/// Returns the unit cube, rotated and far from the origin. On top, the cube has a hollow: a pyramid
+/// with the base [0.5 − a, 0.5 + a]² and the depth h.
 TriangleMesh hollowCube(double a, double h, const Transform& X) {
   TriangleMesh mesh;
   const auto quad = [&](Vec3 p, Vec3 q, Vec3 r, Vec3 s) {
@@ -51,8 +51,9 @@ Transform anywhere(std::mt19937_64& random) {
   return X;
 }
 
-/// The centre of the pyramid's base has the distance h·a/√(h² + a²) from its sides, if that is less
-/// than to any other point of the mesh: h ≤ a. This is the largest distance.
+/// The centre of the pyramid's base has the distance h·a/√(h² + a²) from the pyramid's sides. For h
+/// ≤ a, no other point of the mesh is closer to the centre. So this is the centre's distance from
+/// the mesh, and the largest distance of any point of the hull.
 TEST(HullDeviation, OfAHollowIsKnown) {
   std::mt19937_64 random(test::testSeed(71));
   for (const double h : {0.3, 0.05, 1e-3})
@@ -70,7 +71,7 @@ TEST(HullDeviation, OfAHollowIsKnown) {
     }
 }
 
-/// The hull is the mesh itself, also where other triangles cover its faces.
+/// The hull is the mesh itself, even if the triangles of the mesh divide the faces in another way.
 TEST(HullDeviation, OfConvexMeshesIsRounding) {
   std::mt19937_64 random(test::testSeed(72));
   TriangleMesh ball;
@@ -135,8 +136,8 @@ TEST(HullDeviation, IsNotLostAtTinyScale) {
   }
 }
 
-/// Parts that are apart: the hull bridges the gap between two cubes. The point in the middle has
-/// the distance of half the gap from both.
+/// Components that are apart: the hull bridges the gap between two cubes. The distance of the point
+/// in the middle from both cubes is half the gap.
 TEST(HullDeviation, OfTwoCubesIsHalfTheGap) {
   TriangleMesh mesh = hollowCube(0.3, 0, {});
   Transform right;

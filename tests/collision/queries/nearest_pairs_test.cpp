@@ -1,5 +1,5 @@
 // Tests how a distance query chooses among its last pairs. The test makes up ranges and measured
-// distances. Their errors are as large as those of triangles and convex parts can be.
+// distances. The errors of both are as large as the errors for triangles and convex parts can be.
 #include "collision/queries/nearest_pairs.h"
 
 #include <random>
@@ -19,7 +19,7 @@ struct Measured {
   Vec3 p_WA = Vec3::Zero(), p_WB = Vec3::Zero();
 };
 
-/// Pairs (i, i) of known distances.
+/// Pairs of numbers (i, i), whose distances are known.
 class MadeUp : public NearestPairs {
  public:
   using NearestPairs::NearestPairs;

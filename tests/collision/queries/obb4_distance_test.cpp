@@ -115,8 +115,8 @@ Mat3 turned(int n) {
   return Eigen::AngleAxisd(n, Vec3(1, 2, 3).normalized()).toRotationMatrix();
 }
 
-/// A triangle lies over its copy, so the feet of its corners are on edges. In doubles they seem to
-/// be inside the face, in more precise numbers outside.
+/// A triangle lies over its copy, so the feet of its corners are on edges. In doubles the feet seem
+/// to be inside the face, in more precise numbers outside.
 TEST(Obb4Distance, FeetOnEdges) {
   TriangleMesh low, high;
   const Vec3 up(0, 0, 0.1);
@@ -131,8 +131,8 @@ TEST(Obb4Distance, FeetOnEdges) {
   }
 }
 
-/// Tips over tips at nearly equal distances. Floats can't decide which are closest, and their
-/// margins must not rule out the right pair.
+/// Tips over tips at nearly equal distances. Floats cannot decide which tips are closest, and the
+/// margins must not exclude the closest pair.
 TEST(Obb4Distance, NearTies) {
   for (int n = 0; n < 20; ++n) {
     TriangleMesh low, high;
@@ -152,7 +152,8 @@ TEST(Obb4Distance, NearTies) {
   }
 }
 
-/// Bounds in double are not the answer: gaps of a few roundings, and queries just below them.
+/// Gaps of a few roundings, and tolerance queries just below them: bounds in double alone cannot
+/// decide these queries.
 TEST(Obb4Distance, CloserThanIsRightUpToFourRoundings) {
   QueryContext context;
   int queries = 0;

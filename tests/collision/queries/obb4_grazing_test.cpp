@@ -1,7 +1,7 @@
 // Bodies that just meet, or are a known distance apart. They are boxes made of triangles, which
-// equal their oriented bounding boxes: no bounding box has room to spare. So if any term were
-// missing in the trees' margins, some proof of separation would be wrong, also for maps far from
-// rigid.
+// equal their oriented bounding boxes: no bounding box has room to spare. Therefore, if any term
+// were missing in the trees' margins, some proof of separation would be wrong, also for maps far
+// from rigid.
 #include <cmath>
 #include <random>
 
@@ -31,7 +31,7 @@ Vec3 anyVector(Random& random, double size) {
   return size * Vec3(x, y, z);
 }
 
-/// Returns a mesh of a few boxes. `apartBy` places the first of them (12 triangles, 8 vertices).
+/// Returns a mesh of a few boxes. `apartBy` places the first box (12 triangles, 8 vertices).
 TriangleMesh boxes(Random& random, double size, const Vec3& place) {
   TriangleMesh mesh;
   for (auto more = random() % 3; mesh.triangles.empty() || more-- > 0;) {

@@ -84,8 +84,8 @@ TEST_P(Obb4Interference, AgreesWithBruteForceUnderTwoMaps) {
   EXPECT_LT(touching, cases - 50);
 }
 
-/// Two meshes of sizes 2^i and 2^k, once both around one point, and once with a vertex of each at
-/// the same point up to rounding.
+/// Two meshes of sizes 2^i and 2^k. Once both are around one point; once a vertex of each mesh is
+/// at the same point, up to rounding.
 TEST_P(Obb4Interference, ExtremeSizesAndRatios) {
   std::mt19937_64 random(test::testSeed(3));
   for (const int i : {-1020, -500, -100, -30, 0, 30, 100, 500, 950})
@@ -134,8 +134,8 @@ TEST_P(Obb4Interference, ExactTouch) {
 INSTANTIATE_TEST_SUITE_P(Simd, Obb4Interference, testing::ValuesIn(test::simdTargets()),
                          &test::targetName);
 
-/// All SIMD targets with fused multiply-add round alike, and so do all targets without it. So
-/// within each of the two groups the same boxes and triangles are tested.
+/// All SIMD targets with fused multiply-add round alike, and so do all targets without it.
+/// Therefore, within each of the two groups, queries test the same boxes and triangles.
 TEST(Obb4InterferenceOf, TargetsCountAlike) {
   std::mt19937_64 random(test::testSeed(8));
   for (int n = 0; n < 50; ++n) {

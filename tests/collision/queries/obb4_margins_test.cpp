@@ -27,11 +27,11 @@ class Obb4Margins : public test::EveryTarget {};
 INSTANTIATE_TEST_SUITE_P(Simd, Obb4Margins, testing::ValuesIn(test::simdTargets()),
                          &test::targetName);
 
-/// A leaf has small triangles in a long flat row. Its floats are off by 2^-24 of the length of the
-/// row, not of the size of a triangle. Each triangle of the row in turn is touched in one corner by
-/// a triangle in the plane x + z = const, whose other points are farther out. The floats of the
-/// other triangle are relative to another corner than the touching one, because at the same corner
-/// both would round alike.
+/// A leaf has small triangles in a long flat row. The floats of the leaf are off by 2^-24 of the
+/// length of the row, and not of the size of a triangle. Each triangle of the row in turn is
+/// touched in one corner by a triangle in the plane x + z = const, whose other points are farther
+/// out. The floats of the other triangle are relative to a corner that does not touch: relative to
+/// the touching corner, both triangles would round alike.
 TEST_P(Obb4Margins, SmallTrianglesInARow) {
   QueryContext context;
   const double s = 1e-4;  // not a multiple of the spacing of floats of the row's length
@@ -54,7 +54,8 @@ TEST_P(Obb4Margins, SmallTrianglesInARow) {
 }
 
 /// Two meshes of up to 2^1023 m. A triangle of one mesh touches one corner of a small triangle of
-/// the other. The relative pose has no rotation, any rotation, or a rotation by at most 2^-23.
+/// the other. The relative pose has no rotation, a random rotation, or a rotation by at most 2^-23
+/// rad.
 struct FarCorner {
   TriangleMesh a, b;
   Transform X;
@@ -186,7 +187,7 @@ TEST_P(Obb4Margins, DifferencesThatAreFlushed) {
     };
     const Vec3 d = above(), e = above();
     add(b, q, q + d, q + e);
-    if (!test::bruteForceTouch(a, {}, b, X)) continue;  // the corner isn't shared to the last bit
+    if (!test::bruteForceTouch(a, {}, b, X)) continue;  // the corner is not shared to the last bit
     ++touching;
     const Flushing flushing;
     const Obb4Tree treeA(a), treeB(b);
@@ -198,8 +199,8 @@ TEST_P(Obb4Margins, DifferencesThatAreFlushed) {
 }
 
 /// Edges of 2^-124 of the mesh against edges of 2^14. Some products of floats underflow and are
-/// flushed, others are not. The sum of the products that are not flushed is multiplied by the large
-/// edge.
+/// flushed; other products are not flushed. The sum of the products that are not flushed is
+/// multiplied by the large edge.
 TEST_P(Obb4Margins, ProductsThatAreFlushed) {
   std::mt19937_64 random(test::testSeed(19));
   const auto sparse = [&](int exponent) {  // floats of very different sizes

@@ -29,7 +29,7 @@ TEST(SelfIntersections, NoneOfSoundMeshes) {
   EXPECT_EQ(found(box(Vec3(0, 0, 0), Vec3(1, 2, 3))), OwnPairs())
       << "no triangle is reported with itself";
   std::mt19937_64 random(test::testSeed(63));
-  TriangleMesh hills;  // one height per place: it can't intersect itself
+  TriangleMesh hills;  // one height per place: it cannot intersect itself
   for (int x = 0; x < 20; ++x)
     for (int y = 0; y < 20; ++y)
       hills.vertices.emplace_back(0.1 * x, 0.1 * y, std::uniform_real_distribution()(random));

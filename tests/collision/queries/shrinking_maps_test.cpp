@@ -10,9 +10,10 @@
 #include "tests/support/soups.h"
 #include "tests/support/support.h"
 
-/// Volumes are tested in the first body's frame. If this body's map shrinks, distances in its frame
-/// are larger than in the world. Here the second map stretches by the same factor, so that the
-/// relative map is a rotation and its margins cover none of the shrinkage.
+/// Volumes are tested in the first body's frame. If this body's map shrinks, distances in the
+/// body's frame are larger than in the world. Here the second map stretches by the same factor. The
+/// relative map is computed with the transpose of the first map's matrix in place of the inverse.
+/// So the computed relative map is a rotation, and its margins cover none of the shrinkage.
 namespace corridor {
 namespace {
 

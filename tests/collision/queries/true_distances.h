@@ -16,7 +16,7 @@ namespace corridor::test {
 
 /// Tests distances, witness points and tolerance queries on trees of a workload's meshes against
 /// its true distances.
-/// @return how many of the poses have a true distance.
+/// @returns how many of the poses have a true distance.
 template <class Tree>
 int expectTrueDistances(const Workload& w, const Tree& a, const Tree& b,
                         const std::vector<std::size_t>& poses, const std::string& built,

@@ -1,5 +1,5 @@
-// Shells, ellipsoids and hulls: their fits against rationals and closed forms, and their overlap
-// tests against sets that touch by construction, against sampled points, and against linear
+// Tests of shells, ellipsoids and hulls. Fits are compared with rationals and closed forms. Overlap
+// tests are compared with sets that touch by construction, with sampled points, and with linear
 // programs in rationals. Tests for all volumes are in pair_tests_test.cpp.
 #include <array>
 #include <random>
@@ -79,7 +79,8 @@ void expectInside(const Volume& volume, const Content& content) {
     }
   }
   for (const Ball& b : content.balls) ASSERT_TRUE(exact.contains(row(b.center), b.radius));
-  // The sphere about the middle contains the volume; here, the content is tested.
+  // The sphere about the middle contains the whole volume. This test covers only the volume's
+  // content.
   const BoundingSphere sphere{volume.ballCenter(), volume.radius() * (1 + 0x1p-40)};
   const ExactVolume<BoundingSphere> around(sphere);
   content.forEach([&](const Vec3& p, double r) { ASSERT_TRUE(around.contains(row(p), r)); });
@@ -132,7 +133,7 @@ TEST(Ellipsoid, IsNearTheSmallestOne) {
                                      i & 4 ? half[2] : -half[2])});
     const Ellipsoid box = Ellipsoid::around(enclosingObb(corners, axes), corners);
     EXPECT_TRUE(box.core.half.isApprox(std::sqrt(3.0) * half, 1e-6)) << box.core.half.transpose();
-    // That of points all over an ellipsoid is this ellipsoid.
+    // The smallest ellipsoid around points all over an ellipsoid is that ellipsoid.
     std::vector<Ball> points;
     for (int i = 0; i < 3'000; ++i)
       points.push_back({axes * half.cwiseProduct(anyDirection(random))});
@@ -142,7 +143,8 @@ TEST(Ellipsoid, IsNearTheSmallestOne) {
   }
 }
 
-/// A shell around a curved patch is thinner than its sagitta by far: this is what shells are for.
+/// A shell around a curved patch is far thinner than the patch's sagitta: this is the purpose of
+/// shells.
 TEST(Shell, FollowsACurvedSurface) {
   Random random(test::testSeed(84));
   for (const double angle : {0.4, 0.2, 0.1}) {
@@ -198,8 +200,8 @@ VolumeBounds boundsOf(const Volume& v) {
   return {v.axisDefect(), v.centerReach(), roundedUp(v.centerReach() + v.radius())};
 }
 
-/// Hulls that meet, by a linear program in rationals, are never separated; hulls that are apart by
-/// more than rounding are.
+/// A linear program in rationals decides which hulls meet. Hulls that meet are never separated.
+/// Hulls whose gap is larger than rounding are always separated.
 TEST(OverlapHulls, AgreeWithLinearPrograms) {
   Random random(test::testSeed(85));
   int separated = 0, missed = 0, meet = 0;
@@ -207,7 +209,7 @@ TEST(OverlapHulls, AgreeWithLinearPrograms) {
     const std::vector<Vec3> p = cloud(random, n % kFamilies, 6);
     std::vector<Vec3> q = cloud(random, n / kFamilies % kFamilies, 6);
     const Vec3 by = (n % 2 ? 1 : 0.1) * anyVector(random);
-    // Some share a vertex, or miss it by little.
+    // Some pairs share a vertex, or miss a common vertex by little.
     const Vec3 shift = n % 3 ? by : Vec3(p[0] - q[0] + std::pow(10.0, -n % 17) * by);
     for (Vec3& v : q) v += shift;
     const Hull a = fitted<Hull>(trianglesOf(p)), b = fitted<Hull>(trianglesOf(q));
@@ -265,12 +267,13 @@ TEST(OverlapEllipsoids, TouchingByConstruction) {
     const double off = 0x1p-50 * scale, distance = std::max(0.0, gap * scale) + off;
     ASSERT_LE(test.distanceBound(a, b), distance) << n;
     ASSERT_FALSE(test.separated(a, b, distance)) << n;
-    // Ellipsoids that are swept by large spheres are approximated by others in the search.
+    // The search approximates ellipsoids that are swept by large spheres by other ellipsoids.
     if (gap < (a.size > 0 ? 1e-4 : 0x1p-30)) continue;
     ++possible;
     proved += test.separated(a, b, 0.5 * gap * scale);
     // The search for a bound ends if it has proved this share of the distance between the cores,
-    // except if it runs out of steps or the points found are within its noise.
+    // except if the search runs out of steps, or the points that it has found are within its
+    // rounding noise.
     const double bound = test.distanceBound(a, b) / scale, radii = (a.size + b.size) / scale;
     close += bound >= (1 - internal::kBound) * (gap + radii) - radii;
   }

@@ -128,8 +128,8 @@ struct Pairs {
         const Vec3 across = normal - angular * (angular.dot(normal) / angular.squaredNorm());
         if (across.norm() > 1e-6) goes -= secondOrderAcross * angular.norm() * across.normalized();
       }
-      // The lowest point of the moved b and the highest point of a: a corner of each, or any point
-      // of an edge or face that is level.
+      // The lowest point of the moved b and the highest point of a. Each is a corner, or any point
+      // of a level edge or face.
       const auto corner = [&](const Mat3& axes, const Vec3& towards) {
         Vec3 p = Vec3::Zero();
         for (int j = 0; j < 3; ++j) {
@@ -141,7 +141,7 @@ struct Pairs {
       };
       const Vec3 high = corner(A * ea.asDiagonal(), normal), low = corner(moved, -normal);
       const double sizes = ea.sum() + scale * eb.sum();
-      // Place a's box in the middle, and b's so that the two points meet.
+      // Places a's box in the middle, and b's box so that the two points meet.
       const Vec3 c = high - low - goes + gap * sizes * normal;
       const double length = std::max(1.0, c.norm());
       // Centres must be within 3: shrink the whole pair by a power of two.

@@ -94,7 +94,7 @@ TEST_P(NearBoxes, BoundTheirDistances) {
   int apart = 0, within = 0;
   for (int n = 0; n < 300; ++n) {
     // For upright boxes above each other, the gap along the line between the centres is the exact
-    // distance. So any rounding that the margin does not cover makes the test fail.
+    // distance. Therefore any rounding that the margin does not cover makes the test fail.
     const bool upright = n % 3 == 0;
     const Obb4 a = boxes(upright), b = boxes(upright);
     Transform X = test::anyPose(random_, std::pow(10.0, real(-1, 1.5)));

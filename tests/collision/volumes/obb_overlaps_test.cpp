@@ -20,9 +20,10 @@ using exact::dot;
 using exact::Rational;
 using exact::Row;
 
-/// The exact answer, in rationals, for two boxes as the sets that their doubles define. If two
-/// parallelepipeds are apart, a face normal or a common normal of two edges separates them. A flat
-/// box is the limit of thicker boxes with the same axes, so none of the 15 axes may be left out.
+/// The exact answer, in rationals, for two boxes. A box is the parallelepiped that its doubles
+/// define. If two parallelepipeds are apart, a face normal or a common normal of two edges
+/// separates them. A flat box is the limit of thicker boxes with the same axes, so none of the 15
+/// axes may be left out.
 struct Truth {
   bool touch = true;
   double widest = -HUGE_VAL;  ///< largest gap, metres
@@ -68,9 +69,9 @@ struct Boxes {
   double step = 0;
 };
 
-/// Makes two boxes whose supporting features meet along one of the 15 axes, then moves them apart
-/// or together by 10^-2 to 10^-17 of the size. Boxes are parallel, nearly parallel, flat, very
-/// unequal, far away, huge and tiny.
+/// Makes two boxes whose supporting features meet along one of the 15 axes. Then moves the boxes
+/// apart or together by 10^-2 to 10^-17 of their size. Boxes are parallel, nearly parallel, flat,
+/// very unequal, far away, huge and tiny.
 Boxes nearTouching(std::mt19937_64& random, int n) {
   const auto uniform = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
@@ -158,8 +159,8 @@ struct OverlapNames {
 };
 TYPED_TEST_SUITE(ObbOverlaps, Overlaps, OverlapNames);
 
-/// This test uses no rationals, so that it can test many more pairs. If the separating-axis theorem
-/// separates a pair by several times its rounding margin, every test must separate it.
+/// This test uses no rationals, and therefore can test many more pairs. If the separating-axis
+/// theorem separates a pair by several times its rounding margin, every test must separate it.
 TYPED_TEST(ObbOverlaps, SeparateBoxesThatAreClearlyApart) {
   std::mt19937_64 random(test::testSeed(64));
   const int rounds = (test::isStressRun() ? 10'000'000 : 100'000) / test::kSlowdown;

@@ -27,7 +27,7 @@ struct Meeting {
 };
 
 /// Returns a random normal of the plane, or one for which a face of some volume lies in the plane,
-/// so that a margin that is too small makes the test fail.
+/// so a margin that is too small makes the test fail.
 Vec3 normalOf(std::mt19937_64& random, int n) {
   if (n % 3 == 0) return test::anyPose(random, 1).m.col(0);
   Vec3 v(n % 5 - 2, n % 7 - 3, n / 7 % 3 - 1);
@@ -49,7 +49,7 @@ Meeting meeting(std::mt19937_64& random, int n, double gap, double offset, doubl
     m.X_AB.m += n % 7 == 2 ? Mat3(Vec3(bent.row(0)).asDiagonal()) : bent;
   }
   const Mat3 inverse = m.X_AB.m.inverse();
-  const double depth = n % 2 ? 0 : std::pow(10.0, -(n % 9));  // flat, or thick behind the plane
+  const double depth = n % 2 ? 0 : std::pow(10.0, -(n % 9));  // flat, or extended behind the plane
   const auto cloud = [&](double side) {
     std::vector<Vec3> points = {where + (side > 0 ? gap : 0) * normal};
     // A segment along the normal: even a sphere around it meets the plane in one point only.
@@ -239,8 +239,8 @@ TYPED_TEST(PairTests, SeparateVolumesThatAreClearlyApart) {
     const Meeting m = meeting(random, n, 100, 1);
     const Fitted<TypeParam> a(m.a), b(m.b);
     const PairTest<TypeParam> test(a.bounds, b.bounds, m.X_AB, 0);
-    // Of all volumes, the k-DOP has the weakest bound, if the normal lies in the widest angle
-    // between its slab directions: the least bound measured was 80.6, for distances of 97 and more.
+    // The k-DOP has the weakest bound of all volumes, if the normal lies in the widest angle
+    // between its slab directions: the least measured bound was 80.6, for distances of 97 and more.
     EXPECT_GT(test.distanceBound(a.volume, b.volume), 78) << n;
     // `separated` compares along single axes. The worst case is a normal along the space diagonal
     // of three face normals, where 100/√3 of the distance of 100 remain.

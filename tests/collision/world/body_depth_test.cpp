@@ -1,5 +1,6 @@
 // Tests of the bounds of the penetration depth: closed forms, and the definition itself. No
-// translation by less than the lower bound separates the bodies, and one by the upper bound does.
+// translation by less than the lower bound separates the bodies; a translation by the upper bound
+// does.
 #include "collision/world/body_depth.h"
 
 #include <cmath>
@@ -68,7 +69,7 @@ TEST(BodyDepth, TinyAndHugeCubes) {
     }
 }
 
-/// A map that is nearly a rotation counts as it is.
+/// A map that is nearly a rotation counts exactly as stored, and not as the nearest rotation.
 TEST(BodyDepth, MapsThatAreNearlyRotations) {
   QueryContext context;
   Transform X_AB = at({1.7, 0.2, 0.1});
@@ -78,7 +79,8 @@ TEST(BodyDepth, MapsThatAreNearlyRotations) {
   EXPECT_NEAR(d.upper, 0.3 + 1e-7, 1e-4);
 }
 
-/// For two convex parts the bounds are those of `penetration`, up to the directions tried.
+/// For two convex parts the bounds are those of `penetration`; the upper bound may be larger,
+/// because few directions are tried.
 TEST(BodyDepth, ConvexParts) {
   QueryContext context;
   const Body a("a", placed(Box{Vec3::Constant(2)}, {})), ball("ball", placed(Sphere{0.5}, {}));
@@ -98,11 +100,11 @@ TEST(BodyDepth, InsideASolidMesh) {
   EXPECT_FALSE(d.deepest);
   EXPECT_NEAR(d.lower, 0.25, 1e-9);  // from the ball to the side x = 1
   EXPECT_LE(d.lower, 0.25);
-  EXPECT_NEAR(d.upper, 0.75, 1e-4);  // until the ball has left
+  EXPECT_NEAR(d.upper, 0.75, 1e-4);  // the translation after which the ball is outside
   EXPECT_GE(d.upper, 0.75 * (1 - 1e-15));
 }
 
-/// Bodies that are not convex, at random poses, by the definition of the bounds.
+/// Tests bodies that are not convex, at random poses, against the definition of the bounds.
 TEST(BodyDepth, BoundsHoldForRandomTranslations) {
   std::mt19937_64 random(test::testSeed(23));
   std::uniform_real_distribution<double> real(-1, 1);

@@ -86,7 +86,8 @@ TEST(BodyQueries, Hollow) {
   EXPECT_EQ(distance(Posed(shell), Posed(ball), {}, context).distance, 0);
 }
 
-/// All pairs of kinds of bodies, at known gaps: the highest and lowest z of every body are known.
+/// Tests all pairs of kinds of bodies, at known gaps: the highest and lowest z of every body are
+/// known.
 TEST(BodyQueries, AllPairs) {
   std::vector<Body> bodies;
   std::vector<double> low, high;
@@ -138,8 +139,8 @@ TEST(BodyQueries, RejectsInvalidPrimitives) {
   EXPECT_EQ(message(Sphere{0}), "");
 }
 
-/// A cylinder is so short that after rounding its axis has no direction. Its bounds must contain
-/// the disc for every possible axis, because motion queries test the bounds first.
+/// A cylinder is so short that, after rounding, its axis has length 0 and no direction. Its bounds
+/// must contain the disc for every possible axis, because motion queries test the bounds first.
 TEST(BodyQueries, CylinderWithoutAnAxisKeepsItsBounds) {
   const Transform X{Mat3::Identity(), Vec3(0.7, 0.2, 0.1)};
   const ConvexPart disc = placed(Cylinder{0.3, 1e-20}, X);

@@ -72,8 +72,8 @@ TEST(BroadPhase, MotionsHaveTheSameAnswers) {
       const MotionResult with = scene.scene().certify(edge, options, one);
       const MotionResult without = certifyMotion(edge, scene.scene().motionPairs(), options, other);
       EXPECT_TRUE(sameAnswer(with, without)) << count << " obstacles, edge " << n;
-      // The broad phase may save tests: the box around several bodies may be separated although the
-      // bound of one of them is too weak.
+      // The broad phase may save tests: the box around several bodies may be separated, although
+      // the bound of a single one of these bodies is too weak.
       EXPECT_LE(one.counters.boxTests, other.counters.boxTests);
       ++verdicts[with.verdict];
       std::map<MotionVerdict, int> each, alone;
@@ -210,8 +210,9 @@ TEST(BroadPhase, TakesLogarithmicTime) {
   EXPECT_TRUE(std::is_sorted(found.begin(), found.end()));
 }
 
-/// A map of defect d, the largest entry of MᵀM − 1, can move a point by more than d times its
-/// distance. The robot is between the sphere of radius 1 + d and the surface of the ball's image.
+/// Let d be the defect of a map, the largest entry of MᵀM − 1. Such a map can move a point by more
+/// than d times the point's distance from the origin. The robot is between the sphere of radius 1 +
+/// d and the surface of the ball's image.
 TEST(BroadPhase, BodiesAtRestUnderMapsThatAreNotRigid) {
   for (const double d : {0x1p-11, 0.1, 0.9}) {
     const Mat3 square = Mat3::Identity() + Mat3::Constant(d);

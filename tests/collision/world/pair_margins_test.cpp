@@ -1,5 +1,5 @@
-// A cube slides past boxes in a row, each at a known distance. So it is known which margins of
-// pairs the motion keeps.
+// A cube slides past boxes in a row, each at a known distance. Therefore the test knows which
+// margins of pairs the motion keeps.
 #include <random>
 #include <vector>
 
@@ -113,7 +113,7 @@ TEST(PairMargins, ACertificateProvesThem) {
   };
   EXPECT_FALSE(check(certificate, margins));
   for (FreeInterval& i : certificate.free) EXPECT_GE(i.clearance, metres[i.pair]);
-  // The same intervals don't prove larger margins of pairs.
+  // The same intervals do not prove larger margins of pairs.
   for (double& margin : metres) margin *= 1.05;
   EXPECT_TRUE(check(certificate, PairMargins(metres)));
   // Claims of less than the margins, which the motion does keep, are refused.

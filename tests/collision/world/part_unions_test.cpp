@@ -17,14 +17,14 @@
 namespace corridor::test {
 namespace {
 
-/// Returns parts of all kinds in a cube of 2 m, some of them twice.
+/// Returns parts of all kinds in a cube of 2 m; some parts occur twice.
 std::vector<ConvexPart> someParts(std::mt19937_64& random, int count) {
   std::vector<ConvexPart> all = parts(random, count, 0.2);
   for (int i = 0; i < count; i += 7) all.push_back(all[static_cast<std::size_t>(i)]);
   return all;
 }
 
-/// Returns balls about the points of a wavy surface, as a sensor sees one.
+/// Returns balls about the points of a wavy surface, as a sensor measures such a surface.
 std::vector<ConvexPart> cloud(int side) {
   std::vector<ConvexPart> balls;
   for (int i = 0; i < side; ++i)
@@ -124,8 +124,8 @@ TEST(PartUnions, StaticQueries) {
   EXPECT_GT(apart, 30);
 }
 
-/// Many balls at random places: in some poses, one of them is inside a solid box. Some of the maps
-/// are not rigid.
+/// Many balls at random places: in some poses, a ball is inside a solid box. Some of the maps are
+/// not rigid.
 TEST(PartUnions, PartsInsideSolids) {
   std::mt19937_64 random(testSeed(302));
   const Body solid("", box(Vec3(-1, -1, -1), Vec3(1, 1, 1)), true);

@@ -49,8 +49,8 @@ TEST(SceneLimits, CancellingMapsAreNotSkipped) {
   }
 }
 
-/// Maps that stretch: the mapped body reaches beyond its bounding sphere, by less than a
-/// thousandth.
+/// Maps that stretch: the mapped body reaches beyond its bounding sphere, by less than a thousandth
+/// of the radius.
 TEST(SceneLimits, StretchingMapsAreNotSkipped) {
   QueryContext context;
   for (const double stretch : {1 + 0x1p-12, 1 + 0x1p-20, 1 + 0x1p-30}) {

@@ -152,8 +152,8 @@ TEST(EveryTreeKind, Edges) {
   EXPECT_LE(verdicts[2], 1 + count / 1000);
 }
 
-/// For every kind of trees, the bounds of bodies are tested first: for bodies that are far away no
-/// tree is built.
+/// For every kind of trees, queries test the bounds of bodies first, and build no tree for bodies
+/// that are far away.
 TEST(EveryTreeKind, FarBodiesGetNoTree) {
   std::vector<Body> fixed, moving;
   fixed.push_back(test::bodyOf(test::box(Vec3(1, -1, -1), Vec3(2, 1, 1))));

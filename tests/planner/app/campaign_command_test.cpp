@@ -1,5 +1,5 @@
-// Tests of the program `corridor benchmark CAMPAIGN`: after it was killed at any moment, `--resume`
-// ends with the same rows; if a campaign can't be resumed, the program reports why.
+// Tests of the program `corridor benchmark CAMPAIGN`: after the program was killed at any moment,
+// `--resume` ends with the same rows. If a campaign can't be resumed, the program reports why.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <chrono>
 #include <csignal>
@@ -162,7 +162,8 @@ TEST_F(CampaignCommand, OptionsOverrideTheFile) {
   EXPECT_EQ(result.out, nlohmann::ordered_json::parse(result.out).dump(2) + "\n");
 }
 
-/// With -o, the rows come from the database: the same as without, and again after --resume.
+/// With -o, the rows come from the database. They equal the rows without -o, and the rows after
+/// --resume.
 TEST_F(CampaignCommand, StoredRowsAreTheSame) {
   const auto rows = [&](const std::string& options) {
     const Result result = run("benchmark campaign.yaml --runs 2 --json " + options);

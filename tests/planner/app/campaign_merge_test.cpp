@@ -27,7 +27,7 @@ class CampaignMerge : public corridor::test::CampaignTest {
       ASSERT_EQ(result.status, 0) << result.err;
     }
   }
-  /// Replaces times in a page or log, which differ from run to run.
+  /// Returns the sorted paths of all files and folders below a folder, relative to it.
   std::vector<std::string> filesIn(const std::string& folder) const {
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_ / folder))
@@ -116,7 +116,7 @@ TEST_F(CampaignMerge, OtherSeedsOfTheSameCampaign) {
   ASSERT_EQ(run("benchmark campaign.yaml --runs 3 --seed 3 -o b").status, 0);
   ASSERT_EQ(run("benchmark --merge b a -o merged").status, 0);
   EXPECT_EQ(repeatable("merged"), repeatable("whole"));
-  // What is merged can be continued, and merged again.
+  // A merged database can be continued, and merged again.
   ASSERT_EQ(run("benchmark campaign.yaml --runs 6 -o merged --resume").status, 0);
   ASSERT_EQ(run("benchmark campaign.yaml --runs 1 --seed 7 -o c").status, 0);
   ASSERT_EQ(run("benchmark --merge c merged -o all").status, 0);

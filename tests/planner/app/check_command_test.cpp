@@ -65,8 +65,8 @@ TEST_F(CheckCommand, CheckOfStatesTakesAnglesAsTheyAre) {
               testing::HasSubstr(";too_large:shoulder\n"));
 }
 
-/// The post of radius 0.1 m is at 1.5 m on the y axis; the arm is thin, so along an edge from 0 to
-/// 3 rad it touches the post at about (π/2 − asin(0.1/1.5)) / 3, for a thin arm.
+/// The post of radius 0.1 m is at 1.5 m on the y axis. On an edge from 0 to 3 rad, a thin arm
+/// touches the post at about t = (π/2 − asin(0.1/1.5)) / 3.
 TEST_F(CheckCommand, CheckOfManyEdges) {
   write("edges.txt", "# shoulder elbow\n0 0  1 0\n0,0,3,0\n0 0 0 2.9\n");
   const Result checked = run("check arm.yaml --edges edges.txt");
@@ -159,12 +159,12 @@ TEST_F(CheckCommand, RepeatedNotesAreCounted) {
   write("arm.urdf", urdf);
   const Result checked = run("check arm.yaml");
   EXPECT_THAT(checked.out, HasSubstr("note: arm.urdf:"));
-  EXPECT_THAT(checked.out, HasSubstr("joint \"shoulder\": <limit> has no effort (and 1 more like "
-                                     "this; inspect --json lists all)\n"));
+  EXPECT_THAT(checked.out, HasSubstr("joint \"shoulder\": <limit> has no effort (and 1 similar "
+                                     "note; inspect --json lists all)\n"));
   EXPECT_THAT(checked.out, testing::Not(HasSubstr("joint \"elbow\"")));
   for (const std::string file : {"arm.yaml", "arm.urdf"}) {
     const std::string text = run("inspect " + file).out;
-    EXPECT_THAT(text, HasSubstr("<limit> has no effort (and 1 more like this; inspect --json lists "
+    EXPECT_THAT(text, HasSubstr("<limit> has no effort (and 1 similar note; inspect --json lists "
                                 "all)\n"));
     EXPECT_THAT(text, testing::Not(HasSubstr("joint \"elbow\": <limit>")));
     EXPECT_EQ(nlohmann::json::parse(run("inspect " + file + " --json").out)["notes"].size(), 2u);
@@ -191,7 +191,7 @@ TEST_F(CheckCommand, NotesAreSortedAndPrintedWithFaults) {
   EXPECT_EQ(notes[0], first);
   EXPECT_EQ(notes[1], second);
 
-  const std::string more = "note: " + first + "\nnote: " + second + " (and 1 more like this)\n";
+  const std::string more = "note: " + first + "\nnote: " + second + " (and 1 similar note)\n";
   write("faulty.yaml", read("arm.yaml") + "marginn: 1\n");
   const Result faulty = run("check faulty.yaml");
   EXPECT_EQ(faulty.status, 2);
@@ -240,7 +240,8 @@ TEST_F(CheckCommand, CheckOfStartAndGoal) {
   EXPECT_EQ(touch.status, 1);
   EXPECT_THAT(touch.out, HasSubstr("start: in contact: \"lower\" and \"post\" touch; the "
                                    "nearest free values found are at most 0."));
-  // All values, also the one that is the same: they can be copied into the problem.
+  // The message has the values of all joints, even of an unchanged one, so that they can be copied
+  // into the problem.
   EXPECT_THAT(touch.out, testing::ContainsRegex("\\{shoulder: [0-9.]+, elbow: [-0-9.e]+\\}"));
   write("bad.yaml",
         "format: corridor-problem-1\nrobot: arm.urdf\nworld:\n  post: {sphere: 0.1, at: [0, 1.5, "

@@ -48,7 +48,7 @@ TEST_F(InspectCommand, ReportsTheReachWithMimicJoints) {
   EXPECT_EQ(links[5]["reach_m"], links[4]["reach_m"]);
 }
 
-/// Such a robot can't be planned for, but can be described.
+/// A robot that cannot move can't be planned for, but `inspect` describes it.
 TEST_F(InspectCommand, DescribesARobotThatCannotMove) {
   write("still.urdf",
         "<robot name='still'><link name='a'/>\n<link name='b'/>\n<joint name='j' "

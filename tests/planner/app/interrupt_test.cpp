@@ -33,7 +33,8 @@ int statusAfterTwo(SecondInterrupt second, int milliseconds, int signal = SIGINT
 }
 
 TEST(Interrupt, ASecondSignalEndsOrIsIgnored) {
-  const int repeated = statusAfterTwo(SecondInterrupt::ends, 600, SIGUSR1);  // by job scripts
+  // Job scripts repeat SIGUSR1, so it must not end the program at once.
+  const int repeated = statusAfterTwo(SecondInterrupt::ends, 600, SIGUSR1);
   EXPECT_TRUE(WIFEXITED(repeated));
   EXPECT_EQ(WEXITSTATUS(repeated), kWentOn);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {

@@ -50,7 +50,7 @@ class ProgramTest : public testing::Test {
     EXPECT_EQ(result.out, "") << arguments;
   }
 
-  /// Expects the same, if only the beginning of the line is known.
+  /// Expects the same as `expectFault`, but `message` is only the beginning of the line on stderr.
   void expectFaultThatBegins(const std::string& arguments, const std::string& message) const {
     const Result result = run(arguments);
     EXPECT_EQ(result.status, 2) << arguments;

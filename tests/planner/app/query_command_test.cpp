@@ -352,7 +352,7 @@ TEST_F(QueryCommand, BadInputIsOneLineAndExit2) {
     expectFault("query " + arguments, message);
   };
   const std::string more = "; see corridor query --help";
-  fault("a.obj b.obj", "--poses: a file of poses is needed, or --grid, or --motions");
+  fault("a.obj b.obj", "--poses: one of --poses, --grid and --motions is required");
   fault("a.obj b.obj --poses poses.txt --grid 2x2x2",
         "--grid: can't be used with --poses; give one of the two");
   fault("a.obj b.obj --poses poses.txt --seed 1", "--seed: needs --grid, which is not given");

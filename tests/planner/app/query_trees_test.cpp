@@ -60,7 +60,7 @@ TEST_F(QueryTrees, OctreesRefuseOtherQueries) {
   write("motions.txt", kStill + "0 0 1 " + kStill + "0 0 2\n");
   const auto refused = [&](const std::string& more, const std::string& asked) {
     expectFault("query a.obj b.obj --volume octree " + more,
-                "--volume: octree has only --query interference, at poses, not " + asked +
+                "--volume: octree supports only --query interference at poses, not " + asked +
                     "; choose another volume, such as aabb");
   };
   for (const std::string asked : {"distance", "contacts", "tolerance"})

@@ -1,5 +1,5 @@
-// Tests of the script `./corridor` under `mpirun`: it neither installs nor builds, but says what to
-// do first.
+// Tests of the script `./corridor` under `mpirun`: it neither installs nor builds, but reports what
+// must be done first.
 #include <filesystem>
 
 #include <gmock/gmock.h>
@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A clone of which only the script is there; the program is another script.
+/// A clone that contains only the script `corridor`. Another script stands in for the program.
 class ScriptUnderMpi : public corridor::test::ProgramTest {
  protected:
   ScriptUnderMpi() {
@@ -44,7 +44,7 @@ TEST_F(ScriptUnderMpi, NeitherInstallsNorBuilds) {
     const Result refused = script(command);
     EXPECT_EQ(refused.status, 2);
     EXPECT_EQ(refused.err,
-              std::string("corridor: ") + command + " is not for mpirun; call it without\n");
+              std::string("corridor: ") + command + " is not for mpirun; call it without mpirun\n");
   }
 
   for (const char* folder : {"build/release", "collision", "planner"})

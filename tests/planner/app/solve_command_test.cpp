@@ -122,8 +122,8 @@ TEST_F(SolveArm, WritesATrajectory) {
   EXPECT_LE(report["acceleration_share"].get<double>(), 1);
 }
 
-/// Half of the time between the rows: velocities and accelerations exceed their limits. The verdict
-/// stays, and `--limits` gives the exit status 1.
+/// The two rows are so close in time that velocities and accelerations exceed their limits. The
+/// verdict on the path stays "proved", but `--limits` gives the exit status 1.
 TEST_F(SolveArm, ExceededLimitsOfATrajectory) {
   write("fast.csv",
         "time,shoulder,elbow,shoulder_velocity,elbow_velocity\n0,0,0,0,0\n0.1,0.5,0.1,0,0\n");

@@ -91,7 +91,7 @@ TEST_F(SolveMany, ARangeOfASet) {
               ElementsAre("set-1.solution.yaml", "set-2.solution.yaml", "set-3.solution.yaml"));
   EXPECT_THAT(filesIn("pictures"), ElementsAre("set-1.svg", "set-2.svg", "set-3.svg"));
   EXPECT_EQ(run("verify 'set.json#2' out/set-2.solution.yaml").status, 0);
-  // The same paths as one by one.
+  // Each path equals that of a call with this problem alone.
   EXPECT_EQ(run("solve 'set.json#3' -o alone.yaml --quiet").status, 0);
   EXPECT_EQ(read("alone.yaml").substr(read("alone.yaml").find("path:")),
             read("out/set-3.solution.yaml").substr(read("out/set-3.solution.yaml").find("path:")));
@@ -118,7 +118,7 @@ TEST_F(SolveMany, AFolderOfFolders) {
   ASSERT_EQ(lines.size(), 3u);
   for (const json& line : lines) EXPECT_EQ(line["result"], "solved");
   EXPECT_EQ(lines[0]["problem"], "all/a");
-  // Two problems are called a: their folders' folders tell them apart.
+  // Two problems have the name a, so the names of the folders above their folders are added.
   EXPECT_THAT(filesIn("out/solutions"),
               ElementsAre("all-a.solution.yaml", "b.solution.yaml", "more-a.solution.yaml"));
   EXPECT_THAT(run("solve sub").err, HasSubstr("sub: "));

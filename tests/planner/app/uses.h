@@ -16,10 +16,10 @@ namespace corridor::test {
 struct Use {
   std::string name;       ///< part of its tests' names
   std::string arguments;  ///< arguments of the program, which must soon end without a signal
-  std::vector<std::string> files;  ///< written to `out`, the same bytes each time
-  std::string longer = {};         ///< the same command, too long to end before a signal
-  std::string startedFile = {};    ///< a file that exists once `longer` is well under way
-  bool keeps = false;  ///< after a signal it writes complete files of the results so far
+  std::vector<std::string> files;  ///< files that it writes to `out`, with the same bytes each time
+  std::string longer = {};  ///< as `arguments`, but the run takes so long that a signal ends it
+  std::string startedFile = {};  ///< a file that exists once `longer` is well under way
+  bool keeps = false;            ///< after a signal it writes complete files of the results so far
 };
 
 const std::vector<Use>& uses();
@@ -47,8 +47,8 @@ class UseTest : public ProgramTest, public testing::WithParamInterface<Use> {
   /// Starts the program in a process group of its own. Unless `setup` redirects them, stdin is a
   /// pipe that stays empty, and stdout and stderr are files. @returns its process id.
   pid_t start(const std::string& arguments, const Setup& setup = {});
-  /// Does the same, but another program starts the program: `wrapper` is that program with its
-  /// arguments.
+  /// Does the same as `start`, but another program starts the program under test. `wrapper` is that
+  /// other program with its arguments.
   pid_t startBy(const std::vector<std::string>& wrapper, const std::string& arguments,
                 const Setup& setup = {});
   End wait(pid_t id);
@@ -61,9 +61,9 @@ class UseTest : public ProgramTest, public testing::WithParamInterface<Use> {
   void expectWholeOrNothing(const Use& use) const;
   /// Runs the use without faults, and stores the files that it writes in `whole_`.
   void learnWhole(const Use& use);
-  /// Returns a command that runs a shell script which may mount file systems; empty if that is not
-  /// allowed. The caller appends the program and its arguments, which the script gets as its own
-  /// arguments.
+  /// Returns a command that runs a shell script with the right to mount file systems; empty if
+  /// mounting is not allowed here. The caller appends the program and its arguments, which the
+  /// script gets as its own arguments.
   static std::vector<std::string> mounting(const std::string& script);
 
   std::map<std::string, std::string> whole_;

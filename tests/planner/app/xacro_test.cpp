@@ -22,7 +22,7 @@ class Xacro : public corridor::test::ArmTest {
     std::string problem = read("arm.yaml");
     return problem.replace(problem.find("arm.urdf"), 8, robot);
   }
-  /// Writes a program xacro.
+  /// Writes a script as the program xacro.
   void install(const std::string& script) const {
     std::filesystem::create_directory(folder_ / "bin");
     write("bin/xacro", "#!/bin/sh\n" + script + "\n");
@@ -60,7 +60,8 @@ TEST_F(Xacro, GetsArgumentsAndRunsInTheFolderOfItsFile) {
   EXPECT_EQ(runWith("inspect robot.yaml").status, 2);
 }
 
-/// The digest covers the text that xacro made, and so what the file includes.
+/// The digest covers the text that xacro made, and therefore all files that the xacro file
+/// includes.
 TEST_F(Xacro, TheDigestIsThatOfTheExpandedText) {
   const std::string before = digest();
   EXPECT_EQ(digest(), before);

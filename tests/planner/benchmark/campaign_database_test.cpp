@@ -274,7 +274,8 @@ TEST_F(Database, RunsAddedTogether) {
   EXPECT_THAT(rowsOf(file_, "SELECT count(*) FROM runs"), ElementsAre("3"));
 }
 
-/// A killed process leaves a log beside the file. The next one reads it, and leaves the file alone.
+/// A killed process leaves a log beside the database. The next process takes the runs from the log
+/// into the database, and removes the log.
 TEST_F(Database, AKilledProcessLosesNoStoredRun) {
   const Campaign campaign = hallCampaign({"certified"});
   std::vector<CampaignCell> cells = cellsOf(campaign);

@@ -97,7 +97,7 @@ TEST_F(CampaignWithTrajectories, AListOfMakers) {
   EXPECT_EQ(read(of({"two_arms"}, "trajectories: {}\n")).trajectories.makers.size(), 4u);
 }
 
-/// Limits are those of each robot, by its name, for both robots of that name.
+/// Limits are given by the name of a robot, and apply to both robots that have this name.
 TEST_F(CampaignWithTrajectories, LimitsOfRobots) {
   const Campaign c = read(of({"two_arms", "gantry_bins", "snake_posts"},
                              "trajectories:\n"
@@ -182,9 +182,8 @@ TEST_F(CampaignWithTrajectories, Faults) {
                 "trajectories:\n  limits:\n    fast:\n      arm7:\n"
                 "        joints: {elbo: {velocity: 1}}\n        default: {velocity: -1}\n")),
       testing::UnorderedElementsAre(
-          HasSubstr(
-              "c.yaml:8: trajectories.limits.fast.arm7.joints.elbo: there is no joint of that "
-              "name that is planned for (did you mean \"elbow\"?)"),
+          HasSubstr("c.yaml:8: trajectories.limits.fast.arm7.joints.elbo: no planned joint has "
+                    "this name (did you mean \"elbow\"?)"),
           HasSubstr("c.yaml:9: trajectories.limits.fast.arm7.default.velocity: ")));
   EXPECT_THAT(f("verify: false\ntrajectories: [stop]\n"),
               ElementsAre("c.yaml:5: trajectories: their verdicts are the verifier's; leave out "
@@ -254,7 +253,7 @@ TEST_F(HallWithTrajectories, EveryMakerWithEverySetOfLimits) {
   for (const char* property : {"own_spline_refuted BOOLEAN", "slow_blends_duration_s REAL",
                                "own_stop_rows INTEGER", "slow_optimum_s REAL"})
     EXPECT_THAT(log, HasSubstr(property));
-  // So has the report.
+  // The report has these figures, too.
   writeReport(c, result.cells, folder_);
   const std::string page = test::contents(folder_ / "report.html");
   EXPECT_THAT(page, HasSubstr("<section id=\"trajectories\">"));
@@ -263,7 +262,8 @@ TEST_F(HallWithTrajectories, EveryMakerWithEverySetOfLimits) {
   EXPECT_THAT(page, HasSubstr("<td>own</td><td>spline</td><td><span class=\"bad\">"));
 }
 
-/// Stopped after two runs and resumed, the figures are those of the whole campaign.
+/// A campaign that was stopped after two runs and resumed has the figures of an uninterrupted
+/// campaign.
 TEST_F(HallWithTrajectories, ResumesWithTheSameFigures) {
   const Campaign c = hall(std::string("trajectories:\n  makers: [blends, spline]\n") + kLimits);
   const CampaignResult whole = runCampaign(c);

@@ -57,7 +57,8 @@ TEST(CostModel, CostsThatQueriesDoNotDetermineAreUnknown) {
   EXPECT_TRUE(fittedCosts({{0, 5, 100}, {0, 7, 130}}).triangleKnown);
 }
 
-/// If both counts are proportional, only one cost can be determined; it is attributed to box tests.
+/// If the two counts are proportional, only one cost can be determined; it is attributed to box
+/// tests.
 TEST(CostModel, ProportionalCountsGiveOneCost) {
   const CostModel model = fittedCosts({{10, 5, 100}, {20, 10, 200}, {40, 20, 400}});
   EXPECT_NEAR(model.box, 10, 1e-9);

@@ -186,7 +186,8 @@ TEST_F(RankTest, FaultsOfRanksEndTheJob) {
   EXPECT_THAT(fault, EndsWith(": no room"));
 }
 
-/// Both messages are there when rank 0 looks: the task's end must not be lost.
+/// The end of a task and a fault have both arrived when rank 0 looks for messages. The end of the
+/// task must not be lost.
 TEST_F(RankTest, TasksThatEndedBeforeAFaultAreReturned) {
   executor_->begin("set up");
   executor_->start(100);
@@ -213,7 +214,7 @@ TEST_F(RankTest, WaitsForTheSetUpOfAllRanks) {
   }
 }
 
-/// Nothing was begun: the others just end.
+/// If `begin` was not called, the other ranks end without work.
 TEST_F(RankTest, EndsWithoutWork) {
   EXPECT_EQ(executor_->underWay(), 0u);
 }

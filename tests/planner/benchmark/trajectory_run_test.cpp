@@ -69,7 +69,8 @@ TEST_F(TrajectoryRuns, EveryMaker) {
   EXPECT_THAT(spline.finding, HasSubstr("contact"));
   EXPECT_THAT(spline.finding, HasSubstr("floor"));
   EXPECT_THAT(spline.finding, HasSubstr(" s: "));
-  // With states inserted, no sample touches; the verifier decides what is between them.
+  // With states inserted, no sample touches; the verifier decides about the curve between the
+  // samples.
   const Checker checker(problem);
   const InsertedSpline states = insertedSpline(problem.model.space, corner(), [&](const auto& q) {
     return checker.interference(q).has_value();
@@ -113,7 +114,7 @@ TEST_F(TrajectoryRuns, NoSplineOfRotations) {
   const Checker checker(problem);
   for (const TrajectoryMaker maker : {TrajectoryMaker::spline, TrajectoryMaker::inserted}) {
     const TrajectoryRun run = runTrajectory(maker, problem, checker, path);
-    EXPECT_THAT(run.fault, HasSubstr("a spline of quaternions is no rotation"));
+    EXPECT_THAT(run.fault, HasSubstr("splines of quaternions are not rotations"));
     EXPECT_EQ(run.verdict, "");
   }
   for (const TrajectoryMaker maker : {TrajectoryMaker::blends, TrajectoryMaker::stop})
@@ -224,7 +225,8 @@ TEST_F(TrajectoryFigures, SummaryAndTotals) {
               Not(HasSubstr("stop")));
 }
 
-/// Runs are stored as text. Those without trajectories are stored as before there were any.
+/// Runs are stored as text. Runs without trajectories are stored as by versions that had no
+/// trajectories.
 TEST_F(TrajectoryFigures, RunsAreStoredAsText) {
   const BenchmarkRun read = readRun(text(cell_.runs[0]));
   EXPECT_EQ(text(read), text(cell_.runs[0]));

@@ -34,8 +34,8 @@ inline PlacedShape partShape(const std::string& name, const Primitive& primitive
   return shapeOf(name, primitive, {at, Eigen::Quaterniond::Identity()});
 }
 
-/// Returns a tube of 2^-40 of each range. This equals the default tube if all lines have the same
-/// range.
+/// Returns a tube of 2^-40 of each range. This equals the default tube if all coordinates of the
+/// kind `line` have the same range.
 inline Configuration roundingTube(const ConfigurationSpace& space) {
   Configuration tube = Configuration::Zero(static_cast<Eigen::Index>(space.size()));
   for (const Coordinate& c : space.coordinates())
@@ -135,8 +135,8 @@ struct Hall {
 };
 
 /// An arm in the plane z = 0 with three links of 1 m: two capsules, and a mesh as the last. Joints
-/// about z are at the origin and between the links. A post at (1.2, 1.2) and a slab are the
-/// obstacles.
+/// about z are at the origin and between the links. The obstacles are a post at (1.2, 1.2) and a
+/// slab.
 inline Problem armProblem() {
   using Kind = Coordinate::Kind;
   Problem problem;

@@ -157,8 +157,7 @@ TEST(NeverInContact, ReportsTheShareThatIsProved) {
   EXPECT_LE(half.provedShare, 0.52);
 }
 
-/// A contact at one value of a joint only, which no sample meets: two balls touch at the limit of
-/// the slide.
+/// Two balls touch only at one joint value, the limit of the slide, which no sample meets.
 TEST(NeverInContact, DoesNotProveATouchInOnePoint) {
   const auto slider = [](double upper) {
     return modelOf(ball("base", 0.25) + "<link name='cart'/>" + ball("hand", 0.25) +
@@ -183,7 +182,7 @@ TEST(NeverInContact, TriesNothingWithoutBounds) {
   Model half = mimic("-2");
   half.tree.frames.back().multiplier = 0.5;
   EXPECT_EQ(prove(half, "base", "hand").verdict, Verdict::notTried);
-  // Here no joint is between the two links.
+  // In this model, no joint is between the two links.
   const Model fixed = modelOf(ball("base", 0.1) + ball("lamp", 0.1, 1) + ball("hand", 0.1) +
                               joint("fix", "fixed", "base", "lamp", "0 0 0", "") +
                               joint("pan", "continuous", "base", "hand", "2 0 0", kAboutZ));
@@ -238,7 +237,7 @@ std::string randomRobot(std::mt19937_64& random) {
 }
 
 /// At random and extreme joint values, no pair that was proved may be closer than the margin. The
-/// distances are those of static queries, which know nothing of boxes of joint values.
+/// distances come from static queries, which do not use boxes of joint values.
 TEST(NeverInContact, NoStateRefutesAProof) {
   std::mt19937_64 random(test::testSeed(20261));
   const NeverInContactOptions options{.margin = 0.02, .beyondLimits = 0.1, .boxes = 400};

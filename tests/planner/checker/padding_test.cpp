@@ -127,7 +127,7 @@ TEST(Padding, MessagesNameIt) {
   EXPECT_EQ(refuted.findings[0].reason, "closer than margin and padding");
 }
 
-/// The verifier refines the clearance that it proves up to the one that is wanted.
+/// The verifier refines the proved clearance until it reaches the wanted clearance.
 TEST(WantedClearance, IsProvedWhereThePathHasIt) {
   const Problem problem = twoBalls();
   PathProblem plain = plainProblem(problem);
@@ -143,7 +143,7 @@ TEST(WantedClearance, IsProvedWhereThePathHasIt) {
   ASSERT_LT(usual, 0.0995);
   EXPECT_GE(proven(0.0995), 0.0995);
   EXPECT_GE(proven(0.0999), 0.0999);
-  // What the path can't have changes nothing.
+  // A wanted clearance that is larger than the path's own changes nothing.
   EXPECT_EQ(proven(0.101), usual);
   EXPECT_EQ(proven(5), usual);
 }

@@ -82,12 +82,12 @@ TEST_F(StillPairs, TouchOrAreWithinTheMargin) {
   EXPECT_THAT(pairsOf(world + "margin: 0.01\n"),
               ElementsAre("base ~ table: touch", "base ~ wall: close"));
   EXPECT_THAT(notes_,
-              ElementsAre("in every state, these bodies touch: base ~ table; no proof covers them, "
-                          "since they never move against each other (allow: [[base, table]] if "
-                          "this is intended)",
+              ElementsAre("in every state, these bodies touch: base ~ table; no proof covers these "
+                          "pairs, because their bodies never move against each other (allow: "
+                          "[[base, table]] if this is intended)",
                           "in every state, these bodies are closer than the margin: base ~ wall; "
-                          "no proof covers them, since they never move against each other (allow: "
-                          "[[base, wall]] if this is intended)"));
+                          "no proof covers these pairs, because their bodies never move against "
+                          "each other (allow: [[base, wall]] if this is intended)"));
   EXPECT_THAT(pairsOf(world + "allow: [[base, table]]\n"), IsEmpty());
 }
 
@@ -98,7 +98,8 @@ TEST_F(StillPairs, OfHeldJointsOnAMovingLink) {
   EXPECT_THAT(pairsOf("margin: 0.001\n"), IsEmpty());
 }
 
-/// Bases of two robots; and a large mesh that is named twice, so that each has a frame of its own.
+/// The bases of two robots; and two obstacles of one large mesh, which therefore have frames of
+/// their own.
 TEST_F(StillPairs, OfTwoRobotsAndObstaclesOnFrames) {
   std::ofstream(folder_ / "robot.yaml")
       << "format: corridor-robot-1\nurdf: arm.urdf\njoints: [to_arm]\nhold: {to_finger: 0.3}\n";
@@ -133,7 +134,7 @@ TEST_F(StillPairs, OfTwoRobotsAndObstaclesOnFrames) {
   EXPECT_THAT(texts, testing::UnorderedElementsAre("left/base ~ right/base", "left/base ~ near"));
 }
 
-/// A held link in an obstacle is not reported as free without a word.
+/// A held link inside a solid obstacle must be reported.
 TEST_F(StillPairs, SolidMeshAroundTheBase) {
   std::ofstream(folder_ / "cube.obj")
       << "v -2 -2 -0.5\nv 2 -2 -0.5\nv 2 2 -0.5\nv -2 2 -0.5\n"

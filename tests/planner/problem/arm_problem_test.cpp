@@ -206,12 +206,13 @@ TEST_F(ArmProblem, TubeOfSingleJoints) {
             "problem.yaml:7: tube.lift: must be 0 or more, not -1\n"
             "problem.yaml:7: tube.slide_deg: slide is prismatic; use slide, in metres\n"
             "problem.yaml:7: tube.pan_deg: pan is given twice, in radians and in degrees");
-  EXPECT_THAT(complaint("lft: 1"),
-              testing::StartsWith("problem.yaml:7: tube.lft: there is no such key, and no joint of "
-                                  "that name that is planned for (did you mean \"lift\"?)"));
+  EXPECT_THAT(
+      complaint("lft: 1"),
+      testing::StartsWith("problem.yaml:7: tube.lft: this is no key of tube, and no planned "
+                          "joint has this name (did you mean \"lift\"?)"));
   write("arm.yaml", arm);
   EXPECT_EQ(complaintOf(armHead + armStates + "tube: {slides: 1}\n"),
-            "problem.yaml:7: tube.slides: there is no prismatic joint here that is planned for");
+            "problem.yaml:7: tube.slides: there is no planned prismatic joint");
 }
 
 /// The base of a mobile manipulator is often a virtual joint of the SRDF.
@@ -443,7 +444,7 @@ TEST_F(ArmProblem, ObstaclesThatAreFarTooLarge) {
     EXPECT_THAT(notes, Not(Contains(HasSubstr("\"" + std::string(name) + "\" is"))));
 }
 
-/// Two groups have a state of the same name. The one of the planned group needs no prefix.
+/// Two groups have a state of the same name. The state of the planned group needs no prefix.
 TEST_F(ArmProblem, AStateOfThePlannedGroupNeedsNoPrefix) {
   std::string text = srdf;
   text.insert(text.find("<disable_collisions"),

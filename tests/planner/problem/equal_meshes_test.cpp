@@ -118,7 +118,8 @@ TEST_F(EqualMeshes, SolidsAndSurfacesDiffer) {
   }
 }
 
-/// Verdicts, tolerance, bounds and proofs are those of the same balls, each in a file of its own.
+/// Verdicts, tolerance, bounds and proofs equal those for the same balls, each with a mesh file of
+/// its own.
 TEST_F(EqualMeshes, ChangeNoVerdict) {
   write("robot.yaml", "format: corridor-robot-1\nrigid: SE3\nshapes: [{box: [0.3, 0.2, 0.1]}]\n");
   constexpr int count = 40;

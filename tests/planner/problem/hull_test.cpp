@@ -79,7 +79,8 @@ TEST_F(Hulls, NoOtherKindIsIgnored) {
                     ": one shape is needed, and mesh is given already; leave one out");
 }
 
-/// The deviation can't be shown to be small, or not at all.
+/// Because of rounding, the deviation can't be proved small; for a huge mesh it can't be computed
+/// at all.
 TEST_F(Hulls, ThatRoundingHides) {
   write("shallow.obj",
         "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0 0 4\nv 1 1 1e-18\n"

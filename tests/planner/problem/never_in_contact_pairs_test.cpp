@@ -1,5 +1,5 @@
-// Pairs of links that, by robot.yaml, were proved never in contact. They are tested if the proof
-// does not cover the problem's margin or tube.
+// Pairs of links that robot.yaml lists as proved never in contact. They are tested all the same if
+// the proof does not cover the problem's margin or tube.
 #include "tests/planner/problem/arm_fixture.h"
 
 namespace corridor::test {

@@ -4,7 +4,7 @@
 
 namespace corridor::test {
 
-/// Pins the complete text of every message. Users read these: change them with care.
+/// Pins the complete text of every message. Users read these messages: change them with care.
 class ProblemFaults : public ProblemTest {
  protected:
   /// Returns the complaint about a spatial problem with these lines added from line 8 on.

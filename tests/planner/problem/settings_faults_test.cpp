@@ -1,4 +1,4 @@
-// Faults of what a problem asks for: padding, clearance, trajectories.
+// Faults in the settings of a problem: padding, clearance, trajectories.
 #include "tests/planner/problem/problem_faults.h"
 
 namespace corridor::test {

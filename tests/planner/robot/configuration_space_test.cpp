@@ -30,7 +30,7 @@ Coordinate coordinate(Kind kind, std::string name, double weight = 1, double low
   return c;
 }
 
-/// A space of one coordinate of that kind.
+/// A space of one coordinate of the given kind.
 ConfigurationSpace single(Kind kind) {
   ConfigurationSpace space;
   space.addGroup({CoordinateGroup::Kind::joints, "", {space.add(coordinate(kind, "q"))}});

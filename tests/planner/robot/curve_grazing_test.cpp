@@ -201,8 +201,7 @@ TEST(CurveMotion, StraightPiecesHaveTheVerdictOfTheEdge) {
     motion.set(random.from, random.to);
     const MotionVerdict edge = certifyMotion(motion, {&pair, 1}, options, context).verdict;
     ++verdicts[static_cast<int>(edge)];
-    // The same line of a higher degree, and with the rounding of its coefficients, is the edge,
-    // too.
+    // The same line with a higher degree and rounded coefficients also has the verdict of the edge.
     for (const int degree : {1, 2, 5, 9}) {
       CurvePiece line = piece;
       line.coefficients.resize(piece.coefficients.rows(), degree + 1);

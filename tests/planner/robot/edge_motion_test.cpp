@@ -258,7 +258,7 @@ TEST(EdgeMotion, ManyPairsShareOneMotion) {
   }
 }
 
-/// One frame that rotates about z by a coordinate of that kind.
+/// One frame that rotates about z by a coordinate of the given kind.
 struct OneTurn {
   KinematicTree tree;
   ConfigurationSpace space;

@@ -17,7 +17,7 @@ using Vec3L = Eigen::Matrix<Real, 3, 1>;
 using Mat3L = Eigen::Matrix<Real, 3, 3>;
 using Vec4L = Eigen::Matrix<Real, 4, 1>;
 
-/// A pose and its derivatives by t.
+/// A pose and its derivatives with respect to the parameter t.
 struct MovingPose {
   Mat3L m = Mat3L::Identity(), dm = Mat3L::Zero();
   Vec3L t = Vec3L::Zero(), dt = Vec3L::Zero();
@@ -65,8 +65,8 @@ class ReferenceKinematics {
     for (std::size_t f = 1; f < all.size(); ++f) all[f] = all[tree_.frames[f].parent] * place(f, t);
     return all;
   }
-  /// The motion of b as seen from a. The common part of both chains is left out, so it adds no
-  /// rounding.
+  /// Returns the motion of frame b in frame a. The common part of the two kinematic chains is left
+  /// out, so it adds no rounding.
   MovingPose relative(std::size_t a, std::size_t b, Real t) const {
     MovingPose ofA, ofB;
     while (a != b) {
@@ -77,7 +77,7 @@ class ReferenceKinematics {
   }
 
  private:
-  /// The motion of a frame in its parent's frame.
+  /// Returns the motion of a frame in its parent's frame.
   MovingPose place(std::size_t f, Real t) const {
     const Frame& frame = tree_.frames[f];
     MovingPose fixed;
@@ -91,7 +91,7 @@ class ReferenceKinematics {
       if (c.first == number) return c;
     throw std::logic_error("no such coordinate");
   }
-  /// Value and derivative of a number of the configuration.
+  /// Returns the value and the derivative of number i of the configuration.
   std::pair<Real, Real> number(std::size_t i, Real t) const {
     const auto k = static_cast<Eigen::Index>(i);
     if (piece_) return {bernstein(k, piece_->degree(), 0, t), rateOf(k, t)};

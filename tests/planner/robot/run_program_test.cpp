@@ -22,7 +22,7 @@ ProgramEnd shell(const std::string& script, double seconds = 60, std::size_t byt
 
 TEST(RunProgram, ReturnsOutputsAndStatus) {
   const ProgramEnd end = shell("echo out; echo err >&2; cat; exit 3");  // stdin is empty
-  EXPECT_EQ(end.why, Why::itself);
+  EXPECT_EQ(end.why, Why::exited);
   EXPECT_EQ(end.exitStatus, 3);
   EXPECT_EQ(end.out, "out\n");
   EXPECT_EQ(end.err, "err\n");
@@ -33,7 +33,7 @@ TEST(RunProgram, ReturnsOutputsAndStatus) {
 }
 
 TEST(RunProgram, Limits) {
-  EXPECT_EQ(shell("sleep 600 & sleep 600", 0.05).why, Why::late);
+  EXPECT_EQ(shell("sleep 600 & sleep 600", 0.05).why, Why::timedOut);
   EXPECT_EQ(shell("while :; do echo more; done", 60, 1000).why, Why::tooMuchOutput);
   EXPECT_EQ(shell("head -c 2000 /dev/zero", 60, 1000).why, Why::tooMuchOutput);
   const std::atomic<bool> interrupted = true;

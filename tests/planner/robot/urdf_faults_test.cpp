@@ -388,10 +388,10 @@ TEST_F(UrdfFaults, UrdfdomsErrorsAreFaults) {
   const auto level = console_bridge::getLogLevel();
   EXPECT_EQ(complaintOfParts(link("b") + link("a%s%n", "<inertial/>") +
                              joint("j", "fixed", "b", "a%s%n")),
-            "r.urdf:3: urdfdom, the reader of URDF, refuses it: Inertial element must have a mass "
+            "r.urdf:3: the library urdfdom refuses this URDF: Inertial element must have a mass "
             "element; Could not parse inertial element for Link [a?s?n]");
   EXPECT_EQ(complaintOf("<robot name=\"r\" version=\"2.0\"><link name=\"a\"/></robot>"),
-            "r.urdf: urdfdom, the reader of URDF, refuses it: Invalid 'version' specified; only "
+            "r.urdf: the library urdfdom refuses this URDF: Invalid 'version' specified; only "
             "version 1.0 is currently supported");
   EXPECT_EQ(console_bridge::getOutputHandler(), &other);
   EXPECT_EQ(console_bridge::getLogLevel(), level);

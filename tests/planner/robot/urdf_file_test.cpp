@@ -278,7 +278,7 @@ TEST_F(UrdfFile, PackagesBesideAFolderAboveOrOfAnotherName) {
   EXPECT_FALSE(read("clone/meshes/b.obj", "arm/meshes/b.obj"));
   ASSERT_EQ(faults.size(), 1u);
   EXPECT_THAT(faults[0].str(), testing::HasSubstr("is the folder of another package"));
-  // Its package.xml names the package, or another one.
+  // The package.xml of the folder names the wanted package, or another one.
   write("src/clone/package.xml", "<package><name> arm </name></package>");
   model = read("hand/meshes/a.obj", "arm/meshes/b.obj");
   ASSERT_TRUE(model);

@@ -38,7 +38,7 @@ class ClippedRow {
         row_(row),
         direction_(std::move(direction)) {}
 
-  /// Returns the rows that the text of a file means in which the row is moved.
+  /// Writes a file in which the row is moved by `by`, and returns the rows that are read from it.
   TrajectoryRows moved(double by) const {
     TrajectoryRows rows = rows_;
     rows.rows[row_].positions += by * direction_;

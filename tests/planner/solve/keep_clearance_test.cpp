@@ -48,7 +48,7 @@ double clearanceAlong(const Path& path, const std::vector<Vec3>& posts) {
   return least;
 }
 
-/// A path that is moved, with what is needed for it.
+/// A path that is moved, with the objects that moving it needs.
 struct Mover {
   Problem problem;
   Checker checker;

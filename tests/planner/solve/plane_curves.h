@@ -4,10 +4,10 @@
 
 #include "planner/solve/smooth_path.h"
 
-/// Curves of lines without a robot, for tests.
+/// Spaces of line coordinates, and curves in them, for tests without a robot.
 namespace corridor {
 
-/// A space of numbers within ±limit.
+/// Returns a space of `count` line coordinates within ±limit.
 inline ConfigurationSpace lines(int count, double limit = 100) {
   ConfigurationSpace space;
   CoordinateGroup group;
@@ -30,7 +30,7 @@ inline Configuration place(double x, double y) {
 
 inline const CurveTest kAllFree = [](const CurvePiece&) { return true; };
 
-/// The derivative of an order, by de Casteljau's algorithm.
+/// Returns the derivative of this order by τ, at τ = tau, by de Casteljau's algorithm.
 inline Configuration derivative(const CurvePiece& piece, int order, double tau) {
   Eigen::MatrixXd b = piece.coefficients;
   int n = piece.degree();

@@ -14,7 +14,8 @@
 namespace corridor {
 namespace {
 
-/// Pieces join: same place and direction, and no second derivative on either side.
+/// Expects that pieces join: with the same position and direction, and with second derivatives of 0
+/// on both sides.
 void expectSmooth(const std::vector<CurvePiece>& pieces) {
   for (std::size_t k = 0; k + 1 < pieces.size(); ++k) {
     const CurvePiece &a = pieces[k], &b = pieces[k + 1];
@@ -88,7 +89,8 @@ TEST(SmoothPath, HasNoLinesOfAnUlp) {
   EXPECT_GT(meetings, 100);
 }
 
-/// The corner of a disc's forbidden region: curves that cut the corner too far are refused.
+/// A disc is inside each corner of the path. Curves that cut a corner so far that they touch its
+/// disc are refused.
 TEST(SmoothPath, UsesOnlyCurvesThatAreProved) {
   const ConfigurationSpace space = lines(2);
   std::mt19937_64 random(test::testSeed(61));
@@ -124,7 +126,7 @@ TEST(SmoothPath, UsesOnlyCurvesThatAreProved) {
       ASSERT_TRUE(isFree(piece)) << n;
     }
     ASSERT_LE(curves, smooth.rounded);
-    // Without a test that is passed, nothing changes.
+    // If no curve passes the test, the path does not change.
     const SmoothPath polyline = smoothedPath(space, path, [](const CurvePiece&) { return false; });
     ASSERT_EQ(polyline.rounded, 0u);
     ASSERT_EQ(polyline.pieces.size(), path.size() - 1);

@@ -58,7 +58,7 @@ TEST(Arm, DefaultRangeIsAShareOfARevolution) {
   EXPECT_NE(own, path("0"));
 }
 
-/// A search that starts again often is still found, is counted, and repeats.
+/// A search that starts again often still finds a path, counts its restarts, and repeats.
 TEST(Arm, SearchesStartAgainAfterTooManyEdges) {
   Problem problem = armProblem();
   problem.settings.planner.name = "RRT";

@@ -37,8 +37,8 @@ TEST(NaturalSpline, ClosedForm) {
   for (int i = 0; i <= 3; ++i) EXPECT_NEAR(line[0].coefficients(0, i), -2 + 2 * i, 1e-14);
 }
 
-/// A natural spline is determined by: it meets the states, its first and second derivatives are
-/// continuous, and the second one is 0 at both ends.
+/// These conditions determine a natural spline: it passes through the states, its first and second
+/// derivatives are continuous, and the second derivative is 0 at both ends.
 TEST(NaturalSpline, MeetsTheConditionsThatDefineIt) {
   const unsigned seed = std::random_device{}();
   SCOPED_TRACE("seed " + std::to_string(seed));

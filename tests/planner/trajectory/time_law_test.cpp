@@ -31,7 +31,7 @@ TEST(TimeLaw, TriangleOfOneJoint) {
 }
 
 TEST(TimeLaw, TrapezoidOfOneJoint) {
-  // v/a to reach v, and v/a more than length/v in all.
+  // It takes v/a to reach v. The whole duration is length/v + v/a.
   EXPECT_NEAR(durationOf({piece({{1, -4}})}, uniformLimits(1, 2, 4)), 5 / 2.0 + 2 / 4.0, 1e-12);
 }
 
@@ -98,8 +98,9 @@ TEST(TimeLaw, SmoothLawsAreContinuous) {
 }
 
 TEST(TimeLaw, ArcIsLimitedByCentripetalAcceleration) {
-  // A long arc with curvature 1/r: with a position's limit, the steady speed is sqrt(a·r). Most of
-  // the way is at it: a circle of many turns, of quintic pieces that are close to it.
+  // A long arc with curvature 1/r: with a position's limit, the steady speed is sqrt(a·r). The path
+  // is a circle of many turns, made of quintic pieces that are close to it, so most of the way has
+  // this speed.
   ConfigurationSpace space;
   CoordinateGroup group{CoordinateGroup::Kind::planar, "base", {}};
   for (const char* name : {"x", "y"})
@@ -128,7 +129,7 @@ TEST(TimeLaw, ArcIsLimitedByCentripetalAcceleration) {
   const TimeLaw longer = timeLaw(arcs(80), space, limits, kEmptyTree),
                 shorter = timeLaw(arcs(16), space, limits, kEmptyTree);
   ASSERT_EQ(longer.fault + shorter.fault, "");
-  // The difference of both is 64 arcs at the steady speed. The polygon costs up to 0.5 %.
+  // The two durations differ by that of 64 arcs at the steady speed. The polygon costs up to 0.5 %.
   const double ideal = 64 * step * r / std::sqrt(a * r);
   EXPECT_GE(longer.duration - shorter.duration, ideal * (1 - 1e-5));
   EXPECT_LE(longer.duration - shorter.duration, ideal * 1.005);

@@ -172,7 +172,8 @@ TEST(MovedSlab, BoundsAllCurvesOfTheTube) {
   EXPECT_GT(fullest, 0.999L);
 }
 
-/// The same for directions that turn: with a body, or in any way.
+/// The slab also bounds the width of all curves in the tube if its direction turns: with a body, or
+/// at a random angular velocity.
 TEST(MovedSlab, DirectionsMayTurn) {
   std::mt19937_64 random(test::testSeed(11));
   const int cases = test::isStressRun() ? 3000 : 200;

@@ -50,7 +50,7 @@ struct RigidWorld {
   double margin = 0, tolerance = 1e-7;
   Tube tube;
   std::uint64_t workLimit = 2'000'000;
-  bool obstaclesFirst = true;  ///< in pairs
+  bool obstaclesFirst = true;  ///< in each pair, the obstacle comes first
 
   explicit RigidWorld(bool planar) {
     const std::vector<std::string> lines =

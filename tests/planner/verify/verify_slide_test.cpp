@@ -72,23 +72,22 @@ TEST(VerifyCurve, TurnsBackBeforeTheWall) {
   EXPECT_NEAR(touching.findings.at(0).configuration[0], 0.875, 1e-13);
 }
 
-/// The piece is at its wildest between the coefficients' ends: they are far beyond the wall, and
-/// cancel.
+/// The inner coefficients of the piece are far beyond the wall, and partly cancel.
 TEST(VerifyCurve, LargeCoefficientsThatCancel) {
   const Slide slide;
   std::mt19937_64 random(test::testSeed(34));
   for (const double size : {10.0, 1e4, 1e8}) {
     for (const int n : {5, 8, 9}) {
-      // The curve shrinks to [0, 1] times a height that is known by a dense search.
+      // The largest value of the curve, `most`, is found by a dense search.
       std::vector<double> d(static_cast<std::size_t>(n) + 1, 0.0);
       for (int k = 1; k < n; ++k) d[std::size_t(k)] = (k % 2 ? size : -size) * (1 + 0.01 * (n - k));
       const CurvePiece wild = Slide::piece(d);
       const CurveOracle oracle(slide.tree, wild);
       const Real most = -CurveOracle::least([&](Real t) { return -oracle.value(0, t); }, 2000);
-      // The rounding is that of the large terms.
+      // The gaps exceed the rounding, which is that of the large terms.
       for (const double share : {1e-3, 1e-6, -1e-6, -1e-3}) {
         const double gap = share * std::max(1.0, 1e-4 * size);
-        // The offset of the joint places the largest value.
+        // The offset of the joint puts the largest value at `gap` before the contact.
         const Slide placed(Coordinate::Kind::line, 1, static_cast<double>(0.875L - gap - most));
         const PathVerdict verdict = placed.verify({wild}).verdict;
         EXPECT_EQ(verdict, gap > 0 ? PathVerdict::proved : PathVerdict::refuted)

@@ -183,7 +183,8 @@ TEST_F(TrajectoryPage, FindingsAreAtTheirTimes) {
   EXPECT_EQ(at.at(reader.json["path"]["findings"][0].get<std::size_t>()), static_cast<float>(t));
 }
 
-/// The limit of a rigid body's position is one of the vector's length: at x, infinite at y.
+/// The limit for a rigid body's position applies to the length of the vector. It is stored at x,
+/// and the limit at y is infinite; `limitOf` returns the limit at x for both.
 TEST(LimitOf, NumbersOfAPositionShareTheirLimit) {
   const Problem problem = readProblem(CORRIDOR_SOURCE_DIR "/problems/hook_maze");
   const ConfigurationSpace& space = problem.model.space;

@@ -141,9 +141,10 @@ void Audit::make(long number) {
   }
 }
 
-/// Sets the tube's half width of each coordinate. All lengths get the same value, and all angles
-/// get the same value. Some are then set to 0; in half of the cases all except one. Pieces of
-/// curves get an error as well, or instead.
+/// Sets the tube's half width of each coordinate. All lengths get the same half width, and all
+/// angles get the same one. Unless a single rigid body moves (`rigid`), some are then set to 0; in
+/// half of the cases all except one. On a piece of a curve, most coordinates get an error as well,
+/// or instead.
 void Audit::setTube(Dice& dice, Edge& edge, double size, bool rigid) const {
   const double position = size * dice.power(-9, -1), rotation = dice.power(-9, -1.5);
   const auto& coordinates = edge.space.coordinates();

@@ -16,7 +16,7 @@ class Audit {
     bool states = false;     ///< make states: edges of zero length
     bool curves = false;     ///< make pieces of curves instead of edges
     bool fine = false;       ///< only gaps and tolerances of the size of rounding errors
-    std::size_t verify = 6;  ///< one of this many cases is verified; the checker runs on all
+    std::size_t verify = 6;  ///< the verifier runs on one of this many cases, the checker on all
     std::optional<Family> family = {};  ///< only this family; unset: all in turn
     Mode mode = Mode::usual;            ///< floating-point mode while a query runs
   };

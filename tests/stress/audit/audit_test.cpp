@@ -1,5 +1,5 @@
-// The audit: the checker and the verifier decide bodies that graze by construction, whose true
-// verdict is known in 128 bits. ../README.md describes it.
+// The audit: the checker and the verifier decide edges on which bodies graze by construction. The
+// true verdict is computed in 128 bits. ../README.md describes the audit.
 #include "tests/stress/audit/audit.h"
 
 #include <gtest/gtest.h>

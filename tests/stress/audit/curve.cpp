@@ -45,15 +45,16 @@ Polynomial<Quad> changeOf(const Edge& edge, std::size_t number, double multiplie
   return change;
 }
 
-/// Returns the largest value of a number that a rounding error may be in proportion to: n times its
-/// largest coefficient.
+/// Returns the scale of the rounding errors of one number of the configuration: on a piece of
+/// degree n, n times its largest coefficient; on an edge, the larger of its two magnitudes.
 double largestOf(const Edge& edge, Eigen::Index i) {
   return edge.piece ? edge.piece->degree() * edge.piece->coefficients.row(i).cwiseAbs().maxCoeff()
                     : std::max(std::abs(edge.from[i]), std::abs(edge.to[i]));
 }
 
-/// Bounds of up to three polynomials as a vector: of its norm, its rate and its acceleration. Each
-/// is a polynomial in Bernstein form, so the longest of its coefficients bounds it.
+/// Upper bounds of the norm, the rate and the acceleration of a vector of up to three polynomials.
+/// The vector and its derivatives are polynomials in Bernstein form, so the longest of its
+/// coefficients bounds each.
 struct Size {
   double way = 0, rate = 0, bend = 0;
 };

@@ -20,7 +20,8 @@ struct Edge {
   /// If set, the bodies move along this piece. `from` and `to` are then its ends.
   std::optional<CurvePiece> piece = {};
 
-  /// Returns how far each number of a proved curve may be from this one, exactly.
+  /// Returns how far one number of the configuration may stray from this edge or piece, exactly: a
+  /// proof must cover all curves that stray no farther.
   Quad strayOf(std::size_t number) const {
     const auto i = static_cast<Eigen::Index>(number);
     return piece ? Quad(tube[i]) + Quad(piece->error[i]) : Quad(tube[i]);
@@ -71,9 +72,9 @@ class Curve {
   Pose<S> at(S t) const;
 
   /// Return bounds of |x'| and |x''| for points x of the watched frame within `radius` of its
-  /// origin. With Ω the sum of the largest rates of all rotations, V of all translations, A and B
-  /// of their largest accelerations, and R of all lengths (`radius` included), these are ΩR + V and
-  /// Ω²R + 2ΩV + AR + B. On an edge, A and B are 0.
+  /// origin. They are ΩR + V and Ω²R + 2ΩV + AR + B. Ω and V are the sums of the largest rates of
+  /// all rotations and of all translations, A and B the sums of their largest accelerations. R is
+  /// the sum of all lengths, `radius` included. On an edge, A and B are 0.
   double speed(double radius) const { return turned_ * (length_ + radius) + slid_; }
   double bend(double radius) const {
     return turned_ * (speed(radius) + slid_) + turnBend_ * (length_ + radius) + slideBend_;
@@ -82,8 +83,9 @@ class Curve {
   double turnBend() const { return turnBend_; }    ///< A, rad
   double slideBend() const { return slideBend_; }  ///< B, m
   double length() const { return length_; }        ///< m; bounds the chain's length at every t
-  /// Returns n times the largest coefficient, summed over all rotations, rad. One rounding error of
-  /// the number type, times this angle, bounds the rounding of the sums of a polynomial.
+  /// Returns n times the largest coefficient of a rotation's polynomial of degree n, summed over
+  /// all rotations, rad. One rounding error of the number type, times this angle, bounds the
+  /// rounding of the sums of a polynomial.
   double terms() const { return terms_; }
   double largest() const { return largest_; }  ///< the largest stored value of a joint, rad or m
   /// Returns whether only one joint rotates. Then all accelerations, except B, are orthogonal to
@@ -103,7 +105,7 @@ class Curve {
     bool inverted = false;
     Pose<S> fixed;
     Vec<S> axis;           // axis of a rotation, or direction of a translation
-    S value = 0;           // its value at t = 0
+    S value = 0;           // the joint's value at t = 0
     Polynomial<S> change;  // from that value
     bool turns = false;    // a rotation that is not constant
     Vec<S> shift;
@@ -122,7 +124,8 @@ class Curve {
   int turning_ = 0;
 };
 
-/// Returns the change of a circle from one value to another, the shorter way round, to 33 digits.
+/// Returns the change of a circle coordinate from one value to another, the shorter way round, to
+/// 33 digits.
 Quad circleDifference(double from, double to);
 
 template <class S>

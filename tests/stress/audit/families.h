@@ -14,7 +14,7 @@ enum class Family {
   chain,         ///< one to eight joints
   branches,      ///< both bodies move, on two branches of one tree
   movingBase,    ///< a planar or floating base, and an arm on it
-  mimics,        ///< mimicking joints: any multiplier on lines, integers on circles
+  mimics,        ///< mimicking joints: any multiplier of a line, whole ones of a circle
   farSlides,     ///< prismatic joints at up to 10^6 times the bodies' size
   manyTurns,     ///< revolute joints: up to 30 revolutions, at up to 10^7 rad
   halfTurns,     ///< rotations up to 2e-9 rad from a half turn

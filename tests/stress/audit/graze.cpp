@@ -9,7 +9,7 @@ namespace {
 /// The maximum numbers of poses that are evaluated in long double and in 128 bits. A case that
 /// needs more is given up. Most cases need about a hundred in long double, and about fifty in 128
 /// bits.
-constexpr int kLooks = 4000, kQuadLooks = 250;
+constexpr int kMostSamples = 4000, kQuadLooks = 250;
 /// Intervals shorter than this are evaluated in 128 bits.
 constexpr long double kShort = 0x1p-14L;
 
@@ -79,8 +79,9 @@ Graze::Look<S> Graze::look(const Curve<S>& curve, const Shape& rest, S t) const 
   return l;
 }
 
-/// Returns a lower bound of the bodies' distance between two times w apart: the smaller of both
-/// distances minus f''·w²/8, where f'' bounds the second derivative:
+/// Returns a lower bound of the bodies' distance between two times w apart: the smaller of the
+/// distances at both times minus f''·w²/8, where f'' bounds the second derivative (Ω and A:
+/// curve.h):
 /// - height of a point along a fixed direction: f'' ≤ bend;
 /// - distance |y| of two points, or of a point from a line: f'' ≤ bend + |y'|²/|y|;
 /// - distance n·y of two lines: n = u/|u|, u the cross product of their unit vectors, |u'| ≤ Ω,
@@ -122,7 +123,7 @@ void Graze::proveHeights() {
     lowest_ = static_cast<double>(std::max(first.flat, first.along)) - error128_;
     return;
   }
-  // First prove, in long double, the intervals in which the bodies are apart by more than rounding.
+  // First finds, in long double, the intervals in which the bodies are apart by more than rounding.
   const Curve<long double> rough(*curve_);
   const long double error =
       scale * (0x1p-57L * static_cast<long double>(rough.joints() + 2) + 0x1p-62L * rough.terms());
@@ -156,7 +157,7 @@ void Graze::proveHeights() {
       close.emplace_back(part.a.t, part.b.t);
       if (close.size() > 40) return;
     } else {
-      if (++looks > kLooks) return;
+      if (++looks > kMostSamples) return;
       const Rough middle = look(rough, base_, part.a.t + width / 2);
       if (middle.flat < keep_ - 0.01L * size_ && middle.along < keep_ - 0.01L * size_) return;
       open.push_back({middle, part.b});

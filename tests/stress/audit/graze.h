@@ -10,7 +10,7 @@ namespace corridor::audit {
 /// The facts from which the true verdict of a case follows, computed from the stored doubles in 128
 /// bits.
 struct Truth {
-  double t = 0;              ///< where the two bodies come closest, by construction
+  double t = 0;              ///< the time at which the bodies come closest, by construction
   bool violates = false;     ///< at t the bodies are closer than `keep`, or touch
   double apart = -HUGE_VAL;  ///< lower bound of their distance along the whole edge, metres
 };
@@ -18,9 +18,9 @@ struct Truth {
 /// Two bodies that just meet, by construction.
 ///
 /// At a time t one body, the tip, touches a plane with one feature (a corner, an edge or a face),
-/// and lies above the plane. At t the tip moves along the plane, or leaves the plane at the start,
-/// or reaches it at the end. The other body, the rest, lies below the plane, at a known distance;
-/// `rest(gap)` returns this body. From this the true verdict follows.
+/// and lies above the plane. At t the tip moves along the plane, or leaves the plane at the start
+/// of the edge, or reaches it at the end. The other body is called the rest. It lies below the
+/// plane, at a known distance; `rest(gap)` returns it. From this the true verdict follows.
 ///
 /// The plane is fixed in the frame of the rest, which is one of the edge's two frames. The height
 /// of the tip above the plane is bounded from below over the whole edge, by intervals: between two

@@ -70,7 +70,7 @@ PathProblem Case::problem() const {
   return problem;
 }
 
-double Case::undecidedBelow() const {
+double Case::largestUndecidedClearance() const {
   return 2 * std::max({question.options.tolerance, 4 * graze.rounding(), kResolved * graze.size()});
 }
 
@@ -184,9 +184,9 @@ std::string faultOf(const Case& c, const MotionResult& r) {
   if (r.verdict != MotionVerdict::undecided || c.question.mode > Mode::flushToZero)
     return fault.str();
   if (r.reason == UndecidedReason::ambiguous && !(leftToHalfTurn(c.edge) < 1.1e-9))
-    fault << " ambiguous, though it is no half turn";
+    fault << " reported as ambiguous, but no rotation is a half turn";
   if (r.reason == UndecidedReason::clearance && !c.question.inTube &&
-      c.truth.apart > o.margin + o.clearanceSlack + c.undecidedBelow())
+      c.truth.apart > o.margin + o.clearanceSlack + c.largestUndecidedClearance())
     fault << " undecided at a clearance of " << c.truth.apart - o.margin << " m, gap " << r.gap;
   return fault.str();
 }
@@ -200,7 +200,7 @@ std::string faultOf(const Case& c, const PathReport& r) {
   if (c.question.mode > Mode::flushToZero && r.verdict != PathVerdict::refuted) return fault.str();
   const bool halfTurn = reason == "ambiguous half turn";
   if (halfTurn && !(leftToHalfTurn(c.edge) < 1.1e-9))
-    fault << " ambiguous, though it is no half turn";
+    fault << " reported as ambiguous, but no rotation is a half turn";
   if (r.verdict == PathVerdict::refuted && !halfTurn) {
     const double t = r.findings.front().t;
     if (!c.question.inTube && c.graze.apartAt(c.rest, t) > margin + c.graze.rounding())
@@ -208,7 +208,7 @@ std::string faultOf(const Case& c, const PathReport& r) {
             << c.graze.apartAt(c.rest, t) << " m apart";
   }
   if (r.verdict == PathVerdict::undecided && !c.question.inTube && reason != "work limit reached" &&
-      c.truth.apart > margin + c.undecidedBelow())
+      c.truth.apart > margin + c.largestUndecidedClearance())
     fault << " undecided (" << reason << ") at a clearance of " << c.truth.apart - margin << " m";
   if (c.truth.apart - c.graze.rounding() > r.smallestDistanceMet)
     fault << " met a distance of " << r.smallestDistanceMet << " m, where there is none below "

@@ -41,7 +41,7 @@ struct Case {
   /// Returns the clearance, beyond margin and `clearanceSlack`, above which the answer must not be
   /// `undecided`: twice the tolerance, or twice the clearance that doubles resolve, if that is
   /// larger.
-  double undecidedBelow() const;
+  double largestUndecidedClearance() const;
 };
 
 /// Sets the edge or the piece.

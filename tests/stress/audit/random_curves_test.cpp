@@ -16,7 +16,7 @@ namespace {
 using Real = long double;
 using Point = Vec<Real>;
 
-/// A triangle, a segment or a point (corners that are equal), swept by a sphere.
+/// A triangle, swept by a sphere. Equal corners make it a segment or a point.
 struct Swept {
   std::array<Point, 3> corners;
   Real radius = 0;
@@ -112,7 +112,7 @@ struct Thing {
   }
 };
 
-/// The distance of two things along a curve, seen from the first.
+/// The distance of two things at each time of a curve, in the frame of the first thing.
 struct Distance {
   const Curve<Real>& curve;
   const Thing &first, &second;

@@ -64,9 +64,9 @@ struct Shape {
   bool isMesh = false;
   TriangleMesh mesh;
   ConvexPart part;
-  /// Points whose hull lies in the body, rounding included: first those of its feature (a corner,
-  /// two ends, three corners). If `coreRadius` > 0, they are points of the core, which is swept by
-  /// a sphere of that radius.
+  /// Points whose hull lies in the body, rounding included. The first are those of its feature: a
+  /// corner, the two ends of an edge, or three corners of a face. If `coreRadius` > 0, they are
+  /// points of the core, which is swept by a sphere of that radius.
   std::array<Vec<Quad>, 3> core;
   double coreRadius = 0;  ///< metres
 

@@ -1,5 +1,6 @@
 // Fuzz target: trajectory files (rows and messages), for an arm with held and mimic joints, and for
-// a floating body. What is read makes a curve or a fault, and its text reads back the same.
+// a floating body. Rows that are read make a curve or a fault. Written as text, they read back the
+// same.
 #include "planner/trajectory/trajectory_curve.h"
 #include "planner/trajectory/trajectory_text.h"
 #include "tests/stress/fuzz/fuzz.h"

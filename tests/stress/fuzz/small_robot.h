@@ -12,8 +12,8 @@
 #include "tests/stress/fuzz/decode.h"
 #include "tests/stress/fuzz/fuzz.h"
 
-/// What the targets that compare the checker with the verifier share: a small robot among small
-/// bodies, made from bytes, and the test that both do not contradict each other.
+/// Shared code of the targets that compare the checker with the verifier: makes a small robot among
+/// small bodies from bytes, and tests that checker and verifier do not contradict each other.
 namespace corridor::fuzz {
 
 struct Shape {
@@ -246,7 +246,7 @@ inline void requireAgreement(const Comparison& c, const MotionResult& checked,
          ", but proved with a clearance of " + number(verified.provenClearance));
 }
 
-/// Compares both on the robot's edge, and on its two states.
+/// Compares the checker with the verifier on the robot's edge, and on the edge's two states.
 inline void compareEdge(const Robot& robot, Decoder& in) {
   auto comparison = comparisonOf(robot, in);
   if (!comparison) return;

@@ -70,7 +70,7 @@ def git(*arguments):
 
 
 def copyTree():
-    """Makes TREE equal to HEAD. An unchanged file keeps its time, so that little is built again."""
+    """Makes TREE equal to HEAD. An unchanged file keeps its modification time, so that little is built again."""
     archive = tarfile.open(fileobj=io.BytesIO(git("archive", "HEAD")))
     kept = set()
     for member in archive.getmembers():
@@ -95,7 +95,7 @@ def configure():
 
 
 def build(ninja, programs):
-    """Builds programs. Returns the errors, or None."""
+    """Builds programs. Returns the error messages as text, or None if the build succeeds."""
     done = subprocess.run([*ninja, "-C", BUILD, *programs], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     if done.returncode == 0:
         return None
@@ -104,7 +104,7 @@ def build(ninja, programs):
 
 
 def run(program, testFilter, limit):
-    """Runs tests until one fails. Returns (number that passed, the failure or None)."""
+    """Runs tests until one fails. Returns (number of passed tests, None), or (0, the failure) if a test failed."""
     command = [BUILD / "tests" / program, f"--gtest_filter={testFilter}", "--gtest_fail_fast", "--gtest_brief=0",
                "--gtest_color=no"]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace",
@@ -155,7 +155,7 @@ def checkTestsPass(mutations, ninja, results):
 
 
 def catch(mutation, ninja, quick):
-    """Builds and runs the tests of a seeded mutation. Returns (outcome, the test that caught it)."""
+    """Builds and runs the tests of a seeded mutation. Returns (outcome, the test that caught it or a reason)."""
     tried = set()
     tests = [(*t.split(), NAMED_LIMIT) for t in mutation.tests]
     if not quick:
