@@ -59,6 +59,40 @@ bool isExtreme(std::span<const Vec3> points, const Rings& rings, std::size_t v) 
   return breaks >= 3;
 }
 
+/// Returns whether the faces of vertex v go around it once, and are therefore the boundary of a
+/// convex cone. Takes time linear in the number of neighbours. @pre the faces are convex at each
+/// edge at v, and in at least three planes.
+///
+/// Let p be the first neighbour, and F the first face, which contains the edge from v to p. Suppose
+/// that no neighbour is above F, that p is above no face, and that faces in one plane with v and p
+/// look to the same side as the first or the last face. Then the faces, seen along the line from p
+/// to v, turn in one direction, and by at most half a turn. So they do not cross each other. Faces
+/// that do not cross each other and are convex at each edge bound a convex cone.
+bool isConvexAround(std::span<const Vec3> points, std::span<const std::uint32_t> ring,
+                    std::size_t v) {
+  const std::size_t n = ring.size();
+  const auto side = [&](std::size_t face, std::size_t k) {
+    return planeSide(points[v], points[ring[face]], points[ring[(face + 1) % n]], points[ring[k]]);
+  };
+  // Neighbours that are off the planes of the first and of the last face.
+  std::size_t offFirst = n, offLast = n;
+  for (std::size_t k = 0; k < n; ++k) {
+    const int first = side(0, k);
+    if (first > 0) return false;
+    if (first < 0 && offFirst == n) offFirst = k;
+    if (offLast == n && side(n - 1, k) != 0) offLast = k;
+  }
+  if (offFirst == n || offLast == n) return false;
+  for (std::size_t face = 0; face < n; ++face) {
+    const int turn = side(face, 0);
+    if (turn > 0) return false;
+    if (turn < 0) continue;
+    const int first = side(face, offFirst), last = side(face, offLast);
+    if (first > 0 || last > 0 || (first == 0 && last == 0)) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 Polytope::Polytope(std::span<const Vec3> points) {
@@ -155,14 +189,8 @@ std::optional<std::string> checkConvexBoundary(std::span<const Vec3> points,
                     points[ring[(i + 2) % n]]) > 0)
         return "an edge at vertex " + std::to_string(v) + " is not convex";
     }
-    // The faces of a vertex could go around it twice. Then some neighbours of the vertex are above
-    // some of its faces. If there are many neighbours, testing some 32 of them, evenly spaced, is
-    // enough.
-    const std::size_t stride = std::max<std::size_t>(1, ring.size() / 32);
-    for (std::size_t i = 0, n = ring.size(); i < n; i += stride)
-      for (std::size_t k = 0; k < n; k += stride)
-        if (planeSide(points[v], points[ring[i]], points[ring[(i + 1) % n]], points[ring[k]]) > 0)
-          return "the faces of vertex " + std::to_string(v) + " are not convex";
+    if (!isConvexAround(points, ring, v))
+      return "the faces of vertex " + std::to_string(v) + " are not convex";
   }
   if (2 * used != faces.size() + 4) return "the boundary is not a sphere";
   for (const Face& face : faces) {

@@ -145,6 +145,42 @@ TEST(Polytope, WrongBoundariesAreFound) {
   EXPECT_NE(checkConvexBoundary(star, faces), std::nullopt) << "a pentagram";
 }
 
+/// The bipyramid over a circle of many corners with a tiny loop inside it, near one corner: every
+/// edge is convex. The apexes wind around twice, but only a few of their neighbours show it.
+TEST(Polytope, ATinyLoopOfTheBoundaryIsFound) {
+  constexpr std::uint32_t kCorners = 1000;
+  constexpr double kLoop = 1e-4;  // its radius
+  const auto bipyramid = [&](bool loop, std::uint32_t from) {
+    std::vector<Vec3> ring;
+    for (std::uint32_t i = 1; i < kCorners; ++i) {
+      const double angle = 2 * M_PI * i / kCorners;
+      ring.emplace_back(std::cos(angle), std::sin(angle), 0);
+    }
+    ring.emplace_back(1, 0, 0);
+    if (loop)
+      for (const double y : {0.866, -0.866}) ring.emplace_back(1 - 1.5 * kLoop, y * kLoop, 0);
+    std::rotate(ring.begin(), ring.begin() + from, ring.end());
+    const double x = 1 - 1.49 * kLoop;  // inside the loop
+    std::vector<Vec3> points = ring;
+    points.emplace_back(x, 0, 1);
+    points.emplace_back(x, 0, -1);
+    const auto n = static_cast<std::uint32_t>(ring.size());
+    std::vector<Polytope::Face> faces;
+    for (std::uint32_t i = 0; i < n; ++i) {
+      faces.push_back({n, i, (i + 1) % n});
+      faces.push_back({n + 1, (i + 1) % n, i});
+    }
+    return checkConvexBoundary(points, faces);
+  };
+  EXPECT_EQ(bipyramid(false, 0), std::nullopt);
+  // The check may begin at any neighbour, also at those of the loop.
+  for (std::uint32_t from = 0; from<kCorners; from += from> 20 && from < 980 ? 37 : 1) {
+    const auto wrong = bipyramid(true, from);
+    ASSERT_TRUE(wrong) << from;
+    ASSERT_NE(wrong->find(" are not convex"), wrong->npos) << from << ": " << *wrong;
+  }
+}
+
 TEST(Polytope, NeighboursShareEdges) {
   const Polytope cube(std::vector<Vec3>{
       {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}});
