@@ -71,8 +71,9 @@ void OuterHierarchy::findFaces() {
   const std::span<const Vec3> points = inner_->polytope().vertices();
   const auto across = trianglesAcross(triangles);
   std::vector<bool> taken(triangles.size(), false);
-  // Goes around the union of coplanar triangles, turning at each boundary edge.
-  const auto isInside = [&](std::uint32_t t, int k) {  // whether edge k of t is inside a face
+  // Returns whether edge k of triangle t is inside a face: the triangles on both sides are
+  // coplanar.
+  const auto isInside = [&](std::uint32_t t, int k) {
     const std::uint32_t beyond = across[t][k];
     const std::uint32_t from = triangles[t][k], to = triangles[t][(k + 1) % 3];
     for (const std::uint32_t v : triangles[beyond])
@@ -104,8 +105,8 @@ void OuterHierarchy::findFaces() {
         }
       }
     }
-    // The next boundary edge begins at the end of the last one. The edges at that vertex which are
-    // inside the face are skipped.
+    // Goes around the union of the coplanar triangles. The next boundary edge begins at the end of
+    // the last one. The edges at that vertex which are inside the face are skipped.
     std::uint32_t u = edgeOf;
     int k = edge;
     do {

@@ -12,7 +12,8 @@ namespace corridor {
 struct PolygonIntersection {
   bool intersects = false;
   /// If not `intersects`: a direction along which the projection of q begins beyond the end of the
-  /// projection of p. Unless `exact` is set, this is proved in real arithmetic.
+  /// projection of p. This is proved in real arithmetic, except if `exact` is set: then
+  /// separatingPlane has decided exactly, and the direction is its rounded normal.
   Vec2 direction = Vec2::Zero();
   /// If not `intersects`: the vertices that are extreme, of p along the direction, of q against it.
   std::size_t p = 0, q = 0;

@@ -50,7 +50,7 @@ class MappedPolytope {
     // 0 gives NaN, which is refused.
     if (!X.t.allFinite() || !(Mat3(X.m / X.m.stableNorm()).determinant() > 0x1p-40))
       throw std::invalid_argument(
-          "separating axes need finite maps that do not mirror, and do not flatten or nearly do");
+          "a map is not finite, or it mirrors or nearly flattens; use convexHullsTouch");
     const auto vertices = shape.set().points;
     points_.reserve(vertices.size());
     double largest = 0;
@@ -96,7 +96,7 @@ class MappedPolytope {
   double error_ = 0;
 };
 
-/// Returns the sign of det(u, v, w), with the plane of u and v.
+/// Returns the sign of det(u, v, w), where u and v are the vectors of `plane`.
 int side(const EdgePlane& plane, const Edge& w) {
   // Within this range no product overflows or vanishes.
   const auto usual = [](const Edge& edge) { return edge.size > 0x1p-250 && edge.size < 0x1p250; };

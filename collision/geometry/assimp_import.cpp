@@ -64,8 +64,8 @@ void addNode(const aiScene& scene, const aiNode& node, const Eigen::Affine3d& pa
   for (unsigned i = 0; i < node.mNumChildren; ++i) addNode(scene, *node.mChildren[i], map, to);
 }
 
-/// Returns the number that the file most likely has where assimp keeps a float: the shortest
-/// decimal that rounds to that float.
+/// Returns the number that the file most likely has, if assimp has stored it as the float `value`:
+/// the shortest decimal that rounds to that float.
 double shortestDecimal(float value) {
   char text[32];
   const char* const end = std::to_chars(text, text + sizeof text, value).ptr;
@@ -85,8 +85,9 @@ void checkColladaRoot(const aiScene& scene, AssimpRules rules) {
     throw std::runtime_error("its <unit> is not above 0, or too small");
 }
 
-/// Returns the file's unit in metres, or 0 if the format has none. Removes Collada's unit from the
-/// root's transform, where assimp puts it.
+/// Returns the file's unit in metres, or 0 if the format has none. Assimp puts Collada's unit into
+/// the root's transform. If this transform is nothing but the unit, it is set to the identity, and
+/// the unit is returned; otherwise it stays as it is, and 1 is returned.
 double takeFileUnit(aiScene& scene, const std::string& format) {
   if (format.starts_with("Collada")) {
     aiMatrix4x4& root = scene.mRootNode->mTransformation;

@@ -13,8 +13,8 @@ namespace {
 
 using Indices = std::array<std::uint32_t, 3>;
 
-/// The bounds of the corners of triangles. For meshes of any size, squares of lengths relative to
-/// the bounds' diagonal neither overflow nor underflow.
+/// The bounds of the corners of triangles. Lengths are taken relative to the bounds' diagonal, so
+/// that the size of a mesh never causes an overflow or underflow of their squares.
 struct Bounds {
   Vec3 min, max;
   /// 1/4 if the diagonal overflows; else 1, because subnormals times 1/4 would lose bits.
@@ -31,14 +31,15 @@ struct Bounds {
     diagonal = (scale * max - scale * min).stableNorm();
   }
   /// Returns the vector from `from` to `to`, divided by the diagonal.
-  Vec3 share(const Vec3& from, const Vec3& to) const {
+  Vec3 inDiagonals(const Vec3& from, const Vec3& to) const {
     return (scale * to - scale * from) / diagonal;
   }
 };
 
 TriangleQuality qualityOf(const Vec3& a, const Vec3& b, const Vec3& c, const Bounds& bounds) {
   constexpr double degenerateArea = 1e-12, sliverRatio = 1e-3;  // defined in the header
-  const Vec3 ab = bounds.share(a, b), ac = bounds.share(a, c), bc = bounds.share(b, c);
+  const Vec3 ab = bounds.inDiagonals(a, b), ac = bounds.inDiagonals(a, c),
+             bc = bounds.inDiagonals(b, c);
   const double doubleArea = ab.cross(ac).norm();
   if (a == b || b == c || c == a || !(doubleArea / 2 > degenerateArea))
     return TriangleQuality::degenerate;
@@ -150,8 +151,9 @@ double volumeOf(const std::vector<Indices>& triangles, const std::vector<Vec3>& 
   const Vec3 centre = bounds.min / 2 + bounds.max / 2;
   double sum = 0;
   for (const Indices& t : triangles) {
-    const Vec3 a = bounds.share(centre, points[t[0]]), b = bounds.share(centre, points[t[1]]),
-               c = bounds.share(centre, points[t[2]]);
+    const Vec3 a = bounds.inDiagonals(centre, points[t[0]]),
+               b = bounds.inDiagonals(centre, points[t[1]]),
+               c = bounds.inDiagonals(centre, points[t[2]]);
     sum += a.dot(b.cross(c));
   }
   const double diagonal = bounds.diagonal / bounds.scale;

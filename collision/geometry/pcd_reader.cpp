@@ -125,7 +125,7 @@ class PcdHeaderReader {
   }
 
   void finish(std::uint64_t points) {
-    requireFewPoints(points, 0, faults_);
+    limitPoints(points, 0, faults_);
     header_.points = points;
     for (Field& field : header_.fields) {
       if (field.type == 'F' && field.size < 4)

@@ -164,7 +164,7 @@ class BodyReader {
   TriangleMesh read() {
     for (const PlyElement& element : header_.elements) {
       if (element.name == "vertex" && isMesh_) faults_.requireFew(element.count, "vertices", 0);
-      if (element.name == "vertex" && !isMesh_) requireFewPoints(element.count, 0, faults_);
+      if (element.name == "vertex" && !isMesh_) limitPoints(element.count, 0, faults_);
       if (element.name == "face") faults_.requireFew(element.count, "faces", 0);
       if (element.name == "vertex") vertexCount_ = element.count;
     }

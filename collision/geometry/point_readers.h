@@ -16,10 +16,10 @@ namespace corridor {
 constexpr std::uint64_t kMostPoints = 10'000'000;
 /// Fails if `count` exceeds `kMostPoints`. Readers call it before they allocate memory for the
 /// points.
-inline void requireFewPoints(std::uint64_t count, int line, MeshFaults& faults) {
+inline void limitPoints(std::uint64_t count, int line, MeshFaults& faults) {
   if (count > kMostPoints)
-    faults.fail(line, "has " + std::to_string(count) + " points or more; at most " +
-                          std::to_string(kMostPoints) + " are read: thin the cloud out");
+    faults.fail(line, "has " + std::to_string(count) + " points or more; a file may have at most " +
+                          std::to_string(kMostPoints) + ": thin the cloud out");
 }
 
 PointCloud readPlyPoints(std::string_view bytes, MeshFaults& faults);

@@ -88,7 +88,7 @@ PointCloud readXyz(std::string_view text, MeshFaults& faults) {
         faults.add(number, *why);
         break;
       }
-    requireFewPoints(cloud.points.size(), number, faults);
+    limitPoints(cloud.points.size(), number, faults);
   }
   if (promised >= 0 && static_cast<std::uint64_t>(promised) != cloud.points.size())
     faults.add(0, "its first line promises " + std::to_string(promised) + " points, but it has " +

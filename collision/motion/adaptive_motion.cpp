@@ -18,11 +18,14 @@ constexpr double kLeastHalfWidth = 0x1p-48;
 /// A time interval of a pair that is not proved yet.
 struct QueuedInterval {
   double t0, t1;
-  double need;  ///< metres by which the parent's distance was too small; whole motion: infinite
+  /// How many metres were missing for a proof of the interval that was halved into this one, or
+  /// more by the pair's margin; infinite for the whole motion. It decides the order only.
+  double need;
   std::uint32_t pair;
 };
 
-/// A time about which no interval can be proved: there is a contact, or too little clearance.
+/// A time around which no interval, however short, can be proved: there is a contact, or too little
+/// clearance.
 struct Block {
   double time;
   std::uint32_t pair;

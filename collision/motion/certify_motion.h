@@ -124,7 +124,7 @@ class MotionSource {
   /// result stays valid until the next call for the same `i`. @pre 0 ≤ t ≤ 1, h ≤ 1/2; t − h and t
   /// + h are exact.
   virtual RelativeMotion relativeMotion(std::size_t i, double t, double h) = 0;
-  /// Reports whether the edge defines no curve, or no bound holds. There are three reasons: a half
+  /// Returns true if the edge cannot be certified, for one of three reasons: a half
   /// turn (to within 1e-9 rad), whose shorter way is not unique; a displacement that overflows; and
   /// unsuitable processor settings.
   virtual bool ambiguous() const = 0;

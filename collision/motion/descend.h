@@ -20,7 +20,7 @@ namespace corridor {
 struct Descent {
   enum class Kind {
     done,  ///< all that is not deferred to shorter intervals is separated throughout the interval
-    contact,  ///< `s` and `t` touch at the rounded pose at the interval's middle
+    contact,  ///< `s` and `t` touch, or are within the margin, at the rounded pose at the middle
     /// `s` and `t` are neither separated nor proved to touch, and shorter intervals would not help,
     /// are not needed, or are not allowed.
     undecided,
@@ -30,10 +30,10 @@ struct Descent {
   std::uint32_t s = 0, t = 0;  ///< numbers of the leaf primitives in their meshes
   double gap = 0;              ///< `undecided`: distance at the middle beyond the margin, metres
   bool wide = false;           ///< `undecided`: the motion bound exceeds the tolerance
-  /// If requested: a proved lower bound of the distance, throughout the interval, of everything
-  /// that was separated, minus the margin. The motion bound and all errors of the relative motion
-  /// (rounding, tube, clearance slack) are already subtracted. Metres; infinite if nothing was
-  /// separated.
+  /// If requested, the proved clearance of all pairs that were separated: throughout the interval,
+  /// their distance is at least the margin plus `clearance`. The motion bound and all errors of the
+  /// relative motion (rounding, tube, clearance slack) are already subtracted. Metres; infinite if
+  /// nothing was separated.
   double clearance = HUGE_VAL;
 };
 

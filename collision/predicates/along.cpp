@@ -25,8 +25,9 @@ int exactSign(const Vec3& n, const Vec3& p, const Vec3& q) {
 }  // namespace
 
 int alongSign(const Vec3& n, const Vec3& p, const Vec3& q) {
-  // A difference, a product and two sums: at most 4 roundings for each term. Underflow adds at most
-  // 2^-1022 times the largest factor, or 1, for each difference and product.
+  // A difference, a product and two sums: at most 4 roundings for each term. For each
+  // difference and product, underflow adds at most 2^-1022 times `largest`, the largest factor
+  // or 1.
   const Vec3 x = q - p;
   const double along = n.dot(x), size = n.cwiseAbs().dot(x.cwiseAbs());
   const double largest = std::max({1.0, n.cwiseAbs().maxCoeff(), x.cwiseAbs().maxCoeff()});

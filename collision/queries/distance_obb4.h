@@ -8,10 +8,10 @@ namespace corridor {
 
 /// `distance` (distance.h, with the same guarantees) for 4-wide OBB trees, several times faster.
 ///
-/// @param last for triangles, if not null, the closest pair of the last query of these trees: the
-/// search starts from it, and the pair found is stored there. The start changes the distance only
-/// within the guaranteed error. It may change which of several closest pairs of triangles is
-/// reported.
+/// @param last may be null; used only for trees of triangles: the closest pair of the last query of
+/// these trees. The search starts from this pair, and the pair found is stored there. The start
+/// changes the distance only within the guaranteed error. It may change which of several closest
+/// pairs of triangles is reported.
 Distance distance(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b,
                   const DistanceOptions& options, QueryContext& context, LastPair* last = nullptr);
 

@@ -44,7 +44,8 @@ double toBox(const Vec3& p, const BoundingBox& box) {
   return (box.lower - p).cwiseMax(p - box.upper).cwiseMax(Vec3::Zero()).norm();
 }
 
-/// A part of a face of the hull, and the mesh's triangle that bounds the part that it was cut from.
+/// A part of a face of the hull. `guess` is the triangle of the mesh that gave the best bound for
+/// the larger piece from which this one was cut; it is tried first.
 struct Piece {
   Triangle corners;
   std::uint32_t guess = kNoTriangle;
@@ -69,8 +70,8 @@ class Search {
   }
 
   /// Finds the triangle for which the largest distance from the points is least. Returns this
-  /// distance, and sets `guess` to this triangle. Boxes are rounded by less than `rounding()`,
-  /// which only decides between equals.
+  /// distance, and sets `guess` to this triangle. The boxes are rounded by less than
+  /// `rounding()`. This can only change which of several nearly equal triangles is found.
   double fromOneTriangle(std::span<const Vec3> points, std::uint32_t& guess) const {
     const auto farthest = [&](const auto& distance) {
       double most = 0;
@@ -128,9 +129,9 @@ std::array<Piece, 2> halves(const Piece& piece) {
 }
 
 /// Cuts a piece along the line of an edge of a triangle, in the plane of the piece. Chooses the
-/// edge that leaves most on both sides. Returns false if no edge leaves corners farther than
-/// `least` from its line on both sides. The parts cover the piece up to the rounding of their
-/// corners, wherever the line is.
+/// edge for which the smaller of the two sides reaches farthest from the line. Returns false if no
+/// edge leaves corners farther than `least` from its line on both sides. The parts cover the piece
+/// up to the rounding of their corners, wherever the line is.
 bool cutAlongEdge(const Piece& piece, const Triangle& t, double least, std::vector<Piece>& parts) {
   const auto& c = piece.corners;
   const Vec3 normal = (c[1] - c[0]).cross(c[2] - c[0]);
@@ -144,7 +145,8 @@ bool cutAlongEdge(const Piece& piece, const Triangle& t, double least, std::vect
     if (both > best) best = both, side = at;
   }
   if (!(best > least)) return false;
-  // The corner that is alone on its side of the line, and where its two sides meet the line.
+  // c[k] is the only corner on its side of the line. The two edges at c[k] cross the line at x and
+  // y.
   std::size_t k = 0;
   while ((side[k] > 0) == (side[(k + 1) % 3] > 0) || (side[k] > 0) == (side[(k + 2) % 3] > 0)) ++k;
   const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;

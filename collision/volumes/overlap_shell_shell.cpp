@@ -43,11 +43,13 @@ struct Range {
   double nearest, farthest;
 };
 
-/// Returns the distances of all points of a shell from another point: the nearest rounded down, the
-/// farthest rounded up.
-/// @param d  the vector from that point to the shell's centre, in the frame of that point
+/// Returns the distances of the points of a shell from a given point, the centre of the other
+/// shell: the nearest rounded down, the farthest rounded up.
+/// @param d  the vector from the given point to the shell's centre, in a's frame; only its length
+/// is used
 /// @param m  the same vector in the frame of the shell
-/// @param stretch  3η of the map between these frames
+/// @param stretch  3η, where η bounds the deviation of the map from a rotation
+/// (overlap_shell_shell.h)
 Range distances(const Shell& shell, const Cone& cone, const Vec3& d, const Vec3& m,
                 double stretch) {
   const double square = d.squaredNorm(), high = cone.highest(m), low = -cone.highest(-m);

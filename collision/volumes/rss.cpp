@@ -47,8 +47,9 @@ Rss Rss::around(const Obb& box, const Content& content) {
   // First the rectangle gets the interval that it needs along each axis, regardless of the other.
   // Then its corners move out where necessary.
   Side x, y;
-  // Returns the square of the sphere's reach in the rectangle's plane, for a solid sphere of radius
-  // r at height z.
+  // A sphere of the content, of radius r, has its centre at height z above the rectangle's plane.
+  // Returns the square of the largest distance, in this plane, from the centre to a point of the
+  // rectangle about which the RSS's own sphere covers the content's sphere.
   const auto squareAt = [&](double z, double r) {
     const double left = std::max(0.0, radius - r);
     return std::max(0.0, left * left - z * z);

@@ -113,8 +113,8 @@ class Scene {
   /// numbers its pairs in this order. The span is valid as long as the scene exists and is not
   /// moved.
   std::span<const MotionPair> motionPairs() const { return motionPairs_; }
-  /// Returns the answer of `certify` for each pair of bodies alone, in the order of `pairs()`. All
-  /// pairs together count as one query.
+  /// Returns the answer of `certify` for each pair of bodies alone, in the order of `pairs()`. The
+  /// counters of the context count all pairs together as one query.
   std::vector<MotionResult> certifyEachPair(MotionSource& motion, const MotionOptions& options,
                                             QueryContext& context) const;
 

@@ -39,8 +39,8 @@ struct Alone {
   double size = 1;  ///< metres
 };
 
-/// Returns the longest edge of the box around the robot's shapes, each in its own link; 1 if there
-/// are none. Only a scale for examples.
+/// Returns the largest absolute coordinate of any point of the robot's shapes, each in the frame of
+/// its link, rounded up; 1 if there are no shapes. Only a scale for examples.
 double sizeOf(const RobotModel& description) {
   double size = 0;
   for (const LinkModel& link : description.links)
@@ -165,7 +165,7 @@ class StateFinder {
  private:
   /// Returns whether the state is valid, and differs from all states found so far. Counts the pairs
   /// that are in contact in it.
-  bool isNew(const Configuration& q) {
+  bool isValidAndNew(const Configuration& q) {
     if (std::any_of(found_.begin(), found_.end(),
                     [&](const FoundState& f) { return model_.space.equal(f.q, q); }))
       return false;
@@ -182,7 +182,7 @@ class StateFinder {
       if (found_.size() == 2) return;
       if (!state.unusable.empty()) continue;
       const auto q = configurationOf(model_, state);
-      if (!q || !isNew(*q)) continue;
+      if (!q || !isValidAndNew(*q)) continue;
       const bool byName = holdsAgree(robot, state);
       found_.push_back(
           {*q, byName ? yamlWord(name) : yamlStateOf(model_, *q),
@@ -212,7 +212,7 @@ class StateFinder {
     Configuration q = randomConfiguration(model_.space, [&] { return random_(); });
     // Three decimals are easy to read and to edit. The state is tested as it is written.
     q = (q * 1000).array().round() / 1000;
-    if (!isNew(q)) return;
+    if (!isValidAndNew(q)) return;
     FoundState state{q, yamlStateOf(model_, q), "a random valid state"};
     if (found_.empty() || checker_.isProvedFree(found_.front().q, q))
       found_.push_back(std::move(state));
@@ -221,7 +221,7 @@ class StateFinder {
   }
 
   void add(const Configuration& q, const std::string& origin) {
-    if (!isNew(q)) return;
+    if (!isValidAndNew(q)) return;
     FoundState state{q, yamlStateOf(model_, q), origin};
     if (found_.empty() || checker_.isProvedFree(found_.front().q, q))
       found_.push_back(std::move(state));
@@ -281,9 +281,9 @@ std::vector<FoundState> rigidStates(const Alone& alone, const Checker& checker) 
 }
 
 constexpr const char* kMore = R"(
-# Common keys, with their defaults:
-# margin: 0                # m, kept between all bodies; 0: touching is contact
-# prefer: {clearance: 0.005}   # m, kept where the path can, instead of margin; 0: shortest path
+# Common keys:
+# margin: 0                # m, kept between all bodies; default 0: touching is contact
+# prefer: {clearance: 0.005}   # m, kept where there is room; not together with margin; 0: shortest path
 # tube: {joints: 0.001}    # the tracking error that the proof covers, too; default: rounding only
 # allow: [[hand, table]]   # pairs of bodies that may touch; default: none
 # planner: {name: RRTConnect, time: 20}   # s; if no path is found, try params: {range: 0.5}
@@ -319,12 +319,14 @@ int newProblem(const NewProblemArguments& a) {
   const auto end = [&](const char* key, std::size_t i) {
     if (i < found.size()) return comment(found[i].origin) + key + ": " + found[i].text + "\n";
     const Configuration q = randomConfiguration(alone.model.space, [] { return ~0ull >> 1; });
-    return comment(std::string("NOT VALID: no ") + (i ? "other " : "") + "valid state was found" +
-                   (rigid ? ""
-                          : " among the named states, the states with every joint near 0 and in "
-                            "the middle of its limits, and " +
-                                std::to_string(kRandomStates) + " random states") +
-                   ". corridor check names the links that touch.") +
+    return comment(
+               std::string("NOT VALID: no ") + (i ? "other " : "") + "valid state was found" +
+               (rigid
+                    ? ""
+                    : " among the named states, the state with every joint near 0, the state with "
+                      "every joint in the middle of its limits, and " +
+                          std::to_string(kRandomStates) + " random states") +
+               ". corridor check names the links that touch.") +
            ((i > 0 && found.empty()) || why.empty() ? "" : comment("Why: " + why)) + key + ": " +
            yamlStateOf(alone.model, q) + "\n";
   };

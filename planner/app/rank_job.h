@@ -19,13 +19,14 @@ class RankJob {
   /// @throws InputError as joinRanks.
   explicit RankJob(std::size_t jobs);
 
-  /// Whether rank 0 hands out the tasks of this process. If so, this process must call `serve`.
+  /// Whether this process does the tasks that rank 0 hands out: true on all ranks except rank 0. If
+  /// so, this process must call `serve`.
   bool serves() const { return ranks_ && ranks_->rank() > 0; }
   /// The executor that does tasks on the other ranks; null for a process that is alone.
   /// @pre !serves()
   RankExecutor* executor() { return executor_ ? &*executor_ : nullptr; }
-  /// Listens for interrupts as `listenForInterrupts`. In a job, a second signal does nothing, since
-  /// each rank may get several.
+  /// Calls `listenForInterrupts`. In a job, a second signal does nothing, since each rank may get
+  /// several signals.
   const std::atomic<bool>& listen() const;
   /// Does the tasks that rank 0 hands out, until rank 0 ends the job.
   /// @pre serves(). @returns the exit status.

@@ -100,7 +100,7 @@ class CampaignReader {
   Campaign read() {
     const YamlValue document = parseYaml(
         path_.string(), readTextFile(path_, std::string("a campaign (format: ") + kFormat + ")"));
-    if (!hasFormat(document, kFormat, source_)) faults_.throwIfAny();
+    if (!acceptsFormat(document, kFormat, source_)) faults_.throwIfAny();
     const YamlMap map(document, "", &campaignKeys().at(""), source_);
     campaign_.name = nameOfFile(path_, "campaign");
     readProblems(map);

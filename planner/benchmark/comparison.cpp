@@ -12,9 +12,9 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-/// Returns the path's length after simplifying, divided by its length before: in metres, or in
-/// radians if the path has no length in metres.
-double lengthShare(const BenchmarkRun& run) {
+/// Returns the path's length after simplifying, divided by its length before. Both lengths are in
+/// metres, or in radians if the path has no length in metres.
+double lengthRatio(const BenchmarkRun& run) {
   return run.rawLength.metres > 0    ? run.length.metres / run.rawLength.metres
          : run.rawLength.radians > 0 ? run.length.radians / run.rawLength.radians
                                      : kNone;
@@ -41,8 +41,8 @@ VariantScore::Cost costOf(const std::vector<QueryCost>& queries) {
   return cost;
 }
 
-/// For each run, appends its time over that of the reference variant's run with the same seed, if
-/// both are solved.
+/// For each run, appends its time divided by the time of the reference variant's run with the same
+/// seed, if both are solved.
 void addRatios(const CampaignCell& cell, const CampaignCell& reference,
                std::vector<double>& ratios) {
   auto other = reference.runs.begin();  // both are ordered by seed
@@ -97,7 +97,7 @@ std::vector<VariantScore> scoresOf(const Campaign& campaign,
           costs.push_back(*cost);
         if (!run.solved) continue;
         shares.push_back(run.checkingTime / run.time);
-        if (const double share = lengthShare(run); !std::isnan(share)) lengths.push_back(share);
+        if (const double share = lengthRatio(run); !std::isnan(share)) lengths.push_back(share);
       }
     }
     score.solvedShare = shareInterval(score.solved, score.runs);
@@ -107,7 +107,7 @@ std::vector<VariantScore> scoresOf(const Campaign& campaign,
     score.timeRatioInterval = medianInterval(ratios);
     if (!costs.empty()) score.cost = costOf(costs);
     score.checkingShare = medianOf(shares);
-    score.lengthShare = medianOf(lengths);
+    score.lengthRatio = medianOf(lengths);
     scores.push_back(score);
   }
   const auto rank = [](const VariantScore& s) {

@@ -35,9 +35,9 @@ struct VariantScore {
   };
   std::optional<Cost> cost;
   /// Medians over the solved runs; NaN if there are none. `checkingShare`: the share of the run's
-  /// time that was spent in checking. `lengthShare`: the path's length after simplifying, divided
+  /// time that was spent in checking. `lengthRatio`: the path's length after simplifying, divided
   /// by its length before.
-  double checkingShare = 0, lengthShare = 0;
+  double checkingShare = 0, lengthRatio = 0;
 
   std::size_t judged() const { return proved + refuted + undecided; }
 };

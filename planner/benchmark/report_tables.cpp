@@ -171,7 +171,7 @@ std::string rankingTable(const Campaign& campaign, const std::vector<CampaignCel
                                                ? ""
                                                : interval(s.timeRatioInterval, threeDigits)),
                std::isnan(s.checkingShare) ? "–" : percent(s.checkingShare),
-               std::isnan(s.lengthShare) ? "–" : percent(s.lengthShare)});
+               std::isnan(s.lengthRatio) ? "–" : percent(s.lengthRatio)});
   }
   return table.html();
 }

@@ -40,7 +40,7 @@ class CountingMotionValidator : public ompl::base::MotionValidator {
     Configuration state;  ///< the state at t; set only if t > 0
   };
   virtual bool isFree(const Configuration& from, const Configuration& to) const = 0;
-  /// Returns the part of the motion that is free, or nullopt if the whole motion is free.
+  /// If the motion is not free as a whole, returns the part that is free; if it is free, nullopt.
   virtual std::optional<FreePart> lastFree(const Configuration& from,
                                            const Configuration& to) const = 0;
 

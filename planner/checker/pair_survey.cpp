@@ -17,8 +17,8 @@ using Verdict = NeverInContactResult::Verdict;
 /// The first attempt to prove a pair gets this many boxes, and each further attempt four times as
 /// many as the one before. All attempts at a pair together take at most 4/3 of its last attempt.
 constexpr std::uint64_t kFirstBoxes = 80, kMoreBoxes = 4, kMostBoxes = 20480;
-/// This many tests of volumes and triangles count as one box. They take about as long as those
-/// parts of a box's test that are not counted, such as making its motion.
+/// This many tests of volumes and triangles count as one box. The test of a box also has a cost
+/// that is not counted, such as making its motion. These tests take about as long.
 constexpr std::uint64_t kTestsPerBox = 100;
 /// An attempt may take this many tests for each of its boxes, on average.
 constexpr std::uint64_t kMostTestsPerBox = 1000;
@@ -57,7 +57,7 @@ void proveWithin(const Checker& checker, const PairSurveyOptions& options,
     attempts.pop();
     SurveyedPair& pair = pairs[attempt.pair];
     const std::uint64_t left = options.work - progress.work;
-    // An attempt with no more boxes than the last one would decide nothing.
+    // An attempt with no more boxes than the previous attempt at this pair would decide nothing.
     if (pair.proof && left <= pair.proof->boxes) continue;
     proof.boxes = std::min(attempt.boxes, left);
     proof.tests = kTestsPerBox * std::min(kMostTestsPerBox / kTestsPerBox * proof.boxes, left);

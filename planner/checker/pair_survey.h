@@ -19,7 +19,7 @@ struct PairSurveyProgress {
   /// tested.
   std::uint64_t work = 0;
   std::size_t proved = 0;     ///< pairs proved never in contact
-  std::size_t undecided = 0;  ///< pairs whose proof may go on
+  std::size_t undecided = 0;  ///< pairs that will get another attempt
 };
 
 struct PairSurveyOptions {
@@ -47,9 +47,9 @@ struct SurveyedPair {
   std::optional<NeverInContactResult> proof;
 };
 
-/// Returns a random configuration within the bounds: uniform in lines and circles. A rotation is
-/// the identity, and a line without bounds is at 0. The result depends on the state of `next` only,
-/// not on the platform.
+/// Returns a random configuration within the bounds. Coordinates of the kinds `line` and `circle`
+/// (configuration_space.h) are uniform; a line without bounds is at 0, and a rotation is the
+/// identity. The result depends on the state of `next` only, not on the platform.
 /// @param next returns random 64-bit numbers.
 Configuration randomConfiguration(const ConfigurationSpace& space,
                                   const std::function<std::uint64_t()>& next);
@@ -61,8 +61,8 @@ Configuration randomConfiguration(const ConfigurationSpace& space,
 /// The proofs share the work limit. First, each pair gets an attempt of a few boxes. An attempt
 /// that does not decide its pair is repeated with four times the boxes, up to 20,480. The next
 /// attempt is always the one with the smallest product of its boxes and the share of joint values
-/// that the last attempt left unproved. So pairs that are nearly proved come first. The last
-/// attempt before the limit gets the boxes that are left.
+/// that the previous attempt at the same pair left unproved. So pairs that are nearly proved come
+/// first. The last attempt before the limit gets the boxes that are left.
 /// @param checker its margin must be 0: then a pair that is not free is in contact, or closer than
 /// twice the tolerance. Its model must have bounds for all positions.
 /// @param wantsProof decides for which pairs a proof is tried.

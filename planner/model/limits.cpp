@@ -99,7 +99,7 @@ class Limits {
     }
   }
 
-  /// Adds the corners of boxes around the shapes of a body.
+  /// Adds the corners of one box around all shapes of a body.
   static void addPoints(const ModelBody& body, LinkSpeed& limit) {
     Eigen::AlignedBox3d box;
     for (const PlacedShape& shape : body.shapes)

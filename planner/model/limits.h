@@ -29,8 +29,8 @@ struct LinkSpeed {
 /// - The limits of a single joint (a joint with one number) are at the index of that number: rad/s,
 ///   rad/s², rad/s³, or m/s and so on if it is prismatic. A joint that mimics this joint may make
 ///   the limits lower.
-/// - The position of a planar or floating joint has limits of the length of the vector (ṗ, p̈, p⃛),
-///   at the first of its numbers (x); the limits of its other numbers are infinite. So a diagonal
+/// - The position of a planar or floating joint has limits of the lengths |ṗ|, |p̈| and |p⃛|, at the
+///   first of its numbers (x); the limits of its other numbers are infinite. So a diagonal
 ///   motion is as fast as one along an axis.
 /// - The rotation of a floating joint has limits of its angular velocity |ω| and angular
 ///   acceleration |ω̇|, at the first of its four numbers. The yaw of a planar joint has limits like

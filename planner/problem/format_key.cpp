@@ -4,7 +4,7 @@
 
 namespace corridor {
 
-bool hasFormat(const YamlValue& document, const std::string& format, YamlSource& source) {
+bool acceptsFormat(const YamlValue& document, const std::string& format, YamlSource& source) {
   if (document.kind != YamlValue::Kind::Map) {
     source.fault(document.line, "a map (key: value) that begins with \"format: " + format +
                                     "\" is needed, not " + described(document));

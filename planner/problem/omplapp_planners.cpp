@@ -45,8 +45,8 @@ const std::map<std::string, std::string>& omplNames() {
 struct Instance {
   std::string name;  ///< the planner's name in OMPL.app
   int line = 0;
-  std::map<std::string, const IniFile::Entry*> params,
-      problem;  ///< the planner's parameters, and the keys of `problem` that it overrides
+  std::map<std::string, const IniFile::Entry*> params;   ///< the planner's parameters
+  std::map<std::string, const IniFile::Entry*> problem;  ///< keys of [problem] that it replaces
 };
 
 }  // namespace

@@ -185,7 +185,7 @@ void readYaml(const std::filesystem::path& file, Problem& problem) {
       parseYaml(file.string(), readTextFile(file, "a problem (format: corridor-problem-1)"));
   FaultList faults(file.string());
   YamlSource source{file.string(), faults, {}};
-  if (!hasFormat(document, "corridor-problem-1", source)) faults.throwIfAny();
+  if (!acceptsFormat(document, "corridor-problem-1", source)) faults.throwIfAny();
   const YamlMap map(document, "", &problemKeys().at(""), source);
 
   problem.source.file = file;

@@ -113,7 +113,7 @@ std::optional<RobotSetup> readRobotFile(const std::filesystem::path& file, Fault
     return std::nullopt;
   }
   YamlSource source{file.string(), faults, {}};
-  if (!hasFormat(document, "corridor-robot-1", source)) return std::nullopt;
+  if (!acceptsFormat(document, "corridor-robot-1", source)) return std::nullopt;
   const YamlMap map(document, "", &robotKeys().at(""), source);
   const std::string name = map.text("name").value_or(nameOfFile(file, "robot"));
   const auto kind = map.requireOne({"rigid", "urdf"}, "one of rigid and urdf",

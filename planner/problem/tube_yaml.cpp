@@ -87,8 +87,8 @@ TubeSpec readTube(const YamlMap& file, const ConfigurationSpace& space, bool isC
     for (const Coordinate* joint : joints)
       if (slides(*joint) && !tube.named.contains(joint->name))
         map.fault("joints_deg", joint->name +
-                                    " is prismatic; add slides, in metres, or use joints, in "
-                                    "radians and metres");
+                                    " is prismatic; add the key slides (m), or use the key joints "
+                                    "(rad, and m for prismatic joints) instead");
   return tube;
 }
 

@@ -11,8 +11,9 @@ namespace corridor::python {
 
 namespace py = pybind11;
 
-/// A pose as the user gave it, and the same pose as a map of points. Each is computed from the
-/// given numbers, not from the other, as in the reader of URDF.
+/// A pose as the user gave it, and the same pose as a map of points. For xyz and rpy, each is
+/// computed from the given numbers, not from the other, as in the reader of URDF. For a matrix, the
+/// map is computed from the pose.
 struct GivenPose {
   RigidPose pose;
   Transform X;

@@ -20,8 +20,8 @@ struct ProgramCall {
   const std::atomic<bool>* interrupted = nullptr;  ///< stops the program when it becomes true
 };
 
-/// How a program ended. With `timedOut` and `interrupted`, it was killed. With `tooMuchOutput`, it was
-/// killed or had already ended. In every case, the processes that remained in its group were
+/// How a program ended. With `timedOut` and `interrupted`, it was killed. With `tooMuchOutput`, it
+/// was killed or had already ended. In every case, the processes that remained in its group were
 /// killed.
 struct ProgramEnd {
   enum class Why { exited, timedOut, interrupted, tooMuchOutput };

@@ -9,12 +9,14 @@ namespace corridor {
 
 namespace {
 
-/// A change must enlarge the smallest share of an edge (keep_clearance.h) by at least kLeastGain,
-/// or the new share must be at least kAlmost.
+/// The share of an edge is the part of its clearance targets that it keeps, from 0 to 1
+/// (keep_clearance.h). A change must raise the smallest share of an edge by at least kLeastGain, or
+/// to at least kAlmost.
 constexpr double kLeastGain = 0.05, kAlmost = 0.98;
 /// The maximum number of times that a step away from obstacles is halved.
 constexpr int kHalvings = 2;
-/// If the smallest share is this near to an end of the edge (in t), the end is moved instead.
+/// If the smallest share is this near to an end of the edge (in t), moving this end is tried before
+/// inserting a state.
 constexpr double kNearEnd = 0.25;
 /// The maximum number of changes that are tried.
 constexpr int kTries = 60;

@@ -119,7 +119,7 @@ const std::vector<Entry>& entries() {
       entry<og::RRTsharp>("RRTsharp", "optimises: RRTstar that replans", {.optimises = true}),
       entry<og::RRTXstatic>("RRTXstatic", "optimises: RRTsharp with lazy replanning",
                             {.optimises = true}),
-      entry<og::LBTRRT>("LBTRRT", "optimises to a factor, checks fewer edges",
+      entry<og::LBTRRT>("LBTRRT", "optimises up to a constant factor, so it checks fewer edges",
                         {.optimises = true, .repeatable = false}),
       entry<og::PRMstar>("PRMstar", "optimises: roadmap", {.optimises = true, .repeatable = false}),
       entry<og::LazyPRMstar>("LazyPRMstar", "optimises: roadmap, edges checked when needed",
@@ -197,7 +197,8 @@ std::optional<std::string> complaint(ob::GenericParam& parameter, const std::str
   if (is(double{}) || is(float{})) {
     const auto value = parsedAs<double>(text);
     if (!value) return "not a number";
-    // OMPL replaces a negative range by its default, and treats a goal_bias above 1 as 1 or worse.
+    // OMPL replaces a negative range by its default, and goals are always sampled with a goal_bias
+    // above 1, or the planner misbehaves.
     if (*value < 0 && neverNegative(parameter.getRangeSuggestion())) return "below 0";
     if (*value > 1 && parameter.getName() == "goal_bias") return "above 1";
     if (isShare(parameter) && !(*value >= std::numeric_limits<double>::epsilon() && *value <= 1))

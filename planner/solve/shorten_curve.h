@@ -14,7 +14,8 @@ struct ShortCurve {
   std::size_t tests = 0;     ///< number of pieces that were tested
 };
 
-/// Replaces parts of a curve by single pieces of degree 5 that make the goal of `options` smaller.
+/// Replaces parts of a curve by single pieces of degree 5 that reduce what `options.goal` names:
+/// time, length or acceleration.
 ///
 /// At both of its ends, a replacement has the position, the tangent and the curvature of the curve.
 /// So the result is C² for a suitable speed along it, except where the given curve is not C² and no
@@ -27,9 +28,9 @@ struct ShortCurve {
 /// ("Fast Smoothing of Manipulator Trajectories using Optimal Bounded-Acceleration Shortcuts",
 /// ICRA 2010), without a time law and without random numbers.
 ///
-/// Pieces in which a rotation moves stay as they are, and the robot rests before and after them.
-/// The result depends on the arguments only, as long as `stop` returns false. If `stop` returns
-/// true, no further curve is tested.
+/// Pieces that change a rotation in space stay as they are, and the robot rests before and after
+/// them. The result depends on the arguments only, as long as `stop` returns false. If `stop`
+/// returns true, no further curve is tested.
 ShortCurve shortenedCurve(
     const ConfigurationSpace& space, std::vector<CurvePiece> pieces, const CurveTest& isFree,
     const SmoothOptions& options = {}, const std::function<bool()>& stop = [] { return false; });

@@ -157,7 +157,7 @@ Solution readYaml(const std::filesystem::path& file, const std::string& text,
   FaultList faults(file.string());
   YamlSource source{file.string(), faults, {}};
   Solution solution;
-  if (hasFormat(document, kFormat, source)) {
+  if (acceptsFormat(document, kFormat, source)) {
     static const MapKeys keys{
         {"format", "problem", "digest", "space", "joints", "planner", "seed", "certified",
          "checker", "tolerance", "margin", "clearance", "tube", "path"},

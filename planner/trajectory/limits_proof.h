@@ -16,7 +16,7 @@ struct TimedRow {
   Configuration position, velocity, acceleration;
 };
 
-/// The largest share of a limit, over all numbers.
+/// The largest ratio of a value to its limit, over all numbers of a Configuration.
 struct LimitShare {
   double share = 0;        ///< 1: the limit is reached
   std::size_t number = 0;  ///< of a Configuration; for link speeds: index into JointLimits::links
@@ -33,17 +33,18 @@ struct LimitRatios {
   LimitShare position;
 };
 
-/// Returns upper bounds of the share of each limit that the curve of the rows uses at any instant.
-/// The curve between two rows, in real arithmetic on the stored doubles, is
-/// - degree 1: linear in the positions (only position and velocity are bounded; the acceleration of
-///   such a curve has no bound, and its share is infinite if it is limited and rows have a bend);
+/// Returns, for each kind of limit, an upper bound of the ratio of value to limit over the whole
+/// curve of the rows. The curve between two rows, in real arithmetic on the stored doubles, is
+/// - degree 1: linear in the positions. Only position and velocity are computed. The velocity jumps
+///   at each row where the curve has a bend: if there is one, and a limit of acceleration is given,
+///   its share is infinite;
 /// - degree 3: the cubic Hermite polynomial of positions and velocities;
 /// - degree 5: the quintic Hermite polynomial of positions, velocities and accelerations.
-/// The derivatives of this curve are Bernstein polynomials, which their coefficients bound (for
-/// positions of planar and floating joints: the lengths of the coefficient vectors). An interval is
-/// halved until the bound is at most 1, or is within 0.01 % of a value that is attained. All
-/// roundings of the coefficients are included (limits_proof.cpp). The cubic's jerk is not bounded:
-/// its acceleration jumps at rows.
+/// The derivatives of this curve are polynomials in Bernstein form, so their coefficients bound
+/// them (for positions of planar and floating joints: the lengths of the coefficient vectors). An
+/// interval is halved until the bound is at most 1, or is within 0.01 % of a value that is
+/// attained. All roundings of the coefficients are included (limits_proof.cpp). The cubic's jerk is
+/// not bounded: its acceleration jumps at rows.
 /// - Rotations are slerps of constant rate between rows (curve.h), so their velocity jumps at rows.
 ///   The rate is bounded. In place of an acceleration, the change of the rate from one interval to
 ///   the next is bounded, divided by the mean of the two durations.

@@ -18,13 +18,13 @@ class JointNames {
  public:
   struct Meaning {
     enum class Kind {
-      number,  ///< `index` is that of a number of a Configuration
+      number,  ///< a number of a Configuration
       held,    ///< a single joint that is not planned for
       mimic,   ///< a joint that follows another joint
       other    ///< a joint that has no value of its own here: fixed, or a pose that is held
     };
     Kind kind = Kind::number;
-    std::size_t index = 0;  ///< `number`: of the number; others: of the joint in its robot
+    std::size_t index = 0;  ///< of the number; for other kinds, of the joint in its robot
     std::size_t robot = 0;  ///< in Model::robots; not for `number`
     bool operator==(const Meaning&) const = default;
   };
@@ -65,8 +65,8 @@ struct TrajectoryTable {
   std::vector<Note> notes;
 };
 
-// Both readers throw an InputError with all faults; from the rows, only the faults of the first
-// faulty row (row_faults.h).
+// Both readers throw an InputError with all faults of the header, and those of the first faulty row
+// (row_faults.h).
 /// Reads rows of numbers, with or without a header.
 TrajectoryTable readCsvTable(const std::string& file, const std::string& text,
                              const JointNames& names);

@@ -12,10 +12,10 @@ namespace corridor::verify {
 /// values at 0 and 1.
 ///
 /// `error` bounds how far each stored coefficient is from the real one. So it also bounds how far
-/// each value of the stored polynomial is from the real value. The functions below add their own
-/// rounding to `error`. They measure it: in x87 arithmetic the rounding error of a sum or a product
-/// is itself a floating-point number, and is computed exactly (Knuth 1997, 4.2.2, theorem B;
-/// std::fma). So `error` stays 0 as long as every result is exact.
+/// each value of the stored polynomial is from the real value. `derivativeOf` and `halvesOf` add
+/// their own rounding to `error`. They measure it: in x87 arithmetic the rounding error of a sum or
+/// a product is itself a floating-point number, and is computed exactly (Knuth 1997, 4.2.2, theorem
+/// B; std::fma). So `error` stays 0 as long as every result is exact.
 struct Bernstein {
   static constexpr int kLargestDegree = 9;
   std::array<Real, kLargestDegree + 1> c{};
@@ -32,8 +32,8 @@ struct Bernstein {
   /// Returns the value at τ in [0, 1], by de Casteljau's algorithm. @pre 1 − τ is exact.
   ///
   /// Rounding, with u = 2^-64: each of the `degree` levels multiplies once and adds once. So a
-  /// value is off by at most 2·degree·u·(1 + 2^-50) times the largest |c[i]|, which is below 19u,
-  /// plus `error`.
+  /// value is off by at most f times the largest |c[i]|, plus `error`, where f = 2·degree·u·(1 +
+  /// 2^-50) < 19u.
   Real at(Real tau) const;
 };
 

@@ -19,13 +19,13 @@ struct CurvePlots {
   std::vector<Number> numbers;  ///< one for each line and circle; none for rotations
 };
 
-/// Evaluates a curve at the ends of each piece, and at up to 39 times between them.
+/// Evaluates a curve at the ends of each piece, and at up to 39 instants inside each piece.
 CurvePlots curvePlots(const ConfigurationSpace& space, const Curve& curve);
 
-/// Returns the limit of a line or circle. This is the element of `limits` for the coordinate's
-/// number, with one exception: the coordinates of the position of a planar or floating joint have
-/// the element of the position's first number, which limits the length of the vector. Returns
-/// infinity if `limits` is empty.
+/// Returns the limit of a line or circle: the element of `limits` for the coordinate's number. The
+/// position of a planar or floating joint has one limit for the length of its vector. It is the
+/// element of the position's first number, and is returned for each coordinate of the position.
+/// Returns infinity if `limits` is empty.
 double limitOf(const ConfigurationSpace& space, std::size_t coordinate,
                const Configuration& limits);
 

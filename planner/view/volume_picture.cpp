@@ -29,7 +29,7 @@ using view::Face;
 constexpr double kPictureWidth = 640, kPictureBorder = 12;  // sizes of the picture, pixels
 /// Limits of the SVG text, bytes: the mesh, and all volumes together.
 constexpr std::size_t kMeshLimit = 50'000, kVolumesLimit = 40'000;
-/// Two faces of a volume that enclose a larger angle are separated by a line.
+/// A line is drawn between two faces of a volume whose normals differ by more than this angle.
 constexpr double kCrease = 12 * std::numbers::pi / 180;
 
 /// The volumes of a level, as convex parts.
@@ -122,7 +122,8 @@ std::vector<Vec2> silhouette(const Camera& camera, const std::vector<Vec3>& poin
   return {hull.vertices().begin(), hull.vertices().end()};
 }
 
-/// Returns the visible edges between faces that enclose an angle, as an SVG path.
+/// Returns the visible edges between faces whose normals differ by more than `kCrease`, as an SVG
+/// path.
 std::string creases(const Camera& camera, const std::vector<Vec3>& points) {
   std::map<std::array<std::uint32_t, 2>, Vec3> normals;
   std::string path;
@@ -182,7 +183,8 @@ VolumePicture volumePicture(const TriangleMesh& mesh, const TreeNames& trees, st
         volume.radius > 0 ? view::tessellated(volume).vertices : volume.points;
     points.insert(points.end(), own.begin(), own.end());
   }
-  // A point, or a segment along the view, would have no extent in the picture.
+  // Adds six points around the centre, so that a point, or a segment along the view, has an extent
+  // in the picture, too.
   Vec3 low = points.front(), high = low;
   for (const Vec3& p : points) {
     low = low.cwiseMin(p);

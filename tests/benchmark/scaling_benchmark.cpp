@@ -9,10 +9,10 @@
 /// in the processor's caches.
 ///
 /// Prints CSV on stdout. At the end, for each competitor and gap, it prints by which factors time,
-/// N_v and the logarithm of the number of triangles grew from the smallest mesh to the largest. It
-/// also prints these factors from the first mesh whose facets are flatter than the gap: before
-/// that, finer meshes have more close places, not only more triangles. The plot is written to
-/// FOLDER.
+/// the number of volume tests (N_v) and the logarithm of the number of triangles grew from the
+/// smallest mesh to the largest. It also prints these factors from the first mesh whose facets are
+/// nearer to the true surface than the gap. On coarser meshes, a refinement also adds places where
+/// the two surfaces are close. The plot is written to FOLDER.
 #include <iostream>
 #include <map>
 

@@ -10,8 +10,9 @@
 
 #include "planner/benchmark/campaign_yaml.h"
 
-/// Campaigns of many runs that were not made: their figures are random, and their texts are those
-/// of one real run of each variant and planner. They show what many runs cost.
+/// Campaigns of many simulated runs, to measure the cost of storing, reading and reporting them.
+/// Their figures are random, the texts of failed runs are constant, and all else is that of one
+/// real run of each variant and planner.
 namespace corridor::bench {
 
 struct SimulatedSize {
@@ -61,7 +62,8 @@ inline std::filesystem::path writeSimulated(const SimulatedSize& size,
 /// cell and the run's seed.
 class SimulatedRuns {
  public:
-  /// Makes one real run of each variant and planner of the first problem. @pre one thread.
+  /// Makes one real run of each variant and planner of the first problem. @pre the
+  /// process has one thread, because it starts child processes.
   SimulatedRuns(const Campaign& campaign, std::uint64_t seed) : seed_(seed) {
     cells_ = cellsOf(campaign);
     for (const CampaignCell& cell : cells_) {

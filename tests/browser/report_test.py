@@ -1,4 +1,4 @@
-"""Tests a campaign's report in a browser: no error, nothing loaded, plots with their data, and a text if the pointer rests on a point."""
+"""Tests a campaign's report in a browser: no errors, no file loaded, plots with all their points, texts on the points."""
 
 import csv
 import os
@@ -48,7 +48,7 @@ def pages(browser, folder):
 
 
 def points_have_texts(browser, out):
-    """Each point of a plot is in its data, and shows its text to a pointer."""
+    """A plot has a point for each row of its file, and a point shows a text when the pointer is on it."""
     browser.size("desktop")
     browser.open(os.path.join(out, "report.html"))
     with open(os.path.join(out, "plots", "error.thin_plate.csv"), newline="") as file:
@@ -82,7 +82,7 @@ def points_have_texts(browser, out):
 
 
 def folded(browser, folder):
-    """Plots of many problems are texts until their part of the page is opened and scrolled to, or printed."""
+    """With many problems, a plot is stored as text until its part of the page is opened and scrolled to, or printed."""
     campaign = os.path.join(folder, "folded.yaml")
     with open(campaign, "w") as file:
         file.write("format: corridor-campaign-1\nproblems: [%s]\ncheckers: {sampled: {edges: discrete}}\nruns: 1\nlimits: {time: 60}\n"
@@ -95,7 +95,7 @@ def folded(browser, folder):
     drawn = "[...document.querySelectorAll('details figure')].filter((figure) => figure.querySelector('svg')).length"
     assert browser.js("document.querySelectorAll('details figure').length") == 27
     assert browser.js(drawn) == 0
-    browser.wait("document.querySelector(\"figure[data-plot='error'] svg\")")  # of all problems: drawn at once
+    browser.wait("document.querySelector(\"figure[data-plot='error'] svg\")")  # the plot of all problems is drawn at once
     browser.click("#solved summary")
     browser.driver.execute_script("document.querySelector('#solved details figure:last-child').scrollIntoView()")
     browser.wait("document.querySelector('#solved details figure:last-child svg')")

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tests that every C++ file is formatted by clang-format 14, and no line of a page, except tables, exceeds 120 characters."""
+"""Tests that C++ files are formatted by clang-format 14, and that lines of Markdown prose have at most 120 characters."""
 
 import pathlib
 import shutil

@@ -28,7 +28,8 @@ int anySize(Random& random) {
   constexpr int kSizes[] = {2, 5, 100, 1 << 20};
   return kSizes[integer(random, 0, 3)];
 }
-/// Shuffles the corners of both triangles. Every third time, also moves one triangle by a step.
+/// Shuffles the corners of both triangles, and swaps the triangles half of the time. Every third
+/// time, also moves one triangle by a step.
 void finish(Random& random, Triangle& a, Triangle& b) {
   std::shuffle(a.begin(), a.end(), random);
   std::shuffle(b.begin(), b.end(), random);
@@ -220,7 +221,7 @@ PlacedPair scaledByTwos(Random& random, const Triangle& a, const Triangle& b) {
   const int exponent = integer(random, -332, 332);  // 10^±100
   return baked(a, b, [&](const Vec3& p) { return Vec3(p * std::ldexp(1.0, exponent)); });
 }
-/// Scales the pair by a factor that makes each coordinate round.
+/// Scales the pair by a factor for which each product is rounded.
 PlacedPair scaledByTens(Random& random, const Triangle& a, const Triangle& b) {
   const double scale = std::pow(10.0, integer(random, -100, 100)) / 3;
   return baked(a, b, [&](const Vec3& p) { return Vec3(p * scale); });

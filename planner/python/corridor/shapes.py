@@ -1,7 +1,7 @@
 """Shapes of links, obstacles and rigid bodies. Lengths are metres.
 
 `pose` is a 4×4 matrix, or a `Pose`; default: the identity. The rotation of a matrix may differ from a rotation matrix
-by 1e-6, and then stands for the nearest rotation. The vertices of meshes are rounded once when they are placed.
+by 1e-6, and then stands for the nearest rotation. The vertices of a mesh are moved to its pose in double, with rounding.
 """
 
 from __future__ import annotations

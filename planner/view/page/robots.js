@@ -48,7 +48,7 @@ const isStill = Array.from({length: frameCount}, (_, frame) => {
   return true;
 });
 
-/** Computes the pose of a frame at the place `at`, in [0, 1] of the path. */
+/** Computes the pose of a frame at the share `at` of the path, in [0, 1]. */
 function framePose(at, frame, position, quaternion) {
   const i = lastNotAbove(path.at, at), k = Math.min(i + 1, path.at.length - 1);
   const u = k > i && path.at[k] > path.at[i] ? Math.min(1, (at - path.at[i]) / (path.at[k] - path.at[i])) : 0;
@@ -97,7 +97,7 @@ function lines(shape, colour, opacity) {
   return new THREE.LineSegments(shape.edges, new THREE.LineBasicMaterial({color: light(colour), transparent: true, opacity, depthWrite: false}));
 }
 
-/** Returns the depth offset of a copy. If copies coincide, as at a joint, the copy of least rank is visible. */
+/** Returns the depth offset of a copy of the robots. Where copies at several poses coincide, the one of least rank is visible. */
 const behind = (rank) => ({polygonOffsetFactor: 1 + 0.25 * rank, polygonOffsetUnits: 1 + 300 * rank});
 
 /** Solid robots. Parts that other bodies hide are dimly visible. */
@@ -144,7 +144,7 @@ class Ghost extends RobotCopy {
   }
 }
 
-/** All robots: at the current place, at the start and goals, and at poses along the path; and the trace of a point. */
+/** All robots: at the current place, at the start and goals, and at poses along the path; and a trace of each robot. */
 class Motion {
   /** @param picture true for pictures, which show poses but no robots at the current place. */
   constructor(scene, picture) {

@@ -18,8 +18,9 @@ using Points = std::vector<Eigen::Matrix<double, D, 1>>;
 /// Returns the relation of two convex hulls, by the rational simplex method, which shares no code
 /// with Corridor.
 /// * The hulls share a point if Σ λ_i p_i = Σ μ_j q_j, Σ λ = Σ μ = 1 has a solution λ, μ ≥ 0.
-/// * No plane has the hulls on its two sides if the rows (p, −1) and (−q, 1) span all of space with
-///   weights ≥ 0: the rows have full rank, and Σ w_i row_i = 0 has a solution with all w_i ≥ 1.
+/// * No plane separates the hulls, not even one that touches them, if the rows (p, −1) and (−q, 1)
+///   span all of space with weights ≥ 0: the rows have full rank, and Σ w_i row_i = 0 has a
+///   solution with all w_i ≥ 1.
 template <int D>
 HullRelation hullRelation(const Points<D>& first, const Points<D>& second) {
   std::vector<std::vector<double>> meet, rows;

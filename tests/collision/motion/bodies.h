@@ -43,7 +43,7 @@ inline MotionResult certify(const Body& moving, const Body& fixed, const RigidMo
 }
 
 /// The parameters of the suite that every way to prove motions must pass: all methods, and for the
-/// default method all kinds of trees.
+/// default method also kinds of trees that differ in their shape.
 inline auto everyProof() {
   using enum EdgeMethod;
   return testing::Values(Proof(directional), Proof(adaptive), Proof(advancement),
@@ -75,7 +75,7 @@ inline Vec3 randomInCube(std::mt19937_64& random) {
   return {x, y, z};
 }
 
-/// Returns triangles about random points within `spread` of the origin.
+/// Returns triangles about random points in a cube: each coordinate is at most `spread`.
 inline TriangleMesh blob(std::mt19937_64& random, int count, double spread, double size) {
   TriangleMesh mesh;
   for (int i = 0; i < count; ++i) {
@@ -87,8 +87,9 @@ inline TriangleMesh blob(std::mt19937_64& random, int count, double spread, doub
   return mesh;
 }
 
-/// Returns two poses within 2 m of the origin, most of them centimetres to metres apart, with
-/// rotations of a similar size in radians.
+/// Returns two poses. The first position is in a cube, with coordinates of at most 2 m. The
+/// positions differ by centimetres to metres in most cases, the rotations by a similar number of
+/// radians.
 inline std::pair<RigidPose, RigidPose> randomEdge(std::mt19937_64& random) {
   std::uniform_real_distribution<double> real(-1, 1);
   const double length = std::pow(10.0, std::uniform_real_distribution(-2.0, 0.5)(random));

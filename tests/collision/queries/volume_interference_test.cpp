@@ -30,8 +30,8 @@ TYPED_TEST(VolumeInterference, SharedWorkloads) {
   std::size_t turn = 0;
   for (const std::string& name : test::workloadNames(*data / "collision")) {
     const test::Workload w = test::loadWorkload(*data / "collision", name);
-    // On nearly parallel surfaces, looser volumes cost thousands of times more, so fewer poses of
-    // these workloads are tested.
+    // On nearly parallel surfaces (workloads whose names begin with a), looser volumes cost
+    // thousands of times more, so fewer poses are tested.
     const std::size_t step = name[0] == 'a' ? 10 : 5;
     ++turn;
     for (std::size_t v = 0; v < std::size(kParams); ++v) {

@@ -200,8 +200,8 @@ TEST_F(ArmProblem, TubeOfSingleJoints) {
     return complaintOf(ends + "tube: {" + text + "}\n");
   };
   EXPECT_EQ(complaint("joints_deg: 1"),
-            "problem.yaml:7: tube.joints_deg: slide is prismatic; add slides, in metres, or use "
-            "joints, in radians and metres");
+            "problem.yaml:7: tube.joints_deg: slide is prismatic; add the key slides (m), or use "
+            "the key joints (rad, and m for prismatic joints) instead");
   EXPECT_EQ(complaint("lift: -1, slide_deg: 1, pan: 1, pan_deg: 1"),
             "problem.yaml:7: tube.lift: must be 0 or more, not -1\n"
             "problem.yaml:7: tube.slide_deg: slide is prismatic; use slide, in metres\n"

@@ -13,8 +13,8 @@ using test::CurveOracle;
 using test::randomPiece;
 using test::randomVec;
 
-/// The points of both branches of a random arm, in all segments: the placement equals the oracle's,
-/// and no displacement exceeds its bound.
+/// Tests random points of random arms, in one random segment of each depth: the placement equals
+/// the oracle's, and no displacement exceeds its bound.
 TEST(EdgeCurve, PiecesStayWithinTheirReach) {
   std::mt19937_64 random(test::testSeed(36));
   Real fullestSpeed = 0, fullestBend = 0;

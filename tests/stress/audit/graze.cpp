@@ -310,7 +310,7 @@ Graze::Graze(Dice& dice, const Edge& edge, const Wish& wish)
   const Vec<Quad> along = unit(cross(normal_, randomUnit(dice)));
   const double turn = dice.real(0.3, 2.8);
   const Vec<Quad> other = along * std::cos(turn) + cross(normal_, along) * std::sin(turn);
-  Plan tip = randomPlan(dice, tips[which], p, normal_, along, size_);
+  ExactBody tip = randomExactBody(dice, tips[which], p, normal_, along, size_);
   const bool round = tip.radius > 0 && !tip.flatEnds;
   // If the rest's feature is an edge or a corner, the tip's corner must be round. Otherwise the
   // depth would not be known.
@@ -318,7 +318,7 @@ Graze::Graze(Dice& dice, const Edge& edge, const Wish& wish)
   if (restFeature == Feature::corner && dice.oneIn(2)) restFeature = Feature::edge;
   if (restFeature != Feature::face && tips[which] == Feature::corner && !round)
     restFeature = Feature::face;
-  restPlan_ = randomPlan(dice, restFeature, p - normal_ * keep_, -normal_, other, size_);
+  restPlan_ = randomExactBody(dice, restFeature, p - normal_ * keep_, -normal_, other, size_);
   tip_ = stored(tip, X.inverse(), {}, normal_);
   base_ = stored(restPlan_, {}, {}, -normal_, &baseError_);
   const double reach = std::max(tip_.reach, base_.reach), lengths = nominal_->length() + 2 * reach;

@@ -90,7 +90,7 @@ class Graze {
   std::optional<Curve<Quad>> nominal_;
   // The plane's upward normal, in the other body's frame; the meeting point, in the tip's frame.
   Vec<Quad> normal_, touch_;
-  Plan restPlan_;
+  ExactBody restPlan_;
   Shape tip_, base_;
   double baseError_ = 0;
   double lowest_ = -HUGE_VAL;  // proved lower bound of the distance along the edge, at gap 0

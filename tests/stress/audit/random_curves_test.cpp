@@ -1,5 +1,6 @@
 // Random pieces of curves against an oracle that minimises the distance of the bodies in long
-// double. Only plain data is shared with the checker and the verifier. ../README.md describes it.
+// double. Only plain data is shared with the checker and the verifier. ../README.md describes this
+// test.
 #include <algorithm>
 #include <cstdlib>
 #include <iostream>
@@ -45,9 +46,9 @@ Real distanceOfSegments(const Point& p, const Point& q, const Point& r, const Po
   return least;
 }
 
-/// Returns the distance of a point from the inside of a triangle along its normal; infinite if its
-/// foot is outside.
-Real distanceFromInside(const Point& x, const std::array<Point, 3>& t) {
+/// Returns the distance of a point from the plane of a triangle, if the projection of the point to
+/// the plane is inside the triangle; otherwise infinity.
+Real distanceAlongNormal(const Point& x, const std::array<Point, 3>& t) {
   const Point n = unit(cross(t[1] - t[0], t[2] - t[0]));
   for (std::size_t i = 0; i < 3; ++i)
     if (!(dot(cross(t[(i + 1) % 3] - t[i], x - t[i]), n) > 0)) return HUGE_VALL;
@@ -58,7 +59,7 @@ bool crosses(const Point& p, const Point& q, const std::array<Point, 3>& t) {
   const Point n = unit(cross(t[1] - t[0], t[2] - t[0]));
   const Real a = dot(n, p - t[0]), b = dot(n, q - t[0]);
   if (!((a > 0 && b < 0) || (a < 0 && b > 0))) return false;
-  return distanceFromInside(p + (q - p) * (a / (a - b)), t) < HUGE_VALL;
+  return distanceAlongNormal(p + (q - p) * (a / (a - b)), t) < HUGE_VALL;
 }
 
 Real distanceOf(const Swept& a, const Swept& b) {
@@ -68,22 +69,22 @@ Real distanceOf(const Swept& a, const Swept& b) {
     for (std::size_t k = 0; k < 3; ++k) {
       const Point &r = b.corners[k], &s = b.corners[(k + 1) % 3];
       least = std::min(least, distanceOfSegments(p, q, r, s));
-      if (i == 0) least = std::min(least, distanceFromInside(r, a.corners));
+      if (i == 0) least = std::min(least, distanceAlongNormal(r, a.corners));
       if (i == 0 && crosses(r, s, a.corners)) least = 0;
     }
-    least = std::min(least, distanceFromInside(p, b.corners));
+    least = std::min(least, distanceAlongNormal(p, b.corners));
     if (crosses(p, q, b.corners)) least = 0;
   }
   return least - a.radius - b.radius;
 }
 
 /// A body: a mesh of some triangles, or one to three convex parts.
-struct Thing {
+struct TestBody {
   TriangleMesh mesh;
   std::vector<ConvexPart> parts;
   std::vector<Swept> all;
 
-  Thing(Dice& dice, const Vec3& at) {
+  TestBody(Dice& dice, const Vec3& at) {
     const std::size_t count = dice.oneIn(2) ? 0 : 1 + dice.index(3);
     for (std::size_t n = 0; n < (count ? count : 6); ++n) {
       const Vec3 middle = at + 0.3 * dice.vector();
@@ -115,7 +116,7 @@ struct Thing {
 /// The distance of two things at each time of a curve, in the frame of the first thing.
 struct Distance {
   const Curve<Real>& curve;
-  const Thing &first, &second;
+  const TestBody &first, &second;
 
   Real at(Real t) const {
     const Pose<Real> X = curve.at(t);
@@ -124,7 +125,7 @@ struct Distance {
       Swept moved = b;
       for (Point& p : moved.corners) p = X * p;
       for (const Swept& a : first.all) {
-        // No corner is farther than 1.1 m from the first: 2·0.3·√3, rounded up.
+        // No two corners of a body are farther apart than 1.1 m: 2·0.3·√3, rounded up.
         const Real apart = length(moved.corners[0] - a.corners[0]) - a.radius - b.radius;
         if (apart - 2.2L < least) least = std::min(least, distanceOf(a, moved));
       }
@@ -161,9 +162,10 @@ struct Distance {
   }
 };
 
-/// Returns the perturbation within the tube and the errors that brings the things closest at t, to
-/// first order.
-Perturbation worstStray(const Edge& edge, const Thing& first, const Thing& second, Real t) {
+/// Among the perturbations that the tube and the errors allow, returns the one that brings the two
+/// bodies closest at t, to first order.
+Perturbation worstPerturbation(const Edge& edge, const TestBody& first, const TestBody& second,
+                               Real t) {
   Perturbation worst(static_cast<std::size_t>(edge.tube.size()), 0);
   const auto slope = [&](std::size_t number) {
     Real values[2];
@@ -212,7 +214,7 @@ void runCase(long number, std::uint64_t seed, Counts& counts) {
   const Curve<Quad> exact(edge, edge.first, edge.second);
   const Curve<Real> curve(exact);
   const Vec3 origin = curve.at(dice.real(0, 1)).p.rounded();
-  const Thing first(dice, origin + dice.vector().normalized() * dice.real(0, 1.6)),
+  const TestBody first(dice, origin + dice.vector().normalized() * dice.real(0, 1.6)),
       second(dice, Vec3::Zero());
   MotionOptions options;
   options.tolerance = 1e-7;
@@ -247,7 +249,7 @@ void runCase(long number, std::uint64_t seed, Counts& counts) {
     Real least = nominal;
     if (tubed) {
       const Curve<Real> moved(
-          Curve<Quad>(edge, edge.first, edge.second, worstStray(edge, first, second, t)));
+          Curve<Quad>(edge, edge.first, edge.second, worstPerturbation(edge, first, second, t)));
       least = std::min(least, Distance{moved, first, second}.at(t));
     }
     if (r.verdict == MotionVerdict::free) {

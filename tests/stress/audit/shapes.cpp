@@ -9,7 +9,7 @@ namespace {
 const Quad kInside = 1 - Quad(0x1p-90);
 
 /// Adds triangles above the feature, so that trees have several levels.
-void addTrianglesAbove(Dice& dice, Plan& plan, const Vec<Quad>& q, const Vec<Quad>& up,
+void addTrianglesAbove(Dice& dice, ExactBody& plan, const Vec<Quad>& q, const Vec<Quad>& up,
                        const Vec<Quad>& along, double size) {
   const Vec<Quad> across = cross(up, along);
   for (int i = 0; i < 24; ++i) {
@@ -22,16 +22,16 @@ void addTrianglesAbove(Dice& dice, Plan& plan, const Vec<Quad>& q, const Vec<Qua
 }
 
 /// Adds the faces of a parallelepiped; bit i of a corner's number selects the end of edge i.
-void addBoxFaces(Plan& plan) {
+void addBoxFaces(ExactBody& plan) {
   plan.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
                     {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
 }
 
 }  // namespace
 
-Plan randomPlan(Dice& dice, Feature feature, const Vec<Quad>& q, const Vec<Quad>& up,
-                const Vec<Quad>& along, double size) {
-  Plan plan;
+ExactBody randomExactBody(Dice& dice, Feature feature, const Vec<Quad>& q, const Vec<Quad>& up,
+                          const Vec<Quad>& along, double size) {
+  ExactBody plan;
   plan.feature = feature;
   const Vec<Quad> across = cross(up, along);
   const auto at = [&](double x, double y, double z) {
@@ -114,8 +114,8 @@ Plan randomPlan(Dice& dice, Feature feature, const Vec<Quad>& q, const Vec<Quad>
   return plan;
 }
 
-Shape stored(const Plan& plan, const Pose<Quad>& X, const Vec<Quad>& shift, const Vec<Quad>& up,
-             double* error) {
+Shape stored(const ExactBody& plan, const Pose<Quad>& X, const Vec<Quad>& shift,
+             const Vec<Quad>& up, double* error) {
   Shape shape;
   shape.feature = plan.feature;
   shape.isMesh = plan.mesh;

@@ -37,13 +37,13 @@ class Dice {
   std::mt19937_64 random_;
 };
 
-/// The feature with which a body meets another: a corner (for a sphere its centre), an edge (for a
-/// capsule its axis), or a face.
+/// The feature with which a body meets another: a corner (for a sphere its centre, for a cylinder a
+/// point of its rim), an edge (for a capsule its axis), or a face.
 enum class Feature { corner, edge, face };
 
 /// A convex or nearly convex body before it is rounded to doubles, in any frame. It lies above a
-/// plane that it touches with its feature (`randomPlan`).
-struct Plan {
+/// plane that it touches (`randomExactBody`).
+struct ExactBody {
   Feature feature = Feature::corner;
   bool mesh = false, flatEnds = false;
   double radius = 0;
@@ -51,12 +51,12 @@ struct Plan {
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-/// Returns a body of about `size` metres whose `feature` is at the point `q`. All other points are
-/// on the side of the unit vector `up`. An edge runs along the unit vector `along`, orthogonal to
-/// `up`. The surface of a curved body touches the plane through q, so its feature is above that
-/// plane.
-Plan randomPlan(Dice& dice, Feature feature, const Vec<Quad>& q, const Vec<Quad>& up,
-                const Vec<Quad>& along, double size);
+/// Returns a body of about `size` metres that touches the plane through `q` with the normal `up`,
+/// at q and nowhere else but at its `feature`. All other points are above the plane, on the side of
+/// the unit vector `up`. An edge runs along the unit vector `along`, orthogonal to `up`. The
+/// feature of a sphere or capsule, its centre or axis, is above q by the radius.
+ExactBody randomExactBody(Dice& dice, Feature feature, const Vec<Quad>& q, const Vec<Quad>& up,
+                          const Vec<Quad>& along, double size);
 
 /// A body as it is stored, in doubles, and the data from which the true verdict is computed.
 struct Shape {
@@ -65,8 +65,8 @@ struct Shape {
   TriangleMesh mesh;
   ConvexPart part;
   /// Points whose hull lies in the body, rounding included. The first are those of its feature: a
-  /// corner, the two ends of an edge, or three corners of a face. If `coreRadius` > 0, they are
-  /// points of the core, which is swept by a sphere of that radius.
+  /// corner, the two ends of an edge, or three corners of a face; the others are any. If
+  /// `coreRadius` > 0, they are points of the core, which is swept by a sphere of that radius.
   std::array<Vec<Quad>, 3> core;
   double coreRadius = 0;  ///< metres
 
@@ -81,8 +81,8 @@ struct Shape {
 /// Moves `plan` by `shift`, maps it to the body's frame by X, and rounds it to doubles.
 /// @param up the unit vector `up` of the plan. @param[out] error an upper bound of the rounding of
 /// any point, metres.
-Shape stored(const Plan& plan, const Pose<Quad>& X, const Vec<Quad>& shift, const Vec<Quad>& up,
-             double* error = nullptr);
+Shape stored(const ExactBody& plan, const Pose<Quad>& X, const Vec<Quad>& shift,
+             const Vec<Quad>& up, double* error = nullptr);
 
 template <class S>
 S Shape::support(const Vec<S>& m) const {
