@@ -12,19 +12,19 @@
 /// * `Transform`: an affine map x ↦ m·x + t. It is used exactly as it is stored: a map that scales,
 ///   shears or mirrors is legal.
 /// * `TriangleMesh`: a point set, the union of its triangles with their interiors. `readMeshFile`
-///   reads OBJ, STL, PLY, OFF, Collada, glTF and more. It throws InputError, which names the file
-///   and, where it is known, the line.
-/// * `ConvexPart`: a convex solid that is never tessellated: `placed(Box{size}, X)`, and Sphere,
-///   Capsule, Cylinder, Convex.
+///   reads OBJ, STL, PLY, OFF, Collada, glTF and more. If a file has a fault, it throws InputError,
+///   whose message names the file and, if it is known, the line.
+/// * `ConvexPart`: a convex solid that is never tessellated. `placed(Box{size}, X)` makes a box
+///   with the pose X; instead of Box, use Sphere, Capsule, Cylinder or Convex.
 /// * `Body`: a named mesh, a convex part, or the union of many convex parts. A mesh stands for its
-///   surface, and with `solid` also for the space that the surface encloses. Its trees are built
-///   when a query first needs them. The constructor throws std::invalid_argument for these faults:
-///   a mesh without triangles, an index out of range, a coordinate that is not finite, a solid mesh
-///   that is not watertight, a convex part that is not valid.
+///   surface, and with `solid` also for the space that the surface encloses. The trees of a body
+///   are built when a query first needs them. The constructor throws std::invalid_argument for
+///   these faults: a mesh without triangles, an index out of range, a coordinate that is not
+///   finite, a solid mesh that is not watertight, a convex part that is not valid.
 /// * `readPointCloud` and `readOccupancyMap` read the points of a scan, and the occupied cubes of a
 ///   map of OctoMap. A `Body` can have balls about the points, or the cubes, as its convex parts.
-/// * `Posed`: a body or tree with its pose: `Posed(cup, X_WCup)`. `Posed(table)` has the identity
-///   as its pose.
+/// * `Posed`: a body or tree with its pose, for example `Posed(cup, X_WCup)`. `Posed(table)` has
+///   the identity as its pose.
 /// * `QueryContext`: counters and scratch memory. Each thread needs its own.
 /// * `LastPair`: the pair of triangles that decided the last query of two bodies. If the bodies are
 ///   meshes and move in small steps, passing the pair to the next query saves a tenth to two thirds
@@ -57,7 +57,7 @@
 ///        for (const TriangleContact& c : contacts(a, b, context)) …  // c.a, c.b, c.p_W, c.q_W
 ///
 /// 3. How far apart are they, and where are they closest to each other? The distance is 0 if and
-///    only if they touch. Otherwise the error is at most 1e-12 of the distance + 4·2^-53·S + the
+///    only if the bodies touch. Otherwise the error is at most 1e-12·distance + 4·2^-53·S, plus the
 ///    error that the options allow. S is the largest Σ|m||v| + |t| over the corners v of both
 ///    bodies, each with its body's map x ↦ m·x + t. This question costs 10 to 70 times as much as
 ///    the first one.
@@ -70,7 +70,7 @@
 ///        if (closerThan(a, b, 0.05, context)) …
 ///
 /// 5. Is one body inside the other? The other body must be a solid mesh. Questions 1, 3, 4 and 6
-///    include this question. A call of `findOneInsideOther` alone requires that the surfaces do not
+///    include this question. The caller of `findOneInsideOther` must know that the surfaces do not
 ///    touch. The answer "no" is a proof. The answer "yes" is exact, except that a point counts as
 ///    inside if none of 64 rays can decide.
 ///
@@ -103,22 +103,24 @@
 ///
 /// # Many bodies
 ///
-/// `Scene` holds bodies on frames and the pairs to test. Its queries take the pose of each frame,
-/// or a `MotionSource` that describes how frames move relative to each other.
+/// A `Scene` has frames, bodies that are fixed to the frames, and the pairs of bodies to test. Its
+/// queries take the pose of each frame, or a `MotionSource` that describes how frames move relative
+/// to each other.
 ///
 /// # Trees
 ///
-/// Programs that need no `Body` build trees themselves: `Obb4Tree` (fast), or `VolumeTree<Volume>`
-/// of any bounding volume (for comparison). The functions for questions 1 to 4 have the same names
-/// for trees. For 4-wide trees of convex parts only question 1 is defined. Queries of trees do not
-/// test whether maps are finite.
+/// Programs that use no `Body` can build trees themselves: `Obb4Tree` (fast), or
+/// `VolumeTree<Volume>` of any bounding volume (for comparison). The functions for questions 1 to 4
+/// have the same names for trees. For trees of convex parts, question 2 is not defined. Queries of
+/// trees do not test whether maps are finite.
 ///
 /// # What every query assumes
 ///
-/// The processor rounds to nearest, and long double keeps 64 bits. If either does not hold, the
-/// constructors of bodies and trees throw std::runtime_error. The program is compiled with
-/// -ffp-contract=off, which the CMake target adds, and without -ffast-math or any of the options
-/// that -ffast-math sets (core/floating_point.h). Threads may share bodies, trees and scenes.
+/// The processor rounds to nearest, and long double keeps 64 bits. If one of these two conditions
+/// does not hold, the constructors of bodies and trees throw std::runtime_error. The program is
+/// compiled with -ffp-contract=off, which the CMake target adds, and without -ffast-math or any of
+/// the options that -ffast-math sets (core/floating_point.h). Threads may share bodies, trees and
+/// scenes.
 
 #include "collision/core/error.h"
 #include "collision/geometry/convex_part.h"

@@ -7,21 +7,22 @@
 
 namespace corridor {
 
-/// The GJK simplex that the last query of two convex sets ended with. If the sets move in small
-/// steps, the next query takes fewer rounds when it begins with this simplex. The caller owns the
-/// cache; an empty cache means a cold start. The cache changes no verdict, and no distance beyond
-/// its error bound.
+/// The GJK simplex with which the previous query of two convex sets ended. If the sets move in
+/// small steps, the next query takes fewer rounds when it begins with this simplex. The caller owns
+/// the cache; an empty cache means a cold start. The cache changes no verdict, and no distance
+/// beyond its error bound.
 ///
 /// A cache belongs to one pair of sets: the points of both sets must be the same in each query. The
-/// next query begins with the first three corners.
+/// next query begins with the first three corners at most.
 struct ConvexCache {
   struct Corner {
     std::uint32_t pointA = 0, pointB = 0;  ///< indices of the sets' points
-    Vec3 n = Vec3::Zero();                 ///< from a to b: both points were extreme along it
+    Vec3 n = Vec3::Zero();  ///< from a to b: `pointA` was extreme along n, `pointB` along −n
   };
-  std::array<Corner, 4> corner;  ///< four corners: the sets overlap
+  /// The first `count` corners are valid. If all four are valid, the sets overlapped.
+  std::array<Corner, 4> corner;
   int count = 0;
-  int rounds = 0;  ///< rounds of GJK that the last query took
+  int rounds = 0;  ///< rounds of GJK that the previous query took
 };
 
 }  // namespace corridor

@@ -10,7 +10,7 @@ PredicateResult convexSetsTouch(const PosedSet& a, const PosedSet& b, ConvexCach
     if (const auto quick = quickContact(a, b)) return {*quick, false};
   const double size = a.reach() + a.pose().t.norm() + b.reach() + b.pose().t.norm();
   double radii = a.set().ball + b.set().ball;
-  // `slack` bounds the errors of both projections and of their sum; each projection is below
+  // `slack` bounds the errors of both projections and of their sum. Neither projection exceeds
   // `size`.
   const double slack = roundedUp(a.error() + b.error() + 2 * kUnit * size);
   const auto apart = [&](const Vec3& n, double gap, std::uint32_t pointA, std::uint32_t pointB) {

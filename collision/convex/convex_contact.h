@@ -9,9 +9,9 @@ namespace corridor {
 /// Returns whether two convex sets, each under its own affine map, share a point.
 ///
 /// `false` is proved in real arithmetic on the given doubles, for any finite maps: a separating
-/// axis exists, with all rounding covered. `true` is right unless the sets are closer than a band
-/// of 2^-44 of the largest coordinate involved (times ‖M‖ if a map is not rigid). Within the band
-/// either answer is possible for sets that do not touch. (PROMISES.md, promise 1.)
+/// axis exists, with all rounding covered. `true` may be wrong only for sets that are apart by less
+/// than a band: 2^-44 of the largest coordinate involved (times ‖M‖ if a map is not rigid). For
+/// such sets either answer is possible. (PROMISES.md, promise 1.)
 /// @param cache  if not null, the cache of the same two sets (convex_cache.h).
 PredicateResult convexSetsTouch(const PosedSet& a, const PosedSet& b, ConvexCache* cache = nullptr);
 

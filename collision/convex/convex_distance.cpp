@@ -59,7 +59,7 @@ Points<Real> closest(const gjk::Simplex<Real>& simplex) {
     weight[2] = dot(n, cross(c[0].w, ab));
     const Real sum = weight[0] + weight[1] + weight[2];
     for (int i = 0; i < 3; ++i) weight[i] = weight[i] / sum;
-  } else if (simplex.count == 4) {  // the origin is inside
+  } else if (simplex.count == 4) {  // the origin is inside the tetrahedron of the corners
     Real sum(0);
     for (int i = 0; i < 4; ++i) {
       const Vector<Real>&p = c[(i + 1) % 4].w, &q = c[(i + 2) % 4].w, &r = c[(i + 3) % 4].w;
@@ -225,7 +225,7 @@ ConvexDistance convexDistance(const PosedSet& a, const PosedSet& b, double relat
   };
 
   gjk::Search<double> quick(a, b, pair.size());
-  // The search does not require a difference of the bounds below 2^-50·size, because in double they
+  // The search also ends when the bounds differ by at most 2^-50·size, because in double they
   // cannot come closer.
   const gjk::Answer found =
       quick.run(gjk::startOf<double>(cache),

@@ -32,20 +32,21 @@ struct ConvexDistance {
 ///
 /// Method: GJK in double. If its bounds, with all rounding covered, differ by more than the
 /// requested error, the search continues in double-double, from the simplex found. With the default
-/// options this happens for nearly all sets closer than a hundredth of their size. On curved
-/// surfaces every other direction is a Newton step. Cost: a mean of 2 to 5 rounds in double (2 to
-/// 20 with a cylinder), and less than 2 in double-double. No test needed more than 100 rounds, at
-/// gaps down to 10^-13; `tests/collision/convex/gjk_test.cpp` prints the numbers.
+/// options this happens for nearly all sets closer than a hundredth of their size. For curved
+/// surfaces, every second search direction comes from a Newton step. Cost: a mean of 2 to 5 rounds
+/// in double (2 to 20 with a cylinder), and less than 2 in double-double. No test needed more than
+/// 100 rounds, at gaps down to 10^-13; `tests/collision/convex/gjk_test.cpp` prints the numbers.
 /// @param relative, absolute  allowed error, ≥ 0; `absolute` in metres. If both are 0, the accuracy
 /// is the best that the guarantees above give.
 /// @param cache  if not null, the cache of the same two sets (convex_cache.h).
 ConvexDistance convexDistance(const PosedSet& a, const PosedSet& b, double relative = 0,
                               double absolute = 0, ConvexCache* cache = nullptr);
 
-/// Computes the distance of two convex sets without swept spheres that are known to share no point,
-/// although they are so close that `convexSetsTouch` returns true. Guaranteed as for
-/// `convexDistance`; `distance` is above 0. Computed in double-double.
-/// @param from  the cache that a search of the same two sets has kept.
+/// Computes the distance of two convex sets, in double-double. Use this function if
+/// `convexSetsTouch` returns true although the sets are known to share no point (`confirmContact`,
+/// exact_contact.h). The guarantees are those of `convexDistance`, and `distance` is above 0.
+/// @param from  the cache that a query of the same two sets has filled.
+/// @pre the sets have no swept spheres, and share no point.
 ConvexDistance separatedDistance(const PosedSet& a, const PosedSet& b, const ConvexCache& from);
 
 /// A proved range of a distance, metres. If lower > 0, the sets do not touch.
@@ -54,8 +55,8 @@ struct ConvexRange {
 };
 /// Computes a proved range of the distance of two convex sets, in double only.
 ///
-/// The search stops as soon as the lower end exceeds `beyond`, or the upper end is at most `near`.
-/// If neither happens, both ends differ from the distance by at most 2^-41·S (S as for
+/// The search stops as soon as the lower end of the range exceeds `beyond`, or the upper end is at
+/// most `near`. If neither happens, both ends differ from the distance by at most 2^-41·S (S as for
 /// `convexDistance`), or 2^-20 of the distance. The range may be wider if caps of cylinders face
 /// each other, or if the map of a sphere is not rigid.
 /// @param beyond, near  metres.

@@ -14,10 +14,10 @@ using Diagonal = std::array<std::uint32_t, 2>;
 using Index = std::uint32_t;
 
 /// Returns diagonals that cut a counterclockwise simple polygon into monotone polygons: a vertical
-/// line crosses the boundary of a monotone polygon at most twice. `status` has the edges on the
-/// sweep line that have the inside above them, which are those that go to the right. The `helper`
-/// of such an edge is the last vertex that the sweep has reached of those that see the edge
-/// straight below them.
+/// line crosses the boundary of a monotone polygon at most twice. `status` has those edges on the
+/// sweep line that go to the right; the inside of the polygon is above them. Some of the vertices
+/// reached so far see such an edge straight below them. The `helper` of the edge is the latest of
+/// these vertices.
 std::vector<Diagonal> monotoneDiagonals(const PolygonSweep& sweep) {
   std::set<Index, PolygonSweep::Below> status{PolygonSweep::Below{&sweep}};
   std::vector<Index> helper(sweep.size());
@@ -131,7 +131,7 @@ class Subdivision {
   /// Sorts diagonals from v counterclockwise, beginning at the edge from v to the next vertex.
   void sortAround(Index v, std::vector<Index>& diagonals) const {
     if (diagonals.size() < 2) return;
-    const auto half = [&](Index w) {  // below, at, or above a half turn
+    const auto half = [&](Index w) {  // 0, 1, 2: the turn to w is below, at, above 180°
       return 1 - sweep_.side(v, sweep_.next(v), w);
     };
     std::sort(diagonals.begin(), diagonals.end(), [&](Index g, Index h) {
@@ -177,7 +177,8 @@ void triangulate(const PolygonSweep& sweep, const std::vector<Index>& face,
     else
       high = (high + n - 1) % n;
   }
-  std::vector<Vertex> stack{sorted[0], sorted[1]};  // not yet cut off: a chain that is not convex
+  // The vertices that are not yet cut off: a chain that is not convex.
+  std::vector<Vertex> stack{sorted[0], sorted[1]};
   for (std::size_t j = 2; j + 1 < n; ++j) {
     const Vertex v = sorted[j];
     Vertex last = stack.back();

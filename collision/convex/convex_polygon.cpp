@@ -45,16 +45,16 @@ ConvexPolygon::ConvexPolygon(std::span<const Vec2> points) {
         vertices_.pop_back();
       vertices_.push_back(p);
     }
-    if (!vertices_.empty()) vertices_.pop_back();  // the first of the other chain
+    if (!vertices_.empty()) vertices_.pop_back();  // the first vertex of the other chain
   }
   if (vertices_.size() < 3)
     throw std::invalid_argument("the points of a polygon must not all be on one line");
 }
 
 std::size_t ConvexPolygon::extreme(const Vec2& direction) const {
-  // The edges that go up follow each other, and so do those that go down. The search looks for the
-  // top: it keeps an edge `low` at or before the last edge that goes up, and an edge `high` after
-  // it.
+  // Along the boundary, all edges that go up come in one run, and all edges that go down in
+  // another. The search looks for the top, where the first run ends. It keeps an edge `low` at or
+  // before the last edge of this run, and an edge `high` after that last edge.
   const Vec3 d = lifted(direction);
   const std::size_t n = size();
   if (direction.isZero(0)) return 0;
@@ -81,7 +81,7 @@ std::size_t ConvexPolygon::extreme(const Vec2& direction) const {
         high = middle;
     }
   }
-  // Edge `low` is the last one below the top.
+  // Edge `low` is the last edge below the top, and ends there.
   return high % n;
 }
 

@@ -14,7 +14,7 @@ using Vec2 = Eigen::Vector2d;
 
 /// Returns 1 if r is left of the line from p to q, −1 if it is right of the line, 0 if it is on the
 /// line. Exact.
-/// @pre all numbers are finite.
+/// @pre all coordinates are finite.
 int lineSide(const Vec2& p, const Vec2& q, const Vec2& r);
 
 /// A convex polygon: the hull of its vertices, counterclockwise. Every vertex is an extreme point,
@@ -28,7 +28,7 @@ class ConvexPolygon {
 
   std::span<const Vec2> vertices() const { return vertices_; }
   std::size_t size() const { return vertices_.size(); }
-  /// Vertex i modulo `size()`.
+  /// Returns the vertex with the index i modulo `size()`.
   const Vec2& operator[](std::size_t i) const { return vertices_[i % vertices_.size()]; }
 
   /// Returns the index of a vertex that is farthest along a direction; vertex 0 for a direction of

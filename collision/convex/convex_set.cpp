@@ -43,8 +43,8 @@ void PosedSet::findBounds() const {
   double farthest = set_.polytope ? set_.polytope->reachSquared() : 0;
   if (!set_.polytope)
     for (const Vec3& p : set_.points) farthest = std::max(farthest, p.squaredNorm());
-  // Squares below 2^-1022 vanish, and so do lengths below 2^-511. 2^-500 covers this for points,
-  // and 2^-440 for ‖M‖ and for the length of Mᵀn: 20u·2^-440 > 2^-511.
+  // Squares below 2^-1022 vanish, and with them lengths below 2^-511. 2^-500 covers this for
+  // points, and 2^-440 for ‖M‖ and for the length of Mᵀn: 20u·2^-440 > 2^-511.
   localReach_ = roundedUp(std::sqrt(farthest) + set_.ball + set_.disc + 0x1p-500);
   reach_ = roundedUp(std::max(0x1p-440, X_.m.norm()) * localReach_);
   error_ = roundedUp(kUnit * (20 * reach_ + 6 * X_.t.norm()));

@@ -16,9 +16,10 @@ class Polytope;
 /// The core is the hull of `points`, or a cylinder: the segment between two points swept by a disc.
 /// The viewed object must outlive the view. Lengths in metres.
 ///
-/// Queries find the point that is farthest along a direction by testing all points of a part, by
-/// hill climbing on a `Polytope`, and by the hierarchy of a `DobkinKirkpatrick`, in O(n), some
-/// O(√n) and O(log n). The choice changes no answer beyond its promised error.
+/// Queries need the point that is farthest along a direction. For a part or a triangle they test
+/// all n points, in O(n). For a `Polytope` they climb along edges, in some O(√n). For a
+/// `DobkinKirkpatrick` they use its hierarchy, in O(log n). The choice changes no answer beyond its
+/// promised error.
 struct ConvexSet {
   ConvexSet(const ConvexPart& part)  // NOLINT: a part is a convex set
       : points(part.points), ball(part.radius) {
@@ -32,8 +33,8 @@ struct ConvexSet {
 
   /// Returns the index of a point that is farthest along m. For polytopes the answer is exact. For
   /// other sets it is the point whose rounded product with m is the largest.
-  /// @param start  a vertex that is likely near the answer, which saves time; `kCold` if none is
-  /// known.
+  /// @param start  a vertex that is likely near the answer, to save time; `kCold` if no such vertex
+  /// is known.
   std::uint32_t farthest(const Vec3& m, std::uint32_t start = kCold) const {
     if (polytope) return farthestVertex(m, start);
     std::uint32_t best = 0;
@@ -49,8 +50,8 @@ struct ConvexSet {
   double ball = 0;                               ///< radius of the sphere; 0: none
   double disc = 0;                               ///< radius of the disc; 0: none
   Vec3 axis = Vec3::Zero();                      ///< normal of the disc: unit, rounded
-  const Polytope* polytope = nullptr;            ///< null, unless the view is of a polytope
-  const DobkinKirkpatrick* hierarchy = nullptr;  ///< null, unless the view is of a hierarchy
+  const Polytope* polytope = nullptr;            ///< null for parts and triangles
+  const DobkinKirkpatrick* hierarchy = nullptr;  ///< set only for a `DobkinKirkpatrick`; else null
 
  private:
   void sweepDisc();  ///< turns a capsule into a cylinder
@@ -66,15 +67,15 @@ struct ConvexSet {
 /// * Mᵀn has three roundings per component, so it is off by at most γ3·‖|M|‖₂·|n| < 3.1uF. This
 ///   changes the product with p by 3.1uFρ.
 /// * The rounding of the product with p: γ3·|Mᵀn||p| < 3.1uFρ. That of the product n·t: 3.1u|t|.
-/// * The sum of these two and of the sphere's or the disc's share: 2u(Fρ + |t|).
-/// * The sphere's share |Mᵀn|: 3.1uF from Mᵀn, 4uF from the norm.
-/// * The disc's share |Mᵀn × axis|: 3.1uF from Mᵀn. The axis is off by 1u (difference of the
-///   points) + 5u (norm and quotient), which gives 6uF. Cross product and norm: 2√2·1.1uF + 4uF.
-///   Together < 17uF.
+/// * The sum of these two products and of the sphere's or the disc's term: 2u(Fρ + |t|).
+/// * The sphere's term ball·|Mᵀn|, per unit of `ball`: 3.1uF from Mᵀn, 4uF from the norm.
+/// * The disc's term disc·|Mᵀn × axis|, per unit of `disc`: 3.1uF from Mᵀn. The axis is off by 1u
+///   (difference of the points) + 5u (norm and quotient), which gives 6uF. Cross product and norm:
+///   2√2·1.1uF + 4uF. Together < 17uF.
 ///
-/// Total: the share of the points is below 6.2uF|p|, that of the sphere below 7.1uF·ball, that of
-/// the disc below 17uF·disc. As |p| + ball + disc ≤ ρ, these three together are below 17uFρ. With
-/// the sum and n·t the total is below u(20Fρ + 6|t|).
+/// Total: the error from the points is below 6.2uF|p|, the error from the sphere below 7.1uF·ball,
+/// and the error from the disc below 17uF·disc. As |p| + ball + disc ≤ ρ, these three errors
+/// together are below 17uFρ. With the sum and n·t the total is below u(20Fρ + 6|t|).
 ///
 /// Sizes and coordinates should be 0 or within 2^±440 m. Outside this range, squares overflow or
 /// vanish. Then contact queries may report a contact that does not exist, and distances may be too

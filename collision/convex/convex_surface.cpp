@@ -82,7 +82,7 @@ void ConvexSurface::begin(std::span<const Vec3> points, std::array<std::uint32_t
 }
 
 void ConvexSurface::add(std::span<const Vec3> points, std::uint32_t f, std::uint32_t p) {
-  free_.insert(free_.end(), seen_.begin(), seen_.end());  // removed by the last change
+  free_.insert(free_.end(), seen_.begin(), seen_.end());  // removed by the previous `add`
   findHorizon(points, f, points[p]);
   fan_.clear();
   for (const auto& [from, to, outer] : horizon_) {

@@ -38,7 +38,7 @@ class ConvexSurface {
   static bool sees(std::span<const Vec3> points, const Face& face, const Vec3& p);
 
   std::span<const Face> faces() const { return faces_; }
-  /// The faces that the last change added, and those that it removed.
+  /// The faces that the latest `begin` or `add` added, and those that it removed.
   std::span<const std::uint32_t> added() const { return fan_; }
   std::span<const std::uint32_t> removed() const { return seen_; }
 
@@ -61,8 +61,8 @@ class ConvexSurface {
 };
 
 /// Returns the indices of four points that are not on one plane. They are far apart if a search in
-/// double finds such points; otherwise they are the first four. Returns nothing if all points are
-/// on one plane. Exact.
+/// double finds such points; otherwise they are the first such four in the order of the points.
+/// Returns nothing if all points are on one plane. Exact.
 std::optional<std::array<std::uint32_t, 4>> findTetrahedron(std::span<const Vec3> points);
 
 }  // namespace corridor

@@ -42,8 +42,8 @@ std::size_t DobkinKirkpatrick::bytes() const {
 
 std::optional<std::string> DobkinKirkpatrick::check() const {
   const std::span<const Vec3> points = polytope_.vertices();
-  // The faces of a level are those that were born at this level or before, and of which no vertex
-  // is removed yet.
+  // A face belongs to a level if it was born at this level or before, and none of its vertices is
+  // removed at this level or before.
   const auto lastLevelOf = [&](const Face& face) {
     return std::min(
         {lastLevel(face.corner[0]), lastLevel(face.corner[1]), lastLevel(face.corner[2])});

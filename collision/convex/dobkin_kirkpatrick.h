@@ -13,10 +13,10 @@
 namespace corridor {
 
 /// The hierarchy of Dobkin and Kirkpatrick of a convex polytope. P_0 is the polytope. P_i is the
-/// hull of the vertices of P_{i−1} without an independent set of them, each of which has at most 8
-/// neighbours. The last polytope is a simplex. Each face of P_i that is not a face of P_{i−1}
-/// belongs to one removed vertex, which is *opposite* to it. Height O(log n); building time and
-/// memory O(n).
+/// hull of the vertices that remain after an independent set of vertices is removed from P_{i−1}.
+/// Each removed vertex has at most 8 neighbours in P_{i−1}. The last polytope is a simplex. Each
+/// face of P_i that is not a face of P_{i−1} belongs to one removed vertex. This vertex is called
+/// *opposite* to the face. Height O(log n); building time and memory O(n).
 ///
 /// Source: D. P. Dobkin, D. G. Kirkpatrick, A linear algorithm for determining the separation of
 /// convex polyhedra, Journal of Algorithms 6 (1985), and Determining the separation of preprocessed
@@ -49,7 +49,7 @@ class DobkinKirkpatrick {
   /// The work of one query.
   struct Cost {
     std::size_t products = 0;  ///< inner products of the direction with vertices
-    std::size_t climbs = 0;  ///< steps along edges of P_0 after the hierarchy, because of rounding
+    std::size_t climbs = 0;    ///< steps along edges of P_0, where rounding misled the walk
   };
   /// Returns a vertex that is farthest along a direction: exact, in real arithmetic on the given
   /// doubles. O(log n).
@@ -57,7 +57,7 @@ class DobkinKirkpatrick {
   /// Method: the hierarchy of projections (polytope_shadow.h), in double. At the end, two edges
   /// prove in exact arithmetic that the vertex is farthest. If this proof fails because of
   /// rounding, the query climbs from that vertex along edges, with exact comparisons.
-  /// @param direction  if it is 0, any vertex is farthest.
+  /// @param direction  if it is 0, any vertex may be returned.
   /// @param cost  if not null, receives the work.
   /// @pre the direction is finite.
   std::uint32_t extreme(const Vec3& direction, Cost* cost = nullptr) const;
@@ -65,8 +65,8 @@ class DobkinKirkpatrick {
   /// Returns what is wrong with the hierarchy, or nothing. Exact. Checks at each level that:
   /// * P_i is convex;
   /// * the removed vertices are independent and have at most 8 neighbours;
-  /// * each new face has its removed vertex on or above its plane;
-  /// * at least a twentieth of the vertices is removed, and at least one.
+  /// * the opposite vertex of each new face is on or above the plane of the face;
+  /// * at least a twentieth of the vertices, and at least one vertex, is removed.
   /// Checks also that the last polytope is a simplex.
   std::optional<std::string> check() const;
 
@@ -78,11 +78,11 @@ class DobkinKirkpatrick {
   struct Face {
     Polytope::Face corner;
     std::uint32_t opposite = kNone;  ///< kNone: a face of P_0
-    std::uint16_t born = 0;          ///< the first level i of which it is a face
+    std::uint16_t born = 0;          ///< the first level i for which it is a face of P_i
   };
-  /// The neighbours of a vertex in the last polytope that has the vertex, counterclockwise
-  /// (`ringVertex_`). For each neighbour also the face that has the vertex, this neighbour and the
-  /// next one (`ringFace_`).
+  /// Where `ringVertex_` and `ringFace_` have the entries of a vertex v. The entries of
+  /// `ringVertex_` are the neighbours of v in the last polytope that has v, counterclockwise. The
+  /// entry of `ringFace_` for a neighbour is the face of v, this neighbour and the next neighbour.
   struct Ring {
     std::uint32_t start = 0;
     std::uint16_t size = 0;

@@ -38,7 +38,7 @@ class DobkinKirkpatrickBuilder {
     return f;
   }
 
-  /// Finds the faces across all edges of P_0, and the degrees.
+  /// Finds the face across each edge of each face of P_0, and the degree of each vertex.
   void connect() {
     struct Half {
       std::uint32_t low, high, face;
@@ -121,9 +121,9 @@ class DobkinKirkpatrickBuilder {
     return true;
   }
 
-  /// Cuts ears off the hole until it is filled. An ear is a face of the hull if no neighbour of v
-  /// is above its plane, and v is not below it. (The faces of the hull of the neighbours that v
-  /// sees have the ring as their boundary, because each face at v has all neighbours below its
+  /// Cuts ears off the hole until the hole is filled. An ear is a face of the hull if no neighbour
+  /// of v is above its plane, and v is not below it. (The faces of the hull of the neighbours that
+  /// v sees have the ring as their boundary, because each face at v has all neighbours below its
   /// plane.)
   void fill(std::uint32_t v, std::size_t level) {
     std::vector<Side>& hole = hole_;
@@ -143,7 +143,8 @@ class DobkinKirkpatrickBuilder {
     };
     const auto link = [&](std::uint32_t f, int edge, std::uint32_t outer) {
       across_[f][edge] = outer;
-      const std::uint32_t from = to_.faces_[f].corner[(edge + 1) % 3];  // as seen from beyond
+      // The outer face has the edge in the opposite direction.
+      const std::uint32_t from = to_.faces_[f].corner[(edge + 1) % 3];
       across_[outer][cornerOf(outer, from)] = f;
     };
     while (hole.size() > 3) {

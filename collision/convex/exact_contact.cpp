@@ -16,13 +16,13 @@
 #include "collision/core/rounding.h"
 
 /// The linear program has the variables (n, s) with |n_i|, s ≤ 1. A corner of the Minkowski
-/// difference, q − p with p in a and q in b, gives the row −n·(q − p) + s ≤ 0. The goal is the
-/// largest s. For any subset of the corners:
+/// difference, q − p with p in a and q in b, gives the row −n·(q − p) + s ≤ 0. The objective is to
+/// maximise s. For any subset of the corners:
 /// * If the largest s is 0, the weights of the tight rows make 0 a convex combination of the
 ///   subset. So the hulls share a point.
 /// * Otherwise the corner that is lowest along n decides. If n·(q − p) > 0 at this corner, n
-///   separates the hulls. If not, this corner is not in the subset, because n·(q − p) ≥ s > 0 at
-///   the corners of the subset. So each round adds another corner, and the search ends.
+///   separates the hulls. If n·(q − p) ≤ 0, this corner is not in the subset, because n·(q − p) ≥ s
+///   > 0 at the corners of the subset. So each round adds another corner, and the search ends.
 namespace corridor {
 namespace {
 

@@ -147,12 +147,12 @@ struct Optimum {
   Point<Rational, M> x;
   Rational value;  ///< goal·x
   /// The rows whose normals, with these weights, sum up to the goal; weights above 0. Bounds are
-  /// left out.
+  /// not listed.
   std::vector<std::pair<std::uint32_t, Rational>> weights;
   bool atBounds = false;  ///< a bound also has a weight above 0
 };
 
-/// Solves A w = r for a regular M × M matrix A, column by column of `a`.
+/// Solves A w = r for an invertible M × M matrix A. `a` holds the columns of A.
 template <std::size_t M>
 Point<Rational, M> weightsOf(std::array<Point<Rational, M>, M> a, Point<Rational, M> r) {
   // Row i of the system is (a[0][i], …, a[M−1][i] | r[i]).

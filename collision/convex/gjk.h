@@ -74,7 +74,7 @@ class Search {
     answer.upper = HUGE_VAL;
     for (int i = 0; i < from.count && i < 3; ++i) {
       const Corner<Other>& c = from.corner[i];
-      if (c.pointA >= a_.points() || c.pointB >= b_.points()) continue;  // a cache of other sets
+      if (c.pointA >= a_.points() || c.pointB >= b_.points()) continue;  // cache of other sets
       const Corner<Real> corner = cornerOf(c.pointA, c.pointB, Vector<Real>(c.n));
       bool known = false;  // at another pose, two corners may be the same
       for (int k = 0; k < known_.count; ++k) known = known || known_.corner[k].w == corner.w;
@@ -106,7 +106,7 @@ class Search {
         if ((answer.accepted = accept(answer.direction, lower, numberA, numberB))) return answer;
       }
       if (enough(upper_, gap)) return answer;
-      bool known = answer.rounds > 0 && corner.w == last;  // the last round found the same corner
+      bool known = answer.rounds > 0 && corner.w == last;  // also found by the previous round
       for (int i = 0; i < face.count; ++i) known = known || corner.w == face.corner[i];
       last = corner.w;
       if (known && stepped) continue;
@@ -262,7 +262,7 @@ Simplex<Real> startOf(const ConvexCache* cache) {
   }
   return from;
 }
-/// Copies the corners of a simplex to the cache, if there is one.
+/// Copies the corners of a simplex to the cache, unless `cache` is null.
 template <class Real>
 void keep(const Simplex<Real>& simplex, ConvexCache* cache) {
   if (!cache) return;
@@ -273,8 +273,8 @@ void keep(const Simplex<Real>& simplex, ConvexCache* cache) {
   }
 }
 
-/// Runs a search for a verdict. The search ends when `accept` returns true, when the upper bound is
-/// at most `near`, or when the upper and the lower bound differ by at most 2^-50·size or
+/// Runs a search for a verdict. The search ends when `accept` returns true, or when the upper bound
+/// is at most `near`. It also ends when the two bounds differ by at most 2^-50·size, or by at most
 /// `Effort::agreed` times the lower bound.
 /// @param size, near  metres.
 /// @param cache  if not null, gives the simplex to start from, and receives the simplex that the

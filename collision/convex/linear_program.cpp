@@ -11,8 +11,8 @@
 #include "collision/core/rounding.h"
 
 /// Up to three linear programs answer whether a linear program is infeasible, unbounded or neither.
-/// The first two are over cones: each contains the origin, and has the bounds |y_i|, s ≤ 1, so each
-/// has an optimum.
+/// The first two are over cones. Each of these two contains the origin and has the bounds |y_i|, s
+/// ≤ 1, and so has an optimum.
 /// * Feasible: maximise s subject to normal·y − offset·s ≤ 0 for all half-spaces. If s > 0, y/s is
 ///   a point of all half-spaces. If s = 0, duality gives weights of half-spaces that sum up to
 ///   (0, …, 0, 1), which is Farkas' lemma.
@@ -39,7 +39,8 @@ class Program {
     bool finite = goal.allFinite();
     for (const HalfSpace<D>& each : list)
       finite = finite && each.normal.allFinite() && std::isfinite(each.offset);
-    if (!finite) throw std::invalid_argument("a linear program must have finite numbers");
+    if (!finite)
+      throw std::invalid_argument("linear program: a normal, an offset or the goal is not finite");
   }
 
   LinearProgramAnswer<D> solve() {
@@ -54,14 +55,14 @@ class Program {
   }
 
  private:
-  /// Row i of the program over (y, s): normal·y − offset·s ≤ 0.
+  /// Returns row i of the program over (y, s): normal·y − offset·s ≤ 0.
   Row<kM> lifted(std::uint32_t i) const {
     Row<kM> row{{}, 0, i};
     for (std::size_t k = 0; k < kD; ++k) row.normal[k] = list_[i].normal[k];
     row.normal[kD] = -list_[i].offset;
     return row;
   }
-  /// Row i as it is, or with an offset of 0.
+  /// Returns row i, with its offset if `withOffset` is true, else with an offset of 0.
   Row<kD> plain(std::uint32_t i, bool withOffset) const {
     Row<kD> row{{}, withOffset ? list_[i].offset : 0, i};
     for (std::size_t k = 0; k < kD; ++k) row.normal[k] = list_[i].normal[k];
@@ -75,7 +76,8 @@ class Program {
       answer_.proof.push_back({i, static_cast<double>(weight)});
   }
 
-  /// Finds a point of all half-spaces, or the proof that there is none.
+  /// Finds a point of all half-spaces and returns true, or finds the proof that there is none and
+  /// returns false.
   bool findPoint() {
     answer_.status = LinearProgramStatus::optimal;
     if (list_.empty()) return true;
@@ -165,6 +167,7 @@ class Program {
     return true;
   }
 
+  /// Finds an optimal point and the weights that prove it, in rationals.
   /// @pre there is an optimum, and `answer_.x` is near a point of all half-spaces.
   void findOptimum() {
     const auto rows = [this](std::uint32_t i) { return plain(i, true); };

@@ -33,11 +33,11 @@ struct WeightedHalfSpace {
 template <int D>
 struct LinearProgramAnswer {
   LinearProgramStatus status = LinearProgramStatus::infeasible;
-  /// `optimal`: a point of all half-spaces that is farthest along the goal. `unbounded`: a point of
-  /// all half-spaces.
+  /// `optimal`: a point of all half-spaces with the largest goal·x. `unbounded`: a point of all
+  /// half-spaces.
   Eigen::Matrix<double, D, 1> x = Eigen::Matrix<double, D, 1>::Zero();
   /// `unbounded`: a direction that leaves no half-space (normal·ray ≤ 0 for all), and along which
-  /// the goal grows.
+  /// goal·x grows.
   Eigen::Matrix<double, D, 1> ray = Eigen::Matrix<double, D, 1>::Zero();
   /// The proof.
   /// * `optimal`: at most D half-spaces. The weighted sum of their normals is the goal, and their
@@ -53,19 +53,21 @@ struct LinearProgramAnswer {
 /// Method: Seidel's algorithm in double, in random order (seidel-inl.h), gives a candidate. The
 /// candidate's own witness, with a bound of all rounding, proves whether the half-spaces have a
 /// common point: it is a point inside all half-spaces, or weights whose signs are those of small
-/// determinants. What the witness does not decide is decided in rationals. With a goal, `unbounded`
-/// and the optimum are always decided in rationals. They use the few half-spaces that determine the
-/// answer; all others are tested against the result. Cost: O(n) in the mean for n half-spaces.
-/// @param goal  0: any point of all half-spaces is optimal.
+/// determinants. What the witness does not decide is decided in rationals. If the goal is not 0,
+/// rationals always decide `unbounded` and the optimum. The rational computation uses the few
+/// half-spaces that determine the answer; all others are tested against the result. Cost: O(n) in
+/// the mean for n half-spaces.
+/// @param goal  the objective vector. If it is 0, any point of all half-spaces is optimal.
 /// @param seed  seed of the random order. It changes neither the status nor the optimal value.
-/// @throws std::invalid_argument if a number is not finite.
+/// @throws std::invalid_argument if a component of a normal or of the goal, or an offset, is not
+/// finite.
 template <int D>
 LinearProgramAnswer<D> solveLinearProgram(std::span<const HalfSpace<D>> halfSpaces,
                                           const Eigen::Matrix<double, D, 1>& goal,
                                           std::uint64_t seed = 1);
 
 /// Finds a common point of two polytopes (or unbounded polyhedra), each given by its half-spaces,
-/// by the linear program of all half-spaces without a goal. Touching counts. In the proof, indices
+/// by the linear program of all half-spaces with the goal 0. Touching counts. In the proof, indices
 /// of b's half-spaces begin at a.size().
 template <int D>
 LinearProgramAnswer<D> commonPoint(std::span<const HalfSpace<D>> a, std::span<const HalfSpace<D>> b,

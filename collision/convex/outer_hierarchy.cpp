@@ -62,7 +62,7 @@ OuterHierarchy::OuterHierarchy(const DobkinKirkpatrick& inner) : inner_(&inner) 
   }
   try {
     polar_.emplace(Polytope(polar));
-  } catch (const std::invalid_argument&) {  // all on one plane
+  } catch (const std::invalid_argument&) {  // the polar points are all on one plane
   }
 }
 
@@ -106,7 +106,7 @@ void OuterHierarchy::findFaces() {
       }
     }
     // Goes around the union of the coplanar triangles. The next boundary edge begins at the end of
-    // the last one. The edges at that vertex which are inside the face are skipped.
+    // the present one. At that vertex, edges inside the face are skipped.
     std::uint32_t u = edgeOf;
     int k = edge;
     do {

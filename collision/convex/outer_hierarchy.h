@@ -12,16 +12,17 @@
 namespace corridor {
 
 /// The outer hierarchy of a convex polytope Q. Q_0 is Q. Q_j is the intersection of the half-spaces
-/// of Q_{j−1} without an independent set of them, each of which has at most 8 neighbours. The last
-/// Q_j has four half-spaces. So all of Q_0 ⊂ Q_1 ⊂ … contain Q, while Q contains the polytopes of
-/// the inner hierarchy (`DobkinKirkpatrick`). Height O(log n), memory O(n).
+/// that remain after an independent set of half-spaces is removed from Q_{j−1}. Each removed
+/// half-space has at most 8 neighbours. The last Q_j has four half-spaces. So all of Q_0 ⊂ Q_1 ⊂ …
+/// contain Q, while Q contains the polytopes of the inner hierarchy (`DobkinKirkpatrick`). Height
+/// O(log n), memory O(n).
 ///
 /// The vertices of Q_j are not representable as doubles, so Q_j is stored as half-spaces. The outer
-/// hierarchy is the hierarchy of Dobkin and Kirkpatrick of the polar polytope. This has a vertex y
-/// for each half-space y·(x − o) ≤ 1 of Q, about a center o inside Q. The y are rounded: each is
-/// off by a few units in the last place, measured at the distance of its plane from o. Coplanar
-/// triangles make one half-space. Because of the rounding, the hierarchy only guides searches;
-/// their answers need a proof by the vertices of Q.
+/// hierarchy is the hierarchy of Dobkin and Kirkpatrick of the polar polytope. The polar polytope
+/// has a vertex y for each half-space y·(x − o) ≤ 1 of Q, about a center o inside Q. |y| is the
+/// reciprocal of the distance of the half-space's plane from o. Each y is rounded, and is off by a
+/// few units in the last place of |y|. Coplanar triangles of Q give one half-space. Because of the
+/// rounding, the hierarchy only guides searches; their answers need a proof by the vertices of Q.
 ///
 /// Building: the hierarchy takes O(n), but the hull of the rounded points is computed anew, in
 /// O(n log n) on usual polytopes.
@@ -35,7 +36,7 @@ class OuterHierarchy {
 
   const DobkinKirkpatrick& inner() const { return *inner_; }
   /// The hierarchy of the polar polytope; null if rounding leaves no polar polytope, because Q is
-  /// nearly flat in double, or its numbers are huge or tiny.
+  /// nearly flat in double, or has huge or tiny coordinates.
   const DobkinKirkpatrick* polar() const { return polar_ ? &*polar_ : nullptr; }
   /// The point o.
   const Vec3& center() const { return center_; }

@@ -69,7 +69,7 @@ class Expansion {
     take();
     bool inside = true;
     if (ray) {
-      // The ray must begin inside the polytope, or it might pass beside it.
+      // The ray must begin inside the polytope; otherwise the ray might pass beside the polytope.
       inside = expand(result, 0, true).distance > 0;
       along_ = ray;
       best_ = HUGE_VAL;
@@ -77,7 +77,7 @@ class Expansion {
     }
     const Entry last = expand(result, accuracy, false);
     if (!inside) result.lower = 0;
-    if (best_ == HUGE_VAL)  // the planes of tiny cores are not known
+    if (best_ == HUGE_VAL)  // no plane could be computed, because the cores are tiny
       for (const Vec3& n : directions) tryNormal(n);
     finish(last.face, result);
     return result;
@@ -86,10 +86,10 @@ class Expansion {
  private:
   struct Plane {
     Vec3 normal = Vec3::Zero();  ///< unit, outward
-    std::uint32_t stamp = 0;     ///< distinguishes faces that have the same index in turn
+    std::uint32_t stamp = 0;     ///< distinguishes faces that use the same index one after another
   };
   struct Entry {
-    double distance;  ///< lower bound, units: of the plane, or along the ray
+    double distance;  ///< of the plane, or along the ray: a lower bound, in units
     std::uint32_t face, stamp;
     bool operator<(const Entry& other) const { return distance > other.distance; }
   };
@@ -131,8 +131,8 @@ class Expansion {
     return static_cast<std::uint32_t>(points_.size() - 1);
   }
 
-  /// Computes the upper bound of the depth that this normal gives, and keeps it if it is the least
-  /// so far.
+  /// Computes the upper bound of the depth that this normal gives. Stores the bound and the normal
+  /// if the bound is the least so far.
   void tryNormal(const Vec3& n) {
     const double upper = upperAlong(n);
     if (upper < best_) best_ = upper, bestNormal_ = n;
@@ -197,8 +197,9 @@ class Expansion {
     const double depth = plane.normal.dot(points_[surface_.faces()[f].corner[0]]);
     const Vec3 x =
         along_ ? Vec3(*along_ * (depth / plane.normal.dot(*along_))) : Vec3(plane.normal * depth);
-    // If several coplanar triangles form a larger face, x may be in another one of them: the loop
-    // walks there. `weight` holds the barycentric coordinates of x, up to a factor.
+    // If several coplanar triangles form a larger face, x may be in another triangle than f; then
+    // the loop walks to that triangle. `weight` holds the barycentric coordinates of x, up to a
+    // factor.
     Vec3 weight;
     std::array<std::uint32_t, 3> corner{};
     for (int step = 0; step < 64; ++step) {
@@ -225,8 +226,8 @@ class Expansion {
     result.p_WB = unit_ * p_B - b * bestNormal_;
   }
 
-  /// Returns the result if all points are on one plane: the sets are flat, so only the spheres give
-  /// a depth.
+  /// Returns the result for the case that all points are on one plane. Then the sets are flat, so
+  /// only the spheres give a depth.
   Penetration flat() {
     Penetration result;
     Vec3 n = flatNormal();
@@ -263,7 +264,7 @@ class Expansion {
   gjk::Support<double> supportA_, supportB_;
   const Vec3* along_;
   double radii_, error_;
-  std::vector<Vec3> points_, pointsA_;  ///< of A − B, and of A; units
+  std::vector<Vec3> points_, pointsA_;  ///< points of A − B, and of A; in units
   ConvexSurface surface_;
   std::vector<Plane> planes_;
   std::priority_queue<Entry> queue_;
@@ -288,7 +289,8 @@ Penetration penetration(const PosedSet& a, const PosedSet& b, double accuracy) {
     if (cores.distance > 0) {
       Penetration result;
       const double size = a.reach() + a.pose().t.norm() + b.reach() + b.pose().t.norm();
-      const double error = 8 * kUnit * size + 0x1p-46 * radii;  // the distance's, and `keepsBall`
+      // The two terms are the error of the distance, and that of `keepsBall`.
+      const double error = 8 * kUnit * size + 0x1p-46 * radii;
       result.lower = std::max(0.0, roundedDown(radii - cores.distance - error));
       result.upper = std::max(0.0, roundedUp(radii - cores.lower) + error);
       result.direction_W = result.normal_W = cores.normal_W;
@@ -304,7 +306,7 @@ Penetration penetrationAlong(const PosedSet& a, const PosedSet& b, const Vec3& d
                              double accuracy) {
   const double largest = direction.cwiseAbs().maxCoeff();
   if (!direction.allFinite() || !(largest > 0))
-    throw std::invalid_argument("the direction of a depth must be finite and not 0");
+    throw std::invalid_argument("penetrationAlong: the direction must be finite and not 0");
   if (!convexSetsTouch(a, b)) return {};
   const Vec3 along = (direction / powerOfTwo(largest)).normalized();
   return Expansion(a, b, &along, a.set().ball + b.set().ball > 0).run(accuracy);

@@ -19,7 +19,7 @@ struct Penetration {
   Vec3 normal_W = Vec3::Zero();
   /// A point of each set, before the move, with p_WA − p_WB = depth·direction_W: the sets touch
   /// there after the move. (For flat sets on one plane and a direction in this plane, `upper` is
-  /// infinite, and both are the same point.)
+  /// infinite, and p_WA = p_WB.)
   Vec3 p_WA = Vec3::Zero(), p_WB = Vec3::Zero();
   int rounds = 0;  ///< points that were added to the inner polytope
 };
@@ -27,19 +27,19 @@ struct Penetration {
 /// Computes the least depth, over all directions, of two convex sets under their maps.
 ///
 /// Guarantee: `lower` ≤ depth ≤ `upper`, in real arithmetic on the given doubles, for sizes and
-/// coordinates that are 0 or within 2^±440 m. The bounds differ by at most the share `accuracy` of
-/// the depth, or by 2^-42 of the largest coordinate, unless the search reaches its limit of 500
-/// rounds. It did so for some curved or very finely tessellated surfaces. In tests the bounds then
-/// differed by up to 1e-4 of the depth (two equal cylinders) or 0.8 % (two equal spheres under a
-/// scaling map, and two equal hulls of 10,000 points on a sphere).
+/// coordinates that are 0 or within 2^±440 m. The bounds differ by at most `accuracy` times the
+/// depth, or by 2^-42 of the largest coordinate, unless the search reaches its limit of 500 rounds.
+/// In tests, the search reached this limit for some curved or very finely tessellated surfaces. The
+/// bounds then differed by up to 1e-4 of the depth (two equal cylinders) or 0.8 % (two equal
+/// spheres under a scaling map, and two equal hulls of 10,000 points on a sphere).
 ///
 /// Method: the depth is the distance of the origin from the boundary of the Minkowski difference A
-/// − B. If only the spheres that sweep the cores overlap, the distance of the cores gives the
-/// depth. Else the expanding polytope algorithm (G. van den Bergen, Proximity queries and
-/// penetration depth computation on 3D game objects, 2001) grows an inner polytope. Its faces are
-/// exact (convex_surface.h), so flat faces and slivers do no harm; its closest face gives `lower`,
-/// and the support of A − B along the normal of that face gives `upper`. Cost: some 10 to 100
-/// rounds.
+/// − B. If the cores are apart and only the spheres that sweep them overlap, the distance of the
+/// cores gives the depth. Else the expanding polytope algorithm (G. van den Bergen, Proximity
+/// queries and penetration depth computation on 3D game objects, 2001) grows an inner polytope. Its
+/// faces are exact (convex_surface.h), so flat faces and slivers do no harm; its closest face gives
+/// `lower`, and the support of A − B along the normal of that face gives `upper`. Cost: some 10 to
+/// 100 rounds.
 /// @param accuracy  the relative accuracy of the depth, ≥ 0.
 Penetration penetration(const PosedSet& a, const PosedSet& b, double accuracy = 1e-9);
 

@@ -127,8 +127,8 @@ class PolygonSearch {
       direction_ = out;
       return keepBetween(k);
     }
-    return Step::apart;  // rounding: nothing separates. The proof will fail, and all vertices
-                         // decide.
+    // Because of rounding, no line was found. The proof will fail, and then all vertices decide.
+    return Step::apart;
   }
 
   /// Returns whether T_Q is beyond the line through v with the normal `out`, which means that the
@@ -169,7 +169,7 @@ class PolygonSearch {
   /// Keeps the chain from vertex k of T_P to the next vertex of T_P.
   Step keepBetween(std::size_t k) {
     const std::size_t n = triangle_.size();
-    if (!wholeP_ && k + 1 == n) return Step::apart;  // the chord of the chain: nothing is beyond it
+    if (!wholeP_ && k + 1 == n) return Step::apart;  // the chord: no vertices are left beyond it
     const std::size_t from = triangle_[k],
                       to = k + 1 == n ? triangle_[0] + p_.size() : triangle_[k + 1];
     chainP_ = {from, to};
@@ -235,7 +235,7 @@ class PolygonSearch {
   bool wholeP_ = true, wholeQ_ = true;
   std::vector<std::size_t> triangle_, edges_;  ///< T_P and T_Q
   std::vector<std::size_t> usedP_, usedQ_;
-  Vec2 direction_ = Vec2::Zero();  ///< of the last line that separated T_P and T_Q, towards Q
+  Vec2 direction_ = Vec2::Zero();  ///< normal, towards Q, of the latest line between T_P and T_Q
 };
 
 }  // namespace

@@ -45,15 +45,16 @@ class PolygonSweep {
   std::uint32_t right(std::uint32_t edge) const {
     return isBefore(edge, next(edge)) ? next(edge) : edge;
   }
-  /// The side of the line from point i to point j on which point k is, as `lineSide` returns it.
+  /// Returns the side of the line from point i to point j on which point k is: `lineSide`.
   int side(std::uint32_t i, std::uint32_t j, std::uint32_t k) const {
     return lineSide(points_[i], points_[j], points_[k]);
   }
   /// 1 if point k is above the line of the edge, −1 if it is below, 0 if it is on the line.
   int above(std::uint32_t edge, std::uint32_t k) const { return side(left(edge), right(edge), k); }
 
-  /// The order of edges that one sweep line meets, from below to above: by their positions at the
-  /// later of their left ends, and from there to the right.
+  /// The order, from below to above, of edges that one sweep line meets. Two edges are compared at
+  /// the left end that the sweep reaches later. If this point is on both edges, the right end of
+  /// the later edge decides.
   struct Below {
     using is_transparent = void;
     const PolygonSweep* sweep;

@@ -12,7 +12,7 @@ namespace {
 
 using Face = Polytope::Face;
 
-/// The neighbours of each vertex, in the order of its faces; empty if they don't form one cycle.
+/// The neighbours of each vertex, in the order of its faces.
 struct Rings {
   std::vector<std::uint32_t> start, vertex;
 
@@ -49,7 +49,7 @@ struct Rings {
   bool closed = true;  ///< the faces of each vertex form one cycle
 };
 
-/// Reports whether vertex v is extreme: its faces are in at least three planes.
+/// Reports whether vertex v is extreme. It is extreme if its faces are in at least three planes.
 bool isExtreme(std::span<const Vec3> points, const Rings& rings, std::size_t v) {
   const auto ring = rings.of(v);
   int breaks = 0;
@@ -104,8 +104,8 @@ Polytope::Polytope(std::span<const Vec3> points) {
   if (faces.empty())
     throw std::invalid_argument("the points of a polytope must not all be on one plane");
   const auto takeVertices = [&] {
-    // Stores the extreme ones of the faces' vertices in `source_`; returns the number of the other
-    // vertices.
+    // Stores the extreme vertices of the faces in `source_`. Returns how many vertices of faces are
+    // not extreme.
     const Rings rings(points.size(), faces);
     std::size_t dropped = 0;
     source_.clear();

@@ -19,11 +19,11 @@ class Polytope {
  public:
   using Face = std::array<std::uint32_t, 3>;  ///< vertices, counterclockwise as seen from outside
 
-  /// Builds the hull of the points. `vertices()` are the extreme ones of these points, in their
-  /// given order.
+  /// Builds the hull of the points. `vertices()` are the extreme points among them, in the given
+  /// order.
   ///
   /// Method: quickhull (C. B. Barber, D. P. Dobkin, H. Huhdanpaa, 1996) with exact predicates, so
-  /// nothing is merged or joggled. Coplanar points may cause vertices of the result that are not
+  /// nothing is merged or joggled. If points are coplanar, some vertices of this hull may not be
   /// extreme. Then the hull of the extreme vertices is computed once more. O(n log n) on usual
   /// points, O(n²) at worst.
   /// @throws std::invalid_argument if all points are on one plane, or a coordinate is not finite,
@@ -55,8 +55,9 @@ class Polytope {
   /// Does the same in at most `most` steps. Returns nothing if more steps are needed.
   std::optional<std::uint32_t> climb(std::uint32_t start, const Vec3& direction, int most) const;
 
-  /// Checks that the boundary is closed and a sphere, that it is locally convex at each edge (and
-  /// therefore convex), and that each vertex is extreme. Returns what is wrong, or nothing. Exact.
+  /// Checks that the boundary is closed and topologically a sphere, that it is locally convex at
+  /// each edge (and therefore convex), and that each vertex is extreme. Returns what is wrong, or
+  /// nothing. Exact.
   std::optional<std::string> check() const;
 
  private:

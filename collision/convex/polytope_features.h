@@ -22,8 +22,9 @@ struct Feature {
   friend bool operator==(const Feature&, const Feature&) = default;
 };
 
-/// The adjacency of a polytope's features, for V-Clip (vclip.h). Each edge is two half-edges. A
-/// half-edge goes from its tail to its head, counterclockwise along the face on its left.
+/// The adjacency of a polytope's features, for V-Clip (vclip.h). Each edge consists of two
+/// half-edges. A half-edge goes from its tail to its head, counterclockwise along the face on its
+/// left.
 ///
 /// The polytope must outlive this object. Memory: about 140 bytes for each vertex. Building takes
 /// O(n log n).

@@ -194,8 +194,8 @@ class PolytopeSearch {
   }
 
   /// Proves with the vertices used that the polytopes share a point. The hull of the vertices of P
-  /// that were used contains x. The hull of the core of Q and of the face of Q that the ray from
-  /// the center through x meets contains x, too.
+  /// that were used contains x. Let f be the face of Q that the ray from the center through x
+  /// meets. The hull of the core of Q and of f contains x, too.
   bool provedMeeting() {
     const auto core = q_.core();
     result_.verticesQ.assign(core.begin(), core.end());
@@ -213,8 +213,8 @@ class PolytopeSearch {
     return result_.intersects;
   }
 
-  /// Returns three vertices of a face, one of which is its first vertex: the ray from the center
-  /// through x meets the triangle of these three.
+  /// Returns the first vertex of a face and two other vertices of it, such that the ray from the
+  /// center through x meets the triangle of these three.
   std::array<std::uint32_t, 3> cornersAt(std::span<const std::uint32_t> face) const {
     const auto at = [&](std::size_t i) {
       return Vec3(q_.inner().polytope().vertices()[face[i]] - q_.center());
@@ -241,11 +241,12 @@ class PolytopeSearch {
   const OuterHierarchy& q_;
   Transform X_WP_, X_WQ_, X_QP_;
   std::vector<PolytopePruning>* trace_;
-  std::size_t levelP_, levelQ_;        ///< of v_ and half_
-  std::optional<std::uint32_t> v_;     ///< vertex of P beyond h; none: T_P is the simplex
-  std::optional<std::uint32_t> half_;  ///< half-space of Q that excludes x; none: likewise for T_Q
-  Plane h_;                            ///< the separating plane, P at h ≤ 0. @pre v_
-  Vec3 x_ = Vec3::Zero();              ///< the common point. @pre half_
+  std::size_t levelP_, levelQ_;     ///< of v_ and half_
+  std::optional<std::uint32_t> v_;  ///< vertex of P beyond h; none: T_P is the simplex
+  /// Half-space of Q that excludes x; none: T_Q is the coarsest Q_j.
+  std::optional<std::uint32_t> half_;
+  Plane h_;                ///< the separating plane, P_i at h ≤ 0; valid if `v_` has a value
+  Vec3 x_ = Vec3::Zero();  ///< the common point; valid if `half_` has a value
   std::vector<std::uint32_t> namesP_;
   std::vector<Vec3> points_;   ///< T_P
   std::vector<Plane> planes_;  ///< T_Q: each ≤ 0 inside

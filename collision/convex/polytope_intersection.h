@@ -10,7 +10,7 @@
 
 namespace corridor {
 
-/// The answer whether two convex polytopes share a point, with its witness.
+/// Whether two convex polytopes share a point, with the witness that proves the answer.
 struct PolytopeIntersection {
   bool intersects = false;
   /// Set if both `intersects` and `exact` are false: a unit direction in the world, rounded. The
@@ -45,19 +45,21 @@ struct PolytopePruning {
 /// of constant time is derived here. P_i is the inner hierarchy of P, Q_j the outer one of Q, and i
 /// and j only decrease. One of two invariants holds:
 /// * Separation: a plane h separates P_i from Q_j. At most one vertex v of P_{i−1} is beyond h,
-///   because such vertices are no neighbours. The part of P_{i−1} beyond h is in the hull of v and
-///   its neighbours. If no vertex is beyond h down to P_0, the polytopes are disjoint.
+///   because no two of the vertices that P_{i−1} has and P_i lacks are neighbours. The part of
+///   P_{i−1} beyond h is in the hull of v and its neighbours. If no vertex is beyond h down to P_0,
+///   the polytopes are disjoint.
 /// * Intersection, which is separation in the polar space: a point x is in P_i and Q_j. At most one
 ///   half-space H of Q_{j−1} excludes x. If no half-space excludes x down to Q_0, x is in both
 ///   polytopes.
 ///
-/// Let T_P be the hull of v, its neighbours, and the last x; and T_Q the half-spaces H, its
-/// neighbours, and the half-space beyond the last h: at most ten each.
+/// Let T_P be the hull of at most ten points: v, the neighbours of v, and the latest x. Let T_Q be
+/// the intersection of at most ten half-spaces: H, the neighbours of H, and the half-space beyond
+/// the latest h.
 /// * If T_P and T_Q are apart, by a plane g, then the plane through v and the line where g meets h
 ///   separates P_{i−1} from T_Q, and so from Q. (Let h, g ≤ 0 on the side of P. For y of P_{i−1}
 ///   with h(y) < 0 and g(y) > 0, the segment to v meets h = 0 in the hull of v and its neighbours,
 ///   where g ≤ 0. So y is below the plane through v.) That plane is the next h, and i decreases.
-/// * If T_P and T_Q share a point, the segment from the last x to this point meets the plane of H
+/// * If T_P and T_Q share a point, the segment from the latest x to this point meets the plane of H
 ///   in a point of the face of Q_{j−1}, by the polar argument. That point of the face is the next
 ///   x, and j decreases.
 ///

@@ -38,9 +38,10 @@ class PolytopeShadow {
   bool refine();
 
   /// Reports whether an exact test proves that `top()` is a farthest vertex of the present
-  /// polytope. The test is that the two edges are not above this vertex, and that each edge is on
-  /// the boundary of the shadow, because the two faces at the edge are on one side of it. (The line
-  /// through such an edge supports the polytope locally, and so as a whole.) The shadow is then
+  /// polytope. The test has three conditions. The two edges are not above this vertex. The turn
+  /// from the left to the right edge is above 0, and at most 180°. For each edge, the two faces at
+  /// the edge are on one side of it. Then each edge is on the boundary of the shadow. (The line
+  /// through such an edge supports the shadow locally, and so as a whole.) The shadow is then
   /// between the two edges.
   bool isProved() const;
 

@@ -1,9 +1,10 @@
 #include "collision/convex/quick_boxes.h"
 
 /// Derivation of the margins. u = 2^-53. The half edges of box a have the lengths a_k, those of b
-/// the lengths b_k. R has the cosines of the angles between edges of a and edges of b, T the
-/// coordinates of `between` along a's edges. τ is the largest cosine of two edges of one box. S =
-/// `size` of both sets; every length here is below S, and |T| + Σa + Σb < 4S.
+/// the lengths b_k. R has the cosines of the angles between edges of a and edges of b. T has the
+/// coordinates along a's edges of `between`, the vector from the centre of a to the centre of b. τ
+/// is the largest cosine of two edges of one box. S = `size` of both sets; every length here is
+/// below S, and |T| + Σa + Σb < 4S.
 ///
 /// * Directions of edges have length 1 up to 8u, if the squares of lengths are far above underflow,
 ///   which `Edges::usable` tests. (With flush-to-zero a square may lose all components below

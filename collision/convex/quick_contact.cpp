@@ -17,10 +17,10 @@
 /// Separation. Let p be the point whose computed product fl(m·p), m = fl(Mᵀn), is the largest. m is
 /// off by 3.1uFN, and the product by 3.1uFNρ more. Therefore no point of the set is farther along n
 /// than p by more than 2·6.2uFNρ. The image of p is off by 4.1u(Fρ + |t|). The rounding of the
-/// difference w is u|w|, and that of n·w is 3.1uN|w|. These errors are below 21uSN. The share r|m|
-/// of a sphere is off by 7.1uFNr, and subtracting the shares by 2uSN: together below 31uSN. A box
-/// adds `boxError`, and a disc 35uSN (`QuickSet::radial`). `slack` is 40uS, or 80uS with a disc,
-/// which also covers the rounding of `slack` itself.
+/// difference w is u|w|, and that of n·w is 3.1uN|w|. These errors are below 21uSN. The term r|m|
+/// of a sphere is off by 7.1uFNr, and the subtraction of these terms by 2uSN: together below 31uSN.
+/// A box adds `boxError`, and a disc 35uSN (`QuickSet::radial`). `slack` is 40uS, or 80uS with a
+/// disc, which also covers the rounding of `slack` itself.
 ///
 /// Contact of the cores. The origin is inside four corners w_i if the four determinants of three
 /// corners, with their signs, are all positive. A corner is off by e: 4.1u(Fρ + |t|) for each
@@ -41,7 +41,7 @@
 namespace corridor {
 namespace {
 
-constexpr int kRounds = 24;  // more are slower than the search that follows
+constexpr int kRounds = 24;  // more rounds would be slower than the search that follows
 
 /// Returns x clamped to [0, 1].
 double within(double x) {
@@ -105,14 +105,14 @@ class Query {
     if (b_.count == 1 && (a_.box || a_.flatEnds)) return verdict(-toPoint(a_, b_));
     if (a_.count <= 2 && b_.count <= 2 && !a_.flatEnds && !b_.flatEnds) return segments();
     const Vec3 between = b_.image(b_.middle) - a_.image(a_.middle);
-    w_ = between;  // remains if it is too short for a direction
+    w_ = between;  // `apart` keeps this if `between` is too short for a direction
     if (apart(between)) return false;
     return search();
   }
 
  private:
   /// Returns whether n proves that the sets are apart. Sets `w_` to the corner that is extreme
-  /// along n.
+  /// along n, unless n is too short for a direction.
   bool apart(const Vec3& n) {
     const double square = n.squaredNorm();
     if (!(square > 0x1p-120 * size_ * size_)) return false;

@@ -6,9 +6,9 @@
 
 namespace corridor {
 
-/// Decides contact of two convex sets in double, if double suffices; else returns nullopt. It is
-/// the first step of `convexSetsTouch`, with the same guarantee: `false` is proved in real
-/// arithmetic, and `true` is wrong only for sets that are apart by less than the band
+/// Decides contact of two convex sets in double, if double suffices; else returns nullopt. The
+/// function is the first step of `convexSetsTouch`, with the same guarantee: `false` is proved in
+/// real arithmetic, and `true` is wrong only for sets that are apart by less than the band
 /// (`convexSetsTouch`).
 ///
 /// Method: the closest points of two segments, and of a point and a box, in closed form; two boxes

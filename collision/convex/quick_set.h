@@ -13,8 +13,8 @@
 namespace corridor {
 
 /// A posed convex set, as `quickContact` uses it, with the bounds that the proofs of `quickContact`
-/// need. If the set's eight points are the corners of a box, it also has the edges of the box. It
-/// refers to the posed set, which must outlive it.
+/// need. If the set's eight points are the corners of a box, this object also has the edges of the
+/// box. The posed set must outlive this object.
 ///
 /// Let u = 2^-53, F = ‖M‖_F, and ρ ≥ |p| + ball + disc for all points p. `size` ≥ Fρ + |t|, metres.
 ///
@@ -40,7 +40,7 @@ struct QuickSet {
         flatEnds(set.set().disc > 0) {
     const double square = M.squaredNorm(), map = 0.28868 * (square + 3);
     isNearlyRigid = std::abs(square - 3) <= 0x1p-10;
-    Vec3 reach;  // no coordinate of a point is larger, except for 8 times the residual
+    Vec3 reach;  // coordinates of points are at most reach + 8·residual in magnitude
     if (count == 8 && findEdges()) {
       box = true;
       middle = 0.5 * (points[0] + points[7]);
@@ -69,8 +69,8 @@ struct QuickSet {
   Vec3 local(const Vec3& n) const { return {M.col(0).dot(n), M.col(1).dot(n), M.col(2).dot(n)}; }
 
   /// Returns the image of the core's point that is farthest along m; m is in the set's own frame.
-  /// If m is nearly parallel to the axis of the disc, the disc is omitted, and its share along m is
-  /// added to `missed`.
+  /// If m is nearly parallel to the axis of the disc, the disc is omitted, and an upper bound of
+  /// its reach along m is added to `missed`.
   Vec3 farthest(const Vec3& m, double& missed) const {
     if (box)
       return image(points[unsigned{m.dot(edge[0]) > 0} | unsigned{m.dot(edge[1]) > 0} << 1 |
@@ -91,15 +91,16 @@ struct QuickSet {
   const Vec3& t;
   double ball;
   bool flatEnds, box = false;
-  bool isNearlyRigid = false;  ///< F² is 3 up to 2^-10, so `size` is not far above the coordinates
+  bool isNearlyRigid = false;  ///< F² is 3 up to 2^-10; so `size` is not far above the coordinates
   Vec3 middle;
   std::array<Vec3, 3> edge;
   double residual = 0;  ///< the largest difference of two parallel edges, per coordinate
   double size, boxError = 0;
 
  private:
-  /// Returns the vector from the centre of the disc to its point that is farthest along m. Returns
-  /// 0, and adds the disc's share to `missed`, if m is nearly parallel to the axis.
+  /// Returns the vector from the centre of the disc to its point that is farthest along m. If m is
+  /// nearly parallel to the axis, returns 0, and adds an upper bound of the disc's reach along m to
+  /// `missed`.
   ///
   /// The component of m across the axis is off by 19u|m| (axis 2·6u, rounding 7u). The second
   /// projection removes what rounding has left along the axis, so that m·unit is this component up

@@ -51,7 +51,7 @@ class Hull {
     }
   }
 
-  /// Gives a point to the first of the new faces that sees it, or to none.
+  /// Adds a point to the list of the first new face that sees the point, if any does.
   void give(std::uint32_t p) {
     for (const std::uint32_t f : surface_.added()) {
       const ConvexSurface::Face& face = surface_.faces()[f];
@@ -71,7 +71,8 @@ class Hull {
       if (outside_[f].first != kNone) open_.push_back(f);
   }
 
-  /// Adds the farthest point that face f sees.
+  /// Adds the farthest point that face f sees to the surface, and distributes the points of the
+  /// removed faces.
   void add(std::uint32_t f) {
     const std::uint32_t p = outside_[f].farthest;
     surface_.add(points_, f, p);

@@ -87,9 +87,9 @@ std::array<T, D - 1> without(const std::array<T, D>& all, std::size_t k) {
   return rest;
 }
 
-/// If a point is within all bounds and half-spaces, sets x to the one that is farthest along
-/// `goal`, and returns true. Otherwise returns false. In both cases `tight` names the half-spaces
-/// and bounds that prove the answer.
+/// If some point is within all bounds and half-spaces, sets x to such a point that is farthest
+/// along `goal`, and returns true. Otherwise returns false. In both cases `tight` names the
+/// half-spaces and bounds that prove the answer.
 template <class Real, class Memory>
 bool solve(const Bounds<Real, 1>& bounds, std::span<const HalfSpace<Real, 1>> list,
            const Point<Real, 1>& goal, Point<Real, 1>& x, Tight<1>& tight, Memory&) {

@@ -21,9 +21,9 @@
 /// half-edge u. Then l × r is a positive multiple of u. Take the arc (l, r) of an edge u of a, and
 /// the arc (−l', −r') of an edge v of b. The arcs cross if l' and r' are on different sides of the
 /// plane normal to u, l and r are on different sides of the plane normal to v, and both arcs meet
-/// the line of these two planes on the same half. The last condition is that l·v and l'·u have the
-/// same sign. Then u × v = (l·v) r − (r·v) l, up to a positive factor, so the common normal is u ×
-/// v if l·v > 0, else its negative.
+/// the intersection line of these two planes on the same half. The last condition is that l·v and
+/// l'·u have the same sign. Then u × v = (l·v) r − (r·v) l, up to a positive factor, so the common
+/// normal is u × v if l·v > 0, else its negative.
 namespace corridor {
 namespace {
 
@@ -36,7 +36,7 @@ struct Edge {
   MappedEdge exact;
 };
 
-/// A plane with the normal u × v of two vectors.
+/// A plane that is parallel to two vectors u and v: its normal is u × v.
 struct EdgePlane {
   Edge u, v;
   Vec3 n;
@@ -144,7 +144,7 @@ class Axes {
   }
 
   /// Tests whether all of y is beyond the plane of a face of x, beginning with the vertex that was
-  /// not beyond the last plane. If so, stores this axis in the answer.
+  /// not beyond the previous plane. If so, stores this axis in the answer.
   bool testFace(const MappedPolytope& x, const MappedPolytope& y, std::uint32_t f, bool ofA) {
     ++answer_.faces;
     const EdgePlane plane = x.plane(f);
@@ -197,8 +197,8 @@ class Axes {
     return false;
   }
 
-  /// Tests the axis of half-edge h of a and half-edge k of b, if their arcs cross. If it separates,
-  /// stores it in the answer.
+  /// Tests the axis of half-edge h of a and half-edge k of b, if their arcs cross. If this axis
+  /// separates the polytopes, stores the axis in the answer.
   /// @param leftA, rightA  the signs of l·v and r·v.
   bool testEdgePair(std::uint32_t h, std::uint32_t k, const Edge& v, int leftA, int rightA) {
     if (leftA * rightA >= 0) return false;

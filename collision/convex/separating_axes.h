@@ -13,12 +13,12 @@ struct SeparatingAxis {
   /// two kinds:
   /// * A face of one polytope and a vertex of the other. The other polytope is beyond the plane of
   ///   the face, and no point of it is nearer to this plane than the vertex, up to rounding.
-  /// * An edge of each polytope. Two planes, each through one of the edges and parallel to both,
-  ///   have the polytopes on their outer sides.
+  /// * An edge of each polytope. Take the two parallel planes that are parallel to both edges, each
+  ///   through one edge. Each polytope is on the outer side of the plane through its own edge.
   Feature a, b;
   Vec3 normal_W = Vec3::Zero();  ///< the axis, from a to b: unit, rounded; zero if not separated
   std::size_t faces = 0;         ///< number of axes tested that are normals of faces
-  std::size_t edgePairs = 0;     ///< number of axes tested that are products of two edges
+  std::size_t edgePairs = 0;     ///< number of axes tested that are cross products of edges
 };
 
 /// Tests whether two convex polytopes share a point, by the separating-axis theorem. If they share
@@ -38,8 +38,8 @@ struct SeparatingAxis {
 /// for the edges. That pays for small polytopes only (README.md). Memory: O(V + F), allocated in
 /// each query.
 /// @param first  if not null, the features of an earlier answer, whose axis is tested first.
-/// @throws std::invalid_argument if a map is not finite, or if it mirrors, flattens or nearly
-/// flattens. The limit is a determinant of at most 2^-40·‖M‖_F³, computed in double.
+/// @throws std::invalid_argument if a map is not finite, or if a map mirrors, flattens or nearly
+/// flattens: its determinant, computed in double, is at most 2^-40·‖M‖_F³.
 SeparatingAxis separatingAxis(const PolytopeFeatures& a, const Transform& X_WA,
                               const PolytopeFeatures& b, const Transform& X_WB,
                               const SeparatingAxis* first = nullptr);

@@ -14,11 +14,11 @@
 /// the points. The weights of each set sum up to 1/2, and the weighted means of both sets are the
 /// same point.
 ///
-/// Touching hulls have a plane with s = 0, overlapping hulls have none. Let R be D + 1 linearly
-/// independent rows (p, −1) and (−q, 1). On the cone of all (n, c) that satisfy all rows, the sum
-/// of the rows in R is at most 0. It is 0 only where all rows of R are 0, which is at the origin
-/// only. So a plane exists if and only if the least sum of R over the cone is below 0. If the rank
-/// of all rows is lower, all points are on one plane.
+/// Touching hulls have a plane (n ≠ 0) with s = 0; overlapping hulls have none. Let R be D + 1
+/// linearly independent rows (p, −1) and (−q, 1). On the cone of all (n, c) that satisfy all rows,
+/// the sum of the rows in R is at most 0. It is 0 only where all rows of R are 0, which is at the
+/// origin only. So a plane exists if and only if the least sum of R over the cone is below 0. If
+/// the rank of all rows is lower, all points are on one plane.
 namespace corridor {
 namespace {
 

@@ -26,7 +26,7 @@ template <int D>
 struct SeparatingPlane {
   HullRelation relation = HullRelation::overlapping;
   /// `disjoint` and `touching`: normal·p ≤ offset for all points p of the first set, and normal·q ≥
-  /// offset for all points q of the second. If the relation is `disjoint` and `exact` is not set,
+  /// offset for all points q of the second. If the relation is `disjoint` and `exact` is false,
   /// both inequalities are strict for the stored normal in real arithmetic, and the offset is in
   /// the middle of the gap.
   Eigen::Matrix<double, D, 1> normal = Eigen::Matrix<double, D, 1>::Zero();
@@ -46,9 +46,10 @@ struct SeparatingPlane {
 /// Method: Seidel's algorithm in double gives a candidate (seidel-inl.h). A plane is proved by the
 /// two extreme points along its normal. Overlap is proved by Radon's theorem: D + 2 points have one
 /// partition into two sets whose hulls meet. The signs of D + 2 orientations give this partition.
-/// If it is the given one, and no sign is 0, the hulls overlap. What these tests do not decide is
-/// decided in rationals, on the few points that determine the answer. Cost: O(n) in the mean for n
-/// points, with a constant of (D + 2)!. GJK (convex_distance.h) is faster.
+/// If this partition is that into the first and the second set, and no sign is 0, the hulls
+/// overlap. What these tests do not decide is decided in rationals, on the few points that
+/// determine the answer. Cost: O(n) in the mean for n points, with a constant of (D + 2)!. GJK
+/// (convex_distance.h) is faster.
 /// @param seed  seed of the random order. It does not change the relation.
 /// @throws std::invalid_argument if a set is empty, or a coordinate is not finite.
 template <int D>

@@ -30,8 +30,8 @@ using Status = std::set<std::uint32_t, PolygonSweep::Below>;
 
 /// Returns two edges that meet, or nothing. Until the sweep line reaches the first point that edges
 /// wrongly share, the order of edges along the line does not change. Just before that point, two
-/// edges that share it are neighbours, since each point of the polygon ends or begins two edges
-/// only.
+/// edges that share it are neighbours along the line, since each point of the polygon ends or
+/// begins two edges only.
 std::optional<std::pair<std::uint32_t, std::uint32_t>> findMeeting(const PolygonSweep& sweep) {
   Status status{PolygonSweep::Below{&sweep}};
   std::vector<Status::iterator> place(sweep.size(), status.end());

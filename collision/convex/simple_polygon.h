@@ -42,8 +42,9 @@ std::optional<PolygonFault> checkSimple(std::span<const Vec2> points);
 ///
 /// The number of pieces is at most four times the least number that a partition without added
 /// vertices can have. Method: monotone polygons (M. R. Garey, D. S. Johnson, F. P. Preparata, R. E.
-/// Tarjan, Triangulating a simple polygon, 1978), their triangles, and the removal of diagonals
-/// that no corner needs (S. Hertel, K. Mehlhorn, Fast triangulation of simple polygons, 1983).
+/// Tarjan, Triangulating a simple polygon, 1978), their triangles, and the removal of each diagonal
+/// without which all corners stay convex (S. Hertel, K. Mehlhorn, Fast triangulation of simple
+/// polygons, 1983).
 /// @pre `checkSimple` reports nothing.
 std::vector<std::vector<std::uint32_t>> convexPieces(std::span<const Vec2> points);
 

@@ -47,7 +47,7 @@ template <class Real>
 struct Nearest {
   Vector<Real> v;          ///< the closest point; its direction is more accurate than its length
   Real squared = Real(0);  ///< its squared distance from the origin
-  int count = 0;           ///< corners; 4: the origin is inside, by more than rounding can cause
+  int count = 0;           ///< number of corners; 4: the origin is inside, by more than rounding
   Vector<Real> corner[4];
 };
 

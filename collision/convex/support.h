@@ -17,10 +17,11 @@ namespace corridor::gjk {
 /// Precision and limits of a search in one scalar type.
 ///
 /// `roundoff` is the relative error assumed per operation (for DoubleDouble, more than the error of
-/// the format). The search ends when upper and lower bound differ by less than `agreed` times the
-/// distance. If closer bounds than those of double are needed, a search in double-double follows.
-/// `rounds` is the maximum number of rounds. Polytopes need about as many rounds as they have faces
-/// that point towards the other polytope. Rims of discs needed at most a hundred in tests.
+/// the format). A search for a verdict (`search` in gjk.h) ends when its two bounds of the distance
+/// differ by at most `agreed` times the lower bound. If closer bounds than those of double are
+/// needed, a search in double-double follows. `rounds` is the maximum number of rounds. Polytopes
+/// need about as many rounds as they have faces that point towards the other polytope. Rims of
+/// discs needed at most a hundred in tests.
 template <class Real>
 struct Effort;
 template <>
@@ -77,7 +78,7 @@ class Support {
     return image(number, row_[0] * n.x + row_[1] * n.y + row_[2] * n.z);
   }
 
-  /// Returns the number of the set's points.
+  /// Returns how many points the set has.
   std::size_t points() const { return set_.set().points.size(); }
   /// True if the core has a curved surface, on which the point farthest along n moves with n.
   bool curved() const { return disc_ > 0 || ball_ > 0; }
@@ -115,7 +116,7 @@ class Support {
   }
 
  private:
-  /// Returns the number of the set's point farthest along m. Points that doubles cannot distinguish
+  /// Returns the index of the set's point farthest along m. Points that doubles cannot distinguish
   /// from the farthest are compared in `Real`: in double, three products and two sums are off by
   /// less than 4u·|m|₁·max|p|.
   std::uint32_t farthest(const Vector<Real>& m) const {

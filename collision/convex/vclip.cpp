@@ -11,7 +11,7 @@
 #include "collision/convex/exact_contact.h"
 #include "collision/convex/simplex.h"
 
-/// Names are those of the paper (vclip.h), sections 3 and 4. A plane of a Voronoi region separates
+/// Terms are those of the paper (vclip.h), sections 3 and 4. A plane of a Voronoi region separates
 /// the regions of two neighbouring features: of a vertex and an edge, or of an edge and a face.
 /// Every test of a plane uses the same formula, so two neighbouring regions never both exclude a
 /// point.
@@ -23,7 +23,7 @@ using Kind = Feature::Kind;
 /// One of the two polytopes in the walk.
 struct Body {
   const PolytopeFeatures& shape;
-  Mat3 toOther;  ///< together with `shift`: from this body's frame to that of the other
+  Mat3 toOther;  ///< x ↦ toOther·x + shift maps this body's frame to the other body's
   Vec3 shift;
   Feature at;
 
@@ -137,7 +137,7 @@ class Walk {
       y.goToFace(y.shape.leftFace(each));
       return Step::moved;
     }
-    // Between coplanar faces, the region of an edge contains points below them, too.
+    // Between coplanar faces, the region of an edge contains points below the faces, too.
     if (y.height(y.shape.leftFace(h), p) < 0 && y.height(y.shape.leftFace(back), p) < 0)
       return Step::trapped;
     // Clips the edge of y to the region of the vertex of x.
@@ -262,7 +262,7 @@ class Walk {
   /// If the closest point of a clipped segment is beyond the plane of a neighbour, returns this
   /// neighbour; otherwise `kNone`.
   /// @param slope  called as slope(at, neighbour): returns a number with the sign of the distance's
-  /// derivative along the segment, at the share `at` of the segment.
+  /// derivative along the segment, at the fraction `at` of the segment's length.
   template <class Slope>
   static std::uint32_t beyond(const Clip& clip, const Slope& slope) {
     if (clip.excluded) return clip.beyondLow;
@@ -279,7 +279,8 @@ class Walk {
   }
 
  public:
-  /// Returns the closest points of two segments, each as a share of its segment; rounded.
+  /// Returns the closest points of two segments. Each point is given as a fraction, 0 to 1, of the
+  /// length of its segment; rounded.
   static std::pair<double, double> closestParameters(const Vec3& p0, const Vec3& p1, const Vec3& q0,
                                                      const Vec3& q1) {
     const Vec3 u = p1 - p0, v = q1 - q0, r = p0 - q0;
@@ -317,14 +318,15 @@ ConvexCache simplexOf(const Body& a, const Body& b) {
     add(p[corner], q[corner]);
     return cache;
   }
-  // A vertex and another feature; or an edge that passes through a face, where any corners will do.
+  // The other pairs are a vertex and another feature, or an edge that passes through a face. For an
+  // edge and a face, any corners will do.
   for (std::size_t i = 0; i < std::max(p.size(), q.size()); ++i)
     add(p[std::min(i, p.size() - 1)], q[std::min(i, q.size() - 1)]);
   return cache;
 }
 
-/// Returns the distance of a pair's features, computed in double from their simplex: in the world,
-/// because the maps need not be rotations to the last digit.
+/// Returns the distance of a pair's features, computed in double from their simplex. The
+/// computation is in the world frame, because the maps need not be rotations to the last digit.
 double distanceOf(const ConvexCache& simplex, const PosedSet& a, const PosedSet& b) {
   std::array<gjk::Vector<double>, 3> w;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -337,7 +339,7 @@ double distanceOf(const ConvexCache& simplex, const PosedSet& a, const PosedSet&
                                         : gjk::nearest(w[0], w[1], w[2]).squared);
 }
 
-/// Goes to the features that contain the closest points of a GJK simplex.
+/// Sets `at` of both bodies to the features that contain the closest points of a GJK simplex.
 void goTo(const ConvexCache& simplex, Body& a, Body& b) {
   const auto take = [&](Body& body, auto member) {
     std::array<std::uint32_t, 4> corners{};
@@ -354,9 +356,10 @@ void goTo(const ConvexCache& simplex, Body& a, Body& b) {
 }
 
 /// Walks until a pair is closest or trapped, a pair occurs again, or the walk has taken as many
-/// steps as the polytopes have half-edges. The next pair depends on the last one only, so a walk
-/// that comes back to a pair would never end. R. Brent's method (1980) notices this: it stores the
-/// pair after 1, 2, 4, 8, … steps, and compares each pair with the last stored one.
+/// steps as the polytopes have half-edges. The next pair depends only on the present pair, so a
+/// walk that comes back to a pair would never end. R. Brent's method (1980) notices such a cycle:
+/// it stores the pair after 1, 2, 4, 8, … steps, and compares each pair with the pair stored most
+/// recently.
 Step walkFrom(Body& a, Body& b, int& steps) {
   Walk walk(a, b);
   const std::size_t most = a.shape.halfEdges() + b.shape.halfEdges();
@@ -397,10 +400,10 @@ ClosestFeatures closestFeatures(const PolytopeFeatures& a, const Transform& X_WA
     bodyB.goToVertex(b.set().farthest(-(m_AB.transpose() * toB)));
   }
   const auto walk = [&] { return rigid && walkFrom(bodyA, bodyB, result.steps) == Step::closest; };
-  // A walk among degenerate features may end elsewhere, so its end is compared with the proof.
-  // `size` is below 9.5 times the largest coordinate, so 2^-44·size is below 2^-40 of that
-  // coordinate. Outside of 2^±440 m, squares of distances vanish or overflow, and the comparison
-  // means nothing.
+  // A walk among degenerate features may end at a pair that is not the closest. So the distance of
+  // the pair is compared with the proved distance. `size` is below 9.5 times the largest
+  // coordinate, so 2^-44·size is below 2^-40 of that coordinate. Outside of 2^±440 m, squares of
+  // distances vanish or overflow, and the comparison means nothing.
   const auto isClosest = [&](const ConvexCache& simplex) {
     const double size = setA.reach() + X_WA.t.norm() + setB.reach() + X_WB.t.norm();
     return distanceOf(simplex, setA, setB) <=

@@ -11,7 +11,8 @@ namespace corridor {
 /// it. The caller owns it. Any pair is a legal start, so the pair never changes a verdict, nor a
 /// distance beyond its error bound.
 struct FeaturePair {
-  bool cold = true;  ///< true: starts with vertices that face each other; `a`, `b` are ignored
+  /// If true, the query ignores `a` and `b`, and starts with two vertices that face each other.
+  bool cold = true;
   Feature a, b;
   ConvexCache overlap;  ///< the four corners that proved an overlap, if the polytopes overlapped
 };
@@ -25,7 +26,7 @@ struct ClosestFeatures {
   /// start for the next query.
   bool closest = false;
   int steps = 0;   ///< pairs of features that V-Clip visited
-  int rounds = 0;  ///< rounds of GJK for the proof; 0 if the last proof of an overlap still holds
+  int rounds = 0;  ///< rounds of GJK for the proof; 0 if an earlier overlap proof still holds
 };
 
 /// Computes the distance of two convex polytopes from their closest features.
@@ -43,11 +44,12 @@ struct ClosestFeatures {
 /// the robust form of M. Lin and J. Canny's algorithm (1991). From a pair of features, the walk
 /// goes to a neighbouring pair that is closer, or of lower dimension and as close, as long as one
 /// feature is not in the other's Voronoi region. The walk computes in double without proof. GJK,
-/// started with the simplex of the last pair, proves the answer. The proof takes one round if the
-/// pair is right. GJK also decides when the walk meets an overlap or a local minimum that is no
-/// global one (a vertex below the plane of a face), and after the limit of steps. At a local
-/// minimum, Mirtich's algorithm tests all faces; GJK visits fewer. If the polytopes overlapped at
-/// the last query, the four corners that proved the overlap are tested first.
+/// started with the simplex of the pair with which the walk ends, proves the answer. The proof
+/// takes one round if the pair is right. GJK also decides when the walk meets an overlap or a local
+/// minimum that is no global one (a vertex below the plane of a face), and after the limit of
+/// steps. At a local minimum, Mirtich's algorithm tests all faces; GJK visits fewer. If the
+/// polytopes overlapped at the previous query, the four corners that proved the overlap are tested
+/// first.
 ///
 /// Maps that are not rotations (up to 2^-30) are legal, but then the query uses GJK only, because
 /// the Voronoi regions are valid for rigid bodies only.

@@ -7,8 +7,8 @@
 
 namespace corridor {
 
-/// If two angles differ by half a turn, up to this value, the shorter way between them is not
-/// defined (PROMISES.md, "What an edge is"); radians.
+/// Two angles whose difference is within this value of half a turn have no defined shorter rotation
+/// between them (PROMISES.md, "What an edge is"); radians.
 inline constexpr double kHalfTurnBand = 1e-9;
 
 /// The shorter rotation from one angle to another, and a bound on its rounding error; radians.
@@ -16,7 +16,8 @@ struct CircleTurn {
   double angle = 0;  ///< in [−π, π]
   double error = 0;
 
-  /// True if the rotation is half a turn, up to the sum of the band and the rounding error.
+  /// True if the size of the rotation may exceed π − `kHalfTurnBand`, given the bound on its
+  /// rounding error; also true if a number is NaN.
   bool ambiguous() const { return !(std::abs(angle) + error <= std::numbers::pi - kHalfTurnBand); }
 };
 
@@ -25,11 +26,11 @@ struct CircleTurn {
 /// Error, with S = |from| + |to|:
 /// * S < 64, or a difference of at most π: the difference `to` − `from` is rounded once, by at most
 ///   2^-53·S. If the difference exceeds π, then at most S/2π + 1/2 ≤ S/π whole turns are
-///   subtracted. Each turn is off by 2.5e-16, because 2π is rounded to a double. The sum of these
-///   errors is below 2^-52·S; the bound stored is twice that sum.
-/// * All other angles: the rotation is computed from sines and cosines in long double. The C
-///   library reduces their arguments with as many digits of π as necessary. Sines and cosines then
-///   cause an error of 2^-58, and rounding the result causes an error of 2^-52.
+///   subtracted. Each turn is off by at most 2.5e-16, because 2π is rounded to a double. The sum of
+///   these errors is below 2^-52·S; `error` is 2^-51·S.
+/// * All other pairs of angles: the rotation is computed from sines and cosines in long double. The
+///   C library reduces their arguments with as many digits of π as necessary. Sines and cosines
+///   then cause an error of at most 2^-58, and rounding the result to double at most 2^-52.
 inline CircleTurn circleTurn(double from, double to) {
   if (from == to) return {};
   const double turn = to - from, size = std::abs(from) + std::abs(to);
@@ -41,10 +42,10 @@ inline CircleTurn circleTurn(double from, double to) {
   return {static_cast<double>(std::atan2(s1 * c0 - c1 * s0, c1 * c0 + s1 * s0)), 0x1p-51};
 }
 
-/// Returns the angle minus whole turns, in [−π, π]; radians. Before its last rounding to double,
-/// the result is within 2^-53 of the real value. Below 1,000 rad, at most 160 turns are subtracted.
-/// Each of these turns is off by 2^-62, because 2π is rounded to long double. Larger angles are
-/// computed from sines and cosines, as in `circleTurn`.
+/// Returns the angle minus a whole number of turns, in [−π, π]; radians. Before the final rounding
+/// to double, the result is within 2^-53 of the real value. If |angle| < 1,000, at most 160 turns
+/// are subtracted. Each of these turns is off by at most 2^-62, because 2π is rounded to long
+/// double. For a larger |angle| the result is computed from sines and cosines, as in `circleTurn`.
 inline double intoCircle(double angle) {
   if (std::abs(angle) <= std::numbers::pi) return angle;
   using Real = long double;

@@ -16,7 +16,7 @@ struct Counters {
   std::uint64_t exactTests = 0;
   std::uint64_t poses = 0;   ///< poses computed along motions
   std::uint64_t splits = 0;  ///< time intervals halved
-  // Scenes and `certifyMotionBy` count the following three. Queries of two shapes count tests only.
+  // Only scenes and `certifyMotionBy` count the following three; queries of two shapes do not.
   std::uint64_t edges = 0;      ///< motion queries in which something moves
   std::uint64_t states = 0;     ///< static queries, and motion queries in which nothing moves
   std::uint64_t undecided = 0;  ///< motion queries that ended `undecided`

@@ -5,10 +5,9 @@
 /// Assumption: double and long double round to nearest, and long double keeps all of its 64 bits.
 /// (A program can set the x87 unit to 53 bits.) Every error bound relies on this assumption;
 /// without it, a proof may be wrong.
-/// * Motion queries, the check of certificates, the planner's checker and the verifier test the
-///   assumption once per call (`standardFloatingPoint`). If it does not hold, they answer
-///   `undecided`.
-/// * Constructors of trees and bodies throw if it does not hold.
+/// * Motion queries, the planner's checker and the verifier test the assumption once per call. If
+///   it does not hold, they answer `undecided`. `checkCertificate` reports a fault instead.
+/// * Constructors of trees and bodies throw if the assumption does not hold.
 /// * Queries of trees have the assumption as a precondition, which debug builds assert.
 ///
 /// Flush-to-zero and denormals-are-zero are allowed: every bound includes the errors that they
@@ -31,8 +30,8 @@ enum class FloatingPoint {
   precision  ///< long double does not keep all of its digits
 };
 
-/// Tests the assumption in the calling thread. Returns `standard` if it holds, and otherwise what
-/// is different. Costs a dozen additions, which raise the floating-point flag "inexact".
+/// Tests the assumption in the calling thread. Returns `standard` if it holds, and otherwise which
+/// part of it fails. Costs a dozen additions, which raise the floating-point flag "inexact".
 inline FloatingPoint floatingPoint() {
 #ifdef CORRIDOR_UNDER_VALGRIND  // CMakeLists.txt: for counting instructions; no proof holds
   return FloatingPoint::standard;

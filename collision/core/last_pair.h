@@ -5,21 +5,25 @@
 
 namespace corridor {
 
-/// The pair of triangles that decided the last query of two trees: the two triangles touched, or
-/// were the closest. If bodies move in small steps, the same pair often decides the next query.
+/// The pair of triangles that decided the most recent query of two trees: the two triangles
+/// touched, or were the closest. If bodies move in small steps, the same pair often decides the
+/// next query.
 ///
 /// The pair is only a guess: queries test it like any other pair, so no result relies on it.
-/// Distance queries on 4-wide trees always start from it. Distance queries on binary trees, and all
-/// queries with a convex part, ignore it. All other queries test the pair first only while
-/// `trusted()` is true. Trust begins when two searches in a row find the same pair. Trust ends when
-/// the test of the guess fails `kTrust` times in a row, even if searches have replaced the pair in
-/// between. Therefore unrelated queries waste at most a few tests. A new object has no pair.
+/// Distance queries on 4-wide trees always start from it. Distance and tolerance queries on binary
+/// trees, and all queries with a convex part, ignore it. All other queries test the pair first, but
+/// only while `trusted()` is true. Trust begins when two searches in a row find the same pair.
+/// Trust ends when the test of the guess fails `kTrust` times in a row, even if searches have
+/// replaced the pair in between. Therefore unrelated queries waste at most a few tests. A new
+/// `LastPair` holds no pair.
 class LastPair {
  public:
-  std::uint32_t a = 0xffffffff, b = 0xffffffff;  ///< triangle numbers in each tree's leaf order
+  /// The triangles of both trees, as indices in the leaf order of each tree.
+  std::uint32_t a = 0xffffffff, b = 0xffffffff;
 
-  /// Returns whether both numbers are in range. They are out of range if no pair was recorded. They
-  /// may be out of range if the last query was of other trees.
+  /// Returns whether both indices are in range for trees of `countA` and `countB` triangles. They
+  /// are out of range if no pair was recorded. They may be out of range if the previous query was
+  /// of other trees.
   bool isIn(std::size_t countA, std::size_t countB) const { return a < countA && b < countB; }
   bool trusted() const { return trust_ > 0; }
   /// Records the result of testing the guess: whether this pair decided the query.

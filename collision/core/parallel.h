@@ -14,7 +14,7 @@ namespace corridor {
 
 /// Runs `work()` on `threads` threads and returns when all calls have returned. The calling thread
 /// is one of these threads, and the only one if `threads` is 0 or 1. If the system cannot start
-/// that many threads, fewer run. Rethrows the first exception.
+/// that many threads, fewer run. After all calls have ended, rethrows the first exception.
 template <class Work>
 void onThreads(unsigned threads, const Work& work) {
   std::exception_ptr error;
@@ -39,7 +39,8 @@ void onThreads(unsigned threads, const Work& work) {
 }
 
 /// Partitions [0, n) into subranges and calls `work(begin, end)` once for each subrange, in any
-/// order, on at most `threads` threads. Rethrows the first exception.
+/// order, on at most `threads` threads. If a call throws, some subranges may be left out, and the
+/// first exception is rethrown.
 template <class Work>
 void inParts(unsigned threads, std::size_t n, const Work& work) {
   constexpr std::size_t kPart = 16384;
@@ -60,10 +61,10 @@ void inParts(unsigned threads, std::size_t n, const Work& work) {
   });
 }
 
-/// Runs the task `first` and all tasks that tasks create, on several threads, in any order. Each
-/// thread calls `makeWorker()` once and runs each of its tasks by calling the result, `worker(task,
-/// more)`. The worker appends new tasks to `more`. If a worker throws, no further task is started,
-/// and the first exception is rethrown.
+/// Runs the task `first` and all tasks that tasks create, on `threads` threads, in any order. Each
+/// thread calls `makeWorker()` once. It runs each of its tasks by calling the returned function
+/// object, `worker(task, more)`, which appends new tasks to `more`. If a worker throws, no further
+/// task is started, and the first exception is rethrown.
 template <class Task, class MakeWorker>
 void runTasks(unsigned threads, Task first, const MakeWorker& makeWorker) {
   std::mutex mutex;

@@ -8,8 +8,8 @@
 namespace corridor {
 namespace {
 
-/// Returns the value of a rank, counted from 0 in ascending order. Reorders `values`: moves that
-/// value to its place in the order, and the smaller values before that place.
+/// Returns the value that has index `rank` in ascending order (from 0). Reorders `values`: moves
+/// that value to this index, and the smaller values before it.
 double atRank(std::vector<double>& values, std::size_t rank) {
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(rank);
   std::nth_element(values.begin(), at, values.end());

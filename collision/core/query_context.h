@@ -12,14 +12,14 @@ namespace corridor {
 /// context's contents never change a verdict, nor a distance beyond its error bound.
 struct QueryContext {
   Counters counters;  ///< the work of all queries since the counters were last cleared
-  /// The pairs of triangles from which queries of scenes and motions start. Entry k belongs to pair
-  /// k of the query's bodies. Queries enlarge the list. The entries may change the counters, and
-  /// which of several closest or touching triangles is reported.
+  /// The pairs of triangles that queries of scenes and motions may test first. Entry k belongs to
+  /// pair k of the query's bodies. Queries enlarge the list as needed. The entries may change the
+  /// counters. They may also change which of several closest or touching triangles is reported.
   std::vector<LastPair> lastPairs;
   Scratch scratch;
 
   /// Returns the entry of pair number `pair` of the query's bodies. The reference is valid until a
-  /// call with a larger number.
+  /// call with a larger `pair`.
   LastPair& lastPair(std::size_t pair) {
     if (lastPairs.size() <= pair) lastPairs.resize(pair + 1);
     return lastPairs[pair];

@@ -38,7 +38,7 @@ std::string whyNotOrdinary(std::filesystem::file_type type) {
     case Type::socket:
       return "is a socket; an ordinary file is needed";
     default:
-      return "is not an ordinary file; one is needed";
+      return "is not an ordinary file; an ordinary file is needed";
   }
 }
 
@@ -60,9 +60,10 @@ class OpenFile {
   int descriptor_;
 };
 
-/// Reads the bytes that are available, at most `size`. @returns their number; 0 at the end.
+/// Reads the bytes that are available, at most `size`. @returns the number of bytes read; 0 at the
+/// end of the input.
 std::size_t readSome(int descriptor, char* to, std::size_t size, const std::string& name) {
-  constexpr std::size_t most = std::size_t{1} << 30;  // per call: Linux reads no more than 2 GiB
+  constexpr std::size_t most = std::size_t{1} << 30;  // bytes per call; Linux's limit is 2 GiB
   while (true) {
     const ssize_t n = ::read(descriptor, to, std::min(size, most));
     if (n >= 0) return static_cast<std::size_t>(n);
@@ -73,13 +74,14 @@ std::size_t readSome(int descriptor, char* to, std::size_t size, const std::stri
 /// An open ordinary file, and its size.
 class OrdinaryFile : public OpenFile {
  public:
-  // O_NONBLOCK: if a pipe replaces the file after the first check, opening does not wait for it.
+  // O_NONBLOCK: if a pipe replaces the file after `checkedPath`, opening does not wait for a
+  // writer.
   OrdinaryFile(const std::filesystem::path& file, const std::string& what, std::uint64_t most)
       : OpenFile(checkedPath(file), O_NONBLOCK) {
     const std::string name = file.string();
     struct stat status {};
     if (::fstat(descriptor(), &status) != 0 || !S_ISREG(status.st_mode))
-      fail(name, "is not an ordinary file; one is needed");
+      fail(name, "is not an ordinary file; an ordinary file is needed");
     size_ = static_cast<std::uint64_t>(status.st_size);
     if (size_ == 0) fail(name, "is empty; " + what + " is needed");
     if (size_ > most)
@@ -125,8 +127,8 @@ std::string notBlank(std::string text, const std::string& name, const std::strin
   return text;
 }
 
-/// Returns all bytes up to the end of the pipe. Throws if there are only blanks, more than
-/// `kMostFileBytes` bytes, or a byte 0.
+/// Returns all bytes up to the end of the pipe. Throws if the text consists of blanks only, has
+/// more than `kMostFileBytes` bytes, or contains a byte 0.
 std::string readPipe(int descriptor, const std::string& name, const std::string& what) {
   std::vector<char> part(std::size_t{1} << 18);
   std::string text;

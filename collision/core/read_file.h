@@ -7,7 +7,7 @@
 /// Functions that read input files. No other code opens input files, except the helper program that
 /// uses assimp. The functions open only ordinary files, never wait for a device or a pipe, and test
 /// the size of a file before they allocate memory for its contents. The exception is
-/// `readTextStream`, for inputs that are documented to accept a pipe.
+/// `readTextStream`, which also reads pipes: it is for inputs that are documented to accept a pipe.
 namespace corridor {
 
 /// The maximum number of bytes of any input: 4 GiB.
@@ -16,10 +16,11 @@ constexpr std::uint64_t kMostFileBytes = std::uint64_t{1} << 32;
 /// MiB. For comparison, a solution file of a million states of seven numbers has 150 MB.
 constexpr std::uint64_t kMostDocumentBytes = std::uint64_t{1} << 28;
 
-/// Returns why a path is not an ordinary file ("no such file", …), or "" if it is. Opens nothing.
+/// Returns why a path is not an ordinary file ("no such file", …), or "" if it is an ordinary file.
+/// Opens nothing.
 std::string whyNotOrdinaryFile(const std::filesystem::path& file);
 
-/// Requires a readable, non-empty, ordinary file of at most `most` bytes.
+/// Checks that `file` is a readable, non-empty, ordinary file of at most `most` bytes.
 /// @param what  the kind of input for messages: "a mesh file".
 /// @throws InputError: no such file, not an ordinary file, unreadable, empty, too large, or a
 /// pointer of Git LFS in place of the file.
@@ -32,14 +33,14 @@ std::string readFile(const std::filesystem::path& file, const std::string& what,
 
 /// Returns the text of a document. @param what  for messages: "a problem".
 /// @throws InputError in the cases of `requireFile`; also if the file has more than 256 MiB
-/// (`kMostDocumentBytes`), only blanks, or a byte 0, which no text has.
+/// (`kMostDocumentBytes`), consists of blanks only, or contains a byte 0, which no text has.
 std::string readTextFile(const std::filesystem::path& file, const std::string& what);
 
 /// Returns the text of a list that may be long or come from a pipe; "-" and "/dev/stdin" are the
 /// standard input. Reads a pipe to its end, and waits for its writer.
 /// @throws InputError for an ordinary file: in the cases of `requireFile`. For every input: if the
-/// text has more than 4 GiB (`kMostFileBytes`), only blanks, or a byte 0. A byte 0 ends the reading
-/// of a pipe at once.
+/// text has more than 4 GiB (`kMostFileBytes`), consists of blanks only, or contains a byte 0.
+/// After a byte 0, a pipe is not read further.
 std::string readTextStream(const std::filesystem::path& file, const std::string& what);
 
 }  // namespace corridor

@@ -14,11 +14,12 @@ struct RigidPose {
   Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
 };
 
-/// Returns the rotation matrix of a quaternion, rounded. It is exact for quarter turns about the
-/// axes and for the other rotations that take axes to axes, if equal coefficients are equal as
-/// doubles. (Formulas of the form 1 − 2(y² + z²) have a rounding error of 2^-53 where these
-/// rotations have a 0, so that surfaces in contact would come apart.)
-/// @pre the norm of q is within 2^±200. It need not be 1.
+/// Returns the rotation matrix of a quaternion, rounded. It is exact for the 24 rotations that map
+/// coordinate axes to coordinate axes, such as quarter turns, if the stored coefficients are 0
+/// where the real ones are 0, and otherwise have the same magnitude. (Other formulas, with entries
+/// such as 1 − 2(y² + z²), have a rounding error of 2^-53 where these rotations have a 0, so that
+/// surfaces in contact would come apart.)
+/// @pre the norm of q is from 2^-200 to 2^200. It need not be 1.
 template <class Real>
 Eigen::Matrix<Real, 3, 3> rotationMatrix(const Eigen::Quaternion<Real>& q) {
   const Real ww = q.w() * q.w(), xx = q.x() * q.x(), yy = q.y() * q.y(), zz = q.z() * q.z();

@@ -21,22 +21,22 @@ inline double roundedUp(double bound) {
   return bound * (1 + 0x1p-48) + kTiny;
 }
 
-/// Returns a lower bound of the real value of `bound`, if `bound` was computed as `roundedUp`
-/// requires.
+/// Returns a lower bound of the real value of `bound`, if `bound` was computed from positive terms
+/// with at most 16 roundings.
 inline double roundedDown(double bound) {
   return bound * (1 - 0x1p-48) - kTiny;
 }
 
 /// Returns the square root of a computed sum of squares. The result is a lower bound of the real
-/// root, except for relative rounding errors. Returns 0 if the sum is so small that rounding to
-/// subnormals may have made it too large.
+/// root, except for relative rounding errors. Returns 0 if the sum is at most 2^-960, since
+/// rounding to subnormals may have made so small a sum too large.
 inline double rootOrZero(double square) {
   return square > 0x1p-960 ? std::sqrt(square) : 0;
 }
 
-/// Returns the largest power of two not above `size` > 0, clamped to 2^±1000. If lengths near
-/// `size` are measured in this unit, their squares neither overflow nor underflow. Scaling by a
-/// power of two is exact.
+/// Returns the largest power of two that is at most `size`, clamped to [2^-1000, 2^1000]. If
+/// lengths near `size` are measured in this unit, their squares neither overflow nor underflow.
+/// Scaling by a power of two is exact. @pre `size` > 0.
 inline double powerOfTwo(double size) {
   return std::ldexp(1.0, std::clamp(std::ilogb(size), -1000, 1000));
 }

@@ -30,8 +30,9 @@ class Scratch {
   }
 
  private:
+  // The address of `kType` identifies T. Not const, because linkers may merge constants.
   template <class T>
-  static inline char kType = 0;  // its address identifies T; not const: linkers may merge constants
+  static inline char kType = 0;
   struct Slot {
     const char* type;
     std::unique_ptr<void, void (*)(void*)> memory;

@@ -15,26 +15,28 @@ std::string lowered(std::string_view word);
 std::size_t editDistance(std::string_view a, std::string_view b);
 
 /// Returns the candidate that a user may have meant: the first with the least edit distance,
-/// ignoring case. The distance must be at most 1 or at most a third of the longer word's length,
-/// and less than the length of `word`. Words of more than 100 bytes get no suggestion.
+/// ignoring case. The distance must be less than the length of `word`, and at most max(1, n/3),
+/// where n is the length of the longer of the two words. Returns nullopt if no candidate qualifies,
+/// or if `word` has more than 100 bytes.
 std::optional<std::string> mostSimilar(std::string_view word,
                                        const std::vector<std::string>& candidates);
 
-/// Returns ` (did you mean "…"?)` with the most similar candidate, or "" if no candidate is
-/// similar. The text can be appended to a message, or stand within the message.
+/// Returns ` (did you mean "…"?)` with the candidate of `mostSimilar`, or "" if there is none. The
+/// text may stand at the end of a message, or within it.
 std::string didYouMean(std::string_view word, const std::vector<std::string>& candidates);
 
 /// Returns ` (known: a, b, c)`, with at most 30 words (`joinedFirst`), or "" if there is no word.
 std::string knownWords(const std::vector<std::string>& words);
 
-/// Returns "a, b, c", or the first `most` words and the number of the others: "a, b, c and 970
-/// more".
+/// Returns "a, b, c" if there are at most `most` words. Otherwise returns the first `most` words
+/// and the number of the others: "a, b, c and 970 more".
 std::string joinedFirst(const std::vector<std::string>& words, std::size_t most = 30);
 
 /// Returns all words: "a, b, c".
 std::string joined(const std::vector<std::string>& words);
 
-/// Returns `one of a, b is needed, not "c"`, followed by the suggestion of `didYouMean`.
+/// Returns `one of a, b is needed, not "c"` for the words a and b, followed by the suggestion of
+/// `didYouMean`.
 std::string notOneOf(std::string_view word, const std::vector<std::string>& words);
 
 /// Returns the word for a message: in double quotes, with control characters as '?'. A word of more

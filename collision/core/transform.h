@@ -28,8 +28,8 @@ struct Transform {
 };
 
 /// Returns the inverse of a rigid map, computed with the transpose of `X.m` in place of its
-/// inverse. The result has rounding errors, and the error that the difference of `X.m` from a
-/// rotation causes.
+/// inverse. The result differs from the real inverse by rounding errors, and by the error that the
+/// difference of `X.m` from a rotation causes.
 inline Transform rigidInverse(const Transform& X) {
   return {X.m.transpose(), -(X.m.transpose() * X.t)};
 }

@@ -74,20 +74,20 @@ double shortestDecimal(float value) {
   return written;
 }
 
-/// Checks the root's transform, where assimp puts Collada's unit and up-axis. A unit that is 0, or
-/// too small for assimp's floats, would shrink the mesh to a point, and a negative unit would
-/// mirror it. Under `OmplApp` a mirrored mesh is accepted, because the mirroring may come from a
-/// node of the file that OMPL.app's import steps have merged into the root. @throws
-/// std::runtime_error if the unit is not above 0.
+/// Checks the transform of the root node of a Collada scene. assimp puts Collada's unit and up-axis
+/// there. A unit that is 0, or too small for assimp's floats, would shrink the mesh to a point, and
+/// a negative unit would mirror it. Under `OmplApp` a mirrored mesh is accepted, because the
+/// mirroring may come from a node of the file that OMPL.app's import steps have merged into the
+/// root. @throws std::runtime_error if the unit is not above 0.
 void checkColladaRoot(const aiScene& scene, AssimpRules rules) {
   const double volume = inDoubles(scene.mRootNode->mTransformation).linear().determinant();
   if (!(volume > 0 || (volume < 0 && rules == AssimpRules::OmplApp)))
     throw std::runtime_error("its <unit> is not above 0, or too small");
 }
 
-/// Returns the file's unit in metres, or 0 if the format has none. Assimp puts Collada's unit into
-/// the root's transform. If this transform is nothing but the unit, it is set to the identity, and
-/// the unit is returned; otherwise it stays as it is, and 1 is returned.
+/// Returns the file's unit in metres, or 0 if the format has none. assimp puts Collada's unit into
+/// the root's transform. If this transform is nothing but the unit, this function sets it to the
+/// identity and returns the unit. Otherwise it leaves the transform as it is and returns 1.
 double takeFileUnit(aiScene& scene, const std::string& format) {
   if (format.starts_with("Collada")) {
     aiMatrix4x4& root = scene.mRootNode->mTransformation;
@@ -99,7 +99,7 @@ double takeFileUnit(aiScene& scene, const std::string& format) {
   }
   if (format.starts_with("glTF")) return 1;
   if (double factor = 0; scene.mMetaData && scene.mMetaData->Get("UnitScaleFactor", factor)) {
-    return factor / 100;  // FBX counts in centimetres
+    return factor / 100;  // FBX's factor is in centimetres
   }
   if (float factor = 0; scene.mMetaData && scene.mMetaData->Get("UnitScaleFactor", factor)) {
     return shortestDecimal(factor) / 100;
@@ -114,8 +114,8 @@ std::string oneLine(std::string text) {
   return text;
 }
 
-/// Opens only ordinary files, including files to which the mesh file refers, such as the buffers of
-/// a glTF file. All other files count as missing.
+/// Opens ordinary files only, and reports all others as missing. This also holds for files to which
+/// the mesh file refers, such as the buffers of a glTF file.
 class OrdinaryFiles : public Assimp::DefaultIOSystem {
  public:
   bool Exists(const char* file) const override {  // assimp's own version would open the file
@@ -141,8 +141,8 @@ bool readsAllowedFormat(const aiImporterDesc& description) {
   return false;
 }
 
-/// Removes the importers of all other formats. Otherwise assimp would offer a file of unknown
-/// extension to every importer.
+/// Removes every importer for which `readsAllowedFormat` is false. Otherwise assimp would offer a
+/// file of unknown extension to every importer.
 void removeOtherFormats(Assimp::Importer& importer) {
   std::vector<Assimp::BaseImporter*> others;
   for (std::size_t i = 0; i < importer.GetImporterCount(); ++i)

@@ -11,10 +11,11 @@
 namespace corridor {
 
 enum class AssimpRules {
-  /// Coordinates as stored: Collada's up-axis is not applied, and its unit is returned separately.
+  /// Coordinates as stored, under the transforms of the nodes. Collada's up-axis is not applied.
+  /// Collada's unit is not applied either if assimp's root node holds nothing else: then `fileUnit`
+  /// is the unit. Otherwise the unit is applied, and `fileUnit` is 1.
   Stored,
-  /// As in OMPL.app: the import steps of OMPL.app. Collada's up-axis and unit are applied, as
-  /// assimp applies them.
+  /// The import steps of OMPL.app. Collada's up-axis and unit are applied, as assimp applies them.
   OmplApp,
 };
 
@@ -27,11 +28,11 @@ constexpr std::array<std::string_view, 8> kAssimpFormats{".dae", ".gltf", ".glb"
 constexpr std::array<std::string_view, 4> kOwnFormats{".obj", ".stl", ".ply", ".off"};
 
 struct AssimpImport {
-  /// The mesh in the frame of the scene. It has all vertices that assimp keeps, including those of
-  /// lines and points; equal vertices may be repeated.
+  /// The mesh in the frame of the file's scene. It has all vertices that assimp keeps, including
+  /// those of lines and points; equal vertices may be repeated.
   TriangleMesh mesh;
   std::string format;   ///< assimp's name of the format
-  double fileUnit = 0;  ///< metres, not applied to the mesh; 0: the format has none
+  double fileUnit = 0;  ///< metres, not applied to the mesh; 0: the format has none, or `OmplApp`
   bool isCollada = false;
   std::string error;  ///< one line; empty: success
 };
@@ -47,8 +48,8 @@ constexpr int kOutOfMemoryStatus = 9;
 /// Returns the bytes that the helper program writes to its standard output. The format is not
 /// portable: both ends are the same build on the same machine.
 std::string packed(const AssimpImport& import);
-/// Reads what `packed` returned. @returns false if `bytes` are incomplete, or are not the output of
-/// `packed`.
+/// Restores the `import` from bytes that `packed` returned. @returns false if `bytes` are
+/// incomplete, or are not the output of `packed`.
 bool unpack(std::string_view bytes, AssimpImport& import);
 
 }  // namespace corridor

@@ -9,11 +9,11 @@ namespace {
 
 constexpr std::uint64_t kMagic = 0x31706d6973736131;  // "1assimp1"
 
-/// The numbers at the beginning of the bytes.
+/// The header of the packed bytes.
 struct Head {
   std::uint64_t magic = kMagic;
   std::uint64_t vertices = 0, triangles = 0;  // counts
-  std::uint64_t format = 0, error = 0;        // bytes
+  std::uint64_t format = 0, error = 0;        // lengths of the texts in bytes
   double fileUnit = 0;
   std::uint64_t isCollada = 0;
 };

@@ -51,7 +51,7 @@ class Helper {
     int pipe[2];
     if (::pipe2(pipe, O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category());
     pipe_ = pipe[0];
-    // A larger pipe saves process switches; failure leaves the usual 64 KiB.
+    // A larger pipe saves process switches. If the call fails, the pipe keeps the usual 64 KiB.
     ::fcntl(pipe_, F_SETPIPE_SZ, 1 << 20);
     std::vector<char*> arguments;
     for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
@@ -93,7 +93,8 @@ class Helper {
     }
   }
 
-  /// Returns the status of the process, as waitpid(2) reports it. @pre its output has ended.
+  /// Waits until the process ends. Returns its status, as waitpid(2) reports it. @pre `readAll` has
+  /// returned true.
   int end() { return wait(); }
 
  private:

@@ -17,16 +17,18 @@ struct AssimpLimits {
   /// Returns the path of the helper program corridor_assimp, or "" if it is not found. Searches, in
   /// this order:
   /// * the folder of the running program;
-  /// * the run path of the program or shared library that contains this code (an installed library
-  ///   adds its folder for programs that link it);
+  /// * the folders in which the program or shared library that contains this code searches for
+  ///   libraries, such as its run path (an installed library adds its folder for programs that link
+  ///   it);
   /// * the folder where the helper was built.
   static std::filesystem::path assimpProgram();
 };
 
-/// Reads a file by assimp in a process of its own. The process ends with the call, with the calling
-/// process, or when it reaches a limit. Several threads may call this function at the same time.
+/// Reads a file by assimp in a process of its own. The new process ends when this call or the
+/// calling process ends, or when the new process reaches a limit. Several threads may call this
+/// function at the same time.
 /// @throws InputError: assimp cannot read the file, crashes, or exceeds a limit; or the helper
-/// program is missing.
+/// program is missing or cannot be started.
 AssimpImport readWithAssimp(const std::string& file, AssimpRules rules,
                             const AssimpLimits& limits = {});
 

@@ -7,7 +7,7 @@
 namespace corridor {
 namespace {
 
-/// Replaces each text between `open` and `close` by blanks, keeping line ends.
+/// Replaces each part of the text from `open` up to the next `close` by blanks. Keeps line ends.
 void blank(std::string& text, std::string_view open, std::string_view close) {
   for (auto from = text.find(open); from != text.npos; from = text.find(open, from)) {
     const auto end = text.find(close, from);
@@ -33,7 +33,8 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-/// Returns the value of an attribute in a tag's text; nullopt if the tag has none.
+/// Returns the value of an attribute in a tag's text; nullopt if the tag does not have the
+/// attribute.
 std::optional<std::string_view> attributeOf(std::string_view tag, const std::string& name) {
   for (auto at = tag.find(name); at != tag.npos; at = tag.find(name, at + 1)) {
     const std::string_view rest = trimmed(tag.substr(at + name.size()));

@@ -28,7 +28,8 @@ struct Convex {
 };
 using Primitive = std::variant<Box, Sphere, Capsule, Cylinder, Convex>;
 
-/// Returns what is wrong with a primitive (not finite, not positive, no points), or nullopt.
+/// Returns what is wrong with a primitive (not finite, not positive, no points), or nullopt if the
+/// primitive is valid.
 std::optional<std::string> checkPrimitive(const Primitive& primitive);
 
 /// Returns "box", "sphere", …

@@ -6,7 +6,8 @@
 
 namespace corridor {
 
-/// Maps the coordinates of a file to metres, with z up (`MeshFileOptions`).
+/// Maps the coordinates of a file to metres, and rotates the up-axis to z if the options name one
+/// (`MeshFileOptions`).
 class FileFrame {
  public:
   /// @param metresPerUnit the unit to use if the options do not state a unit.
@@ -15,8 +16,8 @@ class FileFrame {
 
   bool isIdentity() const { return scale_ == 1 && up_ == 'z'; }
   double scale() const { return scale_; }
-  /// Scales to metres, and rotates so that the up-axis becomes z. The axes that Collada calls
-  /// "right" and "in" for this up-axis become x and -y.
+  /// Returns the point in metres, rotated so that the up-axis becomes z. The axes that Collada
+  /// calls "right" and "in" for this up-axis become x and -y.
   Vec3 operator*(const Vec3& p) const {
     Vec3 q = scale_ * p;
     switch (up_) {
@@ -34,7 +35,8 @@ class FileFrame {
   char up_;
 };
 
-/// Adds a fault for each option that is out of range, and throws if there is one.
+/// Adds a fault for each option that is out of range, and throws InputError if `faults` has any
+/// fault.
 void checkOptions(const MeshFileOptions& options, MeshFaults& faults);
 
 }  // namespace corridor

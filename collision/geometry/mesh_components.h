@@ -14,9 +14,9 @@ struct MeshComponents {
     std::uint32_t triangle = 0;                       ///< a triangle of the component
     Vec3 corner = Vec3::Zero();                       ///< a corner of that triangle
     Vec3 lower = Vec3::Zero(), upper = Vec3::Zero();  ///< bounds of the component
-    /// True if each edge is used by exactly two triangles, in opposite directions. Triangles with
-    /// two equal corners do not count. A watertight component has an inside, whether its triangles
-    /// face outwards or inwards.
+    /// True if the component has edges, and each edge is used by exactly two triangles, in opposite
+    /// directions. Triangles with two equal corners do not count. A watertight component has an
+    /// inside, whether its triangles face outwards or inwards.
     bool watertight = false;
   };
   std::vector<Component> components;

@@ -73,7 +73,7 @@ bool contains(const std::array<std::string_view, n>& formats, const std::string&
   return std::find(formats.begin(), formats.end(), extension) != formats.end();
 }
 
-/// Returns the fault of a file with an unknown extension.
+/// Returns the text of the fault for a file with an unsupported extension.
 std::string notRead(const std::string& extension) {
   std::string formats;
   for (const std::string_view format : kOwnFormats) formats += std::string(format) + ", ";

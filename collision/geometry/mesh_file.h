@@ -10,7 +10,8 @@ namespace corridor {
 
 /// How to interpret the coordinates of a mesh file.
 struct MeshFileOptions {
-  /// Metres per unit of the file. Unset: the file's own unit if its format has one, else 1.
+  /// Metres per unit of the file. Unset: the file's own unit if the format has one, else 1.
+  /// Required for 3MF and AMF, because assimp does not report their unit.
   std::optional<double> metresPerUnit = {};
   /// The file's up-axis ('x', 'y' or 'z'), which is rotated to z: 'y' maps (x, y, z) to (x, -z, y),
   /// 'x' maps it to (-y, -z, x), as Collada's axes do. Unset: coordinates as stored.
@@ -24,8 +25,8 @@ struct MeshFile {
   std::string unitRule;  ///< one line for people: which unit was used, and why
   std::string upRule;    ///< one line for people: which rotation was applied, and why
   /// The up-axis that a Collada file states ('x', 'y' or 'z'; 'y' if it states none). Unset: not
-  /// Collada. By ROS's rule, `readMeshFile` does not apply this axis; `MeshFileOptions::up` applies
-  /// an axis.
+  /// Collada. By ROS's rule, `readMeshFile` does not apply this axis; it applies only the axis that
+  /// the caller sets in `MeshFileOptions::up`.
   std::optional<char> fileUp = {};
   /// True if assimp read the file, and therefore rounded the vertices to float.
   bool floatVertices = false;
@@ -39,13 +40,13 @@ struct MeshFile {
 /// finite, index out of range, truncated, too large, unknown extension, …
 MeshFile readMeshFile(const std::filesystem::path& file, const MeshFileOptions& options = {});
 
-/// A mesh as OMPL.app places it: read with OMPL.app's import steps. The transforms of nodes and the
-/// rotation to y-up are applied.
+/// A mesh as OMPL.app places it: read with OMPL.app's import steps. The transforms of nodes are
+/// applied. For Collada, the unit and the rotation to y-up are applied, too.
 struct OmplAppMesh {
   TriangleMesh mesh;
   /// The mean of all imported vertices. Each vertex counts as often as assimp keeps it.
   Vec3 vertexAverage = Vec3::Zero();
-  int importedVertices = 0;
+  int importedVertices = 0;  ///< the number of these vertices
 };
 /// Reads a mesh file by OMPL.app's rules. @throws InputError in the cases of `readMeshFile`.
 OmplAppMesh readOmplAppMesh(const std::filesystem::path& file);

@@ -19,7 +19,7 @@ struct Bounds {
   Vec3 min, max;
   /// 1/4 if the diagonal overflows; else 1, because subnormals times 1/4 would lose bits.
   double scale = 1;
-  double diagonal;  ///< times `scale`
+  double diagonal;  ///< length of the diagonal, times `scale`
 
   explicit Bounds(const TriangleMesh& mesh) : min(mesh.corner(0, 0)), max(min) {
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
@@ -81,8 +81,8 @@ void countEdges(const std::vector<Indices>& distinctFair, MeshHealth& health) {
   });
 }
 
-/// The numbers of edges, by the number of triangles that use the edge. Triangles with two equal
-/// corners do not count.
+/// The numbers of edges, by how many triangles use the edge, and in which directions. Triangles
+/// with two equal corners do not count.
 struct EdgeUses {
   std::size_t sound = 0;   ///< edges of two triangles, in opposite directions
   std::size_t open = 0;    ///< edges of one triangle

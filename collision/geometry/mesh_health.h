@@ -19,15 +19,15 @@ struct MeshHealth {
   std::size_t distinctTriangles = 0;
   std::size_t degenerateTriangles = 0;
   std::size_t sliverTriangles = 0;
-  std::size_t boundaryEdges = 0;     ///< edges of exactly one distinct, not degenerate triangle
+  std::size_t boundaryEdges = 0;  ///< edges of exactly one distinct triangle that is not degenerate
   std::size_t nonManifoldEdges = 0;  ///< edges of three or more such triangles
-  /// Edges that two triangles use in the same direction: one of the two triangles faces outwards,
-  /// the other inwards. Triangles with two equal corners do not count.
+  /// Edges of exactly two triangles that use the edge in the same direction: one of the two
+  /// triangles faces outwards, the other inwards. Triangles with two equal corners do not count.
   std::size_t misorientedEdges = 0;
   /// Sets of triangles connected through shared corners. (`findComponents` requires shared edges.)
   std::size_t components = 0;
-  /// True if every edge is used by exactly two triangles, in opposite directions. Triangles with
-  /// two equal corners do not count.
+  /// True if the mesh has edges, and each edge is used by exactly two triangles, in opposite
+  /// directions. Triangles with two equal corners do not count.
   bool watertight = false;
   std::string whyNotWatertight;  ///< the first reason, for messages; "" if watertight
   /// The volume in m³, rounded; negative if the triangles face inwards. Set only if the mesh is
@@ -47,9 +47,9 @@ enum class TriangleQuality { fair, sliver, degenerate };
 /// Returns the quality of each triangle. @pre `checkMesh` reports nothing.
 std::vector<TriangleQuality> triangleQualities(const TriangleMesh& mesh);
 
-/// Checks a mesh made in memory. Returns the first fault that makes it illegal (a vertex that is
-/// not finite, an index out of range), or nullopt. A mesh without triangles is legal, but no tree
-/// can be built over it.
+/// Checks a mesh. Returns the first fault that makes the mesh illegal (a vertex that is not finite,
+/// an index out of range), or nullopt if the mesh is legal. A mesh without triangles is legal, but
+/// no tree can be built over it.
 std::optional<std::string> checkMesh(const TriangleMesh& mesh);
 
 }  // namespace corridor

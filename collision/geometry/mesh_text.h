@@ -10,16 +10,18 @@
 #include "collision/geometry/mesh_limits.h"
 #include "collision/geometry/triangle_mesh.h"
 
-/// Helpers of the mesh readers: words and numbers in a text, and the list of faults.
+/// Helpers of the readers of meshes, point clouds and maps: words and numbers in a text, and the
+/// list of faults.
 namespace corridor {
 
-/// Returns the word for a message: at most 32 bytes, unprintable ones shown as '?'.
+/// Returns the word for a message. Bytes that are not printable ASCII become '?'. A word of more
+/// than 32 bytes is cut after 32 bytes, and "..." marks the cut.
 std::string printable(std::string_view word);
 /// Returns `printable(word)` in double quotes.
 std::string inQuotes(std::string_view word);
 
-/// Collects the faults of one mesh file. Throws at the tenth fault, since further faults rarely add
-/// information.
+/// Collects the faults of one file (a mesh, a point cloud or a map). Throws at the tenth fault,
+/// since further faults rarely add information.
 class MeshFaults {
  public:
   explicit MeshFaults(std::string file) : file_(std::move(file)), faults_(file_, 10) {}
@@ -28,7 +30,8 @@ class MeshFaults {
   /// Adds a fault after which the reader cannot go on, and throws all faults.
   [[noreturn]] void fail(int line, std::string text);
   void throwIfAny() const { faults_.throwIfAny(); }
-  /// Fails if `count` of `what` (vertices or triangles) exceeds `kMaxMeshElements`.
+  /// Fails if `count`, the number of `what` ("vertices", "faces" or "triangles"), exceeds
+  /// `kMaxMeshElements`.
   void requireFew(std::uint64_t count, std::string_view what, int line) {
     if (count > kMaxMeshElements) failCount(count, what, line);
   }
@@ -45,14 +48,15 @@ class MeshFaults {
 };
 
 /// Reads a whole word as a finite coordinate, and stores the coordinate in `value`. Numbers that
-/// are too small for a double become 0, the nearest double. @returns a complaint, or nullopt on
-/// success.
-/// @param notFiniteToo true: accepts "nan" and "inf", too, which sensors write for directions
+/// are too small for a double become 0, the nearest double. @returns what is wrong with the word,
+/// or nullopt on success.
+/// @param notFiniteToo true: also accepts "nan" and "inf", which sensors write for directions
 /// without a measurement.
 std::optional<std::string> parseCoordinate(std::string_view word, double& value,
                                            bool notFiniteToo = false);
 
-/// Reads a whole word as a decimal integer of 64 bits. @returns false if the word is not one.
+/// Reads a whole word as a decimal integer of 64 bits. @returns false if the word is not such an
+/// integer.
 bool parseInteger(std::string_view word, std::int64_t& value);
 
 /// Returns whether `c` is a blank within a line (not a line end).

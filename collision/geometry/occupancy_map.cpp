@@ -18,7 +18,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "OctoMap stores little-endian numbers");
 
 constexpr int kDepth = 16;                      ///< levels below the root, as in OctoMap
-constexpr std::size_t kMostCubes = 10'000'000;  ///< some 300 bytes each as an obstacle
+constexpr std::size_t kMostCubes = 10'000'000;  ///< as an obstacle, a cube takes some 300 bytes
 constexpr const char* kBinary = "# Octomap OcTree binary file";
 constexpr const char* kFull = "# Octomap OcTree file";
 
@@ -79,7 +79,7 @@ class MapReader {
     return std::move(map_);
   }
 
-  /// Returns the word for what contains the map, `file` or `message`, for error messages.
+  /// Returns the word for what contains the map, "file" or "message", for error messages.
   std::string container() const { return promised_ ? "file" : "message"; }
 
   /// Checks the type of the tree and the resolution.
@@ -230,7 +230,7 @@ class MapReader {
   /// If all eight children of the cube are occupied, replaces the children by the cube. Returns
   /// whether all eight are occupied.
   /// @param full the number of children that are occupied as a whole.
-  /// @param before the number of cubes before those of the children.
+  /// @param before the size that `map_.cubes` had before the children were read.
   bool joinIfFull(const Cube& cube, int full, std::size_t before) {
     if (full < 8) return false;
     map_.cubes.resize(before);
@@ -269,7 +269,7 @@ class MapReader {
     }
   }
 
-  /// Adds the unknown cubes, as far as they are inside the box of all measured cells.
+  /// Adds the parts of the unknown cubes that are inside the bounding box of all measured cells.
   void addUnknown() {
     std::vector<Cube> open = std::move(missing_);
     while (!open.empty()) {
@@ -298,7 +298,8 @@ class MapReader {
   std::array<std::int32_t, 3> low_{INT32_MAX, INT32_MAX, INT32_MAX},
       high_{INT32_MIN, INT32_MIN, INT32_MIN};
   std::size_t at_ = 0;
-  std::optional<std::int64_t> promised_;  // the number of nodes; a message does not contain it
+  // The number of nodes that the header states. Not set for a message, which does not state it.
+  std::optional<std::int64_t> promised_;
   std::int64_t nodes_ = 0;
   bool binary_ = false, color_ = false;
 };

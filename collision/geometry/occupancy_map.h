@@ -11,14 +11,14 @@
 
 namespace corridor {
 
-/// Which cells of a map are obstacles.
+/// Rules that decide which cells of a map are obstacles.
 struct OccupancyRules {
   /// If true, cells without a measurement count as obstacles, too, if they are in the bounding box
   /// of the measured cells.
   bool unknownIsOccupied = false;
   /// A cell is occupied if its probability is at least `threshold`, which must be in (0, 1).
-  /// Probability and threshold are compared as log-odds in float, as OctoMap compares them. Files
-  /// of .bt have no probabilities: their cells are either free or occupied.
+  /// Probability and threshold are compared as log-odds in float, as OctoMap compares them. A .bt
+  /// file has no probabilities: its cells are either free or occupied.
   double threshold = 0.5;
 };
 
@@ -32,11 +32,11 @@ struct OccupancyMap {
     std::int32_t size = 1;
   };
   double resolution = 0;  ///< edge length of the smallest cell, metres
-  /// The occupied cubes, and the unknown cubes if requested (`unknownIsOccupied`). Eight occupied
-  /// children of one octree node are joined into one cube.
+  /// The occupied cubes, and also the unknown cubes if `OccupancyRules::unknownIsOccupied` is true.
+  /// Eight occupied children of one octree node are joined into one cube.
   std::vector<Cube> cubes;
-  std::size_t free = 0;           ///< number of free cubes
-  bool hasProbabilities = false;  ///< true for .ot
+  std::size_t free = 0;           ///< number of leaves of the octree that are free
+  bool hasProbabilities = false;  ///< false if the data are as in .bt
   std::string format;             ///< "OctoMap (.bt)", "OctoMap (.ot)", "octomap_msgs/Octomap"
 
   Vec3 centerOf(const Cube& cube) const;

@@ -29,7 +29,7 @@ struct Header {
   std::string data;      ///< ascii, binary, binary_compressed
   std::size_t size = 0;  ///< bytes before the data
   int lines = 0;
-  std::array<std::size_t, 3> xyz{};  ///< numbers of the fields x, y and z
+  std::array<std::size_t, 3> xyz{};  ///< indices of the fields x, y and z
   bool hasViewpoint = false;
 };
 
@@ -42,7 +42,7 @@ bool isIdentity(const std::vector<std::string>& viewpoint) {
   return true;
 }
 
-/// Reads the header: lines of a keyword and words, until the line DATA.
+/// Reads the header. Each line is a keyword followed by words; DATA is the last line.
 class PcdHeaderReader {
  public:
   PcdHeaderReader(std::string_view bytes, MeshFaults& faults)
@@ -93,7 +93,7 @@ class PcdHeaderReader {
   std::vector<std::string> words() {
     std::vector<std::string> all;
     for (std::string_view w = cursor_.wordInLine(); !w.empty(); w = cursor_.wordInLine()) {
-      if (all.size() == 1000) fail("more than 1000 words");
+      if (all.size() == 1000) fail("a line has more than 1000 words");
       all.emplace_back(w);
     }
     return all;
@@ -194,10 +194,11 @@ void requireBytes(const Header& header, std::uint64_t available, MeshFaults& fau
 std::vector<Vec3> readAscii(std::string_view body, const Header& header, MeshFaults& faults) {
   std::uint64_t words = 0;
   for (const Field& field : header.fields) words += field.count;
-  std::array<std::uint64_t, 3> places{};  // of x, y and z among the words of a line
+  std::array<std::uint64_t, 3> places{};  // indices of x, y and z among the words of a line
   for (std::size_t axis = 0; axis < 3; ++axis)
     for (std::size_t f = 0; f < header.xyz[axis]; ++f) places[axis] += header.fields[f].count;
-  if (header.points > (body.size() + 1) / (2 * words))  // a digit and a blank per number
+  // Each number takes at least two bytes, a digit and a blank; the last one needs no blank.
+  if (header.points > (body.size() + 1) / (2 * words))
     faults.fail(0, "the header promises " + std::to_string(header.points) + " points of " +
                        std::to_string(words) + " numbers; the file is cut short");
   std::vector<Vec3> points;
@@ -252,7 +253,7 @@ std::vector<Vec3> readBinary(std::string_view body, const Header& header, MeshFa
 /// other c stands for a copy of (c >> 5) + 2 bytes of the output written so far. The copy starts (d
 /// + 1) bytes before the output's end, where the low 5 bits of c and the next byte give d. If c >>
 /// 5 is 7, one more byte comes before the byte of d, and its value is added to the length.
-/// @returns nullopt if the data are not sound or give another size.
+/// @returns nullopt if the data are damaged, or do not expand to `size` bytes.
 std::optional<std::string> expanded(std::string_view in, std::uint64_t size) {
   std::string out;
   out.reserve(size);
@@ -279,7 +280,9 @@ std::optional<std::string> expanded(std::string_view in, std::uint64_t size) {
   return out.size() == size ? std::optional(std::move(out)) : std::nullopt;
 }
 
-/// Reads compressed data: two sizes, then all values of the first field, of the second field, ….
+/// Reads compressed data: the compressed and the expanded size in bytes, then the compressed
+/// values. Expanded, these are all values of the first field, then all values of the second field,
+/// ….
 std::vector<Vec3> readCompressed(std::string_view body, const Header& header, MeshFaults& faults) {
   if (body.size() < 8) faults.fail(0, "the file ends before its data: it is cut short");
   std::uint32_t packed = 0, size = 0;

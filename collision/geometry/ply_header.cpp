@@ -161,7 +161,8 @@ class HeaderReader {
     }
   }
 
-  // Limits, because the time is quadratic: every name is compared with all others.
+  // Limits for damaged headers. The time is quadratic in the number of elements, because each
+  // element's name is compared with all others.
   static constexpr std::size_t mostElements = 1000, mostProperties = 1000;
 
   TextCursor cursor_;

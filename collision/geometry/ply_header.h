@@ -20,7 +20,7 @@ inline bool isInteger(PlyType type) {
 struct PlyProperty {
   std::string name;
   PlyType type;
-  /// Set for lists: a list stores its length in this type, and then its values in `type`.
+  /// Set only for lists: a list stores its length in this type, and then its values in `type`.
   std::optional<PlyType> countType;
 };
 
@@ -36,7 +36,7 @@ struct PlyHeader {
   PlyEncoding encoding = PlyEncoding::Ascii;
   std::vector<PlyElement> elements;
   std::size_t size = 0;  ///< bytes before the first element
-  int lines = 0;
+  int lines = 0;         ///< lines of the header
 };
 
 /// Reads the header. Checks that vertices have scalar properties x, y, z. For a mesh, also checks

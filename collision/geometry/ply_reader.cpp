@@ -11,7 +11,7 @@
 namespace corridor {
 namespace {
 
-/// The element that is being read, for messages.
+/// Which entry of which element is being read, for messages.
 struct Place {
   const PlyElement* element = nullptr;
   std::uint64_t index = 0;
@@ -28,7 +28,7 @@ class AsciiBody {
   AsciiBody(std::string_view body, const PlyHeader& header, MeshFaults& faults)
       : cursor_(body, header.lines + 1), faults_(faults) {}
 
-  /// Returns the least number of bytes that a value takes: a digit and a blank.
+  /// Returns the least number of bytes that a value takes: two, for a digit and a blank.
   static std::uint64_t leastSize(PlyType) { return 2; }
   /// Returns the number of bytes left, plus one, because the last word needs no blank after it.
   std::uint64_t bytesLeft() const { return cursor_.bytesLeft() + 1; }
@@ -183,9 +183,9 @@ class BodyReader {
   }
 
  private:
-  /// Requires that the file has enough bytes for the count of an element. Called before memory is
-  /// allocated for the element. Returns false for elements without properties, which take no bytes
-  /// and are skipped.
+  /// Fails unless the file has enough bytes left for the count of an element. Called before memory
+  /// is allocated for the element. Returns true for elements that must be read. Returns false for
+  /// elements without properties, which take no bytes and are skipped.
   bool hasRoom(const PlyElement& element) {
     std::uint64_t size = 0;
     for (const PlyProperty& p : element.properties)

@@ -24,8 +24,9 @@ struct PointCloud {
 };
 
 /// Reads the points of a file: the vertices of PLY; PCD (ASCII, binary and compressed); or a text
-/// file (.xyz, .txt, .asc, .pts) with three numbers or more in each line, of which the first three
-/// are x, y and z. Normals, colours and faces are not read. As in PCL, the viewpoint of a PCD file
+/// file (.xyz, .txt, .asc, .pts, .csv) with three numbers or more in each line, of which the first
+/// three are x, y and z. If the content begins like PLY or PCD, it is read in this format, whatever
+/// the extension. Normals, colours and faces are not read. As in PCL, the viewpoint of a PCD file
 /// is not applied.
 /// @throws InputError that names the file and the line or byte: unreadable, no points, truncated,
 /// counts that do not fit the file, unknown extension, …

@@ -9,13 +9,15 @@
 
 /// The readers of `readPointCloud`, one per format. Each takes the bytes of a file, and returns
 /// coordinates as stored, including points that are not finite. Readers add every fault to
-/// `faults`, and throw InputError if there is one.
+/// `faults`. They throw InputError at a fault after which they cannot go on, and at the tenth
+/// fault. After other faults they return, so the caller must call `faults.throwIfAny()`.
 namespace corridor {
 
-/// The largest number of points of a file.
+/// The maximum number of points in a file.
 constexpr std::uint64_t kMostPoints = 10'000'000;
-/// Fails if `count` exceeds `kMostPoints`. Readers call it before they allocate memory for the
-/// points.
+/// Throws InputError if `count`, a number of points, exceeds `kMostPoints`. Readers of formats with
+/// a header call this function before they allocate memory for the points. `readXyz` calls it after
+/// each point.
 inline void limitPoints(std::uint64_t count, int line, MeshFaults& faults) {
   if (count > kMostPoints)
     faults.fail(line, "has " + std::to_string(count) + " points or more; a file may have at most " +

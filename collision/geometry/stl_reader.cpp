@@ -21,7 +21,7 @@ std::uint32_t littleEndian32(const char* bytes) {
 
 ReadMesh readBinary(std::string_view bytes, MeshFaults& faults) {
   const std::size_t facets = (bytes.size() - headerSize) / facetSize;
-  // A closed mesh has half as many vertices as triangles.
+  // A closed mesh has about half as many vertices as triangles.
   VertexWelder welder(facets / 2);
   TriangleMesh mesh;
   mesh.triangles.resize(facets);
@@ -45,8 +45,9 @@ ReadMesh readBinary(std::string_view bytes, MeshFaults& faults) {
   return {std::move(mesh), "STL (binary)"};
 }
 
-/// Returns whether `a` is the keyword (of lower-case letters), ignoring case. Setting bit 5 turns
-/// capitals into lower-case letters, and turns no other character into a letter.
+/// Returns whether `a` is the keyword, ignoring case. Setting bit 5 turns capitals into lower-case
+/// letters, and turns no other character into a letter. @pre `keyword` consists of lower-case
+/// letters.
 bool sameWord(std::string_view a, std::string_view keyword) {
   return a.size() == keyword.size() && std::equal(a.begin(), a.end(), keyword.begin(),
                                                   [](char x, char y) { return (x | 0x20) == y; });
@@ -60,7 +61,7 @@ class AsciiStl {
   ReadMesh read() {
     for (std::string_view word = cursor_.word(); !word.empty(); word = cursor_.word()) {
       if (!sameWord(word, "solid")) unexpected(word, "solid");
-      cursor_.nextLine();  // the rest of the line is a name
+      cursor_.nextLine();  // skips the solid's name
       readSolid();
       cursor_.nextLine();
     }
@@ -146,8 +147,8 @@ ReadMesh readStl(std::string_view bytes, MeshFaults& faults) {
   const std::uint64_t promised =
       hasHeader ? headerSize + std::uint64_t{facetSize} * littleEndian32(&bytes[80]) : 0;
   if (hasHeader && promised == bytes.size()) return readBinary(bytes, faults);
-  // Text has no zero byte. The number of triangles in a binary file has one, unless it is 2^24 or
-  // more.
+  // Text has no zero byte. A binary file has a zero byte in its number of triangles, unless that
+  // number is 2^24 or more.
   const std::string_view start = bytes.substr(0, headerSize);
   if (sameWord(TextCursor(start).word(), "solid") && start.find('\0') == start.npos) {
     return AsciiStl(bytes, faults).read();

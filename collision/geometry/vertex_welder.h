@@ -13,8 +13,8 @@ class VertexWelder {
  public:
   explicit VertexWelder(std::size_t expectedPoints);
 
-  /// Returns the number of a point. Adds the point if no equal point was added before. @pre the
-  /// point is finite.
+  /// Returns the number of a point, from 0. Adds the point if no equal point was added before. @pre
+  /// the point is finite.
   std::uint32_t addOrFind(const Vec3& point);
 
   const std::vector<Vec3>& points() const { return points_; }

@@ -23,8 +23,8 @@ std::string_view nextWord(std::string_view& line, std::string_view marks) {
 }
 
 /// Returns the characters that, besides blanks, separate the numbers of a line. In a line with
-/// semicolons, a comma separates nothing: it is a decimal mark, and reading the number then reports
-/// a fault.
+/// semicolons, commas do not separate numbers: they are decimal marks, and reading such a number
+/// then reports a fault.
 std::string_view marksOf(std::string_view line) {
   return line.find(';') != line.npos ? ";" : ",";
 }
@@ -55,7 +55,7 @@ bool areNames(std::string_view x, std::string_view y, std::string_view z) {
 
 PointCloud readXyz(std::string_view text, MeshFaults& faults) {
   PointCloud cloud{{}, "text"};
-  std::int64_t promised = -1;  // .pts: the number of points comes first
+  std::int64_t promised = -1;  // the number of points, with which .pts files begin; -1: not stated
   int number = 0;
   while (!text.empty()) {
     ++number;

@@ -54,7 +54,7 @@ namespace {
 void require(const ConvexPart& part, const std::string& name) {
   if (part.points.empty()) throw std::invalid_argument("body " + name + " has no points");
   if (part.flatEnds && part.points.size() != 2)
-    throw std::invalid_argument("body " + name + " is a cylinder without two ends");
+    throw std::invalid_argument("body " + name + ": a cylinder needs exactly two points");
   if (!(std::isfinite(part.radius) && part.radius >= 0))
     throw std::invalid_argument("body " + name + ": the radius must be finite and not negative");
   for (const Vec3& q : part.points)
@@ -91,9 +91,9 @@ void setTerms(BoundingBox& box) {
 
 }  // namespace
 
-/// Sets the bounds.
-/// @param each calls its argument with each point, with the radius of the sphere about the point,
-/// and with the lengths by which the box extends beyond the point.
+/// Computes the bounds of the points that `each` gives.
+/// @param each a function that calls its argument once for each point, with three values: the
+/// point, the radius of the sphere about it, and the lengths by which the box extends beyond it.
 template <class Each>
 void Body::Bounds::around(const Each& each) {
   each([&](const Vec3& p, double, const Vec3& reach) { extend(box, p, reach); });

@@ -13,13 +13,14 @@
 
 namespace corridor {
 
-/// A named mesh, or a union of convex parts, in the coordinates of the frame that it is fixed to.
-/// Each tree is built when a query first needs it; this is thread-safe. Otherwise a body is
-/// immutable. Equal bodies at different places can share one mesh and its trees (`renamed`). The
-/// public constructors throw std::runtime_error unless standardFloatingPoint() holds.
+/// A named mesh, or a union of convex parts, in the coordinates of the frame to which the body is
+/// fixed. Each tree is built when a query first needs it; this is thread-safe. Except for its
+/// trees, a body is immutable. Equal bodies at different places can share one mesh and its trees
+/// (`renamed`). The public constructors throw std::runtime_error unless standardFloatingPoint()
+/// holds.
 class Body {
  public:
-  /// A mesh: its surface, or with `solid` also everything that it encloses.
+  /// A mesh: its surface, or with `solid` also the space that the surface encloses.
   /// @throws std::invalid_argument if the mesh has no triangle, if `checkMesh` finds a fault, or if
   /// `solid` is set and a component isn't watertight.
   Body(std::string name, TriangleMesh mesh, bool solid = false, const TreeParams& params = {});
@@ -32,7 +33,7 @@ class Body {
   /// radius is negative or not finite; or if it has flat ends and not exactly two points.
   Body(std::string name, ConvexPart part);
   /// The union of many parts, such as the balls about the points of a cloud. The parts may overlap.
-  /// One tree holds all of them.
+  /// Each tree of the body holds all parts.
   /// @throws std::invalid_argument if there are no parts, or if the constructor for a single part
   /// would throw for one of them.
   Body(std::string name, std::vector<ConvexPart> parts);
@@ -48,8 +49,9 @@ class Body {
   const TriangleMesh& mesh() const;              ///< empty for convex parts
   const std::vector<ConvexPart>& parts() const;  ///< empty for a mesh
   bool solid() const;                            ///< true for convex parts
-  /// Returns whether this is a solid mesh. Only a solid mesh may have another body inside it that
-  /// does not touch its surface. Such containment needs a separate test.
+  /// Returns whether this is a solid mesh. A body inside a solid mesh need not touch the mesh's
+  /// surface, so containment in it needs a separate test. (A body inside a convex part touches the
+  /// part.)
   bool isSolidMesh() const { return solid() && isMesh(); }
   const Obb4Tree& tree() const;  ///< builds the tree if necessary
   /// Returns the binary tree of one kind of volume. Builds it if necessary.
@@ -57,8 +59,9 @@ class Body {
   const VolumeTree<Volume>& volumeTree() const;
   /// Returns the binary OBB tree, for queries that have no 4-wide variant. Builds it if necessary.
   const ObbTree& binaryTree() const { return volumeTree<Obb>(); }
-  const MeshComponents& components() const;  ///< only for a mesh; found at the first call
-  /// The boxes of the parts, in the order of `parts()`; only for parts. Built at the first call.
+  const MeshComponents& components() const;  ///< only for a mesh; computed at the first call
+  /// The boxes of the parts, in the order of `parts()`; only for a body of parts. The tree of the
+  /// boxes is built at the first call.
   const BoxTree& partBoxes() const;
   bool treeBuilt() const;  ///< true if any tree has been built
   /// The largest distance of a point of the body from the frame's origin, metres, rounded up.

@@ -39,7 +39,7 @@ double area(const BoundingBox& box) {
   return d[0] * d[1] + d[1] * d[2] + d[2] * d[0];
 }
 
-/// Bins along one axis, for boxes whose centres, times 2, are from `low` to `high`.
+/// Bins along one axis, for boxes whose centres, times 2, are between `low` and `high`.
 struct Bins {
   Eigen::Index axis = 0;
   double low = 0, high = 0;
@@ -57,9 +57,10 @@ struct Split {
   double cost = std::numeric_limits<double>::infinity();
 };
 
-/// Returns the best split of the items between two bins of this axis, by the surface-area
-/// heuristic: the expected number of boxes that a walk tests, if the query meets a child with a
-/// probability in proportion to its surface. The cost is infinite if there is no split.
+/// Returns the split of the items between two bins of this axis that has the least cost. The cost
+/// is that of the surface-area heuristic: the expected number of boxes that a walk tests, if it
+/// meets a child with a probability in proportion to the child's surface. The cost is infinite if
+/// there is no split.
 Split bestSplit(std::span<const BoundingBox> boxes, std::span<const std::uint32_t> items,
                 const Bins& bins) {
   struct Bin {
@@ -160,8 +161,8 @@ std::size_t BoxTree::split(std::span<const BoundingBox> boxes, std::span<std::ui
                            const BoundingBox& all, const Vec3& low, const Vec3& high,
                            std::size_t depth) {
   // Halving at the median takes at most as many levels as the items' number has bits. The heuristic
-  // may make unequal halves only while there are levels to spare. In a flat box it can't compare
-  // splits, because all surfaces may be 0.
+  // may make unequal halves only while there are levels to spare. In a flat box the heuristic can't
+  // compare splits, because all surfaces may be 0.
   if (area(all) > 0 && depth + std::bit_width(items.size()) < kMaxDepth) {
     Split best;
     for (Eigen::Index axis = 0; axis < 3; ++axis) {

@@ -22,14 +22,15 @@ struct BoundingBox {
 
 /// A binary tree of boxes, for the broad phase: it finds the boxes near a body without a test of
 /// each box. A leaf is one of the given boxes. Boxes are split by the surface-area heuristic
-/// (Goldsmith and Salmon 1987; in bins, as Wald 2007 does). A walk therefore excludes a group of
-/// boxes that is far from all others near the root. The depth is at most `kMaxDepth`.
+/// (Goldsmith and Salmon 1987; in bins, as Wald 2007 does). A walk therefore excludes boxes that
+/// are far from all others early, at nodes near the root. The depth is at most `kMaxDepth`.
 ///
-/// If a body moves, comes or goes, one call of `refit`, `insert` or `remove` changes the tree. Its
-/// time is proportional to the tree's depth (Catto's dynamic tree in Box2D is similar). If an
-/// insertion makes the tree far deeper than a balanced one, the tree is balanced by rotations. The
-/// items that `walk` finds do not depend on the tree's history, but the cost of `walk` does. Call
-/// `rebuild` after the bodies have changed places.
+/// If a body moves, comes or goes, one call of `refit`, `insert` or `remove` adapts the tree. The
+/// time of a call is proportional to the tree's depth, except for rare insertions that build the
+/// tree again (Catto's dynamic tree in Box2D is similar). If an insertion makes the tree far deeper
+/// than a balanced one, the tree is balanced by rotations. With a fixed `within`, the items that
+/// `walk` finds do not depend on the tree's history, but the cost of `walk` does. After many bodies
+/// have moved far, call `rebuild`, so that walks are fast again.
 class BoxTree {
  public:
   BoxTree() = default;  ///< no items
@@ -101,7 +102,7 @@ class BoxTree {
   /// 64 bytes, so that a walk reads one cache line per node.
   struct Node {
     BoundingBox box;
-    std::uint32_t left = kNone, right = kNone;  ///< the children; of a leaf: the item, and kNone
+    std::uint32_t left = kNone, right = kNone;  ///< the children; in a leaf: the item, and kNone
     bool isLeaf() const { return right == kNone; }
   };
   /// Data of a node that `walk` does not need, but changes of the tree need.
@@ -113,7 +114,8 @@ class BoxTree {
   std::uint32_t add(const BoundingBox& box, std::uint32_t left, std::uint32_t right);
   std::uint32_t leafOf(std::size_t item) const;
   /// Returns a node beside which a new leaf with this box adds little surface area to the tree. The
-  /// search is greedy: it descends into the cheaper child while that is cheaper than to stop.
+  /// search is greedy: it descends into the cheaper child as long as descending costs less than
+  /// stopping.
   std::uint32_t siblingFor(const BoundingBox& box) const;
   void setChild(std::uint32_t parent, std::uint32_t before, std::uint32_t after);
   /// Fits a node and all nodes above it to their children.

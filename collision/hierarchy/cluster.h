@@ -19,8 +19,8 @@ struct Cluster {
 ///
 /// The method is parallel locally-ordered clustering (Meister, Bittner, IEEE TVCG 24(3), 2018), on
 /// one thread. Clusters are kept in Morton order. In every round each cluster chooses a neighbour
-/// at most `kSearch` places away: the one with which it makes the box of least surface. Two
-/// clusters that chose each other merge.
+/// at most `kSearch` (cluster.cpp) places away: the neighbour with which it makes the box of least
+/// surface. Two clusters that chose each other merge.
 ///
 /// If a round has few merges, as for boxes whose sizes are a geometric sequence, adjacent clusters
 /// are merged in pairs instead. The cost is therefore O(n log n); without this rule it could be

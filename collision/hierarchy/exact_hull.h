@@ -24,7 +24,7 @@ inline bool inTetrahedron(const std::array<Row, 4>& corners, const Row& p) {
          volume(a, b, p, d) * all >= 0 && volume(a, b, c, p) * all >= 0;
 }
 
-/// Returns whether p is in the triangle, which may be a segment.
+/// Returns whether p is in the triangle, which may be degenerate: a segment or a point.
 inline bool inTriangle(const Row& a, const Row& b, const Row& c, const Row& p) {
   const Row n = cross(minus(b, a), minus(c, a)), d = minus(p, a);
   if (dot(n, n) > 0)
@@ -41,8 +41,8 @@ inline bool inTriangle(const Row& a, const Row& b, const Row& c, const Row& p) {
 /// is at most the hull's `size`. The proof works only for a centre whose coordinates are doubles.
 /// It shows that the centre is a vertex, or is in a simplex of vertices. By Carathéodory's theorem,
 /// each point of the hull is in a simplex that has the first vertex as a corner. The simplices that
-/// are tried join the first vertex to each face of the hull. If all vertices are on one plane, they
-/// join it to each pair of vertices.
+/// are tried join the first vertex to each face of the hull. If all vertices are on one plane, the
+/// simplices that are tried join the first vertex to each pair of vertices.
 template <>
 class ExactVolume<Hull> {
  public:

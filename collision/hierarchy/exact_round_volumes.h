@@ -63,8 +63,8 @@ class ExactVolume<Shell> {
         outer_(s.outer),
         slope_(s.hasCone() ? s.slope : 0) {}
 
-  /// Returns whether the sphere is in the part of the shell beyond the plane that touches the inner
-  /// sphere on the axis.
+  /// Returns whether the sphere is proved to be in the part of the shell beyond the plane that
+  /// touches the inner sphere on the axis.
   bool contains(const Row& p, const Rational& radius) const {
     const Row d = minus(p, center_);
     if (radius > Rational(shell_.size) || !inConvexParts(d)) return false;

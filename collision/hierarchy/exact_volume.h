@@ -39,8 +39,8 @@ inline Row minus(const Row& a, const Row& b) {
 
 /// Each specialisation has `contains(p, r)`. It returns true if the solid sphere of radius r about
 /// p is proved to be in a convex subset of the volume. This subset is the same for all spheres, so
-/// the hull of several such spheres is inside, too. Where the volume itself isn't convex, there is
-/// also `containsTriangle`.
+/// the hull of several such spheres is inside, too. The specialisation for a volume that isn't
+/// convex also has `containsTriangle`.
 template <class Volume>
 class ExactVolume;
 
@@ -123,8 +123,8 @@ class ExactVolume<BoundingSphere> {
   Rational radius_;
 };
 
-/// Tests each slab. A sphere extends r|n| from its centre along n. The test compares squares, which
-/// are rational.
+/// Tests each slab, with its direction n, which need not have unit length. A sphere extends r|n|
+/// from its centre along n. The test compares squares, which are rational.
 template <int K>
 class ExactVolume<Kdop<K>> {
  public:

@@ -1,4 +1,5 @@
-// Corners of leaves for the SIMD tests. Included once per SIMD target by foreach_target.h.
+// A cache of the corners of leaves, for the SIMD tests. Included once per SIMD target by
+// foreach_target.h.
 
 // clang-format off
 #if defined(CORRIDOR_LEAF_CACHE_INL_H_) == defined(HWY_TARGET_TOGGLE)  // Highway's include guard

@@ -22,8 +22,8 @@ HWY_BEFORE_NAMESPACE();
 namespace corridor::HWY_NAMESPACE {
 
 constexpr std::uint32_t kWidth = Obb4Tree::kWidth;
-/// If a leaf has several triangles, its box must be flat: its thinnest side is below this share of
-/// the middle side. The value is measured.
+/// If a leaf has several triangles, its box must be flat: its thinnest side is below this fraction
+/// of the middle side. The value was chosen by measurements.
 constexpr float kFlat = 0.6F;
 /// A cluster of at most this many triangles is one piece: one thread builds all nodes below it,
 /// level by level. The number is large enough to find axes for eight clusters at a time, and small
@@ -219,7 +219,7 @@ class Worker {
     }
   }
 
-  /// Gives the cluster of one part the axes of the part's own box.
+  /// Gives the cluster of one part the axes of the part's own box. A ball keeps its axes.
   void alignWithPart(Cluster& cluster) const {
     const ConvexPart& part = items_.part(cluster.first);
     if (part.points.size() < 2) return;  // a ball
@@ -228,8 +228,8 @@ class Worker {
       for (int k = 0; k < 3; ++k) cluster.axes[j][k] = static_cast<float>(box.axes(k, j));
   }
 
-  /// Reports whether a cluster becomes a leaf: one triangle, or a few in a flat box. Triangles
-  /// around a corner are separated better by boxes of their own.
+  /// Reports whether a cluster becomes a leaf: it has one leaf primitive, or a few triangles in a
+  /// flat box. Triangles around a corner are separated better by boxes of their own.
   bool isLeaf(const Cluster& cluster, const Obb4Tree::Node& node, std::uint32_t lane) const {
     if (cluster.count > items_.mostPerLeaf()) return false;
     return cluster.count == 1 || node.half[2][lane] < kFlat * node.half[1][lane];

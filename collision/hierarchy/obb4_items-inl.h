@@ -1,4 +1,5 @@
-// What a 4-wide OBB tree is built over. Included once per SIMD target by foreach_target.h.
+// The leaf primitives over which a 4-wide OBB tree is built. Included once per SIMD target by
+// foreach_target.h.
 
 // clang-format off
 #if defined(CORRIDOR_OBB4_ITEMS_INL_H_) == defined(HWY_TARGET_TOGGLE)  // Highway's include guard
@@ -32,7 +33,7 @@ namespace corridor::HWY_NAMESPACE {
 /// The leaf primitives of a tree while it is built: the triangles of a mesh, or convex parts. Their
 /// points are in the tree's frame and unit. Parts are replaced by balls whose hull contains them.
 ///
-/// All threads read the points. The references are reordered: each thread reorders its own range.
+/// All threads read the points. The records are reordered: each thread reorders its own range.
 class BuildItems {
  public:
   BuildItems(const TriangleMesh& mesh, ObbFit itsFit, unsigned threads)
@@ -71,8 +72,8 @@ class BuildItems {
     record(threads, [&](std::size_t begin, std::size_t end) { return recordParts(begin, end); });
   }
 
-  /// The triangles of a tree that is refitted, in its leaf order. The records have the numbers of
-  /// the triangles and nothing else.
+  /// Takes the triangles of a tree that is refitted, in the tree's leaf order. The records have the
+  /// numbers of the triangles and nothing else.
   BuildItems(const TriangleMesh& mesh, std::span<const std::uint32_t> order)
       : fit(ObbFit::triangles), records(order.size()), mesh_(&mesh) {
     place(1, [&](std::size_t i, const auto& take) {
@@ -96,7 +97,7 @@ class BuildItems {
   /// The largest number of leaf primitives in a leaf. A test of two parts costs more than sixteen
   /// tests of boxes, so each part has a box of its own.
   std::uint32_t mostPerLeaf() const { return areParts() ? 1 : Obb4Tree::kLeafSize; }
-  /// The leaf primitive of the i-th reference.
+  /// Returns the number of the leaf primitive of the i-th record.
   std::uint32_t number(std::size_t i) const { return records.triangle(i); }
   Triangle triangle(std::size_t i) const {
     const auto& t = mesh_->triangles[number(i)];
@@ -104,8 +105,8 @@ class BuildItems {
   }
   const ConvexPart& part(std::size_t i) const { return parts_[number(i)]; }
 
-  /// Computes the least and the largest u_j·x over the references [first, first + count), for each
-  /// axis u_j, |u_j| ≤ 1 + 2^-23. For balls, the values are rounded outward.
+  /// Computes the least and the largest u_j·x over the leaf primitives of the records [first, first
+  /// + count), for each axis u_j, |u_j| ≤ 1 + 2^-23. For balls, the values are rounded outward.
   void extents(std::size_t first, std::size_t count, const float (&u)[3][3], double (&low)[4],
                double (&high)[4]) const {
     const hn::CappedTag<double, 4> d;
@@ -236,7 +237,7 @@ class BuildItems {
     return hn::GetLane(hn::MaxOfLanes(d, largest));
   }
 
-  /// Fills the references of parts. Returns the largest (|p| + r)² of their balls.
+  /// Fills the records [begin, end) of convex parts. Returns the largest (|p| + r)² of their balls.
   double recordParts(std::size_t begin, std::size_t end) {
     double largest = 0;
     for (std::size_t i = begin; i < end; ++i) {
@@ -263,8 +264,8 @@ class BuildItems {
     return largest;
   }
 
-  /// Fills all references, and sets the radius. `fill` returns the largest square of a distance
-  /// from the origin.
+  /// Fills all records, and sets the radius. `fill(begin, end)` fills some records, and returns the
+  /// largest square of the distance of one of their points from the origin.
   template <class Fill>
   void record(unsigned threads, const Fill& fill) {
     double square = 0;
@@ -281,7 +282,7 @@ class BuildItems {
   std::span<const ConvexPart> parts_;
   std::vector<Vec3> own_;           // vertices, or centres of balls, in the tree's frame and unit
   std::vector<double> radii_;       // of the balls, in the tree's unit
-  std::vector<std::size_t> first_;  // for each part, its first ball; and the number of balls
+  std::vector<std::size_t> first_;  // for each part, its first ball; last, the number of balls
 };
 
 }  // namespace corridor::HWY_NAMESPACE

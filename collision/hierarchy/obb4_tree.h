@@ -84,8 +84,8 @@ class Obb4Tree {
   const Vec3& origin() const { return origin_; }
   /// The length of the tree's unit: 2^unit metres.
   double length() const { return length_; }
-  /// Radii of two spheres that contain all points, metres, rounded up: `radius` of a sphere about
-  /// `origin()`, `reach` of a sphere about the origin of the mesh's frame.
+  /// Radii of two spheres that contain all points, metres, rounded up. `radius()` is that of a
+  /// sphere about `origin()`; `reach()` is that of a sphere about the origin of the mesh's frame.
   double radius() const { return radius_; }
   double reach() const { return reach_; }
 

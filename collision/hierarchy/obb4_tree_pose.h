@@ -7,8 +7,9 @@ namespace corridor {
 
 class Obb4Tree;
 
-/// The pose of a 4-wide OBB tree b relative to another tree a, with its margins: x_a = s·M·x_b + t,
-/// where x = (p − origin)·2^-unit are the coordinates of each tree.
+/// The pose of a 4-wide OBB tree b relative to another tree a, with bounds of its rounding: x_a =
+/// s·M·x_b + t. Here s is `scale`, and x = (p − origin)·2^-unit are the coordinates of a point p in
+/// each tree's own frame and unit.
 struct Obb4TreePose {
   /// True if the trees are proved to be more than `pad` apart, by the spheres about their origins
   /// or by their root boxes. The other members are then unspecified.
@@ -16,7 +17,7 @@ struct Obb4TreePose {
   alignas(32) double columns[4][4];  ///< the columns of M, and t; the last entry of each is unused
   double scale = 1;
   double unitA = 1;   ///< 2^-unit of a
-  double shrink = 0;  ///< the distance of two points in the world ≥ shrink × that in a's frame
+  double shrink = 0;  ///< distances in the world are ≥ shrink × those in a's frame
   /// Error of the pose in a's unit, rounded up: two triangles that touch may appear up to this far
   /// apart under the rounded pose.
   float leafError = 0;

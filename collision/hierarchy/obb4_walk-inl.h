@@ -60,8 +60,9 @@ struct Lanes {
 ///
 /// @param start the items to start from, the last one first. They are copied, so the query may
 /// change them while the walk runs. @pre They are not part of `memory`.
-/// @return the items that were not visited, if `leaves` ended the walk. The last of them is the
-/// current item; some of its pairs may have been handled. Valid until the stack is used again.
+/// @return the items that were not visited, if `leaves` ended the walk; otherwise nothing. The last
+/// of these items is the current item; some of its pairs may have been handled. Valid until the
+/// stack is used again.
 template <class Query>
 std::span<const NodePair4> walkObb4(const Obb4Tree& a, const Obb4Tree& b, float scaleB,
                                     std::span<const NodePair4> start, Obb4Stack& memory,
@@ -69,7 +70,7 @@ std::span<const NodePair4> walkObb4(const Obb4Tree& a, const Obb4Tree& b, float 
   using Item = NodePair4;
   constexpr unsigned kAll = 15, kAllPairs = 0xffff;
   constexpr std::size_t kMostPushed = 16 + 1;  // the last item is written but not kept
-  // Two nodes whose sizes differ by less than this factor are descended together. Measured: near
+  // Two nodes whose sizes differ by at most this factor are descended together. Measured: near
   // contact, 1.3 to 2.5 cost the same. For a small body far inside a large one, a smaller factor is
   // better.
   constexpr float kLarger = 1.3F;

@@ -29,8 +29,9 @@ class Octree {
   struct Node {
     Aabb box;  ///< contains the cell
     double radius = 0;
-    std::uint32_t first = 0, count = 0;          ///< for a leaf: its range of `triangles()`
-    std::uint32_t firstChild = 0, children = 0;  ///< inner node: its cells that are not empty
+    std::uint32_t first = 0, count = 0;  ///< for a leaf: its range of `triangles()`
+    /// For an inner node: its first child and the number of its children. Empty cells are omitted.
+    std::uint32_t firstChild = 0, children = 0;
     bool isLeaf() const { return children == 0; }
   };
 

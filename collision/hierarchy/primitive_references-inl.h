@@ -22,10 +22,10 @@ namespace corridor::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// One record per triangle, in the tree's frame and unit. The records are stored as columns of
-/// floats, and splitting a cluster reorders them. Second moments are about the triangle's own
-/// centroid, so that sums over few and small triangles far from the origin don't cancel
-/// (NUMERICS.md, "Moments").
+/// One record per triangle or convex part, in the tree's frame and unit. The records are stored as
+/// columns of floats, and splitting a cluster reorders them. Second moments are about the centroid
+/// of the record's own triangle or part, so that sums over few and small triangles far from the
+/// origin don't cancel (NUMERICS.md, "Moments").
 ///
 /// Sums are over eight lanes in one fixed order. Every instruction set and number of threads
 /// therefore builds the same tree. The sums only choose the tree's shape; no proof depends on them.
@@ -34,9 +34,9 @@ class PrimitiveReferences {
   enum Column { kX, kY, kZ, kWeight, kXX, kXY, kXZ, kYY, kYZ, kZZ, kTriangle, kColumns };
 
   explicit PrimitiveReferences(std::size_t count)
-      // The additional 48 keep the stride from being a multiple of 1024 (a page of floats) where
-      // the count is such a multiple. Columns at such a stride would compete for the same cache
-      // sets.
+      // The additional 48 floats keep the stride from being a multiple of 1024 (a page of floats)
+      // where the count is such a multiple. Columns at such a stride would compete for the same
+      // cache sets.
       : stride_((count + 15) / 16 * 16 + 48),
         data_(std::make_unique_for_overwrite<float[]>(kColumns * stride_)) {}
 
@@ -45,9 +45,9 @@ class PrimitiveReferences {
     return std::bit_cast<std::uint32_t>(data_[kTriangle * stride_ + i]);
   }
 
-  /// Computes the mean of the records [first, first + count), weighted, or unweighted if their
-  /// weights are 0 or tiny. Also computes the sum of their second moments about the mean: xx, xy,
-  /// xz, yy, yz, zz.
+  /// Computes the mean of the centroids of the records [first, first + count), weighted, or
+  /// unweighted if their weights are 0 or tiny. Also computes the sum of their second moments about
+  /// the mean: xx, xy, xz, yy, yz, zz.
   void moments(std::size_t first, std::size_t count, float (&mean)[3], double (&second)[6]) const {
     double s[4];
     const auto none = hn::Set(d_, 1.0F);
@@ -75,9 +75,9 @@ class PrimitiveReferences {
     });
   }
 
-  /// Reorders the records [first, first + count) so that those below the plane come first. Both
-  /// groups keep their order. Returns the number of records below. `spare` is temporary memory for
-  /// the records above the plane, and grows as needed.
+  /// Reorders the records [first, first + count) so that the records below the plane, normal·x <
+  /// offset, come first. Both groups keep their order. Returns the number of records below. `spare`
+  /// is temporary memory for the records above the plane, and grows as needed.
   std::size_t partition(std::size_t first, std::size_t count, const float (&normal)[3],
                         float offset, PrimitiveReferences& spare) {
     if (spare.stride_ < count + kLanes) spare = PrimitiveReferences(count + kLanes);
@@ -168,7 +168,8 @@ class PrimitiveReferences {
     return hn::IndicesFromVec(d_, indices);
   }
 
-  /// Computes the sums of K terms over all records. `terms` computes the terms of each record.
+  /// Computes the sums of K terms over the records [first, first + count). `terms` computes the
+  /// terms of each record.
   template <int K, class Terms>
   HWY_INLINE void sum(std::size_t first, std::size_t count, double (&total)[K],
                       const Terms& terms) const {

@@ -15,7 +15,7 @@ void requireBox(const BoundingBox& box) {
 
 SweepAndPrune::SweepAndPrune(std::span<const BoundingBox> boxes) {
   if (boxes.size() >= (std::size_t{1} << 31))
-    throw std::invalid_argument("sweep and prune takes less than 2^31 boxes");
+    throw std::invalid_argument("SweepAndPrune takes fewer than 2^31 boxes");
   for (const BoundingBox& box : boxes) {
     requireBox(box);
     boxes_.push_back({box.lower, box.upper});
@@ -35,7 +35,8 @@ SweepAndPrune::SweepAndPrune(std::span<const BoundingBox> boxes) {
     for (std::uint32_t place = 0; place < ends.size(); ++place)
       places_[axis][ends[place].id] = place;
   }
-  // Sweeps along the first axis: the boxes that are open at a lower end overlap along it.
+  // Sweeps along the first axis. A box is open from its lower end to its upper end. At the lower
+  // end of a box, the boxes that are open overlap this box along the axis.
   std::vector<std::uint32_t> open, placeInOpen(boxes_.size());
   for (const End& end : ends_[0]) {
     const std::uint32_t item = end.item();

@@ -16,7 +16,7 @@ namespace corridor {
 /// boxes overlap. The pairs are exact for the stored bounds.
 ///
 /// The ends of all boxes are sorted along each axis. If a box moves, its ends are moved to their
-/// new places, and only the boxes whose ends it passes are tested. The cost of a step is therefore
+/// new places, and only the boxes whose ends they pass are tested. The cost of a step is therefore
 /// proportional to the number of boxes that move plus the number of ends that they pass. It is
 /// small if bodies move little (D. Baraff, Dynamic simulation of non-penetrating rigid bodies,
 /// 1992; J. D. Cohen, M. C. Lin, D. Manocha, M. K. Ponamgi, I-COLLIDE, 1995). A box that moves far

@@ -59,7 +59,7 @@ void traverseFrom(const TreeA& a, const TreeB& b, std::vector<Item>& stack, Quer
   }
 }
 
-/// The same, starting from the pair `root`.
+/// Traverses two trees as `traverseFrom` does, starting from the pair `root`.
 template <class TreeA, class TreeB, class Item, class Query>
 void traverse(const TreeA& a, const TreeB& b, const Item& root, std::vector<Item>& stack,
               Query& query) {

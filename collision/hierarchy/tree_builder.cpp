@@ -38,8 +38,9 @@ std::uint32_t splitAtMean(TreePrimitives& items, std::uint32_t first, std::uint3
   return below - first;
 }
 
-/// The same with the plane through the median centroid: the lower half of the leaf primitives comes
-/// first. Returns 0 if all centroids have the same height above the plane.
+/// Reorders [first, first + count) so that the lower half of the leaf primitives, in the direction
+/// of `normal`, comes first. Returns the number of leaf primitives in this half, or 0 if all
+/// centroids have the same height.
 std::uint32_t splitAtMedian(TreePrimitives& items, std::uint32_t first, std::uint32_t count,
                             const Vec3& mean, const Vec3& normal) {
   struct Side {
@@ -66,7 +67,8 @@ std::uint32_t splitAtMedian(TreePrimitives& items, std::uint32_t first, std::uin
 Skeleton topDown(TreePrimitives& items, bool oriented, const TreeParams& params) {
   struct Task {
     std::uint32_t first, count;
-    // The parent whose `right` is this node; −1 for a left child, which follows its parent.
+    // The parent whose `right` is this node; −1 for the root and for a left child, which follows
+    // its parent.
     std::int64_t parent;
   };
   Skeleton nodes;

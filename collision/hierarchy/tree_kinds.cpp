@@ -14,7 +14,7 @@ bool has(const Words& words, const std::string& word) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-/// Returns the volume of this name, or null. An empty name is the default.
+/// Returns the volume of this name, or null. An empty name stands for the default volume.
 const VolumeKind* kindNamed(const std::string& name) {
   if (name.empty()) return &volumeKinds().front();
   for (const VolumeKind& kind : volumeKinds())

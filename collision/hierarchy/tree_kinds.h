@@ -44,8 +44,8 @@ bool hasDefaultOverlap(TreeKind trees);
 /// The words by which users choose trees. An empty word stands for the default word.
 struct TreeNames {
   std::string volume, fit, overlap;
-  /// `top-down`: nodes are split at the mean. `median`: the same, at the median. `bottom-up`: nodes
-  /// are clustered.
+  /// `top-down`: nodes are split at the mean. `median`: nodes are split at the median. `bottom-up`:
+  /// nodes are clustered.
   std::string build = {};
 };
 /// The kind of trees that `TreeNames` stand for, and how they are built.

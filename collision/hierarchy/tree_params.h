@@ -5,7 +5,8 @@
 namespace corridor {
 
 /// How a node's leaf primitives are split in two: by a plane that separates their centroids. The
-/// plane is orthogonal to the longest axis of the node's box for which neither side is empty.
+/// plane is orthogonal to an axis of the node's box: the longest one for which neither side of the
+/// plane is empty.
 enum class SplitRule {
   mean,    ///< the plane through the mean that the fit computes: of area, corners or hull (ObbFit)
   median,  ///< the plane through the median centroid: balanced trees

@@ -29,8 +29,8 @@ template <BoundingVolume Volume>
 class VolumeTree {
  public:
   struct Node {
-    Volume box;         ///< the bounding volume, of any kind
-    double radius = 0;  ///< of a sphere about the volume's centre that contains it; rounded up
+    Volume box;               ///< the bounding volume, of any kind
+    double radius = 0;        ///< largest distance of its points from its centre; rounded up
     std::uint32_t first = 0;  ///< its leaf primitives: a range of `triangles()` or `parts()`
     std::uint32_t count = 0;
     std::uint32_t right = 0;  ///< the right child; the left one follows the node. 0: a leaf
@@ -67,8 +67,8 @@ class VolumeTree {
   const std::vector<ConvexPart>& parts() const { return items_.parts; }
   std::uint32_t meshTriangle(std::uint32_t i) const { return items_.numbers[i]; }
 
-  /// Bounds for the margins of overlap tests, rounded up: the largest orthonormality defect of the
-  /// axes, and the largest |center|₂.
+  /// Bounds that overlap tests need for their rounding errors, rounded up: the largest
+  /// orthonormality defect of the axes, and the largest |center|₂.
   double axisDefect() const { return bounds_.axisDefect; }
   double centerReach() const { return bounds_.centerReach; }
   /// Largest |x|₂ of all points, rounded up.

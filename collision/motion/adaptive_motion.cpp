@@ -18,8 +18,9 @@ constexpr double kLeastHalfWidth = 0x1p-48;
 /// A time interval of a pair that is not proved yet.
 struct QueuedInterval {
   double t0, t1;
-  /// How many metres were missing for a proof of the interval that was halved into this one, or
-  /// more by the pair's margin; infinite for the whole motion. It decides the order only.
+  /// The distance, metres, that was missing for a proof of the interval that was halved into this
+  /// one. It is too large by the pair's margin, which matters little: it decides only the order.
+  /// Infinite for the whole motion.
   double need;
   std::uint32_t pair;
 };
@@ -32,6 +33,7 @@ struct Block {
   DistanceSteps::Measurement measured;
 };
 
+/// One motion query, answered by bisection of time intervals.
 class Bisection {
  public:
   explicit Bisection(DistanceSteps& steps) : steps_(steps), earliest_(steps.options().earliest) {}

@@ -6,8 +6,9 @@
 namespace corridor {
 namespace {
 
-/// With fewer pairs, a test of each pair is as fast as a walk of the tree. An arm's edge took 1.1
-/// times as long with trees at 24 obstacles, and 0.4 times as long at 88 (many_bodies_benchmark).
+/// The least number of pairs for a tree. With fewer pairs, a test of each pair is as fast as a walk
+/// of the tree. With trees, an arm's edge took 1.1 times as long at 24 obstacles, and 0.4 times as
+/// long at 88 (many_bodies_benchmark).
 constexpr std::size_t kLeastPairs = 32;
 
 bool haveSameBodiesA(std::span<const MotionPair> x, std::span<const MotionPair> y) {

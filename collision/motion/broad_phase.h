@@ -14,8 +14,8 @@ namespace corridor {
 
 /// Finds the pairs of bodies that may come close to each other, without a test of each pair. If a
 /// moving body has many partners at rest in the world, a tree of the partners' boxes gives the
-/// pairs that its swept sphere may reach. Moving bodies with the same partners share one tree.
-/// Pairs that no tree covers are reported without a test.
+/// pairs that its swept sphere may reach. Successive moving bodies with the same partners share one
+/// tree. Pairs that no tree covers are reported without a test.
 ///
 /// The object does not change after construction, so threads may share it.
 class BroadPhase {
@@ -48,12 +48,13 @@ class BroadPhase {
   /// `within` metres in the selected interval, and of some other pairs.
   void find(IntervalMotions& motions, double within, std::vector<std::uint32_t>& found) const;
 
-  /// Returns one more than the largest index of a body.
+  /// Returns one more than the largest index of a body in the pairs whose `worldMotionB` is known;
+  /// 0 if there is no such pair.
   std::size_t bodies() const { return bodies_; }
 
  private:
-  /// Adjacent pairs. With a tree, they have the same body b, and item i of the tree is the box of
-  /// body a of pair begin + i.
+  /// The adjacent pairs [begin, end). If there is a tree, all of them have the same body b, and
+  /// item i of the tree is the box of body a of pair begin + i.
   struct Run {
     std::size_t begin = 0, end = 0;
     std::shared_ptr<const BoxTree> tree;

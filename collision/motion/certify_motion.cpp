@@ -165,8 +165,8 @@ class Certifier {
     return false;
   }
 
-  /// Finds a contact of two bodies below these node pairs, at the pose X_AB at t. Keeps it in
-  /// `known_`, and returns whether there is one.
+  /// Finds a contact of two bodies below these node pairs, at the pose X_AB at t. Keeps the contact
+  /// in `known_`, and returns whether there is one.
   bool findContact(std::uint32_t bodies, const Transform& X_AB, double t,
                    std::span<const NodePair4> start) {
     const auto hit = contactBelow(query_, bodies, X_AB, start);
@@ -178,8 +178,8 @@ class Certifier {
 
   /// Finds a contact of the pair of bodies that was not separated. The contact is at the interval's
   /// end, or at a later time that is at most the time tolerance after the interval's beginning. (An
-  /// interval at whose end a contact begins can never be proved.) Keeps it in `known_`, and returns
-  /// whether there is one.
+  /// interval at whose end a contact begins can never be proved.) Keeps the contact in `known_`,
+  /// and returns whether there is one.
   bool findContactAfter(const Interval& w, std::uint32_t bodies) {
     for (double after = 0; !source_.still(); after = std::max(2 * after, 0x1p-40)) {
       const double t = std::min(w.t1 + after, 1.0);

@@ -14,8 +14,8 @@
 namespace corridor {
 
 /// Two bodies, by their indices in the scene, and one triangle of each body, by its number in the
-/// mesh. The two triangles touch or, in an undecided answer, could not be decided. For a body of
-/// convex parts, the number is that of a part.
+/// mesh. The two triangles touch, or are within the margin; in an undecided answer, they could not
+/// be decided. For a body of convex parts, the number is that of a part.
 struct Contact {
   std::size_t bodyA = 0, bodyB = 0;
   std::uint32_t triangleA = 0, triangleB = 0;
@@ -26,8 +26,8 @@ enum class UndecidedReason {
   none,
   clearance,  ///< the clearance is below twice the tolerance somewhere
   workLimit,  ///< the query reached its work limit
-  /// The edge defines no curve: a half turn, whose shorter way is not unique, or a displacement
-  /// that overflows.
+  /// The edge defines no curve: it has a half turn, whose shorter way is not unique, or a
+  /// displacement that overflows.
   ambiguous,
   rounding,       ///< the rounding of large values takes more than half of the tolerance
   floatingPoint,  ///< no bound holds with these processor settings (core/floating_point.h)
@@ -39,8 +39,8 @@ enum class UndecidedReason {
 struct MotionResult {
   MotionVerdict verdict = MotionVerdict::free;
   UndecidedReason reason = UndecidedReason::none;
-  /// The motion is proved free on [0, certifiedUntil]. 1 if the verdict is `free`; 0 if nothing was
-  /// proved, or if the query did not request it (`MotionOptions::earliest`).
+  /// The motion is proved free on [0, certifiedUntil]. 1 if the verdict is `free`. With any other
+  /// verdict, 0 if nothing was proved, or if the query did not set `MotionOptions::earliest`.
   double certifiedUntil = 1;
   /// `contact`: the time of the contact. `undecided`: a time in the interval that could not be
   /// decided (its middle, if the method is the default). −1 if there is none.
@@ -57,14 +57,14 @@ struct MotionResult {
 
 class BroadPhase;
 
-/// One margin for each pair of a query, in addition to `MotionOptions::margin`. It is used for
-/// padding, and to prove the distance of each pair.
+/// One margin for each pair of a query, in addition to `MotionOptions::margin`. Pair margins serve
+/// to pad bodies, and to prove that each pair keeps a distance of its own.
 class PairMargins {
  public:
-  /// @param metres one margin for each pair of the query, in its order. Queries of a `Scene` take
-  /// the order of `Scene::motionPairs()`, which is not that of `Scene::pairs()`.
-  /// @throws std::invalid_argument if a margin is negative or not finite. (It is tested here, and
-  /// not by each query, because scenes may have millions of pairs.)
+  /// @param metres one margin for each pair of the query, in the query's order. Queries of a
+  /// `Scene` take the order of `Scene::motionPairs()`, which is not that of `Scene::pairs()`.
+  /// @throws std::invalid_argument if a margin is negative or not finite. (The margins are tested
+  /// here, and not by each query, because scenes may have millions of pairs.)
   explicit PairMargins(std::vector<double> metres);
 
   std::size_t size() const { return metres_.size(); }
@@ -87,13 +87,14 @@ struct MotionOptions {
   /// query; null: none. Not owned.
   const PairMargins* pairMargins = nullptr;
   /// Clearance slack, metres: the clearance beyond margin and tube that `free` requires. A motion
-  /// with less is never `free`.
+  /// with less clearance is never `free`.
   double clearanceSlack = 0;
   bool earliest = false;  ///< find `certifiedUntil` too, not just the verdict
-  /// With `earliest`: the largest width of the bracket [certifiedUntil, contactTime], as a share of
-  /// the motion. Choose it so that, during this share of the motion, the bodies approach each other
-  /// by more than a few tolerances. Otherwise the beginning of the bracket is too close to the
-  /// contact to be proved free. A plain contact is then reported as `grazing` or as `undecided`.
+  /// With `earliest`: the largest width of the bracket [certifiedUntil, contactTime], as a fraction
+  /// of the motion. Choose it so that, during this fraction of the motion, the bodies approach each
+  /// other by more than a few tolerances. Otherwise the beginning of the bracket is too close to
+  /// the contact to be proved free. A plain contact is then reported as `grazing` or as
+  /// `undecided`.
   double timeTolerance = 1.0 / 1024;
   /// Number of box and triangle tests after which the answer is `undecided`. The default method
   /// stops at most one node pair later, which is at most 16 box tests and 256 triangle tests.
@@ -124,11 +125,11 @@ class MotionSource {
   /// result stays valid until the next call for the same `i`. @pre 0 ≤ t ≤ 1, h ≤ 1/2; t − h and t
   /// + h are exact.
   virtual RelativeMotion relativeMotion(std::size_t i, double t, double h) = 0;
-  /// Returns true if the edge cannot be certified, for one of three reasons: a half
-  /// turn (to within 1e-9 rad), whose shorter way is not unique; a displacement that overflows; and
-  /// unsuitable processor settings.
+  /// Returns true if the edge cannot be certified, for one of three reasons: a half turn (to within
+  /// 1e-9 rad), whose shorter way is not unique; a displacement that overflows; unsuitable
+  /// processor settings.
   virtual bool ambiguous() const = 0;
-  /// Reports whether nothing moves. One pose then stands for the whole edge, except for the tube.
+  /// Reports whether nothing moves. The whole edge is then one pose, apart from the tube.
   virtual bool still() const = 0;
 
  protected:
@@ -147,8 +148,8 @@ struct MotionPair {
   std::size_t motion = 0;
   std::size_t bodyA = 0, bodyB = 0;
   /// The numbers of the motions of a and of b as seen from the world, or `kNone`. With these
-  /// numbers, bodies that are far apart are separated by one swept sphere per body instead of one
-  /// per pair.
+  /// numbers, a query separates bodies that are far apart by one swept sphere per body instead of
+  /// one per pair.
   /// * If a is at rest in the world (`restBox`), `worldMotionA` is `kNone`.
   /// * If a's frame is the world, `worldMotionB` equals `motion`.
   /// * If the motions are not known, both are `kNone`.

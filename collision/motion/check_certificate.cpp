@@ -24,6 +24,7 @@ MotionBound motionBoundOf(const Body& b, const RelativeMotion& relative) {
                      roundedUp(b.sphereRadius() + 16 * kUnit * terms));
 }
 
+/// The check of the intervals of one certificate, with a work limit for all of them together.
 class CertificateCheck {
  public:
   CertificateCheck(MotionSource& motion, std::span<const MotionPair> pairs,

@@ -9,20 +9,21 @@ namespace corridor {
 /// A fault in the certificate of a motion query.
 struct CertificateFault {
   enum class Kind {
-    /// The input is not valid, for one of these reasons: an interval is not part of [0, 1] on the
-    /// grid of 2^-48, names no pair, or claims less than the query requested; `until` is not in [0,
-    /// 1]; or the options are out of range.
+    /// The input is not valid, for one of these reasons: an interval is not within [0, 1], has an
+    /// end that is not on the grid of 2^-48, names a pair that does not exist, or claims less than
+    /// the query requested; `until` is not in [0, 1]; or the options are out of range.
     malformed,
     gap,  ///< the intervals of the pair do not cover `t`
-    /// At `t` the pair is closer than an interval claims there. Or one body is inside the other,
-    /// which is a solid mesh.
+    /// At `t` the pair is closer than an interval claims there. Or one body is inside the other
+    /// one, and the other one is a solid mesh.
     refuted,
     /// At `t` the edge itself keeps the margin and more than three quarters of the claim beyond it.
     /// But this method cannot prove the interval with tube and rounding included. The method bounds
-    /// the effect of both on all of b, not only on the region close to a.
+    /// the effect of tube and rounding on all of b, not only on the region close to a. The fault is
+    /// also reported if halving has made an interval too short to have an exact middle.
     unproved,
     workLimit,      ///< `MotionOptions::workLimit` was reached at `t`, so nothing is proved there
-    ambiguous,      ///< the motion defines no curve: a half turn, or a displacement that overflows
+    ambiguous,      ///< a half turn or an overflow, so that the motion defines no curve
     floatingPoint,  ///< no bound holds with these processor settings (core/floating_point.h)
   };
   Kind kind = Kind::malformed;

@@ -14,7 +14,7 @@ namespace {
 constexpr double kGrid = 0x1p-48;
 /// The largest half width of an interval that `MotionSource::relativeMotion` accepts.
 constexpr double kLongest = 0.5;
-/// A step that is too long is shortened in proportion to the clearance, and multiplied by this
+/// A step that is too long is shortened in proportion to the clearance, and then multiplied by this
 /// factor. (The motion bound of a short step is nearly proportional to time.)
 constexpr double kShare = 1 - 0x1p-7;
 
@@ -27,6 +27,7 @@ struct Progress {
   friend bool operator<(const Progress& a, const Progress& b) { return a.t > b.t; }
 };
 
+/// One motion query, answered by conservative advancement.
 class Advancement {
  public:
   explicit Advancement(DistanceSteps& steps) : steps_(steps) {}

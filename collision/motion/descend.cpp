@@ -25,6 +25,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace corridor::HWY_NAMESPACE {
 
+/// The query that `walkObb4` runs for `descend`: two 4-wide OBB trees in one time interval.
 class Moving {
  public:
   using Item = NodePair4;
@@ -87,8 +88,8 @@ class Moving {
   }
 
   float* clearances() { return options_.clearance ? clearances_ : nullptr; }
-  /// Lowers the clearance of the result to the clearances of these separated pairs, if clearances
-  /// are requested.
+  /// If clearances are requested: lowers the clearance of the result, so that it is at most that of
+  /// each of these separated pairs.
   void noteClearances(unsigned pairs) {
     if (!options_.clearance) return;
     for (; pairs; pairs &= pairs - 1)

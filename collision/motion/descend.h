@@ -79,15 +79,15 @@ inline LeafOutcome outcomeOf(const MovingPairAnswer& answer, std::uint32_t s, st
 /// `relative`. Appends the node pairs that cannot be separated in this interval to `later`. `start`
 /// may be a part of `later`.
 ///
-/// Boxes are separated by the 15 axes, each with the motion bound along it for the whole interval
-/// (overlap_obb4_moving-inl.h). Pairs of leaf primitives are separated along the direction of their
-/// closest points (`decideMovingTriangles`, `decideMovingParts`). Time is split before space: if
-/// b's box moves far, compared with the sizes of both boxes, the pair is deferred to shorter
-/// intervals.
+/// Two boxes are separated if, along one of 15 axes, their gap exceeds the motion bound along this
+/// axis for the whole interval (overlap_obb4_moving-inl.h). Pairs of leaf primitives are separated
+/// along the direction of their closest points (`decideMovingTriangles`, `decideMovingParts`). Time
+/// is split before space: if b's box moves far, compared with the sizes of both boxes, the pair is
+/// deferred to shorter intervals.
 ///
-/// @return If the kind is `contact`, `later` also receives the pair that touches and everything
-/// that was not tested. If the kind is `undecided` or `workLimit`, the node pairs appended to
-/// `later` have no meaning.
+/// @return the result of the interval. If its kind is `contact`, `later` also receives the pair
+/// that touches and everything that was not tested. If the kind is `undecided` or `workLimit`, the
+/// node pairs appended to `later` have no meaning.
 Descent descend(std::span<const NodePair4> start, const Obb4Tree& a, const Obb4Tree& b,
                 const RelativeMotion& relative, const DescentOptions& options,
                 std::vector<NodePair4>& later, QueryContext& context);

@@ -20,7 +20,7 @@ namespace corridor {
 /// `descend` on 4-wide OBB trees has a motion bound along each tested axis, and therefore opens
 /// fewer nodes. The verdicts are the same.
 ///
-/// Items of `start` and `later` use only the members `a` and `b`.
+/// Only the members `a` and `b` of the items of `start` and `later` are used.
 /// @tparam Overlap  how two volumes are tested (overlap_obb_obb_variants.h).
 template <class Overlap, BoundingVolume Volume>
 Descent descend(std::span<const NodePair4> start, const VolumeTree<Volume>& a,

@@ -22,7 +22,7 @@ namespace corridor {
 namespace {
 
 /// The first step of the search for a contact after the time at which the clearance has vanished,
-/// as a share of the motion. Each further step is twice as long.
+/// as a fraction of the motion. Each further step is twice as long.
 constexpr double kFirstProbe = 0x1p-40;
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace corridor {
 /// bound the motion of b about that time in any direction.
 class DistanceSteps {
  public:
-  /// @pre all arguments outlive the object.
+  /// @pre All arguments outlive the object.
   DistanceSteps(MotionSource& motion, std::span<const MotionPair> pairs,
                 const MotionOptions& options, QueryContext& context);
 
@@ -36,9 +36,9 @@ class DistanceSteps {
     bool apart() const { return lower > bound.needed; }
   };
   /// Measures a pair at t.
-  /// @param exact true: measure to the last digits. False: allow an error of a quarter of the
-  /// motion bound, which avoids tests of leaf primitives that are nearly as close as the closest
-  /// ones.
+  /// @param exact If true, the distance is measured to the last digits. If false, an error of a
+  /// quarter of the motion bound is allowed. This error saves tests of leaf primitives that are
+  /// nearly as close as the closest ones.
   Measurement measureAt(std::uint32_t pair, double t, double h, bool exact);
 
   /// Reports whether the swept sphere of b stays farther than the margin from a's bounds in [t − h,
@@ -52,7 +52,8 @@ class DistanceSteps {
   const MotionOptions& options() const { return options_; }
   Counters& counters() { return context_.counters; }
 
-  // The answers of a query. With `earliest`, [0, t0] must be proved free.
+  // The functions below return answers of a query. With `earliest`, the caller must have proved [0,
+  // t0] free.
 
   MotionResult contact(std::uint32_t pair, double t0, double t1, const Measurement& seen) const;
   MotionResult workLimit(double t0) const;

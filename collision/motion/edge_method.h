@@ -30,7 +30,7 @@ std::optional<EdgeMethod> edgeMethodNamed(std::string_view name);
 MotionResult certifyMotionBy(EdgeMethod method, MotionSource& motion,
                              std::span<const MotionPair> pairs, const MotionOptions& options,
                              QueryContext& context);
-/// The same without counting, for callers that count edges themselves.
+/// Answers the same query without counting it, for callers that count edges themselves.
 MotionResult certifyMotionUncounted(EdgeMethod method, MotionSource& motion,
                                     std::span<const MotionPair> pairs, const MotionOptions& options,
                                     QueryContext& context);

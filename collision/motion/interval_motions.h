@@ -23,16 +23,16 @@ class IntervalMotions {
     return relative_;
   }
 
-  /// Returns the swept sphere of body b of a pair, as seen from the world. @pre worldMotionB is
-  /// known.
+  /// Returns the swept sphere of body b of a pair, as seen from the world. @pre `pair.worldMotionB`
+  /// is not `kNone`.
   const SweptSphere& worldSphere(const MotionPair& pair) {
     return worldSphere(pair.worldMotionB, *pair.b, pair.bodyB);
   }
 
   struct Separation {
     double clearance = 0;  ///< proved lower bound of the bodies' distance in the interval, metres
-    /// True if b rotates and moves far for its size (`SplitRules`). Always false if `clearance` is
-    /// above the requested value.
+    /// True if b rotates, and moves far compared with its size (`SplitRules::kFar`). Always false
+    /// if `clearance` is above the requested value.
     bool far = false;
   };
   /// Returns a lower bound of the distance of two bodies in the interval, from their bounding

@@ -14,9 +14,9 @@ namespace corridor {
 namespace {
 
 /// Records in the certificate that the whole group is separated in [t0, t1].
-/// @param clearance a lower bound for all that was separated in this interval, beyond margin,
-/// clearance slack and motion, metres. `group.clearance` is the bound for node pairs that were
-/// separated in longer intervals.
+/// @param clearance a lower bound of the clearance beyond margin, clearance slack and motion,
+/// metres, in addition to the bound `group.clearance`. Infinite if `group.clearance` already covers
+/// all node pairs.
 void record(const MotionQuery& query, double t0, double t1, const WorkList::Group& group,
             double clearance) {
   if (!query.certificate) return;
@@ -40,7 +40,8 @@ BodiesAnswer testBounds(const MotionQuery& query, double t0, double t1,
   return {true, false};
 }
 
-/// Walks the trees of a pair of bodies below the node pairs of its group.
+/// Walks the trees of a pair of bodies below the node pairs of its group. For a pose that
+/// overflows, returns `undecided` at once.
 Descent walkTrees(const MotionQuery& query, const WorkList::Group& group,
                   const RelativeMotion& relative, const DescentOptions& asked, WorkList& list) {
   if (!relative.X_AB.isFinite()) return {.kind = Descent::Kind::undecided};

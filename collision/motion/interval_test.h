@@ -16,8 +16,8 @@
 
 namespace corridor {
 
-/// A time interval with its work: a range of `WorkList::groups`, which its parent interval could
-/// not separate.
+/// A time interval with its work: a range of `WorkList::groups`. The parent interval could not
+/// separate these groups.
 struct Interval {
   double t0, t1;
   std::size_t begin, end;
@@ -35,7 +35,7 @@ struct MotionQuery {
   QueryContext& context;
   MotionCertificate* certificate;  ///< null if none is requested
   std::uint64_t workEnd;           ///< `Counters::work` at which the query stops
-  const BroadPhase* broadPhase;    ///< of `pairs`; null: each pair is tested
+  const BroadPhase* broadPhase;    ///< the broad phase of `pairs`, or null
 
   /// Returns the distance, metres, that the bodies of a pair must exceed to be proved free.
   double requiredDistance(std::size_t pair) const {
@@ -54,21 +54,22 @@ struct IntervalAnswer {
   std::uint32_t bodies = 0;
 };
 
-/// Tests the interval's work. Appends to the list the groups that cannot be separated and the
-/// groups that were not tested. Records in the certificate what is proved.
+/// Tests the groups of the interval. Appends to the list the groups that cannot be separated and
+/// the groups that were not tested. Records in the certificate what is proved. Returns what ended
+/// the test.
 IntervalAnswer testInterval(const MotionQuery& query, const Interval& interval,
                             IntervalMotions& motions, WorkList& list);
 
-/// Tests only the bounds of whole bodies, for the whole motion. Appends the groups that the bounds
-/// do not separate to the list. Returns the whole motion as an interval with these groups as its
+/// Tests only the bounds of whole bodies, for the whole motion. Appends to the list the groups that
+/// the bounds do not separate. Returns the whole motion as an interval with these groups as its
 /// work.
 /// @param far set to true if one of these bodies moves far (`IntervalMotions::Separation`).
 Interval testBodies(const MotionQuery& query, IntervalMotions& motions, WorkList& list, bool& far);
 
 /// Returns two leaf primitives (triangles or convex parts) that touch at the pose X_AB, by their
-/// numbers in the meshes or lists, or nothing. Tests the node pairs `start` of the pair of bodies
-/// with the number `bodies`, and its last touching pair (`LastPair`). Gives up at the work limit.
-/// For a pose that overflows, returns nothing.
+/// numbers in the meshes or lists; returns nothing if none are found. Tests the node pairs `start`
+/// of the pair of bodies number `bodies`, and the last touching pair of these bodies (`LastPair`).
+/// Gives up, and returns nothing, at the work limit or for a pose that overflows.
 std::optional<PrimitivePair> contactBelow(const MotionQuery& query, std::uint32_t bodies,
                                           const Transform& X_AB, std::span<const NodePair4> start);
 

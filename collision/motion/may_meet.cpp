@@ -23,7 +23,7 @@ SweptSphere sweptSphere(const Body& b, const RelativeMotion& relative) {
   sphere.isotropic = bound.isotropic;
   // Rounding of the first-order term. y is off by 16u of its terms, like c. The products and sums
   // here, in `bent` and in `clearanceBound` together add less than 16u. The length of the direction
-  // n adds 8u. Together 40u; 48u leaves room for the difference of two such terms. Lengths below
+  // n adds 8u. The sum is 40u; 48u leaves room for the difference of two such terms. Lengths below
   // 2^-511 underflow when squared.
   sphere.first = relative.linear + relative.angular.cross(y);
   sphere.angular = relative.angular;
@@ -37,8 +37,8 @@ SweptSphere sweptSphere(const Body& b, const RelativeMotion& relative) {
 namespace {
 
 /// Returns a lower bound of what remains of a gap of `gap` metres along n = apart/gap, after
-/// radius, rounding and motion are subtracted; at least 0. The motion is bounded by `isotropic`, or
-/// if that bound does not suffice, by `along(n)`.
+/// radius, rounding and motion are subtracted; at least 0. The motion is bounded by `isotropic`. If
+/// the result is then at most `enough`, it is bounded by the smaller of `isotropic` and `along(n)`.
 template <class Along>
 double remaining(const Vec3& apart, double gap, double radius, double isotropic, double rounding,
                  double enough, const Along& along) {
@@ -64,17 +64,17 @@ double clearanceBound(const BoundingBox& box, const SweptSphere& sphere, double 
   const Vec3& c = sphere.center;
   const Vec3 zero = Vec3::Zero();
   const Vec3 outside = (c - box.upper).cwiseMax(zero) - (box.lower - c).cwiseMax(zero);
-  // `rootOrZero` returns 0 if squares underflow; such a gap proves nothing. The differences are
-  // off by u of both terms, as a length √3 times that. Along n the centre is `gap` beyond the
-  // farthest point of the box.
+  // `rootOrZero` returns 0 if squares underflow; such a gap proves nothing. The differences are off
+  // by u of both terms per coordinate, and by √3 times as much as a length. Along n the centre is
+  // `gap` beyond the farthest point of the box.
   return remaining(outside, rootOrZero(outside.squaredNorm()), sphere.radius, sphere.isotropic,
                    4 * kUnit * (c.cwiseAbs().sum() + box.terms), enough,
                    [&](const Vec3& n) { return std::abs(n.dot(sphere.first)) + bent(sphere, n); });
 }
 
 /// The direction n is that of the line between the two centres at the middle. Along n the spheres
-/// approach each other by at most the difference of their first-order displacements and the
-/// remainder of each. The difference rounds by u of both. The 48u of the speeds in each sphere's
+/// approach each other by at most the difference of their first-order displacements plus the
+/// remainders of both. The difference rounds by u of both. The 48u of the speeds in each sphere's
 /// `secondOrder` cover this: `sweptSphere` needs only 40u.
 double clearanceBound(const SweptSphere& a, const SweptSphere& b, double enough) {
   const Vec3 apart = b.center - a.center;

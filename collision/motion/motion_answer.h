@@ -7,11 +7,11 @@ namespace corridor {
 /// Returns the reason why a pair of bodies stays undecided in every time interval about the middle
 /// of `relative`. The reason is `clearance` in two cases:
 /// * The rounding of the pose is at most half of the tolerance.
-/// * The gap is at most the tolerance, and the rounding is at most a thousandth of the body's
-///   radius.
+/// * The gap is at most the tolerance, and the rounding is at most a thousandth of the radius of
+///   b's bounding sphere.
 /// Otherwise rounding may have caused the small gap, and the reason is `rounding`.
 /// @param relative the relative motion, without the clearance slack in its errors.
-/// @param gap measured at the middle, metres.
+/// @param gap the distance beyond the margin, measured at the middle, metres.
 inline UndecidedReason reasonOf(const RelativeMotion& relative, const Body& b, double gap,
                                 double tolerance) {
   const double lever = (relative.X_AB.m * b.sphereCenter()).norm() + b.sphereRadius();
@@ -22,8 +22,9 @@ inline UndecidedReason reasonOf(const RelativeMotion& relative, const Body& b, d
   return sharp ? UndecidedReason::clearance : UndecidedReason::rounding;
 }
 
-/// Returns the answer of `run`. If the edge is ambiguous, or if no bound holds under the
-/// processor's floating-point settings, returns `undecided` without calling `run`.
+/// Returns the answer of `run`; if `earliest` is false and the answer is not `free`, its
+/// `certifiedUntil` becomes 0 and its `grazing` false. If the edge is ambiguous, or if no bound
+/// holds under the processor's floating-point settings, returns `undecided` without calling `run`.
 template <class Run>
 MotionResult answered(const MotionSource& motion, bool earliest, const Run& run) {
   const auto refused = [](UndecidedReason reason) {
@@ -45,7 +46,8 @@ MotionResult answered(const MotionSource& motion, bool earliest, const Run& run)
   return result;
 }
 
-/// Counts a motion query: as an edge, or as a state if nothing moves.
+/// Counts a motion query: as an edge, or as a state if nothing moves; also as undecided if it is
+/// undecided.
 inline void count(const MotionSource& motion, const MotionResult& result, Counters& counters) {
   ++(motion.still() ? counters.states : counters.edges);
   counters.undecided += result.verdict == MotionVerdict::undecided;

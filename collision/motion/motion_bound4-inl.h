@@ -31,13 +31,13 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// (`TriangleCorners::center`). `linear` is the first-order displacement of this point, rounded.
 struct LeafMotionBound {
   float linear[3], angular[3];
-  float remainder = 0;  ///< displacement beyond first order, along any unit vector
+  float remainder = 0;  ///< bound of the displacement beyond first order, along any unit vector
   float isotropic = 0, pad = 0;
 };
 
 /// The motion bounds of the four boxes of a node.
 struct NodeMotionBound : Obb4MotionBound {
-  unsigned far;  ///< one bit per box: its `isotropic` exceeds the tolerance
+  unsigned far;  ///< one bit per box: set if the box's `isotropic` exceeds the tolerance
 };
 
 /// Computes `motionBound` (derivation: relative_motion.cpp) for the bounding spheres of a node's

@@ -35,8 +35,9 @@
 namespace corridor {
 namespace {
 
-/// The gap of two sets along a direction. `moving` is its least value in the interval. `middle` is
-/// its value at the rounded pose at the middle. `still` is `middle` less rounding and tube.
+/// The gap of two sets along a direction. `moving` is a lower bound of the gap in the interval.
+/// `middle` is the gap at the rounded pose at the middle. `still` is `middle` minus rounding and
+/// tube.
 struct Gaps {
   double moving, middle, still;
 };
@@ -84,8 +85,8 @@ class MovingPair {
   const MotionBound& bound() const { return bound_; }
   double radii() const { return a_.set().ball + b_.set().ball; }
   double size() const { return size_; }
-  /// The error of `Gaps` by projections. The rounding of the motion is already subtracted in
-  /// `Gaps::moving`.
+  /// The error that the projections cause in each member of `Gaps`, metres. The rounding of the
+  /// motion is already subtracted in `Gaps::moving`.
   double slack() const { return slack_; }
 
  private:

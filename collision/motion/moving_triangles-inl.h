@@ -1,5 +1,5 @@
-// Pairs of triangles of which one moves, for every SIMD target: included once per target by
-// foreach_target.h.
+// Tests of pairs of triangles of which the second one moves, for every SIMD target:
+// foreach_target.h includes this file once per target.
 
 // clang-format off
 #if defined(CORRIDOR_MOVING_TRIANGLES_INL_H_) == defined(HWY_TARGET_TOGGLE)  // Highway's include guard
@@ -31,14 +31,15 @@ struct MovingPairs {
 
 /// Decides sixteen pairs of triangles in a time interval, in float. Let n be the direction of the
 /// closest points at the middle (any direction is valid). Along n, corner k of b is at n·t_k at the
-/// middle. It moves by s·h_k and a remainder, where h_k = n·linear + (n × angular)·p_k. Here p_k is
-/// the corner relative to the point whose velocity is `linear`. In any case, corner k moves by at
-/// most `isotropic`.
+/// middle. Until the time s of the interval, |s| ≤ 1, it moves by s·h_k and a remainder, where h_k
+/// = n·linear + (n × angular)·p_k. Here p_k is the corner relative to the point whose first-order
+/// displacement is `linear`. In any direction, corner k moves by at most `isotropic`.
 ///
-/// Rounding, with u = 2^-24 and D the size of a pair (`TrianglePairs`). The error of n·t_k is
-/// `off`, as in `triangleDistances`. p_k = t_k − away is off by 4u·D per coordinate, and is below
-/// 2D. n × angular is off by 2u|n||ω|. Therefore h_k is off by less than u|n|(6|linear|₁ +
-/// 32|ω|₁D). This includes the rounding of `linear` and `angular` themselves (u of each).
+/// Rounding, with u = 2^-24, ω = `angular`, and D and `away` the members `size` and `away` of
+/// `TrianglePairs`. The error of n·t_k is `off`, as in `triangleDistances`. p_k = t_k − away is off
+/// by 4u·D per coordinate, and is below 2D. n × angular is off by 2u|n||ω|. Therefore h_k is off by
+/// less than u|n|(6|linear|₁ + 32|ω|₁D). This includes the rounding of `linear` and `angular`
+/// themselves (u of each).
 ///
 /// @param clearances if not null, receives a proved clearance for each separated pair: its distance
 /// beyond `pad` throughout the interval, in a's unit.

@@ -15,14 +15,14 @@ namespace {
 
 /// The corners of b and the motion bound of each of them in the interval.
 struct MovingCorners {
-  Triangle posed, first;  ///< corners in a's frame; their first-order displacements
+  Triangle posed, first;  ///< corners in a's frame; first-order displacements
   MotionBound bound[3];
   /// True if a single rotation causes the whole remainder (`secondOrderAcross`). Then the remainder
   /// is known in full. Along n it is at most |n·second| + |n·third|, with second = ½ ω × (ω × d)
   /// and third = (α²/6) ω × d. Here ω is `angular`, α its length, and d the lever from the axis.
   bool turns = false;
   Triangle second, third;
-  Vec3 loose;  ///< for each corner, the rounding of the terms above
+  Vec3 loose;  ///< for each corner, a bound of the rounding of the terms above
 
   MovingCorners(const Triangle& b, const RelativeMotion& relative) {
     for (int i = 0; i < 3; ++i) {
@@ -50,9 +50,9 @@ struct MovingCorners {
   }
 };
 
-/// The gap of the triangles along a direction. `moving` is its least value in the interval.
-/// `middle` is its value at the rounded pose at the middle. `still` is `middle` less rounding and
-/// tube.
+/// The gap of the triangles along a direction. `moving` is a lower bound of the gap in the
+/// interval. `middle` is the gap at the rounded pose at the middle. `still` is `middle` minus
+/// rounding and tube.
 struct TriangleGaps {
   double moving = std::numeric_limits<double>::infinity(), middle = moving, still = moving;
 };
@@ -95,9 +95,10 @@ Vec3 unit(const Vec3& v) {
 /// triangles. Each points to the same side as `n`.
 ///
 /// The direction of the closest points is less accurate. These points are rounded to u times a
-/// triangle's size L. Their difference is therefore tilted by uL/d. Across L the tilt reduces a gap
-/// of d by uL²/d. The directions here are the normals of faces, the common normals of edges, and n
-/// made orthogonal to each edge once more. They are orthogonal to the features that they separate.
+/// triangle's size L. Their difference, of length d, is therefore tilted by uL/d. Across L the tilt
+/// reduces a gap of d by uL²/d. The directions here are the normals of faces, the common normals of
+/// edges, and n made orthogonal to each edge once more. They are orthogonal to the features that
+/// they separate.
 template <class Try>
 void offerFeatureDirections(const Triangle& a, const Triangle& b, const Vec3& n, Try attempt) {
   const auto offer = [&](const Vec3& v) {
@@ -159,7 +160,8 @@ MovingPairAnswer decideMovingTriangles(const Triangle& a, const Triangle& b,
   }
   if (answer.contact) return answer;
 
-  // The tilt of n reduces the gap by a quarter or more: try better directions before giving up.
+  // If the tilt of n reduces the gap by more than a quarter, try better directions before giving
+  // up.
   if (gaps.middle - margin < 0.75 * (distance - margin)) {
     offerFeatureDirections(a, posed, n, [&](const Vec3& m) {
       const TriangleGaps other = gapsAlong(m, a, corners);

@@ -24,9 +24,9 @@ struct MovingPairAnswer {
 
 /// Decides a pair of triangles in a time interval. b moves by the relative motion `relative`. The
 /// test tries to separate the triangles along the direction of their closest points at the middle.
-/// Each corner of b has its own directional motion bound. Any direction is valid: its rounding may
-/// prevent a proof, but never makes one wrong. If the triangles are not separated, contact at the
-/// middle is decided exactly.
+/// Each corner of b has its own directional motion bound. Any direction is valid: the rounding of
+/// the direction may prevent a proof, but never makes a proof wrong. If the triangles are not
+/// separated, contact at the middle is decided exactly.
 MovingPairAnswer decideMovingTriangles(const Triangle& a, const Triangle& b,
                                        const RelativeMotion& relative, double margin);
 

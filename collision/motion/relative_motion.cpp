@@ -19,9 +19,8 @@
 ///   x(s) − x = Σ_j T_1(sδ_1) … T_(j−1)(sδ_(j−1)) [T_j(sδ_j) x − x].
 /// The factors before the bracket are an isometry, and x in the bracket is at the middle. The
 /// length of the bracket is a chord, 2 r_j sin(min(|sδ_j|, π)/2), for a rotation, and |sδ_j| for a
-/// translation. Let D_j be the sum of these lengths over all i ≥ j, at s = 1. Then |z_j − x| ≤ D_j
-/// and |x(s) − x| ≤ D_1.
-/// The variable `displaced` is D_(j+1) before joint j is added to it.
+/// translation. Let D_j be the sum of these lengths over the joints i ≥ j, at s = 1. Then |z_j − x|
+/// ≤ D_j and |x(s) − x| ≤ D_1. The variable `displaced` is D_(j+1) before joint j is added to it.
 ///
 /// Remainder. ∂x/∂φ_j is a_j × (z_(j+1) − p_j), rotated by the joints before j. Its length is the
 /// distance of z_(j+1) from axis j, at most r̄_j = r_j + D_(j+1); for a translation it is 1. The

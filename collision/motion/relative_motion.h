@@ -33,7 +33,8 @@ struct ScrewMotion {
   double tube = 0;    ///< largest perturbation in addition to `amount`, ≥ 0; rad or m
   /// The largest deviation from a uniform motion by ±`amount` in the interval, ≥ 0, rounded up; rad
   /// or m. 0 if the joint moves uniformly. For a smooth motion it shrinks with the square of the
-  /// interval's length. A joint that turns round at the middle has `amount` 0 and a deviation.
+  /// interval's length. A joint that reverses its direction at the middle has `amount` 0 and a
+  /// positive deviation.
   double deviation = 0;
 };
 

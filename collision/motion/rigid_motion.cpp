@@ -31,7 +31,7 @@ namespace {
 constexpr double kRotationError = 0x1p-43;
 
 /// A term of every error, in metres. Squares below 2^-1022 underflow, and so lengths below 2^-511
-/// are lost. This term exceeds the effect of that loss on any bound, for levers below 2^100 m.
+/// are lost. For levers below 2^100 m, this term exceeds the effect of that loss on any bound.
 constexpr double kLeastError = 0x1p-400;
 
 }  // namespace

@@ -16,16 +16,17 @@ namespace corridor {
 /// the yaw is linear in t and goes the shorter way round.
 class RigidMotion {
  public:
-  /// Returns the motion in space. @pre finite poses, quaternions not zero.
+  /// Returns the motion in space. @pre The poses are finite, and the quaternions are not zero.
   static RigidMotion spatial(const RigidPose& from, const RigidPose& to, const Tube& tube);
-  /// Returns the translation by `delta` metres of a body that starts at the map `from`. It is
-  /// linear in t, and the orientation does not change. @pre finite, `from` within 2^-20 of a
-  /// rotation.
+  /// Returns the translation by `delta` metres of a body that starts at the map `from`. The
+  /// position is linear in t, and the orientation does not change. @pre All numbers are finite, and
+  /// `from.m` is within 2^-20 of a rotation.
   static RigidMotion translation(const Transform& from, const Vec3& delta);
-  /// Returns the motion in the plane z = 0, of (x, y, yaw) in metres and radians. @pre finite.
+  /// Returns the motion in the plane z = 0, of (x, y, yaw) in metres and radians. @pre All numbers
+  /// are finite.
   static RigidMotion planar(const Vec3& from, const Vec3& to, const Tube& tube);
 
-  /// Reports whether the edge defines no curve, or no bound holds. The reason is one of these:
+  /// Returns true if the edge defines no curve, or if no bound holds, for one of these reasons:
   /// * The rotation is a half turn to within 1e-9 rad, or to within the rounding of large yaws. The
   ///   shorter way is then not unique.
   /// * The displacement overflows.

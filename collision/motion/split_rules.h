@@ -20,8 +20,8 @@ struct SplitThresholds {
 /// wrong. Other values change the cost of a query, and therefore which motions are undecided at the
 /// work limit. `kLeastHalfWidth` also limits which motions can be decided at all.
 struct SplitRules {
-  /// `kFirst` holds in the whole motion if b rotates, since that interval is usually too wide.
-  /// `kLater` holds in all other cases. A translation is described exactly to first order in any
+  /// `kFirst` applies to the interval [0, 1] if b rotates, since that interval is usually too wide.
+  /// `kLater` applies in all other cases. A translation is described exactly to first order in any
   /// interval.
   static constexpr SplitThresholds kFirst = {1, 1}, kLater = {8, 4};
   /// Half of an interval's angle, radians, above which b counts as rotating.
@@ -29,10 +29,10 @@ struct SplitRules {
   /// A body moves far if its bounding sphere's centre may move, from its place at the middle of the
   /// interval, by more than this multiple of the sphere's radius.
   static constexpr double kFar = 2;
-  /// The least half width at which a body that moves far (`IntervalMotions::Separation`) is left
-  /// untested to the halves of the interval. In shorter intervals every body is tested. This is
-  /// necessary because pairs that are left untested count no work. A joint may make any number of
-  /// turns, so without this limit the query might never reach its work limit.
+  /// The least half width at which a pair is left untested to the halves of the interval because
+  /// its body b moves far (`IntervalMotions::Separation`). In shorter intervals this reason does
+  /// not apply. The limit is necessary because pairs that are left untested count no work. A joint
+  /// may make any number of turns, so without the limit the query might never reach its work limit.
   static constexpr double kLeastHalfWidthFar = 0x1p-8;
   /// If only the verdict is requested, this many levels of halving are walked level by level. A
   /// contact anywhere is then found early.

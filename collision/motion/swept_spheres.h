@@ -15,7 +15,8 @@ class SweptSpheres {
   void makeRoom(std::size_t bodies) {
     if (spheres_.size() < bodies) spheres_.resize(bodies);
   }
-  /// Discards all spheres. Must be called before another time interval.
+  /// Discards all spheres. Must be called before the first time interval, and before each other
+  /// one.
   void forget() { ++stamp_; }
   /// Returns the body's swept sphere. Calls `make` to compute it if there is none yet.
   /// @pre `makeRoom` included the body, and `make` calls no member of this class.

@@ -12,15 +12,16 @@ namespace corridor {
 
 /// The node pairs that time intervals leave to their halves, grouped by pair of bodies. The list is
 /// a stack: each interval appends the node pairs that it leaves. Before the next interval is
-/// tested, `cut` discards those that are no longer needed.
+/// tested, `cut` discards the node pairs that are no longer needed.
 struct WorkList {
   /// The node pairs of one pair of bodies: a range of `nodePairs`.
   struct Group {
     std::uint32_t bodies;  ///< the number of the pair of bodies in the query
     std::size_t begin, end;
     /// Some node pairs of these bodies may have been separated already, in longer intervals that
-    /// contain the group's interval. This is a lower bound of their clearance, metres; infinite if
-    /// there are none. It has a meaning only if the query records a certificate.
+    /// contain the group's interval. `clearance` is a lower bound of the clearance of these
+    /// separated node pairs, metres; infinite if there are none. It has a meaning only if the query
+    /// records a certificate.
     double clearance = HUGE_VAL;
   };
   /// The lengths of `nodePairs` and `groups` at some time.

@@ -9,7 +9,7 @@
 namespace corridor {
 namespace {
 
-/// The sign of Σ n_k q_k − Σ n_k p_k, as a sum of six products of two doubles.
+/// Returns the exact sign of Σ n_k q_k − Σ n_k p_k, a sum of six products of two doubles.
 int exactSign(const Vec3& n, const Vec3& p, const Vec3& q) {
   exact::Grid grid;
   for (int k = 0; k < 3; ++k)

@@ -16,12 +16,12 @@
 #include "collision/predicates/triangle.h"
 
 /// Points under affine maps as integers on a common power-of-two grid. The integers are exact, and
-/// so are the signs of polynomials in these integers. The scale of the grid is dropped, since it
-/// does not change signs.
+/// so are the signs of polynomials in these integers. The integers do not include the scale of the
+/// grid, which does not change signs.
 namespace corridor::exact {
 
-/// Signed integers of a fixed width, on the stack. Results of more than `Bits` bits would wrap:
-/// `withIntegersFor` picks a width that holds them.
+/// Signed integers of a fixed width, on the stack. Results of more than `Bits` bits would wrap;
+/// `withIntegersFor` picks a width that is large enough for all results.
 template <unsigned Bits>
 using FixedInt = boost::multiprecision::number<
     boost::multiprecision::cpp_int_backend<Bits, Bits, boost::multiprecision::signed_magnitude,
@@ -38,7 +38,7 @@ struct Vector {
   }
   bool isZero() const { return x.is_zero() && y.is_zero() && z.is_zero(); }
 };
-/// The result's type may be wider than that of the coordinates (small_int.h).
+/// The type of the result may be wider than the type of the coordinates (small_int.h).
 template <class A, class B>
 auto dot(const Vector<A>& a, const Vector<B>& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
@@ -56,8 +56,8 @@ template <class Int>
 const Int& coordinate(const Vector<Int>& v, int i) {
   return i == 0 ? v.x : i == 1 ? v.y : v.z;
 }
-/// Returns the number of a coordinate axis such that the projection along this axis is one to one
-/// on planes with normal n. @pre n ≠ 0.
+/// Returns the index of a coordinate axis such that the projection along this axis is one to one on
+/// planes with normal n. @pre n ≠ 0.
 template <class Int>
 int dropAxis(const Vector<Int>& n) {
   return !n.x.is_zero() ? 0 : !n.y.is_zero() ? 1 : 2;

@@ -12,8 +12,8 @@ struct MappedPoint {
 };
 
 /// Returns the sign of det(q − p, r − p, s − p): the side of the plane through p, q, r that s is
-/// on. Exact, in real arithmetic on the given doubles: a filter in double decides most cases,
-/// integers the rest.
+/// on. Exact, in real arithmetic on the given doubles: a filter in double decides most cases, and
+/// integers decide the others.
 /// @pre all numbers are finite.
 int orientationSign(const MappedPoint& p, const MappedPoint& q, const MappedPoint& r,
                     const MappedPoint& s);
@@ -24,11 +24,11 @@ struct MappedEdge {
 };
 
 /// Returns the sign of det(u, v, w) for three vectors. Exact, like `orientationSign`, but always
-/// computed in integers: for callers that have their own filter.
+/// computed in integers. Callers that have their own filter use this function.
 int exactDeterminantSign(const MappedEdge& u, const MappedEdge& v, const MappedEdge& w);
 
-/// Returns the same sign as `orientationSign` for points that no map moves, and is faster. @pre all
-/// numbers are finite.
+/// Returns the same sign as `orientationSign` for points under the identity map, but is faster.
+/// @pre all numbers are finite.
 int planeSide(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s);
 
 }  // namespace corridor

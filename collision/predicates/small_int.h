@@ -7,15 +7,15 @@
 /// their products 128, and products of these with coordinates 192. 192 bits hold every orientation
 /// determinant of points whose grid coordinates have 61 bits. Shapes that touch by construction
 /// (boxes, CAD models under rotations by 90°) have such coordinates. These types are ten times
-/// faster than integers of one large width. Results that need more bits wrap; those of `Int53` are
-/// rounded.
+/// faster than integers of one large width. Results that need more bits wrap, except those of
+/// `Int53`, which are rounded.
 namespace corridor::exact {
 
 __extension__ using SignedWide = __int128;
 __extension__ using UnsignedWide = unsigned __int128;
 
-/// Integers stored as doubles. All integers of a computation may be scaled by one common power of
-/// two. Results are exact as long as the integers are below 2^53 in magnitude.
+/// Integers stored as doubles. A computation may store all of its integers times one common power
+/// of two. Results are exact as long as the integers are below 2^53 in magnitude.
 class Int53 {
  public:
   Int53() = default;

@@ -16,7 +16,7 @@ struct Filter {
 
   Filter(const Triangle& a0, const Transform& X_WA, const Triangle& b0, const Transform& X_WB) {
     const double errorA = apply(a0, X_WA, a), errorB = apply(b0, X_WB, b);
-    // d: largest coordinate difference of two corners.
+    // d: the largest difference of the same coordinate of two corners.
     Vec3 low = a[0], high = a[0];
     for (const Triangle* t : {&a, &b})
       for (const Vec3& p : *t) {
@@ -25,11 +25,11 @@ struct Filter {
       }
     const double d = (high - low).maxCoeff();
     // An entry of the determinant is a difference of two rounded coordinates, off by at most e =
-    // 2·error + u·d. With entries ≤ D = d + e, a 3×3 determinant has six products of three. Their
-    // perturbation changes it by at most 6·3·e·D². Its evaluation (two roundings per product, three
-    // for the sums) adds at most 6·D³·γ5 < 31·u·D³. Underflow, also of inputs flushed to zero,
-    // loses less than 2^-1000·D², which 9·u·D³ covers for D > 2^-250. D < 2^250 keeps all products
-    // finite.
+    // 2·error + u·d. With entries ≤ D = d + e, a 3×3 determinant has six products of three. The
+    // errors of the entries change the determinant by at most 6·3·e·D². Its evaluation (two
+    // roundings per product, three for the sums) adds at most 6·D³·γ5 < 31·u·D³, where γ5 = 5u/(1 −
+    // 5u). Underflow, also of inputs flushed to zero, loses less than 2^-1000·D², which 9·u·D³
+    // covers for D > 2^-250. D < 2^250 keeps all products finite.
     const double e = 2 * std::max(errorA, errorB) + kUnit * d;
     const double D = d + e;
     const bool usable = D > 0x1p-250 && D < 0x1p250;
@@ -71,13 +71,15 @@ struct Filter {
     for (int i = 0; i < 3; ++i)
       if (sideA[i] == 0 || sideB[i] == 0) return -1;
     // General position: each triangle crosses the other's plane. Corners are numbered so that p1 is
-    // alone on its side of b's plane, and p2 is alone on its side of a's plane. Each triangle is
-    // oriented so that p1 and p2 are on the positive side of the other.
+    // alone on its side of b's plane, and p2 is alone on its side of a's plane. The triangles are
+    // oriented so that p1 is on the positive side of b's plane, and p2 on the positive side of a's
+    // plane.
     const int i = alone(sideA), j = alone(sideB);
     const Vec3 &p1 = a[i], &p2 = b[j];
     const Vec3 *q1 = &a[(i + 1) % 3], *r1 = &a[(i + 2) % 3], *q2 = &b[(j + 1) % 3],
                *r2 = &b[(j + 2) % 3];
-    // Reversing b flips the side of p1; reversing a flips that of p2.
+    // Exchanging two corners of b exchanges the positive and the negative side of b's plane, and
+    // likewise for a.
     if (sideA[i] < 0) std::swap(q2, r2);
     if (sideB[j] < 0) std::swap(q1, r1);
     const int first = orientation(p1, *q1, p2, *q2);
@@ -87,7 +89,7 @@ struct Filter {
     return first < 0 && second < 0 ? 1 : -1;
   }
 
-  /// Returns the corner that is alone on its side.
+  /// Returns the index of the corner that is alone on its side.
   static int alone(const int (&side)[3]) {
     return side[0] == side[1] ? 2 : side[0] == side[2] ? 1 : 0;
   }

@@ -9,12 +9,12 @@ namespace corridor {
 ///
 /// Exact: the answer is that of real arithmetic on the given doubles, for any finite coordinates
 /// and maps. Degenerate triangles count as the segments or points that they are. Touching is
-/// contact. A filter in double with a proved error bound decides first; integers decide the rest
-/// (`PredicateResult::exact`).
+/// contact. A filter in double with a proved error bound decides most cases. Integers decide the
+/// others; then `PredicateResult::exact` is true.
 ///
 /// Method: signs of orientation determinants as in Guigue, Devillers, "Fast and robust
-/// triangle-triangle overlap test using orientation predicates", JGT 8(1), 2003; degenerate
-/// positions by segment-triangle tests.
+/// triangle-triangle overlap test using orientation predicates", JGT 8(1), 2003. Degenerate
+/// positions are decided by segment-triangle tests.
 /// @pre all numbers are finite.
 PredicateResult trianglesTouch(const Triangle& a, const Transform& X_WA, const Triangle& b,
                                const Transform& X_WB);

@@ -30,7 +30,7 @@ bool rangesMeet(const Int& a, const Int& b, const Int& c, const Int& d) {
   return std::max(a, b) >= std::min(c, d) && std::max(c, d) >= std::min(a, b);
 }
 
-/// Tests two closed segments pq and rs; either may be a point.
+/// Returns whether two closed segments pq and rs share a point. Each segment may be a point.
 template <class Int>
 bool segmentsTouch(const Vector<Int>& p, const Vector<Int>& q, const Vector<Int>& r,
                    const Vector<Int>& s) {
@@ -52,7 +52,8 @@ bool segmentsTouch(const Vector<Int>& p, const Vector<Int>& q, const Vector<Int>
          rangesMeet(p.z, q.z, r.z, s.z);
 }
 
-/// Tests the closed segment pq against the closed triangle t with normal n (zero if degenerate).
+/// Returns whether the closed segment pq and the closed triangle t share a point. n is the normal
+/// of t: zero if t is degenerate.
 template <class Int, class Product>
 bool segmentTouchesTriangle(const Vector<Int>& p, const Vector<Int>& q,
                             const TriangleCorners<Int>& t, const Vector<Product>& n) {
@@ -92,9 +93,9 @@ bool strictlyOneSide(const TriangleCorners<Int>& plane, const Vector<Product>& n
          s == sign(dot(n, points[2] - plane[0]));
 }
 
-/// Tests two triangles. They meet if and only if an edge of one meets the other: an extreme point
-/// of their intersection lies on the boundary of one of them. (A degenerate triangle consists of
-/// its boundary only.)
+/// Returns whether two triangles share a point. They do if and only if an edge of one meets the
+/// other: an extreme point of their intersection lies on the boundary of one of them. (A degenerate
+/// triangle consists of its boundary only.)
 template <class Int>
 bool touch(const TriangleCorners<Int>& a, const TriangleCorners<Int>& b) {
   const auto nA = cross(a[1] - a[0], a[2] - a[0]), nB = cross(b[1] - b[0], b[2] - b[0]);
@@ -121,9 +122,10 @@ bool equalUpToSigns(const Array& x, const Array& y) {
   return different << 1 == 0;
 }
 
-/// Tests two triangles in doubles, if the computation is exact in doubles: the entries of both
-/// maps' matrices are 0 or ±1, as for quarter turns, and all coordinates are on a coarse grid.
-/// Returns nullopt otherwise. Most triangles that touch by construction are of this kind.
+/// Returns whether two triangles share a point, computed in doubles. Returns nullopt if doubles may
+/// not be exact. They are exact if the entries of both maps' matrices are 0 or ±1, as for quarter
+/// turns, and all coordinates are on a coarse grid. Most triangles that touch by construction are
+/// of this kind.
 std::optional<bool> touchInDoubles(const Triangle& a, const Transform& X_WA, const Triangle& b,
                                    const Transform& X_WB) {
   double size = 0;

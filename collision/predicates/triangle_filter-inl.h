@@ -28,21 +28,22 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// @param pad a clearance to prove in addition. Both `error` and `pad` are in the unit of the
 /// corners.
 ///
-/// Method: separating axes, namely the normals of both triangles and the nine cross products of
-/// their edges.
+/// Method: separating axes, namely the normals of both triangles and the nine cross products of an
+/// edge of a and an edge of b.
 ///
 /// Rounding, with u = 2^-24 and D the `size` of a pair (`TrianglePairs`): corners are off by 3u·D
 /// per coordinate. A vector L of any direction separates the triangles if their projections onto it
 /// are disjoint.
-/// * The errors of the two projections together are less than 2(3u + 3u)·|L|₁·D. The error of the
-///   given corners adds |L|₂·error.
+/// * The rounding errors of the two projections together are less than 2(3u + 3u)·|L|₁·D. The error
+///   of the given corners adds |L|₂·error.
 /// * The code assumes that both ends of an edge e have the same projection onto L = e × f. The
 ///   difference of the two projections is L·e, which is 0 except for the rounding of L. This
 ///   rounding is |δL| ≤ 2u|e||f| per coordinate, so the difference is below 2√3·u|e||f|·√3D.
 /// * With |L|₁ ≤ √3|L|₂ and |L|₂ ≤ |e||f|(1 + 4u), the sum of these errors is below |e||f|·(error +
 ///   28u·D). The same holds for normals. The code uses 40u in place of 28u, and |e|₁ ≥ |e|₂ as the
 ///   length of an edge.
-/// * Products that underflow lose less than 2^-124, flushed or not, times an edge below 2^30.
+/// * Products that underflow lose less than 2^-124 times an edge length below 2^30, whether or not
+///   they are flushed to zero.
 ///
 /// `pad` is multiplied by the true length of each axis.
 HWY_INLINE unsigned touchingTriangles(const TriangleCorners& a, const TriangleCorners& b,

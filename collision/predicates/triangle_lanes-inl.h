@@ -55,7 +55,7 @@ HWY_INLINE LaneFloat max3(LaneFloat x, LaneFloat y, LaneFloat z) {
   return hn::Max(hn::Max(x, y), z);
 }
 
-/// Returns in each lane the float that its index selects from sixteen.
+/// Returns in each lane the float that the lane's index (0 to 15) selects from `sixteen`.
 HWY_INLINE LaneFloat lookedUp(const float* HWY_RESTRICT sixteen,
                               hn::Vec<hn::RebindToSigned<LaneTag>> index) {
   const LaneTag d;
@@ -72,10 +72,10 @@ HWY_INLINE LaneFloat lookedUp(const float* HWY_RESTRICT sixteen,
   }
 }
 
-/// The pairs to test. Each pair consists of the number of a triangle of `a` and the number of a
+/// The pairs to test. Each pair consists of the index of a triangle of `a` and the index of a
 /// triangle of `b`; both are below 16.
 struct TriangleNumbers {
-  const std::uint8_t *a, *b;  ///< sixteen readable numbers each
+  const std::uint8_t *a, *b;  ///< sixteen readable indices each
 };
 
 /// The corners of the pairs `at`, `at` + 1, …, one pair per lane. s_k are the corners of a's
@@ -84,10 +84,11 @@ struct TriangleNumbers {
 ///
 /// Rounding, u = 2^-24. Let o be the first corner of a's triangle relative to a's `center`, and ΔC
 /// the difference of the two `center`s (b's minus a's). The corners of b's triangle are t = b.x +
-/// (ΔC − o), in floats rounded at each step. Each of b.x, o, ΔC, w = ΔC − o and t is off by at most
-/// u times its own magnitude. With |ΔC| ≤ |w| + |o|, |b.x| ≤ |t| + |w| and w = t_0 − b.x_0, the
-/// error is less than u(2|t| + 3|t_0| + 3|b.x_0| + 2|o|) ≤ 3u·size per coordinate. (Bounds in terms
-/// of |b.x| would be worse: for small triangles far from `center`, |b.x| is much larger than |t|.)
+/// (ΔC − o), in floats rounded at each step, where b.x is the stored corner. Each of b.x, o, ΔC, w
+/// = ΔC − o and t is off by at most u times its own magnitude. With |ΔC| ≤ |w| + |o|, |b.x| ≤ |t| +
+/// |w| and w = t_0 − b.x_0, the error is less than u(2|t| + 3|t_0| + 3|b.x_0| + 2|o|) ≤ 3u·size per
+/// coordinate. (Bounds in terms of |b.x| would be worse: for small triangles far from `center`,
+/// |b.x| is much larger than |t|.)
 struct TrianglePairs {
   LaneVec s1, s2, t[3];
   LaneVec away;    ///< from o to the center of b: t = b.x + away

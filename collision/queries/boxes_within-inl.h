@@ -1,5 +1,5 @@
-// The boxes of distance queries on two 4-wide OBB trees, for every SIMD target: foreach_target.h
-// includes this file once per target.
+// The selection of boxes in distance queries on two 4-wide OBB trees, for every SIMD target:
+// foreach_target.h includes this file once per target.
 
 // clang-format off
 #if defined(CORRIDOR_BOXES_WITHIN_INL_H_) == defined(HWY_TARGET_TOGGLE)  // Highway's include guard
@@ -21,9 +21,9 @@
 HWY_BEFORE_NAMESPACE();
 namespace corridor::HWY_NAMESPACE {
 
-/// Base of the queries that `walkObb4` runs for distances: visits the pairs of boxes that are not
-/// proved to be farther apart than a limit, the nearest first.
-/// @tparam kFar as for `nearBoxes`.
+/// The base class of the queries that `walkObb4` runs for distances. Visits the pairs of boxes that
+/// are not proved to be farther apart than a limit, the nearest first.
+/// @tparam kFar see `nearBoxes`.
 template <bool kFar>
 class BoxesWithin {
  public:

@@ -37,12 +37,12 @@ Real nearest(const Point& p, const Point& d, const Point& q) {
   return square > Real(0) ? clamped(dot(d, q - p) / square) : Real(0);
 }
 
-/// Offers pairs of points of two edges as candidates for the closest pair: each end with its foot
-/// on the other edge, and the points where the common perpendicular meets the edges. Uses cross
-/// products: for nearly parallel edges, the usual denominator |d|²|e|² − (d·e)² would lose all
-/// digits. With cross products, the point on the first edge is off by 2^-98 divided by the sine of
-/// the angle between the edges. The second point is the foot of the first one, so the distance is
-/// off by only 2^-98 of the coordinates.
+/// Offers pairs of points of two edges as candidates for the closest pair: each end with the
+/// closest point of the other edge, and the points where the common perpendicular meets the edges.
+/// Uses cross products: for nearly parallel edges, the usual denominator |d|²|e|² − (d·e)² would
+/// lose all digits. With cross products, the point on the first edge is off by 2^-98 divided by the
+/// sine of the angle between the edges. The second point is the closest point to the first one, so
+/// the distance is off by only 2^-98 of the coordinates.
 void offerEdges(Best& best, const Point& p, const Point& p1, const Point& q, const Point& q1) {
   const Point d = p1 - p, e = q1 - q;
   const Point n = cross(d, e);
@@ -55,9 +55,10 @@ void offerEdges(Best& best, const Point& p, const Point& p1, const Point& q, con
   for (const Point& end : {q, q1}) best.offer(p + d * nearest(p, d, end), end);
 }
 
-/// Computes the foot of p in the plane of t; returns whether it lies inside t. Uses cross products,
-/// as `offerEdges` does, and repeats the step once from the point found. Therefore the error for a
-/// sliver is relative to the sliver's height, not to the coordinates.
+/// Computes the foot of p in the plane of t, which is the orthogonal projection of p onto this
+/// plane. Returns whether the foot lies inside t. Uses cross products, as `offerEdges` does, and
+/// repeats the step once from the point found. Therefore the error for a sliver is relative to the
+/// sliver's height, not to the coordinates.
 bool foot(const Point& p, const ScaledCorners& t, Point& found) {
   const Point u = t[1] - t[0], v = t[2] - t[0], n = cross(u, v);
   const Real square = dot(n, n);
@@ -81,8 +82,8 @@ void offerFoot(Best& best, const Point& q, const ScaledCorners& t, bool swapped)
   swapped ? best.offer(found, q) : best.offer(q, found);
 }
 
-/// Offers the points where edges of p pass through the face of t as candidates. If the triangles
-/// cross, edges of p or of t have such points.
+/// Offers as candidates the points where edges of p pass through the face of t. If two triangles
+/// cross, at least one of them has an edge that passes through the other's face.
 void offerCrossings(Best& best, const ScaledCorners& p, const ScaledCorners& t, bool swapped) {
   const Point n = cross(t[1] - t[0], t[2] - t[0]);
   Real height[3];

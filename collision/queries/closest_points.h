@@ -16,8 +16,8 @@ struct WitnessPoints {
 ///
 /// The distance is off by less than u·(S/4 + 2·distance), where S is the largest Σ|m||v| + |t| of
 /// the mapped corners and u = 2^-53. The points are rounded to doubles and off by less than u·S per
-/// coordinate. For crossing triangles the computed distance is as small as rounding errors, but not
-/// exactly 0.
+/// coordinate. For crossing triangles the computed distance is as small as rounding errors, but
+/// need not be exactly 0.
 WitnessPoints witnessPoints(const Triangle& a, const Transform& X_WA, const Triangle& b,
                             const Transform& X_WB);
 
@@ -27,8 +27,8 @@ struct DistanceRange {
 };
 
 /// Bounds the distance of two triangles under two maps, in double. The upper bound is the distance
-/// of the closest points of their features. The lower bound is the gap between the projections onto
-/// the line through these points.
+/// of the closest points of their features. The lower bound is the gap between the triangles'
+/// projections onto the line through these points. Both bounds include the rounding.
 class TriangleDistances {
  public:
   /// @param reachA, reachB  metres: each triangle lies within this distance of its frame's origin.

@@ -18,7 +18,8 @@ struct MeshWithComponents {
 };
 
 /// Tests whether the point `p`, in the coordinates of a frame P, is inside a watertight component
-/// of `solid`. If so, returns the number in the mesh of a triangle of this component, else nullopt.
+/// of `solid`. If the point is inside, returns the number (in the mesh) of a triangle of this
+/// component; otherwise nullopt.
 ///
 /// A point is inside a component if a ray from it crosses the component an odd number of times,
 /// whichever way the component's triangles face. Each component is tested separately, so a point

@@ -42,6 +42,7 @@ struct Parts {
   }
 };
 
+/// The query that `traverse` runs for `distance`.
 template <class Volume, class Items>
 class Nearest {
  public:
@@ -86,6 +87,7 @@ class Nearest {
   Counters& counters_;
 };
 
+/// The query that `traverse` runs for `closerThan`.
 template <class Volume, class Items>
 class Closer {
  public:

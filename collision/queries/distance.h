@@ -31,12 +31,12 @@ struct Distance {
 /// Computes the distance between the leaf primitives of two trees. Leaf primitives are triangles or
 /// convex parts; convex parts are solid.
 ///
-/// The result is 0 if and only if `interference` reports contact; then both witness points are the
-/// same point, which the two leaf primitives share. Otherwise the error, beyond what the options
-/// allow, is at most 1e-12·distance + 4·2^-53·S, and the result is at least 2^-1022. S is the
-/// largest Σ|m||v| + |t| of the mapped corners, for convex parts with their radii. If a tree has
-/// convex parts and a map is not rigid, S is the largest ‖M‖_F·|v| + |t|. Curved surfaces are not
-/// tessellated.
+/// The result is 0 if and only if `interference` reports contact; then the two leaf primitives
+/// share a point, and both witness points are this point, up to rounding. Otherwise the error,
+/// beyond what the options allow, is at most 1e-12·distance + 4·2^-53·S, and the result is at least
+/// 2^-1022. S is the largest Σ|m||v| + |t| of the mapped corners, for convex parts with their
+/// radii. If a tree has convex parts and a map is not rigid, S is the largest ‖M‖_F·|v| + |t|.
+/// Curved surfaces are not tessellated.
 ///
 /// Method: branch and bound by the volumes' lower bounds, nearest pairs first (Larsen et al. 1999).
 /// Distances of leaf primitives are bounded in double. Pairs that may be the closest are measured
@@ -51,7 +51,7 @@ Distance distance(const Posed<VolumeTree<Volume>>& a, const Posed<VolumeTree<Vol
 /// `false` is a proof that they are farther apart than d. `true` may be wrong only in two cases:
 /// the distance exceeds d by less than 1e-12·d + 4·2^-53·S + 2^-998 m, or convex parts are within
 /// the band of `convexSetsTouch`. For d = 0 the answer is that of `interference`.
-/// @pre as for `distance`; d ≥ 0.
+/// @pre The maps are finite, and d ≥ 0.
 template <BoundingVolume Volume>
 bool closerThan(const Posed<VolumeTree<Volume>>& a, const Posed<VolumeTree<Volume>>& b, double d,
                 QueryContext& context);

@@ -155,7 +155,7 @@ class Closer : public BoxesWithin<false> {
         leaves_(a_, b_, pose, counters),
         closer_(a.X_W, a_.reach(), b.X_W, b_.reach(), d) {}
 
-  static bool skip(const NodePair4&) { return false; }  // the limit stays the same
+  static bool skip(const NodePair4&) { return false; }  // since the limit never shrinks
 
   bool leaves(const NodePair4&, const Obb4Tree::Node& na, const Obb4Tree::Node& nb, unsigned pairs,
               const float*) {

@@ -16,7 +16,9 @@ Distance distance(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b,
                   const DistanceOptions& options, QueryContext& context, LastPair* last = nullptr);
 
 /// `closerThan` (distance.h, with the same guarantees) for 4-wide OBB trees, several times faster.
-/// @param last as for `distance`, but it never changes the answer.
+/// @param last may be null; used only for trees of triangles: the pair that decided the last query
+/// of these trees. It may be tested first, and the pair found is stored there. It never changes the
+/// answer.
 bool closerThan(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b, double d, QueryContext& context,
                 LastPair* last = nullptr);
 

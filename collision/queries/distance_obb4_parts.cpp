@@ -71,7 +71,7 @@ class CloserWithParts : public BoxesWithin<false> {
                   double d, Counters& counters)
       : BoxesWithin(a, b, pose, d, counters), closer_(a.X_W, a_.reach(), b.X_W, b_.reach(), d) {}
 
-  static bool skip(const NodePair4&) { return false; }  // the limit stays the same
+  static bool skip(const NodePair4&) { return false; }  // since the limit never shrinks
 
   bool leaves(const NodePair4&, const Obb4Tree::Node& na, const Obb4Tree::Node& nb, unsigned pairs,
               const float*) {

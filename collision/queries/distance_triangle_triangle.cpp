@@ -9,7 +9,7 @@ namespace {
 void offer(ClosestPoints& best, const Vec3& a, const Vec3& b, int feature) {
   const double d = (b - a).squaredNorm();
   if (d < best.squaredDistance)
-    best = {a, b, d, feature};  // false for NaN: a degenerate feature offers nothing
+    best = {a, b, d, feature};  // not done for NaN: a degenerate feature offers nothing
 }
 
 double clamped(double x) {
@@ -35,8 +35,8 @@ void offerEdges(ClosestPoints& best, const Vec3& p1, const Vec3& q1, const Vec3&
   offer(best, p1 + s * d1, p2 + t * d2, feature);
 }
 
-/// Computes the foot of p in the plane of t; returns whether the foot lies inside t. `offerEdges`
-/// covers the edges and corners of t.
+/// Computes the foot of p in the plane of t, which is the orthogonal projection of p onto this
+/// plane. Returns whether the foot lies inside t. `offerEdges` covers the edges and corners of t.
 bool footInside(const Vec3& p, const Triangle& t, Vec3& foot) {
   const Vec3 u = t[1] - t[0], v = t[2] - t[0], w = p - t[0];
   const double uu = u.squaredNorm(), uv = u.dot(v), vv = v.squaredNorm(), wu = w.dot(u),

@@ -23,7 +23,8 @@ double displacementBound(const Transform& from, const Transform& to, double reac
 
 }  // namespace
 
-/// One query. Descends only from the pairs that are due.
+/// One query. Descends only from the pairs that are due: their gap may be used up
+/// (`Front::Pair::until`).
 template <BoundingVolume Volume>
 class FrontQuery {
  public:

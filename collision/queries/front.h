@@ -36,7 +36,7 @@ class Front {
   friend class FrontQuery;
 
   std::vector<Pair> pairs_;         ///< a heap: the pair that is due first is at the front
-  std::optional<Transform> X_AB_;   ///< the map of the last query; empty: none
+  std::optional<Transform> X_AB_;   ///< the map of the last query; empty if there was no query
   double moved_ = 0;                ///< metres: sum of the bounds of all motions; rounded up
   std::size_t sizeAfterStart_ = 0;  ///< number of pairs after the last start from the roots
 };

@@ -52,6 +52,7 @@ struct Piece {
   int depth = 0;  ///< the number of cuts
 };
 
+/// The triangles of a mesh in a tree of their boxes, to find the triangle nearest to some points.
 class Search {
  public:
   explicit Search(const TriangleMesh& mesh) {
@@ -70,8 +71,8 @@ class Search {
   }
 
   /// Finds the triangle for which the largest distance from the points is least. Returns this
-  /// distance, and sets `guess` to this triangle. The boxes are rounded by less than
-  /// `rounding()`. This can only change which of several nearly equal triangles is found.
+  /// distance, and sets `guess` to this triangle. The distances from boxes are off by less than
+  /// `rounding()`. This error can only change which of several nearly equal triangles is found.
   double fromOneTriangle(std::span<const Vec3> points, std::uint32_t& guess) const {
     const auto farthest = [&](const auto& distance) {
       double most = 0;

@@ -23,9 +23,10 @@ namespace corridor {
 /// rigid: otherwise the boxes separate nothing. With a convex part, nullopt is always a proof;
 /// contact may be reported for gaps within the band of `convexSetsTouch`.
 /// @pre The maps are finite (`Scene` throws on others).
-/// @param last  if not null, the pair of the last query of these trees: it is tested first, and the
-/// pair found is stored there. Starting with it may change which touching pair is reported, and the
-/// counts, but never the verdict.
+/// @param last  if not null, the pair of triangles that the last query of these trees found. If the
+/// pair is likely to touch again (`LastPair::trusted`), it is tested first. The pair that this
+/// query finds is stored there. `last` may change which touching pair is reported, and the counts,
+/// but never the verdict. No pair of convex parts is tested first.
 /// @tparam Overlap  the overlap test of the boxes (overlap_obb_obb_variants.h), for example
 /// `interference<Gjk>(a, …)` on ObbTrees. It changes only the time.
 template <class Overlap = StandardOverlap, BoundingVolume Volume>

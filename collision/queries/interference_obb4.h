@@ -29,9 +29,10 @@ namespace corridor {
 /// Uses the best SIMD target of the machine, chosen at run time. Every target gives the same
 /// verdict. All targets with fused multiply-add (all except SSE) give the same counts.
 ///
-/// @param last  if not null, the pair of the last query of these trees: it is tested first, and the
-/// pair found is stored there. Starting with it may change which touching pair is reported, and the
-/// counts, but never the verdict.
+/// @param last  if not null, the pair of triangles that the last query of these trees found. If the
+/// pair is likely to touch again (`LastPair::trusted`), it is tested first. The pair that this
+/// query finds is stored there. `last` may change which touching pair is reported, and the counts,
+/// but never the verdict. No pair of convex parts is tested first.
 std::optional<PrimitivePair> interference(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b,
                                           QueryContext& context, LastPair* last = nullptr,
                                           std::uint64_t workEnd = kNoWorkLimit);
@@ -58,7 +59,7 @@ std::optional<PrimitivePair> interferenceBelow(std::span<const NodePair4> start,
 }
 
 /// The same test for queries that have already computed the relative pose of the trees. The result
-/// has the numbers of the triangles in leaf order. @pre `!pose.apart`.
+/// has the numbers of the two leaf primitives in leaf order. @pre `!pose.apart`.
 std::optional<PrimitivePair> touchingLeafTriangles(std::span<const NodePair4> start,
                                                    const Posed<Obb4Tree>& a,
                                                    const Posed<Obb4Tree>& b,

@@ -90,10 +90,10 @@ class NearestPairs {
     std::vector<BoundedPair> pairs;
   };
   /// A part of the error 1e-12·d that distance.h allows. If the distances of two pairs differ by
-  /// less than this part, one pair is not measured: for example, pairs of triangles around one
-  /// corner. The part may be used twice, because the pair that ruled out another pair may itself be
-  /// left unmeasured. If it is measured, the error 2^-41·d of `convexDistance` takes the place of
-  /// the second part. In both cases the sum is below 1e-12·d and leaves room for rounding.
+  /// less than this part, one of the two need not be measured. Pairs of triangles around one corner
+  /// are an example. The part may be used twice, because the pair that ruled out another pair may
+  /// itself be left unmeasured. If it is measured, the error 2^-41·d of `convexDistance` takes the
+  /// place of the second part. In both cases the sum is below 1e-12·d and leaves room for rounding.
   static constexpr double kTieShare = 0.49e-12;
 
   const DistanceOptions& options_;

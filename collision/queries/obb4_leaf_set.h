@@ -8,7 +8,7 @@ namespace corridor {
 /// A leaf primitive of a 4-wide OBB tree as a convex set, and the corners that the set refers to.
 class Obb4LeafSet {
  public:
-  /// @param item its number in leaf order.
+  /// @param item the number of the leaf primitive in leaf order.
   Obb4LeafSet(const Obb4Tree& tree, std::uint32_t item)
       : corners_(tree.hasParts() ? Triangle() : tree.triangle(item)),
         set_(tree.hasParts() ? ConvexSet(tree.part(item)) : ConvexSet(corners_)) {}

@@ -1,5 +1,5 @@
-// Leaf pairs of two 4-wide OBB trees, for every SIMD target: foreach_target.h includes this file
-// once per target.
+// Tests of leaf pairs of two 4-wide OBB trees, for every SIMD target: foreach_target.h includes
+// this file once per target.
 
 // clang-format off
 #if defined(CORRIDOR_OBB4_LEAVES_INL_H_) == defined(HWY_TARGET_TOGGLE)  // Highway's include guard
@@ -58,7 +58,8 @@ bool forEachLeafPrimitivePair(const Obb4Tree::Node& na, const Obb4Tree::Node& nb
   return false;
 }
 
-/// Returns the pair of this mask (bits as in `walkObb4`) that has the least key. @pre pairs != 0.
+/// Returns the number (0 to 15) of the pair with the least key among the pairs of this mask (bits
+/// as in `walkObb4`). @pre pairs != 0.
 inline unsigned leastOf(unsigned pairs, const float* keys) {
   auto least = static_cast<unsigned>(std::countr_zero(pairs));
   for (unsigned rest = pairs & (pairs - 1); rest; rest &= rest - 1) {

@@ -79,7 +79,7 @@ class SelfPairs {
     // The quality `degenerate` includes small triangles of a large mesh. It means an area of at
     // most 1e-12 of the squared diagonal, and rounding is below 1e-15 of that square. So every
     // triangle whose corners lie on a line is `degenerate`, and the exact test finds these
-    // triangles among them.
+    // triangles among the degenerate ones.
     for (std::uint32_t s = 0; s < qualities.size(); ++s)
       onALine_.push_back(qualities[tree.meshTriangle(s)] == TriangleQuality::degenerate &&
                          onALine(tree.triangle(s)));

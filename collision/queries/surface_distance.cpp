@@ -23,8 +23,8 @@ auto onTrees(TreeKind trees, const Posed<Body>& a, const Posed<Body>& b, LastPai
   });
 }
 
-/// A reported distance is off by at most this share of itself plus `errorOf`. The share is twice
-/// the guaranteed 1e-12, to cover the roundings here.
+/// A reported distance is off by at most this fraction of itself plus `errorOf`. The fraction is
+/// twice the guaranteed 1e-12, to cover the roundings here.
 constexpr double kErrorShare = 2e-12;
 /// Returns the absolute error of a reported distance, metres. It covers the guaranteed error of
 /// 4u·S, where S is the largest Σ|m||v| + |t|. If the maps are nearly rigid, S is at most √3(|v| +

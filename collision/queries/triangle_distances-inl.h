@@ -75,8 +75,9 @@ HWY_INLINE ClosestLanes closestLanes(const TrianglePairs& pairs) {
       const V z = clamped(hn::Mul(hn::Add(hn::Mul(ef, y), er), perE[i]));
       offer(add(r, sub(scaled(f[k], y), scaled(e[i], z))), hn::FirstN(d, kTriangleLanes));
     }
-  // Offers the vectors between the corners `ps` and their feet in a face. The face has the corner
-  // `at0`; u and v are its edges from that corner.
+  // Offers the vectors between the corners `ps` and their orthogonal projections onto the plane of
+  // a face, if the projections lie inside the face. The face has the corner `at0`; u and v are its
+  // edges from that corner.
   const auto faces = [&](const Vec* ps, const Vec& at0, const Vec& u, const Vec& v, V uu, V vv,
                          bool flip) {
     const V uv = dot(u, v);

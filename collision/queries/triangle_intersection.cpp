@@ -116,7 +116,7 @@ class TriangleCrossing {
     for (const std::size_t step : {1u, 2u}) {
       const std::size_t other = (alone + step) % 3;
       if (above[alone] == above[other]) return false;
-      // The point is p + (q − p)·t with t = x/(x + y), where x, y > 0 are the sizes of the
+      // The point is p + (q − p)·t with t = x/(x + y), where x, y > 0 are the magnitudes of the
       // determinants of p and q, each off by B. Then t is off by less than 2·B/(x + y), and the
       // point by D times that.
       const Double2 whole = side[alone] - side[other];

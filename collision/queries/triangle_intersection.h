@@ -22,8 +22,8 @@ struct Segment {
 Segment triangleIntersection(const Triangle& a, const Transform& X_WA, const Triangle& b,
                              const Transform& X_WB);
 
-/// The same by integers alone. The result is the exact segment with its ends rounded to the nearest
-/// doubles.
+/// Computes the same segment by integers alone. The result is the exact segment with its ends
+/// rounded to the nearest doubles.
 Segment triangleIntersectionExact(const Triangle& a, const Transform& X_WA, const Triangle& b,
                                   const Transform& X_WB);
 

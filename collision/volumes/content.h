@@ -28,7 +28,7 @@ struct Content {
   Content(const std::vector<Ball>& b) : balls(b) {}          // NOLINT
 
   /// Calls f(point, radius) for every corner (radius 0) and every sphere. A convex set that
-  /// contains all of these contains the content.
+  /// contains all these corners and spheres contains the content.
   template <class F>
   void forEach(F&& f) const {
     for (const Triangle& t : triangles)

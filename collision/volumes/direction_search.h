@@ -14,7 +14,8 @@ inline constexpr double kVerdict = 0x1p-20, kBound = 0x1p-4;
 
 /// The result of testing a pair of sets along a direction n, from a to b.
 struct AlongDirection {
-  /// A proved lower bound of the distance of the sets, metres; negative if n does not separate them
+  /// A proved lower bound of the distance of the sets, metres; negative if n does not separate
+  /// them.
   double gap;
   /// A point of the difference b − a that is extreme along −n, up to rounding; metres.
   Vec3 corner;
@@ -22,14 +23,15 @@ struct AlongDirection {
 
 /// Searches for a direction along which two sets are separated, by the simplices of Gilbert,
 /// Johnson, Keerthi (1988). `along(n)` returns an `AlongDirection` for a vector n of length 1, up
-/// to 4u. That call proves the gap along each direction, so rounding in the search does no harm.
-/// Returns the widest gap that was proved, or 0. Ends at a gap above `enough`, or if two points of
-/// the hulls of the sets are found that are at most `near` apart. It also ends if no progress is
-/// possible, and after 24 rounds.
+/// to 4u. Each call proves the gap along its n, so rounding in the search does no harm. Returns the
+/// widest gap that was proved, or 0. Ends at a gap above `enough`, or if two points of the hulls of
+/// the sets are found that are at most `near` apart. It also ends if no progress is possible, and
+/// after 24 rounds.
+/// @param direction  the first direction to test, from a to b, metres. Its length does not matter.
 /// @param size  metres: about the largest coordinate of a corner.
 /// @param near, enough  metres.
-/// @param agreed  the search ends if a gap and the distance of two points differ by less than this
-/// share of the distance.
+/// @param agreed  the search ends if a gap and the distance of two points, one of each hull, differ
+/// by less than `agreed` times that distance.
 template <class Along>
 double widestGap(Vec3 direction, double size, double near, double enough, double agreed,
                  const Along& along) {

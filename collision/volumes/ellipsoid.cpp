@@ -10,7 +10,7 @@
 namespace corridor {
 namespace {
 
-// More steps make the ellipsoid smaller by less than 1 % of its volume.
+// More steps would reduce the volume of the ellipsoid by less than 1 %.
 constexpr int kFitSteps = 24;
 
 /// Keeps the points that are extreme along 13 lines. These points decide most of the ellipsoid's
@@ -75,7 +75,8 @@ Shape smallest(const std::vector<Vec3>& z) {
     for (std::size_t i = 0; i < z.size(); ++i) mean += weight[i] * z[i];
     for (std::size_t i = 0; i < z.size(); ++i) variance += weight[i] * (z[i] - mean).cwiseAbs2();
     if (step == kFitSteps) break;
-    // An axis along which all points are equal, up to rounding, has no share.
+    // The lower limit is for axes along which all points are equal up to rounding: such an axis
+    // hardly changes the weights.
     const Vec3 used = variance.cwiseMax(0x1p-20);
     double sum = 0, most = 0;
     for (std::size_t i = 0; i < z.size(); ++i) {

@@ -26,7 +26,7 @@ struct Hull {
   double centerReach() const;
   double radius() const { return boundingRadius; }
   const Vec3& ballCenter() const { return boundingCenter; }
-  /// Memory outside of the object itself.
+  /// Returns the bytes of heap memory that the vertices take.
   std::size_t extraBytes() const { return vertices.capacity() * sizeof(Vec3); }
 };
 

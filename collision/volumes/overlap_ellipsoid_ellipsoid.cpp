@@ -14,9 +14,9 @@ namespace {
 /// The maximum number of steps of one search. Most searches need two or three steps; searches at
 /// gaps of 1e-9 of the size need up to eight.
 constexpr int kOverlapSteps = 12;
-/// If the radii of the swept spheres plus the distance to be proved exceed this share of the sum of
-/// the semi-axes, ellipsoids with longer semi-axes are a bad approximation. Then a second search,
-/// by simplices, follows.
+/// If the radii of the swept spheres plus the distance to be proved exceed this fraction of the sum
+/// of the semi-axes, ellipsoids with longer semi-axes are a bad approximation. Then a second
+/// search, by simplices, follows.
 constexpr double kRound = 0x1p-6;
 /// An upper bound of what underflow takes from both norms of a gap. Gaps below this bound are not
 /// proved.
@@ -48,8 +48,8 @@ class EllipsoidPair {
 
   void alongCenters() { along(T_); }
 
-  /// Searches by the contact function, starting at the s that the last direction gives (`share_`).
-  /// Ends at a gap above `enough`.
+  /// Searches by the contact function, starting at the s that the previous direction gives
+  /// (`share_`). Ends at a gap above `enough`.
   /// @param inflation  metres: added to all semi-axes. If it is half of the distance that is to be
   /// proved, the search finds the right direction for sets that are just this distance apart.
   void search(double inflation, double enough) {

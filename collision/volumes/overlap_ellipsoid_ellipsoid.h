@@ -12,7 +12,7 @@ namespace corridor {
 /// xᵀA⁻¹x ≤ 1, and T the vector between the centres. The function S(s) = s(1 − s) TᵀG⁻¹T with G =
 /// (1 − s)A + sB is concave on [0, 1], and its maximum is above 1 if and only if the ellipsoids are
 /// disjoint. Then n = G⁻¹T at the maximum separates them. The search narrows an interval of s that
-/// contains the maximum. It ends if S is proved to be at most 1 on this interval.
+/// contains the maximum. The search ends if S, up to rounding, is at most 1 on this interval.
 ///
 /// The search proves nothing. The proof is the projection of both sets onto the direction that the
 /// search finds.

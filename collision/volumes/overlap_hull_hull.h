@@ -18,8 +18,8 @@ namespace corridor {
 ///
 /// The total is below 12u(ρ_A + Fρ_B + |t|). The slack, computed once per query, has 16u instead of
 /// 12u. The additional 4u cover two more terms: the roundings of the slack itself, and 5u·`error`,
-/// because |n| may exceed 1. (A gap can only be proved if `error` < |t| + ρ_A + 1.001ρ_B. F
-/// is at least 1.7.) The radii get the factor 1 + `relative` of `boxPairMargins`, as for `Rss`.
+/// because |n| may exceed 1. (A gap can only be proved if `error` < |t| + ρ_A + 1.001ρ_B. F is at
+/// least 1.7.) The radii get the factor 1 + `relative` of `boxPairMargins`, as for `Rss`.
 /// `roundedDown` covers the division by |n|.
 template <>
 class PairTest<Hull> {

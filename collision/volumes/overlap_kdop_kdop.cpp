@@ -17,8 +17,9 @@ std::pair<std::size_t, double> slabOf(const Vec3& d) {
 
 struct Term {
   double weight;
-  std::array<int, 3> direction;  // entries that belong to the largest, the middle and the least
-                                 // |component| of the vector
+  // Entries of the slab direction along the axes of the vector's largest, middle and least
+  // |component|, in this order.
+  std::array<int, 3> direction;
 };
 
 /// Returns the terms for x ≥ y ≥ z ≥ 0. Other vectors are mirrored and permuted into this cone,

@@ -17,7 +17,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace corridor::HWY_NAMESPACE {
 
-/// Pairs of boxes, one per lane, of which the boxes of b move. Computes the motion bound of b's box
+/// Pairs of boxes, one pair per lane; the boxes of b move. Computes the motion bound of b's box
 /// along each tested axis.
 struct MovingBoxPairs : BoxPairs {
   V v[3], w[3], wB[3];  // obb4.h: V and W in coordinates of a's box, and W·R_j

@@ -183,7 +183,7 @@ HWY_INLINE unsigned overlappingBoxes(const Obb4& a, const Obb4& b, const Obb4Pos
 /// for the gap along the line between the centres.
 ///
 /// `kFar` adds the line between the centres as an axis. This axis is the best one for boxes that
-/// are far apart relative to their sizes. With it, the test takes a fifth longer.
+/// are far apart relative to their sizes. With this axis, the test takes a fifth longer.
 template <bool kFar>
 HWY_INLINE unsigned nearBoxes(const Obb4& a, const Obb4& b, const Obb4Pose& pose, float limit,
                               float* HWY_RESTRICT squares) {

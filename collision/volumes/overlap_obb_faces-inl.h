@@ -1,4 +1,4 @@
-// Tests one oriented box against one other, along the face normals of both. Included once per SIMD
+// Tests one oriented box against another, along the face normals of both. Included once per SIMD
 // target by foreach_target.h.
 
 // clang-format off

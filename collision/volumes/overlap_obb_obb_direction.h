@@ -9,13 +9,14 @@ namespace corridor::internal {
 /// A pair of boxes, with a test that proves separation along a given direction. The test does not
 /// depend on how the direction was found.
 ///
-/// In the coordinates of box a (overlap_obb_obb.h), the test decides whether the axis-aligned box
-/// {|x_i| ≤ a_i} and the exact parallelepiped {T + R y, |y_j| ≤ b_j} are more than `margin` apart.
-/// `margin` is the absolute margin plus `pad` plus `slack`; `slack` covers all growth and rounding.
-/// For any L the gap |L·T| − Σ a_i|L_i| − Σ b_j|L·R_j| uses no orthogonality. Growth by a sphere of
-/// radius ρ costs ρ|L|. Evaluating the gap takes 11 roundings of terms whose sum is below |L|(|T|₁
-/// + Σa + Σb): `slack` includes 16u times that sum. L is scaled to a largest entry of 1, so that
-/// kTiny covers underflow. The proof is for the scaled and rounded direction.
+/// In the coordinates of box a (overlap_obb_obb.h), the test proves for a direction L that the
+/// axis-aligned box {|x_i| ≤ a_i} and the exact parallelepiped {T + R y, |y_j| ≤ b_j} are more than
+/// `margin` apart along L. `margin` is the absolute margin plus `pad` plus `slack`; `slack` covers
+/// all growth and rounding. For any L the gap |L·T| − Σ a_i|L_i| − Σ b_j|L·R_j| uses no
+/// orthogonality. Growth by a sphere of radius ρ costs ρ|L|. Evaluating the gap takes 11 roundings
+/// of terms whose sum is below |L|(|T|₁ + Σa + Σb): `slack` includes 16u times that sum. L is
+/// scaled to a largest entry of 1, so that kTiny covers underflow. The proof is for the scaled and
+/// rounded direction.
 struct DirectedBoxes : BoxPair {
   const Vec3 &a, &b;
   double slack, margin;
@@ -30,7 +31,8 @@ struct DirectedBoxes : BoxPair {
 
   double size() const { return T.cwiseAbs().sum() + a.sum() + b.sum(); }
 
-  /// @param L  its largest entry is ±1
+  /// Returns true if the boxes are proved to be more than `margin` apart along L.
+  /// @param L  the direction; its largest entry is ±1
   /// @param L_B  Rᵀ L
   bool apartAlong(const Vec3& L, const Vec3& L_B) const {
     const double gap = std::abs(L.dot(T)) - L.cwiseAbs().dot(a) - L_B.cwiseAbs().dot(b);

@@ -3,8 +3,8 @@
 
 /// If two closed boxes share a point, an edge of one meets a face of the other, or one box is
 /// inside the other. Proof: if neither box is inside the other, their surfaces meet, so two faces
-/// meet. A corner of the intersection of these faces is on an edge of one of them. (A flat box
-/// consists of its surface only.)
+/// meet. An end point (or corner) of the intersection of these faces is on an edge of one of them.
+/// (A flat box consists of its surface only.)
 ///
 /// The two boxes here are A and B. A is box a grown by `margin` along its axes; it contains the
 /// grown box a of overlap_obb_obb.h. B is the exact parallelepiped {T + R y, |y_j| ≤ b_j}. Points

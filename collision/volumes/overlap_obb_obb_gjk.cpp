@@ -15,9 +15,9 @@ double signOf(double x) {
 
 }  // namespace
 
-/// Searches for the point of the difference b − a that is closest to the origin. Along each
-/// direction of the search, projections prove separation or not (`apartAlong`), so rounding in the
-/// search does no harm.
+/// Searches for the point of the difference b − a that is closest to the origin. For each direction
+/// of the search, `apartAlong` tests whether the projections of both boxes prove separation. So
+/// rounding in the search does no harm.
 bool Gjk::separated(const Obb& boxA, const Obb& boxB, const Transform& X_AB,
                     const BoxPairMargins& margins, double pad) {
   using gjk::nearest;

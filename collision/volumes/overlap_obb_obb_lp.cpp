@@ -36,9 +36,9 @@ bool LinearProgram::separated(const Obb& boxA, const Obb& boxB, const Transform&
     const double grown = pair.margin + pair.slack, along = axis.dot(pair.T);
     bounds.reach[i] = pair.a[static_cast<Eigen::Index>(i)] + grown;
     bounds.name[i] = static_cast<std::uint32_t>(i);
-    // Seidel adds half-spaces in random order, which is worth while for large numbers of them. Here
-    // the half-spaces that face box a come first, because these are the ones that may leave no
-    // point.
+    // Seidel's algorithm adds half-spaces in random order, which pays only if there are many
+    // half-spaces. Here the half-spaces that face box a come first, because they are the most
+    // likely to exclude all points of box a.
     const double half = pair.b[static_cast<Eigen::Index>(i)] + pair.slack, toA = along > 0 ? -1 : 1;
     for (const std::size_t far : {std::size_t{0}, std::size_t{3}}) {
       const double s = far ? -toA : toA;

@@ -12,9 +12,10 @@ namespace corridor {
 /// Tests whether two rectangles are farther apart than the sum of their spheres' radii. The first
 /// test treats the rectangles as flat boxes with 15 axes; it suffices if the closest features are a
 /// face and a vertex, or two crossing edges. The second test is along the line between the closest
-/// points, which alternating projections find (Cheney, Goldstein, Proc. AMS 10, 1959). The proof is
-/// the projection of both rectangles onto the direction of that line. So if the alternating
-/// projections have not converged, the proof is still valid, but the proved gap is smaller.
+/// points. Alternating projections find these points (Cheney, Goldstein, Proc. AMS 10, 1959). The
+/// proof is the projection of both rectangles onto the direction of that line. So if the
+/// alternating projections have not converged, the proof is still valid, but the proved gap is
+/// smaller.
 ///
 /// Derivation. The derivation for boxes (overlap_obb_obb.h) holds, in the coordinates of rectangle
 /// a. For a direction n, the gap is that of the two cores minus the radii times |n|. In these

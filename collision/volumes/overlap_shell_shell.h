@@ -8,8 +8,9 @@ namespace corridor {
 
 /// Tests two spherical shells in three ways, the cheapest first, by:
 /// 1. the spheres around both (overlap_sphere_sphere.h),
-/// 2. the distances of all points of one shell from the centre of the other: all of them may be
-///    below the other's inner radius, inside its hole, or above its outer radius,
+/// 2. the distances of all points of one shell from the centre of the other shell: the shells are
+///    separated if all these distances are below the other shell's inner radius, or all above its
+///    outer radius,
 /// 3. a direction that separates the hulls of both (direction_search.h).
 ///
 /// Shells that none of these tests separates may still be disjoint.

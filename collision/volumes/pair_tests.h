@@ -12,9 +12,9 @@
 #include "collision/volumes/overlap_shell_shell.h"
 #include "collision/volumes/overlap_sphere_sphere.h"
 
-// The list of all volumes, and the list of all volumes with each of their overlap tests. They
-// generate the explicit instantiations, `TreeKind`, the trees of a `Body`, the dispatch, and the
-// names that users write.
+// The list of all volumes, and the list of all volumes with each of their overlap tests. These
+// lists generate the explicit instantiations, `TreeKind`, the trees of a `Body`, the dispatch, and
+// the names that users write.
 //
 // CORRIDOR_EACH_OVERLAP(F) expands F(name in TreeKind, Volume, Overlap, the volume's name for
 // users, the test's name for users). The tests of one volume are adjacent; the first of them is the

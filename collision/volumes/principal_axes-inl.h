@@ -59,10 +59,10 @@ HWY_INLINE void principalAxes8(const Covariances8& c, Axes8& out) {
                  hn::IfThenElse(mask, p.z, q.z)};
   };
   const V zero = hn::Zero(d), one = set(1), third = set(1.0 / 3);
-  // Eigenvalues that differ by less than `even` (relative) count as equal, since sums of floats are
-  // off by some 2^-22; otherwise noise would rotate the axes of a cube. If all three are equal, the
-  // axes are those of the coordinates. If two eigenvalues are equal, the axes of their plane are s
-  // and t below.
+  // Two eigenvalues count as equal if half of their difference is at most `even` times their sum.
+  // The reason is that sums of floats are off by some 2^-22, so noise would rotate the axes of a
+  // cube. If all three are equal, the axes are those of the coordinates. If two eigenvalues are
+  // equal, the axes of their plane are s and t below.
   const V even = set(0x1p-20);
   for (std::size_t at = 0; at < 8; at += hn::Lanes(d)) {
     const auto load = [&](int k) { return hn::Load(d, c.entry[k] + at); };

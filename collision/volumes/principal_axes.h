@@ -5,9 +5,9 @@
 namespace corridor {
 
 /// Returns the eigenvectors of a covariance as columns, the eigenvector of the largest eigenvalue
-/// first: right-handed, orthonormal to 2^-40, and accurate enough for the axes of a box.
-/// Eigenvalues that differ by less than 2^-20 of their size count as equal. Returns the identity if
-/// all are equal (as for a sphere or a cube), 0, or not finite.
+/// first: right-handed, orthonormal to 2^-40, and accurate enough for the axes of a box. Two
+/// eigenvalues count as equal if they differ by at most some 2^-19 of their sum. Returns the
+/// identity if all are equal (as for a sphere or a cube), 0, or not finite.
 Mat3 principalAxes(const Mat3& covariance);
 
 }  // namespace corridor

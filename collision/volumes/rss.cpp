@@ -11,13 +11,14 @@ namespace {
 /// The interval [low, high] of the rectangle along one of its axes.
 struct Side {
   double low = HUGE_VAL, high = -HUGE_VAL;
-  void settle() {  // the sphere reaches farther than the content: one point in the middle suffices
+  void settle() {  // low > high if the sphere alone covers the content: one point suffices
     if (low > high) low = high = low + 0.5 * (high - low);
   }
 };
 
 /// For a point that lies beyond a corner of the rectangle by (dx, dy): returns how far the corner
-/// must move out, by the same length along both axes, so that it is within √square of the point.
+/// must move out, by the same length along both axes, so that the corner is within √square of the
+/// point.
 double push(double dx, double dy, double square) {
   const double apart = 0.5 * (dx - dy);
   return 0.5 * (dx + dy) - std::sqrt(std::max(0.0, 0.5 * square - apart * apart));
@@ -44,8 +45,8 @@ Rss Rss::around(const Obb& box, const Content& content) {
   };
   const double radius = box.half[normal] / unit;
 
-  // First the rectangle gets the interval that it needs along each axis, regardless of the other.
-  // Then its corners move out where necessary.
+  // First the rectangle gets the interval that it needs along each axis, regardless of the other
+  // axis. Then the corners move out where necessary.
   Side x, y;
   // A sphere of the content, of radius r, has its centre at height z above the rectangle's plane.
   // Returns the square of the largest distance, in this plane, from the centre to a point of the

@@ -140,7 +140,7 @@ Shell Shell::around(const Obb& box, const Content& content) {
 
   const Vec3 middle = BoundingSphere::around(box, content).center;
   Shell least = shellAbout(middle, middle, content, unit);
-  if (!(size > 0x1p-900)) return least;  // too small for fits
+  if (!(size > 0x1p-900)) return least;  // the content is too small for the fits below
   for (const Vec3& v : {best, flat, Vec3(-flat)}) {
     if (!v.allFinite()) continue;
     const Shell other = shellAbout(box.center + unit * v, box.center, content, unit);

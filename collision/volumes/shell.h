@@ -14,7 +14,7 @@ namespace corridor {
 ///   {center + d : inner ≤ |d| ≤ outer, |d × axis| ≤ slope·(d·axis)}
 ///
 /// which is bounded by two concentric spheres and a cone. If there is no cone (`hasCone()` is
-/// false), the last condition is dropped. For triangles `size` is 0. Metres.
+/// false), the condition with `slope` is dropped. For triangles `size` is 0. Metres.
 ///
 /// The shell is the only volume that is not convex: it contains each triangle, but not the hull of
 /// the triangles. A shell follows a curved surface, whose hull is thicker. Convex parts, which are

@@ -14,8 +14,8 @@ namespace corridor {
 /// Every volume is fitted in the frame of a box around the same content. The frame's axes are those
 /// of the content's moments if `kOriented`, else those of the mesh. `PairTest<Volume>`, in the file
 /// `overlap_<volume>_<volume>.h`, tests two volumes against each other. A volume may also have a
-/// function `merged(a, b)`, which refitting then uses. Its result must be as tight as a fit around
-/// the contents of both.
+/// function `merged(a, b)`, which refitting then uses. The result of `merged` must be as tight as a
+/// fit around the contents of both volumes.
 template <class V>
 concept BoundingVolume = requires(const V v, const Obb& box, const Content& content) {
   { V::kOriented } -> std::convertible_to<bool>;
@@ -28,10 +28,9 @@ concept BoundingVolume = requires(const V v, const Obb& box, const Content& cont
   /// |center|₂; rounded up.
   { v.axisDefect() } -> std::same_as<double>;
   { v.centerReach() } -> std::same_as<double>;
-  /// Radius of a sphere about the centre that contains the volume, rounded up: a measure of its
-  /// size.
+  /// Radius, rounded up, of a sphere about `ballCenter()`; the sphere contains the volume.
   { v.radius() } -> std::same_as<double>;
-  /// The centre of that sphere, off by at most 2u(|centre| + radius).
+  /// The centre of the sphere with this `radius()`, off by at most 2u(|centre| + radius).
   { v.ballCenter() } -> std::convertible_to<Vec3>;
 };
 

@@ -28,7 +28,7 @@ Deepest deepestPair(const Posed<Body>& a, const Posed<Body>& b, QueryContext& co
   const auto test = pairTestOf<Obb>(posedA, posedB);
   Deepest deepest;
   const auto found = [&](std::uint32_t s, std::uint32_t t) {
-    // The lower bound is proved, whatever the accuracy.
+    // The lower bound is proved for every accuracy.
     const Penetration depth =
         penetration({convexSetOf(treeA, s), a.X_W}, {convexSetOf(treeB, t), b.X_W}, 0x1p-20);
     if (!deepest.pair || depth.lower > deepest.depth.lower)
@@ -54,10 +54,12 @@ double depthAlong(const Body& a, const Body& b, const Transform& X_AB, const Vec
   const double size = a.radius() + b.radius() + X_AB.t.stableNorm() + far;
   options.tolerance = std::max(accuracy * far / 4, RigidMotion::roundingTolerance(size));
   const MotionResult result = certifyMotion(approach, {&pair, 1}, options, context);
-  // Nothing is proved, not even at the start: the bodies are too small or too large for the bounds.
+  // If nothing is proved, not even at the start, the bodies are too small or too large for the
+  // bounds.
   if (!(result.certifiedUntil > 0)) return HUGE_VAL;
-  // All of [0, certifiedUntil] is free. The last term covers the rounding of `start` and of its sum
-  // with X_AB.t along the direction. Across it, `translation` covers the rounding.
+  // All of [0, certifiedUntil] is free. The last term covers the rounding of `start` and of `X_AB.t
+  // + start` along the direction. `RigidMotion::translation` covers the rounding orthogonal to the
+  // direction.
   return roundedUp((1 - result.certifiedUntil) * far * (1 + 8 * kUnit) + 8 * kUnit * size);
 }
 
@@ -100,7 +102,7 @@ DepthBounds depthBounds(const Body& a, const Body& b, const Transform& X_AB,
   const double far =
       1.01 * (a.sphereRadius() + b.sphereRadius() + (centerB - a.sphereCenter()).stableNorm());
   bounds.upper = HUGE_VAL;
-  if (!(far < 0x1p1000)) return bounds;  // no start that doubles can hold
+  if (!(far < 0x1p1000)) return bounds;  // doubles could not hold a position so far away
   for (const Vec3& d : directions) {
     const Vec3 direction = d.stableNormalized();
     if (!(direction.squaredNorm() > 0.5)) continue;  // a candidate of length 0

@@ -11,11 +11,11 @@ namespace corridor {
 
 struct DepthOptions {
   /// Directions along which b may leave a, in a's frame: not 0, finite, of any length. Empty: the
-  /// direction of the deepest pair, the direction between the centres, and the positive and
-  /// negative axes of both frames.
+  /// direction of the deepest pair, the direction from the centre of a's bounding sphere to that of
+  /// b, and the positive and negative axes of both frames.
   std::vector<Vec3> directions;
-  /// The depth along a direction is usually found to within this share of the sum of the bodies'
-  /// sizes; at least 2^-40, at most 1/4.
+  /// The depth along a direction is usually found to within this fraction of a length: the sum of
+  /// the radii of both bounding spheres and the distance of their centres. From 2^-40 to 1/4.
   double accuracy = 0x1p-20;
 };
 
@@ -29,15 +29,15 @@ struct DepthBounds {
   double lower = 0;
   /// A translation by `upper` along `direction_A` separates the bodies, and so does every longer
   /// translation along `direction_A`. `upper` is the least bound over the directions that were
-  /// tried. Infinite: nothing is proved.
+  /// tried. It is infinite if no bound could be proved.
   double upper = 0;
   Vec3 direction_A = Vec3::Zero();       ///< in a's frame; of unit length, rounded
   std::optional<PrimitivePair> deepest;  ///< the pair that gives `lower`, if primitives touch
 };
 
-/// Computes bounds of the penetration depth. Both hold in real arithmetic on the given doubles. The
-/// bound `lower` requires that sizes and coordinates are 0 or within 2^±440 m, because
-/// `penetration` requires it.
+/// Computes bounds of the penetration depth. Both bounds hold in real arithmetic on the given
+/// doubles. The bound `lower` holds only if sizes and the magnitudes of coordinates are 0 or from
+/// 2^-440 to 2^440 m, because `penetration` requires this.
 ///
 /// The exact depth of bodies that are not convex is costly: it is a distance on the Minkowski sum,
 /// which may have n⁶ faces. The lower bound takes a pair of primitives at a time (`penetration` in

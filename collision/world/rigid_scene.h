@@ -19,12 +19,12 @@ class RigidScene {
   std::span<const Scene::Placed> moving() const {
     return std::span(scene_.bodies()).subspan(fixedCount_);
   }
-  /// Returns `Scene::defaultTolerance`.
+  /// Returns `scene().defaultTolerance(farthest)`.
   /// @param farthest the largest distance of a pose of any edge from the origin, metres.
   double defaultTolerance(double farthest = 0) const { return scene_.defaultTolerance(farthest); }
 
-  /// All queries throw std::invalid_argument for poses that are not finite, a zero quaternion, and
-  /// options or tubes with numbers that are not finite, or out of range.
+  /// All queries throw std::invalid_argument for poses that are not finite, for a zero quaternion,
+  /// and for options or tubes with numbers that are not finite or are out of range.
 
   /// Returns a contact of the moving bodies under X_WB, or nullopt. `Scene::interference` states
   /// how exact the answer is.
@@ -36,10 +36,10 @@ class RigidScene {
   MotionResult certifyEdge(const RigidPose& from, const RigidPose& to, const MotionOptions& options,
                            QueryContext& context, const Tube& tube = {}) const;
   /// Decides whether a motion in the plane z = 0 is free. Poses are (x, y, yaw), in metres and
-  /// radians; the yaw goes the shorter way round.
+  /// radians; the yaw takes the shorter of the two rotations.
   MotionResult certifyEdgePlanar(const Vec3& from, const Vec3& to, const MotionOptions& options,
                                  QueryContext& context, const Tube& tube = {}) const;
-  /// Decides whether a state is free: an edge of zero length.
+  /// Decides whether a state is free, as an edge of zero length.
   MotionResult certifyState(const RigidPose& pose, const MotionOptions& options,
                             QueryContext& context, const Tube& tube = {}) const;
   MotionResult certifyStatePlanar(const Vec3& xyYaw, const MotionOptions& options,

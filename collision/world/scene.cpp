@@ -44,9 +44,10 @@ RelativeMotion atRest(const Transform& X_WA, const Transform& X_WB) {
   const double defectA = orthonormalityDefect(X_WA.m), defectB = orthonormalityDefect(X_WB.m);
   RelativeMotion still;
   still.X_AB = rigidInverse(X_WA) * X_WB;
-  // X_AB approximates the map x ↦ M_A⁻¹(X_WB x − t_A). To bound its error, write M_A⁻¹ = M_Aᵀ +
-  // (1 − M_AᵀM_A)M_A⁻¹: the second term is below 3η_A(1 + 4η_A) < 4η_A. Rounding adds less than
-  // 32u of all terms. The sphere's radius grows by 3η_B and by the defect of M_A.
+  // X_AB approximates the map x ↦ M_A⁻¹(X_WB x − t_A). To bound its error, write M_A⁻¹ = M_Aᵀ + (1
+  // − M_AᵀM_A)M_A⁻¹: the second term is below 3η_A(1 + 4η_A) < 4η_A. Rounding adds less than 32u
+  // times the sum of the magnitudes of all terms. The sphere's radius grows by 3η_B and by the
+  // defect of M_A.
   still.reachError = 5 * (defectA + defectB) + 32 * kUnit;
   still.fixedError =
       (4 * defectA + 32 * kUnit) * (X_WA.t.cwiseAbs().sum() + X_WB.t.cwiseAbs().sum());
@@ -65,9 +66,9 @@ BoundingBox boxUnder(const Body& body, const Transform& X) {
   for (const Vec3& vertex : body.mesh().vertices) add(vertex, 0);
   for (const ConvexPart& part : body.parts())
     for (const Vec3& point : part.points) add(point, part.radius);
-  // The norm of the map is at most √(1 + 3η) ≤ 1 + 2η, so it moves a ball's surface by 2η times the
-  // radius more. Each coordinate of the product is off by at most 4u(√3(1 + 2η)r + |t|), and u =
-  // 2^-53.
+  // Let η be the defect of the map (`orthonormalityDefect`). The norm of its matrix is at most √(1
+  // + 3η) ≤ 1 + 2η, so the image of a ball extends beyond the ball's radius by at most 2η times the
+  // radius. Each coordinate of the product is off by at most 4u(√3(1 + 2η)r + |t|), and u = 2^-53.
   const double error = roundedUp((2 * orthonormalityDefect(X.m) + 0x1p-45) * body.radius() +
                                  0x1p-45 * X.t.stableNorm());
   box.lower.array() -= error;
@@ -107,7 +108,7 @@ Scene::Scene(std::vector<Placed> bodies, std::vector<Pair> pairs)
       restBoxes_[i] = boxUnder(bodies_[i].body, *X_WF);
     }
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> motions;
-  auto last = motions.end();  // most pairs have the frames of the pair before
+  auto last = motions.end();  // most pairs have the same frames as the previous pair
   const auto motionOf = [&](std::size_t frameA, std::size_t frameB) {
     const std::pair frames(frameA, frameB);
     if (last != motions.end() && last->first == frames) return last->second;
@@ -157,7 +158,7 @@ Scene::Scene(std::vector<Placed> bodies, std::vector<Pair> pairs)
   const auto isBefore = [&](std::size_t i, std::size_t k) { return keyOf(i) < keyOf(k); };
   order_.resize(pairs_.size());
   std::iota(order_.begin(), order_.end(), std::size_t{0});
-  // Models have their pairs in this order.
+  // Scenes of robot models usually list their pairs in this order already.
   if (!std::is_sorted(order_.begin(), order_.end(), isBefore))
     std::stable_sort(order_.begin(), order_.end(), isBefore);
   motionPairs_.reserve(pairs_.size());
@@ -215,7 +216,7 @@ void Scene::forNearPairs(std::span<const Transform> X_WF, const double& within,
   const auto visitPair = [&](std::size_t k) {
     const MotionPair& pair = motionPairs_[k];
     const Transform &X_WA = mapOf(pair.bodyA, X_WF), &X_WB = mapOf(pair.bodyB, X_WF);
-    if (X_WA == Transform()) {  // a's own box is in the world
+    if (X_WA == Transform()) {  // then the box of body a is also a box in the world
       if (!mayMeet(*pair.a, worldSphere(pair.bodyB), within)) return false;
     } else {
       const SweptSphere& b = worldSphere(pair.bodyB);
@@ -305,8 +306,8 @@ std::optional<Transform> poseApart(const MotionPair& pair, MotionSource& motion,
   return std::nullopt;
 }
 
-/// Returns whether no part of the motion is proved free. Then containment is not tested: a test is
-/// valid only for a time in which the surfaces are proved apart.
+/// Returns true if no part of the motion is proved free. Then containment is not tested, because a
+/// test is valid only for a time interval in which the surfaces are proved apart.
 bool provesNothingFree(const MotionResult& result) {
   return result.verdict != MotionVerdict::free && !(result.certifiedUntil > 0);
 }

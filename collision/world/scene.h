@@ -18,10 +18,10 @@ namespace corridor {
 /// Bodies on frames that move, and the pairs of bodies that are tested. Frame 0 is the world.
 ///
 /// A scene does not depend on what moves the frames. Queries of a state take the transform of each
-/// frame. Queries of a motion take a `MotionSource`, which describes how the two frames of each
-/// pair move relative to each other. A scene is const after construction, except that trees are
-/// built when first needed. Threads may run any query in parallel, with one `QueryContext` (and one
-/// `MotionSource`) per thread.
+/// frame. Queries of a motion take a `MotionSource`, which describes for each pair of frames how
+/// one frame moves as seen from the other. A scene is const after construction, except that trees
+/// are built when first needed. Threads may run any query in parallel, with one `QueryContext` (and
+/// one `MotionSource`) per thread.
 class Scene {
  public:
   struct Placed {
@@ -38,15 +38,15 @@ class Scene {
   struct Pair {
     std::size_t a = 0, b = 0;  ///< bodies, by index
   };
-  /// A pair of frames, which stands for a motion: that of b as seen from a. The number of the
-  /// motion is the index of the pair in `framePairs()`.
+  /// A pair of frames, which stands for a motion: that of frame b as seen from frame a. The number
+  /// of the motion is the index of the pair in `framePairs()`.
   struct FramePair {
     std::size_t a = 0, b = 0;
   };
 
-  /// Only `pairs` are ever tested. In `pairs()`, a is the body that is on frame 0 or at rest, if
-  /// the pair has such a body. Otherwise a is the body on the frame of lower index. The constructor
-  /// exchanges the two bodies of a pair if necessary.
+  /// Only `pairs` are ever tested. In each pair of `pairs()`, a is a body on frame 0 or on a frame
+  /// at rest, if the pair has such a body. Otherwise a is the body on the frame of lower index. The
+  /// constructor exchanges the two bodies of a pair if necessary.
   /// @throws std::invalid_argument if a pair names a body that does not exist, or the map of a
   /// frame at rest is not finite.
   Scene(std::vector<Placed> bodies, std::vector<Pair> pairs);
@@ -57,7 +57,7 @@ class Scene {
   const std::vector<Placed>& bodies() const { return bodies_; }
   const std::vector<Pair>& pairs() const { return pairs_; }
   /// Returns the pairs of frames whose motions a `MotionSource` has to supply: the distinct pairs
-  /// of frames among `pairs()`, and, for each of these frames that is not at rest, the pair of the
+  /// of the frames of bodies in `pairs()`, and for each of these frames that moves, the pair of the
   /// world and that frame.
   const std::vector<FramePair>& framePairs() const { return framePairs_; }
   /// Returns a tolerance in metres: 1e-7 of the smallest radius of a frame, or the tolerance that
@@ -67,21 +67,21 @@ class Scene {
   /// @param farthest metres; the poses of frames are at most this far from the origin.
   double defaultTolerance(double farthest = 0) const;
 
-  /// All queries build the trees that they need. They throw std::invalid_argument
+  /// All queries build the trees that they need. They throw std::invalid_argument:
   /// * if an option is not finite or out of range;
   /// * if the transform of a frame in a pair is missing or not finite, unless the frame is at rest.
 
   /// Returns the first contact found under the maps X_WF of the frames, or nullopt. Exact for
   /// meshes (collision/PROMISES.md, promise 1); with a convex part, contact may be reported for
-  /// gaps below 2^-44 of the largest coordinate. A body inside a solid one is in contact with it.
+  /// gaps below 2^-44 of the largest coordinate. A body inside a solid body is in contact with it.
   /// @param trees the kind of trees to walk (motion queries take `MotionOptions::trees`). The trees
   /// of bodies whose bounds are separated are not walked.
   std::optional<Contact> interference(std::span<const Transform> X_WF, QueryContext& context,
                                       TreeKind trees = TreeKind::obb4) const;
 
   /// Returns the least distance over all pairs, metres. It is 0 if and only if `interference`
-  /// reports contact; otherwise its errors are those of queries/distance.h. It is infinite if the
-  /// scene has no pairs.
+  /// reports contact; otherwise its errors are those of `distance` in queries/distance.h. It is
+  /// infinite if the scene has no pairs.
   double clearance(std::span<const Transform> X_WF, QueryContext& context,
                    TreeKind trees = TreeKind::obb4) const;
 
@@ -92,15 +92,15 @@ class Scene {
   };
   /// Returns the pairs whose measured distance is at most the length that `within` states for the
   /// pair, with these distances, in the order of `motionPairs()`. The errors of the distances are
-  /// those of queries/distance.h; the option `upTo` is ignored.
+  /// those of `distance` in queries/distance.h; the option `upTo` is ignored.
   /// @param within metres, one length for each pair, in the order of `motionPairs()`.
   std::vector<NearPair> pairsWithin(std::span<const Transform> X_WF, const PairMargins& within,
                                     const DistanceOptions& options, QueryContext& context,
                                     TreeKind trees = TreeKind::obb4) const;
 
   /// Decides whether the motion is free, by the given method (`certifyMotion` describes the
-  /// answers). If a body is inside a solid one, the answer is a contact at t = 0. Motion number i
-  /// of `motion` is that of `framePairs()[i]`.
+  /// answers). If the surfaces are proved apart at first, but a body is inside a solid one, the
+  /// answer is a contact at t = 0. Motion number i of `motion` is that of `framePairs()[i]`.
   MotionResult certify(MotionSource& motion, const MotionOptions& options, QueryContext& context,
                        EdgeMethod method = EdgeMethod::directional) const;
   /// Decides whether the motion is free, by the method `EdgeMethod::directional`, and writes a
@@ -150,7 +150,7 @@ class Scene {
   // The frames of bodies in pairs. Frames at rest are left out; the world stands for them.
   std::vector<std::size_t> posedFrames_;
   std::unique_ptr<const BroadPhase> broadPhase_;  // of `motionPairs_`
-  bool solidMeshes_ = false;  // a pair has a solid mesh, so containment must be decided
+  bool solidMeshes_ = false;  // true if a pair has a solid mesh: then containment must be decided
 };
 
 }  // namespace corridor

@@ -11,9 +11,9 @@ namespace corridor::app {
 struct BenchmarkArguments {
   std::vector<std::string> files;  ///< a campaign, or problems; with `merge`, databases or folders
   /// The options --variants, --planners and --trajectories, which are illegal with a campaign. Each
-  /// string is a comma-separated list; empty: the defaults.
+  /// string is a comma-separated list. If `variants` or `planners` is empty, the defaults are used.
   std::vector<std::string> variants, planners;
-  std::vector<std::string> trajectories;  ///< lists as above; empty: no trajectories
+  std::vector<std::string> trajectories;  ///< comma-separated lists; empty: none are made
   std::optional<std::uint64_t> runs, seed;
   std::optional<double> time;        ///< limit of a run, seconds
   std::optional<double> memory;      ///< limit of a run, MB

@@ -87,7 +87,8 @@ std::vector<BenchmarkCompetitor> competitorsOf(const std::vector<std::string>& v
   return needed ? availableCompetitors() : std::vector<BenchmarkCompetitor>();
 }
 
-/// Makes a campaign of problems and options. @throws InputError with all faults.
+/// Makes a campaign of the problems and options of the command line. @throws InputError with all
+/// faults.
 Campaign campaignOfProblems(const BenchmarkArguments& a) {
   Campaign campaign;
   FaultList faults;
@@ -148,7 +149,7 @@ std::string specsOf(const Campaign& campaign) {
   return all;
 }
 
-/// Makes runs of the campaign that rank 0 hands out. @returns the exit status.
+/// Makes the runs that rank 0 hands out to this rank. @returns the exit status.
 int serveCampaign(const BenchmarkArguments& a, RankJob& job) {
   Campaign campaign;
   return job.serve([&](const std::string& specs) {
@@ -197,7 +198,7 @@ int benchmarkCommand(const BenchmarkArguments& a) {
     };
   const bool show = ::isatty(STDERR_FILENO) != 0;
   if (show) options.progress = [&](const CampaignProgress& p) { showProgress(campaign, p); };
-  // Leaves no empty database and no new folder behind.
+  // Removes a database without runs, and the folder if this command made it.
   const auto removeEmpty = [&] {
     std::error_code ignored;
     if (a.resume || !database || !database->sessions().empty()) return;

@@ -36,7 +36,7 @@ int mergeCampaigns(const BenchmarkArguments& a) {
   result.start = std::chrono::system_clock::now();
   std::optional<CampaignDatabase> database;
   try {
-    if (had) {  // refuses a file that holds runs, or is no campaign's
+    if (had) {  // throws if the file has runs, or is no database of a campaign
       std::vector<CampaignCell> cells = cellsOf(campaign);
       CampaignDatabase(file, CampaignDatabase::Mode::fresh, campaign, cells);
     }

@@ -24,7 +24,8 @@ std::vector<std::string> notesOf(const Campaign& campaign, const std::vector<Cam
 /// failed: out of memory". `runs.csv` has the reason of each run.
 std::vector<std::string> failuresOf(const std::vector<CampaignCell>& cells);
 
-/// Prints the object of --json. @param runs the runs of the result's cells, whole.
+/// Prints the object of --json. @param runs the source of all data of the runs in the result's
+/// cells.
 void printJson(const Campaign& campaign, const CampaignResult& result, const RunSource& runs,
                std::ostream& out);
 

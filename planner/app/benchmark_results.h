@@ -16,8 +16,8 @@ struct BenchmarkTarget {
 };
 
 /// Warns of what readers of the results must know, writes the reports into the folder, and prints
-/// the tables or the JSON. If no run is finished, no report is written and no table is printed; the
-/// JSON, if chosen, is printed in any case.
+/// the tables or the JSON. If no run is finished, no report is written and no table is printed. The
+/// JSON, if chosen, is printed even then.
 /// @param campaign gets the notes on the results.
 /// @throws InputError if a file can't be written; the results are printed first.
 void giveResults(Campaign& campaign, const CampaignResult& result, const BenchmarkTarget& target);

@@ -39,9 +39,9 @@ using nlohmann::ordered_json;
 struct CheckedState {
   bool valid = false;
   std::vector<std::string> pairs;        ///< pairs that are not free: "hand~table"
-  std::vector<std::string> outOfBounds;  ///< names of coordinates and of joints that mimic
-  /// Set if a pair is undecided because a large value was rounded. It is then the name of the
-  /// largest angle, or "" if the value is in metres.
+  std::vector<std::string> outOfBounds;  ///< names of coordinates
+  /// Set if a pair is undecided because the rounding of a large value may exceed the clearance: the
+  /// name of the largest angle, or "" if no angle is large, so that the large value is in metres.
   std::optional<std::string> tooLarge;
 };
 
@@ -62,7 +62,7 @@ std::string largestAngle(const ConfigurationSpace& space, const Configuration& q
 }
 
 /// Sets each value that exceeds a limit by no more than a rounding error to that limit, and adds a
-/// note. Returns the names of the coordinates and of the mimic joints that are out of their limits.
+/// note. Returns the names of the coordinates that are farther outside of their limits.
 std::vector<std::string> limitValues(const ConfigurationSpace& space, Configuration& q,
                                      std::vector<Note>& notes) {
   std::vector<std::string> outOfBounds;
@@ -196,7 +196,7 @@ CheckedEdge checkEdge(const Checker& checker, EdgeRow row, std::vector<Note>& no
   return edge;
 }
 
-/// Decides each edge of a file: the first contact, and how far the edge is proved free.
+/// Decides each edge of a file, and prints its first contact, and how far it is proved free.
 int checkEdges(Problem problem, const CheckArguments& a) {
   const std::vector<EdgeRow> rows = readEdgeRows(*a.edges, problem.model.space);
   const Checker checker(problem);

@@ -12,9 +12,9 @@ namespace corridor::app {
 /// stopped ends with 128 + N instead (`interruptedStatus`).
 enum Exit { kDone = 0, kNegativeResult = 1, kBadInput = 2, kInternal = 3 };
 
-/// Adds a command to the program. If it is on the command line, `program.parse` runs it and sets
-/// `status` to its exit status, and throws InputError for bad input or a result that can't be
-/// written. @pre `status` outlives the parsing.
+/// Adds a command to the program. If the command is on the command line, `program.parse` runs it,
+/// and sets `status` to its exit status. `program.parse` throws InputError for bad input, or for a
+/// result that can't be written. @pre `status` outlives the call of `program.parse`.
 void addSolve(CLI::App& program, int& status);
 void addVerify(CLI::App& program, int& status);
 void addView(CLI::App& program, int& status);

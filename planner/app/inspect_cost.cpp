@@ -28,10 +28,10 @@ using nlohmann::ordered_json;
 constexpr int kPasses = 5;
 
 /// One line of the table: the cost of queries with one bounding volume. The model is T = N_v·C_v +
-/// N_p·C_p (cost_model.h): N_v tests of volumes and N_p tests of triangle pairs, at C_v and C_p per
-/// test. Poses at which the root boxes are separate are left out. N_v and N_p are means over the
-/// other poses. T is the mean time over one half of these poses; it is predicted with the costs
-/// that were fitted to the other half.
+/// N_p·C_p (cost_model.h): N_v tests of volumes and N_p tests of triangle pairs, at C_v and C_p
+/// nanoseconds per test. Poses at which the root boxes are separate are left out. N_v and N_p are
+/// means over the other poses. T is the mean time over one half of these poses; it is predicted
+/// with the costs that were fitted to the other half.
 struct CostRow {
   std::string volume;
   double boxTests = 0, triangleTests = 0;  ///< N_v, N_p
@@ -54,8 +54,9 @@ struct CostRow {
 ///
 /// A query also has a fixed cost, which the model does not contain. The fixed cost is measured with
 /// B far away, subtracted before the fit, and reported as `callNs`.
-/// @param count the number of poses; the answers after the first `count` are those with B far away.
-/// @param kept the indices of the poses that are not left out.
+/// @param count the number of poses; the answers after the first `count` are those of the poses
+/// with B far away.
+/// @param kept the indices of the poses at which the root boxes overlap.
 CostRow costRow(const VolumeKind& volume, const BatchResult& result, std::size_t count,
                 const std::vector<std::size_t>& kept) {
   CostRow row;

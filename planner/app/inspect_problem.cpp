@@ -76,7 +76,7 @@ class ProblemReport {
     }
   }
 
-  /// Reports the joints that are not planned for, and where their values come from.
+  /// Reports the joints that are held, their values, and where these values come from.
   void reportHeld() {
     json_["held"] = ordered_json::array();
     for (const ModelRobot& robot : problem_.model.robots)

@@ -59,9 +59,9 @@ double radiusOf(const LinkModel& link) {
   return radius;
 }
 
-/// Returns the largest distance that a joint translates its child link, metres; infinite without
-/// limits. For a joint that mimics another, the distance follows from the range of that other
-/// joint, since a mimic's own limits need not restrict it.
+/// Returns the largest distance by which a joint can translate its child link, metres; infinite
+/// without limits. For a joint that mimics another, the distance follows from the range of that
+/// other joint, since a mimic's own limits need not restrict it.
 double slideOf(const RobotModel& model, const JointModel& joint) {
   if (joint.type == JointType::planar || joint.type == JointType::floating)
     return std::numeric_limits<double>::infinity();
@@ -75,8 +75,9 @@ double slideOf(const RobotModel& model, const JointModel& joint) {
 }
 
 /// Returns, for each link, an upper bound of the distance of its points from the root's origin: the
-/// distance with the chain stretched out and all prismatic joints at their farther limits. Infinite
-/// behind a planar or floating joint, or a prismatic joint without limits.
+/// distance with the chain stretched out and all prismatic joints at their farther limits. The
+/// bound is infinite for links behind a planar or floating joint, or behind a prismatic joint
+/// without limits.
 std::vector<double> reachOfLinks(const RobotModel& model) {
   std::vector<double> origin(model.links.size(), 0), reach;
   for (const JointModel& joint : model.joints)  // parents before children

@@ -7,11 +7,12 @@ namespace corridor::app {
 /// What a second signal does, if it comes more than half a second after the first.
 enum class SecondInterrupt {
   ends,      ///< it ends the program at once, except for SIGUSR1, which job scripts repeat
-  isIgnored  ///< nothing: for work that ends soon after the first signal and must remove files
+  isIgnored  ///< nothing: for work that must remove files, and ends soon after the first signal
 };
 
 /// Installs signal handlers and returns the flag that the first signal among `kUserSignals` sets.
-/// The caller polls the flag and stops. SIGHUP stays ignored if it was ignored, as under nohup.
+/// The caller must poll the flag, and stop when it is set. SIGHUP stays ignored if it was ignored
+/// before, as under nohup.
 const std::atomic<bool>& listenForInterrupts(SecondInterrupt second = SecondInterrupt::ends);
 
 /// Returns the exit status of a program that the first signal N stopped: 128 + N, as shells report

@@ -8,7 +8,8 @@
 
 namespace corridor::app {
 
-/// The content of a file that describes a motion: a solution or a trajectory. Exactly one is set.
+/// The content of a file that describes a motion. Exactly one of `solution` and `trajectory` is
+/// set.
 struct MotionFile {
   std::optional<Solution> solution;
   std::optional<TrajectoryRows> trajectory;

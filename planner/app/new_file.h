@@ -44,16 +44,17 @@ int newProblem(const NewProblemArguments& arguments);
 /// `force` is set. Commands call this before they spend time on the file's contents.
 /// @throws InputError that names the option.
 void requireNewFile(const NewFileArguments& file);
-/// Writes the text to the file, whole or not at all, or to the standard output.
+/// Writes the text to the standard output, or to the file. The file is written whole or not at all.
 void writeNewFile(const NewFileArguments& file, const std::string& text);
 
-/// Returns a path as the new file has to name it: relative to the new file's folder. If the new
-/// file is written to the standard output, the path is relative to the current folder.
+/// Returns a path in the form in which the new file has to name it: relative to the new file's
+/// folder. If the new file is written to the standard output, the path is relative to the current
+/// folder.
 std::string pathFrom(const NewFileArguments& file, const std::filesystem::path& path);
 
 /// Returns a YAML scalar that the reader takes as this text: plain if possible, else in quotes.
 std::string yamlWord(const std::string& text);
-/// Returns "[a, b]".
+/// Returns the words as a YAML list: "[a, b]".
 std::string yamlList(const std::vector<std::string>& words);
 /// Returns the text as a comment: each line has `indent` blanks, "# ", and at most 100 characters
 /// if its words allow it. Further lines of an item ("- …") or a key ("joints: …") are indented by

@@ -20,9 +20,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// How many random states are tried.
+/// The maximum number of random states that are tried.
 constexpr int kRandomStates = 1000;
-/// How many of the pairs that touch are named if no valid state is found.
+/// The maximum number of touching pairs that are named if no valid state is found.
 constexpr std::size_t kNamedPairs = 5;
 
 /// A valid state, how it is written, and where it comes from.
@@ -40,7 +40,8 @@ struct Alone {
 };
 
 /// Returns the largest absolute coordinate of any point of the robot's shapes, each in the frame of
-/// its link, rounded up; 1 if there are no shapes. Only a scale for examples.
+/// its link, rounded up; 1 if there are no shapes. It is used only as a scale for the lengths in
+/// the new file.
 double sizeOf(const RobotModel& description) {
   double size = 0;
   for (const LinkModel& link : description.links)
@@ -207,7 +208,7 @@ class StateFinder {
 
   /// A random state becomes the goal only if the edge from the start to it is proved free: then a
   /// path exists. The first valid state without such an edge is kept: it becomes the goal if no
-  /// better one is found.
+  /// other state does.
   void addRandom() {
     Configuration q = randomConfiguration(model_.space, [&] { return random_(); });
     // Three decimals are easy to read and to edit. The state is tested as it is written.

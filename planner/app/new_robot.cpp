@@ -20,9 +20,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Half the edge of the box in which random states place a planar or floating joint, metres.
-/// Contacts of pairs that such a joint moves against each other are not used, so any length will
-/// do.
+/// Half the edge of the box in which random states place a planar or floating joint, metres. Any
+/// length will do: if such a joint moves one body of a pair but not the other, contacts of this
+/// pair are not used.
 constexpr double kAnywhere = 1;
 
 /// If a robot without groups has more moving joints than two arms, the file explains how to choose

@@ -17,8 +17,8 @@ struct SortedPairs {
   /// In contact in at least 95 % of the random states; those with the most contacts come first.
   std::vector<SurveyedPair> nearlyAlways;
   std::vector<SurveyedPair> tested;  ///< all others
-  /// Pairs that the SRDF excludes from tests although they were in contact in some of the random
-  /// states and free in others, each with the SRDF's reason.
+  /// Pairs that the SRDF excludes from tests, although they were in contact in some of the random
+  /// states and free in others. Each has the reason that the SRDF gives.
   std::vector<std::pair<SurveyedPair, std::string>> contradicted;
   /// The numbers of pairs of adjacent links, and of pairs that the SRDF excludes from tests.
   std::size_t adjacent = 0, bySrdf = 0;
@@ -27,8 +27,8 @@ struct SortedPairs {
 /// Surveys the pairs, and shows the progress if stderr is a terminal.
 /// @param allowed the pairs that the SRDF excludes from tests.
 /// @pre the filter of the model does not contain the pairs in `allowed`.
-/// @returns the sorted pairs. If `interrupted` became true, they are incomplete and must not be
-/// used.
+/// @returns the sorted pairs. If `interrupted` is true at the end, they are incomplete and must not
+/// be used.
 SortedPairs sortedPairs(const Checker& checker, const std::vector<AllowedPair>& allowed,
                         const NewRobotArguments& arguments, const std::atomic<bool>& interrupted);
 

@@ -51,7 +51,7 @@ void addJson(CLI::App& command, bool& json, const char* heading) {
 }
 
 void addQuiet(CLI::App& command, bool& quiet, const char* heading) {
-  command.add_flag("--quiet", quiet, "no results on stdout")->group(heading);
+  command.add_flag("--quiet", quiet, "print no report on stdout")->group(heading);
 }
 
 void addFrom(CLI::App& command, std::optional<std::string>& from, const char* heading) {

@@ -101,7 +101,8 @@ Amounts largestParts(const ConfigurationSpace& space, const Configuration& tube)
 }
 
 /// Returns the amounts with their units, such as "0.1 m, 0.2 rad". If the space has no coordinate
-/// in metres, or none in radians, that amount is left out. `between` separates the two.
+/// in metres, the metres are left out; if it has none in radians, the radians. `between` separates
+/// the two.
 std::string amountText(const ConfigurationSpace& space, const Amounts& amounts,
                        const char* between) {
   bool lengths = false, angles = false;
@@ -177,7 +178,8 @@ Verified verifyWithWarning(const Problem& problem, const Solution& solution,
 }
 
 std::vector<std::string> condensed(const std::vector<std::string>& notes, const std::string& rest) {
-  // Leaves out what is in quotes, and numbers. Digits after a letter belong to a name.
+  // Returns the note without quoted text and without numbers. Digits after a letter are kept,
+  // because they belong to a name.
   const auto kindOf = [](const std::string& note) {
     std::string kind;
     bool quoted = false;

@@ -20,7 +20,7 @@ namespace corridor::app {
 enum class Tone { plain, good, bad };
 
 /// Prints results for people on stdout, as lines `key: value`, with colours if stdout is a
-/// terminal.
+/// terminal. Prints nothing if `quiet` is set.
 class ResultPrinter {
  public:
   explicit ResultPrinter(bool quiet) : quiet_(quiet) {}
@@ -34,18 +34,19 @@ class ResultPrinter {
 /// Returns "free", "contact" or "undecided".
 const char* nameOf(MotionVerdict verdict);
 
-/// Inserts notes before all others.
+/// Inserts `notes` before all notes in `to`.
 inline void addFirst(const std::vector<Note>& notes, std::vector<Note>& to) {
   to.insert(to.begin(), notes.begin(), notes.end());
 }
 
 /// Returns the notes for people to read. Among notes that differ only in quoted names and in
 /// numbers, only the first is returned, with the number of the others.
-/// @param rest the end of such a note: how to list the others.
+/// @param rest ends the remark on the others, which is appended to the first: how to list them all.
 std::vector<std::string> condensed(const std::vector<std::string>& notes,
                                    const std::string& rest = "; inspect --json lists all");
 
-/// Prints the faults on stderr, one a line, and then the notes on what could be read.
+/// Prints the faults on stderr, one a line, and then the notes on the part of the input that could
+/// be read.
 void printFaults(const InputError& error);
 
 /// Prints a warning on stderr. Callers warn before they print results on stdout.
@@ -68,12 +69,13 @@ Verified verifyWithWarning(const Problem& problem, const Solution& solution,
                            const std::string& problemFile, const std::string& solutionFile,
                            bool ignoreDigest);
 
-/// Tests that a file can be written: its folder exists, and files can be made in it. Commands call
-/// this before they spend time on the file's contents.
+/// Tests that a file can be written: its name is not that of a folder, its folder exists, and files
+/// can be made in this folder. The last test is left out for a device or a pipe. Commands call this
+/// before they spend time on the file's contents. Does nothing if no file is given.
 /// @throws InputError that names the option, if it can't be written.
 void requireWritable(const std::optional<std::string>& file, const char* option);
 
-/// Tests that writing a file does not overwrite one of the files `read`.
+/// Tests that the file that will be written is none of the files `read`.
 /// @param what the owner of these files, for the message: "the problem".
 /// @throws InputError that names the option, if one of them would be overwritten.
 void requireNotAnInput(const std::optional<std::string>& file, const char* option,
@@ -81,7 +83,7 @@ void requireNotAnInput(const std::optional<std::string>& file, const char* optio
 
 /// Returns the value with four significant digits, for people to read.
 std::string rounded(double value);
-std::string rounded(const Vec3& v, int dimension = 3);  ///< "[1, 2, 3]"
+std::string rounded(const Vec3& v, int dimension = 3);  ///< "[1, 2, 3]"; dimension 2: "[1, 2]"
 /// Returns roll, pitch and yaw in degrees.
 Vec3 rpyDegrees(const Mat3& R);
 /// Returns "at [1, 2, 3], rpy_deg [0, 0, 90]", without the rotation if there is none.
@@ -96,7 +98,7 @@ std::string lengthText(const ConfigurationSpace& space, double metres, double ra
 /// out the unit that no coordinate of the space has.
 std::string tubeText(const ConfigurationSpace& space, const Configuration& tube);
 nlohmann::ordered_json tubeJson(const ConfigurationSpace& space, const Configuration& tube);
-/// "x = 1, y = 2, yaw = 0.5"
+/// Returns a configuration as "x = 1, y = 2, yaw = 0.5".
 std::string stateText(const ConfigurationSpace& space, const Configuration& q);
 nlohmann::ordered_json numbersJson(const Configuration& q);  ///< a Vec3 converts to Configuration
 /// Returns null for an infinity and for NaN, which JSON cannot represent.
@@ -104,7 +106,7 @@ nlohmann::ordered_json numberJson(double value);
 
 /// Returns the count with its digits in groups of three: "12,345".
 std::string grouped(std::uint64_t count);
-/// "1 edge", "2 edges"
+/// Returns the count with the noun, in the plural if the count is not 1: "1 edge", "2 edges".
 std::string counted(std::uint64_t count, const std::string& noun);
 
 }  // namespace corridor::app

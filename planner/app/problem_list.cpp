@@ -64,8 +64,8 @@ std::string shortNameOf(const std::string& file, bool parent) {
   return parent && !folder.empty() ? folder + "-" + own : own;
 }
 
-/// Returns the files with names that differ: where two are alike, the name of the folder is added,
-/// and then a number.
+/// Returns the files, each with a name of its own. If the names of two files are equal, the name of
+/// the folder is added; if they are still equal, a number is added.
 std::vector<ListedProblem> named(const std::vector<std::string>& files) {
   std::map<std::string, std::set<std::string>> uses;  // the files of each name
   for (const std::string& file : files) uses[shortNameOf(file, false)].insert(file);

@@ -23,10 +23,10 @@ double millisecondsSince(std::chrono::steady_clock::time_point start) {
       .count();
 }
 
-/// Runs and measures `ask(pose number, context)` for `count` poses, `passes` times. Each pass runs
-/// over all poses. (If one pose were repeated instead, its data would already be in the processor's
-/// caches.) No query starts from the pair of triangles that the query before it found. So neither
-/// cost nor answer of a pose depends on the poses before it.
+/// Runs and measures `ask(index of a pose, context)` for `count` poses, `passes` times. Each pass
+/// runs over all poses. (If one pose were repeated instead, its data would already be in the
+/// processor's caches.) No query starts from the pair of triangles that the query before it found.
+/// So neither cost nor answer of a pose depends on the poses before it.
 template <class Ask>
 std::vector<Answer> timed(std::size_t count, int passes, const Ask& ask) {
   std::vector<Answer> answers(count);
@@ -55,7 +55,8 @@ std::vector<Answer> timed(std::size_t count, int passes, const Ask& ask) {
   return answers;
 }
 
-/// Builds a tree by `make()`. Measures the time and the tree's size.
+/// Builds a tree by `make()`, and returns it. Sets `ms` to the time, and `bytes` to the size of the
+/// tree.
 template <class Make>
 auto measured(const Make& make, double& ms, std::size_t& bytes) {
   const auto start = std::chrono::steady_clock::now();
@@ -125,7 +126,7 @@ void runOn(const Batch& batch, const Tree& a, const Tree& b, BatchResult& result
 }
 
 /// Calls `run.operator()<Overlap>(make)`, where `make(mesh)` builds a tree of the batch's kind.
-/// @pre not octrees.
+/// @pre the batch's trees are not octrees.
 template <class Run>
 auto withTreesOf(const Batch& batch, const Run& run) {
   const auto& [trees, params] = *batch.trees;

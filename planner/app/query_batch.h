@@ -21,7 +21,7 @@ namespace corridor::app {
 
 /// The kind of query that is run at every pose.
 enum class QueryKind { interference, contacts, distance, tolerance, depth };
-/// Returns true if the query tests whether volumes overlap, so that the choice of an overlap test
+/// Returns whether the query tests volumes for overlap, so that the choice of an overlap test
 /// matters. The other queries compute how far volumes are apart.
 bool testsOverlap(QueryKind kind);
 /// A kind of query, as users choose it and as its results are printed.
@@ -40,8 +40,9 @@ struct Batch {
   std::optional<TreeChoice> trees = TreeChoice{};  ///< unset: octrees, for interference only
   double tolerance = 0;                            ///< metres, for `QueryKind::tolerance` only
   int repeat = 1;                                  ///< passes over all poses
-  /// The poses whose tests are also measured one by one. For interference only; not for obb, whose
-  /// kernel tests many pairs at once, and not for octrees.
+  /// Indices of the poses at which each single test of volumes or triangles is measured, too. Used
+  /// for interference only; not for obb, whose kernel tests many pairs at once, and not for
+  /// octrees.
   std::vector<std::size_t> measured = {};
 };
 
@@ -63,9 +64,9 @@ struct MotionAnswer {
   std::uint64_t splits = 0;  ///< time intervals that were halved
 };
 struct BatchResult {
-  std::vector<Answer> answers;  ///< per pose or motion; hit: contact, or closer than the tolerance
-  std::vector<Distance> distances;    ///< per pose, only for `QueryKind::distance`
-  std::vector<DepthBounds> depths;    ///< per pose, only for `QueryKind::depth`
+  std::vector<Answer> answers;      ///< per pose or motion; `hit`: contact, or within the tolerance
+  std::vector<Distance> distances;  ///< per pose, only for `QueryKind::distance`
+  std::vector<DepthBounds> depths;  ///< per pose, only for `QueryKind::depth`
   std::vector<ContactRow> contacts;   ///< only for `QueryKind::contacts`
   std::vector<MotionAnswer> motions;  ///< per motion
   double tolerance = 0;               ///< metres, for motions: the tolerance used
@@ -79,7 +80,7 @@ BatchResult runPoses(const Batch& batch);
 
 /// The answers for one shape of a mesh that deforms.
 struct FrameResult {
-  BatchResult result;  ///< the first frame's also has the trees' build times and sizes
+  BatchResult result;  ///< in that of the first frame, also the trees' build times and sizes
   double refitMs = 0;  ///< 0 for the first frame, whose tree is built
 };
 /// Returns the next shape of a, or nullopt if there is none.
@@ -92,7 +93,7 @@ std::vector<FrameResult> runFrames(const Batch& batch, const NextShape& next);
 
 /// Computes bounds of the penetration depth at all poses, with the 4-wide and the binary OBB trees,
 /// which depth queries need.
-/// @param direction  along which b leaves a; unset: the default of `DepthOptions`.
+/// @param direction the direction in which b leaves a; unset: the default of `DepthOptions`.
 BatchResult runDepths(TriangleMesh a, TriangleMesh b, const std::vector<Transform>& poses,
                       const std::optional<Vec3>& direction, int repeat);
 

@@ -38,7 +38,7 @@ struct QueryArguments {
   std::optional<std::string> hulls;                ///< query the convex hulls, by this method
   std::vector<std::string> deform;                 ///< further shapes of A, one file per frame
   std::optional<std::string> direction;            ///< "x,y,z", for the depth of meshes
-  bool coherent = false;  ///< with `hulls` only: begin with what the query before has kept
+  bool coherent = false;                           ///< with `hulls` only: see `queryHulls`
   std::optional<double> tolerance;  ///< metres; for the tolerance query and for motions
   std::uint64_t repeat = 1;
 };
@@ -77,7 +77,8 @@ std::vector<Transform> posesOf(const QueryArguments& a, const TriangleMesh& mesh
   return gridPoses(grid, meshA, meshB);
 }
 
-/// Checks the rules for combining options that CLI11 can't express. @throws InputError
+/// Checks that the options can be combined, as far as CLI11 can't check it. @throws InputError if
+/// not.
 void checkOptions(const QueryArguments& a) {
   if (a.motions) {
     const auto ofPoses = [&](const char* option, bool given) {
@@ -168,7 +169,8 @@ struct PoseInput {
   }
 };
 
-/// Refuses the options that apply to trees, not to hulls, and unknown names. @throws InputError
+/// Tests the options of a query with --hulls. @throws InputError for unknown names, and for options
+/// that apply to trees only.
 void checkHullOptions(const QueryArguments& a) {
   requireHullQuery(*a.hulls, a.query, a.coherent);
   const auto ofTrees = [](const char* option, bool given) {
@@ -187,7 +189,7 @@ void checkHullOptions(const QueryArguments& a) {
     throw InputError(Fault{"--direction", 0, "is for the depth of meshes, not with --hulls"});
 }
 
-/// Bounds of the penetration depth at many poses.
+/// Computes and prints bounds of the penetration depth at many poses. @returns the exit status.
 int queryDepth(const QueryArguments& a, const NamedQuery& query) {
   for (const auto& [option, given] :
        {std::pair("--volume", a.volume.has_value()), std::pair("--fit", a.fit.has_value()),

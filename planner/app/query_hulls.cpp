@@ -40,7 +40,7 @@ struct Hull {
   Hull(const HullInput& input, const std::string& method) {
     const auto start = std::chrono::steady_clock::now();
     try {
-      std::vector<Vec3> used;  // the vertices of triangles: others are no part of the mesh
+      std::vector<Vec3> used;  // the vertices of triangles; other vertices don't count
       std::vector<bool> taken(input.mesh.vertices.size(), false);
       for (const auto& triangle : input.mesh.triangles)
         for (const auto v : triangle)
@@ -65,7 +65,7 @@ struct Hull {
   }
 };
 
-/// What a query leaves for the next one.
+/// The data that a query keeps for the next query (`coherent`).
 struct LastQuery {
   ConvexCache simplex;
   FeaturePair features;
@@ -85,7 +85,7 @@ std::string numbers(const Vec3& v) {
   return numbers({v.x(), v.y(), v.z()});
 }
 
-/// @throws InputError, which lists the names.
+/// @throws InputError if `name` is none of `names`. The message lists the names.
 void requireNameAmong(const std::vector<std::string>& names, const std::string& name,
                       const char* option, const char* what) {
   if (std::find(names.begin(), names.end(), name) != names.end()) return;

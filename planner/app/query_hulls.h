@@ -19,7 +19,7 @@ namespace corridor::app {
 const std::vector<std::string>& hullMethods();
 
 /// Checks the names that `queryHulls` takes.
-/// @param query  interference, distance or depth; unset: interference.
+/// @param query interference, distance or depth; unset: interference.
 /// @throws InputError for an unknown query or method, for a query that the method does not have,
 /// and for `coherent` if the method, or the query `depth`, keeps nothing from pose to pose.
 void requireHullQuery(const std::string& method, const std::optional<std::string>& query,
@@ -33,10 +33,11 @@ struct HullInput {
 
 /// Queries the convex hulls of the vertices of two meshes at many poses of b: CSV on stdout, a
 /// summary on stderr.
-/// @param coherent  each query begins with what the query at the pose before has kept.
-/// @param repeat  passes over all poses.
+/// @param coherent each query begins with data that the query at the preceding pose has kept, such
+/// as a separating axis or a pair of features.
+/// @param repeat the number of passes over all poses.
 /// @throws InputError for a mesh whose vertices are all on one plane, and for a pose that the
-/// method does not take. @pre `requireHullQuery`.
+/// method does not take. @pre `requireHullQuery` accepts the arguments.
 void queryHulls(const HullInput& a, const HullInput& b, const std::vector<Transform>& poses,
                 const std::string& method, const std::optional<std::string>& query, bool coherent,
                 int repeat);

@@ -13,7 +13,7 @@ namespace corridor::app {
 
 namespace {
 
-/// Returns the columns after the pose's number. @pre The query is not `contacts`.
+/// Returns the columns after the index of the pose. @pre the query is not `contacts`.
 std::string columnsOf(const NamedQuery& query, const BatchResult& result, std::size_t pose) {
   char text[320];
   if (query.kind == QueryKind::distance) {

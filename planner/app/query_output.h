@@ -11,8 +11,8 @@
 namespace corridor::app {
 
 void printCsv(const NamedQuery& query, const BatchResult& result);
-/// Prints the frames of a mesh that deforms. Each line also has the time of refitting the tree to
-/// the frame, and the time of the query.
+/// Prints the answers for all shapes of a mesh that deforms. Each line also has the time of
+/// refitting the tree to the shape, and the time of the query.
 void printFrames(const NamedQuery& query, const std::vector<FrameResult>& frames);
 void printMotions(const BatchResult& result);
 

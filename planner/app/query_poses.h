@@ -23,10 +23,10 @@ namespace corridor::app {
 /// @throws InputError with all faults; a file without poses is a fault.
 std::vector<Transform> readPoses(const std::filesystem::path& file);
 
-/// A motion of B: its first and its last pose. `readMotions` reads 24 numbers per line, otherwise
-/// as `readPoses`. Each matrix M is replaced by the nearest rotation R, as a unit quaternion;
-/// `defect` bounds |M − R|. If the motion's tube is `defect`, then `free` holds for the matrices in
-/// the file, too.
+/// A motion of B: its first and its last pose. `readMotions` reads such motions, 24 numbers per
+/// line; otherwise its format is that of `readPoses`. Each matrix M is replaced by the nearest
+/// rotation R, as a unit quaternion; `defect` bounds |M − R|. If the motion's tube is `defect`,
+/// then `free` holds for the matrices in the file, too.
 struct PoseMotion {
   RigidPose from, to;
   double defect = 0;  ///< the larger |M − R| of the two, rounded up; metres per metre of lever
@@ -60,9 +60,10 @@ inline constexpr std::size_t kMostPoses = 10'000'000;
 std::vector<Transform> gridPoses(const PoseGrid& grid, const TriangleMesh& a,
                                  const TriangleMesh& b);
 
-/// Reads "10x10x5". @throws InputError
+/// Reads three counts, such as "10x10x5". @throws InputError for any other text.
 std::array<std::size_t, 3> parseCounts(const std::string& text);
-/// Reads "x,y,z", metres. @throws InputError that begins with `option`
+/// Reads three numbers "x,y,z", metres. @throws InputError for any other text; the message begins
+/// with `option`.
 Vec3 parsePoint(const std::string& option, const std::string& text);
 
 /// Writes poses as `readPoses` reads them. The file appears whole or not at all.

@@ -15,7 +15,7 @@ namespace corridor::app {
 /// `mpirun` is alone.
 class RankJob {
  public:
-  /// Joins the job, if there is one. @param jobs number of tasks at a time on each rank.
+  /// Joins the job, if there is one. @param jobs the number of tasks that each rank does at a time.
   /// @throws InputError as joinRanks.
   explicit RankJob(std::size_t jobs);
 
@@ -23,13 +23,13 @@ class RankJob {
   /// so, this process must call `serve`.
   bool serves() const { return ranks_ && ranks_->rank() > 0; }
   /// The executor that does tasks on the other ranks; null for a process that is alone.
-  /// @pre !serves()
+  /// @pre `serves()` is false.
   RankExecutor* executor() { return executor_ ? &*executor_ : nullptr; }
   /// Calls `listenForInterrupts`. In a job, a second signal does nothing, since each rank may get
   /// several signals.
   const std::atomic<bool>& listen() const;
   /// Does the tasks that rank 0 hands out, until rank 0 ends the job.
-  /// @pre serves(). @returns the exit status.
+  /// @pre `serves()` is true. @returns the exit status.
   int serve(const RankSetUp& setUp);
 
  private:

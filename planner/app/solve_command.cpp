@@ -27,7 +27,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// Solves one problem, and prints the report on it.
+/// Solves one problem, and prints the report on it. @returns the exit status.
 int solveSingle(const std::string& file, const SolveArguments& a,
                 const std::atomic<bool>& interrupted) {
   const Solved solved = solveOne(file, a, interrupted);
@@ -43,7 +43,7 @@ int solveSingle(const std::string& file, const SolveArguments& a,
   return done ? kDone : kNegativeResult;
 }
 
-/// Returns the names of all problems, by which ranks test that they have the same ones.
+/// Returns the names of all problems. Ranks compare them, to test that all have the same problems.
 std::string namesOf(const ProblemList& list) {
   std::string all;
   for (const ListedProblem& problem : list.problems)
@@ -51,7 +51,8 @@ std::string namesOf(const ProblemList& list) {
   return all;
 }
 
-/// Tests the options of the trajectory. @throws InputError
+/// @throws InputError if an option for trajectories is given without --trajectory, or if the
+/// trajectory's file can't be written.
 void requireTrajectory(const SolveArguments& a, bool several) {
   const auto need = [&](const auto& value, const char* option) {
     if (value && !a.trajectory)
@@ -68,7 +69,8 @@ void requireTrajectory(const SolveArguments& a, bool several) {
   requireWritable(a.trajectory, "--trajectory");
 }
 
-/// Tests the options of the results for a single problem. @throws InputError
+/// @throws InputError if an output file for a single problem can't be written, is of the wrong
+/// kind, or is named twice.
 void requireFiles(const SolveArguments& a) {
   if (a.output && lowered(std::filesystem::path(*a.output).extension().string()) == ".path")
     throw InputError(Fault{"--output", 0,
@@ -94,7 +96,7 @@ void requireFiles(const SolveArguments& a) {
     throw InputError(Fault{"--trajectory", 0, "is the file of --output; name another one"});
 }
 
-/// Solves problems that rank 0 hands out. @returns the exit status.
+/// Solves the problems that rank 0 hands out to this rank. @returns the exit status.
 int serveProblems(const SolveArguments& a, RankJob& job) {
   ProblemList list;
   return job.serve([&](const std::string& names) {

@@ -36,7 +36,8 @@ constexpr int kPollMs = 200;
 constexpr const char* kBadInputResult = "bad input";
 constexpr const char* kFailedResult = "failed";
 
-/// Returns the name of a problem's solution in a folder. No input file is likely to have it.
+/// Returns the name of a problem's solution in a folder. Input files are unlikely to have this
+/// name.
 fs::path solutionIn(const std::string& folder, const ListedProblem& problem) {
   return fs::path(folder) / (problem.name + ".solution.yaml");
 }
@@ -44,7 +45,7 @@ fs::path pictureIn(const std::string& folder, const ListedProblem& problem) {
   return fs::path(folder) / (problem.name + ".svg");
 }
 
-/// Makes a folder for files. @throws InputError
+/// Makes a folder for files, unless it exists. @throws InputError if it can't be used.
 void requireFolder(const std::optional<std::string>& folder, const char* option,
                    std::size_t problems) {
   if (!folder) return;
@@ -65,7 +66,7 @@ void requireFolder(const std::optional<std::string>& folder, const char* option,
     refuse("the folder " + *folder + " is not writable");
 }
 
-/// Tests that no file other than a solution would be overwritten. @throws InputError
+/// @throws InputError if a file that is not a solution would be overwritten.
 void requireNoOtherFile(const std::vector<ListedProblem>& problems, const SolveArguments& a) {
   if (!a.output) return;
   for (const ListedProblem& problem : problems) {
@@ -77,7 +78,7 @@ void requireNoOtherFile(const std::vector<ListedProblem>& problems, const SolveA
   }
 }
 
-/// Returns the arguments with the names of one problem's files.
+/// Returns the arguments in which the folders are replaced by the names of one problem's files.
 SolveArguments argumentsFor(const ListedProblem& problem, const SolveArguments& a) {
   SolveArguments own = a;
   if (a.output) own.output = solutionIn(*a.output, problem).string();
@@ -119,7 +120,7 @@ ordered_json reportOf(const ListedProblem& problem, const ChildEnd& end) {
 }
 
 /// Solves the problems until all are done, or until an interrupt.
-/// @param done is called with the number of each problem and the end of its child process.
+/// @param done is called with the index of each problem and the end of its child process.
 template <class Done>
 void solveAll(std::size_t problems, Executor& executor, const std::atomic<bool>& interrupted,
               const Done& done) {
@@ -164,7 +165,8 @@ std::string lineOf(const ordered_json& report) {
   return line + ", " + durationText(report["time_s"]);
 }
 
-/// Prints medians over the solved problems, one row for each set or folder.
+/// Prints a table of medians over the solved problems, with one row for each set or folder of
+/// problems.
 void printTable(const std::vector<ordered_json>& reports, const ResultPrinter& out) {
   std::vector<std::pair<std::string, std::vector<const ordered_json*>>> groups;
   for (const ordered_json& report : reports) {

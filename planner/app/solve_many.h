@@ -9,18 +9,21 @@
 
 namespace corridor::app {
 
-/// Returns the function with which executors start the solving of a problem. The number of a task
-/// is the index of its problem. A task must not be killed after its first message, because it then
-/// writes its files.
-/// @pre the arguments outlive the result.
+/// Returns the function by which an executor starts a task: a child process that solves the problem
+/// whose index is the number of the task. A task must not be killed after its first message,
+/// because it then writes its files.
+/// @pre `problems` and `a` outlive the result.
 TaskStarter solveStarter(const std::vector<ListedProblem>& problems, const SolveArguments& a);
 
 /// Solves several problems, each in a process of its own: a crash costs only its own problem.
-/// Prints one line for each problem when it is done, and a table at the end; or prints JSON. The
-/// arguments `output` and `picture`, if given, name folders; missing folders are created.
+/// Prints one line for each problem when it is done, and a table at the end. With `json`, prints
+/// one JSON object at the end instead; with `jsonLines`, a line of JSON for each problem; with
+/// `quiet`, nothing. The arguments `output` and `picture`, if given, name folders; missing folders
+/// are created.
 /// @param executor starts tasks by `solveStarter`.
-/// @returns the exit status: the worst of all problems.
-/// @throws InputError if a folder can't be used.
+/// @returns the largest exit status of all problems, or `interruptedStatus()` after an interrupt.
+/// @throws InputError if a folder can't be used, or if a file that is not a solution would be
+/// overwritten.
 int solveMany(const std::vector<ListedProblem>& problems, const SolveArguments& a,
               Executor& executor, const std::atomic<bool>& interrupted);
 

@@ -20,7 +20,7 @@
 namespace corridor::app {
 namespace {
 
-/// Returns whether a solution is better than another one.
+/// Returns whether solution `a` is better than solution `b`.
 bool isBetter(const ConfigurationSpace& space, const SolveReport& a, const SolveReport& b,
               bool clearest) {
   if (clearest && a.clearance && b.clearance) {
@@ -34,7 +34,7 @@ bool isBetter(const ConfigurationSpace& space, const SolveReport& a, const Solve
 
 /// Solves the problem as often as the arguments say, each time with another seed. Returns the
 /// report with the best solution. If there is no solution, returns the report on the first try, or
-/// on the interrupted one. An interrupt ends the tries.
+/// on the try that was interrupted. An interrupt ends the tries.
 /// @param tries gets the number of tries that ended.
 SolveReport bestOf(const SolveArguments& a, Problem& problem, const SolveOptions& options,
                    std::uint64_t& tries) {

@@ -20,8 +20,8 @@ struct Solved {
   std::uint64_t tries = 1;  ///< number of seeds that were tried
 };
 
-/// Returns whether the solution or the picture is written to the standard output. Then no report is
-/// printed there.
+/// Returns whether the solution or the picture is written to the standard output. If so, the report
+/// is not printed there.
 bool printsFile(const SolveArguments& a);
 /// Returns "12.34 ms" or "1.234 s".
 std::string durationText(double seconds);
@@ -39,11 +39,13 @@ inline constexpr std::array<SolvePhase, 6> kSolvePhases{{{"read_s", "reading"},
                                                          {"certify_s", "certification"},
                                                          {"trajectory_s", "trajectory"}}};
 
-/// Prints the report on one problem.
+/// Prints the report on one problem on stdout, unless `a.quiet` is set. If `printsFile(a)`, prints
+/// only the notes, and why the problem is not solved, on stderr.
 void print(const Solved& result, const std::string& problem, const SolveArguments& a);
 /// Returns the report on one problem: an entry of `problems` in `--json`.
 nlohmann::ordered_json jsonOf(const Solved& result, const std::string& problem);
-/// Returns the whole output of `--json`. @param problems a list of what `jsonOf` returns.
+/// Returns the whole output of `--json`. @param problems the list of the objects that `jsonOf`
+/// returned.
 nlohmann::ordered_json reportJson(const nlohmann::ordered_json& problems);
 
 }  // namespace corridor::app

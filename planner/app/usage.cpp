@@ -35,7 +35,7 @@ std::string repeatedOption(const CLI::App& command) {
   return "";
 }
 
-/// Returns a message on a word that is no command of `app`, and lists the commands.
+/// Returns a message on a word that is no command of `app`. The message lists the commands.
 std::string unknownCommand(const CLI::App& app, const std::string& word) {
   std::vector<std::string> commands;
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))

@@ -27,7 +27,7 @@ struct VerifyArguments {
   std::optional<double> margin;
   std::optional<std::string> between;  ///< the name of a RowInterpolation; trajectories only
   bool ignoreDigest = false;  ///< verify the solution even if its digest is not the problem's
-  bool limits = false;        ///< unless all limits over time are kept, the exit status is 1
+  bool limits = false;        ///< the exit status is 0 only if all limits over time are kept, too
   bool json = false, quiet = false;
 };
 
@@ -58,7 +58,7 @@ std::string secondsText(double seconds) {
   return text;
 }
 
-/// The most findings, and the most violations, that are printed.
+/// The maximum number of findings that are printed, and also of violations.
 constexpr std::size_t kMostLines = 20;
 
 /// Returns "edge 3 at t = 0.3, free until 0.25" or, with times, "edge 3 at 1.2 s, free until 1.1
@@ -174,7 +174,8 @@ void print(const VerifyReport& r, const Problem& problem, const VerifyArguments&
   if (r.limits)
     out.line("limits over time", limitsText(problem, *r.limits),
              exceedsLimits(*r.limits) ? Tone::bad : Tone::plain);
-  // The edges after the work limit are counted, and only the first of them is printed.
+  // Edges that were not tested because of the work limit are counted; only the first of them is
+  // printed.
   std::size_t findings = 0, notExamined = 0;
   for (const PathFinding& finding : r.pathReport.findings)
     if ((finding.reason != kWorkLimit || ++notExamined == 1) && ++findings <= kMostLines)

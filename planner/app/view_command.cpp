@@ -30,7 +30,7 @@ namespace {
 
 struct ViewArguments {
   std::string problem;
-  std::optional<std::string> trajectory;  ///< or a solution
+  std::optional<std::string> trajectory;  ///< a file: a trajectory or a solution
   std::optional<std::string> between;     ///< as in `VerifyArguments`
   std::optional<std::string> output, image, size, from;
   std::optional<std::string> volume;   ///< of a mesh: the volumes to draw
@@ -39,7 +39,8 @@ struct ViewArguments {
   bool quiet = false;
 };
 
-/// Returns "bookshelf_1.html", safe as a file's name: a problem's name may have any characters.
+/// Returns a file name for the page, such as "bookshelf_1.html". Other characters of the problem's
+/// name than letters, digits, "-", "_" and "." are replaced by "_".
 std::string pageName(const Problem& problem) {
   std::string name = problem.source.name;
   for (char& c : name)
@@ -47,7 +48,8 @@ std::string pageName(const Problem& problem) {
   return (name.empty() || name[0] == '.' ? "view" + name : name) + ".html";
 }
 
-/// Refuses a file name whose extension stands for another format. Accepts one without extension.
+/// Refuses "-", and a file name whose extension stands for another format. Accepts a name without
+/// an extension.
 /// @throws InputError
 void requireExtension(const std::optional<std::string>& file, const char* option,
                       const std::string& kind, const std::vector<std::string>& extensions) {
@@ -62,7 +64,8 @@ void requireExtension(const std::optional<std::string>& file, const char* option
                                " is needed, not " + quotedWord(*file)});
 }
 
-/// Draws the volumes of a level of a mesh's tree, as an SVG picture.
+/// Draws the bounding volumes of one level of a mesh's tree as an SVG picture. @returns the exit
+/// status.
 int viewVolumes(const ViewArguments& a) {
   const auto refuseIfGiven = [](const char* option, bool given) {
     if (given)
@@ -115,7 +118,8 @@ void refuseMesh(const std::string& file) {
                            "bounding volumes of a mesh"});
 }
 
-/// Reads and verifies a solution or a trajectory, as `corridor verify` does.
+/// Reads a solution or a trajectory, and verifies it as `corridor verify` does. Returns what the
+/// page shows of both.
 ViewedPath viewedPath(const Problem& problem, const ViewArguments& a) {
   const MotionFile motion = readMotion(problem, *a.trajectory, a.between);
   ViewedPath path;

@@ -20,13 +20,13 @@ namespace og = ompl::geometric;
 
 namespace {
 
-/// Seconds beyond twice a planner's time limit, for work that doesn't check the clock: set-up, and
-/// some steps of some planners.
+/// Seconds that a run may take beyond twice the planner's time limit. They are for work that
+/// doesn't check the clock: the set-up, and some steps of some planners.
 constexpr double kPatience = 60;
 
 /// The planner that OMPL's Benchmark runs: it plans, simplifies and certifies as `solve` does.
-/// OMPL's own simplification (in Benchmark::Request) is not used, because it would replace the
-/// planner's path before this code could read it.
+/// Benchmark's own simplification (Benchmark::Request::simplify) is switched off, because it would
+/// replace the planner's path before this code could read it.
 class WholeSolve final : public ob::Planner {
  public:
   WholeSolve(Solve& solve, const CheckingTally& checking, BenchmarkRun& run)
@@ -46,7 +46,7 @@ class WholeSolve final : public ob::Planner {
       status = solve_.plan(stop);
     } catch (const std::bad_alloc&) {
       run_.failure = "out of memory";
-    } catch (const std::exception& error) {  // Benchmark would only print it
+    } catch (const std::exception& error) {  // Benchmark would only print the exception
       run_.failure = error.what();
     }
     solve_.clock().pause();
@@ -68,9 +68,9 @@ class WholeSolve final : public ob::Planner {
   bool begun_ = false;
 };
 
-/// The problem that OMPL's Benchmark gets. SimpleSetup's own `print` measures the space with
-/// thousands of random states and motions. That would take longer than many runs, count as tests,
-/// and change the planner's random numbers.
+/// The problem that OMPL's Benchmark gets. The `print` of SimpleSetup would measure the space with
+/// thousands of random states and motions. This would take longer than many runs do, be counted as
+/// tests, and change the planner's random numbers.
 class PlainSetup final : public og::SimpleSetup {
  public:
   PlainSetup(const Solve& solve, const Problem& problem, std::string digest)
@@ -221,8 +221,8 @@ void runTrajectories(const Problem& problem, const RunTrajectories& trajectories
 
 namespace {
 
-/// Seconds that the parent waits for the messages of a run: the path, its verdict, and each
-/// trajectory.
+/// Returns the seconds that the parent waits for each message of a run: the path, the verdict on
+/// the path, and each trajectory.
 std::vector<double> patienceOf(const Problem& planned, const BenchmarkLimits& limits,
                                const RunTrajectories& trajectories) {
   std::vector<double> patience{2 * planned.settings.planner.time + kPatience};
@@ -230,7 +230,7 @@ std::vector<double> patienceOf(const Problem& planned, const BenchmarkLimits& li
   return patience;
 }
 
-/// Adds an entry for each trajectory that the process did not reach, with the reason as its fault.
+/// Adds an entry for each trajectory that the process did not reach, with the fault `why`.
 void addMissing(std::size_t limitSets, std::size_t makers, const std::string& why,
                 BenchmarkRun& run) {
   run.trajectories.resize(limitSets);
@@ -259,8 +259,8 @@ ChildProcess startRun(const Problem* problem, const Problem& planned, const std:
       });
     for (; missing > 0; --missing) send(text(run));
   };
-  // At limits.memory OMPL stops a planner, if the planner checks its termination condition. The
-  // larger limit here covers everything else.
+  // If a planner checks its termination condition, OMPL stops the planner at limits.memory. The
+  // larger limit here is for everything else that a run does.
   return ChildProcess(work, {patienceOf(planned, limits, trajectories),
                              static_cast<std::size_t>(1.5 * limits.memory * 1024 * 1024)});
 }

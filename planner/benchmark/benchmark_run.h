@@ -34,41 +34,44 @@ const std::shared_ptr<const OmplRecord>& noOmplRecord();
 /// radians.
 struct BenchmarkRun {
   std::uint64_t seed = 0;
-  /// Why the run did not end normally ("killed by signal 11 …"), or why its path was not verified.
-  /// Empty if neither happened.
+  /// What failed: the run ("killed by signal 11 …"), the verifier, or the making of a trajectory.
+  /// Empty if nothing failed.
   std::string failure;
   std::string result;  ///< "solved", "not found", "approximate only", or "failed"
-  /// One line: why the run is not solved. Empty if the run is solved.
+  /// One line: why the planner returned no solution. Empty if the run is solved; may be empty if
+  /// the run failed (see `failure`).
   std::string why;
   bool solved = false, certified = false;
-  /// The verifier's verdict if the run is solved: "proved", "refuted" or "undecided". Else empty.
+  /// The verifier's verdict: "proved", "refuted" or "undecided". It is "undecided" also if the
+  /// verifier failed. Empty if the run is not solved, or the campaign does not verify paths.
   std::string verdict;
-  /// One line: the verifier's first finding, if the path is not proved.
+  /// One line: the verifier's first finding. Empty if the path is proved or was not verified.
   std::string finding;
   /// Computed by the verifier, in metres, without subtracting the margin. The whole path, tube
   /// included, is proved to keep a distance of at least `provenClearance`. `leastDistance` is the
-  /// least distance of a tested pair at the poses that the verifier tested. Both are −1 without a
-  /// tested pair or a verdict.
+  /// least distance of a tested pair at the poses that the verifier tested. Both are −1 if no pair
+  /// was tested, or the path was not verified.
   double provenClearance = -1, leastDistance = -1;
 
-  /// Everything that `corridor solve` does except reading files; see SolveReport. `time` is the sum
-  /// of setUpTime, plannerTime, simplificationTime and certificationTime. `processorTime` adds up
-  /// all threads.
+  /// Times of everything that `corridor solve` does except reading files; see SolveReport. `time`
+  /// is the sum of setUpTime, plannerTime, simplificationTime and certificationTime.
+  /// `processorTime` adds up all threads.
   double time = 0, processorTime = 0;
   double searchProcessorTime = 0;  ///< the part of processorTime in planner and simplifier
   double setUpTime = 0, plannerTime = 0, simplificationTime = 0, certificationTime = 0;
-  /// The part of `time` spent in tests of states and motions and in the final certification. Set-up
-  /// is not counted.
+  /// The part of `time` spent in OMPL's tests of states and motions, and in the final
+  /// certification. The tests of start and goals during the set-up are not included.
   double checkingTime = 0;
   double verificationTime = 0;
-  /// Queries by planner and simplifier: states tested, including the samples of edges, and edges.
+  /// Numbers of states and of edges that planner and simplifier have tested. `states` includes the
+  /// samples of edges.
   std::uint64_t states = 0, edges = 0;
   Counters counters;  ///< counted by Corridor's checker; a competitor's own tests are not counted
   /// Numbers of states of the planner's path and of the returned path.
   std::size_t rawStates = 0, pathStates = 0;
   PathLength rawLength, length;
-  /// For each set of limits of the campaign; empty if the run is not solved, or the campaign makes
-  /// no trajectories.
+  /// One entry for each set of limits of the campaign. Empty if the run is not solved, or the
+  /// campaign makes no trajectories.
   std::vector<LimitedTrajectories> trajectories;
   /// Never null. If OMPL kept no record, all texts in it are empty. Several runs may share one
   /// record.
@@ -82,12 +85,14 @@ struct RunTrajectories {
 };
 
 struct BenchmarkLimits {
-  double memory = 4096;   ///< MB per run, in addition to what reading the problems took
+  /// MB per run, in addition to the memory that the process had when the run began. OMPL stops a
+  /// planner at this limit. At 1.5 times this limit, any allocation fails.
+  double memory = 4096;
   double patience = 600;  ///< seconds for verifying one path, or for one trajectory
 };
 
-/// Sets up a run, without planning, to find its faults. @throws InputError as solveProblem.
-/// @param valueOrigins as SolveOptions::valueOrigins.
+/// Sets up a run, without planning, to find its faults. @param valueOrigins has the meaning of
+/// SolveOptions::valueOrigins. @throws InputError for the same faults as solveProblem.
 void checkRun(const Problem& planned, const std::map<std::string, std::string>& valueOrigins);
 
 /// Runs a planner once under OMPL's Benchmark, in this process: sets up, plans, simplifies and
@@ -96,7 +101,7 @@ void checkRun(const Problem& planned, const std::map<std::string, std::string>& 
 /// @param digest the problem's digest, for OMPL's record.
 /// @param memory the limit at which OMPL stops the planner, MB.
 /// @param path receives the path if the run is solved.
-/// @throws InputError as solveProblem.
+/// @throws InputError for the same faults as solveProblem.
 BenchmarkRun runUnderOmpl(const Problem& planned, const std::string& digest,
                           const std::optional<BenchmarkCompetitor>& competitor, double memory,
                           Path& path);
@@ -108,23 +113,25 @@ BenchmarkRun runUnderOmpl(const Problem& planned, const std::string& digest,
 void verifyRun(const Problem& problem, const Path& path, BenchmarkRun& run);
 
 /// Makes trajectories along a path, verifies them, and adds them to `run.trajectories`. Calls
-/// `done` after each.
-/// @param problem as for verifyRun. The problem's own checker proves the trajectories, so they are
-/// made the same way for all variants.
+/// `done` after each trajectory.
+/// @param problem the problem as its file has it. Its limits over time are replaced by those of
+/// `trajectories`. The problem's own checker proves the trajectories, so the way of making them is
+/// the same for all variants.
 void runTrajectories(const Problem& problem, const RunTrajectories& trajectories, const Path& path,
                      BenchmarkRun& run, const std::function<void()>& done);
 
 /// Starts to make and verify a run in a process of its own: a crash, an endless loop or a lack of
-/// memory is then a failure of this run only. Planning is stopped after twice planner.time plus a
-/// minute.
+/// memory is then a failure of this run only. The process is killed if it has no result of the
+/// planner after twice planner.time plus a minute, or if the verification or one trajectory takes
+/// longer than `limits.patience`.
 /// @param problem the problem as its file has it, for verifying the path; null: the path is not
-/// verified. @pre if `problem` is null, `trajectories` has no makers; and the preconditions of
-/// ChildProcess.
+/// verified.
+/// @pre if `problem` is null, `trajectories` has no makers. The preconditions of ChildProcess hold.
 ChildProcess startRun(const Problem* problem, const Problem& planned, const std::string& digest,
                       const std::optional<BenchmarkCompetitor>& competitor,
                       const BenchmarkLimits& limits, const RunTrajectories& trajectories = {});
-/// Returns the run that `startRun` started. @param end how its process ended. Only the number of
-/// messages and the last one matter.
+/// Returns the run that `startRun` started. @param end how the run's process ended. The function
+/// reads `end.failure`, the number of messages, and the text of the last message only.
 BenchmarkRun runOf(const ChildEnd& end, std::uint64_t seed,
                    const RunTrajectories& trajectories = {});
 

@@ -1,6 +1,6 @@
-# Writes TARGET, a C++ source that returns the commit of SOURCE. TARGET is left alone if its content would be the same.
-# If SOURCE is not the top folder of a clone, the commit is "unknown". For example, a release may be unpacked inside the
-# clone of another project, whose commit says nothing about the release.
+# Writes TARGET, a C++ source that returns the commit of SOURCE. TARGET is not written again if its content would stay
+# the same. If SOURCE is not the top folder of a clone, the commit is "unknown". For example, a release may be unpacked
+# inside the clone of another project, whose commit says nothing about the release.
 set(git ${CMAKE_COMMAND} -E env --unset=GIT_DIR --unset=GIT_WORK_TREE --unset=GIT_INDEX_FILE git -C ${SOURCE})
 execute_process(COMMAND ${git} rev-parse --show-prefix
                 OUTPUT_VARIABLE below OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE none)

@@ -15,7 +15,8 @@ namespace {
 /// Time limit in seconds, for each cell, of the child process that sets up all cells to find their
 /// faults. Setting up a cell samples goals and builds trees.
 constexpr double kCheckPatience = 120;
-/// Limits the memory for the results: half a kilobyte per run, more with trajectories.
+/// The largest number of runs. It limits the memory for the results, half a kilobyte per run and
+/// more with trajectories.
 constexpr std::uint64_t kMostRuns = 1'000'000;
 constexpr std::uint64_t kLastSeed = 0xffffffff;  // OMPL's seeds have 32 bits
 
@@ -28,7 +29,7 @@ std::string placeOf(const Campaign& campaign, const CampaignPlanner& planner) {
   return planner.place.empty() ? placeOf(campaign, "planners") : planner.place;
 }
 
-/// Collects names of variants or planners, and adds a fault for a repeated name.
+/// Collects names of variants or planners, and adds a fault for each name that is repeated.
 class Names {
  public:
   explicit Names(std::vector<Fault>& faults) : faults_(faults) {}
@@ -53,8 +54,9 @@ std::string printable(const std::string& name) {
   return text;
 }
 
-/// Returns the faults of all cells, each once, in order. Cells are set up in a child process:
-/// set-up advances OMPL's random numbers, and a process has only one stream of them.
+/// Sets up all cells, and returns their faults, each once, in the order of the cells. This is done
+/// in a child process, because set-up advances OMPL's random numbers, of which a process has only
+/// one stream.
 std::vector<Fault> faultsInChild(const Campaign& campaign) {
   const std::vector<CampaignCell> cells = cellsOf(campaign);
   const auto work = [&](const auto& send) {

@@ -14,7 +14,7 @@
 
 namespace corridor {
 
-/// A planner with its parameters, as a campaign compares it with others.
+/// A planner with its parameters, one of those that a campaign compares.
 struct CampaignPlanner {
   /// Its name in the results; by default the planner's name.
   std::string label;
@@ -22,8 +22,8 @@ struct CampaignPlanner {
   /// Parameters. Unset: the problem's, if this is the problem's own planner; else OMPL's defaults.
   std::optional<std::map<std::string, std::string>> params;
   std::optional<Simplifier> simplify = {};  ///< unset: the campaign's, or the problem's
-  /// For error messages: "lecture.yaml:5: planners". Empty: the place of the key or option for all
-  /// planners.
+  /// Where the planner is named, for error messages: "lecture.yaml:5: planners". Empty: the place
+  /// of the key or option that names all planners.
   std::string place = {};
 };
 
@@ -32,8 +32,8 @@ struct CampaignPlanner {
 struct Campaign {
   std::string name;  ///< the name of its file; "" for a campaign from the command line
   std::vector<Problem> problems;
-  /// The problems' names in the results, and their digests (planner/problem/digest.h). Both are set
-  /// by `identifyProblems`.
+  /// The names of the problems in the results, and the problems' digests
+  /// (planner/problem/digest.h). `identifyProblems` sets both.
   std::vector<std::string> problemNames, digests;
   std::vector<Variant> variants;
   std::vector<CampaignPlanner> planners;  ///< empty: each problem's own planner
@@ -67,16 +67,17 @@ struct CampaignCell {
 std::vector<CampaignCell> cellsOf(const Campaign& campaign);
 
 /// Returns whether the campaign has a run of this cell and seed, and this run belongs to the
-/// campaign's shard.
-/// @param cell the index of a cell in `cellsOf`. @param cells their number.
+/// campaign's shard. @param cell the index of a cell in `cellsOf`. @param cells the number of all
+/// cells.
 bool hasRun(const Campaign& campaign, std::size_t cell, std::size_t cells, std::uint64_t seed);
 
-/// Calls `visit` for each run of the cell with index `cell`, in order of seed. The runs have all of
-/// their data.
+/// A function that calls `visit` for each run of the cell with index `cell`, in order of seed. The
+/// runs have all of their data, texts included.
 using RunSource =
     std::function<void(std::size_t cell, const std::function<void(const BenchmarkRun&)>& visit)>;
 
-/// Returns a source of the runs in the cells. @pre the cells outlive the source.
+/// Returns a source of the runs in the cells. @pre the cells outlive the source, and no
+/// `RunTrimmer` has removed data from their runs.
 RunSource runsOf(const std::vector<CampaignCell>& cells);
 
 struct CampaignResult {
@@ -93,7 +94,8 @@ Problem problemOfRun(const Campaign& campaign, const CampaignCell& cell, std::ui
 RunTrajectories trajectoriesOf(const Campaign& campaign, const CampaignCell& cell);
 
 /// Checks the whole campaign before the first run: names, parameters, and whether starts and goals
-/// are free for every variant. @throws InputError with all faults.
+/// are free for every variant. @throws InputError with all faults. Parameters, starts and goals are
+/// checked only if there is no other fault.
 /// @pre the process has only one thread, since this function forks.
 void checkCampaign(const Campaign& campaign);
 

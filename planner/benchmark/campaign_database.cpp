@@ -20,8 +20,8 @@
 namespace corridor {
 namespace {
 
-/// OMPL's tables, word for word as `ompl_benchmark_statistics` 1.5.2 creates them, and ours. OMPL's
-/// columns of runs are added when a run first has them.
+/// OMPL's tables, word for word as `ompl_benchmark_statistics` 1.5.2 creates them, and Corridor's
+/// tables. A column of OMPL's table `runs` is added when a run first has a value for it.
 constexpr const char* kTables = R"(
 CREATE TABLE experiments (id INTEGER PRIMARY KEY AUTOINCREMENT, name VARCHAR(512),
   totaltime REAL, timelimit REAL, memorylimit REAL, runcount INTEGER, version VARCHAR(128),
@@ -42,12 +42,13 @@ CREATE TABLE corridor_runs (cellid INTEGER, seed INTEGER, runid INTEGER UNIQUE, 
 CREATE TABLE corridor_sessions (id INTEGER PRIMARY KEY, started DATETIME, version TEXT,
   "commit" TEXT, jobs INTEGER);
 )";
-/// The campaign itself: `record` (campaign_record.h), and `shard`, such as "2/3" or "" for all
-/// runs. Databases of earlier versions don't have it.
+/// The table of the campaign itself. Its keys are `record` (campaign_record.h) and `shard` (such as
+/// "2/3", or "" for all runs). Databases of earlier versions don't have this table.
 constexpr const char* kCampaignTable =
     "CREATE TABLE IF NOT EXISTS corridor_campaign (key TEXT PRIMARY KEY, value TEXT)";
-/// The columns `record`, `ompl` and `setup` are the parts of a `RunRecord`. In runs of version 2,
-/// `record` holds the whole run, and setupid and ompl are NULL.
+/// The columns `record`, `ompl` and `setup` are the members `figures`, `ompl` and `setup` of a
+/// RunRecord. For runs stored by version 2, `record` holds the whole run, and `setupid` and `ompl`
+/// are NULL.
 constexpr const char* kSetups = R"(
 CREATE TABLE corridor_setups (id INTEGER PRIMARY KEY, setup TEXT UNIQUE);
 ALTER TABLE corridor_runs ADD setupid INTEGER;
@@ -84,10 +85,11 @@ class CampaignDatabase::Tables {
   }
   Tables(const Tables&) = delete;
   Tables& operator=(const Tables&) = delete;
-  /// Leaves one file, which programs can read without write access to its folder.
+  /// Makes SQLite merge its log into the database and remove it. Programs can then read the
+  /// database without write access to its folder.
   ~Tables() {
     rows_.reset();
-    base_->tryExec("PRAGMA journal_mode = DELETE");  // if it fails, the next session does it
+    base_->tryExec("PRAGMA journal_mode = DELETE");  // if this fails, the next session does it
   }
 
   std::vector<CampaignSession> sessions() {
@@ -139,7 +141,8 @@ class CampaignDatabase::Tables {
   std::int64_t execute(const std::string& sql, const Values&... values) {
     return rows_->execute(sql, values...);
   }
-  /// Makes all changes of a step, or none if it throws.
+  /// Executes a step in a transaction: all changes of the step are made, or none if the step
+  /// throws.
   template <class Step>
   void inTransaction(const Step& step) {
     withFileInErrors([&] {
@@ -148,7 +151,8 @@ class CampaignDatabase::Tables {
         step();
         transaction.commit();
       } catch (...) {
-        // The transaction may have added rows and columns whose ids and names are cached here.
+        // The rows and columns that the transaction added are gone, but their ids and names may be
+        // cached here.
         rows_->forget();
         known_ = {};
         together_ = false;
@@ -194,7 +198,8 @@ class CampaignDatabase::Tables {
     base_->exec("PRAGMA user_version = " + std::to_string(kCampaignVersion));
   }
 
-  /// Compares the file's shard with the campaign's, and stores what reports need of the campaign.
+  /// Stores the campaign's shard, and the data on the campaign that reports need. @throws
+  /// InputError if the file has runs of another shard.
   void storeCampaign() {
     base_->exec(kCampaignTable);
     const std::string shard = campaign_.shard ? text(*campaign_.shard) : "";
@@ -212,7 +217,8 @@ class CampaignDatabase::Tables {
             recordOf(campaign_));
   }
 
-  /// Compares the file's cells with the campaign's, and copies the file's runs into `cells`.
+  /// Compares the file's cells with the campaign's, adds missing cells to the file, and copies the
+  /// file's runs into `cells`.
   void matchCells(std::vector<CampaignCell>& cells) {
     std::set<std::int64_t> ids;
     RunTrimmer trimmer;
@@ -269,7 +275,8 @@ class CampaignDatabase::Tables {
       cell.runs.push_back(std::move(run));
     }
   }
-  /// Returns OMPL's record without the parts of a run; empty for an id that is NULL.
+  /// Returns the parts of OMPL's record that many runs share. Returns an empty record if the id is
+  /// NULL.
   std::shared_ptr<const OmplRecord> setup(const SQLite::Column& id) {
     if (id.isNull()) return noOmplRecord();
     auto& known = setups_[id.getInt64()];
@@ -316,7 +323,7 @@ class CampaignDatabase::Tables {
         setupOf(record.setup), record.ompl);
   }
 
-  /// Returns the id of the cell's experiment, which is added if the file has none.
+  /// Returns the id of the cell's experiment. Adds the experiment if the file does not have it.
   std::int64_t experimentOf(std::size_t cell, const BenchmarkRun& run) {
     SQLite::Statement known(*base_,
                             "SELECT experimentid FROM corridor_cells WHERE id = ? AND "
@@ -325,8 +332,9 @@ class CampaignDatabase::Tables {
     return known.executeStep() ? known.getColumn(0).getInt64() : addExperiment(cells_[cell], run);
   }
   std::int64_t addExperiment(const CampaignCell& cell, const BenchmarkRun& run) {
-    // Another planner may have added the experiment of this problem and variant. Experiments are
-    // not found by name, since "one pct" and "one_pct" have the same name in OMPL's tables.
+    // The experiment of this problem and variant may exist already, added with another planner. It
+    // is not looked up by name, since the variants "one pct" and "one_pct" have the same name in
+    // OMPL's tables.
     SQLite::Statement known(*base_,
                             "SELECT experimentid FROM corridor_cells WHERE problem = ? AND "
                             "variant = ? AND experimentid IS NOT NULL");
@@ -390,7 +398,8 @@ class CampaignDatabase::Tables {
   }
 
   void addProgress(const BenchmarkRun& run, std::int64_t runId) {
-    std::set<std::string> times;  // the first sample of each time is kept, as by OMPL's script
+    std::set<std::string>
+        times;  // of samples with the same time, the first is kept, as OMPL's script does
     for (const auto& sample : run.ompl->progress)
       if (const auto time = sample.find("time REAL");
           time == sample.end() || times.insert(time->second).second)
@@ -404,13 +413,13 @@ class CampaignDatabase::Tables {
   std::optional<DatabaseStatements> rows_;
   std::int64_t session_ = 0;
   std::vector<std::int64_t> cellIds_;
-  /// Ids of rows that the file is known to have.
+  /// Ids of rows that the file has, as far as this object has read or added them.
   struct Known {
     std::map<std::size_t, std::int64_t> experiments;  // by cell
     std::map<std::pair<std::string, std::string>, std::int64_t> planners;
     std::map<std::string, std::int64_t> setups;
   } known_;
-  std::map<std::int64_t, std::shared_ptr<const OmplRecord>> setups_;  // those that were read
+  std::map<std::int64_t, std::shared_ptr<const OmplRecord>> setups_;  // setups read so far, by id
   bool together_ = false;  // whether a transaction of several runs is under way
 };
 

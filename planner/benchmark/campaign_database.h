@@ -34,11 +34,15 @@ class CampaignDatabase {
 
   /// Opens or creates the file. Only one process can have it open at a time. @pre the campaign
   /// outlives this object.
-  /// @param cells as returned by `cellsOf`. @param jobs runs at a time, recorded with the session.
-  /// @throws InputError, with the file's name, in these cases. The file can't be created, read or
-  /// written, or is in use. It is not a campaign's database. It contains runs already (`fresh`). It
-  /// contains runs of cells or seeds that the campaign doesn't have, or of a cell whose `specOf`
-  /// has changed, or of another shard of the campaign.
+  /// @param cells the cells that `cellsOf` returns. @param jobs the number of runs at a time, which
+  /// is recorded with the session.
+  /// @throws InputError, with the file's name, in these cases:
+  /// - The file can't be created, read or written, or is in use.
+  /// - It is not a campaign's database.
+  /// - It contains runs already (only with `fresh`).
+  /// - It contains runs of cells or seeds that the campaign doesn't have.
+  /// - It contains runs of a cell whose `specOf` has changed.
+  /// - It contains runs of another shard than the campaign's.
   CampaignDatabase(const std::filesystem::path& file, Mode mode, const Campaign& campaign,
                    std::vector<CampaignCell>& cells, std::size_t jobs = 1);
   ~CampaignDatabase();

@@ -43,7 +43,8 @@ Campaign recordedIn(SQLite::Database& base, int version, const fs::path& file) {
              "once with --resume for it");
 }
 
-/// Tests that a file has the campaign's cells with the same settings, and runs of no others.
+/// Tests that a file has all cells of the campaign, with the same settings, and no runs of other
+/// cells.
 void requireSameCells(SQLite::Database& base, const fs::path& file, const Campaign& campaign,
                       const fs::path& first) {
   const std::string refusal = file == first
@@ -75,14 +76,15 @@ void requireSameCells(SQLite::Database& base, const fs::path& file, const Campai
                            ", which are not in that one");
 }
 
-/// The new database while the files are copied into it, one after the other, each attached as
-/// `source`. Ids of rows are those of the source plus an offset; cells, experiments and planners
-/// that several files have are stored once.
+/// The new database while the files are copied into it, one after the other. The file that is being
+/// copied is attached as `source`. The id of a copied row is its id in the source plus an offset.
+/// Cells, experiments and planners that several files have are stored only once.
 class Merger {
  public:
   Merger(const CampaignMerge& merge, const fs::path& file)
       : merge_(merge), base_(file.string(), SQLite::OPEN_READWRITE) {
-    base_.exec("PRAGMA synchronous = OFF");  // until the file has its name, a crash costs nothing
+    base_.exec("PRAGMA synchronous = OFF");  // a crash costs nothing: the file does not have its
+                                             // final name yet
     base_.exec("PRAGMA locking_mode = EXCLUSIVE");
   }
 
@@ -141,7 +143,7 @@ class Merger {
     base_.exec("DETACH DATABASE source");
   }
 
-  /// Ends the merge. The file is on the disk afterwards.
+  /// Ends the merge. Afterwards the new database has reached the disk.
   void finish() {
     base_.exec("PRAGMA synchronous = FULL");
     SQLite::Statement seeds(base_, "UPDATE experiments SET seed = ?, runcount = ?");
@@ -185,7 +187,8 @@ class Merger {
     return columns;
   }
 
-  /// OMPL's columns are added when a run first has them, so the files may have different ones.
+  /// Adds the columns of `runs` that only the source has. The files may have different columns,
+  /// since a column is added when a run first has a value for it.
   void addColumns() {
     for (const char* table : {"experiments", "runs", "progress"}) {
       const auto known = columnsOf("main", table);
@@ -197,7 +200,8 @@ class Merger {
     }
   }
 
-  /// Returns ", a, b": the columns of a table of the source, except some.
+  /// Returns the names of the columns of a table of the source, in the form ", a, b", without the
+  /// columns `except`.
   std::string listOf(const std::string& table, const std::set<std::string>& except) {
     std::string list;
     for (const auto& [name, type] : columnsOf("source", table))
@@ -209,8 +213,8 @@ class Merger {
     return base_.execAndGet("SELECT ifnull(max(id), 0) FROM main." + table).getInt64();
   }
 
-  /// An experiment has all runs of a problem and variant. Its setup text ends with the descriptions
-  /// of its planners.
+  /// Adds the experiments of the source. An experiment has all runs of a problem and variant. Its
+  /// setup text ends with the descriptions of its planners.
   void addExperiments() {
     SQLite::Statement cells(
         base_,
@@ -248,8 +252,8 @@ class Merger {
     stored.executeStep();
     if (!stored.getColumn(0).isNull()) return;
     stored.reset();
-    // This is the first file that has this planner. If an earlier file already gave the experiment,
-    // its setup text lacks the planner, so the planner's part is added.
+    // This file is the first that has this planner. If the experiment was copied from an earlier
+    // file, the experiment's setup text lacks the planner, so the planner's part is added.
     if (!copied_.count(now)) addPlannerSetup(cellWas, now);
     execute("UPDATE main.corridor_cells SET experimentid = ? WHERE id = ?", now, cell);
   }
@@ -270,8 +274,8 @@ class Merger {
     return now;
   }
 
-  /// Returns whether another experiment has the name of this one: "one pct" and "one_pct" have the
-  /// same name in OMPL's tables.
+  /// Returns whether another experiment has the same name as this one. (The variants "one pct" and
+  /// "one_pct" have the same name in OMPL's tables.)
   bool isTaken(std::int64_t experiment) {
     SQLite::Statement other(base_,
                             "SELECT 1 FROM main.experiments a JOIN main.experiments b USING (name) "
@@ -305,13 +309,13 @@ class Merger {
   std::set<std::int64_t> copied_;  ///< experiments that were copied from this source
 };
 
-/// The seeds of a campaign: from `first` to `end` − 1.
+/// The seeds of a campaign: `first` to `end` − 1.
 struct SeedRange {
   std::uint64_t first, end;
 };
 
-/// Returns the range of all seeds. @throws InputError if there are seeds between the first and the
-/// last one that no file has: a campaign has seeds without a gap.
+/// Returns the smallest range that contains all of the ranges. @throws InputError if none of the
+/// ranges has some seed in between, because the seeds of a campaign have no gap.
 SeedRange joinedSeeds(std::vector<SeedRange> ranges, const fs::path& file) {
   std::sort(ranges.begin(), ranges.end(),
             [](const SeedRange& a, const SeedRange& b) { return a.first < b.first; });
@@ -326,8 +330,8 @@ SeedRange joinedSeeds(std::vector<SeedRange> ranges, const fs::path& file) {
   return all;
 }
 
-/// Attributes faults to a source file, except for faults of writing, which are attributed to the
-/// new file.
+/// Does a step of the merge. A fault of reading becomes an InputError that names the source file.
+/// All other exceptions are passed on, for the caller to attribute them to the new file.
 void withSourceInErrors(const fs::path& source, const std::function<void()>& step) {
   try {
     step();

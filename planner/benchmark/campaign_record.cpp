@@ -18,7 +18,7 @@ using nlohmann::ordered_json;
   throw InputError(Fault{"", 0, "the campaign's record is damaged: " + what});
 }
 
-/// Numbers that may be infinite are texts, because JSON has no infinity.
+/// Returns numbers as texts. They may be infinite, and JSON has no infinity.
 ordered_json textsOf(const Configuration& numbers) {
   ordered_json texts = ordered_json::array();
   for (const double number : numbers) texts.push_back(shortest(number));

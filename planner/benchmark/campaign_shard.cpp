@@ -6,9 +6,10 @@
 namespace corridor {
 
 bool CampaignShard::contains(std::size_t group, std::size_t groups, std::uint64_t seed) const {
-  // Group g of seed i goes to shard (i·groups + g) mod count. By this rule alone, group g would go
-  // only to the shards ≡ g (mod gcd(groups, count)), to each of them once in `period` seeds. So the
-  // order of the groups is rotated by one after every period.
+  // The basic rule: group g of seed i goes to the shard with the index (i·groups + g) mod count,
+  // from 0. By this rule alone, group g would go only to shards s with s ≡ g (mod gcd(groups,
+  // count)), and to each of them once in `period` seeds. So the order of the groups is rotated by
+  // one after every period.
   const std::uint64_t period = count / std::gcd<std::uint64_t>(groups, count);
   const std::uint64_t turned = (group + seed / period) % groups;
   return (seed * groups + turned) % count == index - 1;

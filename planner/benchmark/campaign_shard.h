@@ -7,15 +7,16 @@
 
 namespace corridor {
 
-/// A shard: a part of a campaign's runs, for machines that exchange no messages. It is number
-/// `index`, from 1, of `count` shards.
+/// A shard: a part of a campaign's runs, for machines that exchange no messages. A campaign is
+/// dealt out to `count` shards, which are numbered from 1; this is the shard with the number
+/// `index`.
 ///
 /// The runs are dealt out in groups. A group has the runs of all variants for one problem, planner
-/// and seed, so that one machine measures all that is compared. Groups are dealt in turn, seed by
-/// seed. So the sizes of the shards differ by at most one group. Take any `count` successive seeds
-/// of which the first is the campaign's first seed plus a multiple of `count`: from these, each
-/// shard gets exactly one group of each problem and planner. If the campaign gets more seeds later,
-/// the earlier groups stay in their shards.
+/// and seed, so that the runs that are compared with each other are made on one machine. Groups are
+/// dealt in turn, seed by seed. So the sizes of the shards differ by at most one group. Divide the
+/// seeds, from the campaign's first seed on, into successive blocks of `count` seeds. From each
+/// full block, each shard gets exactly one group of each problem and planner. If the campaign gets
+/// more seeds later, the earlier groups stay in their shards.
 struct CampaignShard {
   std::uint64_t index = 1, count = 1;
 
@@ -28,7 +29,8 @@ struct CampaignShard {
 
 /// "2/3"
 std::string text(const CampaignShard& shard);
-/// Reads "2/3"; nullopt if the text is no shard: K and N are whole numbers, 1 ≤ K ≤ N ≤ 1,000,000.
+/// Reads a shard K/N, such as "2/3". Returns nullopt for any other text: K and N must be whole
+/// numbers, with 1 ≤ K ≤ N ≤ 1,000,000.
 std::optional<CampaignShard> readShard(const std::string& text);
 
 }  // namespace corridor

@@ -28,7 +28,8 @@ std::string specOf(const Campaign& campaign, const CampaignCell& cell) {
     checker[entry.key] = entry.value.text;
   if (campaign.variants[cell.variant].competitor)
     checker["peer"] = campaign.variants[cell.variant].competitor->name;
-  // In earlier versions `true` was another simplifier. Runs of the two must not be mixed.
+  // In earlier versions, `simplify: true` meant another simplifier. Runs of the two simplifiers
+  // must not be mixed, so this one is stored under its own name.
   const bool isOwn = planned.settings.simplify == Simplifier::corridor;
   const std::string simplify = isOwn ? "corridor" : wordOf(planned.settings.simplify);
   nlohmann::ordered_json spec{{"problem", campaign.digests[cell.problem]},
@@ -39,7 +40,7 @@ std::string specOf(const Campaign& campaign, const CampaignCell& cell) {
                               {"memory_mb", campaign.limits.memory},
                               {"simplify", simplify},
                               {"verify", campaign.verify}};
-  // Campaigns without trajectories have the same settings as before there were any.
+  // Without trajectories, the text is the same as in versions that had no trajectories.
   if (!campaign.trajectories.makers.empty()) {
     for (const TrajectoryMaker maker : campaign.trajectories.makers)
       spec["trajectories"].push_back(nameOf(maker));

@@ -14,7 +14,8 @@ namespace {
 const MapKeys kTrajectories{{"makers", "limits"}, {}};
 constexpr const char* kMakersForm = "[blends, stop, spline, inserted]";
 
-/// Returns whether a text can begin the names of columns in CSV files and databases.
+/// Returns whether a text can be the name of a set, with which names of columns in CSV files and
+/// databases begin.
 bool isSetName(const std::string& name) {
   return !name.empty() && std::isalpha(static_cast<unsigned char>(name.front())) &&
          name.size() <= 40 && std::all_of(name.begin(), name.end(), [](unsigned char c) {
@@ -32,7 +33,7 @@ YamlValue withPrefix(YamlValue limits, const std::string& robot) {
   return limits;
 }
 
-/// Returns the indices of those numbers of a configuration that belong to a robot.
+/// Returns the indices of the entries of a configuration that belong to a robot.
 std::vector<Eigen::Index> numbersOf(const Model& model, const ModelRobot& robot) {
   std::vector<std::size_t> first;  // the first coordinate of every joint
   for (const ModelRobot& each : model.robots)
@@ -48,7 +49,7 @@ std::vector<Eigen::Index> numbersOf(const Model& model, const ModelRobot& robot)
   return numbers;
 }
 
-/// Replaces the limits of one robot.
+/// Replaces the limits of one robot in `all` by the limits of this robot in `by`.
 void replace(const Model& model, const ModelRobot& robot, const JointLimits& by, JointLimits& all) {
   for (const Eigen::Index i : numbersOf(model, robot)) {
     all.velocity[i] = by.velocity[i];
@@ -63,7 +64,7 @@ void replace(const Model& model, const ModelRobot& robot, const JointLimits& by,
   std::copy_if(by.links.begin(), by.links.end(), std::back_inserter(all.links), ofRobot);
 }
 
-/// Adds notes on a set of limits, such as accelerations that are assumed, each once.
+/// Adds the notes `of` on a set of limits, such as notes on assumed accelerations.
 void addNotes(const std::string& set, const std::set<std::string>& of,
               std::vector<std::string>& notes) {
   for (const std::string& note : of)
@@ -115,7 +116,7 @@ class LimitSets {
     return set;
   }
 
-  /// Reads the limits of a robot. A fault that several problems have is reported once.
+  /// Reads the limits of a robot. A fault that occurs with several problems is reported once.
   JointLimits readRobot(const YamlValue& value, const YamlMap& robots, const ModelRobot& robot,
                         const Model& model) {
     FaultList faults;
@@ -134,7 +135,8 @@ class LimitSets {
           robots.source().faults.add(fault.file, fault.line, fault.text);
       spec = {};
     }
-    // Joints of other robots, whose values are not used, get no note on assumed accelerations.
+    // Joints of other robots get no note on assumed accelerations, since their limits are not used
+    // here.
     for (const LimitedJoint& joint : jointsWithLimits(model))
       if (!robot.name.empty() && !joint.name.starts_with(robot.name + "/") && !joint.isMimic)
         spec.named[joint.name].acceleration = kAssumedAcceleration;

@@ -27,7 +27,8 @@ struct Expanded {
   YamlValue map;
 };
 
-/// Returns one variant for each combination of the lists' values, in the order of the file.
+/// Returns one variant of a checker for each combination of the values in the checker's lists, in
+/// the order of the file.
 std::vector<Expanded> expanded(const YamlValue& checker) {
   std::vector<Expanded> all{{"", checker}};
   for (std::size_t i = 0; i < checker.entries.size(); ++i) {
@@ -45,7 +46,7 @@ std::vector<Expanded> expanded(const YamlValue& checker) {
   return all;
 }
 
-/// Returns the number of combinations, or `kMostVariants` + 1 if there are more.
+/// Returns the number of variants that `expanded` would return, but at most `kMostVariants` + 1.
 std::size_t countExpanded(const YamlValue& checker) {
   std::size_t count = 1;
   for (const YamlValue::Entry& entry : checker.entries)
@@ -71,9 +72,9 @@ bool isName(const std::string& text) {
 }
 
 /// Returns a text of the keys of a checker that have an effect, with their values. A resolution has
-/// no effect on edges that are proved, and a tolerance none on sampled edges. Keys on trees have no
-/// effect on a competitor. Without the key `edges` the problem's method applies, so both resolution
-/// and tolerance count.
+/// no effect on edges that are proved; a tolerance has no effect on sampled edges. Keys on trees
+/// have no effect on a competitor. Without the key `edges` the problem's method applies, so both
+/// resolution and tolerance count.
 std::string effectOf(const YamlValue& checker) {
   std::map<std::string, std::string> keys;
   for (const YamlValue::Entry& entry : checker.entries) keys[entry.key] = entry.value.text;
@@ -141,7 +142,7 @@ class CampaignReader {
     for (const std::string& word : *words)
       faults_.collect([&] {
         for (const std::string& name : problemsOf(word)) {
-          // The fault names this file's line; readProblem could not.
+          // Only here is the line of the campaign file known; readProblem could not name it.
           const std::filesystem::path at = path_.parent_path() / name.substr(0, name.find('#'));
           std::error_code ignored;
           if (!std::filesystem::exists(at, ignored))
@@ -233,8 +234,8 @@ class CampaignReader {
                                     std::to_string(kMostVariants) + " variants");
       return;
     }
-    std::set<std::string> seenFaults;  // faults that another variant of this checker also has
-    std::map<std::string, std::string> same;  // keys that have an effect → the variant's suffix
+    std::set<std::string> seenFaults;         // faults of the variants of this checker so far
+    std::map<std::string, std::string> same;  // `effectOf` a variant → its suffix
     for (const Expanded& one : expanded(entry.value)) {
       FaultList faults;
       YamlSource source{path_.string(), faults, {}};
@@ -321,7 +322,7 @@ bool isCampaignFile(const std::filesystem::path& file) {
     const YamlValue document = parseYaml(file.string(), readTextFile(file, "a campaign"));
     return std::any_of(document.entries.begin(), document.entries.end(), [](const auto& entry) {
       return (entry.key == "format" && entry.value.text.rfind("corridor-campaign", 0) == 0) ||
-             entry.key == "checkers";  // if the format is missing, readCampaign reports that
+             entry.key == "checkers";  // if the key `format` is missing, readCampaign reports this
     });
   } catch (const InputError&) {
     return false;

@@ -9,14 +9,14 @@
 
 namespace corridor {
 
-/// Returns whether a file is a campaign: it has `format: corridor-campaign-…`, or the key
-/// `checkers` without any format. Returns false for a file that can't be read as YAML.
+/// Returns whether a file is a campaign: its name ends in .yaml or .yml, and it has `format:
+/// corridor-campaign…` or the key `checkers`. Returns false for a file that can't be read as YAML.
 bool isCampaignFile(const std::filesystem::path& file);
 
 /// Reads a campaign file and the problems that it names. The problems' paths are relative to the
 /// folder of the campaign file. planner/benchmark/README.md lists every key. A key of a checker may
-/// have a list of values; then each combination is a variant (1,000 variants at most). Competitors
-/// that are not available are left out, with a note.
+/// have a list of values. Then each combination of the lists' values is a variant (1,000 variants
+/// at most). Competitors that are not available are left out, with a note.
 /// @throws InputError with all faults of the file and its problems at once.
 Campaign readCampaign(const std::filesystem::path& file);
 
@@ -24,7 +24,7 @@ Campaign readCampaign(const std::filesystem::path& file);
 const std::map<std::string, MapKeys>& campaignKeys();
 
 /// Expands a range of problems: "set.json#3-5" gives three names. Any other text, such as
-/// "set.json#3", is returned as it is.
+/// "set.json#3", is returned unchanged, as the only name.
 /// @throws InputError for a range that ends before it begins, or has more than 1,000 problems.
 std::vector<std::string> problemsOf(const std::string& text);
 

@@ -12,7 +12,8 @@ namespace ob = ompl::base;
 
 namespace {
 
-/// Adds the duration of its lifetime, unless it is nested in another `Timed` of the same thread.
+/// Adds the lifetime of the object to the tally, unless another `Timed` of the same thread exists
+/// when the object is created.
 class Timed {
  public:
   explicit Timed(CheckingTally& tally) : tally_(tally) {
@@ -69,7 +70,8 @@ class TimedMotions final : public ob::MotionValidator {
   }
 
  private:
-  /// OMPL reads the counts of valid and invalid motions from this validator, not from `inner_`.
+  /// Counts a motion. OMPL reads its own counts of valid and invalid motions from this validator,
+  /// not from `inner_`, so they are kept here, too.
   bool count(bool valid) const {
     ++tally_.motions;
     std::atomic_ref(valid ? valid_ : invalid_).fetch_add(1, std::memory_order_relaxed);

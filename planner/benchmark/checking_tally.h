@@ -10,11 +10,12 @@ class SpaceInformation;
 
 namespace corridor {
 
-/// Counts and times OMPL's calls of the state and motion checkers, in all threads together.
+/// The number and the duration of OMPL's calls of the state and motion checkers, summed over all
+/// threads.
 struct CheckingTally {
   std::atomic<std::uint64_t> states = 0;  ///< states tested, including the samples of motions
   std::atomic<std::uint64_t> motions = 0;
-  /// The time of a state test within a motion test counts once.
+  /// The time in the checkers. The time of a state test that a motion test makes is counted once.
   std::atomic<std::int64_t> nanoseconds = 0;
 
   double seconds() const { return 1e-9 * static_cast<double>(nanoseconds); }

@@ -44,8 +44,9 @@ void writeAll(int pipe, const std::string& text) {
 
 [[noreturn]] void child(int pipe, const ChildProcess::Work& work, std::size_t bytes, pid_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(1);  // the parent ended before the line above took effect
-  // A signal from the terminal reaches the whole group; the parent alone decides what it means.
+  if (::getppid() != parent) ::_exit(1);  // the parent ended before prctl took effect
+  // A signal from the terminal reaches the whole process group. The child ignores it, so that the
+  // parent alone decides what happens.
   for (const int signal : kUserSignals) ::signal(signal, SIG_IGN);
   if (bytes > 0) limitMemory(bytes);
   std::string failure;
@@ -114,8 +115,8 @@ void ChildProcess::stop(const std::string& reason) {
   finish(true);
 }
 
-/// Takes one line of the text read, if there is a whole line. The child has ended after its last
-/// message, or after a line that reports a failure.
+/// Takes one line from the text that was read, and returns true; returns false if there is no
+/// complete line. After the last message, or a line that reports a failure, the child is ended.
 bool ChildProcess::takeLine() {
   const auto at = text_.find('\n');
   if (at == std::string::npos) return false;

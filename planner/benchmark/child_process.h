@@ -19,16 +19,17 @@ struct ChildLimits {
 
 /// How a child process ended.
 struct ChildEnd {
-  std::vector<std::string> messages;  ///< those that arrived
+  std::vector<std::string> messages;  ///< the messages that arrived
   /// Why messages are missing: "killed by signal 11 (Segmentation fault)". Empty if all messages
   /// arrived.
   std::string failure;
 };
 
 /// Work in a process of its own: a crash, an endless loop or a lack of memory there costs that work
-/// only. The child has a copy of all of the caller's memory, and what it changes there is lost. Its
-/// only result is the messages that it sends, one for each number in `ChildLimits::patience`. A
-/// message is any text without line breaks. The child ends without running destructors. It is
+/// only. The child has a copy of all of the caller's memory; changes that it makes to this copy are
+/// lost. The only result of the child is the messages that it sends, one for each entry of
+/// `ChildLimits::patience`. A message is any text without line breaks. The child ends by `_exit`,
+/// so the destructors of objects that existed before it started do not run in it. The child is
 /// killed when its parent ends.
 class ChildProcess {
  public:
@@ -45,12 +46,12 @@ class ChildProcess {
   /// Reads the messages sent so far, and kills the child if its next message is overdue
   /// (`ChildLimits::patience`). @returns `over()`.
   bool poll();
-  /// Kills the child, with `reason` as its failure. Does nothing if the child has ended.
+  /// Kills the child, and sets `end().failure` to `reason`. Does nothing if the child has ended.
   void stop(const std::string& reason);
   bool over() const { return id_ < 0; }  ///< whether the child has ended
   /// Whether a message has arrived, as of the last call of `poll`.
   bool hasSent() const { return !end_.messages.empty(); }
-  const ChildEnd& end() const { return end_; }  ///< @pre over
+  const ChildEnd& end() const { return end_; }  ///< @pre `over()`
 
   /// Waits until one of the children has sent something or ended, for at most `milliseconds`.
   static void waitForAny(const std::vector<ChildProcess*>& children, int milliseconds);
@@ -66,9 +67,9 @@ class ChildProcess {
   ChildEnd end_;
 };
 
-/// Does the work in a child process, and waits for its end.
-/// @param interrupted when it becomes true, the child is killed, and the failure is "interrupted".
-/// @pre, @throws as ChildProcess.
+/// Does the work in a child process, and waits until the child has ended. @param interrupted when
+/// it becomes true, the child is killed, and the failure is "interrupted". @pre and @throws: the
+/// same as for the constructor of ChildProcess.
 ChildEnd inChild(const ChildProcess::Work& work, const ChildLimits& limits,
                  const std::atomic<bool>* interrupted = nullptr);
 

@@ -20,8 +20,9 @@ double lengthRatio(const BenchmarkRun& run) {
                                      : kNone;
 }
 
-/// Fits the costs of tests. Their quality is judged on runs that were not fitted: each half of the
-/// runs is predicted with the other half's costs. With fewer than four runs the quality is NaN.
+/// Fits the costs of tests. The ratios of measured to predicted time are for runs that were not
+/// fitted: each half of the runs is predicted with the costs of the other half. With fewer than
+/// four runs the ratios are NaN.
 VariantScore::Cost costOf(const std::vector<QueryCost>& queries) {
   VariantScore::Cost cost{fittedCosts(queries), kNone, kNone, kNone};
   if (queries.size() < 4) return cost;
@@ -41,8 +42,8 @@ VariantScore::Cost costOf(const std::vector<QueryCost>& queries) {
   return cost;
 }
 
-/// For each run, appends its time divided by the time of the reference variant's run with the same
-/// seed, if both are solved.
+/// For each run, appends its processor time divided by that of the reference variant's run with the
+/// same seed, if both runs are solved.
 void addRatios(const CampaignCell& cell, const CampaignCell& reference,
                std::vector<double>& ratios) {
   auto other = reference.runs.begin();  // both are ordered by seed

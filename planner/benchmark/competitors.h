@@ -13,8 +13,8 @@ namespace corridor {
 class CompetitorScene {
  public:
   virtual ~CompetitorScene() = default;
-  /// Returns whether any tested pair touches. @param X_WF poses, in the world, of all frames of the
-  /// problem's kinematic tree.
+  /// Returns whether the bodies of any tested pair touch. @param X_WF poses, in the world, of all
+  /// frames of the problem's kinematic tree.
   virtual bool touches(const std::vector<Transform>& X_WF) = 0;
 
  protected:
@@ -37,8 +37,9 @@ const std::vector<std::string>& competitorNames();
 /// Returns why a competitor is not available here; "" if it is. @pre the name is one of
 /// `competitorNames`.
 std::string whyUnavailable(const std::string& name);
-/// Returns the competitor `fcl`: FCL tests the states (fcl_scene.h: meshes as surfaces, no margin),
-/// and edges are sampled by OMPL's rule. @pre it is available here.
+/// Returns a competitor by its name. The only one is `fcl`: FCL tests the states (fcl_scene.h:
+/// meshes as surfaces, no margin), and edges are sampled by OMPL's rule. @pre the competitor is
+/// available here.
 BenchmarkCompetitor competitorNamed(const std::string& name);
 /// Returns all competitors that are available here.
 std::vector<BenchmarkCompetitor> availableCompetitors();

@@ -18,7 +18,7 @@ struct CostModel {
   double box = 0, triangle = 0;  ///< C_v, C_p
   /// Whether the queries determine each cost: the standard error of the cost is at most half of the
   /// cost. If N_v and N_p are nearly proportional, the queries determine neither cost, although the
-  /// sum may predict well. A report shows a dash for an unknown cost.
+  /// fitted sum may predict times well. A report shows a dash for an unknown cost.
   bool boxKnown = false, triangleKnown = false;
   double predicted(const QueryCost& c) const {
     return c.boxTests * box + c.triangleTests * triangle;

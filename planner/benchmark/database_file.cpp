@@ -11,8 +11,8 @@
 namespace corridor {
 namespace {
 
-/// Returns a note on the limit of file sizes, or "" if there is no limit. SQLite's error code does
-/// not distinguish this limit from a failing disk.
+/// Returns a text on the limit of file sizes (`ulimit -f`), or "" if there is no limit. SQLite has
+/// the same error code for this limit and for a failing disk.
 std::string sizeLimit() {
   rlimit limit{};
   if (::getrlimit(RLIMIT_FSIZE, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return "";

@@ -7,7 +7,7 @@
 namespace corridor {
 namespace {
 
-/// Reports whether OMPL's script stores a value as NULL.
+/// Returns whether OMPL's script stores a value as NULL.
 bool isNull(const std::string& value) {
   return value.empty() || value == "nan" || value == "inf" || value == "-nan" || value == "-inf";
 }
@@ -52,7 +52,7 @@ std::int64_t DatabaseStatements::addRow(
   for (const auto& [name, id] : ids) row.bind(++at, id);
   for (const auto& [words, value] : properties) {
     ++at;
-    if (!isNull(value)) row.bind(at, value);  // SQLite converts it to the column's type
+    if (!isNull(value)) row.bind(at, value);  // SQLite converts the value to the column's type
   }
   row.exec();
   row.reset();

@@ -27,14 +27,16 @@ class DatabaseStatements {
     return base_.getLastInsertRowid();
   }
 
-  /// Inserts a row. @param properties values by OMPL's words for a column's name and type: "graph
-  /// states INTEGER" is the column graph_states. An empty value, nan and inf are stored as NULL, as
-  /// OMPL's script does. @param ids values of further columns, which must exist already.
+  /// Inserts a row. @param properties maps OMPL's words for the name and type of a column to the
+  /// value: "graph states INTEGER" is the column graph_states. An empty value, nan and inf are
+  /// stored as NULL, as OMPL's script does. @param ids values of further columns, which must exist
+  /// already.
   /// @returns the row's id.
   std::int64_t addRow(const std::string& table,
                       const std::map<std::string, std::string>& properties,
                       const std::vector<std::pair<std::string, std::int64_t>>& ids);
-  /// Sets one column of a row, and adds the column if it does not exist.
+  /// Sets the value in one column of a row. Adds the column if it does not exist. @param words the
+  /// column's name and type, as in `addRow`.
   void setValue(const std::string& table, std::int64_t id, const std::string& words,
                 const std::string& value);
 
@@ -43,7 +45,7 @@ class DatabaseStatements {
   void forget();
 
  private:
-  /// Returns a statement without values, ready to be executed.
+  /// Returns the prepared statement, without bound values.
   SQLite::Statement& prepared(const std::string& sql);
   /// Adds a column if it does not exist. @returns its name in quotes.
   const std::string& columnOf(const std::string& table, const std::string& words);

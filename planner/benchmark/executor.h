@@ -9,11 +9,11 @@
 
 namespace corridor {
 
-/// How one of many tasks ended. A task is a number; what it stands for is up to the caller.
+/// How one of many tasks ended. A task is a number; the caller decides what the number stands for.
 struct TaskEnd {
   std::uint64_t task = 0;
-  /// How the child process of the task ended. Only its last message is kept; the others are empty
-  /// texts.
+  /// How the child process of the task ended. Only the text of the last message is kept; the other
+  /// messages are empty texts.
   ChildEnd end;
 };
 
@@ -28,21 +28,22 @@ class Executor {
 
   virtual std::size_t places() const = 0;    ///< the number of tasks that can run at a time
   virtual std::size_t underWay() const = 0;  ///< tasks that were started and have not ended
-  /// Starts a task. @pre `underWay() < places()`. @returns false if the system has no room for a
-  /// further process: then a task that is under way must end first.
-  /// @throws std::system_error if no task is under way, either.
+  /// Starts a task. @pre `underWay() < places()`. @returns false if the system can't create a
+  /// further process while other tasks are under way: then one of these tasks must end first.
+  /// @throws std::system_error if the system can't create a process and no task is under way.
   virtual bool start(std::uint64_t task) = 0;
   /// Waits until a task ends, or a signal arrives, for at most `milliseconds`.
-  /// @returns the tasks that have ended since the call before.
+  /// @returns the tasks that have ended since the previous call.
   virtual std::vector<TaskEnd> wait(int milliseconds) = 0;
-  /// Kills the tasks that may be killed; `wait` does not return them. All other tasks continue to
-  /// their normal end.
-  /// @returns the tasks that are already killed. For tasks on other ranks, this function does not
-  /// wait, and returns none.
+  /// Kills the tasks that may be killed (`Killable`); `wait` does not return these tasks. All other
+  /// tasks continue to their normal end.
+  /// @returns the tasks that have been killed when this function returns: with LocalExecutor all of
+  /// them, with RankExecutor none, because it does not wait for the other ranks.
   virtual std::vector<std::uint64_t> stop() = 0;
 };
 
-/// Starts the process of a task. @throws std::system_error as ChildProcess.
+/// A function that starts the process of a task. @throws std::system_error for the same reasons as
+/// the constructor of ChildProcess.
 using TaskStarter = std::function<ChildProcess(std::uint64_t task)>;
 
 /// When a task may be killed by `stop`.
@@ -51,7 +52,8 @@ enum class Killable {
   untilItSends  ///< until its first message, after which it writes files
 };
 
-/// Does the tasks in child processes of this process. @pre as ChildProcess.
+/// Does the tasks in child processes of this process. @pre the preconditions of the constructor of
+/// ChildProcess.
 class LocalExecutor final : public Executor {
  public:
   LocalExecutor(std::size_t places, TaskStarter starter, Killable killable = Killable::always);

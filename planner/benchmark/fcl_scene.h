@@ -17,9 +17,9 @@
 
 #include "planner/checker/checker.h"
 
-/// A problem's scene in FCL, set up as FCL's users do: a BVHModel<OBBRSS> per mesh, FCL's own
-/// primitives, AABBs compared first, and only the first contact. Poses come from Corridor's
-/// kinematics.
+/// A problem's scene in FCL, set up as FCL's users do: a BVHModel<OBBRSS> per mesh, and FCL's own
+/// primitives. A query compares the AABBs of a pair first, and ends at the first contact. Poses
+/// come from Corridor's kinematics.
 namespace corridor::bench {
 
 using FclGeometry = std::shared_ptr<fcl::CollisionGeometryd>;
@@ -35,15 +35,16 @@ std::shared_ptr<fcl::BVHModel<Volume>> fclMesh(const TriangleMesh& mesh) {
   return model;
 }
 
-/// A shape of FCL, and its pose in the frame of its body.
+/// A shape of FCL, the index of the frame of its body, and the pose `at` of the shape in this
+/// frame.
 struct FclShape {
   FclGeometry geometry;
   std::size_t frame = 0;
   fcl::Transform3d at = fcl::Transform3d::Identity();
 };
 
-/// @throws std::runtime_error for convex hulls, polygons, point clouds and octrees, which are not
-/// converted: no problem of Corridor's own comparisons has one.
+/// Converts a shape. @throws std::runtime_error for convex hulls, polygons, point clouds and
+/// octrees: they are not converted, since no problem of Corridor's own comparisons has one.
 inline FclShape fclShape(const PlacedShape& shape, std::size_t frame) {
   FclShape made{nullptr, frame};
   if (shape.mesh) {

@@ -11,12 +11,13 @@ struct OpenModule {
   std::string why;         ///< why the module can't be opened; "" if it is open
 };
 
-/// Looks for a module in the folder of the program, then in `buildFolder`, then on the program's
-/// run path, and opens the first one that can be opened. The module stays open. @param name the
+/// Opens a module: the first file of this name that can be opened in the folder of the program,
+/// then in `buildFolder`, then on the program's run path. The module stays open. @param name the
 /// file name of the module. @param buildFolder the folder in which the module was built.
 OpenModule openModule(const std::string& name, const std::string& buildFolder);
 
-/// Returns a function of an open module, or null.
+/// Returns a function of a module by its name. Returns null if the module is not open or has no
+/// such function.
 void* functionIn(const OpenModule& module, const char* name);
 
 }  // namespace corridor

@@ -35,9 +35,9 @@ class MpiRanks final : public corridor::Ranks {
   std::optional<corridor::RankMessage> receive() override {
     clear();
     auto status = world_.iprobe(mpi::any_source, kTag);
-    // A call of iprobe first searches Open MPI's queue, and only then fetches new messages into it.
-    // So only the second call finds a message that has just arrived. With one call, each message
-    // would wait for one more pause of the caller.
+    // A call of iprobe first searches Open MPI's queue, and only then fetches new messages into
+    // this queue. So only a second call finds a message that has just arrived. With a single call,
+    // each message would wait during one more pause of the caller.
     if (!status) status = world_.iprobe(mpi::any_source, kTag);
     if (!status) return std::nullopt;
     corridor::RankMessage message{status->source(), std::string(bytesOf(*status), '\0')};
@@ -54,7 +54,7 @@ class MpiRanks final : public corridor::Ranks {
   static std::size_t bytesOf(const mpi::status& status) {
     return static_cast<std::size_t>(status.count<char>().value_or(0));
   }
-  /// Removes the texts that MPI has sent.
+  /// Removes the texts that MPI has finished sending.
   void clear() {
     std::erase_if(sending_, [](Sending& one) { return one.request.test().has_value(); });
   }

@@ -28,7 +28,7 @@ using ompl::tools::Benchmark;
 /// The line of a run's setup text that begins its part on the planner.
 constexpr const char* kPlannersBegin = "Properties of benchmarked planners:\n";
 
-/// OMPL's writer, for an experiment that was not run in this process.
+/// Gives access to OMPL's writer of logs for an experiment that this process did not run.
 class Log final : public Benchmark {
  public:
   explicit Log(og::SimpleSetup& unused) : Benchmark(unused) {}
@@ -37,14 +37,16 @@ class Log final : public Benchmark {
 
 /// A planner of an experiment, without its runs.
 struct LoggedPlanner {
-  std::size_t cell = 0;  ///< index of its runs
+  std::size_t cell = 0;  ///< index of the cell that has the planner's runs
   std::string name;
   std::map<std::string, std::string> settings;
-  std::set<std::string> properties;  ///< names of all properties that its runs have
+  std::set<std::string>
+      properties;  ///< the keys of omplProperties that any of the planner's runs has
   std::vector<std::string> progressNames;
 };
 
-/// Writes a planner and its runs as OMPL's Benchmark does. Its own writer needs all runs in memory.
+/// Writes a planner and its runs in the form of OMPL's Benchmark. OMPL's own writer is not used for
+/// this, because it needs all runs in memory.
 void writePlanner(const Campaign& campaign, const CampaignCell& cell, const RunSource& runs,
                   const LoggedPlanner& planner, std::ostream& out) {
   out << planner.name << '\n' << planner.settings.size() << " common properties\n";
@@ -60,7 +62,8 @@ void writePlanner(const Campaign& campaign, const CampaignCell& cell, const RunS
     }
     out << '\n';
   });
-  if (!planner.progressNames.empty()) {  // a planner that reports progress: the samples of each run
+  if (!planner.progressNames
+           .empty()) {  // the planner reports progress: write the samples of each run
     out << planner.progressNames.size() << " progress properties for each run\n";
     for (const std::string& name : planner.progressNames) out << name << '\n';
     out << cell.runs.size() << " runs\n";
@@ -198,7 +201,8 @@ void writeOmplLog(const Campaign& campaign, const CampaignResult& result, const 
     });
     planners.push_back(std::move(planner));
   }
-  experiment.planners.resize(planners.size());  // without names and runs: only their number matters
+  experiment.planners.resize(
+      planners.size());  // empty: OMPL's writer is used for the head only, which has their number
   std::ostringstream head;
   log.saveResultsToStream(head);
   std::string text = head.str();

@@ -19,8 +19,7 @@
 namespace corridor {
 namespace {
 
-/// Replaces the characters that are syntax for gnuplot or SVG: names in files are
-/// arbitrary.
+/// Replaces the characters that are syntax for gnuplot or SVG, because users may choose any names.
 std::string plain(std::string text) {
   for (char& c : text)
     if (c == '"' || c == '\'' || c == '\\' || c == '<' || c == '>' || c == '&' || c == '`')
@@ -34,7 +33,7 @@ std::string quoted(const std::string& text) {
   for (const char c : plain(text)) out += c == '\n' ? std::string("\\n") : std::string(1, c);
   return out + "\"";
 }
-/// Shortens a name for the legend, at a boundary of UTF-8 characters.
+/// Shortens a name for the legend, without splitting a UTF-8 character.
 std::string shortened(const std::string& name) {
   constexpr std::size_t kMost = 60;
   if (name.size() <= kMost) return name;
@@ -83,8 +82,8 @@ class Script {
       out_ << "set " << name << "range [" << number(range->first) << ":" << number(range->second)
            << "]\n";
   }
-  /// Labels 1, 2 and 5 of each decade: with powers of ten alone, a narrow range could have only one
-  /// label.
+  /// Labels an axis at 1, 2 and 5 times each power of ten. With powers of ten alone, a narrow range
+  /// could have only one label.
   void labelHalfDecades(char name, const std::pair<double, double>& range) {
     std::string tics;
     const int last = static_cast<int>(std::ceil(std::log10(range.second)));
@@ -141,8 +140,8 @@ class Script {
     return drawn + ", " + block + " using 1:2:7 with labels hypertext point" + pointOf(shape, 0.7) +
            color + " notitle";
   }
-  /// gnuplot's point types: round, square, triangle up, triangle down, diamond, pentagon; then the
-  /// same, hollow.
+  /// Returns gnuplot's words for a shape: round, square, triangle up, triangle down, diamond,
+  /// pentagon, filled; then the same shapes, hollow.
   static std::string pointOf(std::size_t shape, double size) {
     static constexpr std::array<int, kPlotShapes> kTypes{7, 5, 9, 11, 13, 15, 6, 4, 8, 10, 12, 14};
     std::ostringstream text;
@@ -172,8 +171,8 @@ std::string runGnuplot(const std::string& script) {
   int status = -1;
   std::string word = file;  // quoted for the shell: TMPDIR may contain any characters
   replaceAll(word, "'", "'\\''");
-  // -d ignores the user's own settings (~/.gnuplot). The trap ignores signals to the whole process
-  // group (user_signals.h): only the parent decides what they mean.
+  // -d ignores the user's own settings (~/.gnuplot). Because of the trap, gnuplot ignores signals
+  // to the whole process group (user_signals.h): only the parent decides what happens then.
   const std::string command = "trap '' INT TERM HUP USR1; exec gnuplot -d '" + word + "' 2>&1";
   if (FILE* const pipe = ::popen(command.c_str(), "r")) {
     std::array<char, 65536> part;

@@ -6,19 +6,22 @@
 
 namespace corridor {
 
+/// Durations of a call, in nanoseconds; see nanosecondsOf.
+inline constexpr double kRepeatBelow = 5'000, kMaybePreempted = 100'000;
+
 /// Returns the nanoseconds that one call takes.
 ///
-/// Reading the clock costs some 30 ns. A call shorter than `kRepeatBelow` nanoseconds is therefore
-/// repeated between two readings, as often as the first call would fit into `kRepeatBelow`. The
-/// mean of the repeats is returned; the clock's share of it is about 1 %. A longer call runs once.
-/// During a call of `kMaybePreempted` nanoseconds or more, the system may have run another program.
-/// The result is then the smaller of the elapsed time and the thread's own processor time. (For
-/// shorter calls, reading the clock of processor time takes too long.)
+/// Reading the clock costs some 30 ns. If the first call takes less than `kRepeatBelow`
+/// nanoseconds, it is therefore repeated between two readings, as often as it would fit into
+/// `kRepeatBelow`, but at most 201 times. The mean of the repeats is returned; the readings are
+/// about 1 % of it. A longer call runs once. During a call of `kMaybePreempted` nanoseconds or
+/// more, the system may have run another program. The result is then the smaller of the elapsed
+/// time and the thread's own processor time. (For shorter calls, reading the clock of processor
+/// time takes too long.)
 ///
 /// @param ask makes the first call of the function that is timed.
 /// @param again makes a repeated call. It must do the same work as the first, so it must clear what
 /// an earlier call left in a cache.
-inline constexpr double kRepeatBelow = 5'000, kMaybePreempted = 100'000;
 template <class Ask, class Again>
 double nanosecondsOf(Ask&& ask, Again&& again) {
   using Clock = std::chrono::steady_clock;

@@ -18,17 +18,18 @@ using RankClock = std::chrono::steady_clock;
 using std::chrono::microseconds;
 
 constexpr microseconds kLeastPause{50}, kLongestPause{2000};
-/// Milliseconds between a rank's looks for messages while a task is under way.
+/// The longest time, in milliseconds, between two polls of a rank for messages while a task is
+/// under way.
 constexpr int kPollMs = 5;
-/// Seconds that rank 0 waits, at most, for the other ranks at the end. The wait is that long only
-/// if a rank has died.
+/// The longest time, in seconds, that rank 0 waits for the other ranks at the end. Rank 0 waits so
+/// long only if a rank has died.
 constexpr double kFarewell = 30;
 
-// The first byte of each message. To other ranks:
+// The first byte of each message from rank 0 to another rank:
 constexpr char kSetUp = 'u';  ///< followed by the text of the set-up
 constexpr char kTask = 't';   ///< followed by the task's number
 constexpr char kStop = 's', kEnd = 'e';
-// To rank 0:
+// The first byte of each message to rank 0:
 /// Followed by the task's number, the count of its messages, its failure, and its last message.
 constexpr char kDone = 'd';
 constexpr char kKilled = 'k';  ///< followed by the task's number
@@ -37,7 +38,8 @@ constexpr char kSignal = 'i';  ///< followed by the signal's number
 constexpr char kFault = 'f';   ///< followed by the fault's text
 constexpr char kBye = 'b';     ///< the last message of a rank
 
-/// Pauses that grow while nothing happens.
+/// Pauses of the calling thread, each twice as long as the one before up to kLongestPause, until
+/// `reset`.
 class Pause {
  public:
   void operator()() {
@@ -54,7 +56,7 @@ class Pause {
   throw std::logic_error("a message between ranks is not understood: " + text.substr(0, 80));
 }
 
-/// Reads a number at `at`, and moves `at` behind it.
+/// Reads a number at the position `at` of the text, and moves `at` behind the number.
 std::uint64_t rankNumberAt(const std::string& text, std::size_t& at) {
   std::uint64_t number = 0;
   const char* const end = text.data() + text.size();
@@ -68,7 +70,8 @@ std::uint64_t rankNumberIn(const std::string& text) {
   return rankNumberAt(text, at);
 }
 
-/// Returns the message "d17 2 FAILURE\nMESSAGE", in which the failure is one line.
+/// Returns the message for the end of a task, "d17 2 FAILURE\nMESSAGE": task 17 sent 2 messages, of
+/// which MESSAGE is the last. Line breaks of the failure become blanks.
 std::string textOf(const TaskEnd& one) {
   const std::vector<std::string>& messages = one.end.messages;
   std::string failure = one.end.failure;
@@ -105,7 +108,7 @@ RankExecutor::RankExecutor(Ranks& ranks, std::size_t jobs)
 RankExecutor::~RankExecutor() {
   try {
     for (int rank = 1; rank < ranks_.size(); ++rank) sendTo(rank, {kEnd});
-    // All that the others have sent must be received before MPI ends.
+    // All messages of the other ranks must be received before MPI ends.
     int waiting = ranks_.size() - 1;
     Pause pause;
     const auto begun = RankClock::now();
@@ -155,7 +158,7 @@ std::vector<TaskEnd> RankExecutor::wait(int milliseconds) {
   for (;;) {
     bool any = false;
     while (auto message = ranks_.receive()) take(std::move(*message), ends), any = true;
-    // Tasks that ended before a fault was reported are returned first.
+    // If tasks ended before a fault was reported, this call returns them, and the next call throws.
     if (fault_ && ends.empty()) throw InputError(*fault_);
     if (any || RankClock::now() >= until) return ends;
     pause();
@@ -211,7 +214,7 @@ void serveRanks(Ranks& ranks, const RankSetUp& setUp, const std::function<int()>
       pause.reset();
       const std::string& text = message->text;
       if (text[0] == kEnd) {
-        executor.reset();  // kills what is under way
+        executor.reset();  // kills the tasks that are under way
         ranks.send(0, {kBye});
         return;
       }

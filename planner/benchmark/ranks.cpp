@@ -8,7 +8,8 @@
 namespace corridor {
 namespace {
 
-/// Returns a whole number in the environment, or nullopt.
+/// Returns the value of an environment variable, or nullopt if it is not set or is not a whole
+/// number.
 std::optional<int> numberIn(const char* name) {
   const char* const text = std::getenv(name);
   if (!text) return std::nullopt;

@@ -15,7 +15,7 @@ struct RankMessage {
 /// Between two ranks, messages arrive in the order in which they were sent.
 class Ranks {
  public:
-  /// Waits until all ranks have reached their destructors. No message can be sent afterwards.
+  /// Waits until every rank destroys its object of this class. No message can be sent afterwards.
   virtual ~Ranks() = default;
   Ranks() = default;
   Ranks(const Ranks&) = delete;
@@ -32,8 +32,8 @@ class Ranks {
 
 extern "C" {
 /// The function that the MPI module exports under this name. The module is opened only under
-/// `mpirun`, so that the program does not depend on MPI. The caller owns the object. A process may
-/// make at most one in its life. @throws std::exception if MPI can't be started.
+/// `mpirun`, so that the program does not depend on MPI. The caller owns the returned object. A
+/// process may call this function only once. @throws std::exception if MPI can't be started.
 Ranks* corridorRanks();
 }
 
@@ -41,11 +41,11 @@ Ranks* corridorRanks();
 bool startedByMpirun();
 
 /// Returns the rank of this process from the environment variables that Open MPI's `mpirun` and
-/// Slurm's `srun --mpi=pmix` set. Returns 0 for a process that is alone.
+/// Slurm's `srun --mpi=pmix` set. Returns 0 for a process that neither of them started.
 int rankInEnvironment();
 
-/// Joins the job. @returns null if this process was not started by `mpirun`, or is alone in its
-/// job.
+/// Joins the job of `mpirun`. @returns null if this process was not started by `mpirun` or `srun
+/// --mpi=pmix`, or is the only one in its job.
 /// @throws InputError if Corridor was built without MPI, or MPI can't be started.
 std::unique_ptr<Ranks> joinRanks();
 

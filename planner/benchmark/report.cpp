@@ -17,20 +17,20 @@ namespace {
 namespace fs = std::filesystem;
 using view::escapedHtml;
 
-/// Plots and tables of up to this many problems are shown at once; if there are more problems, they
-/// are folded.
+/// If a campaign has more problems than this, the plots and tables of single problems are folded.
 constexpr std::size_t kMostAtOnce = 8;
-/// Plots of folded problems, and those with more bytes than this, are texts in the page until they
-/// come near the window: a browser opens a page with 20,000 elements of SVG seconds later.
+/// Folded plots, and plots whose SVG has more bytes than this, are texts in the page until they
+/// come near the window. With 20,000 elements of SVG, a browser would need seconds to open the
+/// page.
 constexpr std::size_t kLargePlot = 200'000;
 
-/// "1 problem", "2 problems"
+/// Returns a number with a noun: "1 problem", "2 problems".
 std::string counted(std::size_t number, const std::string& noun) {
   return std::to_string(number) + " " + noun + (number == 1 ? "" : "s");
 }
 
-/// Size of a plot in SVG units. The height grows with the legend, so that a long legend does not
-/// shrink the plot.
+/// The size of a plot, in SVG units. The height grows with the legend, so that a long legend does
+/// not shrink the plot.
 constexpr int kPlotWidth = 560;
 int heightOf(const Plot& plot) {
   const auto names = plot.shapes.size() + static_cast<std::size_t>(std::count_if(
@@ -149,8 +149,8 @@ class Report {
     return list + "</ul>";
   }
 
-  /// Returns `html`, which shows each problem. If there are many problems, `html` is folded behind
-  /// a line that opens it.
+  /// Returns `html`, which shows all problems one by one. If there are more than kMostAtOnce
+  /// problems, the returned HTML shows only a line, which unfolds `html`.
   std::string ofEach(const std::string& what, const std::string& html) const {
     const std::size_t count = campaign_.problems.size();
     if (count <= kMostAtOnce) return html;
@@ -181,7 +181,7 @@ class Report {
   std::string figure(Plot plot, bool isFolded = false) {
     const std::string name = fileName(plot.name);
     plot.name = name;
-    // "a b" and "a-b" have the same file name.
+    // Different names, such as "a b" and "a-b", may give the same file name.
     for (int i = 2; !plots_.insert(plot.name).second; ++i)
       plot.name = name + "-" + std::to_string(i);
     const fs::path base = folder_ / "plots" / plot.name;
@@ -189,7 +189,7 @@ class Report {
     files_.push_back(base.string() + ".csv");
     const auto none = [&](const std::string& why) {
       std::error_code ignored;
-      fs::remove(base.string() + ".svg", ignored);  // left by an earlier report
+      fs::remove(base.string() + ".svg", ignored);  // an earlier report may have left this file
       return "<figure><p>" + escapedHtml(plot.title + ": no plot" + why) + "</p></figure>\n";
     };
     if (!canPlot()) return none("");
@@ -203,7 +203,8 @@ class Report {
     files_.push_back(base.string() + ".svg");
     svg.erase(0, svg.find("<svg"));
     std::string head = "<figure data-plot=\"" + escapedHtml(plot.name) + "\"";
-    // report.js draws it. No name in the text can end the script: `svgOf` replaces their "<".
+    // report.js draws this plot. No name in the text can end the script: `svgOf` replaces their
+    // "<".
     if (isFolded || svg.size() > kLargePlot) {
       head += " style=\"aspect-ratio: " + std::to_string(kPlotWidth) + " / " +
               std::to_string(heightOf(plot)) + "\"";

@@ -13,7 +13,8 @@ namespace corridor {
 /// `plots/NAME.svg`, and their data as `plots/NAME.csv`. Existing files of these names are
 /// replaced. Without gnuplot there are no plots, and the page says so.
 /// @param sessions the sessions of the campaign's database, which the page lists.
-/// @returns the files, the page first. @throws InputError if a file can't be written.
+/// @returns the files that were written, the page first. @throws InputError if a file can't be
+/// written.
 std::vector<std::filesystem::path> writeReport(const Campaign& campaign,
                                                const std::vector<CampaignCell>& cells,
                                                const std::filesystem::path& folder,

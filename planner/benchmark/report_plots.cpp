@@ -23,7 +23,7 @@ std::string digits(double value) {
   return text;
 }
 
-/// Calls f(cell) for each planner of a problem and a variant.
+/// Calls f(cell) for each cell of a problem and a variant: one for each planner.
 void forCells(const std::vector<CampaignCell>& cells, std::size_t problem, std::size_t variant,
               const std::function<void(const CampaignCell&)>& f) {
   for (const CampaignCell& cell : cells)
@@ -31,14 +31,15 @@ void forCells(const std::vector<CampaignCell>& cells, std::size_t problem, std::
 }
 
 /// The largest number of steps of a curve. With n > kMostSteps values it has kMostSteps of the n
-/// steps, the first and the last among them. Between two of them, fewer than
-/// (n − 1)/(kMostSteps − 1) steps are missing, so the curve is nowhere too high, and too low by
-/// less than 1/499. gnuplot draws a share of 1 at a height of 195 units (`heightOf` in report.cpp),
-/// and the page scales plots by at most 1.32 (a single plot has 738 pixels for 560 units): 0.52
-/// pixels.
+/// steps, the first and the last among them. Between two successive drawn steps, fewer than (n −
+/// 1)/(kMostSteps − 1) steps are missing, so the curve is nowhere too high, and too low by less
+/// than 1/499. gnuplot draws a share of 1 at a height of 195 units (`heightOf` in report.cpp), and
+/// the page scales plots by at most 1.32 (a single plot has 738 pixels for 560 units): 0.52 pixels.
 constexpr std::size_t kMostSteps = 500;
 
-/// Returns a step function that rises by 1/of at each value, over [first, last].
+/// Returns a step function on [first, last] that rises by 1/`of` at each value, starting from 0.
+/// Values below `first` count as `first`. With more than kMostSteps values, only some of the steps
+/// are drawn, each as high as all values up to it.
 std::vector<PlotPoint> steps(std::vector<double> values, std::size_t of, double first,
                              double last) {
   std::sort(values.begin(), values.end());
@@ -56,8 +57,8 @@ std::vector<PlotPoint> steps(std::vector<double> values, std::size_t of, double 
   return points;
 }
 
-/// Returns the range of whole decades around the values above 0, at least one decade: gnuplot fails
-/// on an empty range.
+/// Returns the smallest range of whole decades that contains all values above 0. It has at least
+/// one decade, because gnuplot fails on an empty range.
 std::pair<double, double> decades(const std::vector<double>& values) {
   double least = HUGE_VAL, most = 0;
   for (const double v : values)
@@ -92,14 +93,15 @@ void forCosts(const Campaign& campaign, const std::vector<CampaignCell>& cells,
   }
 }
 
-/// The plot of costs has a point per run up to this number of runs. If there are more, it has one
-/// for each variant and each cell of a grid that contains runs: the first of these runs, with their
-/// number in its text. The finest grid has 128 cells along an axis. The axes have 426 and 194
-/// units, so a run is less than 3.4 and 1.6 units from its point, whose radius is 3.4. If there are
-/// still too many points, the grid is coarser; the title says how fine it is.
+/// With up to kMostPoints runs, the plot of costs has a point per run. If there are more runs, it
+/// has one point for each variant and each cell of a grid that contains runs of this variant. The
+/// point is at the first of these runs, and its text contains the number of the others. The finest
+/// grid has 128 cells along an axis. The axes have 426 and 194 units, so a run is less than 3.4 and
+/// 1.6 units from its point, whose radius is 3.4. If there are still too many points, the grid is
+/// coarser; the title says how fine it is.
 constexpr std::size_t kMostPoints = 4000, kFinestGrid = 128;
 
-/// The points of the plot of costs, as series of variants.
+/// The points of the plot of costs, one series for each variant.
 struct CostGrid {
   const Campaign& campaign;
   std::pair<double, double> range;  ///< of both axes
@@ -177,8 +179,8 @@ Plot solvedOverTime(const Campaign& campaign, const std::vector<CampaignCell>& c
       }
     });
   plot.rangeX = decades(times);
-  // The time axis ends at the time limit, or at the longest run if that is later, instead of at the
-  // next decade.
+  // The time axis does not end at a whole decade, but at the time limit, or at the longest run if
+  // this is later.
   if (!times.empty()) {
     const double limit = campaign.time.value_or(campaign.problems[problem].settings.planner.time);
     const double most = std::max(limit, *std::max_element(times.begin(), times.end()));
@@ -257,8 +259,8 @@ Plot refutedShareOfAll(const Campaign& campaign, const std::vector<CampaignCell>
 }
 
 Plot profileOfAll(const Campaign& campaign, const std::vector<CampaignCell>& cells) {
-  // Count only runs that every variant has made: otherwise a variant would be the quickest of each
-  // run that it alone made.
+  // Count only the combinations of problem, planner and seed that every variant has run. A variant
+  // would otherwise be the quickest wherever it is the only one.
   const std::size_t variants = campaign.variants.size();
   std::size_t runs = 0;
   std::vector<std::vector<double>> ratios(variants);

@@ -17,7 +17,8 @@ namespace {
 
 using view::escapedHtml;
 
-/// Returns three significant digits. Numbers from 1000 are whole, with digits in groups of three.
+/// Returns a number with three significant digits. Numbers from 1000 on are rounded to whole
+/// numbers, with their digits in groups of three.
 std::string threeDigits(double value) {
   if (std::isnan(value)) return "–";
   if (std::isinf(value)) return "∞";
@@ -44,7 +45,8 @@ std::string interval(const Interval& of, std::string (*text)(double)) {
 std::string count(std::size_t hits, std::size_t of) {
   return std::to_string(hits) + " of " + std::to_string(of);
 }
-/// Marks the text as `bad` if at least one path is refuted.
+/// Returns the text on refuted paths: `hits` of `judged`. It has the style `bad` if at least one
+/// path is refuted.
 std::string refuted(std::size_t hits, std::size_t judged) {
   if (judged == 0) return "–";
   return std::string("<span class=\"") + (hits ? "bad" : "good") + "\">" + count(hits, judged) +
@@ -109,7 +111,7 @@ std::string checkerText(const Variant& variant) {
   if (variant.competitor) text += ", peer: " + variant.competitor->name;
   return text.empty() ? "each problem’s own" : text;
 }
-/// Returns the "Model name:" of the output of `lscpu`, or its first line.
+/// Returns the value of "Model name:" in the output of `lscpu`, or the first line of the output.
 std::string processorOf(const std::string& cpu) {
   const std::string key = "Model name:";
   const auto at = cpu.find(key);

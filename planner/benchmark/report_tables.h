@@ -9,10 +9,11 @@
 /// The tables of a campaign's report, as HTML.
 namespace corridor {
 
-/// One row per variant in order of rank: refuted, solved, time, share of checking, length left.
+/// One row per variant in order of rank. Columns: refuted paths, solved runs, time, share of the
+/// time in checking, and the ratio of the path's length after simplifying to its length before.
 std::string rankingTable(const Campaign& campaign, const std::vector<CampaignCell>& cells,
                          const std::vector<VariantScore>& scores);
-/// One row per variant whose tests are counted: C_v, C_p, and how well they predict.
+/// One row per variant whose tests are counted: C_v, C_p, and how well they predict the time.
 std::string costTable(const Campaign& campaign, const std::vector<VariantScore>& scores);
 /// One row per variant, set of limits and maker of trajectories.
 std::string trajectoryTable(const Campaign& campaign, const std::vector<CampaignCell>& cells);

@@ -17,7 +17,7 @@ struct QueuedRun {
   std::uint64_t seed = 0;
 };
 
-/// Compares runs and seeds by seed.
+/// Compares runs with runs, and runs with seeds, by seed.
 struct BySeed {
   static std::uint64_t seedOf(const BenchmarkRun& run) { return run.seed; }
   static std::uint64_t seedOf(std::uint64_t seed) { return seed; }
@@ -55,8 +55,9 @@ class Durations {
     cells_[cell].seconds += seconds, ++cells_[cell].runs;
     all_.seconds += seconds, ++all_.runs;
   }
-  /// Returns the estimated seconds of all waiting runs, one after the other. Each takes the mean
-  /// time of its cell, or of all runs if its cell has none. Negative: unknown.
+  /// Returns an estimate of the seconds that all waiting runs take if they are made one after the
+  /// other. For each run, it is the mean of the finished runs of its cell, or of all finished runs
+  /// if its cell has none. Returns a negative number if no run is finished.
   double ofWaiting() const {
     if (all_.runs == 0) return -1;
     double sum = 0;
@@ -75,7 +76,8 @@ class Durations {
   Sum all_;
 };
 
-/// A run as the number of a task. Seeds have 32 bits (checkCampaign).
+/// Returns the number of the task for a run: cell and seed in one number. Seeds have 32 bits
+/// (checkCampaign).
 std::uint64_t taskOf(const QueuedRun& run) {
   return std::uint64_t{run.cell} << 32 | run.seed;
 }
@@ -105,13 +107,13 @@ CampaignResult runCampaign(const Campaign& campaign, const CampaignOptions& opti
   for (const CampaignCell& cell : cells) done += cell.runs.size();
   const std::uint64_t total = done + tasks.size();
   Durations durations(cells.size(), tasks);
-  if (!campaign.shard)  // growing would need twice the memory
+  if (!campaign.shard)  // otherwise the vectors would need twice the memory while they grow
     for (CampaignCell& cell : cells) cell.runs.reserve(campaign.runs);
   std::map<std::uint64_t, Clock::time_point> since;  // of the tasks under way
   LocalExecutor local(options.jobs, runStarter(campaign));
   Executor& executor = options.executor ? *options.executor : local;
 
-  /// @returns false if a run must end before this one can begin.
+  /// Begins the next run. @returns false if another run must end before it can begin.
   const auto begin = [&] {
     const QueuedRun task = tasks.front();
     if (options.progress) {

@@ -91,7 +91,8 @@ BenchmarkRun readRecord(const std::string& figures, const std::string& ompl,
 
 namespace {
 
-/// Makes a text empty, and frees its memory. An assignment would keep it.
+/// Makes a text empty, and frees its memory. (After an assignment of "", the text would keep the
+/// memory.)
 void release(std::string& text) {
   std::string().swap(text);
 }

@@ -7,10 +7,10 @@
 
 #include "planner/benchmark/benchmark_run.h"
 
-/// Runs as texts, and runs without their texts.
+/// Runs written as JSON texts, and runs whose own texts are removed to save memory.
 namespace corridor {
 
-/// Writes a run as one line of JSON, and reads it back.
+/// Write a run as one line of JSON, and read such a line.
 std::string text(const BenchmarkRun& run);
 BenchmarkRun readRun(const std::string& text);
 
@@ -18,23 +18,25 @@ BenchmarkRun readRun(const std::string& text);
 struct RunRecord {
   std::string figures;  ///< all of the run except `ompl`
   std::string ompl;     ///< OMPL's properties and progress of this run
-  std::string setup;    ///< the rest of OMPL's record, the same in all runs of a cell on a machine
+  std::string
+      setup;  ///< the other parts of OMPL's record, the same in all runs of a cell on a machine
 };
 RunRecord recordOf(const BenchmarkRun& run);
 /// Reads `RunRecord::setup`.
 OmplRecord readSetup(const std::string& setup);
-/// Reads a run. @param figures as in RunRecord, or as `text` writes it: the other parameters are
-/// then unused. @param setup as `readSetup` returns it.
+/// Reads a run. @param figures,ompl the texts of RunRecord. `figures` may also be a line that
+/// `text` has written; then the other parameters are not used. @param setup the result of
+/// `readSetup`.
 BenchmarkRun readRecord(const std::string& figures, const std::string& ompl,
                         const OmplRecord& setup);
 
-/// Makes runs small, so that a campaign can keep 10^6 of them in memory.
+/// Removes the data of runs that take most of the memory, so that a campaign can keep 10^6 runs.
 class RunTrimmer {
  public:
-  /// Removes what is shown only in rows of single runs and in OMPL's logs: `why`, `finding`, and
-  /// OMPL's record except the machine. A trajectory's fault, if it has one, becomes `kFault`.
-  /// Afterwards the run takes less than half a kilobyte, and 0.2 kB more for each of its
-  /// trajectories.
+  /// Removes the data that are shown only in rows of single runs and in OMPL's logs: `why`,
+  /// `finding`, the findings of trajectories, and OMPL's record except the machine (`host` and
+  /// `cpu`). A trajectory's fault, if it has one, is replaced by `kFault`. Afterwards the run takes
+  /// less than half a kilobyte, and 0.2 kB more for each of its trajectories.
   void trim(BenchmarkRun& run);
   /// Short enough for a std::string without heap memory.
   static constexpr const char* kFault = "not kept";

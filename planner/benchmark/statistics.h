@@ -6,15 +6,16 @@
 /// Confidence intervals for reports.
 namespace corridor {
 
-/// A confidence interval: contains the true value with probability `kConfidence`.
+/// A confidence interval for an unknown value. With probability `kConfidence`, the interval
+/// contains the value: at least so for `medianInterval`, approximately for `shareInterval`.
 struct Interval {
   double from = 0, to = 0;
 };
 constexpr double kConfidence = 0.95;
 
 /// Returns an interval for the median of the distribution that the values are drawn from; any
-/// distribution is allowed. The interval lies between two of the values. By the binomial
-/// distribution, the median is below the interval with a probability of at most (1 −
+/// continuous distribution is allowed. The ends of the interval are two of the values. By the
+/// binomial distribution, the median is below the interval with a probability of at most (1 −
 /// kConfidence)/2, and above the interval with at most the same probability. The interval is
 /// infinite if there are fewer than six values.
 Interval medianInterval(std::vector<double> values);

@@ -14,17 +14,18 @@
 #include "planner/benchmark/query_timing.h"
 
 /// The costs of single tests: C_v and C_p of T = N_v·C_v + N_p·C_p (Gottschalk, Lin, Manocha 1996,
-/// eq. 1), without the traversal. The tests of whole queries are recorded. They are then run again
-/// in the same order, so they find the processor's caches much as they do in the queries.
+/// eq. 1), without the traversal. The tests of whole queries are recorded, and then run again in
+/// the same order. So the contents of the processor's caches are much the same as in the queries.
 namespace corridor {
 
-/// Nanoseconds of one test, the mean over the recorded tests. Empty: the queries make no such test.
+/// Nanoseconds of one test of each kind, the mean over the recorded tests. A cost is empty if the
+/// queries make no such test.
 struct TestCosts {
   std::optional<double> box, triangle;
 };
 
-/// One test of a recorded query: the query's pose, and two nodes or two leaf primitives, numbered
-/// in leaf order.
+/// One test of a recorded query: the index of the query's pose, and the indices of two nodes, or of
+/// two leaf primitives in leaf order.
 struct RecordedTest {
   std::uint32_t pose, a, b;
 };
@@ -72,8 +73,8 @@ class RecordingQuery {
 
 }  // namespace internal
 
-/// Records the tests of interference of a, at the identity, and b at each of the poses. Stops at
-/// the test number `most`.
+/// Records the tests of the interference queries of a, at the identity, and b, at each of the
+/// poses. Records no more than `most` tests in all.
 template <class Overlap, BoundingVolume Volume>
 RecordedTests recordedTests(const VolumeTree<Volume>& a, const VolumeTree<Volume>& b,
                             std::span<const Transform> poses, std::size_t most) {
@@ -90,10 +91,11 @@ RecordedTests recordedTests(const VolumeTree<Volume>& a, const VolumeTree<Volume
   return tests;
 }
 
-/// Measures the tests of interference queries, all at once, without their traversal.
-/// @param poses  of b; a is at the identity. They should be in random order, because only about the
-/// first `most` tests are run.
-/// @return the medians over `rounds` rounds.
+/// Measures the tests of interference queries without the traversal: runs all recorded box tests
+/// in a row, then all leaf tests.
+/// @param poses the poses of b; a is at the identity. The poses should be in random order, because
+/// only about the first `most` tests are run.
+/// @returns the medians over `rounds` rounds.
 template <class Overlap, BoundingVolume Volume>
 TestCosts testCosts(const VolumeTree<Volume>& a, const VolumeTree<Volume>& b,
                     std::span<const Transform> poses, std::size_t most = 1 << 18, int rounds = 5) {

@@ -19,7 +19,7 @@ RowValue wordOrNothing(const std::string& text) {
   return text.empty() ? RowValue{} : RowValue{text};
 }
 
-/// Returns a share of a limit, or nothing if there is no such limit.
+/// Returns a share of a limit, or nothing if the share is −1 (see TrajectoryRun).
 RowValue shareOrNothing(double share) {
   return share < 0 ? RowValue{} : RowValue{share};
 }
@@ -35,14 +35,15 @@ void forEachMaker(const CampaignTrajectories& trajectories, Visit visit) {
     for (std::size_t maker = 0; maker < trajectories.makers.size(); ++maker) visit(set, maker);
 }
 
-/// Returns the trajectory of a run, or null if there is none.
+/// Returns the entry for a set and a maker in a run, or null if the run does not have it.
 const TrajectoryRun* trajectoryOf(const BenchmarkRun& run, std::size_t set, std::size_t maker) {
   if (set >= run.trajectories.size() || maker >= run.trajectories[set].makers.size())
     return nullptr;
   return &run.trajectories[set].makers[maker];
 }
 
-/// Returns how much of the cost of stopping a trajectory saves; NaN if stopping costs nothing.
+/// Returns `TrajectoryScore::saved` for one trajectory with this duration. Returns NaN if stopping
+/// costs at most a thousandth of the optimum, or there is no trajectory by the maker `stop`.
 double savedBy(const CampaignTrajectories& trajectories, const BenchmarkRun& run, std::size_t set,
                double duration) {
   const auto stop =
@@ -66,7 +67,7 @@ bool withinLimits(const TrajectoryRun& run) {
          run.beyondBounds <= kLimitSlack;
 }
 
-/// Appends the columns of a score, each with a prefix.
+/// Appends the columns of a score; each name begins with the prefix.
 void addScore(const TrajectoryScore& score, const std::string& prefix, Row& row) {
   const auto count = [&](const char* name, std::size_t value) {
     row.emplace_back(prefix + name, std::uint64_t{value});
@@ -152,7 +153,7 @@ TrajectoryScore scoreOf(const Campaign& campaign, const std::vector<CampaignCell
 
 void addTrajectories(const Campaign& campaign, const BenchmarkRun& run, Row& row) {
   const CampaignTrajectories& all = campaign.trajectories;
-  std::size_t last = all.limits.size();  // the set before
+  std::size_t last = all.limits.size();  // the set of the previous call
   forEachMaker(all, [&](std::size_t set, std::size_t maker) {
     if (set != last) {
       const double optimum = set < run.trajectories.size() ? run.trajectories[set].optimum : 0;

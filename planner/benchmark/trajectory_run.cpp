@@ -16,8 +16,8 @@
 namespace corridor {
 namespace {
 
-/// Radians. The time law stops at corners with a larger angle; no corner has one, so it never
-/// stops.
+/// Radians. The time law stops at corners whose angle is larger than this. No angle is larger than
+/// π, so it never stops.
 constexpr double kEveryCorner = 4;
 
 MadeTrajectory noTrajectory(std::string why) {
@@ -40,8 +40,8 @@ MadeTrajectory makeSpline(bool inserts, const Problem& problem, const Checker& c
   return trajectoryAlong(problem, checker, pieces, {}, 1);
 }
 
-/// Returns a share, or −1 if there is no such limit, or it was not tested. An infinite share, which
-/// JSON lacks, becomes the largest double.
+/// Returns a share, or −1 if there is no such limit, or the rows don't determine the limited
+/// quantity. An infinite share becomes the largest double, because JSON has no infinity.
 double shareOf(const LimitShare& share, bool limited) {
   if (!limited || !share.tested) return -1;
   return std::min(share.share, std::numeric_limits<double>::max());

@@ -8,34 +8,37 @@
 #include "planner/problem/problem.h"
 #include "planner/solve/make_trajectory.h"
 
-/// Trajectories along the paths of a benchmark's runs: ours, and others for comparison. All have
-/// the same limits, the same time law, the same rows and the same verifier.
+/// Trajectories along the paths of a benchmark's runs: those of Corridor, and others for
+/// comparison. All have the same limits and the same time law, are written as rows in the same way,
+/// and are judged by the same verifier.
 namespace corridor {
 
 /// How the curve of a trajectory is made along a path.
 enum class TrajectoryMaker {
-  blends,   ///< ours, with proved curves at corners (`makeTrajectory`)
+  blends,   ///< Corridor's, with proved curves at corners (`makeTrajectory`)
   stop,     ///< the path's edges: the robot rests at each state where the direction changes
   spline,   ///< the natural cubic spline through the states (natural_spline.h)
   inserted  ///< the spline after states were inserted wherever samples of it touch something
 };
 const char* nameOf(TrajectoryMaker maker);
-/// "blends", "stop", "spline", "inserted"
+/// Returns "blends", "stop", "spline" and "inserted".
 const std::vector<std::string>& trajectoryMakerNames();
 std::optional<TrajectoryMaker> trajectoryMakerNamed(const std::string& name);
 
-/// Makes a trajectory along a path, and lets the checker prove it. Blends and stops are made again
-/// with a smaller deviation if they are not proved; splines are made once, since nothing about them
-/// is expected to be proved.
-/// @returns a result as that of `makeTrajectory`. Splines have a fault if the configuration space
-/// has a rotation in space, that of a rigid body or of a floating joint, because a spline through
-/// unit quaternions does not keep their norm.
+/// Makes a trajectory along a path, and lets the checker prove it. If a trajectory by `blends` or
+/// `stop` is not proved, it is made again with a smaller deviation. Splines are made once, since
+/// they are not expected to be proved.
+/// @returns a result like that of `makeTrajectory`. It has a fault if the path does not move. For
+/// the makers of splines, it also has a fault if the configuration space contains rotations in
+/// space (of a rigid body or a floating joint): a spline through unit quaternions does not keep
+/// their norm.
 MadeTrajectory makeBy(TrajectoryMaker maker, const Problem& problem, const Checker& checker,
                       const Path& path);
 
-/// Returns the duration of the fastest law along a path, in seconds, if the robot need not stop at
-/// corners and jerk is not limited. No motion along these edges is faster. Usually no robot can
-/// execute this law, since the velocity jumps at corners. NaN if there is no law.
+/// Returns the duration, in seconds, of the fastest time law along a path if the robot need not
+/// stop at corners and jerk is not limited. No motion along these edges within the limits is
+/// faster. Usually no robot can execute this law, since the velocity jumps at corners. Returns NaN
+/// if there is no such law.
 double optimumAlong(const Problem& problem, const Path& path);
 
 /// What one maker made along the path of a run. Units: seconds, radians, metres.
@@ -43,20 +46,23 @@ struct TrajectoryRun {
   std::string fault;  ///< one line: why there is no trajectory; empty if there is one
   double duration = 0;
   std::size_t rows = 0;
-  /// The largest share of each limit that is used at any instant, proved. −1: there is no such
-  /// limit, or the rows don't determine the limited quantity.
+  /// A proved upper bound of the largest share of each kind of limit that the trajectory uses at
+  /// any instant. −1: there is no such limit, or the rows don't determine the limited quantity.
   double velocity = -1, acceleration = -1, jerk = -1, link = -1;
-  double beyondBounds = 0;  ///< the largest distance by which a joint leaves its bounds
+  /// A proved upper bound of the largest distance by which a joint leaves its bounds.
+  double beyondBounds = 0;
   /// The independent verifier's verdict on the rows as they are written: "proved", "refuted" or
   /// "undecided"; empty without a trajectory.
   std::string verdict;
-  std::string finding;  ///< one line: the verifier's first finding, if it is not proved
-  double makeTime = 0;  ///< to make it, and to prove it by the checker
+  /// One line: the verifier's first finding. Empty if the trajectory is proved or was not made.
+  std::string finding;
+  double makeTime = 0;  ///< to make the trajectory, and to prove it by the checker
   double verifyTime = 0;
 };
 
-/// Makes a trajectory and verifies it. @param problem has the limits. @param checker its trees
-/// should be built already, so that the time to build them is not measured.
+/// Makes a trajectory and verifies it. @param problem the problem, with the limits of the
+/// trajectory. @param checker a checker whose trees should be built already, so that the time to
+/// build them is not measured.
 TrajectoryRun runTrajectory(TrajectoryMaker maker, const Problem& problem, const Checker& checker,
                             const Path& path);
 

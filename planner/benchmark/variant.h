@@ -27,24 +27,24 @@ struct BenchmarkCompetitor {
       const std::shared_ptr<ompl::base::SpaceInformation>&, const Checker&)>;
 
   std::string name;
-  Make<ompl::base::StateValidityChecker> states;        ///< null: Corridor's for `edges`
-  Make<ompl::base::MotionValidator> motions = nullptr;  ///< null: Corridor's for `edges`
+  Make<ompl::base::StateValidityChecker> states;  ///< null: Corridor's test of states for `edges`
+  Make<ompl::base::MotionValidator> motions = nullptr;  ///< null: Corridor's test for `edges`
   /// The value of checker.edges that the competitor replaces. With "discrete", edges are sampled by
   /// OMPL's rule, and `states` tests the samples.
   std::string edges = "discrete";
-  /// Makes a whole run in place of runUnderOmpl, in a process of its own; null: runUnderOmpl. If it
-  /// throws, the run fails with the exception's text.
+  /// Makes a whole run in place of runUnderOmpl, in a process of its own. Null: runUnderOmpl makes
+  /// the run. If the function throws, the run fails with the exception's text.
   std::function<BenchmarkRun(const Problem& planned, double memory,
                              std::vector<Configuration>& path)>
       run = nullptr;
-  std::string version = {};  ///< "FCL 0.7.0"
+  std::string version = {};  ///< for reports: "FCL 0.7.0"
 };
 
 /// A checker that a benchmark compares with others.
 struct Variant {
   std::string name;
-  /// The keys that the variant sets in a problem's `checker:`. `readCheckerKeys` reads this map
-  /// without a fault.
+  /// The keys that the variant sets in a problem's `checker:`, as a map that `readCheckerKeys`
+  /// reads without a fault.
   YamlValue checker;
   std::optional<BenchmarkCompetitor> competitor;
 
@@ -58,10 +58,10 @@ struct Variant {
 YamlValue checkerMap(const std::vector<std::pair<std::string, std::string>>& keys);
 
 /// Reads NAME or NAME:KNOB, where NAME is a value of `checker: {edges: …}` or a competitor's name.
-/// For sampled edges, KNOB is the resolution (OMPL's longest_valid_segment_fraction); for all
-/// others, it is the tolerance in metres.
-/// @throws InputError for an unknown name (it lists the known names), and for a KNOB that is no
-/// legal value: a resolution must fulfil isResolution, a tolerance must be above 0.
+/// For variants that sample edges, KNOB is the resolution (OMPL's longest_valid_segment_fraction);
+/// for all other variants, it is the tolerance in metres.
+/// @throws InputError for an unknown name (the message lists the known names), and for a KNOB that
+/// is not legal: a resolution must fulfil isResolution, a tolerance must be above 0.
 Variant readVariant(const std::string& text,
                     const std::vector<BenchmarkCompetitor>& competitors = {});
 

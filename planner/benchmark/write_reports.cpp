@@ -19,8 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Tests whether files can be created in a folder, by creating one: permissions don't show whether
-/// the file system is read-only.
+/// Tests whether files can be created in a folder, by creating one and removing it. (Permissions
+/// don't show whether the file system is read-only.)
 /// @returns the reason why files can't be created, or "" if they can.
 std::string whyNoFiles(const fs::path& folder) {
   std::string probe = (folder / ".corridor-benchmark-XXXXXX").string();
@@ -31,8 +31,8 @@ std::string whyNoFiles(const fs::path& folder) {
   return "";
 }
 
-/// Returns the files of all logs, in order of problem, then variant. Logs without runs are
-/// included.
+/// Returns the files of all logs, in order of problem, then variant, also for variants without
+/// runs.
 std::vector<fs::path> logFiles(const Campaign& campaign, const fs::path& folder) {
   std::vector<fs::path> files;
   std::set<std::string> taken;
@@ -61,7 +61,8 @@ std::vector<Fault> inTheWay(const Campaign& campaign, const fs::path& folder) {
   if (fs::is_directory(plots, none)) {
     if (const std::string why = whyNoFiles(plots); !why.empty())
       faults.push_back({plots.string(), 0, why});
-    // Any .csv or .svg: the report chooses the names of its plots later.
+    // Every folder whose name ends in .csv or .svg is refused, because the names of the plots are
+    // not known yet.
     for (const auto& entry : fs::directory_iterator(plots, none))
       if (const auto kind = entry.path().extension();
           (kind == ".csv" || kind == ".svg") && entry.is_directory(none))
@@ -78,7 +79,8 @@ std::string fileName(std::string text) {
   std::replace_if(
       text.begin(), text.end(),
       [](unsigned char c) { return !std::isalnum(c) && c != '.' && c != '_' && c != '-'; }, '-');
-  // File systems allow 255 bytes; callers add prefixes and endings.
+  // File systems allow names of 255 bytes; the other bytes are left for prefixes and endings that
+  // callers add.
   constexpr std::size_t kLongest = 120;
   return text.substr(0, kLongest);
 }

@@ -25,7 +25,7 @@ std::vector<std::size_t> bodiesOfShapes(const Model& model) {
   return owner;
 }
 
-/// Returns the answer for a floating-point mode that makes the bounds invalid.
+/// Returns the result of a query under a floating-point mode that makes the bounds invalid.
 MotionResult refused() {
   MotionResult result;
   result.verdict = MotionVerdict::undecided;
@@ -34,7 +34,8 @@ MotionResult refused() {
   return result;
 }
 
-/// @throws std::invalid_argument
+/// Checks the options of a checker, except their padding.
+/// @throws std::invalid_argument if an option is invalid.
 void requireValid(const CheckerOptions& options, const ConfigurationSpace& space) {
   const auto require = [](bool holds, const char* what) {
     if (!holds) throw std::invalid_argument(std::string("CheckerOptions: ") + what);
@@ -56,7 +57,8 @@ void requireValid(const CheckerOptions& options, const ConfigurationSpace& space
 Scene makeScene(const Model& model, const TreeParams& params) {
   std::vector<Scene::Placed> placed;
   std::vector<std::size_t> firstShape;
-  std::map<std::pair<const MeshFile*, bool>, std::size_t> known;  // by mesh and `solid`
+  // For each pair of a mesh and `solid`, the index in `placed` of the first body made of it.
+  std::map<std::pair<const MeshFile*, bool>, std::size_t> known;
   const auto bodyOf = [&](const PlacedShape& shape) {
     if (!shape.mesh) return Body(shape.name, shape.parts);
     const auto [same, isNew] = known.try_emplace({shape.mesh.get(), shape.solid}, placed.size());

@@ -46,8 +46,8 @@ class Checker {
   /// @throws std::invalid_argument in these cases:
   /// - The margin, a padding or the tolerance is not finite, the margin or a padding is negative,
   ///   or the tolerance is not above 0.
-  /// - The tube has another length than a configuration, or contains a number that is not 0 or
-  ///   more.
+  /// - The tube is not empty and has another length than a configuration, or a half width is
+  ///   negative or NaN.
   /// - The method measures distances (`adaptive`, `advancement`), and the trees have another
   ///   overlap test than their volume's default.
   /// - A mesh is invalid, or a solid mesh is not watertight.
@@ -76,51 +76,59 @@ class Checker {
   /// that is not finite or has a zero quaternion is out of bounds.
   bool inBounds(const Configuration& q) const;
   /// Decides whether a state is free, as an edge of zero length, always by
-  /// `EdgeMethod::directional`. Doesn't test the bounds. @pre finite.
+  /// `EdgeMethod::directional`. Doesn't test the bounds. @pre `q` is finite, and no quaternion is
+  /// zero.
   MotionResult certifyState(const Configuration& q) const;
   /// Decides whether an edge is free, by the method of the options. Doesn't test the bounds. @pre
-  /// finite.
+  /// Both states are finite, and no quaternion is zero.
+  /// @param earliest whether to search for the first contact, as in `MotionOptions`.
   MotionResult certifyEdge(const Configuration& from, const Configuration& to, bool earliest) const;
   /// Decides whether an edge is free, and stores in `certificate` what was proved. The method is
   /// always `EdgeMethod::directional`. The pairs of the certificate are those of
   /// `Scene::motionPairs()`. A certificate is about surfaces, so it is empty if the verdict follows
-  /// from containment in a solid mesh. Takes longer than the query without a certificate, because
-  /// every pair is proved, without a broad phase.
+  /// from containment in a solid mesh. Doesn't test the bounds. Takes longer than the query without
+  /// a certificate, because every pair is proved, without a broad phase. @pre Both states are
+  /// finite, and no quaternion is zero.
   MotionResult certifyEdge(const Configuration& from, const Configuration& to, bool earliest,
                            MotionCertificate& certificate) const;
-  /// Checks a certificate of an edge by another method, and returns its first fault
-  /// (collision/motion/check_certificate.h). @pre finite.
+  /// Checks a certificate of an edge by another method (collision/motion/check_certificate.h).
+  /// Returns the first fault of the certificate, or nullopt if it has none. @pre Both states are
+  /// finite, and no quaternion is zero.
   /// @param until `certifiedUntil` of the result that came with the certificate.
   std::optional<CertificateFault> faultOf(const MotionCertificate& certificate,
                                           const Configuration& from, const Configuration& to,
                                           double until) const;
   /// Decides whether every pair keeps its margin on an edge: the margin of the options, plus the
-  /// pair's number in `more`, which replaces the pair's padding. The method is always
-  /// `EdgeMethod::directional`. Doesn't test the bounds. @pre finite.
+  /// pair's entry in `more`, which replaces the pair's padding. The method is always
+  /// `EdgeMethod::directional`. Doesn't test the bounds. @pre Both states are finite, and no
+  /// quaternion is zero.
   /// @param more one margin for each pair of `Scene::motionPairs()`, metres.
   /// @throws std::invalid_argument for numbers that are not finite or are negative.
   MotionResult certifyEdge(const Configuration& from, const Configuration& to,
                            const PairMargins& more, bool earliest = false) const;
   /// Decides whether a piece of a curve is free, for the tube widened by the piece's `error`. Times
-  /// in the result are values of τ. The method is always `EdgeMethod::directional`. Doesn't test
-  /// the bounds. @pre the coefficients are finite.
+  /// in the result are values of the piece's parameter τ. The method is always
+  /// `EdgeMethod::directional`. Doesn't test the bounds. @pre The coefficients are finite, and no
+  /// quaternion is zero.
   /// @throws std::invalid_argument if the piece has another number of rows than a configuration has
   /// numbers, a degree that is not from 1 to 9, or an `error` that is negative, not finite, or of
   /// another size.
   MotionResult certifyCurve(const CurvePiece& piece, bool earliest = false) const;
   /// Tests exactly whether a tested pair is in contact at the rounded poses of the frames. Margin,
-  /// padding, tolerance and tube are ignored. @pre finite.
+  /// padding, tolerance and tube are ignored. @pre `q` is finite, and no quaternion is zero.
   /// @throws std::runtime_error if the processor's floating-point mode makes the bounds invalid
-  /// (collision/core/floating_point.h). `clearance` and `pairsNotFree` throw it, too.
+  /// (collision/core/floating_point.h). `clearance`, `pairsWithin` and `pairsNotFree` throw it,
+  /// too.
   std::optional<Contact> interference(const Configuration& q) const;
   /// Returns the smallest distance of the tested pairs minus the margin, metres. Padding is
   /// ignored. If the result is 0 or less, `certifyState` is not `free`. If it is below twice the
   /// tolerance plus the displacement that the tube allows, `certifyState` may be `undecided`. If a
   /// pair touches, the result is 0 − margin, since no penetration depth is computed. If no pair is
-  /// tested, the result is infinite. @pre finite.
+  /// tested, the result is infinite. @pre `q` is finite, and no quaternion is zero.
   double clearance(const Configuration& q) const;
-  /// Returns the pairs of shapes whose distance is at most a length of their own
-  /// (`Scene::pairsWithin`). The distances may exceed the true ones by a thousandth. @pre finite.
+  /// Returns the pairs of shapes whose distance is at most the pair's length in `within`
+  /// (`Scene::pairsWithin`). The distances may exceed the true ones by a thousandth of themselves.
+  /// @pre `q` is finite, and no quaternion is zero.
   std::vector<Scene::NearPair> pairsWithin(const Configuration& q, const PairMargins& within) const;
   /// Two bodies of the model, by index, for which a state is not free.
   struct PairNotFree {
@@ -128,7 +136,7 @@ class Checker {
     bool tooLarge = false;  ///< undecided, because the rounding of a large value may exceed the gap
   };
   /// Returns all pairs of bodies because of which `certifyState` does not return `free`, each pair
-  /// once. @pre finite.
+  /// once. @pre `q` is finite, and no quaternion is zero.
   std::vector<PairNotFree> pairsNotFree(const Configuration& q) const;
 
   /// Returns whether q is in bounds and `certifyState` is `free`.

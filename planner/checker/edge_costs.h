@@ -11,10 +11,11 @@ namespace corridor {
 /// times.
 struct EdgeCosts {
   std::size_t edges = 0, free = 0;  ///< numbers of tested edges, and of free ones among them
-  double freeSeconds = 0, otherSeconds = 0;  ///< medians of free and of other edges; 0: none
+  /// Median times of the free edges, and of the others; 0 if there are no such edges.
+  double freeSeconds = 0, otherSeconds = 0;
   struct OfPair {
     std::size_t a = 0, b = 0;  ///< bodies of the model
-    double share = 0;          ///< share in the summed times of all pairs, each certified alone
+    double share = 0;  ///< share of the pair in the summed times of all pairs, each certified alone
     std::uint64_t boxTests = 0, triangleTests = 0;  ///< over all edges
   };
   std::vector<OfPair> pairs;  ///< all tested pairs, the most expensive first
@@ -23,7 +24,8 @@ struct EdgeCosts {
 /// Certifies random edges. Each edge begins at a random state within the bounds and goes a fifth of
 /// the way to another one. Planners with OMPL's default range have edges of a similar length. The
 /// result is for display only: times depend on the machine and its load.
-/// @param edges the maximum number of edges to certify; at least one is certified.
+/// @param edges the maximum number of edges to certify; at least one is certified, however small
+/// `seconds` is.
 /// @param seconds time after which no further edge is begun.
 EdgeCosts sampleEdgeCosts(const Checker& checker, std::size_t edges, double seconds,
                           std::uint64_t seed);

@@ -94,8 +94,9 @@ unsigned DiscreteMotionValidator::steps(const Configuration& from, const Configu
 bool DiscreteMotionValidator::isFree(const Configuration& from, const Configuration& to) const {
   if (checker_.space().ambiguous(from, to) || !isValid(to)) return false;
   const unsigned n = steps(from, to);
-  // The middles are tested first, as in OMPL: this order finds contacts sooner.
-  std::queue<std::pair<unsigned, unsigned>> parts;  // untested steps, first to last
+  // The middle of each range of steps is tested first, as in OMPL: this order finds contacts
+  // sooner.
+  std::queue<std::pair<unsigned, unsigned>> parts;  // ranges of untested steps: first, last
   if (n > 1) parts.emplace(1, n - 1);
   for (; !parts.empty(); parts.pop()) {
     const auto [first, last] = parts.front();

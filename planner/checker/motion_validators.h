@@ -34,13 +34,14 @@ class CountingMotionValidator : public ompl::base::MotionValidator {
  protected:
   CountingMotionValidator(const ompl::base::SpaceInformationPtr& si, const Checker& checker);
 
-  /// The part of an invalid motion that is free: [0, t].
+  /// A part [0, t] of an invalid motion that this validator finds free.
   struct FreePart {
     double t = 0;
     Configuration state;  ///< the state at t; set only if t > 0
   };
   virtual bool isFree(const Configuration& from, const Configuration& to) const = 0;
-  /// If the motion is not free as a whole, returns the part that is free; if it is free, nullopt.
+  /// Returns nullopt if the whole motion is free. Otherwise returns a part that is free, from t = 0
+  /// on.
   virtual std::optional<FreePart> lastFree(const Configuration& from,
                                            const Configuration& to) const = 0;
 
@@ -64,7 +65,8 @@ class CertifiedMotionValidator final : public CountingMotionValidator {
                                    const Configuration& to) const override;
 };
 
-/// A motion is valid if sampled states on it are valid: OMPL's rule, as a baseline. The space's
+/// A motion is valid if the sampled states on it are valid: OMPL's rule, as a baseline. A motion
+/// that defines no curve (`ConfigurationSpace::ambiguous`) is not valid. The space's
 /// `validSegmentCount` cuts the edge into steps of at most longest_valid_segment_fraction of each
 /// subspace's extent. The state at the end of each step is tested by the state validity checker of
 /// the SpaceInformation (in `corridor solve` an ExactStateValidityChecker). Nothing is tested

@@ -62,14 +62,15 @@ struct ChainBetween {
   std::vector<VariableRange> box;      // for each variable
 };
 
-/// Returns nullopt if the proof can't be tried.
+/// Returns the chain between frames a and b of a model, or nullopt if the proof can't be tried.
 std::optional<ChainBetween> framesBetween(const Model& model, std::size_t a, std::size_t b,
                                           double beyond) {
   ChainBetween between;
   const std::vector<Frame>& frames = model.tree.frames;
   const std::size_t top = model.tree.commonAncestor(a, b);
   const std::vector<std::size_t> toA = upTo(model.tree, a, top), toB = upTo(model.tree, b, top);
-  std::vector<std::size_t> given;  // the model's variables
+  std::vector<std::size_t> given;  // for each variable of the chain, that of the model
+  // Adds the frames of a path, which is given upwards. Returns the index of the lowest frame.
   const auto add = [&](const std::vector<std::size_t>& path) {
     std::size_t last = 0;
     for (auto f = path.rbegin(); f != path.rend(); ++f) {
@@ -116,9 +117,11 @@ std::optional<ChainBetween> framesBetween(const Model& model, std::size_t a, std
 struct Box {
   std::vector<VariableRange> ranges;
   std::vector<MotionPair> open;  // the pairs of shapes that are not separated yet
-  double share = 1;              // of the box of all joint values
+  double share = 1;              // its share in the box of all joint values
 };
 
+/// Tries to prove that pairs of shapes keep the margin for all joint values, by halving boxes of
+/// joint values until each box is proved.
 class Subdivision {
  public:
   Subdivision(const ChainBetween& between, const NeverInContactOptions& options,
@@ -178,7 +181,7 @@ class Subdivision {
                std::min(options_.tests, std::numeric_limits<std::uint64_t>::max() - workBegin_);
     // The tolerance decides only when a time interval is no longer halved. In these queries nothing
     // moves, so no interval is ever halved. Any positive tolerance is therefore sufficient; the
-    // code takes the usual 1e-7 of the bodies' size.
+    // code takes the usual 1e-7 of the radius of the smallest shape.
     double radius = std::numeric_limits<double>::infinity();
     for (const MotionPair& pair : pairs)
       radius = std::min({radius, pair.a->sphereRadius(), pair.b->sphereRadius()});
@@ -186,9 +189,9 @@ class Subdivision {
     query_.margin = options_.margin;
   }
 
-  /// Removes from `box.open` the pairs that are separated throughout the box. Sets `tooClose_` if,
-  /// at the middle of the box, a pair that is left is not farther apart than the margin: no smaller
-  /// box can then prove this pair.
+  /// Removes from `box.open` the pairs that are separated throughout the box. Sets `tooClose_` if a
+  /// pair that is left is not farther apart than the margin at the middle of the box: then the pair
+  /// can't be proved.
   /// @returns the variable along which the box should be halved, if pairs are left; else 0.
   std::size_t test(Box& box) {
     const auto count = static_cast<Eigen::Index>(box.ranges.size());

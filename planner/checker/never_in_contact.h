@@ -15,7 +15,7 @@ namespace corridor {
 struct NeverInContactOptions {
   double margin = 0;  ///< metres that the two bodies must keep apart; 0: they must not touch
   /// How far the proof reaches beyond each limit of a joint: rad, or m for a prismatic joint. With
-  /// this reach, the proof also covers a tube around paths. This option is not used for a joint
+  /// this reach, the proof also covers a tube around paths. The option has no effect on a joint
   /// that covers the whole circle.
   double beyondLimits = 0;
   /// Work limit: at most this many boxes of joint values are tested.
@@ -35,17 +35,19 @@ struct NeverInContactResult {
     workLimit,  ///< a work limit was reached, or the proof was interrupted
     /// No proof was tried, for one of these reasons: a body has a solid mesh; no joint moves one
     /// body against the other; a joint between the two is planar or floating, has no limits, or
-    /// mimics a continuous joint (except a revolute mimic with a whole multiplier).
+    /// mimics a continuous joint (except a revolute joint that mimics it by a whole multiplier).
     notTried,
   };
   Verdict verdict = Verdict::notTried;
   std::uint64_t boxes = 0;  ///< number of boxes of joint values that were tested
   std::uint64_t tests = 0;  ///< number of tests of volumes and triangles
-  /// The share of all joint values for which the pair is proved, from 0 to 1. If a work limit was
-  /// reached, this share estimates how far the proof got. Only the verdict `proved` is a proof.
+  /// The share of the box of all joint values in which the pair is proved, from 0 to 1. If a work
+  /// limit was reached, this share shows how far the proof got. Only the verdict `proved` is a
+  /// proof.
   double provedShare = 0;
-  /// True if the proof ended for another reason than `boxes`, `tests` or an interrupt: too many
-  /// boxes are open, or a box is too small to be halved. Larger limits don't help then.
+  /// True if the proof ended with `workLimit` for another reason than `boxes`, `tests` or an
+  /// interrupt: the boxes that are not proved yet hold too many pairs of shapes for the memory, or
+  /// a box is too small to be halved. Larger limits don't help then.
   bool exhausted = false;
 };
 
@@ -58,14 +60,14 @@ struct NeverInContactResult {
 /// base. A joint with a range of a full turn or more is proved for all angles. The other verdicts
 /// prove nothing.
 ///
-/// Only the joints between the two bodies count, which are the joints on the path between the
-/// bodies' frames in the tree of frames. Their ranges form a box of joint values. A box is proved
-/// by one motion query in which nothing moves, at the middle of the box, with the half widths of
-/// the box as its tube (collision/PROMISES.md, promise 2: `free` holds for every configuration
-/// within the tube, with all rounding). A box that is not proved is halved along the joint that can
-/// displace the second body the most. Only the pairs of shapes that were not separated are tested
-/// in the halves. The boxes are tested breadth first, so that a contact is soon found at the middle
-/// of a box.
+/// Only the joints between the two bodies count: those on the path between the bodies' frames in
+/// the tree of frames. The ranges of these joints form a box of joint values. A box is proved by
+/// motion queries in which nothing moves, one for each pair of shapes. They are made at the middle
+/// of the box, with the half widths of the box as the tube (collision/PROMISES.md, promise 2:
+/// `free` holds for every configuration within the tube, with all rounding). A box that is not
+/// proved is halved along the joint that can displace the second body the most. Only the pairs of
+/// shapes that were not separated are tested in the halves. The boxes are tested breadth first, so
+/// that a contact is soon found at the middle of a box.
 ///
 /// A proof needs more boxes if more joints are between the bodies, or if the bodies come closer to
 /// each other. If they come as close as the margin anywhere, no proof succeeds.
@@ -73,11 +75,15 @@ struct NeverInContactResult {
 /// Thread safety: `prove` may be called from several threads, each with its own context.
 class NeverInContact {
  public:
-  /// @param model its planned joints move; all others are held. Must outlive the object.
+  /// @param model the robots and obstacles. Its planned joints move, and all others are held. Must
+  /// outlive the object.
   /// @param scene as `makeScene` makes it from the model (`Checker::scene`). Its pairs are ignored.
   /// Must outlive the object.
+  /// @throws std::invalid_argument if the scene has another number of bodies than the model has
+  /// shapes.
   NeverInContact(const Model& model, const Scene& scene);
 
+  /// Tries to prove that two bodies never come into contact.
   /// @param a, b bodies of the model, by index, in either order.
   /// @throws std::invalid_argument if an option is negative or not finite.
   NeverInContactResult prove(std::size_t a, std::size_t b, const NeverInContactOptions& options,

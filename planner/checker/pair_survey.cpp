@@ -14,11 +14,13 @@ namespace {
 
 using Verdict = NeverInContactResult::Verdict;
 
-/// The first attempt to prove a pair gets this many boxes, and each further attempt four times as
-/// many as the one before. All attempts at a pair together take at most 4/3 of its last attempt.
+/// The first attempt to prove a pair gets at most `kFirstBoxes` boxes, and each further attempt
+/// `kMoreBoxes` times as many as the one before, up to `kMostBoxes`. All attempts at a pair
+/// together take at most 4/3 of the boxes of the last attempt, unless the work limit shortens it.
 constexpr std::uint64_t kFirstBoxes = 80, kMoreBoxes = 4, kMostBoxes = 20480;
 /// This many tests of volumes and triangles count as one box. The test of a box also has a cost
-/// that is not counted, such as making its motion. These tests take about as long.
+/// that is not counted, such as making the motion of the box. This cost is about that of
+/// `kTestsPerBox` tests.
 constexpr std::uint64_t kTestsPerBox = 100;
 /// An attempt may take this many tests for each of its boxes, on average.
 constexpr std::uint64_t kMostTestsPerBox = 1000;
@@ -44,7 +46,8 @@ void proveWithin(const Checker& checker, const PairSurveyOptions& options,
                  std::vector<SurveyedPair>& pairs) {
   std::priority_queue<Attempt, std::vector<Attempt>, std::greater<>> attempts;
   for (const std::size_t pair : wanted)
-    // The cost of a repeated attempt is not negative, so all first attempts come before it.
+    // The cost of a repeated attempt is not negative, so all first attempts come before all
+    // repeated ones.
     attempts.push(
         {-1, pair, std::clamp<std::uint64_t>(options.work / wanted.size(), 1, kFirstBoxes)});
   const NeverInContact prover(checker.model(), checker.scene());

@@ -19,7 +19,7 @@ struct PairSurveyProgress {
   /// tested.
   std::uint64_t work = 0;
   std::size_t proved = 0;     ///< pairs proved never in contact
-  std::size_t undecided = 0;  ///< pairs that will get another attempt
+  std::size_t undecided = 0;  ///< pairs that wait for their first or another attempt at a proof
 };
 
 struct PairSurveyOptions {
@@ -28,7 +28,7 @@ struct PairSurveyOptions {
   /// Work limit for the proofs of all pairs together: the number of boxes of joint values that are
   /// tested, where 100 tests of volumes and triangles count as one more box. 0: no proof is tried.
   std::uint64_t work = 250'000;
-  std::size_t samples = 1000;  ///< how many random states are tested
+  std::size_t samples = 1000;  ///< number of random states to test
   std::uint64_t seed = 1;      ///< seed of the random states
   /// Called after each random state and each attempt at a proof. May be empty.
   std::function<void(const PairSurveyProgress&)> progress;
@@ -62,11 +62,11 @@ Configuration randomConfiguration(const ConfigurationSpace& space,
 /// that does not decide its pair is repeated with four times the boxes, up to 20,480. The next
 /// attempt is always the one with the smallest product of its boxes and the share of joint values
 /// that the previous attempt at the same pair left unproved. So pairs that are nearly proved come
-/// first. The last attempt before the limit gets the boxes that are left.
+/// first. The last attempt before the work limit gets at most the boxes that are left.
 /// @param checker its margin must be 0: then a pair that is not free is in contact, or closer than
 /// twice the tolerance. Its model must have bounds for all positions.
 /// @param wantsProof decides for which pairs a proof is tried.
-/// @throws std::invalid_argument as NeverInContact::prove
+/// @throws std::invalid_argument as NeverInContact::prove does.
 std::vector<SurveyedPair> surveyPairs(
     const Checker& checker, const PairSurveyOptions& options,
     const std::function<bool(std::size_t a, std::size_t b)>& wantsProof);

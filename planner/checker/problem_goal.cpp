@@ -13,9 +13,9 @@ namespace {
 
 bool inRegion(const Problem& problem, const Configuration& goal, const Configuration& q,
               double grow) {
-  // In units u = kUnit: each component of a normalised quaternion has an error below 4u. So the
-  // angle between two normalised quaternions has an error below 32u. Its computation adds at most
-  // another 32u.
+  // Let u = kUnit. Each component of a normalised quaternion has an error below 4u. So the angle
+  // between two normalised quaternions has an error below 32u. Its computation adds at most another
+  // 32u.
   const double same = 64 * kUnit;
   const GoalRegion& region = *problem.task.goalRegion;
   for (const CoordinateGroup& group : problem.model.space.groups()) {

@@ -37,8 +37,9 @@ std::vector<std::size_t> groupsOfCoordinates(const ConfigurationSpace& space) {
   return owner;
 }
 
+/// Returns the largest difference of two values of a coordinate, without its weight.
 double rangeOf(const Coordinate& c) {
-  // The range of a rotation is measured by the angle between quaternions, as in `distance`.
+  // The largest distance of two rotations is an angle between quaternions, as in `distance`.
   return c.kind == Kind::line     ? c.upper - c.lower
          : c.kind == Kind::circle ? std::numbers::pi
                                   : std::numbers::pi / 2;
@@ -186,7 +187,8 @@ void ProblemStateSpace::write(const Configuration& q, ob::State* state) const {
     if (part.kind == Kind::line) {
       std::copy(numbers, numbers + part.count, compound->as<Lines>(i)->values);
     } else if (part.kind == Kind::circle) {
-      // OMPL's angles are in [−π, π). It refuses a start or goal at π, which is the angle −π.
+      // OMPL's angles are in [−π, π). OMPL refuses a start or goal at π, so −π is written, which is
+      // the same angle.
       compound->as<Circle>(i)->value = *numbers == std::numbers::pi ? -std::numbers::pi : *numbers;
     } else {
       auto& r = *compound->as<Rotation>(i);

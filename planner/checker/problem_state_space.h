@@ -10,8 +10,9 @@
 
 namespace corridor {
 
-/// A ConfigurationSpace as an OMPL compound space. Consecutive lines of one group are a
-/// RealVectorStateSpace, circles are SO2, rotations are SO3.
+/// A ConfigurationSpace as an OMPL compound space. Consecutive coordinates of kind `line` in one
+/// group are one RealVectorStateSpace, each `circle` is an SO2StateSpace, and each `rotation` an
+/// SO3StateSpace.
 ///
 /// `interpolate`, `distance` and `equalStates` are Corridor's own. OMPL 1.5.2 computes the distance
 /// 0 for rotations below 9e-5 rad, and its `interpolate` then returns `from`, even at t = 1. Near
@@ -26,6 +27,7 @@ class ProblemStateSpace : public ompl::base::CompoundStateSpace {
   explicit ProblemStateSpace(const ConfigurationSpace& space);
 
   const ConfigurationSpace& configurations() const { return space_; }
+  /// Convert a state of OMPL to a configuration, and back.
   Configuration read(const ompl::base::State* state) const;
   void write(const Configuration& q, ompl::base::State* state) const;
 
@@ -45,9 +47,10 @@ class ProblemStateSpace : public ompl::base::CompoundStateSpace {
   void registerProjections() override;
 
  private:
+  /// The numbers of one subspace.
   struct Part {
     Coordinate::Kind kind;
-    std::size_t first, count;  ///< numbers of a Configuration
+    std::size_t first, count;  ///< its first number in a Configuration, and how many it has
     std::size_t offset = 0;    ///< bytes, from the beginning of the compound state
   };
 

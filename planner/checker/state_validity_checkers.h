@@ -34,9 +34,9 @@ class CertifiedStateValidityChecker : public ClearanceChecker {
   bool isValid(const ompl::base::State* state) const override;
 };
 
-/// The test of states for the discrete baseline. If the checker's margin is 0, a state is valid if
-/// it is in bounds and an exact test of the rounded poses finds no tested pair in contact. This
-/// test ignores the tube. If the margin is above 0, a state is valid if it is in bounds and
+/// The test of states for the discrete baseline. If the checker's margin and all its paddings are
+/// 0, a state is valid if it is in bounds and an exact test of the rounded poses finds no tested
+/// pair in contact. This test ignores the tube. Otherwise, a state is valid if it is in bounds and
 /// certified free.
 class ExactStateValidityChecker : public ClearanceChecker {
  public:

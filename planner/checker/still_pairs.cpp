@@ -11,7 +11,7 @@ namespace corridor {
 namespace {
 
 /// Returns for each frame the nearest frame with a moving or held joint, among the frame itself and
-/// its ancestors; 0 if there is none. Frames of one such joint are joined by fixed joints only.
+/// its ancestors; 0 if there is none. Frames with the same result are joined by fixed joints only.
 std::vector<std::size_t> jointsAbove(const KinematicTree& tree) {
   std::vector<std::size_t> joint(tree.frames.size(), 0);
   for (std::size_t i = 1; i < tree.frames.size(); ++i)
@@ -31,7 +31,8 @@ BoundingBox boxOf(const ModelBody& body, const Transform& X_WF) {
   return box;
 }
 
-/// Tests the shapes of two bodies against each other.
+/// Tests two bodies against each other at one configuration: whether they touch, or are not farther
+/// apart than margin and padding.
 class StillTest {
  public:
   StillTest(const Checker& checker, const Configuration& q)
@@ -46,7 +47,7 @@ class StillTest {
   std::optional<StillPair> operator()(std::size_t a, std::size_t b) {
     const double margin = checker_.marginOf(a, b);
     const BoundingBox &boxA = boxAround(a), &boxB = boxAround(b);
-    // 2^-40 of the sizes covers the rounding of the boxes.
+    // 2^-40 of the coordinates covers the rounding of the boxes.
     const double size =
                      boxA.lower.norm() + boxA.upper.norm() + boxB.lower.norm() + boxB.upper.norm(),
                  within = margin + 0x1p-40 * size;

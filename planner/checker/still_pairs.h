@@ -10,7 +10,7 @@ namespace corridor {
 /// Two bodies that never move against each other, by their indices in the model.
 struct StillPair {
   std::size_t a = 0, b = 0;
-  bool touches = false;  ///< false: the bodies are apart, but not farther than the margin
+  bool touches = false;  ///< false: the bodies are apart, but not farther than margin and padding
 };
 
 /// Returns whether the model has a pair of bodies that is not tested only because the two never
@@ -18,11 +18,12 @@ struct StillPair {
 bool hasStillPairs(const Model& model);
 
 /// Returns the pairs of bodies that are not tested, because they never move against each other, and
-/// that touch or are within the margin, in every state. Such a pair shows a wrong pose of a base or
-/// an obstacle, or a wrong value of a held joint. Pairs of one robot whose links are joined by
-/// fixed joints only are left out: their overlap is part of the robot.
+/// that touch or are not farther apart than margin and padding, in every state. Such a pair may
+/// result from a wrong pose of a base or an obstacle, or from a wrong value of a held joint. Pairs
+/// of one robot whose links are joined by fixed joints only are left out: their overlap is part of
+/// the robot.
 ///
-/// The poses are those at `q`, rounded. @pre q is finite.
+/// The bodies are tested at their rounded poses for `q`. @pre `q` is finite.
 /// @throws std::runtime_error as `Checker::interference` does; std::invalid_argument if a pose is
 /// not finite.
 std::vector<StillPair> closeStillPairs(const Checker& checker, const Configuration& q);

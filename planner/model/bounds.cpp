@@ -10,8 +10,8 @@ namespace corridor {
 namespace {
 
 void include(const ConvexPart& part, const Transform& X, Corners& box) {
-  // The points are swept by a sphere. Those of a cylinder are swept by a disc at a right angle to
-  // the axis.
+  // The points of a part are swept by a sphere. Exception: those of a cylinder are swept by a disc
+  // at a right angle to the cylinder's axis.
   Vec3 reach = Vec3::Constant(part.radius);
   if (part.flatEnds) {
     const Vec3 along = (X * part.points.back() - X * part.points.front()).stableNormalized();

@@ -16,7 +16,7 @@ struct Corners {
 /// Returns 2 for a planar group, 3 for a floating one.
 std::size_t dimensionsOf(const CoordinateGroup& group);
 
-/// Returns the bounds of the group's position, or NaN if they are not set yet.
+/// Returns the bounds of the group's position. Bounds that are not set yet are NaN.
 Corners boundsOf(const ConfigurationSpace& space, const CoordinateGroup& group);
 void setBounds(ConfigurationSpace& space, const CoordinateGroup& group, const Corners& corners);
 

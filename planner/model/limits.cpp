@@ -13,13 +13,14 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::infinity();
 
-/// Returns the values of `first`; where `first` has no value, the value of `second`.
+/// Returns the limits of `first`, and those of `second` for members that `first` leaves unset.
 LimitValues orElse(const LimitValues& first, const LimitValues& second) {
   return {first.velocity ? first.velocity : second.velocity,
           first.acceleration ? first.acceleration : second.acceleration,
           first.jerk ? first.jerk : second.jerk};
 }
 
+/// Applies the limits of a user to a model. See limitsOf.
 class Limits {
  public:
   Limits(const Model& model, const LimitSpec& spec) : model_(model), spec_(spec) {
@@ -36,7 +37,8 @@ class Limits {
       if (group.kind != CoordinateGroup::Kind::joints) addPose(group);
     if (!assumed_.empty())
       limits_.notes.push_back("limits: no acceleration is given for " + joinedFirst(assumed_) +
-                              "; " + shortest(kAssumedAcceleration) + " rad/s² or m/s² is assumed");
+                              "; " + shortest(kAssumedAcceleration) + " rad/s² or m/s² is assumed" +
+                              (spec_.accelerationScale < 1 ? ", before scaling" : ""));
     limits_.velocity *= spec_.velocityScale;
     limits_.acceleration *= spec_.accelerationScale;
     for (const auto& [link, speed] : spec_.links) addLink(link, speed);
@@ -99,7 +101,7 @@ class Limits {
     }
   }
 
-  /// Adds the corners of one box around all shapes of a body.
+  /// Adds to `limit` the corners of one box around all shapes of a body.
   static void addPoints(const ModelBody& body, LinkSpeed& limit) {
     Eigen::AlignedBox3d box;
     for (const PlacedShape& shape : body.shapes)

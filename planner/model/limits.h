@@ -24,8 +24,8 @@ struct LinkSpeed {
   std::vector<Eigen::Vector3d> points;
 };
 
-/// The limits of a motion over time, for each number of a Configuration. Values are > 0; infinity
-/// means that there is no limit.
+/// The limits of a motion over time, for each number of a Configuration. Limits are above 0;
+/// infinity means that there is no limit.
 /// - The limits of a single joint (a joint with one number) are at the index of that number: rad/s,
 ///   rad/s², rad/s³, or m/s and so on if it is prismatic. A joint that mimics this joint may make
 ///   the limits lower.
@@ -42,7 +42,7 @@ struct JointLimits {
   std::vector<std::string> notes;
 };
 
-/// Limits that a user gives. If a value is unset, the user gives no such limit.
+/// Limits that a user gives. A member is unset if the user gives no such limit.
 struct LimitValues {
   std::optional<double> velocity, acceleration, jerk;
 };
@@ -52,24 +52,27 @@ struct LimitSpec {
   LimitValues joints;    ///< for each single joint without an entry in `named`
   LimitValues slides;    ///< for prismatic joints, in place of `joints`; m/s, m/s², m/s³
   LimitValues position;  ///< for the position of each planar and floating joint; m/s, m/s², m/s³
-  LimitValues rotation;  ///< for the rotation of these joints; rad/s, rad/s², rad/s³
-  /// For single joints, by name ("elbow", "left/elbow"). They replace the URDF's velocity and all
-  /// other values. The name may be that of a joint that mimics another one.
+  LimitValues rotation;  ///< for the rotation of planar and floating joints; rad/s, rad/s², rad/s³
+  /// For single joints, by name ("elbow", "left/elbow"). They replace the URDF's velocity and the
+  /// values above. The name may be that of a joint that mimics another one.
   std::map<std::string, LimitValues> named;
   std::map<std::string, double> links;  ///< m/s, by the name of a link ("hand", "left/hand")
   double velocityScale = 1, accelerationScale = 1;  ///< in (0, 1]; jerk is not scaled
 };
 
-/// The limit of acceleration of every joint for which none is given: 1 rad/s² or 1 m/s². URDF has
-/// no limits of acceleration, and a time law without such limits would be meaningless.
+/// The limit of acceleration of every joint, position and rotation for which none is given: 1
+/// rad/s² or 1 m/s². URDF has no limits of acceleration, and a time law without such limits would
+/// be meaningless.
 inline constexpr double kAssumedAcceleration = 1;
 
 /// Applies limits to a model. A limit in `named` comes first. Otherwise, let d be the limit in
 /// `joints`, or in `slides` for a prismatic joint: the velocity is the smaller one of d and the
 /// URDF's; acceleration and jerk are d. If nothing gives the acceleration, the limit is
-/// kAssumedAcceleration, and a note says so. If a mimicking joint is in `named`, its limit L limits
-/// its leader by L/|multiplier|; a mimicking joint that is not in `named` limits nothing.
-/// @pre names in `spec` are those of the model (`jointsWithLimits`, links).
+/// kAssumedAcceleration, and a note says so. If a mimicking joint is in `named` with a limit L, its
+/// leader gets the limit L/|multiplier|, unless the leader's own limit is lower. A mimicking joint
+/// that is not in `named` limits nothing. Finally, velocities and accelerations are multiplied by
+/// the scales of `spec`, except link speeds.
+/// @pre All names in `spec` are names of the model's joints (`jointsWithLimits`) and links.
 JointLimits limitsOf(const Model& model, const LimitSpec& spec = {});
 
 /// A joint for which limits can be given by name.
@@ -80,7 +83,7 @@ struct LimitedJoint {
   double multiplier = 1;   ///< that of a mimic; for other joints 1
   bool isMimic = false;
   bool isPrismatic = false;
-  double velocity = 0;  ///< the URDF's limit; infinite if it gives none
+  double velocity = 0;  ///< the URDF's limit, rad/s or m/s; infinite if the URDF gives none
 };
 /// Returns the single joints that move with a planned coordinate, including those that mimic one.
 std::vector<LimitedJoint> jointsWithLimits(const Model& model);

@@ -32,8 +32,8 @@ struct ModelRobot {
   RobotModel description;
   RigidPose base;  ///< X_WB
 
-  /// The joints that are planned for, as indices into `description.joints`, in this order. The maps
-  /// below have the same indices as keys.
+  /// The joints that are planned for, as indices into `description.joints`. Their order is that of
+  /// the coordinates. The keys of `held`, `heldPoses` and `heldFrom` are such indices, too.
   std::vector<std::size_t> planned;
   std::map<std::size_t, double> held;          ///< values of the other single joints, rad or m
   std::map<std::size_t, RigidPose> heldPoses;  ///< poses of the other planar and floating joints
@@ -69,7 +69,7 @@ class PairFilter {
   /// earlier one.
   /// @param reason not empty: "adjacent", "SRDF: Never", "allow", …
   void skip(std::size_t a, std::size_t b, std::string reason);
-  /// Includes a pair again that `skip` excluded.
+  /// Undoes `skip` for a pair. The pair is then tested, unless the two bodies have the same mover.
   void include(std::size_t a, std::size_t b) { reasons_.erase(std::minmax(a, b)); }
   /// Excludes pairs of bodies that never move against each other.
   /// @param movers for each body, the frame that moves it (moversOf). Two bodies with the same
@@ -141,8 +141,8 @@ double pairCount(const Model& model);
 /// with the same mover never move against each other.
 std::vector<std::size_t> moversOf(const KinematicTree& tree);
 
-/// Returns the poses of all frames that never move, such as all frames of obstacles, by the indices
-/// of the frames. The other poses are of no use. They may even be NaN: they are computed for a
+/// Returns a pose for each frame of the tree. Only the poses of frames that never move, such as all
+/// frames of obstacles, are of use. The other poses may even be NaN: they are computed for a
 /// configuration of zeros, whose quaternions are no rotations.
 std::vector<Transform> staticFramePoses(const Model& model);
 
@@ -152,7 +152,8 @@ class FramePoses {
  public:
   /// @param model must outlive the object.
   explicit FramePoses(const Model& model);
-  /// Returns the poses at q, as `framePoses` does. The reference is valid until the next call.
+  /// Returns the poses of all frames at q, as `framePoses` does. The reference is valid until the
+  /// next call.
   const std::vector<Transform>& at(const Configuration& q);
 
  private:

@@ -17,7 +17,7 @@ namespace {
 constexpr const char* kPlace = "ModelBuilder";
 
 /// Excludes pairs of a robot's links from the tests: pairs that SRDF and robot.yaml allow, and
-/// adjacent links. Two links are adjacent if all of this holds:
+/// adjacent links. Two links are adjacent if all of these conditions hold:
 /// - One is above the other in the tree.
 /// - No link between them has shapes.
 /// - At most one joint between them is not fixed, and this joint is neither planar nor floating.
@@ -34,12 +34,13 @@ void skipLinks(Model& model, std::size_t robot) {
     return found == bodyOnFrame.end() ? std::nullopt : std::optional(found->second);
   };
   const auto skip = [&](std::optional<std::size_t> a, std::optional<std::size_t> b,
-                        const std::string& reason) {  // a pair's first reason counts
+                        const std::string& reason) {  // the first reason given for a pair is kept
     if (a && b && model.filter.whyNotTested(*a, *b).empty()) model.filter.skip(*a, *b, reason);
   };
   std::map<std::string, std::size_t> linkNamed;
   for (std::size_t link = 0; link < description.links.size(); ++link)
     linkNamed[description.links[link].name] = link;
+  // Excludes the allowed pairs that have a proof (true) or have none (false).
   const auto skipAllowed = [&](bool proved) {
     for (const AllowedPair& pair : description.allowed) {
       const auto a = linkNamed.find(pair.a), b = linkNamed.find(pair.b);
@@ -61,9 +62,10 @@ void skipLinks(Model& model, std::size_t robot) {
       break;
     }
   }
-  // Pairs with a proof come last, so that such a pair keeps any other reason not to be tested. If
-  // the proof does not cover the margin or tube of a problem, the problem's reader removes the
-  // reason kNeverInContact, but no other reason. The pair is then tested again (testBeyondProofs).
+  // Pairs with a proof come last. If such a pair also has another reason not to be tested, that
+  // reason is kept. If the proof does not cover the margin or tube of a problem, the problem's
+  // reader removes the reason kNeverInContact, but no other reason. The pair is then tested again
+  // (testBeyondProofs).
   skipAllowed(true);
 }
 
@@ -112,6 +114,9 @@ ModelBuilder& ModelBuilder::addRobot(RobotParts parts, const RigidPose& base,
   return *this;
 }
 
+/// Chooses the joints that are planned for, and adds the robot. If the joints can't be planned for,
+/// adds faults instead.
+/// @param joints as in `UrdfOptions`.
 /// @param place the robot's URDF, or another text with which messages name the robot.
 void ModelBuilder::addDescribed(ModelRobot robot, const std::vector<std::string>& joints,
                                 const std::string& place) {
@@ -273,7 +278,7 @@ PlacedShape shapeOf(std::string name, TriangleMesh mesh, bool solid) {
 }
 
 void requireFewPairs(const Model& model, const std::string& place) {
-  constexpr double most = 1e7;  // a scene of so many pairs takes some 500 MB
+  constexpr double most = 1e7;  // a scene with this many pairs takes some 500 MB
   if (const double pairs = pairCount(model); pairs > most)
     throw InputError(Fault{place, 0,
                            "has " + std::to_string(static_cast<std::uint64_t>(pairs)) +

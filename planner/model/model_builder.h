@@ -38,7 +38,8 @@ class ModelBuilder {
   /// @param base X_WB. @param joints as in `UrdfOptions`.
   ModelBuilder& addRobot(RobotParts parts, const RigidPose& base = {},
                          const std::vector<std::string>& joints = {});
-  /// Adds a robot. All its members must be set, except for those that the builder sets.
+  /// Adds a robot. @pre All members of `robot` are set, except those that `ModelRobot` lists under
+  /// "Set by ModelBuilder".
   ModelBuilder& addRobot(ModelRobot robot);
   /// Adds a rigid body that moves in the plane (`planar`) or in space (`floating`). Its coordinates
   /// have the names "NAME/x", "NAME/y", … `shapeOf` makes shapes.
@@ -46,7 +47,8 @@ class ModelBuilder {
   ModelBuilder& addRigidBody(const std::string& name, JointType type,
                              std::vector<PlacedShape> shapes, const Corners& bounds);
   /// Adds an obstacle. Its shapes (`shapeOf`) are in world coordinates. Without shapes, adds
-  /// nothing. If a link has the same name, the obstacle's becomes "world/NAME".
+  /// nothing. If a link or a rigid body has the name NAME, too, the obstacle's name becomes
+  /// "world/NAME".
   /// @param X_WO if given, the shapes are in the coordinates of a frame of the obstacle's own, at
   /// this pose. Obstacles can then share one mesh, and its trees, at different poses.
   ModelBuilder& addObstacle(std::string name, std::vector<PlacedShape> shapes,
@@ -54,14 +56,16 @@ class ModelBuilder {
   ModelBuilder& addObstacle(const std::string& name, const Primitive& primitive,
                             const RigidPose& at = {});
 
-  /// Bounds the position of a planar or floating joint, or of a rigid body, by its name.
+  /// Sets the bounds of the position of a planar or floating joint, or of a rigid body.
+  /// @param joint the name of the joint or body.
   ModelBuilder& bound(std::string joint, const Corners& bounds);
-  /// Excludes a pair of bodies from all tests, by their names.
+  /// Excludes a pair of bodies, given by their names, from all tests.
   ModelBuilder& allow(std::string a, std::string b);
 
-  /// Returns the model. Two links are not tested against each other if their robot's SRDF allows
-  /// them to touch, if they are adjacent, or if they never move against each other. Afterwards the
-  /// builder is empty.
+  /// Returns the model. The model's filter excludes pairs of bodies that never move against each
+  /// other, and the pairs of `allow`. It also excludes two links of a robot if the robot's
+  /// description allows them to touch (SRDF), or if they are adjacent. Afterwards the builder is
+  /// empty.
   /// @throws InputError with all faults: faults of the URDF and SRDF files; unknown or repeated
   /// names; faults of described robots (`makeRobot`); illegal primitives; a robot that was added
   /// after an obstacle; missing or bad bounds; more than 10^7 pairs of bodies.
@@ -92,16 +96,16 @@ class ModelBuilder {
 /// Makes the description of a rigid robot. @param type planar or floating.
 RobotModel rigidModel(const std::string& name, JointType type, std::vector<PlacedShape> shapes);
 
-/// Makes a shape. A primitive must be legal (`checkPrimitive`). With `solid`, everything inside the
+/// Make a shape. A primitive must be legal (`checkPrimitive`). With `solid`, everything inside the
 /// mesh belongs to the shape; the mesh must then be watertight, or else the constructor of
 /// `Checker` throws. Without `solid` the mesh is a surface. Vertices are in the coordinates of the
 /// link, or of the world for an obstacle.
 PlacedShape shapeOf(std::string name, const Primitive& primitive, const RigidPose& at = {});
 PlacedShape shapeOf(std::string name, TriangleMesh mesh, bool solid = false);
 
-/// Throws if a model has more than 10^7 pairs of bodies.
+/// Checks that a model has at most 10^7 pairs of bodies.
 /// @param place for the message: the problem's file.
-/// @throws InputError
+/// @throws InputError if the model has more pairs.
 void requireFewPairs(const Model& model, const std::string& place);
 
 }  // namespace corridor

@@ -49,6 +49,7 @@ std::pair<double, double> rangeOf(const ConfigurationSpace& space, std::size_t n
   return {-infinity, infinity};
 }
 
+/// Returns where a frame may be, given where its parent may be.
 FrameReach childOf(const Model& model, const FrameReach& parent, const Frame& frame) {
   using Turned = FrameReach::Turned;
   FrameReach reach = parent;
@@ -93,6 +94,7 @@ FrameReach childOf(const Model& model, const FrameReach& parent, const Frame& fr
   return reach;
 }
 
+/// Returns a box around the shapes of a body, in the coordinates of the body's frame.
 ReachBox boundsOf(const ModelBody& body) {
   ReachBox box{Vec3::Constant(std::numeric_limits<double>::infinity()),
                Vec3::Constant(-std::numeric_limits<double>::infinity())};

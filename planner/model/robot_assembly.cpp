@@ -27,6 +27,7 @@ Eigen::Quaterniond fromZ(const Vec3& axis) {
   return Eigen::Quaterniond(1 + n.z(), -n.y(), n.x(), 0).normalized();
 }
 
+/// Moves one robot into a model. See assembleRobot.
 class RobotAssembly {
  public:
   RobotAssembly(ModelRobot& robot, Model& model)
@@ -45,7 +46,7 @@ class RobotAssembly {
     addBodies();
   }
 
-  std::vector<std::size_t> jointCoordinates;
+  std::vector<std::size_t> jointCoordinates;  // of the single joints, in the order of `planned`
 
  private:
   double weightOf(const std::string& joint) const {
@@ -64,8 +65,8 @@ class RobotAssembly {
     for (const char* axis : planar ? std::vector{"x", "y"} : std::vector{"x", "y", "z"})
       group.coordinates.push_back(
           model_.space.add({Kind::line, in + axis, 0, unknown, unknown, false, weight}));
-    // For a `rotation`, the space measures the quaternion's angle, which is half the rotation
-    // angle. So the weight is doubled.
+    // For a `rotation`, the space's distance measures the quaternion angle, which is half the
+    // rotation angle. So the weight is doubled.
     group.coordinates.push_back(model_.space.add(
         planar ? Coordinate{Kind::circle, in + "yaw", 0, -pi, pi, true, robot_.rotationWeight}
                : Coordinate{Kind::rotation, in + "rotation", 0, 0, 0, true,

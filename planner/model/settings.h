@@ -12,8 +12,8 @@
 
 namespace corridor {
 
-/// How edges are checked: by a method that proves them, or by samples, as a baseline. The values
-/// before `discrete` correspond to those of `EdgeMethod`, in the same order.
+/// How edges are checked: by a method that proves them, or by samples, as a baseline. The
+/// enumerators before `discrete` stand for those of `EdgeMethod`, in the same order.
 enum class EdgeCheck { certified, adaptive, advancement, discrete };
 /// OMPL's samplers of valid states, which are the classes …ValidStateSampler.
 enum class ValidSampler { uniform, gaussian, obstacleBased, bridgeTest, maxClearance };
@@ -29,7 +29,8 @@ enum class Simplifier { corridor, none, ompl };
 /// acceleration (solve/curve_measure.h).
 enum class Smoothing { none, corners, time, length, acceleration };
 
-/// Returns the words that users write for the values of a choice, in the order of the enumeration.
+/// Returns the words that users write for the enumerators of a choice, in the order of the
+/// enumeration.
 /// @tparam Choice EdgeCheck, ValidSampler, Objective, Simplifier or Smoothing.
 template <class Choice>
 const std::vector<std::string>& wordsFor();
@@ -44,13 +45,13 @@ const std::vector<std::string>& wordsFor<Simplifier>();
 template <>
 const std::vector<std::string>& wordsFor<Smoothing>();
 
-/// Returns the word of a value.
+/// Returns the word that users write for an enumerator.
 template <class Choice>
 const std::string& wordOf(Choice choice) {
   return wordsFor<Choice>()[static_cast<std::size_t>(choice)];
 }
 
-/// Returns the value that a word stands for, or nullopt for an unknown word.
+/// Returns the enumerator that a word stands for, or nullopt for an unknown word.
 template <class Choice>
 std::optional<Choice> choiceNamed(std::string_view word) {
   const std::vector<std::string>& words = wordsFor<Choice>();
@@ -62,8 +63,8 @@ std::optional<Choice> choiceNamed(std::string_view word) {
 /// Returns the method that proves edges; for `discrete`, `EdgeMethod::directional`.
 EdgeMethod methodOf(EdgeCheck check);
 
-/// The smallest legal resolution of sampled edges. A smaller value has no use, and OMPL counts the
-/// steps of an edge in 32 bits.
+/// The smallest legal resolution of sampled edges. A smaller resolution has no use, and OMPL counts
+/// the steps of an edge in 32 bits.
 inline constexpr double kFinestResolution = 1e-9;
 /// Returns whether a value is legal as OMPL's longest_valid_segment_fraction: from
 /// `kFinestResolution` to below 1.
@@ -82,7 +83,7 @@ struct PlannerSettings {
   /// a planner that uses all its time never starts again, whatever this number is. Unset: see
   /// `Solve::defaultRestart`.
   std::optional<std::uint64_t> restart;
-  std::map<std::string, std::string> params;  ///< by OMPL's own names
+  std::map<std::string, std::string> params;  ///< values as text, by OMPL's names of the parameters
 };
 
 struct CheckerSettings {
@@ -104,7 +105,7 @@ struct PreferSettings {
   double detour = 0.1;
 };
 
-/// The numbers from `lower` to `upper`.
+/// The range of the numbers from `lower` to `upper`, both included.
 struct ClosedRange {
   double lower, upper;
   constexpr bool contains(double value) const { return lower <= value && value <= upper; }
@@ -114,7 +115,7 @@ struct ClosedRange {
 
 /// How a trajectory is made along a path.
 struct TrajectorySettings {
-  /// Legal values.
+  /// The legal values of `deviation`, `cornerDeviation` and `rate`.
   static constexpr ClosedRange kDeviations{1e-9, 1}, kCornerDeviations{1e-6, 10}, kRates{1, 10000};
 
   Smoothing smooth = Smoothing::time;
@@ -127,12 +128,13 @@ struct TrajectorySettings {
   std::optional<double> rate;  ///< rows per second; unset: rows where they are needed
 };
 
-/// The settings of the search for a path. Every value must be legal; the readers of files check
+/// The settings of the search for a path. Every member must be legal; the readers of files check
 /// ranges and words.
 struct Settings {
   PlannerSettings planner;
   ValidSampler sampler = ValidSampler::uniform;
   std::optional<Objective> objective;  ///< `.cfg` only
+  /// The cost at which planning may stop, as OMPL's cost threshold of the objective. `.cfg` only.
   double objectiveThreshold = 0;
   Simplifier simplify = Simplifier::corridor;
   PreferSettings prefer;
@@ -147,7 +149,8 @@ std::optional<std::string> whyNoClearance(double margin, const Settings& setting
 
 /// Returns the first word of `checker.trees` that is unknown or does not belong to the volume, or
 /// nullopt if there is none. The methods `adaptive` and `advancement` measure distances. With these
-/// two methods, an overlap test other than the volume's default is wrong, too.
+/// two methods, the function also returns the word of an overlap test that is not the volume's
+/// default.
 std::optional<InvalidName> invalidNameIn(const CheckerSettings& checker);
 
 }  // namespace corridor

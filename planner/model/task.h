@@ -11,8 +11,8 @@
 
 namespace corridor {
 
-/// The largest deviation of a path's end from a goal, inclusive. If a value is 0, only rounding is
-/// allowed.
+/// The largest deviation of a path's end from a goal, inclusive. If a member is 0, positions and
+/// the values of lines must be equal; circles and rotations may differ by rounding.
 struct GoalRegion {
   double position = 0;  ///< |Δp| of each planar or floating joint, metres
   double angle = 0;     ///< rotation angle of each planar or floating joint, radians
@@ -62,7 +62,7 @@ struct Task {
 /// links, the values of held joints, the deviation of a mimic joint from its rule, and the shapes
 /// and positions of links and obstacles. The margin is for them (planner/README.md lists more).
 ///
-/// If a value is unset, the proof covers only rounding in its coordinates.
+/// If a member is unset, the proof covers only rounding in the coordinates that the member is for.
 struct TubeSpec {
   std::optional<double> joints;    ///< for each single joint: rad, or m if it is prismatic
   std::optional<double> slides;    ///< for each prismatic joint, m; replaces `joints`
@@ -74,10 +74,10 @@ struct TubeSpec {
 };
 
 /// Returns the half width of the tube that a proof covers, for each number of a configuration (m,
-/// rad). Each half width is the value of `asked`, but at least 2^-40 of a range, for rounding. This
-/// is the coordinate's own range. For the position of a planar or floating joint, it is the longest
-/// range of the joint's position coordinates; for circles and rotations, it is 2π. A rotation has
-/// its half width at the first of its four numbers.
+/// rad). Each half width is the one in `asked`, but at least 2^-40 times a range, for rounding. For
+/// a single joint, this range is the coordinate's own range. For the position of a planar or
+/// floating joint, it is the longest range of the joint's position coordinates. For circles and
+/// rotations, it is 2π. A rotation has its half width at the first of its four numbers.
 /// @pre the bounds of all positions are set.
 Configuration tubeOf(const ConfigurationSpace& space, const TubeSpec& asked = {});
 

@@ -36,9 +36,9 @@ double largestTube(const ModelRobot& robot, const Problem& problem) {
   return largest;
 }
 
-/// For each pair that was proved never in contact: if the proof covers less than the problem's
-/// margin plus the pair's padding, or less than the problem's tube, the pair is tested. Adds a note
-/// if there are such pairs.
+/// Includes pairs in the tests although they were proved never in contact: those whose proof covers
+/// less than the problem's margin plus the pair's padding, or less than the problem's tube. Adds a
+/// note if there are such pairs.
 void testBeyondProofs(Problem& problem) {
   std::size_t tested = 0;
   AllowedPair::Proof covered;
@@ -77,10 +77,12 @@ void testBeyondProofs(Problem& problem) {
          NoteWeight::detail});
 }
 
-/// Metres. Larger lengths are refused, because squares of sums of lengths must be finite.
+/// The largest legal length, metres. Larger lengths are refused, because squares of sums of lengths
+/// must be finite.
 constexpr double kLargestLength = 1e100;
 
-/// Returns the largest coordinate or radius of a body's shapes, metres, in the body's frame.
+/// Returns the largest absolute coordinate or radius of a body's shapes, metres, in the body's
+/// frame.
 double largestCoordinate(const ModelBody& body) {
   double most = 0;
   for (const PlacedShape& shape : body.shapes) {
@@ -91,8 +93,8 @@ double largestCoordinate(const ModelBody& body) {
   return most;
 }
 
-/// Returns the largest coordinate (m) of two translations: the frame's fixed translation, and the
-/// translation of its joint within the joint's limits.
+/// Returns the largest absolute coordinate (m) of two translations: the frame's fixed translation,
+/// and the translation by its joint within the joint's limits.
 double largestTranslation(const Frame& frame, const ConfigurationSpace& space) {
   const double fixed = frame.fixed.p.cwiseAbs().maxCoeff();
   const bool slides =

@@ -23,7 +23,7 @@ const char* form(std::size_t dimensions) {
   return dimensions == 3 ? "at: [[x, y, z], [x, y, z]]" : "at: [[x, y], [x, y]]";
 }
 
-/// Reads {at: [[lower corner], [upper corner]]}.
+/// Reads {at: [[lower corner], [upper corner]]} as the bounds of the group's position.
 void readCorners(const YamlValue& value, const std::string& path, const CoordinateGroup& group,
                  Problem& problem, YamlSource& source) {
   const YamlMap map(value, path, &problemKeys().at("bounds"), source);
@@ -48,7 +48,7 @@ void readCorners(const YamlValue& value, const std::string& path, const Coordina
     setBounds(problem.model.space, group, corners);
 }
 
-/// Narrows a single joint's limits to the [lower, upper] that is given for `key`.
+/// Narrows a single joint's limits to [lower, upper], the value of `key`.
 void narrow(const YamlMap& map, const std::string& key, bool degrees, const PlannedJoint& planned,
             Problem& problem) {
   const auto given = map.numbers(key, 2);
@@ -68,7 +68,8 @@ void narrow(const YamlMap& map, const std::string& key, bool degrees, const Plan
                                         shortest(upper) + "] is in radians; for degrees, write " +
                                         key + "_deg",
                                     NoteWeight::motion});
-  if (c.kind == Coordinate::Kind::circle) {  // a continuous joint with bounds is a line
+  // With bounds, a continuous joint becomes a line coordinate.
+  if (c.kind == Coordinate::Kind::circle) {
     c.kind = Coordinate::Kind::line;
     c.lower = lower;
     c.upper = upper;

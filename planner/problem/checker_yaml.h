@@ -5,8 +5,8 @@
 
 namespace corridor {
 
-/// Sets the members of `checker` whose keys are in a `checker:` map, and leaves the other members
-/// as they are. Faults are added to the map's source.
+/// Sets the members of `checker` whose keys are in `map`, the value of the key `checker`. The other
+/// members do not change. Faults are added to the map's source.
 void readCheckerKeys(const YamlMap& map, CheckerSettings& checker);
 
 }  // namespace corridor

@@ -9,8 +9,8 @@ namespace corridor {
 
 namespace {
 
-/// Returns the texts that were read instead of a file. A xacro file has one text for each set of
-/// arguments, in the order of the robots. Other files have no such text.
+/// Returns the texts that were read instead of a file. A xacro file has one text for each different
+/// set of arguments, in the order of the robots. For any other file, the result is empty.
 std::vector<const std::string*> expandedTexts(const Problem& problem,
                                               const std::filesystem::path& file) {
   std::vector<const std::string*> texts;

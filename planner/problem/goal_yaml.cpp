@@ -56,8 +56,8 @@ void readWithin(const YamlValue& value, Problem& problem, YamlSource& source) {
 }
 
 /// Returns whether the value is a list of goals. For a single rigid robot, a list counts as a list
-/// of goals only if all its items are maps. Any other list, such as [1, 2, 3], is a pose in the
-/// wrong form.
+/// of goals only if all its items are maps. Any other list, such as [1, 2, 3], is probably meant as
+/// a pose.
 bool isListOfGoals(const YamlValue& value, const Problem& problem) {
   if (value.kind != YamlValue::Kind::List) return false;
   if (problem.model.robots.size() > 1 ||

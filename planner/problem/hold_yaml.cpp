@@ -52,7 +52,7 @@ const NamedState* findState(const RobotModel& model, const std::string& name,
   const auto state = model.states.find(name);
   if (state == model.states.end()) {
     const std::vector<std::string> known = usableNames(model.states);
-    std::vector<std::string> ofGroups;  // states of this name that several groups have
+    std::vector<std::string> ofGroups;  // the full names of states with this name in groups
     for (const auto& [full, found] : model.states)
       if (!found.group.empty() && full == found.group + "/" + name) ofGroups.push_back(full);
     if (!ofGroups.empty())

@@ -10,10 +10,10 @@
 /// Readers of the values of joints that are not planned for.
 namespace corridor {
 
-/// A place in a file, for messages.
+/// A key in a file, for messages.
 struct YamlPlace {
   const YamlSource& source;
-  std::string path;  ///< "hold", "start"
+  std::string path;  ///< the path of the key: "hold", "start"
   int line = 0;
 };
 
@@ -21,20 +21,23 @@ struct YamlPlace {
 /// name of the state that `hold` refers to (`hold: NAME` or `from: NAME`), or nullopt.
 std::optional<std::string> readHold(const YamlMap& file, RobotSetup& setup);
 
-/// For each joint to which a named state gives a value: holds the joint at that value. Skips the
-/// joints in `planned` and in the robot's `heldByFile`.
+/// Holds each joint at its value in a named state. Skips joints that the state does not contain,
+/// and the joints in `planned` and in the robot's `heldByFile`.
 void holdState(const std::string& state, const std::vector<std::size_t>& planned,
                const YamlPlace& place, RobotSetup& setup);
 
-/// For each robot whose start is a named state, holds the joints at their values in this state,
-/// except joints that are planned for, and joints that the robot's `hold` gives.
+/// For each robot whose start is a named state, holds the joints at their values in this state.
+/// Exceptions are joints that are planned for, and joints to which the robot's `hold` gives a
+/// value.
 void holdAsStart(const YamlMap& problem, std::vector<RobotSetup>& robots);
 
-/// Returns the named state. If there is none that can be used, adds a fault and returns nullptr.
+/// Returns the state with this name. If there is no such state, or if it can't be used, adds a
+/// fault and returns nullptr.
 const NamedState* findState(const RobotModel& model, const std::string& name,
                             const YamlPlace& place);
 
-/// Returns the pose of a planar or floating joint in a state, or nullopt if the state has none.
+/// Returns the pose of a planar or floating joint in a state, or nullopt if the state has no pose
+/// for this joint.
 std::optional<RigidPose> poseIn(const NamedState& state, const JointModel& joint);
 
 }  // namespace corridor

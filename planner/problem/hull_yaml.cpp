@@ -12,9 +12,9 @@
 namespace corridor {
 namespace {
 
-/// The default of `deviation`, as a share of the longest side of the mesh's box. A convex mesh
-/// whose coordinates were stored as floats or rounded is within this deviation; a mesh with a
-/// visible hollow is not.
+/// The default of `deviation`, as a share of the longest side of the mesh's box. A mesh that is
+/// convex except for the rounding of its coordinates (to floats, for example) is within this
+/// deviation. A mesh with a visible hollow is not.
 constexpr double kDefaultDeviation = 1e-4;
 
 /// A `deviation` below this share of the largest coordinate may be impossible to prove.
@@ -22,9 +22,9 @@ constexpr double kDefaultDeviation = 1e-4;
 /// distance; 2^-35 leaves room for the distances themselves.
 constexpr double kProvableShare = 0x1p-35;
 
-/// Returns the length in metres with three digits, rounded up or down. A length that is a decimal
-/// of three digits, up to 1e-12 of it, is not rounded down. Rounding up includes the rounding of
-/// this function.
+/// Returns the length in metres with three significant digits, rounded up or down. A length that
+/// equals a decimal of three digits, up to 1e-12 of it, is not rounded down further. If the result
+/// is rounded up, it is an upper bound in spite of the rounding in this function.
 std::string metres(double length, bool up) {
   if (!(length >= 1e-300)) return up && length > 0 ? "1e-300 m" : "0 m";
   const double unit = std::pow(10.0, std::floor(std::log10(length)) - 2);
@@ -84,7 +84,7 @@ bool replaceByHull(const YamlMap& map, PlacedShape& shape) {
   try {
     hull.emplace(points);
   } catch (const std::invalid_argument&) {
-    map.fault("convex", "needs a mesh whose vertices are not all in one plane; leave it out");
+    map.fault("convex", "needs a mesh whose vertices are not all in one plane; leave out convex");
     return false;
   }
   const HullDeviation deviation = hullDeviation(*hull, mesh, limit);
@@ -118,7 +118,7 @@ bool replaceByHull(const YamlMap& map, PlacedShape& shape) {
        NoteWeight::coverage});
   const std::vector<Vec3> corners(hull->vertices().begin(), hull->vertices().end());
   shape.primitive = Convex{corners};
-  shape.at = {};  // the corners are placed already
+  shape.at = {};  // the corners are in their final place already
   shape.parts = {{corners, 0, false}};
   shape.mesh = nullptr;
   return true;

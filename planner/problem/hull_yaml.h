@@ -5,25 +5,27 @@
 
 namespace corridor {
 
-/// What `convex` says beside `mesh`. Without `mesh`, `convex` is a shape of its own.
+/// The meaning of the key `convex` in a map that also has the key `mesh`. (Without `mesh`, `convex`
+/// is a shape of its own.)
 enum class HullKey {
-  none,    ///< `mesh` or `convex` is not given
+  none,    ///< the map does not have both keys
   hull,    ///< `true`: the mesh's convex hull is the model
   mesh,    ///< `false`: the mesh is the model
   faulty,  ///< neither `true` nor `false`; a fault was added
 };
 
-/// Reads `convex` beside `mesh`. Adds a fault for other keys that do not fit.
+/// Reads `convex` in a map that also has `mesh`. Adds a fault for each other key that does not fit
+/// these two.
 HullKey readHullKey(const YamlMap& map);
 
-/// Returns whether a value is the word true or false, without quotes.
+/// Returns whether a value is `true` or `false`, written without quotes.
 bool isBoolean(const YamlValue& value);
 
-/// Replaces the mesh by its convex hull, one convex part, with a note on the hull's largest
-/// distance from the mesh. The hull's corners are in their final place, so the shape's `at` becomes
-/// the identity. Returns false if a fault was added: the hull is farther from the mesh than
-/// `deviation` allows.
-/// @pre the mesh's placement is applied.
+/// Replaces the shape's mesh by the mesh's convex hull, as one convex part. Adds a note on the
+/// largest distance of the hull's surface from the mesh. The hull's corners are in their final
+/// place, so the shape's `at` becomes the identity. Returns false if a fault was added, for example
+/// because the hull is not proved to be as near to the mesh as `deviation` requires.
+/// @pre The mesh's placement has been applied to its vertices.
 bool replaceByHull(const YamlMap& map, PlacedShape& shape);
 
 }  // namespace corridor

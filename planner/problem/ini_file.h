@@ -19,8 +19,8 @@ class IniFile {
     int line = 0;
   };
 
-  /// Parses `text`. Adds a fault to `faults` for each line of another form. `faults` must outlive
-  /// the object.
+  /// Parses `text`. Adds a fault to `faults` for each line that has neither form. `faults` must
+  /// outlive the object.
   IniFile(std::string file, const std::string& text, FaultList& faults);
 
   const std::vector<Entry>& entries() const { return entries_; }

@@ -14,7 +14,8 @@ namespace corridor {
 
 /// Returns a message for an unknown joint, such as `there is no joint "pam" (did you mean "pan"?)`.
 std::string noSuchJoint(const std::string& name, const RobotModel& model);
-/// Returns why a joint has no value of its own ("is fixed", "follows pan (mimic)"), or "".
+/// Returns why a joint has no value of its own ("is fixed", "follows pan (mimic)"), or "" if it has
+/// one.
 std::string whyNotActive(const RobotModel& model, std::size_t joint);
 /// Returns the message that a value is outside of its limits: "60 is outside of its limits, [-2,
 /// 2]".
@@ -39,7 +40,7 @@ std::optional<PlanarOrSpatialPose> readJointPose(const YamlValue& value, const s
                                                  const JointModel& joint, YamlSource& source,
                                                  std::vector<Note>& notes);
 
-/// Returns the numbers of the pose of a planar or floating joint, by their names in states:
+/// Returns the components of the pose of a planar or floating joint, by their names in states:
 /// "base/x", "base/y", "base/yaw", or "body/x" … "body/qw".
 std::map<std::string, double> numbersOf(const JointModel& joint, const PlanarOrSpatialPose& pose);
 

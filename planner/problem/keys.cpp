@@ -27,7 +27,8 @@ const Words angleLimitKeys = limitKeys + Words{"velocity_deg", "acceleration_deg
 
 using KeysOfMaps = std::map<std::string, MapKeys>;
 
-/// Adds the keys of a shape at `path`, and the keys `more`.
+/// Sets the legal keys of the map at `path` to the keys of a shape and the keys `more`. Adds the
+/// maps inside a shape.
 void addShape(KeysOfMaps& keys, const std::string& path, const Words& more) {
   keys[path] = {shapeKeys + more, {}};
   keys[path + ".sphere"] = {{"radius"}, {}};

@@ -14,7 +14,7 @@ namespace corridor {
 const std::map<std::string, MapKeys>& problemKeys();
 const std::map<std::string, MapKeys>& robotKeys();
 
-/// The legal words of keys whose value is a choice, by the key's path.
+/// The legal words of each key whose value is one of several words, by the key's path.
 const std::map<std::string, std::vector<std::string>>& problemChoices();
 const std::map<std::string, std::vector<std::string>>& robotChoices();
 

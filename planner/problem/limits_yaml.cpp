@@ -57,7 +57,8 @@ void readNamed(const YamlMap& limits, const std::vector<LimitedJoint>& joints, L
     const YamlMap own(entry->value, map.pathOf(entry->key), &problemKeys().at("limits.joints.*"),
                       limits.source());
     const LimitValues values = readValues(own, joint->isPrismatic, entry->key);
-    LimitValues& named = spec.named[entry->key];  // each value here replaces that of the file
+    LimitValues& named = spec.named[entry->key];  // each value in the problem replaces the value in
+                                                  // the file of MoveIt
     if (values.velocity) named.velocity = values.velocity;
     if (values.acceleration) named.acceleration = values.acceleration;
     if (values.jerk) named.jerk = values.jerk;

@@ -9,27 +9,27 @@
 
 namespace corridor {
 
-/// Reads the `limits` of a problem, and the file of MoveIt that they name.
-/// @param isComplete whether `model` has all robots. Otherwise the robots have faults, and names of
-/// joints and links are not checked.
+/// Reads the key `limits` of a problem, and the file of MoveIt that `limits.file` names.
+/// @param isComplete whether `model` has all robots. False: robots have faults, and names of joints
+/// and links are not checked.
 /// @param files gets the file that `limits.file` names.
 LimitSpec readLimits(const YamlMap& problem, const std::filesystem::path& folder,
                      const Model& model, bool isComplete,
                      std::vector<std::filesystem::path>& files);
 
-/// Reads limits as `readLimits` does, but from their map itself, which a problem file has under the
-/// key `limits`.
+/// Does the same as `readLimits`, for a map that is the value of the key `limits`.
 LimitSpec readLimitMap(const YamlMap& limits, const std::filesystem::path& folder,
                        const Model& model, bool isComplete,
                        std::vector<std::filesystem::path>& files);
 
-/// If the map has the key, sets `scale` to its value: a factor of limits, above 0 and at most 1.
+/// If the map has the key, sets `scale` to the key's value: a factor for limits, above 0 and at
+/// most 1. Adds a fault for any other value.
 void readScale(const YamlMap& map, const char* key, double& scale);
 
 /// Reads a joint_limits.yaml of MoveIt into `spec`: the limits of joints, by the joints' names
-/// without a robot's name, and the default scaling factors. Deceleration limits narrow those of
-/// acceleration. Adds notes on joints that do not move in the model, and on limits of positions,
-/// which are not used.
+/// without a robot's name, and the default scaling factors. A joint's deceleration limit replaces
+/// its acceleration limit if it is smaller. Adds notes on joints that do not move in the model, and
+/// on limits of positions, which are not used.
 void readMoveitLimits(const std::filesystem::path& file, const Model& model, bool isComplete,
                       LimitSpec& spec, FaultList& faults, std::vector<Note>& notes);
 

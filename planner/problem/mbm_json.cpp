@@ -113,7 +113,7 @@ class MbmReader {
          "; there are " + ranges(indices));
   }
 
-  /// Returns "1 to 50" for indices without gaps, else a list of the first indices.
+  /// Returns a text: "1 to 50" for indices without gaps, else a list of the first indices.
   static std::string ranges(const std::vector<std::string>& indices) {
     bool inRow = indices.size() > 2;
     for (std::size_t i = 0; i < indices.size() && inRow; ++i)
@@ -150,8 +150,8 @@ class MbmReader {
     return result;
   }
 
-  /// Returns the path of the file that `key` names. The file is in the nearest folder above the set
-  /// that contains a file of this name.
+  /// Returns the path of the file that `key` names, in the nearest folder above the set that
+  /// contains a file of this name.
   std::filesystem::path dataFile(const Json& set, const char* key) const {
     const std::string name = word(set, key);
     std::filesystem::path folder = std::filesystem::absolute(file_).lexically_normal();

@@ -15,7 +15,8 @@ namespace corridor {
 /// @throws InputError.
 Problem readMbmProblem(const std::filesystem::path& file, const std::string& index);
 
-/// Returns the values of `problems[].index` in a set, in its order. @throws InputError.
+/// Returns the values of `problems[].index` in a set, in the order of the set. @throws InputError
+/// if the set can't be read.
 std::vector<std::string> mbmIndices(const std::filesystem::path& file);
 
 }  // namespace corridor

@@ -28,7 +28,8 @@ std::optional<double> readLimit(const YamlMap& joint, const std::string& what) {
       joint.fault(key, "MoveIt uses it only with " + flag + ": true; add true or false");
     return std::nullopt;
   }
-  if (!has.value_or(false)) return std::nullopt;  // MoveIt's files have max_…: 0 then
+  // If has_… is false, MoveIt's files often have max_…: 0.
+  if (!has.value_or(false)) return std::nullopt;
   joint.require(key, "the limit, such as " + key + ": 2");
   if (what != "deceleration") return joint.number(key, Range::Positive);
   const auto value = joint.number(key, Range::Any);
@@ -102,8 +103,9 @@ const YamlValue* valueIn(const YamlValue& map, std::string_view key) {
   return nullptr;
 }
 
-/// Returns the parameters of a file for ROS 2 (`/**: {ros__parameters: …}`): those of the first
-/// node that has limits, or else of the first node. Other documents are returned as they are.
+/// Returns the parameters in a file for ROS 2 (`/**: {ros__parameters: …}`): those of the first
+/// node that has limits, or of the first node if no node has limits. Returns any other document
+/// unchanged.
 const YamlValue& parametersOf(const YamlValue& document) {
   const YamlValue* first = nullptr;
   for (const YamlValue::Entry& node : document.entries) {
@@ -122,7 +124,8 @@ void readMoveitLimits(const std::filesystem::path& file, const Model& model, boo
   const YamlValue document =
       parseYaml(file.string(), readTextFile(file, "limits of joints (MoveIt's joint_limits.yaml)"));
   YamlSource source{file.string(), faults, {}};
-  // Parameter files, and files for launch files, have the limits under this key, beside other keys.
+  // Some files have the limits under this key, beside other keys: parameter files, and files that
+  // launch files load.
   const YamlValue& parameters = parametersOf(document);
   const YamlValue* const inner = valueIn(parameters, "robot_description_planning");
   readFile(YamlMap(inner ? *inner : parameters, inner ? "robot_description_planning" : "", &kFile,

@@ -32,8 +32,8 @@ const MapKeys kConstraints{{"name", "joint_constraints", "position_constraints",
 const MapKeys kJointConstraint{
     {"joint_name", "position", "tolerance_above", "tolerance_below", "weight"}, {}};
 
-/// Returns whether a message geometry_msgs/Transform is the identity. Parts for which a fault was
-/// added count as the identity.
+/// Returns whether a message geometry_msgs/Transform is the identity. A translation or rotation
+/// that is absent, or for which a fault was added, counts as the identity.
 bool isIdentity(const YamlMap& transform) {
   const auto p = readNamed(transform, "translation", {"x", "y", "z"});
   const auto q = readNamed(transform, "rotation", {"x", "y", "z", "w"});

@@ -10,8 +10,8 @@
 
 namespace corridor {
 
-/// A message moveit_msgs/MotionPlanRequest, written as YAML. The members read its parts, and add
-/// faults to the problem's list.
+/// A message moveit_msgs/MotionPlanRequest, written as YAML. The members read parts of the message,
+/// and add faults to the problem's list.
 ///
 /// The members read the group, the start state, and goals that are joint values. Some content is a
 /// fault, because the plan would be wrong if this content were ignored: attached objects, poses of
@@ -38,8 +38,8 @@ class MoveitRequest {
   std::optional<Configuration> read(const std::map<std::string, double>& values, int line,
                                     const std::string& path, Problem& problem);
 
-  /// Adds a fault for each value that differs from the value at which the joint is held, and for
-  /// each unknown joint.
+  /// Adds a fault for each held joint whose value in `values` differs from the value at which it is
+  /// held, and for each unknown joint.
   void checkHeld(const std::map<std::string, double>& values, int line, const std::string& path,
                  const ModelRobot& robot);
 

@@ -44,7 +44,8 @@ Placement readFrame(const YamlMap& object, const std::string& root, const RigidP
   return {};
 }
 
-/// Adds a fault for each link that the scene scales. Reads the paddings of links.
+/// Returns the paddings of links, by their names (metres). Adds a fault for each link that the
+/// scene scales.
 std::map<std::string, double> readLinks(const YamlMap& scene) {
   for (const YamlValue* const item : itemsOf(scene, "link_scale")) {
     const YamlMap map(*item, "link_scale", nullptr, scene.source());

@@ -10,8 +10,8 @@
 
 namespace corridor {
 
-/// A message moveit_msgs/PlanningScene, written as YAML. The members read its parts, and add faults
-/// to the problem's list.
+/// A message moveit_msgs/PlanningScene, written as YAML. The members read parts of the message, and
+/// add faults to the problem's list.
 ///
 /// The members read the collision objects (primitives and meshes), the octomap, the allowed
 /// collision matrix and the paddings of links. Some content is a fault, because the plan would be
@@ -23,15 +23,16 @@ class MoveitScene {
   /// @throws InputError if the file is not YAML.
   MoveitScene(const std::filesystem::path& file, FaultList& faults);
 
-  /// Adds the collision objects and the octomap. Each is an obstacle. Objects in the frame of the
+  /// Adds each collision object, and the octomap, as an obstacle. Objects in the frame of the
   /// robot's root link are placed relative to the robot's base.
   /// @param root the name of the robot's root link.
   void addWorld(const std::string& root, const RigidPose& base, ModelBuilder& builder);
-  /// Excludes the pairs of bodies that the allowed collision matrix allows to touch. As in MoveIt,
-  /// the matrix replaces the SRDF's pairs. The default entries of the matrix are not read, so pairs
-  /// that only a default entry allows are tested.
+  /// If the scene has an allowed collision matrix with names, excludes the pairs of bodies that the
+  /// matrix allows to touch. As in MoveIt, the matrix then replaces the SRDF's pairs. The default
+  /// entries of the matrix are not read, so pairs that only a default entry allows are tested.
   void applyAllowed(Model& model);
-  /// Returns the paddings of links. As in MoveIt, they are for pairs of a link and an obstacle.
+  /// Returns the paddings of links (metres). As in MoveIt, they apply to pairs of a link and an
+  /// obstacle.
   /// @pre `addWorld` was called.
   Padding paddingOf(const Model& model) const;
   /// Returns notes if the scene seems to be made for another robot.

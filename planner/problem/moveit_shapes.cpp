@@ -20,7 +20,8 @@ const MapKeys kMesh{{"triangles", "vertices"}, {}};
 const MapKeys kTriangle{{"vertex_indices"}, {}};
 const MapKeys kOctomap{{"header", "binary", "id", "resolution", "data"}, {}};
 
-/// Reads a list of bytes, each a number from -128 to 255: ROS writes bytes with or without a sign.
+/// Reads a list of bytes. Each is a number from -128 to 255, because ROS writes bytes with or
+/// without a sign.
 std::optional<std::string> readBytes(const YamlMap& map, const char* key) {
   const auto items = itemsOf(map, key);
   std::string bytes;
@@ -111,8 +112,8 @@ std::optional<TriangleMesh> readMesh(const YamlValue& value, const std::string& 
   TriangleMesh mesh;
   const auto vertices = itemsOf(map, "vertices"), triangles = itemsOf(map, "triangles");
   for (std::size_t i = 0; i < vertices.size() && source.faults.size() == before; ++i) {
-    // readNamed reads the value of a key. So the vertex, {x: 1, y: 2, z: 3} or [1, 2, 3], becomes
-    // the value of a key in a map that is made here.
+    // readNamed only reads the value of a key. So the vertex, {x: 1, y: 2, z: 3} or [1, 2, 3], is
+    // put into a new map, as the value of a key.
     YamlValue holder;
     holder.kind = YamlValue::Kind::Map;
     holder.line = vertices[i]->line;

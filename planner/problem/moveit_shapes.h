@@ -28,8 +28,8 @@ std::optional<TriangleMesh> readMesh(const YamlValue& value, const std::string& 
 
 /// Reads a message octomap_msgs/Octomap. Returns the union of the occupied cells, placed at `at`.
 /// As in MoveIt, the shape's name is "<octomap>", cells without a measurement are free, and a cell
-/// is occupied if its probability is at least 0.5. Also returns nullopt if the map has no occupied
-/// cell.
+/// is occupied if its probability is at least 0.5. Returns nullopt, without a fault, if the map has
+/// no occupied cell.
 std::optional<PlacedShape> readOctomap(const YamlValue& value, const std::string& path,
                                        const Placement& at, YamlSource& source);
 

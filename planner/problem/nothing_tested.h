@@ -4,7 +4,7 @@
 
 namespace corridor {
 
-/// Returns whether no pair of bodies of the problem is tested. Then every state and edge counts as
+/// Returns true if no pair of bodies of the problem is tested. Then every state and edge counts as
 /// free, and every path counts as proved. So a missing obstacle or a wrong `allow` would look like
 /// success.
 bool nothingIsTested(const Problem& problem);

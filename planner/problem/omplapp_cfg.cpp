@@ -29,8 +29,8 @@ const Keys spatialOnlyKeys{"start.z", "start.axis.x", "start.axis.y", "start.axi
 /// OMPL.app's default of `threshold`: a distance in the state space.
 constexpr double kThreshold = 1e-6;
 
-/// Returns the subset of `keys` that the section `problem` has, or, if `present` is false, the
-/// subset that it lacks.
+/// Returns those of `keys` that are present in the section `problem`. If `present` is false,
+/// returns those that are absent.
 Keys select(const IniFile& ini, const Keys& keys, bool present) {
   Keys result;
   for (const std::string& key : keys)
@@ -162,8 +162,8 @@ std::optional<CfgMesh> readMesh(const IniFile& ini, const std::string& key, Prob
 }
 
 /// Makes a robot of one mesh. The robot's reference point is the average of the mesh's vertices.
-/// `mesh` may be empty, if its file could not be read: the poses of the robot can then still be
-/// checked.
+/// `mesh` may be empty, because its file could not be read: the poses of the robot can still be
+/// checked then.
 RobotSetup robotOf(CfgMesh mesh, JointType type) {
   Vec3 centre = mesh.read.vertexAverage;
   if (type == JointType::planar) centre.z() = 0;
@@ -210,8 +210,8 @@ void faultDuplicates(const IniFile& ini) {
                                 ", first on line " + std::to_string(ini.find(entry.key)->line));
 }
 
-/// Adds a note that lists the keys that are not read. `turningradius` is left out of the list: it
-/// only has a meaning for the state spaces that `rejectDynamics` refuses.
+/// Adds a note that lists the keys that are not used. `turningradius` is not listed: it has a
+/// meaning only for the state spaces that `rejectDynamics` refuses.
 void noteUnused(const IniFile& ini, Problem& problem) {
   std::set<std::string> used{"problem.name",
                              "problem.robot",

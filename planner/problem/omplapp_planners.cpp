@@ -45,8 +45,9 @@ const std::map<std::string, std::string>& omplNames() {
 struct Instance {
   std::string name;  ///< the planner's name in OMPL.app
   int line = 0;
-  std::map<std::string, const IniFile::Entry*> params;   ///< the planner's parameters
-  std::map<std::string, const IniFile::Entry*> problem;  ///< keys of [problem] that it replaces
+  std::map<std::string, const IniFile::Entry*> params;  ///< the planner's parameters
+  /// Values for keys of [problem] that the planner's part of the file replaces.
+  std::map<std::string, const IniFile::Entry*> problem;
 };
 
 }  // namespace

@@ -12,8 +12,8 @@ namespace corridor {
 namespace {
 
 /// The largest deviation from 1 that the norm of a quaternion in a file may have. Rounding to three
-/// digits after the point causes 0.001 at most: four components, each off by at most 0.0005, change
-/// the norm by at most 0.0005·√4.
+/// digits after the point causes a deviation of at most 0.001: four components, each off by at most
+/// 0.0005, change the norm by at most 0.0005·√4.
 constexpr double normSlack = 1e-3;
 
 std::optional<Orientation> readQuaternion(const YamlMap& map) {
@@ -56,7 +56,8 @@ bool isWrongKind(const YamlValue& value, const PoseForm& form) {
   return !hasLegal;
 }
 
-/// Returns `yaw` or `yaw_deg` in radians, 0 if both are absent, or nullopt if a fault was added.
+/// Returns `yaw` or `yaw_deg` in radians. Returns 0 if both are absent, and nullopt if a fault was
+/// added.
 std::optional<double> readYaw(const YamlMap& map, std::vector<Note>& notes) {
   if (!map.find("yaw") && !map.find("yaw_deg")) return 0;
   if (map.find("yaw") && map.find("yaw_deg")) return map.angle("yaw");

@@ -21,8 +21,8 @@ struct Orientation {
 Orientation fromRpyDegrees(const Vec3& degrees);
 Orientation fromRpy(const Vec3& radians);
 
-/// Returns the quaternion, normalised if its norm is outside of [0.5, 2]. Squares of very large or
-/// very small components would overflow or underflow. @pre not zero.
+/// Returns the quaternion, normalised if its norm is outside of [0.5, 2]. (Otherwise the squares of
+/// very large or very small components would overflow or underflow.) @pre `q` is not zero.
 Eigen::Quaterniond ofOrdinarySize(const Eigen::Quaterniond& q);
 
 /// Returns the angle minus whole turns, a double in [−π, π] (collision/core/circle.h).
@@ -45,12 +45,13 @@ struct Placement {
 /// Returns the composition a · b, rounded.
 Placement operator*(const Placement& a, const Placement& b);
 
-/// Reads a map's `at` and its rotation, both optional. Returns nullopt if a fault was added.
+/// Reads a pose from a map: `at` and a rotation, both optional. Returns nullopt if a fault was
+/// added.
 std::optional<Placement> readPlacement(const YamlMap& map);
 
 /// The pose of a rigid robot, or of a planar or floating joint.
 struct PlanarOrSpatialPose {
-  RigidPose pose;  ///< planar: z = 0 and the rotation by `yaw`
+  RigidPose pose;  ///< planar: z is 0, and the rotation is about z, by `yaw`
   double yaw = 0;  ///< planar only, radians in [−π, π]
 };
 /// The form in which a pose is expected.
@@ -59,8 +60,9 @@ struct PoseForm {
   std::string mover;              ///< for messages: "the robot moves in SE3 (rigid: SE3)"
   const MapKeys* keys = nullptr;  ///< the legal keys
 };
-/// Reads a pose. Returns nullopt if a fault was added. If the pose is planar but the form is
-/// spatial, or the other way round, the only fault is "goal of the wrong kind: …".
+/// Reads a pose. Returns nullopt if a fault was added. If the pose is planar but `form` is spatial,
+/// or the other way round, the only fault is the one about the wrong kind, such as "goal of the
+/// wrong kind: …".
 /// @param path the path of the value in its file: "start", "goal[0].left".
 /// @param notes gets a note if whole turns were subtracted from a yaw.
 std::optional<PlanarOrSpatialPose> readPose(const YamlValue& value, const std::string& path,

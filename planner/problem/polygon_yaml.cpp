@@ -35,7 +35,8 @@ std::string textOf(const PolygonFault& fault, std::size_t count) {
          ", counted from 0; edges may share only the point where one follows the other";
 }
 
-/// Returns why a polygon that was simple is not simple after it was moved, in doubles.
+/// Returns the message for a polygon that is no longer simple because moving it rounded its corners
+/// to doubles.
 /// @param advice  what to do about rounding.
 std::string textOfMoved(const PolygonFault& fault, const std::vector<Vec2>& moved,
                         const std::string& advice) {
@@ -59,7 +60,7 @@ std::string textOfMoved(const PolygonFault& fault, const std::vector<Vec2>& move
          ", doubles are too coarse for this polygon: " + cause + "; " + advice;
 }
 
-/// Makes the convex parts of the polygon (collision/convex/simple_polygon.h).
+/// Sets `shape.parts` to the convex parts of `shape.polygon` (collision/convex/simple_polygon.h).
 void cut(PlacedShape& shape) {
   shape.parts.clear();
   for (const std::vector<std::uint32_t>& piece : convexPieces(shape.polygon)) {
@@ -69,7 +70,7 @@ void cut(PlacedShape& shape) {
   }
 }
 
-/// Whether the map takes the plane z = 0 to itself, and does not turn it over.
+/// Returns whether X maps the plane z = 0 to itself, without turning it over.
 bool keepsPlane(const Transform& X) {
   return X.t.z() == 0 && X.m(2, 0) == 0 && X.m(2, 1) == 0 && X.m(2, 2) > 0;
 }

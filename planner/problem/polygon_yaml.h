@@ -8,11 +8,12 @@
 namespace corridor {
 
 /// Reads `polygon: [[x, y], …]`, a simple polygon in the plane z = 0, and moves it by X. Sets the
-/// shape's `polygon`, and its parts. Returns false if a fault was added.
+/// shape's `polygon`, and cuts it into the shape's convex parts. Returns false if a fault was
+/// added.
 bool readPolygon(const YamlMap& map, const Transform& X, PlacedShape& shape);
 
-/// Translates a polygon. The moved corners are rounded to doubles, so its convex parts are made
-/// anew. Returns why this is not possible, or "".
+/// Translates a polygon. The moved corners are rounded to doubles, so the convex parts are made
+/// again. Returns "", or the reason why the polygon can't be moved.
 std::string shiftPolygon(PlacedShape& shape, const Vec3& by);
 
 }  // namespace corridor

@@ -14,13 +14,13 @@
 
 namespace corridor {
 
-/// The files that a problem was read from, and notes on reading them; for messages and solution
-/// files.
+/// The files that a problem was read from, and notes that were made while reading. Messages and
+/// solution files use them.
 struct Source {
   std::filesystem::path file;
   std::string name;
-  /// The problem file and every other file that it is made of, each once, in the order in which
-  /// they are first named.
+  /// The problem file and all files that it names, directly or through other files. Each file is
+  /// listed once, at its first place in the order described in README.md (The digest).
   std::vector<std::filesystem::path> files;
   /// Decisions of the reader that a user may want to know: units, wrapped angles, held joints, …
   std::vector<Note> notes;
@@ -36,7 +36,7 @@ struct Source {
 };
 
 /// A motion planning problem as read from a `problem.yaml`, an OMPL.app `.cfg` or a benchmark set
-/// (`FILE.json#INDEX`). All members are set, and its input files had no faults. Lengths are in
+/// (`FILE.json#INDEX`). All members are set, and the input files had no faults. Lengths are in
 /// metres, angles in radians.
 struct Problem {
   Model model;
@@ -47,14 +47,17 @@ struct Problem {
 
 /// Reads a `problem.yaml`, a folder that holds one, an OMPL.app `.cfg`, or one problem of a
 /// MotionBenchMaker set, `FILE.json#INDEX`.
-/// @throws InputError with all faults of the file and of the files that it names; if there are
-/// notes on what could be read, it is a NotedInputError, which holds them.
+/// @throws InputError with all faults of the file and of the files that it names. If there are
+/// notes on what could be read, the error is a NotedInputError, which contains these notes.
 Problem readProblem(const std::filesystem::path& path);
 
-/// Replaces the margin of a problem. Pairs of links whose proof of being never in contact does not
-/// cover the new margin are then tested, with a note. @pre metres, finite, 0 or more.
+/// Replaces the margin of a problem. If some pairs of links were proved never in contact, but for
+/// less than the new margin plus the padding, these pairs are tested from now on, and a note says
+/// so. @pre `margin` is in metres, finite, and 0 or more.
 void setMargin(Problem& problem, double margin);
-/// Replaces the tube of a problem, in the same way. @pre half widths as `tubeOf` returns them.
+/// Replaces the tube of a problem. Pairs that were proved never in contact only for less than the
+/// new tube are tested from now on, and a note says so. @pre `tube` has half widths as `tubeOf`
+/// returns them.
 void setTube(Problem& problem, Configuration tube);
 
 }  // namespace corridor

@@ -197,7 +197,7 @@ void readYaml(const std::filesystem::path& file, Problem& problem) {
   const bool known = !robots.empty();
   const bool worldNeeded = !scene && !map.find("robots") &&
                            (!map.find("robot") || (known && robots.front().robot.isRigid()));
-  const bool isPlanar =  // or unknown
+  const bool isPlanar =  // true also if there are no usable robots
       std::all_of(robots.begin(), robots.end(), [](const RobotSetup& setup) {
         return setup.robot.isRigid() && setup.robot.description.mount == JointType::planar;
       });
@@ -209,7 +209,7 @@ void readYaml(const std::filesystem::path& file, Problem& problem) {
   }
   if (request && known) request->hold(robots.front());
   holdAsStart(map, robots);
-  std::string root;  // the root link of the robot that a scene is for
+  std::string root;  // the root link of the robot to which a scene of MoveIt belongs
   RigidPose base;
   if (scene && known) {
     const ModelRobot& robot = robots.front().robot;

@@ -11,7 +11,7 @@
 namespace corridor {
 namespace {
 
-/// Returns whether the problem has obstacles, but no body of a robot can reach any of them.
+/// Returns true if the problem has obstacles, and no body of a robot can reach any of them.
 bool hasObstaclesOutOfReachOnly(const Problem& problem, const std::vector<ReachBox>& reach) {
   const Model& model = problem.model;
   const auto isReached = [&](std::size_t obstacle) {
@@ -45,8 +45,8 @@ double halfReach(const Model& model, const std::vector<ReachBox>& reach,
   return most;
 }
 
-/// Returns the hint for an obstacle whose lengths may be in millimetres. Primitives and octomaps
-/// have no key `unit`.
+/// Returns the hint for an obstacle whose lengths may be in millimetres. The hint names the key
+/// `unit` only if the obstacle can have it: primitives and octomaps can't.
 std::string unitHint(const ModelBody& obstacle) {
   for (const PlacedShape& shape : obstacle.shapes) {
     const bool isMap = !shape.mesh && !shape.primitive && shape.parts.front().radius == 0;
@@ -55,18 +55,19 @@ std::string unitHint(const ModelBody& obstacle) {
   return "; are its lengths in metres?";
 }
 
-/// Returns the length with three decimals.
+/// Returns a length as text, rounded to a millimetre.
 std::string metres(double length) {
   return shortest(std::round(length * 1000) / 1000) + " m";
 }
 
 /// Adds a note for each obstacle that is far larger than the robots, or far away from them: its
-/// lengths are probably in millimetres. A floor may be large in two directions, so all three sides
-/// must be long, or one side of a mesh or cloud must be very long.
+/// lengths are probably in millimetres. A floor may be large in two directions. So an obstacle
+/// counts as large only if all its three sides are long, or if it is read from a file and one side
+/// is very long.
 void addNotesOnSizes(const Problem& problem, const std::vector<ReachBox>& reach,
                      std::vector<Note>& notes) {
-  // An arm reaches 0.3 m to 3 m. A floor of 100 m gets no note. A file in millimetres gets one if
-  // it contains a shelf of 0.4 m, or a mesh whose three sides are all above 0.09 m.
+  // An arm reaches 0.3 m to 3 m. A floor of 100 m gets no note. A file in millimetres gets a note
+  // if it contains a shelf that is 0.4 m long, or a mesh whose three sides are all above 0.09 m.
   constexpr double longestPerReach = 100, leastLongest = 200, thickPerReach = 30;
   constexpr int mostNotes = 100;
   const Model& model = problem.model;

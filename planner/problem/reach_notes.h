@@ -6,9 +6,10 @@
 
 namespace corridor {
 
-/// Returns notes on lengths that are probably in another unit than metres: one note if no robot can
-/// reach any obstacle, and one for each obstacle that is far larger than the robots, or far away.
-/// If there are polygons, the notes also name bodies that do not reach the plane of the polygons.
+/// Returns notes on lengths that are probably not in metres: one note if no robot can reach any
+/// obstacle, and one for each obstacle (at most 100) that is far larger than the robots, or far
+/// away. If there are polygons, there is also a note for each body that does not reach the plane of
+/// the polygons.
 std::vector<Note> notesOnReach(const Problem& problem);
 
 }  // namespace corridor

@@ -16,13 +16,14 @@ namespace corridor {
 namespace {
 
 /// Returns the average of the distinct positions of triangle corners and of primitives' points.
-/// Repeated positions count once.
+/// Equal positions count once.
 Vec3 centroid(const std::vector<PlacedShape>& shapes) {
   std::vector<std::array<double, 3>> points;
   const auto add = [&](const Vec3& p) { points.push_back({p.x(), p.y(), p.z()}); };
   for (const PlacedShape& shape : shapes) {
     for (const Vec2& p : shape.polygon) add({p.x(), p.y(), 0});
-    for (const ConvexPart& part : shape.parts)  // those of a polygon have some of its corners
+    // The parts of a polygon have only corners of the polygon.
+    for (const ConvexPart& part : shape.parts)
       std::for_each(part.points.begin(), part.points.end(), add);
     if (!shape.mesh) continue;
     for (const auto& triangle : shape.mesh->mesh.triangles)
@@ -47,7 +48,7 @@ void shiftToReference(const YamlMap& file, RobotModel& model, bool shapesAreSoun
   if (value->kind == YamlValue::Kind::Scalar && value->text == "centroid") {
     if (!shapesAreSound) return;
     reference = centroid(shapes);
-    if (planar) reference.z() = 0;  // a planar robot keeps its height
+    if (planar) reference.z() = 0;  // a planar robot keeps its z coordinates
     model.notes.push_back({"reference of " + model.name + ": the centroid (" +
                            shortest(reference.x()) + ", " + shortest(reference.y()) + ", " +
                            shortest(reference.z()) + ") of its distinct vertices"});
@@ -76,7 +77,8 @@ std::optional<RobotSetup> readRigid(const YamlMap& map, const std::string& name,
     if (map.find(key)) map.fault(key, "is for robots with joints (urdf: FILE); this one is rigid");
   const auto rigid = map.choice("rigid", robotChoices().at("rigid"));
   const std::size_t before = map.source().faults.size();
-  const bool isPlanar = !rigid || *rigid == "SE2";  // or unknown
+  // A robot whose `rigid` is absent or faulty counts as planar.
+  const bool isPlanar = !rigid || *rigid == "SE2";
   std::vector<PlacedShape> shapes;
   ShapeFiles files{setup.files};
   if (map.require("shapes", "the robot's shapes, such as shapes: [{mesh: piano.obj, unit: m}]"))

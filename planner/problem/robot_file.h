@@ -17,20 +17,20 @@ struct RobotSetup {
   std::vector<std::filesystem::path> files;  ///< the robot's file, then the files that it names
 };
 
-/// What a robot's file is read for.
+/// The purpose of reading a robot's file.
 enum class RobotUse {
-  plan,     ///< a robot of which no joint can move is a fault
-  describe  ///< a robot of which no joint can move is a note
+  plan,     ///< to plan: if no joint can move, this is a fault
+  describe  ///< to describe the robot: if no joint can move, a note says so
 };
 
 /// Reads a file of the format corridor-robot-1, or a bare URDF. The faults of this file, and of the
-/// files that it names, are added to `faults`. Returns nullopt if faults leave unknown which joints
-/// the robot has, or in which space (SE2 or SE3) a rigid robot moves. A rigid robot is returned
-/// even if shapes have faults; these shapes are left out.
+/// files that it names, are added to `faults`. Returns nullopt if, because of faults, it is unknown
+/// which joints the robot has, or in which space (SE2 or SE3) a rigid robot moves. A rigid robot is
+/// returned even if shapes have faults; these shapes are left out.
 /// @param group the group that is planned for if the file has an SRDF, but neither `group` nor
 /// `joints`. Empty: no group.
-/// @param notesOfFaulty gets the notes if the result is nullopt; otherwise the notes are in the
-/// result's model.
+/// @param notesOfFaulty gets the notes if the result is nullopt; otherwise the notes are in
+/// `robot.description` of the result.
 std::optional<RobotSetup> readRobotFile(const std::filesystem::path& file, FaultList& faults,
                                         std::vector<Note>& notesOfFaulty,
                                         const std::string& group = "",

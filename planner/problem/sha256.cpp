@@ -13,8 +13,8 @@ namespace {
 
 using Function = decltype(&::SHA256);
 
-/// Opens libcrypto at run time, and leaves it open. If the program were linked to libcrypto, it
-/// would load the library at every start.
+/// Opens libcrypto at run time, and leaves it open. If the program were linked to libcrypto, the
+/// library would be loaded at every start of the program.
 Function functionOfLibrary() {
   constexpr const char* kLibrary = "libcrypto.so." CORRIDOR_TEXT_OF(OPENSSL_SHLIB_VERSION);
   void* const library = ::dlopen(kLibrary, RTLD_NOW | RTLD_LOCAL);

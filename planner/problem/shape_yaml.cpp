@@ -32,7 +32,8 @@ MeshFileOptions readMeshOptions(const YamlMap& map) {
   return options;
 }
 
-/// Returns whether a file that can't be read as a mesh is probably a point cloud.
+/// Returns whether a file that can't be read as a mesh is probably a point cloud. @param why the
+/// error of the mesh reader.
 bool mayBeCloud(const std::filesystem::path& file, std::string_view why) {
   const std::string extension = lowered(file.extension().string());
   if (extension == ".ply") return why.find("face") != why.npos;
@@ -129,7 +130,7 @@ std::optional<Primitive> readPrimitive(const YamlMap& map, const std::string& ki
   return readConvex(map, place, file, files);
 }
 
-/// Adds a fault for each key that does not apply to this kind of shape.
+/// Adds a fault for each key that is legal for shapes, but does not apply to this kind of shape.
 void faultMisplacedKeys(const YamlMap& map, const std::string& kind) {
   const bool isFile = kind == "mesh" || kind == "points" ||
                       (kind == "convex" && map.find("convex")->kind == YamlValue::Kind::Scalar);
@@ -164,7 +165,8 @@ bool isFinite(const ConvexPart& part) {
                      [](const Vec3& point) { return point.allFinite(); });
 }
 
-/// Adds a fault for a shape that is out of the range of doubles. Returns false.
+/// Adds a fault for a shape whose placement moves it out of the range of doubles. Always returns
+/// false.
 bool faultRange(const YamlMap& map) {
   map.fault("at", "moves the shape out of the range of doubles");
   return false;

@@ -21,8 +21,8 @@ constexpr const char* kHowToPlanForIt =
 
 }  // namespace
 
-/// The numbers of one robot's state by their names in the robot ("pan", "base/yaw"). Each number
-/// has its line and its path, for messages.
+/// The components of one robot's state, by their names in the robot ("pan", "base/yaw"). Each
+/// component has its line and its path, for messages.
 struct StateReader::Given {
   struct Number {
     double value = 0;

@@ -10,11 +10,12 @@
 
 namespace corridor {
 
-/// Reads states of a problem, as in `start` and `goal`. A state is one configuration of all robots.
+/// Reads states of a problem, as in `start` and `goal`. A state is a configuration of all robots
+/// together.
 class StateReader {
  public:
   /// All arguments must outlive the object.
-  /// @param problem its model and the bounds that its file gives must be set.
+  /// @param problem the problem; its model must be set, with the bounds that its file gives.
   StateReader(Problem& problem, YamlSource& source) : problem_(problem), source_(source) {}
 
   /// Returns the configuration, or nullopt after adding a fault.
@@ -37,7 +38,7 @@ class StateReader {
   bool fromNamed(std::size_t robot, const std::string& name, int line, const std::string& path,
                  Given& given);
   /// Compares a named state with the values of held joints. Adds a note for each joint whose values
-  /// differ. In a goal, the difference is a fault instead of a note if the held value comes from
+  /// differ. Exception: for a goal, the difference is a fault instead if the held value comes from
   /// the start, not from the robot's `hold`.
   bool checkHeld(std::size_t robot, const NamedState& state, const std::string& name, int line,
                  const std::string& path);
@@ -54,10 +55,10 @@ class StateReader {
   YamlSource& source_;
 };
 
-/// Returns the value to store in a coordinate. A circle's angle is brought into (−π, π]. A line's
-/// value that is beyond a limit by at most `limitSlack` is replaced by the limit. Each such change
-/// of a value adds a note.
-/// If a line's value is farther outside of its limits, returns nullopt and sets `why`.
+/// Returns the value to store in a coordinate. The angle of a circle coordinate (a continuous
+/// joint, or a yaw) is brought into (−π, π]. If the value of a line coordinate is beyond a limit by
+/// at most `limitSlack`, it is replaced by the limit. Each of these changes adds a note. If the
+/// value of a line coordinate is farther outside of its limits, returns nullopt and sets `why`.
 /// @param path the value's place in the file, for the note and for `why`.
 std::optional<double> coordinateValue(const Coordinate& coordinate, double value,
                                       const std::string& path, std::vector<Note>& notes,

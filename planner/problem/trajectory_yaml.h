@@ -5,7 +5,8 @@
 
 namespace corridor {
 
-/// Reads the `trajectory` of a problem. Values that the file does not have stay as they are.
+/// Reads the key `trajectory` of a problem into `settings`. Members whose keys are absent do not
+/// change.
 void readTrajectoryKeys(const YamlMap& problem, TrajectorySettings& settings);
 
 }  // namespace corridor

@@ -10,7 +10,7 @@
 namespace corridor {
 namespace {
 
-/// Returns the coordinates of single joints.
+/// Returns the coordinates of all single (revolute, continuous and prismatic) joints.
 std::vector<const Coordinate*> singleJoints(const ConfigurationSpace& space) {
   std::vector<const Coordinate*> joints;
   for (const CoordinateGroup& group : space.groups())
@@ -23,7 +23,7 @@ bool slides(const Coordinate& c) {
   return c.kind == Coordinate::Kind::line && !c.angular;
 }
 
-/// Reads the keys that are names of joints.
+/// Reads those keys of `tube` that are names of joints.
 void readNamed(const YamlMap& map, const ConfigurationSpace& space, TubeSpec& tube) {
   const std::vector<const Coordinate*> joints = singleJoints(space);
   std::vector<std::string> known = problemKeys().at("tube").legal;

@@ -5,9 +5,9 @@
 
 namespace corridor {
 
-/// Reads the `tube` of a problem.
-/// @param isComplete whether `space` has the joints of all robots. Otherwise the robots have
-/// faults, and keys that depend on the robots are not checked.
+/// Reads the key `tube` of a problem.
+/// @param isComplete whether `space` has the joints of all robots. False: robots have faults, and
+/// keys that depend on the robots are not checked.
 TubeSpec readTube(const YamlMap& file, const ConfigurationSpace& space, bool isComplete);
 
 }  // namespace corridor

@@ -86,8 +86,8 @@ std::optional<RobotModel> readModel(const std::filesystem::path& urdf, const Urd
 
 using JointList = std::vector<std::size_t>;
 
-/// Lets the problem use the names of the group's states without the group's name: if the group is
-/// "arm", "home" also means "arm/home".
+/// Adds the states of the group under their names without the group's name: if the group is "arm",
+/// the name "home" then also means "arm/home".
 void addStatesOf(const std::string& group, RobotModel& model) {
   const std::string prefix = group + "/";
   std::map<std::string, NamedState> added;
@@ -162,7 +162,7 @@ JointList readJointList(const YamlMap& map, const RobotModel& model) {
   return active;
 }
 
-/// Adds the note that no joint of the robot can move.
+/// Adds a note that no joint of the robot can move.
 void noteThatNoneMoves(const std::filesystem::path& urdf, ModelRobot& robot) {
   robot.description.notes.push_back(
       {urdf.string() + ": " + whyNoneMoves(robot) + "; problems refuse this robot",
@@ -296,7 +296,8 @@ std::optional<RobotSetup> readUrdfRobot(const YamlMap& map, const std::string& n
   readStates(map, setup.robot.description);
   const std::optional<std::string> heldState = readHold(map, setup);
   const YamlPlace hold{map.source(), "hold", heldState ? map.find("hold")->line : 0};
-  // If the file chooses no joints, none of the joints in the held state is planned for.
+  // If the file does not choose the planned joints, all joints of the held state are held, and none
+  // of them is planned for.
   const bool hasDefault = !group.empty() && srdf && !map.find("joints");
   const bool isChosen = map.find("group") || map.find("joints") || hasDefault;
   if (heldState && !isChosen) holdState(*heldState, {}, hold, setup);

@@ -12,8 +12,7 @@ namespace corridor {
 /// Returns nullopt if one of these files has a fault.
 /// @param group see readRobotFile.
 /// @param notesOfFaulty see readRobotFile.
-/// @param setup contains the robot.yaml in `files`; its other members are not set yet. They are set
-/// in the result.
+/// @param setup has only `files` set, with the robot.yaml. The other members are set in the result.
 std::optional<RobotSetup> readUrdfRobot(const YamlMap& map, const std::string& name,
                                         const std::string& group,
                                         const std::filesystem::path& folder, RobotUse use,

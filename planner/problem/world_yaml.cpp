@@ -23,13 +23,14 @@ std::vector<PlacedShape> readGroup(const YamlMap& map, ShapePlace place, ShapeFi
 }
 
 /// Obstacles share a mesh if it has at least `kLeastShared` triangles, and if sharing saves at
-/// least `kLeastSaved` triangles. Among 20 obstacles of one mesh, an edge of an arm takes 6.9 µs
-/// instead of 5.5 µs, since each obstacle has a relative motion of its own. A saved copy would take
-/// 0.1 kB and 0.23 µs for each triangle. So 50,000 triangles are worth the time of 10^4 edges
-/// (equal_meshes_benchmark).
+/// least `kLeastSaved` triangles. Sharing has a cost: among 20 obstacles that share a mesh, testing
+/// an edge of an arm takes 6.9 µs instead of 5.5 µs, since each obstacle has its own relative
+/// motion. Its gain: a saved copy would take 0.1 kB and 0.23 µs for each triangle. So saving 50,000
+/// triangles is worth the extra time of 10^4 edges (equal_meshes_benchmark).
 constexpr std::size_t kLeastShared = 1'000, kLeastSaved = 50'000;
 
-/// Counts the obstacles that are the same mesh: those with equal `mesh`, `unit`, `up` and `solid`.
+/// Counts the obstacles that have the same mesh: those with equal values of `mesh`, `unit`, `up`
+/// and `solid`.
 class MeshUses {
  public:
   void add(const YamlValue& obstacle) { ++uses_[keyOf(obstacle)]; }
@@ -48,8 +49,9 @@ class MeshUses {
   std::map<std::array<std::string, 4>, std::size_t> uses_;
 };
 
-/// Returns whether obstacles of one mesh should share it, each in a frame of its own. Otherwise
-/// each has a copy of its own, moved to its place.
+/// Returns whether obstacles with the same mesh should share it. Then each obstacle has its own
+/// frame. Otherwise each obstacle has its own copy of the mesh, moved to its place. @param uses the
+/// number of these obstacles.
 bool sharingPays(std::size_t uses, std::size_t triangles) {
   return uses > 1 && (uses - 1) * triangles >= kLeastSaved && triangles >= kLeastShared;
 }
@@ -73,8 +75,8 @@ std::vector<std::size_t> bodiesCalled(const std::string& name, const Model& mode
   return found;
 }
 
-/// Returns whether this is the name of a link. If a link's name is not the name of a body, the link
-/// has no shapes. A pair with such a link needs no `allow`, but it may be listed.
+/// Returns whether this is the name of a link. A link without shapes is no body. A pair with such a
+/// link needs no `allow`, but `allow` may list it.
 bool isLinkName(const std::string& name, const Model& model) {
   for (const ModelRobot& robot : model.robots)
     for (const LinkModel& link : robot.description.links)
@@ -129,8 +131,8 @@ class BodyNames {
     }
   }
 
-  /// Returns the body of a name. Returns nullopt for a link without shapes, which is no body. Calls
-  /// fault(text) for a name that is unknown, or that two bodies have.
+  /// Returns the body of a name. Returns nullopt for a link without shapes, which is no body. If
+  /// the name is unknown, or two bodies have it, calls fault(text) and returns nullopt.
   template <class Report>
   std::optional<std::size_t> find(const std::string& name, const Report& fault) const {
     const auto found = bodiesCalled(name, model_, byName_);

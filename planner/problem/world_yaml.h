@@ -6,15 +6,16 @@
 namespace corridor {
 
 /// Reads `world` and adds its obstacles to the model.
-/// @param needed whether a problem without obstacles is a fault.
+/// @param needed whether to add a fault if the problem has no obstacles. @param isPlanar whether
+/// all robots are SE2 robots, so that polygons are legal.
 void readWorld(const YamlMap& file, bool needed, bool isPlanar, ModelBuilder& builder,
                Source& source);
 
 /// Reads `allow`, a list of pairs of names of bodies. A pair with a link that has no shapes is left
-/// out. @pre the model has all its bodies.
+/// out. @pre The model has all its bodies.
 AllowedBodies readAllow(const YamlMap& file, const Model& model);
 
-/// Reads `padding`. Links without shapes are left out. @pre the model has all its bodies.
+/// Reads `padding`. Links without shapes are left out. @pre The model has all its bodies.
 Padding readPadding(const YamlMap& file, const Model& model);
 
 }  // namespace corridor

@@ -72,7 +72,8 @@ std::string parseNumber(std::string_view text, Range range, double& value) {
   const auto [stop, error] = std::from_chars(begin, end, number);
   if (stop != end || error == std::errc::invalid_argument)
     return "a number is needed, not " + quotedWord(text);
-  // from_chars does not report whether the number is too large or too small; strtod does.
+  // from_chars does not report whether the number is too large or too small; strtod returns
+  // infinity, or the nearest double.
   if (error == std::errc::result_out_of_range)
     number = std::strtod(std::string(begin, end).c_str(), nullptr);
   if (!std::isfinite(number)) return "a finite number is needed, not " + quotedWord(text);
@@ -87,8 +88,8 @@ std::string parseNumber(std::string_view text, Range range, double& value) {
 
 namespace {
 
-/// Returns the legal key that a user probably meant by `key`: a similar key, or the key that other
-/// programs call `key`.
+/// Returns the legal key that a user probably meant by `key`: a similar key, or the key for which
+/// other programs use the name `key`.
 std::optional<std::string> meantBy(const std::string& key, const std::vector<std::string>& legal) {
   static const std::map<std::string, std::string> others{
       {"pos", "at"},           {"position", "at"},          {"xyz", "at"},
@@ -192,7 +193,7 @@ std::optional<std::string> YamlMap::requireOne(const std::vector<std::string>& k
 
 namespace {
 
-/// Sets `number` and returns "", or returns a complaint.
+/// Sets `number` and returns "", or returns an error message.
 std::string parseNumber(const YamlValue& value, Range range, double& number) {
   return value.kind == YamlValue::Kind::Scalar && value.isPlain
              ? parseNumber(value.text, range, number)

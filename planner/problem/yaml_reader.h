@@ -23,7 +23,7 @@ namespace corridor {
 /// A key that is not supported.
 struct UnsupportedKey {
   std::string key;
-  std::string instead;  ///< what to do instead: the end of the message
+  std::string instead;  ///< what to do instead, as the end of the fault's message
 };
 
 /// The keys of a map: the legal ones, and unsupported ones. The fault of an unsupported key says
@@ -44,8 +44,8 @@ struct YamlSource {
   void fault(int line, std::string text) const { faults.add(file, line, std::move(text)); }
 };
 
-/// The range of numbers that are legal as the value of a key.
-enum class Range { Any, NotNegative, Positive, Resolution /**< see isResolution */ };
+/// The ranges of numbers that a key's value may be restricted to.
+enum class Range { Any, NotNegative, Positive, Resolution /**< see `isResolution` */ };
 
 /// The whole numbers that are legal as the value of a key, both ends included.
 struct WholeRange {
@@ -53,12 +53,12 @@ struct WholeRange {
   const char* words = "0 to 2^64 - 1";  ///< text of the range in messages
 };
 
-/// Parses the whole text as a decimal number. Returns "" and sets `value`, or returns a complaint
-/// ("a number is needed, not …"). A number that is too small for a double becomes the nearest
-/// double. A number that is too large, nan and inf are not finite, and give a complaint.
+/// Parses the whole text as a decimal number. Returns "" and sets `value`, or returns an error
+/// message ("a number is needed, not …"). A number that is too small for a double becomes the
+/// nearest double. A number that is too large for a double, nan and inf give an error message.
 std::string parseNumber(std::string_view text, Range range, double& value);
 
-/// One map of a file.
+/// A map of a YAML file, and the path of the map in the file.
 class YamlMap {
  public:
   /// Adds a fault if the value is not a map, and a fault for each unknown, unsupported or repeated
@@ -76,14 +76,15 @@ class YamlMap {
   void fault(std::string_view key, const std::string& text) const;
 
   const YamlValue* find(std::string_view key) const;  ///< nullptr: absent
-  /// Returns the value of the key, or nullptr if the key is absent. If it is absent, adds a fault,
-  /// unless an earlier fault explains its absence: the value is not a map, or the map has an
-  /// unsupported key, or the map has an unknown key that is similar to this one.
-  /// @param purpose the value that the key should have, for the message.
+  /// Returns the value of the key, or nullptr if the key is absent. If the key is absent, adds a
+  /// fault, unless an earlier fault explains the absence: the object was made from a value that is
+  /// not a map, or the map has an unsupported key, or an unknown key similar to `key`.
+  /// @param purpose a description of the value that the key should have, for the message.
   const YamlValue* require(std::string_view key, const std::string& purpose) const;
 
-  /// Returns the only one of `keys` that is present. Adds a fault if several are present. If none
-  /// is present, adds a fault unless an earlier fault explains this, as `require` does.
+  /// Returns the key of `keys` that is present, if exactly one is. Otherwise returns nullopt. If
+  /// several keys are present, adds a fault. If none is present, adds a fault unless an earlier
+  /// fault explains this (see `require`).
   /// @param what a description of the keys for messages: "one shape".
   std::optional<std::string> requireOne(const std::vector<std::string>& keys,
                                         const std::string& what, const std::string& purpose) const;

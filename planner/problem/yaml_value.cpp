@@ -33,7 +33,8 @@ class TreeBuilder : public YAML::EventHandler {
                 const std::string& text) override {
     YamlValue scalar = value(YamlValue::Kind::Scalar, mark);
     scalar.text = text;
-    scalar.isPlain = tag == "?";  // yaml-cpp: "?" plain, "!" quoted, else a tag of the file's own
+    // The tag of yaml-cpp is "?" for plain text, "!" for quoted text, else the tag in the file.
+    scalar.isPlain = tag == "?";
     put(std::move(scalar));
   }
   void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
@@ -114,7 +115,8 @@ class TreeBuilder : public YAML::EventHandler {
   std::size_t nodes_ = 0;
 };
 
-/// @param line counted from 0
+/// Returns whether a line of the text is indented by a tab. @param line the index of the line,
+/// counted from 0.
 bool isIndentedByTab(const std::string& text, int line) {
   std::size_t begin = 0;
   for (int i = 0; i < line; ++i) {

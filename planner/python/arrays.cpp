@@ -94,8 +94,9 @@ RigidPose rigidPoseOf(const Array& array, const char* name) {
   if (!(off <= kOrthonormal) || X.m.determinant() < 0)
     refuse(name, "the upper left 3×3 matrix must be a rotation");
   // A Newton step to the nearest rotation. With E = MᵀM − I, |E| ≤ 3·1e-6, it moves M by |M·E|/2 ≤
-  // 1.6e-6, and the result is off from orthonormal by 3/4·|E|² < 1e-11. So the quaternion, which is
-  // exact for rotations only, differs from M by less than 2e-6.
+  // 1.6e-6, and the result is off from orthonormal by 3/4·|E|² < 1e-11. So the rotation of the
+  // quaternion differs from M by less than 2e-6, although the conversion to a quaternion is exact
+  // only for rotations.
   const Mat3 R = X.m * (1.5 * Mat3::Identity() - 0.5 * X.m.transpose() * X.m);
   RigidPose pose;
   pose.p = X.t;

@@ -22,7 +22,7 @@ using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
 /// An array of indices, in rows.
 using Indices = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
 
-/// Throws py::value_error: "NAME: TEXT".
+/// Throws a py::value_error with the message "NAME: TEXT".
 [[noreturn]] void refuse(const char* name, const std::string& text);
 
 /// Returns the shape of an array as Python writes it: "(10, 7)".
@@ -31,17 +31,19 @@ std::string shapeOf(const py::array& array);
 /// Reads one configuration, an array of J numbers.
 Configuration configurationOf(const Array& array, const ConfigurationSpace& space,
                               const char* name);
-/// Reads configurations: an array of N×J numbers, or of J numbers for one.
+/// Reads configurations: an array of N×J numbers, or an array of J numbers for a single
+/// configuration.
 std::vector<Configuration> configurationsOf(const Array& array, const ConfigurationSpace& space,
                                             const char* name);
-/// Returns an array of N×J numbers.
+/// Returns the configurations `rows` as an array with `columns` numbers in each row.
 Array arrayOf(const std::vector<Configuration>& rows, std::size_t columns);
 
 /// Reads 4×4 matrices of rigid motions or other affine maps: an array of N×4×4 numbers, or of 4×4
-/// for one. The last row must be 0, 0, 0, 1.
+/// numbers for a single map. The last row of each matrix must be 0, 0, 0, 1.
 std::vector<Transform> transformsOf(const Array& array, const char* name);
-/// Reads a 4×4 matrix of a rigid motion. Its rotation must be orthonormal within 1e-6, and stands
-/// for the nearest rotation: this moves a point by less than 2e-6 of its distance to the origin.
+/// Reads a 4×4 matrix of a rigid motion. Let M be its upper left 3×3 matrix. Each element of MᵀM
+/// must differ by at most 1e-6 from that of the identity. M stands for the nearest rotation, which
+/// moves a point by less than 2e-6 of the point's distance from the origin.
 RigidPose rigidPoseOf(const Array& array, const char* name);
 
 /// Reads points, an array of N×3 numbers.

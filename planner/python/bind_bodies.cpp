@@ -14,7 +14,8 @@ namespace {
 
 using BodyPointer = std::shared_ptr<Body>;
 
-/// The poses of two bodies, one row for each query. A single pose of a body is used in all queries.
+/// The poses of two bodies, one pose of each body for each query. If a body has only one pose, this
+/// pose is used in all queries.
 struct Poses {
   Poses(const Array& a, const Array& b)
       : X_WA(transformsOf(a, "pose_a")), X_WB(transformsOf(b, "pose_b")) {

@@ -62,7 +62,8 @@ const char* nameOf(UndecidedReason reason) {
   return "";
 }
 
-/// Returns the tested pairs: names of shapes, bodies, and margins.
+/// Returns the tested pairs: the names of their shapes, the indices of their bodies, and their
+/// margins.
 py::dict certificatePairs(const NativeProblem& problem) {
   const Checker& checker = problem.checker();
   py::dict d;
@@ -128,7 +129,7 @@ py::dict certificate(const NativeProblem& problem, const Array& q0, const Array&
   return d;
 }
 
-/// Returns None, or the first fault: its kind, pair and time.
+/// Checks a certificate. Returns None, or the first fault: its kind, pair and time.
 py::object certificateFault(const NativeProblem& problem, const Array& q0, const Array& q1,
                             double until, const Indices& pair, const Array& t0, const Array& t1,
                             const Array& clearance) {

@@ -38,8 +38,8 @@ ProblemPointer build(const py::list& robots, const py::dict& obstacles, const py
   return std::make_shared<NativeProblem>(std::move(problem));
 }
 
-/// Converts the value of an edit. @param what words for the message, which say what the value must
-/// be: "a number".
+/// Converts the value of an edit. @param what words for the message that say what the value must
+/// be, such as "a number".
 template <class T>
 T valueFrom(const py::handle value, const char* key, const char* what) {
   try {
@@ -72,8 +72,8 @@ double numberWithin(const py::handle value, const char* key, const ClosedRange& 
   refuse(key, range.text() + " is needed, not " + shortest(number));
 }
 
-/// Applies one edit to a problem. The keys are those of problem files, where problem files have
-/// such a key.
+/// Applies one edit to a problem. If problem files have a key for the value, the edit has the same
+/// key.
 void apply(const std::string& key, const py::handle value, Problem& problem) {
   const ConfigurationSpace& space = problem.model.space;
   constexpr double kPositive = std::numeric_limits<double>::min();
@@ -145,7 +145,8 @@ void apply(const std::string& key, const py::handle value, Problem& problem) {
   }
 }
 
-/// @param edits in the order in which they are applied.
+/// Returns a copy of the problem with the edits applied. @param edits in the order in which they
+/// are applied.
 ProblemPointer edited(const NativeProblem& from, const py::dict& edits) {
   Problem problem = from.problem();
   for (const auto& [key, value] : edits) {

@@ -19,8 +19,8 @@
 namespace corridor::python {
 namespace {
 
-/// Solves in a thread of its own. Meanwhile the calling thread runs Python's signal handlers and
-/// the callback, ten times a second.
+/// Solves the problem in a new thread. Meanwhile the calling thread runs Python's signal handlers
+/// and the callback, ten times a second.
 SolveReport solveInThread(const Problem& problem, SolveOptions& options,
                           const py::object& callback) {
   std::atomic<bool> interrupted = false;
@@ -149,8 +149,8 @@ Solution solutionFrom(const Problem& problem, const Array& path) {
   return solution;
 }
 
-/// @param clearance metres: the bound of the path's clearance is refined until it reaches this
-/// value.
+/// Verifies a path. @param clearance metres: the bound of the path's clearance is refined until it
+/// reaches this value, if the path may have such a clearance.
 py::dict verifyPathOf(const NativeProblem& native, const Array& path, double clearance) {
   const Problem& problem = native.problem();
   Solution solution = solutionFrom(problem, path);
@@ -163,7 +163,7 @@ py::dict verifyPathOf(const NativeProblem& native, const Array& path, double cle
   return reportDict(report);
 }
 
-/// @param text the content of a file of rows, or of a message.
+/// Verifies a trajectory. @param text the content of the trajectory's file: rows, or a message.
 py::dict verifyTrajectoryOf(const NativeProblem& native, const std::string& text) {
   const Problem& problem = native.problem();
   VerifyReport report;
@@ -185,8 +185,8 @@ std::string page(const NativeProblem& native, const std::optional<Array>& states
   return viewPage(problem, path);
 }
 
-/// Returns an SVG. @param seenFrom a direction that `viewDirection` accepts. @throws InputError for
-/// any other text.
+/// Returns a picture of the scene and the path as an SVG document. @param seenFrom a direction that
+/// `viewDirection` accepts. @throws InputError for any other text.
 std::string picture(const NativeProblem& native, const Array& states,
                     const std::optional<std::string>& seenFrom) {
   std::optional<ViewDirection> from;

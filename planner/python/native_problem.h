@@ -22,8 +22,8 @@ inline Code codeOf(bool inBounds, MotionVerdict verdict) {
                                              : kUndecided;
 }
 
-/// A problem and its checker. The checker is made when a query first needs it. Immutable: edits
-/// make another NativeProblem. Threads may share it.
+/// A problem and its checker. The checker is made when a query first needs it. The object is
+/// immutable: an edit makes another NativeProblem. Several threads may use the object at once.
 class NativeProblem {
  public:
   /// @param origins see SolveOptions::valueOrigins.

@@ -10,8 +10,8 @@ namespace corridor::python {
 namespace py = pybind11;
 
 /// Adds a robot: a URDF, links and joints, or a rigid body.
-/// @throws InputError with all faults in the numbers of links and joints. Other faults are those of
-/// `ModelBuilder::build`.
+/// @throws InputError with all faults in the numbers of links and joints. `ModelBuilder::build`
+/// finds all other faults later.
 void addRobot(ModelBuilder& builder, const py::dict& robot);
 
 }  // namespace corridor::python

@@ -11,9 +11,9 @@ namespace corridor::python {
 
 namespace py = pybind11;
 
-/// A pose as the user gave it, and the same pose as a map of points. For xyz and rpy, each is
-/// computed from the given numbers, not from the other, as in the reader of URDF. For a matrix, the
-/// map is computed from the pose.
+/// A pose as the user gave it, and the same pose as a map of points. If the user gave xyz and rpy,
+/// both `pose` and `X` are computed from these numbers, not one from the other, as in the reader of
+/// URDF. If the user gave a matrix, `X` is computed from `pose`.
 struct GivenPose {
   RigidPose pose;
   Transform X;
@@ -23,7 +23,7 @@ struct GivenPose {
 GivenPose givenPose(const py::object& value, const char* name);
 RigidPose poseOf(const py::object& value, const char* name = "pose");
 
-/// Makes a shape from a tuple of its kind, its numbers and its pose.
+/// Makes a shape from a tuple that has the shape's kind, numbers and pose.
 PlacedShape shapeFrom(const std::string& name, const py::tuple& shape);
 
 /// Makes the shapes of a body.

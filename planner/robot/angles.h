@@ -25,7 +25,7 @@ inline bool fitsAsDegrees(double value, double lower, double upper) {
 }
 
 /// Returns the normalised quaternion, without overflow or underflow for coefficients of any size.
-/// @pre finite, not zero.
+/// @pre `q` is finite and not zero.
 inline Eigen::Quaterniond unitQuaternion(const Eigen::Quaterniond& q) {
   const double squared = q.squaredNorm();
   if (squared > 1e-200 && squared < 1e200) return q.normalized();
@@ -34,16 +34,17 @@ inline Eigen::Quaterniond unitQuaternion(const Eigen::Quaterniond& q) {
 }
 
 /// Returns the quaternion angle between a and b, which is half the angle of the rotation from a to
-/// b. The result is in [0, π/2] radians, for quaternions of any norm; it is 0 for equal
+/// b. The result is in [0, π/2] radians, for quaternions of any norm above 0; it is 0 for equal
 /// quaternions.
 ///
-/// Error, with u = 2^-53: 4u·√3 from the sums of four products in the vector part, plus a few ulp
-/// of the result.
+/// The error is at most 4u·√3, from the sums of four products in the vector part, plus a few ulp of
+/// the result. Here u = 2^-53.
 ///
-/// Planners spend half of their own time in this function, so it is fast. The relative quaternion
-/// has a vector part (the sine) and a scalar part (the cosine). The function takes the arc sine or
-/// the arc cosine of the smaller of the two. This is well conditioned, and costs half as much as an
-/// arc tangent.
+/// Planners spend half of their own time in this function, so it is fast. The length of the
+/// relative quaternion's vector part is the sine of the angle, and the magnitude of the scalar part
+/// is the cosine. If the sine is the smaller of the two, the function takes its arc sine, otherwise
+/// the arc cosine of the cosine. Both are well conditioned there, and cost half as much as an arc
+/// tangent.
 inline double quaternionAngle(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) {
   const double squares = a.squaredNorm() * b.squaredNorm();
   const bool plain = squares > 1e-200 && squares < 1e200;

@@ -140,7 +140,7 @@ double ConfigurationSpace::distance(const double* a, const double* b) const {
         sum += lengthTimes(scale) / scale;
       }
     } else {
-      // The difference of the positions. The group's last coordinate is the angle.
+      // `away` is the difference of the positions. The group's last coordinate is the rotation.
       Vec3 away = Vec3::Zero();
       for (std::size_t k = 0; k + 1 < members.size(); ++k) {
         const std::size_t i = coordinates_[members[k]].first;

@@ -16,14 +16,14 @@ using Configuration = Eigen::VectorXd;
 struct Coordinate {
   enum class Kind {
     line,      ///< a real number in [lower, upper]
-    circle,    ///< an angle in [−π, π]
+    circle,    ///< an angle without limits; `normalise` brings it into [−π, π]
     rotation,  ///< four numbers (qx, qy, qz, qw), not all 0, of any norm
   };
   Kind kind = Kind::line;
   std::string name;       ///< single joint: "pan", "left/pan"; rigid robot: "x", "y", "z", "yaw",
                           ///< "rotation", "left/x"; planar or floating joint: "base/x"
   std::size_t first = 0;  ///< index of its first number in a Configuration
-  double lower = 0, upper = 0;  ///< used for lines only; inclusive
+  double lower = 0, upper = 0;  ///< inclusive bounds of a line; not used for other kinds
   bool angular = false;         ///< line only: in radians, not metres
   double weight = 1;            ///< factor of this coordinate's difference (m or rad) in distances
 
@@ -50,7 +50,7 @@ struct CoordinateGroup {
 class ConfigurationSpace {
  public:
   /// Adds a coordinate and sets its `first`. Each coordinate must be in one group; see addGroup().
-  /// @returns its index.
+  /// @returns the index of the coordinate.
   std::size_t add(Coordinate coordinate);
   void addGroup(CoordinateGroup group);
 
@@ -58,8 +58,8 @@ class ConfigurationSpace {
   std::vector<Coordinate>& coordinates() { return coordinates_; }
   const std::vector<CoordinateGroup>& groups() const { return groups_; }
   std::size_t size() const { return size_; }  ///< the length of a Configuration
-  /// Returns a name for each number: "x", "pan", …; for rotations "qx", "qy", "qz", "qw", after the
-  /// coordinate's prefix.
+  /// Returns a name for each number of a Configuration: "x", "pan", …; for a rotation "qx", "qy",
+  /// "qz" and "qw", after the coordinate's prefix ("left/qx").
   std::vector<std::string> numberNames() const;
 
   bool inBounds(const Configuration& q) const;  ///< tests lines only; inclusive
@@ -82,10 +82,11 @@ class ConfigurationSpace {
   /// Returns the distance of two configurations given by pointers to `size()` numbers each.
   double distance(const double* a, const double* b) const;
   /// Returns whether two configurations are the same up to the rounding of `normalise`: lines are
-  /// equal, circles differ by at most 32u and rotations by at most 64u, with u = 2^-53.
+  /// equal, circles differ by at most 32u rad, and the quaternion angle between rotations is at
+  /// most 64u rad, with u = 2^-53.
   bool equal(const Configuration& a, const Configuration& b) const;
-  /// Returns whether some circle or rotation makes a half turn within 1e-9 rad. Then the edge
-  /// defines no curve.
+  /// Returns whether some circle or rotation turns by a half turn from a to b, to within 1e-9 rad.
+  /// Then the edge from a to b defines no curve.
   bool ambiguous(const Configuration& a, const Configuration& b) const;
   /// Returns the largest angle by which a circle or rotation turns from a to b, radians in [0, π].
   double largestTurn(const Configuration& a, const Configuration& b) const;

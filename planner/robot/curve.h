@@ -28,8 +28,8 @@ struct CurvePiece {
   /// number of columns is the degree + 1, from 2 to kLargestDegree + 1. Metres, radians;
   /// quaternions as (x, y, z, w).
   Eigen::MatrixXd coefficients;
-  /// For each number, an upper bound (≥ 0) of the deviation of the curve that is meant from this
-  /// polynomial, such as the rounding of a conversion. Proofs add this bound to the tube. For a
+  /// For each number, an upper bound (≥ 0) of the deviation of the true curve from this piece's
+  /// curve, such as the rounding of a conversion. Proofs add this bound to the tube. For a
   /// rotation, the bound is an angle, and is stored at the first of its four numbers. Metres,
   /// radians.
   Configuration error;
@@ -43,7 +43,7 @@ Configuration configurationAt(const ConfigurationSpace& space, const CurvePiece&
 /// A curve over time: pieces[k] covers the times [knots[k], knots[k + 1]], with
 /// τ = (time − knots[k]) / (knots[k + 1] − knots[k]) in real arithmetic.
 struct Curve {
-  std::vector<double> knots;  ///< seconds, strictly ascending; one more than pieces
+  std::vector<double> knots;  ///< seconds, strictly ascending; one more knot than pieces
   std::vector<CurvePiece> pieces;
 };
 

@@ -13,7 +13,7 @@ namespace corridor {
 /// radians the shorter way round. For a rotation, the result is the quaternion angle, which is half
 /// the rotation angle. The function is inline because planners spend much of their time in
 /// distances.
-/// @param a, b pointers to all numbers of a configuration.
+/// @param a, b pointers to the first number of two configurations.
 inline double differenceOf(const Coordinate& c, const double* a, const double* b) {
   if (c.kind == Coordinate::Kind::rotation)
     return quaternionAngle(Eigen::Quaterniond(a + c.first), Eigen::Quaterniond(b + c.first));

@@ -32,7 +32,7 @@ struct EdgeMotion::Impl {
   struct LeverError {  // metres, for a point at lever y from frame b's origin: fixed + reach·|y|
     double fixed = 0, reach = 0;
   };
-  struct Place {  // pose of a frame in its nearest ancestor that is kept
+  struct Place {  // pose of a kept frame in its nearest kept ancestor
     MovingJoint joint;
     Transform X;
     std::uint64_t stamp = 0;  // identifies the t that X was computed for
@@ -50,11 +50,11 @@ struct EdgeMotion::Impl {
   };
   struct Step {
     std::size_t view;
-    bool up;  // towards the ancestor: the joint is inverted
+    bool up;  // whether the step leads towards the ancestor: its joint is then inverted
   };
   struct Path {
     std::size_t a = kItself, b = kItself;  // views, from the lowest common ancestor
-    std::vector<Step> steps;               // from a's side to b's
+    std::vector<Step> steps;               // from frame a to frame b
     std::vector<ScrewMotion> screws;
     // Valid for the edge numbered `edge`, and computed when the motion is first queried.
     // `poseError`: the error of the pose and of the axes. `twistError`: the error of the twist per
@@ -66,10 +66,10 @@ struct EdgeMotion::Impl {
   const ConfigurationSpace& space;
   std::vector<Place> places;
   std::vector<std::size_t> movingPlaces;  // the places whose joints move
-  std::vector<View> views;                // parents first
+  std::vector<View> views;                // a parent's view comes first
   std::vector<Path> paths;
   std::uint64_t stamp = 0;
-  double t = 0;  // the t of the stamp
+  double t = 0;  // the t that `stamp` stands for
   std::uint64_t edge = 0;
   bool ambiguous = false, still = false;
 
@@ -131,6 +131,8 @@ EdgeMotion::Impl::Impl(const KinematicTree& tree, const ConfigurationSpace& move
     places.back().X = places.back().joint.at(0);
   }
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> known;  // by ancestor and frame
+  // Returns the view of frame f from its ancestor. Adds the view, and those of the frames between,
+  // if they are missing.
   const auto viewOf = [&](const auto& self, std::size_t ancestor, std::size_t f) -> std::size_t {
     if (f == ancestor) return kItself;
     if (const auto found = known.find({ancestor, f}); found != known.end()) return found->second;
@@ -247,7 +249,7 @@ void EdgeMotion::Impl::setErrors(Path& path) {
   }
   path.twistError = {};
   const double arithmetic = (16 + static_cast<double>(path.steps.size())) * kUnit;
-  double lever = 0;  // L, an upper bound of the distance from the joint's origin to b's
+  double lever = 0;  // L, an upper bound of the distance from the joint's origin to b's origin
   for (auto step = path.steps.rbegin(); step != path.steps.rend(); ++step) {
     const View& view = viewWithErrors(step->view);
     const MovingJoint& joint = places[view.place].joint;
@@ -338,7 +340,7 @@ RelativeMotion EdgeMotion::relativeMotion(std::size_t pair, double t, double h) 
   w.screws = path.screws;
   w.speed = lengthFromAbove(w.linear);
   w.angle = lengthFromAbove(w.angular);
-  // This factor covers the products of errors, which are below 2^-20 of the errors.
+  // This factor covers the products of errors, which are below 2^-20 times the errors.
   constexpr double more = 1 + 0x1p-20;
   w.fixedError = roundedUp(more * (path.poseError.fixed + h * path.twistError.fixed)) + kLeastError;
   w.reachError = roundedUp(more * (path.poseError.reach + h * path.twistError.reach)) + kLeastError;

@@ -20,7 +20,8 @@ namespace corridor {
 class EdgeMotion final : public MotionSource {
  public:
   /// `tree` and `space` must outlive the object.
-  /// @param pairs frames whose relative motions are queried; motion i is that of pairs[i].
+  /// @param pairs the pairs of frames whose relative motions are queried; relative motion i belongs
+  /// to pairs[i].
   /// @param tube for each number of a Configuration, the deviation from the edge that the motion
   /// bounds cover, ≥ 0 (metres or radians). The deviation of a rotation is an angle in radians,
   /// stored at the first of the rotation's four numbers.
@@ -30,11 +31,13 @@ class EdgeMotion final : public MotionSource {
              std::span<const Scene::FramePair> pairs, const Configuration& tube);
   ~EdgeMotion() override;
 
-  /// Sets the edge. @pre finite, of the space's size; quaternions not zero.
+  /// Sets the edge. @pre Both configurations have the space's size and finite numbers, and no
+  /// quaternion is zero.
   void set(const Configuration& from, const Configuration& to);
   /// Sets a piece of a curve, whose parameter τ takes the place of t. The piece's `error` is added
   /// to the tube. Intervals must be within [0, 1], so the method of a query must be
-  /// `EdgeMethod::directional`. @pre finite, of the space's size; quaternions not zero.
+  /// `EdgeMethod::directional`. @pre Coefficients and errors are finite, with one row or entry for
+  /// each number of a configuration. No first or last quaternion is zero.
   void set(const CurvePiece& piece);
 
   RelativeMotion relativeMotion(std::size_t pair, double t, double h) override;

@@ -15,15 +15,16 @@ namespace corridor {
 inline constexpr std::size_t kNoIndex = SIZE_MAX;
 
 /// Convert between joint types and their names in URDF. `jointType` returns nullopt for an unknown
-/// name.
+/// name. `jointTypeNames` returns all names.
 std::string nameOf(JointType type);
 std::optional<JointType> jointType(std::string_view name);
 std::vector<std::string> jointTypeNames();
 
-/// Returns whether the joint is planar or floating. Such a joint has a pose in place of a single
-/// value.
+/// Returns whether joints of this type are planar or floating. Such a joint has a pose in place of
+/// a single value.
 bool isPoseJoint(JointType type);
-/// Returns whether the joint has a value of its own: it is neither fixed nor a mimic.
+/// Returns whether the joint has a value or pose of its own: it is not fixed, and mimics no other
+/// joint.
 bool hasOwnValue(const JointModel& joint);
 
 /// Returns the index of the joint with this name, or nullopt if the model has no such joint.

@@ -33,11 +33,11 @@ struct Frame {
   std::size_t parent = 0;
   RigidPose fixed;  ///< X_P0: pose in the parent's frame
   Joint joint = Joint::none;
-  Vec3 axis = Vec3::UnitZ();  ///< in the frame after `fixed`; of any length above 0
+  Vec3 axis = Vec3::UnitZ();  ///< in the coordinates after `fixed`; of any length above 0
   /// Index of the joint's first number in a Configuration. If the index is `noVariable`, a
   /// `revolute` or `prismatic` joint is held at `offset`.
   std::size_t variable = noVariable;
-  std::size_t count = 1;              ///< `translation` only: how many numbers it has: 2 or 3
+  std::size_t count = 1;              ///< `translation` only: the number of its components, 2 or 3
   double multiplier = 1, offset = 0;  ///< `revolute`, `prismatic`: value = multiplier·q + offset
 
   bool moves() const { return joint != Joint::none && variable != noVariable; }

@@ -109,7 +109,7 @@ std::string MeshStore::noteOnSlashes() const {
 const std::vector<MeshStore::Folder>& MeshStore::foldersAbove() {
   if (!above_.empty()) return above_;
   auto folder = std::filesystem::absolute(folder_.empty() ? "." : folder_).lexically_normal();
-  for (; folder.has_relative_path(); folder = folder.parent_path())  // up to the root
+  for (; folder.has_relative_path(); folder = folder.parent_path())  // without the root
     above_.push_back(
         {folder, packageNameOf(folder), whyNotOrdinaryFile(folder / "package.xml").empty()});
   return above_;

@@ -26,20 +26,22 @@ class MeshStore {
   MeshStore(const std::filesystem::path& urdf, const UrdfRules& rules,
             std::vector<std::filesystem::path>& files);
 
-  /// Finds and reads the mesh that the URDF calls `name`. Reads each file only once.
+  /// Finds and reads the mesh that the URDF calls `name`. Reads each file only once. Adds the file
+  /// to the list `files` of the constructor.
   FoundMesh add(const std::string& name);
   /// Returns the names of the Collada files whose up-axis is not z, and was not applied.
   std::vector<std::string> ignoredUpAxes() const;
-  /// Returns the packages whose meshes were found in a folder of another name above the URDF,
-  /// because no folder has the package's name. Maps the package to that folder.
+  /// Returns the packages that were not found by their names, but whose meshes were found in a
+  /// folder of another name above the URDF. Each package is mapped to that folder.
   const std::map<std::string, std::filesystem::path>& guessedPackages() const { return guessed_; }
   /// Returns whether the folder of a guessed package is also the folder of another package. The
-  /// meshes may then be those of the other package, with the same file names.
+  /// meshes may then belong to the other package, if both have files of the same names. @pre
+  /// `guessedPackages` has the package.
   bool isDoubtful(const std::string& package) const;
   /// Returns the note on names that begin with package:///, or "". Other readers, such as
   /// Pinocchio, accept such names, too.
   std::string noteOnSlashes() const;
-  /// Returns a mesh file that was read. @pre `file` was returned by add(), and was readable.
+  /// Returns a mesh file that was read. @pre `add` returned `file`, and could read the file.
   const std::shared_ptr<const MeshFile>& get(const std::filesystem::path& file) const {
     return meshes_.at(file);
   }
@@ -50,7 +52,8 @@ class MeshStore {
     std::string package;  ///< the name of the package, if this folder is its root
     bool hasPackageXml = false;
   };
-  /// Returns the folders that contain the URDF, the innermost first; without the root.
+  /// Returns the folders that contain the URDF, the innermost first, except the root of the file
+  /// system.
   const std::vector<Folder>& foldersAbove();
   FoundMesh locate(const std::string& name);
   FoundMesh inPackage(const std::string& name);

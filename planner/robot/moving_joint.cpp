@@ -54,8 +54,8 @@ constexpr double kTurnError = 40 * kUnit;
 constexpr double kFreeTurnError = 0x1p-44;
 constexpr double kFreeRateError = 0x1p-45;
 
-/// Squares of values that are not smaller than this are normal numbers. Smaller motions are treated
-/// as rest; EdgeMotion's least error covers them.
+/// The square of a number of at least this magnitude is a normal number. Smaller motions are
+/// treated as rest; EdgeMotion's least error covers them.
 constexpr double kLeastMotion = 0x1p-500;
 
 }  // namespace
@@ -149,7 +149,7 @@ void MovingJoint::set(const Configuration& from, const Configuration& to) {
 
 // A piece of degree n, with u the unit roundoff. V is an upper bound: of the magnitude of each
 // coefficient, or, for a translation, of the length of the vector of the largest coordinates. The
-// coefficients c_i of the value m·q + o are rounded by 2uV.
+// coefficients c_i of the value m·q + o have rounding errors of at most 2uV.
 //
 // Evaluation by de Casteljau. A step (1 − t)a + tb rounds by at most 4uV: 1 − t, two products and
 // the sum, each u times terms whose sum is at most V. After n steps, with the coefficients: (4n +
@@ -157,9 +157,9 @@ void MovingJoint::set(const Configuration& from, const Configuration& to) {
 //
 // Derivatives are differences of values after n − 1, n − 2 steps:
 // - n(b_1 − b_0): both are off by (4n − 2)uV, and the difference and the product round by 2u of a
-//   term of at most 2nV. Together below 8n²uV + 4nuV; the code uses 12n²uV.
-// - n(n − 1)(b_2 − 2b_1 + b_0): four times (4n − 6)uV, and four roundings of at most 4V: below
-//   n²(16n + 16)uV; the code uses 36n³uV.
+//   term of at most 2nV. Together these errors are below 8n²uV + 4nuV; the code uses 12n²uV.
+// - n(n − 1)(b_2 − 2b_1 + b_0): four times (4n − 6)uV, and four roundings of terms of at most 4V.
+//   Together these errors are below n²(16n + 16)uV; the code uses 36n³uV.
 // On [0, 1], |q'| ≤ n·max|Δc|, |q''| ≤ n(n − 1)·max|Δ²c| and |q'''| ≤ n(n − 1)(n − 2)·max|Δ³c|,
 // because a polynomial is in the convex hull of its coefficients. A difference of order k of the
 // rounded coefficients is off by 2^k·2uV, and its own roundings add k·2^k·uV. For k ≤ 3 both are
@@ -199,7 +199,7 @@ void MovingJoint::set(const CurvePiece& piece) {
   if (joint_ == Frame::Joint::revolute) {
     rotationError_ = roundedUp(kTurnError + fixedError_ + valueError);
   } else {
-    // The products and sums round by less than in `setValue` and `setShift`.
+    // The rounding errors of the products and sums are smaller than in `setValue` and `setShift`.
     shiftError_ = roundedUp(fixedShiftError_ + valueError + 32 * kUnit * V +
                             4 * kUnit * fixedLength_ + 3 * V * fixedError_);
     length_ = roundedUp(fixedLength_ + 2 * V);
@@ -209,7 +209,7 @@ void MovingJoint::set(const CurvePiece& piece) {
 
 void MovingJoint::setCurveBounds(double V) {
   const double n = static_cast<double>(curve_.cols() - 1);
-  double largest[4] = {};  // of the differences of each order
+  double largest[4] = {};  // largest magnitude of the differences of each order
   auto difference = curve_;
   for (Eigen::Index order = 1; order < std::min<Eigen::Index>(4, curve_.cols()); ++order) {
     const Eigen::Index count = curve_.cols() - order;
@@ -278,7 +278,7 @@ void MovingJoint::setValue(const Configuration& from, const Configuration& to) {
   rate_ = multiplier_ * delta;
   // Let V = |m|·max|q| + |o|. Errors: m·q0 + o, 2uV; m·Δ (|Δ| ≤ 2·max|q|, rounded), 4uV; its
   // product with t, 2uV; the sum, 3uV. (The sum is at most V, or 3V where a circle crosses its
-  // seam.) Together 11uV, and 12uV with the products of roundings.
+  // seam.) Together these errors are 11uV, or 12uV with the products of roundings.
   const double V = std::abs(multiplier_) * std::max(std::abs(q0), std::abs(q1)) + std::abs(offset_);
   const double valueError = 12 * kUnit * V + deltaError;
   rateError_ = q0 == q1 ? 0 : roundedUp(2 * kUnit * std::abs(rate_) + deltaError);
@@ -291,7 +291,8 @@ void MovingJoint::setValue(const Configuration& from, const Configuration& to) {
   // - the slide axis, which has the error of `fixed`, times the value and the rate: 3V·fixedError;
   // - value·axis: uV; rate·axis: 2uV; its product with t: 2uV;
   // - the two sums: at most u(|p| + V) and u(|p| + 3V).
-  // Together 9uV + 2u|p| + 3V·fixedError; the code adds 18uV + 4u|p| + 3V·fixedError.
+  // Together these errors are 9uV + 2u|p| + 3V·fixedError; the code adds 18uV + 4u|p| +
+  // 3V·fixedError.
   from_ = shift_ + value * slideAxis_;
   delta_ = rate_ * slideAxis_;
   shiftError_ = roundedUp(fixedShiftError_ + valueError + 18 * kUnit * V +
@@ -312,7 +313,7 @@ void MovingJoint::setShift(const Configuration& from, const Configuration& to) {
   axis_ = rate_ > 0 ? Vec3(delta / rate_) : Vec3::UnitX();
   // Let S be the length of the vector of the largest coordinates. fixed·p0 and fixed·Δ (|Δ| ≤ 2S)
   // round by 3√3u and inherit 2u from `fixed`: 8uS + 16uS. Δ and its product with t round by 2uS
-  // each, the sums by u(S + |p|) each. Together < 32uS + 4u|p|.
+  // each, the sums by u(S + |p|) each. Together these errors are below 32uS + 4u|p|.
   const double S = p0.cwiseAbs().cwiseMax(p1.cwiseAbs()).norm();
   shiftError_ =
       roundedUp(fixedShiftError_ + 32 * kUnit * S + 4 * kUnit * fixedLength_ + S * fixedError_);

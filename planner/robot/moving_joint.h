@@ -17,7 +17,7 @@ struct LongPose {
   using Vec = Eigen::Matrix<Scalar, 3, 1>;
   Mat m = Mat::Identity();
   Vec t = Vec::Zero();
-  double error = 0;   ///< bound of the error of m, as an operator norm
+  double error = 0;   ///< upper bound of the operator norm of the error of m
   double length = 0;  ///< metres: sum of the lengths of the translations of all poses so far
   int poses = 0;      ///< number of poses multiplied so far
 
@@ -26,14 +26,15 @@ struct LongPose {
   LongPose then(const Frame& frame) const;
 };
 
-/// The pose X(t) = fixed · joint(t) of a frame along an edge or a piece of a curve, relative to the
-/// frame's nearest ancestor that EdgeMotion keeps. (`fixed` includes the constant poses of all
-/// frames between the two.) Everything that is constant on the edge is computed once per edge. One
-/// rounding bound holds for the whole edge. Below, "edge" also stands for a piece of a curve.
+/// The pose X(t) = fixed · joint(t) of a frame along an edge or a piece of a curve, relative to an
+/// ancestor of the frame: the nearest one that EdgeMotion keeps. `fixed` includes the constant
+/// poses of all frames between the two. Everything that is constant on the edge is computed once
+/// per edge. One rounding bound holds for the whole edge. Below, "edge" also stands for a piece of
+/// a curve.
 class MovingJoint {
  public:
-  /// Makes the pose `fixed`, followed by the joint of the frame. `fixed` is constant, and includes
-  /// the frame's own fixed pose.
+  /// Makes the pose `fixed`, followed by the joint of `frame`. `fixed` includes the frame's own
+  /// fixed pose.
   /// @param kind the kind of the coordinate that moves the joint.
   /// @param tube as in EdgeMotion, for all numbers of a Configuration.
   MovingJoint(const Frame& frame, const LongPose& fixed, Coordinate::Kind kind,
@@ -81,7 +82,7 @@ class MovingJoint {
   void setValue(const Configuration& from, const Configuration& to);
   void setShift(const Configuration& from, const Configuration& to);
   void setRotation(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b);
-  /// @param V an upper bound of the joint's value, m or rad.
+  /// @param V an upper bound of the magnitude of the joint's value, m or rad.
   void setCurveBounds(double V);
   void evaluateCurve(double t);
   double curveDeviation(double h) const;
@@ -107,7 +108,8 @@ class MovingJoint {
   bool ambiguous_ = false;
 
   // Set for each piece of a curve, except for rotations. Bernstein coefficients of the joint's
-  // value (revolute, prismatic: first row only) or of its vector (translation). Empty: an edge.
+  // value (revolute, prismatic: first row only) or of its vector (translation). Empty: the current
+  // motion is an edge between two states.
   Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, CurvePiece::kLargestDegree + 1>
       curve_;
   double curveError_ = 0;                        // the piece's `error` of this joint, rad or m

@@ -10,7 +10,7 @@ namespace corridor {
 /// The importance of a note; the most important value comes first.
 enum class NoteWeight {
   coverage,  ///< a proof may cover less, or something else, than the user expects
-  motion,    ///< values, limits or joints differ from what a file says
+  motion,    ///< values, limits or joints differ from those in a file
   detail     ///< other decisions of the reader, and content that it ignored without harm
 };
 
@@ -23,7 +23,7 @@ struct Note {
 /// Returns the texts of the notes, the most important first. Notes of one weight keep their order.
 std::vector<std::string> textsOf(const std::vector<Note>& notes);
 
-/// Appends the notes.
+/// Appends the notes in `from` to `to`.
 inline void addAll(const std::vector<Note>& from, std::vector<Note>& to) {
   to.insert(to.end(), from.begin(), from.end());
 }
@@ -40,8 +40,8 @@ class NotedInputError : public InputError {
   std::vector<Note> notes_;
 };
 
-/// Calls `read`, which adds to `notes`. If `read` throws an InputError, this function throws a
-/// NotedInputError with the same faults and the notes so far.
+/// Calls `read`, which adds notes to `notes`. If `read` throws an InputError, this function throws
+/// a NotedInputError with the same faults, and with the notes that were added before.
 template <class Read>
 void readWithNotes(const std::vector<Note>& notes, const Read& read) {
   try {

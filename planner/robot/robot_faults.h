@@ -15,11 +15,13 @@ class RobotFaults {
   /// @param label the beginning of messages: the file's name, or another name for the robot.
   explicit RobotFaults(std::string label) : label_(std::move(label)) {}
 
-  /// Adds a fault. @param line counted from 1; 0: the fault concerns the robot as a whole, or there
-  /// is no file.
+  /// Adds a fault.
+  /// @param line the fault's line, counted from 1; 0 if the fault concerns the robot as a whole, or
+  /// if there is no file.
   void fault(int line, std::string text);
   /// Formats "label:line: text", for notes.
   std::string at(int line, const std::string& text) const;
+  /// Returns whether no fault was reported since the last call of `takeFaults`.
   bool sound() const { return faultCount_ == 0; }
   /// Returns the number of all faults, including those that are not kept because the list is
   /// limited.
@@ -27,13 +29,13 @@ class RobotFaults {
   /// Returns whether to search for similar names, which messages suggest. The search is skipped
   /// after 100 faults, because its time grows with the number of names.
   bool hints() const { return faultCount_ < 100; }
-  /// Returns the faults that were kept, sorted by line, and removes them. If more were reported, a
-  /// last entry gives the number of the others.
+  /// Returns the faults that were kept, sorted by line, and removes all faults. If more faults were
+  /// reported than kept, an additional last entry gives the number of the others.
   std::vector<Fault> takeFaults();
 
  protected:
   void setLabel(std::string label) { label_ = std::move(label); }
-  /// Replaces all faults.
+  /// Replaces all faults by the given ones.
   void setFaults(const std::vector<Fault>& faults);
 
  private:

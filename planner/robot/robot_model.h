@@ -28,12 +28,14 @@ struct JointModel {
   std::size_t parent = 0, child = 0;  ///< indices of links
   RigidPose X_PJ;  ///< pose of the joint's frame in the parent link's frame; at value 0 the child
                    ///< link has this pose, too
-  Vec3 axis = Vec3::UnitX();  ///< in the joint's frame, not 0; for a planar joint: its normal
+  /// In the joint's frame, not 0. For a planar joint, it is the normal of the joint's plane.
+  Vec3 axis = Vec3::UnitX();
   /// Inclusive limits, rad or m. Revolute and prismatic joints only.
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
-  /// The largest speed that the URDF allows, rad/s or m/s. Infinite if the URDF gives no speed or
-  /// the speed 0, and for planar and floating joints, whose speed is not one number.
+  /// The largest speed that the URDF allows, rad/s or m/s. It is infinite if the URDF gives no
+  /// speed or the speed 0. It is also infinite for planar and floating joints, because their speed
+  /// is not a single number.
   double velocity = std::numeric_limits<double>::infinity();
   std::optional<Mimic> mimic;
   int line = 0;  ///< in the URDF file
@@ -44,8 +46,8 @@ struct LinkModel {
   std::vector<PlacedShape> shapes;
 };
 
-/// A pair of links that is never tested, and the reason: "adjacent", "SRDF: Never", "robot.yaml:
-/// allow".
+/// A pair of links that is not tested, and the reason: "adjacent", "SRDF: Never", "robot.yaml:
+/// allow". Pairs with a `proof` are tested in some problems.
 struct AllowedPair {
   /// The range that a proof covers: within it, the pair is never in contact.
   struct Proof {
@@ -54,7 +56,8 @@ struct AllowedPair {
   };
 
   std::string a, b, reason;
-  /// If set, the pair is tested in problems whose margin or tube is larger than the proof's.
+  /// If set, the pair is tested in those problems whose margin or tube is larger than that of the
+  /// proof.
   std::optional<Proof> proof = {};
 };
 /// The `reason` of pairs that have a `proof`.

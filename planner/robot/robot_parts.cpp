@@ -93,7 +93,7 @@ class PartsCheck {
     if (joint.velocity && !(*joint.velocity > 0 && std::isfinite(*joint.velocity)))
       faults_.fault(0, owner + ": its velocity must be a finite number above 0");
     result.mimic = mimicOf(joint, owner);
-    // The fault of the mimic was reported, so missing limits of this joint are not reported, too.
+    // A fault of the mimic was reported. So no second fault reports that the joint lacks limits.
     if (joint.mimic && !result.mimic && isRanged(joint.type) && !result.limit)
       result.limit = UrdfLimit{0.0, 0.0, {}, 0};
     return result;

@@ -29,14 +29,14 @@ struct RobotParts {
   };
 
   std::string name = {};         ///< needed if the model has several robots, as in `ModelRobot`
-  std::vector<LinkModel> links;  ///< their shapes are in the coordinates of the link
+  std::vector<LinkModel> links;  ///< the shapes of each link are in the link's coordinates
   std::vector<Joint> joints;     ///< in any order
   std::vector<std::array<std::string, 2>> allow = {};  ///< pairs of links that are never tested
 };
 
-/// Makes the description that `readUrdf` makes of a URDF with these links and joints: from equal
+/// Makes the description that `readUrdf` makes of a URDF with these links and joints. From equal
 /// numbers, both functions make descriptions that are equal to the last bit. All faults are
-/// appended to `faults`; the result is nullopt if there is a fault. Faults are: names that are
+/// appended to `faults`. If there is a fault, the result is nullopt. Faults are: names that are
 /// missing, unknown or not unique; links that are not a tree with one root; numbers that are not
 /// finite; illegal primitives; an axis of length 0; limits that are missing, in the wrong order, or
 /// given to a joint that has no limits; mimics that form a cycle, that follow an unknown joint, or

@@ -10,6 +10,7 @@ struct SineCosine {
   long double sine, cosine;
 };
 
+/// Returns sine and cosine of `eighths` times 45 degrees.
 SineCosine ofEighths(int eighths) {
   const long double half = std::sqrt(0.5L);
   const long double sines[] = {0, half, 1, half, 0, -half, -1, -half};
@@ -29,7 +30,7 @@ SineCosine ofRadians(double radians, int divisor) {
 
 /// Returns sine and cosine of `degrees / divisor`. @pre divisor is 1 or 2.
 SineCosine ofDegrees(double degrees, int divisor) {
-  int eighths = 0;  // remquo defines only its lowest three bits
+  int eighths = 0;  // of a turn; remquo defines only the lowest three bits
   const long double rest =
       std::remquo(static_cast<long double>(degrees) / divisor, 45.0L, &eighths);  // exact
   const SineCosine whole = ofEighths(eighths);
@@ -39,7 +40,8 @@ SineCosine ofDegrees(double degrees, int divisor) {
   return {whole.sine * cosine + whole.cosine * sine, whole.cosine * cosine - whole.sine * sine};
 }
 
-/// @param x, y, z sine and cosine of half of roll, pitch and yaw.
+/// Returns the quaternion of a rotation.
+/// @param x, y, z sine and cosine of half the roll, half the pitch and half the yaw.
 Eigen::Quaterniond quaternionOf(const SineCosine& x, const SineCosine& y, const SineCosine& z) {
   const auto rounded = [](long double value) { return static_cast<double>(value); };
   return {rounded(x.cosine * y.cosine * z.cosine + x.sine * y.sine * z.sine),
@@ -48,6 +50,7 @@ Eigen::Quaterniond quaternionOf(const SineCosine& x, const SineCosine& y, const 
           rounded(x.cosine * y.cosine * z.sine - x.sine * y.sine * z.cosine)};
 }
 
+/// Returns the matrix of a rotation.
 /// @param x, y, z sine and cosine of roll, pitch and yaw.
 Mat3 matrixOf(const SineCosine& x, const SineCosine& y, const SineCosine& z) {
   Eigen::Matrix<long double, 3, 3> R;

@@ -20,9 +20,9 @@ struct ProgramCall {
   const std::atomic<bool>* interrupted = nullptr;  ///< stops the program when it becomes true
 };
 
-/// How a program ended. With `timedOut` and `interrupted`, it was killed. With `tooMuchOutput`, it
-/// was killed or had already ended. In every case, the processes that remained in its group were
-/// killed.
+/// How a program ended. With `timedOut` and `interrupted`, the program was killed. With
+/// `tooMuchOutput`, the program was killed or had already ended. In every case, the processes that
+/// remained in the program's process group were killed.
 struct ProgramEnd {
   enum class Why { exited, timedOut, interrupted, tooMuchOutput };
   Why why = Why::exited;
@@ -32,11 +32,12 @@ struct ProgramEnd {
 
 /// Runs a program to its end. Its standard input is empty. The program runs in a process group of
 /// its own, and is killed when the calling thread ends.
-/// @throws std::system_error if no process can be created. If a process was created but can't run
-/// the program, the exit status is 127.
+/// @throws std::system_error if no process can be created, or if the status of the process is lost.
+/// If a process was created but can't run the program, the exit status is 127.
 ProgramEnd runProgram(const ProgramCall& call);
 
-/// Searches PATH for a program. Returns "" if PATH has no program of this name.
+/// Searches PATH for a program, and returns its absolute path. Returns an empty path if PATH has no
+/// program of this name.
 std::filesystem::path findProgram(const std::string& name);
 
 }  // namespace corridor

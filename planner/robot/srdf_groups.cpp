@@ -11,7 +11,7 @@ namespace corridor {
 namespace {
 
 using Element = XmlFile::Element;
-using Joints = std::set<std::size_t>;  // indices, so in the model's order
+using Joints = std::set<std::size_t>;  // indices of joints, ascending: the model's order
 
 struct Group {
   Element* element = nullptr;
@@ -22,6 +22,7 @@ struct Group {
   std::string unusable;  ///< the reason why the group can't be made, with file and line, or ""
 };
 
+/// Reads the groups and named states of an SRDF into a model.
 class GroupReader {
  public:
   GroupReader(XmlFile& file, SrdfNames& names, RobotModel& model)
@@ -152,7 +153,8 @@ class GroupReader {
     return joinedFirst(names);
   }
 
-  /// Returns why a group has no joint, after the group's name.
+  /// Returns the reason why a group has no joint, as the end of a message that begins with the
+  /// group's name.
   static std::string whyNoJoint(const JointGroup& group) {
     if (!group.missing.empty())
       return " has no joint of this robot: the URDF lacks " + joinedFirst(group.missing);
@@ -162,7 +164,7 @@ class GroupReader {
     return " has no joint";
   }
 
-  /// Returns the group with the members of all groups in it, at any depth.
+  /// Returns the group with its own members, and those of all groups in it, at any depth.
   JointGroup made(std::size_t root) {
     JointGroup result;
     Joints joints;
@@ -207,7 +209,7 @@ class GroupReader {
   void readStates() {
     std::vector<State> states;
     std::map<std::pair<std::string, std::string>, std::size_t> indices;  // by name and group
-    std::map<std::string, int> count;  // number of states with each name
+    std::map<std::string, int> count;  // for each name, the number of states with this name
     forEach(*file_.root(), "group_state", [&](Element& element) {
       const auto name = file_.text(element, "name", "");
       noteFaults();

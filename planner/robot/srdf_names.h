@@ -53,6 +53,8 @@ class UnknownNames {
   const XmlFile::Element* last_ = nullptr;
 };
 
+/// Finds the links and joints of a robot by the names in an SRDF, and keeps account of unknown
+/// names.
 class SrdfNames {
  public:
   SrdfNames(XmlFile& file, const RobotModel& model);
@@ -63,6 +65,7 @@ class SrdfNames {
   /// Adds a virtual joint, unless the URDF has a joint of this name. `findJoint` does not find a
   /// virtual joint, and does not report it as unknown either. Virtual joints are not used, because
   /// the problem file places the robot in the world.
+  /// @param moves whether the virtual joint is planar or floating.
   /// @returns whether the virtual joint was added.
   bool addVirtual(const std::string& joint, bool moves);
   bool isVirtual(const std::string& joint) const { return virtualJoints_.contains(joint); }
@@ -97,7 +100,7 @@ class SrdfNames {
 
   XmlFile& file_;
   NameIndex links_, joints_;
-  std::unordered_map<std::string, bool> virtualJoints_;  // value: whether it moves
+  std::unordered_map<std::string, bool> virtualJoints_;  // value: `moves` of addVirtual
   std::unordered_set<std::string> used_, unknown_;       // names of links and joints in the SRDF
 };
 

@@ -7,8 +7,8 @@
 namespace corridor {
 
 /// A small change of a configuration: one number for each line and circle (m, rad), and a rotation
-/// vector (rad, in the frame before the rotation) for each rotation, in the order of the
-/// coordinates.
+/// vector for each rotation, in the order of the coordinates. A rotation vector is in rad, in the
+/// coordinates of the frame in which the rotation is given (the parent's).
 using TangentStep = Eigen::VectorXd;
 
 /// Returns the length of a step's vector: the number of degrees of freedom of the space.
@@ -18,8 +18,10 @@ Eigen::Index tangentSize(const ConfigurationSpace& space);
 /// coordinate alone has the distance factor·x.
 TangentStep tangentWeights(const ConfigurationSpace& space);
 
-/// Returns the configuration that a step leads to. Lines stay within their bounds: the step ends
-/// there. Angles are brought into [−π, π], and quaternions to norm 1. @pre q is finite.
+/// Returns the configuration that a step leads to. Lines stay within their bounds: a step beyond a
+/// bound ends at the bound. A line that is outside its bounds in `q` moves no farther outside.
+/// Angles are brought into [−π, π], and quaternions to norm 1. @pre `q` is finite, and no
+/// quaternion is zero.
 Configuration displaced(const ConfigurationSpace& space, const Configuration& q,
                         const TangentStep& step);
 

@@ -121,7 +121,8 @@ class UrdfBuilder {
     model_.links.back().shapes.push_back(std::move(shape));
   }
 
-  /// Returns the mesh of a file in the link's coordinates. Equal meshes are made once.
+  /// Returns the mesh of a file, scaled, in the link's coordinates. For equal scales and
+  /// placements, the mesh is made once.
   const std::shared_ptr<const MeshFile>& meshAt(const std::filesystem::path& file,
                                                 const Vec3& scale, const Transform& X) {
     const auto& source = meshes_.get(file);
@@ -135,8 +136,8 @@ class UrdfBuilder {
     return mesh;
   }
 
-  /// Adds a note if a mesh is longer than 20 m. Such a mesh is probably in millimetres, for a link
-  /// of more than 20 mm.
+  /// Adds a note if a mesh is longer than 20 m. The coordinates of such a mesh are probably in
+  /// millimetres: its link is then longer than 20 mm.
   void noteLargeMesh(const MeshFile& file, const std::string& shape, int line) {
     Vec3 lower = file.mesh.vertices.front(), upper = lower;
     for (const Vec3& vertex : file.mesh.vertices) {
@@ -150,8 +151,8 @@ class UrdfBuilder {
                               NoteWeight::coverage});
   }
 
-  /// Adds a note if a coordinate of a joint's origin is larger than 20 m: such an origin is
-  /// probably in millimetres, too.
+  /// Adds a note if a coordinate of a joint's origin has a magnitude above 20 m: such an origin is
+  /// probably given in millimetres, too.
   void noteFarOrigin(const JointModel& joint) {
     const Vec3& p = joint.X_PJ.p;
     if (p.cwiseAbs().maxCoeff() > kLongest)
@@ -183,13 +184,15 @@ class UrdfBuilder {
       joint.lower = limit.lower.value_or(0);  // 0 as in urdfdom
       joint.upper = limit.upper.value_or(0);
     }
-    // urdfdom requires the attribute, so files whose authors don't know the velocity have 0.
+    // urdfdom requires the attribute, so files whose authors don't know the velocity have the
+    // velocity 0.
     if (joint.type != JointType::fixed && !isPoseJoint(joint.type) && outline.limit &&
         outline.limit->velocity.value_or(0) > 0)
       joint.velocity = *outline.limit->velocity;
   }
 
-  /// Metres. Meshes and origins with larger lengths are probably in millimetres.
+  /// Metres. Meshes that are longer, and origins that are farther away, are probably in
+  /// millimetres.
   static constexpr double kLongest = 20;
 
   const UrdfOutline& outline_;

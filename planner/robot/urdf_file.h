@@ -12,15 +12,21 @@
 namespace corridor {
 
 /// Folders by package name, for names such as `package://NAME/…` in a URDF. If a package is not
-/// listed, the reader tries the folder NAME beside the URDF, then each folder called NAME above the
-/// URDF, then the environment variables AMENT_PREFIX_PATH and ROS_PACKAGE_PATH.
+/// listed, the reader searches for the file in these folders, in this order:
+/// - the folder NAME beside the URDF;
+/// - the folders that contain the URDF and are the root of package NAME, by their package.xml, or
+///   by their own name if they have none;
+/// - the package's folders by the environment variables AMENT_PREFIX_PATH and ROS_PACKAGE_PATH; if
+///   there are such folders, the search ends with them;
+/// - a folder NAME in a folder that contains the URDF;
+/// - a folder without package.xml that contains the URDF (`MeshStore::guessedPackages`).
 using PackageMap = std::map<std::string, std::filesystem::path>;
 
 /// The rules for reading a URDF.
 struct UrdfRules {
   PackageMap packages = {};
-  /// If true, a link without <collision> gets the geometry of its <visual>. If false, the link has
-  /// no shape, and a note names it.
+  /// If true, a link without <collision> gets the geometry of its <visual>. If false, such a link
+  /// has no shape, and a note names it.
   bool visualsCollide = false;
   /// If true, the soft limits of <safety_controller> narrow the limits of the joint. If false, a
   /// note names the joints whose soft limits are narrower.
@@ -35,8 +41,8 @@ struct UrdfRules {
 /// faults that urdfdom accepts.
 ///
 /// All faults are appended to `faults`, with file and line. The result is nullopt if the URDF has a
-/// fault. `files` receives the URDF and every mesh file, in the order in which they are first
-/// named.
+/// fault. The URDF and every mesh file are appended to `files`, in the order in which they are
+/// first named.
 /// @param notesOfFaulty receives the notes if the result is nullopt; otherwise the notes are in the
 /// model.
 std::optional<RobotModel> readUrdf(const std::filesystem::path& file, const UrdfRules& rules,

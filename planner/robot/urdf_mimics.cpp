@@ -75,7 +75,7 @@ class Mimics {
 
   /// Handles a joint whose <mimic> names an unusable joint: a joint that is not in the robot, or
   /// that is not of one variable. The mimicking joint is then used as a joint of its own, within
-  /// its own limits.
+  /// its own limits. Reports a fault if it needs limits and has none.
   void addLost(const UrdfJoint& joint, const std::string& why, const std::string& hint) {
     const std::string text = owned("joint", joint.name) + " mimics " +
                              quotedWord(joint.mimic->joint) + ", which is " + why;
@@ -95,7 +95,8 @@ class Mimics {
                         NoteWeight::motion});
   }
 
-  /// Makes the rules of a joint and of all joints that it follows.
+  /// Makes the rules of a joint and of all joints that it follows. Reports a fault if these joints
+  /// form a cycle.
   void resolve(std::size_t start) {
     std::vector<std::size_t> chain;
     std::size_t j = start;
@@ -104,7 +105,7 @@ class Mimics {
       chain.push_back(j);
     }
     if (leader_[j] != kNoIndex &&
-        !rules_[j]) {  // a cycle; an earlier walk that met it has reported it
+        !rules_[j]) {  // a cycle, which is reported by the first walk that meets it
       if (walk_[j] == start && !chain.empty()) faultCycle(j);
       return;
     }

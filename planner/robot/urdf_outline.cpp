@@ -62,7 +62,8 @@ void checkShape(XmlFile& file, Element& shape, MeshStore& meshes, UrdfCollision&
                                     : "; <box>, <cylinder>, <sphere> or <mesh> is needed"));
 }
 
-/// @returns roll, pitch and yaw.
+/// Reads <origin>, and checks its position, which urdfdom reads.
+/// @returns roll, pitch and yaw, radians.
 Vec3 readOrigin(XmlFile& file, Element& parent, const std::string& owner,
                 std::vector<Note>& notes) {
   Element* const element = file.child(parent, "origin", owner);
@@ -136,6 +137,7 @@ std::optional<JointType> readType(XmlFile& file, Element& element, const std::st
   return std::nullopt;
 }
 
+/// Reads <parent> or <child>.
 /// @returns the link's name; empty if a fault was reported.
 std::string readEnd(XmlFile& file, Element& joint, const char* end, const std::string& owner) {
   if (const Element* element = file.child(joint, end, owner))
@@ -155,8 +157,8 @@ void checkAxis(XmlFile& file, Element& joint, std::optional<JointType> type,
                owner + ": the axis is zero; a direction is needed, such as xyz=\"0 0 1\"");
 }
 
-/// Reads <limit>. If the element, effort or velocity is missing, adds it, because urdfdom requires
-/// it; Corridor does not use effort. resolveMimics() checks the range.
+/// Reads <limit>. Adds the element and its attributes effort and velocity where they are missing,
+/// because urdfdom requires them; Corridor does not use effort. resolveMimics() checks the range.
 std::optional<UrdfLimit> readLimit(XmlFile& file, Element& joint, std::optional<JointType> type,
                                    const std::string& owner, std::vector<Note>& notes) {
   const bool ranged = type == JointType::revolute || type == JointType::prismatic;
@@ -298,12 +300,13 @@ bool addUnique(Named named, const char* kind, std::vector<Named>& all, Lines& li
   return true;
 }
 
-/// "1 link is", "3 links are".
+/// Returns a count for a message: "1 link is", "3 links are".
 std::string counted(const std::vector<std::string>& names, const std::string& what) {
   return std::to_string(names.size()) + " " + what + (names.size() == 1 ? " is" : "s are");
 }
 
-/// Reports each count of elements above its limit. @returns whether there is such a count.
+/// Reports a fault for each kind of element (links, joints, shapes) of which there are too many.
+/// @returns whether a fault was reported.
 bool isTooLarge(XmlFile& file, const UrdfRules& rules, const Element& root) {
   constexpr std::size_t mostLinks = 10'000, mostShapes = 100'000;
   std::size_t links = 0, joints = 0, shapes = 0;

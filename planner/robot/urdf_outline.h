@@ -15,7 +15,7 @@ namespace corridor {
 
 struct UrdfCollision {
   Vec3 rpy = Vec3::Zero();     ///< rotation of its origin; urdfdom reads the position
-  std::filesystem::path mesh;  ///< empty: not a mesh
+  std::filesystem::path mesh;  ///< empty: the shape is not a mesh
   int line = 0;
 };
 
@@ -62,7 +62,7 @@ struct UrdfOutline {
 UrdfOutline readUrdfOutline(XmlFile& file, const UrdfRules& rules, MeshStore& meshes,
                             std::vector<Note>& notes);
 
-/// Reports links that don't form a tree with one root.
+/// Reports a fault if the links don't form a tree with one root.
 /// @returns indices of the joints in the tree's order: depth first, siblings as in the file. Empty
 /// if the robot has any fault.
 std::vector<std::size_t> checkUrdfTree(const UrdfOutline& outline, RobotFaults& faults);
@@ -72,8 +72,8 @@ std::vector<std::size_t> checkUrdfTree(const UrdfOutline& outline, RobotFaults& 
 /// follower's own limits disagree. If the leader is not in the robot, or is not a joint of one
 /// variable, the follower is used as a joint of its own, with a note. Mimics that form a cycle, and
 /// mimics that would make a joint jump, are faults.
-/// @returns the rule of each joint, in the outline's order; `Mimic::joint` is an index in the
-/// outline. nullopt: the joint follows no other.
+/// @returns the rule of each joint, in the outline's order, or nullopt for a joint that follows no
+/// other. `Mimic::joint` is an index in the outline.
 std::vector<std::optional<Mimic>> resolveMimics(const UrdfOutline& outline, RobotFaults& faults,
                                                 std::vector<Note>& notes);
 
@@ -83,8 +83,9 @@ std::vector<std::optional<Mimic>> resolveMimics(const UrdfOutline& outline, Robo
 void finishRobot(const std::vector<std::size_t>& order,
                  const std::vector<std::optional<Mimic>>& mimics, RobotModel& model);
 
-/// Returns the axis scaled by a power of two, so that its largest component is in [1, 2). No square
-/// over- or underflows then, and the scaling is exact. @pre finite and not 0.
+/// Returns the axis scaled by a power of two, so that its largest component is in [1, 2). Then the
+/// squares of its components do not overflow, nor does their sum underflow; the scaling is exact.
+/// @pre `axis` is finite and not 0.
 Vec3 scaledAxis(const Vec3& axis);
 
 }  // namespace corridor

@@ -87,8 +87,8 @@ class Tree {
                                              quotedWord(links_[root].name) +
                                              onLine(links_[root].line) + "; a robot has one root");
     }
-    // Every link has at most one parent. So a link that is not below a root is in a cycle, or
-    // below one.
+    // Every link has at most one parent. So a link that is not below a root is in a cycle, or below
+    // a cycle.
     std::vector<int> walk(links_.size(), 0);
     for (std::size_t start = 0; start < links_.size(); ++start) {
       std::size_t link = start;
@@ -131,8 +131,8 @@ class Tree {
   const std::vector<UrdfJoint>& joints_;
   RobotFaults& faults_;
   std::unordered_map<std::string, std::size_t> linkIndex_;
-  std::vector<std::size_t> parentJoint_;            // for each link
-  std::vector<std::vector<std::size_t>> children_;  // for each link: the joints below it
+  std::vector<std::size_t> parentJoint_;            // for each link: the joint whose child it is
+  std::vector<std::vector<std::size_t>> children_;  // for each link: the joints whose parent it is
 };
 
 }  // namespace
@@ -150,14 +150,14 @@ Vec3 scaledAxis(const Vec3& axis) {
 void finishRobot(const std::vector<std::size_t>& order,
                  const std::vector<std::optional<Mimic>>& mimics, RobotModel& model) {
   std::vector<bool> hasParent(model.links.size(), false);
-  std::vector<std::size_t> place(order.size());  // of each joint of the outline in the model
+  std::vector<std::size_t> place(order.size());  // for each outline joint, its index in the model
   for (std::size_t k = 0; k < order.size(); ++k) place[order[k]] = k;
   for (std::size_t k = 0; k < order.size(); ++k) {
     JointModel& joint = model.joints[k];
     if (const auto& rule = mimics[order[k]])
       joint.mimic = Mimic{place[rule->joint], rule->multiplier, rule->offset};
     hasParent[joint.child] = true;
-    // Two links that a planar or floating joint connects can collide, so they are tested.
+    // Two links that are joined by a planar or floating joint can collide, so this pair is tested.
     if (!isPoseJoint(joint.type))
       model.allowed.push_back(
           {model.links[joint.parent].name, model.links[joint.child].name, "adjacent"});

@@ -11,7 +11,7 @@ bool isXacro(const std::filesystem::path& file);
 
 /// Returns the text that the user's program xacro makes of a file. The program runs in the file's
 /// folder, so that the text does not depend on the current folder.
-/// @param arguments the arguments of xacro: "prefix:=left_".
+/// @param arguments the arguments of xacro, such as "prefix:=left_".
 /// @param seconds time limit.
 /// @throws InputError if the file does not exist, if PATH has no xacro, or if xacro fails, takes
 /// too long, or prints more than 256 MiB.

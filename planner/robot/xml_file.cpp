@@ -26,7 +26,7 @@ std::vector<std::string> wordsOf(std::string_view text) {
   return words;
 }
 
-/// Sets `value` and returns "", or returns a complaint.
+/// Reads a number. Sets `value` and returns "" on success; otherwise returns a complaint.
 std::string parseNumber(const std::string& word, double& value) {
   const bool plus = word.size() > 1 && word[0] == '+' && word[1] != '-';
   const char* const begin = word.data() + (plus ? 1 : 0);

@@ -20,8 +20,8 @@ class XmlFile : public RobotFaults {
  public:
   using Element = tinyxml2::XMLElement;
 
-  /// A file whose name ends in .xacro is expanded first (xacro.h). Lines are then those of the
-  /// expanded text.
+  /// A file whose name ends in .xacro is expanded first (xacro.h). Line numbers are then those of
+  /// the expanded text.
   /// @param what describes the expected file in messages: "a robot (URDF)".
   /// @param xacro arguments of xacro.
   XmlFile(std::filesystem::path file, const std::string& what,
@@ -45,17 +45,18 @@ class XmlFile : public RobotFaults {
                                              std::size_t count, const std::string& owner);
   /// Reports a fault if the element lacks the attribute.
   void require(const Element& element, const char* attribute, const std::string& owner);
-  /// Returns the first child of that name, or nullptr. Each further child of that name is a fault.
+  /// Returns the first child of that name, or nullptr if there is none. Reports a fault for each
+  /// further child of that name.
   Element* child(Element& parent, const char* name, const std::string& owner);
-  /// Checks for children that are in neither list. Such a child is a fault if its name is similar
-  /// to one in `read`, or if it has collision geometry: ignoring the child may lose data. For the
-  /// other children, one note is added per name, for at most 100 names. Elements of other formats
-  /// ("drake:joint") are ignored.
+  /// Checks for children whose names are in neither list. Such a child is a fault if its name is
+  /// similar to one in `read`, or if it has collision geometry: ignoring the child may lose data.
+  /// For the other children, one note is added per name, for at most 100 names. Elements of other
+  /// formats ("drake:joint") are ignored.
   void checkChildren(Element& parent, const std::vector<std::string>& read,
                      const std::vector<std::string>& ignored, const std::string& owner,
                      std::vector<Note>& notes);
-  /// Checks for attributes that are not in `read`. Such an attribute is a fault if its name is
-  /// similar to one in `read`. For other attributes a note is added.
+  /// Checks for attributes whose names are not in `read`. Such an attribute is a fault if its name
+  /// is similar to one in `read`. For other attributes a note is added.
   void checkAttributes(const Element& element, const std::vector<std::string>& read,
                        const std::string& owner, std::vector<Note>& notes);
 

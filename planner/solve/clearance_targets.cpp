@@ -12,7 +12,7 @@ namespace corridor {
 
 namespace {
 
-/// A pair should keep this share of its distance at either end of the path.
+/// A pair should keep this fraction of the smaller of its distances at the two ends of the path.
 constexpr double kShareOfEnds = 0.7;
 /// How far pairs are moved apart, in multiples of their targets. The path near such a state then
 /// keeps the targets as well.
@@ -20,13 +20,16 @@ constexpr double kAim = 1.5;
 /// A step away from obstacles takes pairs into account that are closer than this multiple of their
 /// targets.
 constexpr double kNear = 2;
-/// Newton steps of `movedApart`.
+/// The maximum number of Newton steps of `movedApart`.
 constexpr int kSteps = 3;
-/// Sweeps over the pairs in each Newton step. The pairs are few, and their gradients similar.
+/// The number of sweeps over the pairs in each Newton step. So few are enough because there are few
+/// pairs, and their gradients are similar.
 constexpr int kSweeps = 20;
-/// If no step reaches the aim, a half, a quarter, … of the way is tried, down to this part.
+/// If no step reaches the aim, steps for a half, a quarter, … of the way are tried, down to this
+/// part of the way.
 constexpr double kLeastPart = 1.0 / 16;
-/// A step may fall short of the requested change by this share, since sweeps only converge to it.
+/// A step may fall short of the requested change by this fraction, since the sweeps only converge
+/// to the change.
 constexpr double kUnmet = 0.1;
 /// The longest Newton step of `movedApart`, in the space's distance: for arms, radians if one joint
 /// of weight 1 moves.
@@ -35,13 +38,15 @@ constexpr double kLongestStep = 0.5;
 /// kLeastSamples and at most kMostSamples.
 constexpr double kSampleLength = 0.05;
 constexpr int kLeastSamples = 4, kMostSamples = 32;
-/// The share of a pair whose target is not proved, although no sample is below it.
+/// The share of a pair whose target is not proved, although the pair's distance at no sample is
+/// below the target.
 constexpr double kJustMissed = 0.99;
-/// Halvings of the step between samples, in the search for the worst place.
+/// The number of times that the step between samples is halved, in the search for the time with the
+/// smallest share.
 constexpr int kRefinements = 4;
 
-/// @param smallestAtEnds receives the smallest distance at start and goal if this is below the
-/// clearance; otherwise it stays.
+/// Returns the targets of all pairs. @param smallestAtEnds receives the smallest distance at start
+/// and goal, if this is below `clearance`; otherwise it is not changed.
 PairMargins targetsOf(const Checker& checker, double clearance, const Configuration& start,
                       const Configuration& goal, double& smallestAtEnds) {
   std::vector<double> targets(checker.scene().motionPairs().size(), clearance);
@@ -125,8 +130,8 @@ ClearanceTargets::ClearanceTargets(const Checker& checker, double clearance,
   near_ = PairMargins(std::move(near));
 }
 
-/// Returns the pair whose distance is the smallest share of its entry in `lengths`, if that share
-/// is below 1.
+/// Returns the pair for which distance / entry in `lengths` is the smallest. If no such ratio is
+/// below 1, returns a `Worst` with the share 1.
 ClearanceTargets::Worst ClearanceTargets::worstIn(const Configuration& q,
                                                   const PairMargins& lengths) const {
   Worst worst;
@@ -136,8 +141,8 @@ ClearanceTargets::Worst ClearanceTargets::worstIn(const Configuration& q,
   return worst;
 }
 
-/// Searches an edge at samples, and then around the worst of them, for the pair whose
-/// distance is the smallest share of its entry in `lengths`.
+/// Searches an edge for the pair and the time at which distance / entry in `lengths` is the
+/// smallest: at samples, and then around the sample with the smallest ratio.
 /// @param first a time to sample first.
 ClearanceTargets::Worst ClearanceTargets::worstOn(const Configuration& from,
                                                   const Configuration& to,
@@ -248,7 +253,8 @@ std::optional<Configuration> ClearanceTargets::movedApart(const Configuration& q
       share = std::min(share, pair.distance.distance / targets_[pair.pair]);
     if (share >= kAim) break;
     std::vector<Constraint> constraints = constraintsOf(near, gradientsOf(near, moved), weights_);
-    // In a narrow place, not all pairs can reach the aim. Then it is lowered towards `share`.
+    // In a narrow passage, not all pairs can reach the aim. The aim is then lowered towards
+    // `share`.
     std::optional<TangentStep> step;
     for (double part = 1; !step && part >= kLeastPart; part /= 2) {
       for (Constraint& c : constraints)

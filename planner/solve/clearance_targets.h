@@ -11,11 +11,11 @@ namespace corridor {
 
 /// The distances that the pairs of a scene should keep along a path from a start to a goal. The
 /// target of a pair is the smallest of three lengths: `clearance`, 70 % of the pair's distance at
-/// the start, and 70 % of its distance at the goal. The reason: a path can't keep more than its
-/// ends do. A target is never below the pair's padding. (With 70 %, it takes little work to prove
-/// that the edges at the ends keep the targets.)
+/// the start, and 70 % of its distance at the goal. The reason for the last two: a path can't keep
+/// a larger distance than its ends have. A target is never below the pair's padding. (With 70 %, it
+/// takes little work to prove that the edges at the ends keep the targets.)
 ///
-/// The share of a pair in a state is its distance over its target, at most 1.
+/// The *share* of a pair in a state is the pair's distance divided by the pair's target, at most 1.
 class ClearanceTargets {
  public:
   /// @param checker must have the margin 0, and must outlive the object.
@@ -49,14 +49,15 @@ class ClearanceTargets {
   /// target is missed by little, or only because of the tube. If the proof gives no time either,
   /// the share is 1.
   std::optional<Worst> missedOn(const Configuration& from, const Configuration& to) const;
-  /// Returns the closest pair at samples of an edge, whatever its target, or nullopt if no pair is
-  /// closer than `clearance()` there. In this result, `share` is the distance over `clearance()`.
+  /// Returns the pair with the smallest distance at samples of an edge, whatever the targets are.
+  /// Returns nullopt if no pair is closer than `clearance()` at a sample. In this result, `share`
+  /// is the distance divided by `clearance()`.
   std::optional<Worst> closestOn(const Configuration& from, const Configuration& to) const;
 
   /// Returns a configuration near q at which pairs that are closer than 1.5 times their targets are
   /// farther apart: to first order, they reach 1.5 times their targets, or less if other pairs are
-  /// in the way. Up to three Newton steps lead there. Each step is the shortest in the space's
-  /// distance that has this effect; it is cut at a length of 0.5, and at joint limits. Returns
+  /// in the way. Up to three Newton steps lead there. Each step is the shortest one, in the space's
+  /// distance, that has this effect. A step is cut at a length of 0.5, and at joint limits. Returns
   /// nullopt if no step helps, or if none is needed.
   std::optional<Configuration> movedApart(const Configuration& q) const;
 

@@ -130,7 +130,8 @@ CurveMeasure CurveRuler::along(const std::vector<const MeasuredPiece*>& pieces,
       stop = false;
     }
   }
-  // The robot gains speed from the middle of one part to that of the next, or from a stop.
+  // Lowers the speed at a node to what the robot can reach from the middle of the neighbouring
+  // part, or from a stop.
   const auto limit = [&](Node& node, const Node* neighbour, double sign) {
     const Node& from = neighbour ? *neighbour : node;
     const double x = neighbour ? neighbour->x : 0,

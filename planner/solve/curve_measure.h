@@ -20,7 +20,7 @@ struct MeasuredPiece {
   /// x = (ds/dt)²: ds/dt grows by at most gains − slopes·x, and shrinks by at most gains +
   /// slopes·x.
   Eigen::MatrixXd gains, slopes;
-  Eigen::VectorXd lengths;  ///< of the part around each point, seconds; 0: not used
+  Eigen::VectorXd lengths;  ///< of the part around each point, s; 0: unused point
   Eigen::VectorXd fastest;  ///< largest (ds/dt)² that the limits allow at a constant speed
   double time = 0;          ///< least time if the speed may change in jumps, seconds
   double length = 0;        ///< seconds
@@ -33,11 +33,11 @@ struct CurveMeasure {
   double length = 0;  ///< seconds (MeasuredPiece)
   double bend = 0;    ///< ∫ κ² ds, 1/seconds
 
-  /// Returns the value that smoothing with a goal reduces:
+  /// Returns the measure that smoothing with the setting `goal` reduces:
   /// - `acceleration`: length³·bend. This is proportional to the mean square of the acceleration if
   ///   the robot passes along the curve at constant speed in a fixed time.
   /// - `length`: the length.
-  /// - all other goals: the time.
+  /// - all other settings: the time.
   double valueFor(Smoothing goal) const;
 };
 
@@ -58,10 +58,12 @@ class CurveRuler {
   MeasuredPiece of(const CurvePiece& piece) const;
 
   /// Measures a curve of pieces, in this order. A forward and a backward pass over the points give
-  /// the time. In them, the acceleration along the curve is what the curvature leaves of the
-  /// limits. This estimates the law of time_law.h, without its backtracking.
+  /// the time. In these passes, the acceleration along the curve is limited by the part of the
+  /// limits that the curvature does not use. This estimates the law of time_law.h, without its
+  /// backtracking.
   /// @param angles between each piece and the next, radians (angleBetween()). Where an angle is not
-  /// 0, the robot stops. For the bend, it turns there on an arc of 10^-3 of the curve's length.
+  /// 0, the robot stops. `bend` is computed as if the robot turned there on an arc of 10^-3 of the
+  /// curve's length.
   CurveMeasure along(const std::vector<const MeasuredPiece*>& pieces,
                      const std::vector<double>& angles) const;
 

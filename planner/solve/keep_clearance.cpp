@@ -18,7 +18,7 @@ constexpr int kHalvings = 2;
 /// If the smallest share is this near to an end of the edge (in t), moving this end is tried before
 /// inserting a state.
 constexpr double kNearEnd = 0.25;
-/// The maximum number of changes that are tried.
+/// The maximum number of times that `improve` is called.
 constexpr int kTries = 60;
 
 class PathMover {
@@ -116,7 +116,8 @@ bool PathMover::replace(std::size_t first, std::size_t last, const Configuration
   return true;
 }
 
-/// Tries to move the path away from obstacles at the worst place of an edge.
+/// Tries to move the path away from obstacles, at the time of the smallest share on an edge.
+/// @returns whether the path was changed.
 bool PathMover::improve(std::size_t i) {
   const Configuration from = edges_[i].from, to = endOf(i);
   const double t = edges_[i].worst.t;

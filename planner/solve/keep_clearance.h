@@ -14,21 +14,22 @@ namespace corridor {
 /// itself maximises the clearance.
 double preferredClearance(const Problem& problem);
 
-/// Moves a path away from obstacles, so that the pairs of bodies keep their targets where this is
-/// possible without making the path longer than `longest`, in the space's distance.
+/// Returns the path moved away from obstacles, so that the pairs of bodies keep their targets where
+/// possible. The result is not longer than `longest`, in the space's distance.
 ///
-/// The share of an edge is the smallest share of a pair on it: 1 if every pair is proved to keep
-/// its target, else the smallest found at samples. Edges are changed in the order of their shares,
-/// the smallest first. A state is inserted at the time of the smallest share, or an end of the edge
-/// near this time is moved, so that the pairs are farther apart there
-/// (`ClearanceTargets::movedApart`). The change is taken if all of these hold:
+/// The share of an edge is the smallest share of a pair on the edge (`ClearanceTargets`): 1 if
+/// every pair is proved to keep its target, else the smallest share found at samples. Edges are
+/// changed in the order of their shares, the smallest first. A state is inserted at the time of the
+/// smallest share, or an end of the edge near this time is moved, so that the pairs are farther
+/// apart there (`ClearanceTargets::movedApart`). The change is taken if all of these hold:
 /// * The new edges are free.
 /// * Each new edge keeps all targets; or its share is at least 0.98, or larger by at least 0.05
 ///   than the smallest share of the edges that are replaced.
 /// * The path is not longer than `longest`.
 /// If a change is not taken, a later try on this edge moves the state half as far, and a third try
-/// a quarter as far. At most 60 changes are tried. At the end, states of changed edges are removed
-/// where the edge between their neighbours keeps all targets.
+/// a quarter as far. At most 60 tries are made; a try at an end of an edge may include a second
+/// change, the inserted state. At the end, a state next to a changed edge is removed if the edge
+/// between its neighbours keeps all targets.
 ///
 /// The first and the last state stay. The result depends on the arguments only, as long as `stop`
 /// returns false.

@@ -13,8 +13,8 @@
 namespace corridor {
 namespace {
 
-/// Returns a limit for each number. In `limits`, the limit of the position of a planar or floating
-/// joint stands at its first number, x.
+/// Returns a limit for each number. In `limits`, the limit for the position of a planar or floating
+/// joint is stored only at the joint's first number, x.
 Configuration eachNumber(const ConfigurationSpace& space, Configuration limits) {
   for (const PositionGroup& group : positionGroups(space))
     limits.segment(group.first, group.count).setConstant(limits[group.first]);
@@ -69,7 +69,7 @@ TimeLaw lawOf(const Problem& problem, const std::vector<CurvePiece>& path,
   return timeLaw(path, problem.model.space, limits, problem.model.tree, options);
 }
 
-/// A curve, and the law of it within the problem's limits.
+/// A curve, and the time law along this curve within the problem's limits.
 struct LawfulCurve {
   std::vector<CurvePiece> pieces;
   TimeLaw law;
@@ -99,7 +99,8 @@ LawfulCurve smoothCurve(const Problem& problem, const Checker& checker, const Pa
   ShortCurve curve = shortenedCurve(space, smooth.pieces, isFree, options, stop);
   made.curveTests += curve.tests;
   LawfulCurve whole = withLaw(problem, std::move(curve.pieces));
-  // Smoothing reduced an estimate of the time, so the times of the two laws are compared.
+  // Smoothing reduced an estimate of the time only, so the durations of the two time laws are
+  // compared.
   if (options.goal == Smoothing::time && curve.replaced > 0) {
     LawfulCurve corners = withLaw(problem, std::move(smooth.pieces));
     const bool isFaster = !corners.law.fault.empty() || whole.law.duration < corners.law.duration;
@@ -119,7 +120,8 @@ void prove(const Checker& checker, MadeTrajectory& made) {
   }
 }
 
-/// Makes the rows and the text, and proves them. `limits` are those of the law.
+/// Makes the rows and the text, and proves the curve that the text describes. `limits` are those of
+/// the time law.
 void makeText(const Problem& problem, const Checker& checker, const LawfulCurve& curve,
               const JointLimits& limits, TrajectoryFileKind kind, double deviation,
               MadeTrajectory& made) {
@@ -162,7 +164,8 @@ MadeTrajectory provedAlong(const Problem& problem, const Checker& checker, Lawfu
     if (made.isGood()) return made;
     if (made.proved()) proved = made;
     deviation /= 4;
-    // The rounding of times is all that can make a message exceed limits that its rows keep.
+    // If the rows before rounding keep the limits, a message can exceed them only by the rounding
+    // of its times.
     if (kind == TrajectoryFileKind::message) {
       share -= i == 0 ? 1e-4 : 0.01;
       limits = reduced(problem.task.limits, share);

@@ -27,9 +27,9 @@ struct MadeTrajectory {
   std::size_t replaced = 0;              ///< parts of the curve that were replaced by better ones
   std::size_t curveTests = 0;            ///< pieces of curves that were tested to smooth the path
   LimitRatios ratios;                    ///< by limitsOfRows, for the file's curve
-  double stretch = 1;  ///< factor by which the law was slowed down (Emission::stretch)
-  /// Its verdict is `free` if the checker proved every piece of `curve`. Otherwise it is the answer
-  /// for the first piece that the checker could not prove.
+  double stretch = 1;  ///< factor by which the time law was slowed down (Emission::stretch)
+  /// The checker's answer: the verdict is `free` if every piece of `curve` is proved. Otherwise
+  /// `proof` is the answer for the first piece that could not be proved.
   MotionResult proof;
   std::size_t failedPiece = 0;  ///< if there is no proof: index into curve.pieces
   std::string fault;            ///< why there is no trajectory, one line; or ""
@@ -62,7 +62,7 @@ inline constexpr int kTrajectoryAttempts = 4;
 ///    returned, even if it exceeds a limit (`keepsLimits`).
 /// 5. If this result may be slower than a path with stops at all corners, or is not good
 ///    (`isGood`), steps 2 to 4 are done for the path with stops, too. The result with stops is
-///    returned if it is good and the other is not, if both are good and it is faster, or if only it
+///    returned in three cases: only it is good; both results are good and it is faster; or only it
 ///    is proved.
 ///
 /// The times of a message are whole nanoseconds. Each row has the position at its rounded time.

@@ -12,8 +12,9 @@
 namespace corridor {
 
 /// The goals of a problem, or the regions around them, as a goal of OMPL. Planners that sample goal
-/// states get a finite set of valid states, beginning with the goals themselves: several of OMPL's
-/// optimising planners need the whole set beforehand. Several threads may use the object at once.
+/// states get a finite set of valid states, beginning with the problem's own valid goals. The set
+/// is finite because several of OMPL's optimising planners need all of it beforehand. Several
+/// threads may use the object at once.
 class OmplGoal : public ompl::base::GoalSampleableRegion {
  public:
   /// @param samples see `sampleGoals`; at least one.
@@ -30,9 +31,10 @@ class OmplGoal : public ompl::base::GoalSampleableRegion {
   mutable std::atomic<std::size_t> next_ = 0;  // planners with threads share the goal
 };
 
-/// Returns valid goal states: the problem's goals that are valid, and, if the problem has a goal
-/// region, random states in it, up to `count` states together. The random states depend on the
-/// problem's seed, and are drawn around each goal in turn. Empty if no valid state was found.
+/// Returns valid goal states: all goals of the problem that are valid; and, if the problem has a
+/// goal region, random states in this region, until there are `count` states. The random states
+/// depend on the problem's seed, and are drawn around each goal in turn. Empty if no valid state
+/// was found.
 /// @param whyNot receives a line for each goal that is not valid.
 std::vector<Configuration> sampleGoals(const Problem& problem, const Checker& checker,
                                        std::size_t count, std::vector<std::string>& whyNot);

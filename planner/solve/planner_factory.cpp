@@ -168,16 +168,16 @@ bool neverNegative(const std::string& range) {
   return least && *least >= 0;
 }
 
-/// Returns whether the parameter is a fraction in (0, 1] that OMPL tests only when planning begins:
-/// it then throws for other values.
+/// Returns whether the parameter is a fraction in (0, 1] that OMPL tests only when planning begins.
+/// OMPL then throws an exception for other values.
 bool isShare(const ob::GenericParam& parameter) {
   return parameter.getRangeSuggestion().empty() &&
          (parameter.getName() == "min_valid_path_fraction" ||
           parameter.getName() == "failed_expansion_score_factor");
 }
 
-/// Returns whether the parameter must be at least 1 although OMPL accepts 0: with 0, a failed
-/// assertion or worse ends the program later.
+/// Returns whether the parameter must be at least 1, although OMPL accepts 0. The value 0 would end
+/// the program later, by a failed assertion or worse.
 bool isAtLeastOne(const std::string& name) {
   return name == "degree" || name == "min_degree" || name == "num_planners" ||
          name == "samples_per_batch";
@@ -197,8 +197,8 @@ std::optional<std::string> complaint(ob::GenericParam& parameter, const std::str
   if (is(double{}) || is(float{})) {
     const auto value = parsedAs<double>(text);
     if (!value) return "not a number";
-    // OMPL replaces a negative range by its default, and goals are always sampled with a goal_bias
-    // above 1, or the planner misbehaves.
+    // OMPL itself accepts these values: it replaces a negative range by its default. With a
+    // goal_bias above 1, planners sample only goals, or misbehave.
     if (*value < 0 && neverNegative(parameter.getRangeSuggestion())) return "below 0";
     if (*value > 1 && parameter.getName() == "goal_bias") return "above 1";
     if (isShare(parameter) && !(*value >= std::numeric_limits<double>::epsilon() && *value <= 1))

@@ -11,11 +11,11 @@ namespace corridor {
 
 namespace {
 
-/// The first clearance that is tried, as a share of the smallest distance found at samples. The
-/// true smallest distance is a little less. A proof of nearly the whole distance takes many short
-/// intervals.
+/// The first clearance that is tried, as a fraction of the smallest distance found at samples. The
+/// true smallest distance is a little smaller than at samples. A proof of nearly the whole distance
+/// takes many short intervals.
 constexpr double kFirstTry = 0.9;
-/// Each further clearance is this share of the one before.
+/// Each further clearance that is tried is this fraction of the clearance before.
 constexpr double kNextTry = 0.8;
 constexpr int kMostTries = 10;
 
@@ -93,7 +93,8 @@ PathClearance proveClearance(const Checker& checker, const ClearanceTargets& tar
     kept += part * share;
   }
   result.shareOnTarget = all ? 1 : length > 0 ? kept / length : 0;
-  // If every pair keeps its target, and all targets are the clearance, nothing is closer.
+  // If every pair keeps its target, and all targets are equal to the clearance, no pair is closer
+  // than the clearance, so there is nothing to search for.
   if (!all || targets.least() < targets.clearance())
     for (std::size_t i = 0; i + 1 < std::max<std::size_t>(path.size(), 2); ++i)
       note(i, targets.closestOn(path[i], path[std::min(i + 1, path.size() - 1)]));

@@ -17,7 +17,8 @@ struct PathClearance {
   double proved = 0;
   /// The smallest distance found at samples of the path, metres, and where it was found: the pair
   /// of bodies, and the time on the edge from state `edge` (counted from 0) to the next. If no
-  /// distance below the preferred clearance was found, it is infinite, and `a` and `b` are empty.
+  /// distance below the preferred clearance was found, `smallest` is infinite, and `a` and `b` are
+  /// empty.
   double smallest = 0;
   std::string a, b;
   std::size_t edge = 0;
@@ -26,7 +27,7 @@ struct PathClearance {
   /// the preferred clearance there.
   double smallestAtEnds = 0;
   /// A lower bound of the share of the path's length, in the space's distance, on which every pair
-  /// is proved to keep its target (`ClearanceTargets`). 1: on all of it.
+  /// is proved to keep its target (`ClearanceTargets`). 1: on the whole path.
   double shareOnTarget = 0;
 };
 

@@ -14,10 +14,10 @@ namespace {
 
 constexpr int kScales = 5;      ///< parts are 1, 1/2, … 1/2^(kScales - 1) of the curve
 constexpr int kPasses = 4;      ///< maximum number of passes over all parts
-constexpr double kGain = 5e-4;  ///< least share of the goal's value that a replacement must save
-/// A place that is nearer to an end of its piece than this share of the piece is moved to this end.
-/// Otherwise very short pieces would arise, and a piece that is much shorter than the magnitude of
-/// its coordinates has no exact tangent.
+constexpr double kGain = 5e-4;  ///< least fraction of the measure that a replacement must save
+/// If the distance of a place from an end of its piece is less than this fraction of the piece, the
+/// place is moved to this end. Otherwise very short pieces would arise; and if a piece is much
+/// shorter than the magnitude of its coordinates, its tangent is inexact.
 constexpr double kLeastShare = 0.05;
 /// ∫κ² ds times the length is about the square of the angle (rad) by which a curve turns. A piece
 /// with a product of at most this value counts as straight.
@@ -93,7 +93,7 @@ class Shortener {
       const std::size_t before = result_.replaced;
       for (int scale = 0; scale < kScales; ++scale) {
         const int parts = 1 << scale;
-        // Half of the parts overlap the others.
+        // Adjacent parts overlap by half.
         for (int k = 0; k <= 2 * (parts - 1); ++k) {
           if (stop_()) return;
           replace(placeAt(0.5 * k / parts), placeAt((0.5 * k + 1) / parts));
@@ -173,15 +173,15 @@ class Shortener {
     return isFree_(piece);
   }
 
-  /// Replaces the part between two places if the new piece is proved and reduces the value of the
-  /// goal.
+  /// Replaces the part between two places by a new piece, if the new piece is proved and reduces
+  /// the measure that `options.goal` chooses.
   void replace(const CurvePlace& from, const CurvePlace& to) {
     const std::size_t last = to.tau > 0 ? to.piece : to.piece - 1;  // last piece of the part
     if (to.piece < from.piece || (to.piece == from.piece && to.tau <= from.tau)) return;
     const bool freeStart = from.piece == begin_ && from.tau == 0,
                freeEnd = to.piece + 1 == end_ && to.tau == 1;
-    // The tangents at the ends are those of the curve outside of the part. So a corner at an end of
-    // the part disappears.
+    // At both ends, the new piece gets the tangent of the curve outside of the part. So a corner at
+    // an end of the part disappears.
     const bool atJoint = from.tau == 0 && !freeStart;
     const PointOfCurve a = atJoint ? pointAt(from.piece - 1, 1) : pointAt(from.piece, from.tau),
                        b = pointAt(to.piece, to.tau);
@@ -198,7 +198,7 @@ class Shortener {
     if (from.tau > 0) before.push_back(splitAt(pieces()[from.piece], from.tau).first);
     if (to.tau > 0 && !freeEnd) after.push_back(splitAt(pieces()[last], to.tau).second);
 
-    // The section as it would be with one new piece instead of the part.
+    // `section` describes the section as it would be with one new piece instead of the part.
     std::vector<MeasuredPiece> own;  // of `before`, the new piece and `after`
     for (const CurvePiece& piece : before) own.push_back(ruler_.of(piece));
     const std::size_t place = own.size();
@@ -268,7 +268,7 @@ class Shortener {
   std::vector<double> angles_;  // at the end of each piece; 0: the tangent is continuous
   std::vector<int> madeIn_;     // the pass in which each piece was made
   int pass_ = 0;
-  double value_ = 0;  // value of the section for the goal
+  double value_ = 0;  // the measure of the section that is reduced
   ShortCurve result_;
   std::size_t begin_ = 0, end_ = 0;  // pieces of the section, in which no rotation moves
 };

@@ -17,10 +17,10 @@ namespace {
 // third of the time of OMPL's simplifyMax, and the paths are 3 % shorter. With a third of
 // kLeastGainOfCut, it takes 1.4 times as many edge tests, and the paths are 0.3 % shorter.
 
-/// The least gain of a shortcut that is tried, as a share of the path's length.
+/// Shortcuts that gain less than this fraction of the path's length are not tried.
 constexpr double kLeastGainOfCut = 1e-3;
-/// No further round is tried after a round that gains less than this share of the path's length, or
-/// after kRounds rounds.
+/// The rounds end after a round that gains less than this fraction of the path's length, or after
+/// kRounds rounds.
 constexpr double kLeastGainOfRound = 5e-3;
 constexpr int kRounds = 3;
 /// Shortcuts over parts of the path have at least 2^-kLevels of its length.
@@ -86,7 +86,7 @@ class CornersOfPath {
       return gain != other.gain ? gain < other.gain : state > other.state;
     }
   };
-  /// The two places between which a cut leads; unset: the neighbour of the corner.
+  /// The two ends of a cut. Unset: the end is the neighbour of the corner.
   struct Places {
     std::optional<Configuration> before, after;
     double gain = 0;
@@ -191,7 +191,7 @@ bool PathShortener::testEdge(const Configuration& from, const Configuration& to)
   return stop_() ? edges_.knowsFree(from, to) : edges_.isFree(from, to);
 }
 
-/// Sets the path, without repeated states.
+/// Sets the path and the lengths along it. Leaves out a state that is equal to the state before.
 void PathShortener::setPath(Path path) {
   path_.clear();
   lengthTo_.clear();
@@ -220,7 +220,8 @@ void PathShortener::bridge(std::size_t first, std::size_t last, Path& result) {
   bridge(at, last, result);
 }
 
-/// Tries a shortcut between the places at these lengths along the path.
+/// Tries a shortcut between the points at these lengths along the path. @returns whether it was
+/// taken.
 bool PathShortener::shortcut(double from, double to) {
   struct Place {
     std::size_t edge;  // from state `edge` to the next

@@ -8,17 +8,17 @@
 
 namespace corridor {
 
-/// Shortens a path by shortcuts: edges between two places of the path that are shorter than the
-/// part of the path between them. Lengths are distances of the space.
+/// Shortens a path by shortcuts. A shortcut is an edge between two points of the path, if it is
+/// shorter than the part of the path between them. Lengths are distances of the space.
 ///
-/// Edge tests are the cost of simplifying, so no edge is tested twice, and few edges are tested:
+/// Simplifying spends its time on edge tests. So no edge is tested twice, and few edges are tested:
 /// 1. From the whole path downwards, a part of the path is replaced by one edge if this edge is
 ///    free. Otherwise both halves of the part are tried.
 /// 2. Up to three rounds try shortcuts over halves, quarters, … of the path, and then shortcuts
 ///    across its corners. The corner with the largest gain is always next. At first, a shortcut
 ///    across a corner begins and ends on the two edges at a distance from the corner that is the
-///    length of the shorter edge. Each time it fails, this distance is halved. A shortcut that
-///    gains less than a thousandth of the length is not tried.
+///    length of the shorter edge. Each time the shortcut is not free, this distance is halved, up
+///    to five times. A shortcut that gains less than a thousandth of the length is not tried.
 /// 3. States are removed where the edge between their neighbours is free.
 ///
 /// Returns the versions of the path, from the path itself to the shortest, so that an earlier

@@ -18,13 +18,13 @@ constexpr int kCurveHalvings = 5;
 /// that starts from rest needs a part of the edge to gain speed.
 constexpr double kShareOfFirstEdge = 0.9;
 
-/// Two directions that differ by at most this share are the same: a state between two such edges is
-/// no corner. Rounding of inserted states causes some 10^-15 of an edge's length; the path without
-/// the state is proved like every other curve.
+/// Two directions that differ by at most this much count as the same: a state between two such
+/// edges is no corner. The rounding of inserted states causes a difference of some 10^-15. The
+/// curve without the state is proved like every other curve.
 constexpr double kStraight = 1e-9;
 
-/// A curve from a place on one edge to a place on a later one. Places are lengths from the edge's
-/// begin.
+/// A curve from a place on one edge to a place on a later edge. A place is a length from the begin
+/// of its edge.
 struct Blend {
   std::size_t first = 0, last = 0;  // edges
   double from = 0, to = 0;          // places on them
@@ -56,7 +56,8 @@ class Smoother {
   }
 
  private:
-  /// Copies the states that differ from the one before. Circles continue beyond ±π.
+  /// Copies the states, without those that are equal to the state before. The angles of circles
+  /// continue beyond ±π.
   void unwrap(const Path& path) {
     states_.push_back(path.front());
     if (path.size() == 1) return;
@@ -90,8 +91,9 @@ class Smoother {
   }
   bool isFirstOrLast(std::size_t edge) const { return edge == 0 || edge + 1 == edges_.size(); }
 
-  /// Returns the curve of degree 5 between two places, with these distances of its coefficients.
-  /// Three coefficients at each end are equally spaced on the edge, so the second derivative is 0.
+  /// Returns the curve of degree 5 between two places. Its first three coefficients are on the
+  /// first edge, and its last three on the last edge, each `spacing` apart. So the second
+  /// derivative is 0 at both ends.
   Blend blendOf(std::size_t first, double from, std::size_t last, double to, double spacing) const {
     Blend blend{first, last, from, to, {}};
     auto& c = blend.piece.coefficients;
@@ -124,8 +126,9 @@ class Smoother {
     return {from, to};
   }
 
-  /// Rounds the corner at state k by the largest curve that is proved. The curve takes at most
-  /// `share` of what is free of each edge; all of it where no other corner needs the edge.
+  /// Rounds the corner at state k by the largest curve that is proved. On each edge, the curve
+  /// takes at most `share` of the range that no other curve takes, or the whole range if no other
+  /// corner needs the edge.
   void roundCorner(std::size_t k, double share) {
     if (edges_[k - 1].rotates || edges_[k].rotates) return;
     const auto known = std::find_if(blends_.begin(), blends_.end(), [&](const Blend& b) {
@@ -147,7 +150,7 @@ class Smoother {
       const double reach = most / (1 << i);
       if (!(reach > 1.05 * least)) break;
       if (tryCorner(k, reach)) proved = reach;
-      // A reach between `reach`, which is proved, and 2·reach, which failed.
+      // `reach` is proved, and 2·reach has failed; so a reach between them is tried, too.
       if (proved > 0 && i > 0) tryCorner(k, 1.5 * reach);
     }
   }
@@ -171,7 +174,7 @@ class Smoother {
     if (a.last != b.first || deviation_ < HUGE_VAL) return false;
     const auto [from, unused] = freeRange(a.first, &a);
     const double to = freeRange(b.last, &b).second;
-    for (const double share : {1.0, 0.5, 0.0}) {  // of what is left of the outer edges
+    for (const double share : {1.0, 0.5, 0.0}) {  // of what curves leave of the outer edges
       const double begin = a.from + share * (from - a.from), end = b.to + share * (to - b.to);
       const double gap = ruler_.timeOf(at(b.last, end) - at(a.first, begin));
       const Blend whole = blendOf(a.first, begin, b.last, end, gap / 5);

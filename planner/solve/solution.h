@@ -22,8 +22,8 @@ struct Solution {
   std::string planner;
   std::uint64_t seed = 0;
   bool certified = false;
-  std::string checker;  ///< SolveReport::checker; "unknown" for a `.path` file
-  double tolerance = 0, margin = 0;
+  std::string checker;               ///< SolveReport::checker; "unknown" for a `.path` file
+  double tolerance = 0, margin = 0;  ///< metres
   double clearance = 0;  ///< proved for all tested pairs (`PathClearance::proved`); 0: not stated
   Configuration tube;    ///< as Task::tube
   Path path;
@@ -43,8 +43,8 @@ std::string solutionText(const Solution& solution);
 /// false for a file that can't be read.
 bool isSolutionFile(const std::filesystem::path& file);
 
-/// Reads a solution file (-: the standard input) strictly, or an OMPL.app `.path` file, which has
-/// one state per line.
+/// Reads a solution file, or an OMPL.app `.path` file, which has one state per line; "-" is the
+/// standard input.
 /// @throws InputError with all faults: wrong format; unknown, missing or repeated keys; states of
 /// another space.
 Solution readSolution(const std::filesystem::path& file, const ConfigurationSpace& space);

@@ -77,9 +77,9 @@ std::optional<double> defaultRangeForArms(const ConfigurationSpace& space) {
   return range;
 }
 
-/// Returns the words with which the report describes the trees: ", sphere", ", hull" or ",
-/// obb-binary, vertices, gjk, median". Defaults are left out, so the result is "" for the default
-/// trees.
+/// Returns the words by which the report describes the kind of bounding-volume trees: ", sphere",
+/// ", hull" or ", obb-binary, vertices, gjk, median". Defaults are left out, so the result is ""
+/// for the default trees.
 std::string treesText(const TreeNames& words) {
   const TreeNames trees = withDefaults(words), usual = withDefaults({trees.volume, "", ""});
   return (trees.volume == withDefaults({}).volume ? "" : ", " + trees.volume) +
@@ -269,8 +269,7 @@ std::string Solve::whyNotFound(ob::PlannerStatus status) const {
                  : "no path was found in the time";
   }
   if (counters.undecided > 0)
-    text += "; " + std::to_string(counters.undecided) +
-            " motions were too close to decide at a tolerance of " +
+    text += "; " + std::to_string(counters.undecided) + " edges were undecided at a tolerance of " +
             shortest(checker_.options().tolerance) + " m";
   return text + "; more time, another planner or seed may help";
 }
@@ -364,7 +363,7 @@ std::vector<Path> Solve::simplified(og::PathGeometric& path) {
         return si->checkMotion(from.get(), to.get());
       });
   versions = simplifiedVersions(problem_.model.space, versions.front(), *edges_, stop);
-  // Without pairs, there is nothing to keep a distance from.
+  // Without tested pairs, there are no obstacles to move away from.
   if (preferredClearance(problem_) > 0 && !checker_.scene().pairs().empty()) {
     Path clear = withClearance(versions.back(), stop);
     if (clear != versions.back()) versions.push_back(std::move(clear));

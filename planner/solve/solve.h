@@ -23,13 +23,13 @@ struct SolveProgress {
 };
 
 struct SolveOptions {
-  /// Called a few times a second while planning. The calls may come from the planner's threads, but
-  /// never two at once.
+  /// Called at most ten times a second while planning. The calls may come from the planner's
+  /// threads, but there are never two calls at once.
   std::function<void(const SolveProgress&)> progress;
   /// When this becomes true, solving ends soon, without a result.
   const std::atomic<bool>* interrupted = nullptr;
-  /// Whether to note pairs of bodies that never move relative to each other, and that touch or are
-  /// within the margin (checker/still_pairs.h).
+  /// Whether to make a note on each pair of bodies that never move relative to each other, and that
+  /// touch or are within the margin (checker/still_pairs.h).
   bool noteStillPairs = false;
   /// For messages: the origins of values that were not read from the problem's file, by key, such
   /// as "planner.name" → "--planner". The keys are planner.name, planner.params.KEY, start and
@@ -58,7 +58,7 @@ enum class SolveOutcome {
 /// Returns "solved", "not found", "approximate only" or "interrupted".
 const char* nameOf(SolveOutcome outcome);
 
-/// The result of a solve and its costs. Lengths are in metres, times in seconds.
+/// The result of a solve and its costs. Times are in seconds.
 struct SolveReport {
   SolveOutcome outcome = SolveOutcome::notFound;
   std::string why;              ///< why not solved, in one line; empty if solved
@@ -86,7 +86,7 @@ struct SolveReport {
   PathLength length;
   /// Unset if no clearance is preferred (keep_clearance.h).
   std::optional<PathClearance> clearance;
-  std::optional<MadeTrajectory> trajectory;  ///< set if solved and if requested by SolveOptions
+  std::optional<MadeTrajectory> trajectory;  ///< set if solved and SolveOptions requests it
   std::size_t rawStates = 0;   ///< states of the planner's own path, before simplifying
   PathLength rawLength;        ///< length of the planner's own path
   int version = 0;             ///< index of the simplified version returned; 0: the planner's own
@@ -94,9 +94,9 @@ struct SolveReport {
 };
 
 /// Solves a problem: checks start and goals (one free goal is enough), plans, simplifies, and
-/// certifies the final path edge by edge. If an edge of that path fails, the last simplified
-/// version that can be certified as a whole is returned. With `discrete` edges nothing is
-/// certified.
+/// certifies the final path edge by edge. If an edge of that path can't be certified, the latest
+/// simplified version of which all edges can be certified is returned. With `discrete` edges
+/// nothing is certified.
 ///
 /// Planning ends within planner.time, but an edge test that is running when the time runs out is
 /// completed. Simplifying gets the rest of planner.time, but at least 5 % of planner.time. The time

@@ -24,7 +24,8 @@ namespace corridor {
 /// A stopwatch of wall time and of processor time (all threads), which can be paused.
 class SolveClock {
  public:
-  /// Wall time. Cheap: planners call it in every step.
+  /// Returns the wall time, seconds. The call is cheap enough for planners to make it in every
+  /// step.
   double seconds() const { return wall_ + (running_ ? now(CLOCK_MONOTONIC) - wallSince_ : 0); }
   double processorSeconds() const {
     return processor_ + (running_ ? now(CLOCK_PROCESS_CPUTIME_ID) - processorSince_ : 0);
@@ -54,7 +55,7 @@ class SolveClock {
 
 /// The steps of `solveProblem`, for a caller that does other work between them: planner/benchmark
 /// lets OMPL's Benchmark call `plan`. Call setUp, setUpEnds and plan once each, in this order.
-/// Between them the clock may be paused, so that the caller's own work is not counted.
+/// Between these calls the clock may be paused, so that the caller's own work is not counted.
 class Solve {
  public:
   /// Both arguments must outlive the object.
@@ -78,7 +79,7 @@ class Solve {
 
  private:
   bool discrete() const { return problem_.settings.checker.edges == EdgeCheck::discrete; }
-  /// Returns whether tests of edges for the planner prove as much as the final certification.
+  /// Returns whether the edge tests that the planner uses prove as much as the final certification.
   bool testsAreProofs() const {
     return problem_.settings.checker.edges == EdgeCheck::certified &&
            (!options_.adaptChecking || options_.adaptedTestsAreProofs);

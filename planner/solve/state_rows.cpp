@@ -75,8 +75,8 @@ struct Row {
 
 /// Reads all lines of numbers. Only `wrongWith` decides whether a line has the right count of
 /// numbers.
-/// @param what  the content of a line: "state" or "edge".
-/// @param allowHeader  the first line may be a header.
+/// @param what the content of a line, for messages: "state" or "edge".
+/// @param allowHeader whether the first line may be a header.
 template <class WrongWith>
 std::vector<Row> readRows(const std::filesystem::path& file, const ConfigurationSpace& space,
                           const std::string& what, bool allowHeader, const WrongWith& wrongWith) {
@@ -98,7 +98,8 @@ std::vector<Row> readRows(const std::filesystem::path& file, const Configuration
     }
     const std::vector<std::string> words = wordsOfLine(line);
     if (words.empty()) continue;
-    // Names may look like numbers (a joint "1"). A line that consists of numbers only is a state.
+    // A name may look like a number (a joint "1"). So the first line is a header only if one of its
+    // words is not a number.
     double number0 = 0;
     const bool isHeader =
         allowHeader &&

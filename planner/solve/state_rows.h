@@ -17,7 +17,7 @@ namespace corridor {
 /// "" otherwise.
 std::string rigidSpaceOf(const ConfigurationSpace& space);
 
-/// Returns what is wrong with a row (its length, or a quaternion of zeros), or nullopt.
+/// Returns what is wrong with a row (its count of numbers, or a quaternion of zeros), or nullopt.
 std::optional<std::string> rowFault(const std::vector<double>& row,
                                     const ConfigurationSpace& space);
 

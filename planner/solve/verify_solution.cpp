@@ -55,8 +55,8 @@ struct Away {
   /// joints, except continuous ones.
   Real position = 0, angle = 0, joint = 0;
   Real distance = 0;  ///< distance in the configuration space, with its weights
-  /// As `joint`, for continuous joints. Their angles are rounded when they are reduced to one
-  /// revolution.
+  /// The largest difference of continuous joints, rad. It is separate from `joint`, because the
+  /// angles of continuous joints are rounded when they are reduced to one revolution.
   Real jointAngle = 0;
 };
 
@@ -135,8 +135,8 @@ std::string notInGoal(const Problem& problem, const Configuration& state) {
   return awayText(nearest);
 }
 
-/// Checks that the path begins at the start and ends in the goal. @returns whether its end is in
-/// the goal.
+/// Checks that the path begins at the start and ends in the goal, and adds violations if not.
+/// @returns whether the path ends in the goal.
 bool checkEnds(const Problem& problem, const Path& path, std::vector<std::string>& violations) {
   if (const std::string away = notStart(problem, path.front()); !away.empty())
     violations.push_back("the first state is not the start: " + away);
@@ -170,7 +170,8 @@ void checkBounds(const Problem& problem, const Path& path, std::vector<std::stri
   }
 }
 
-/// Checks that a trajectory stays within the bounds between its rows, too.
+/// Adds violations for the coordinates of a trajectory that leave their bounds, at rows or between
+/// rows.
 void checkBounds(const ConfigurationSpace& space, const TrajectoryRows& rows, const Curve& curve,
                  std::vector<std::string>& violations) {
   for (const OutsideBounds& outside : outsideBounds(space, curve.pieces)) {
@@ -336,10 +337,10 @@ VerifyReport verifyTrajectory(const Problem& problem, TrajectoryRows rows,
   note("the trajectory does not end in the problem's goal: ", fromGoal);
   checkBounds(space, rows, curve, report.violations);
   PathProblem plain = plainProblem(problem);
-  // Needed for a curve of many pieces, as for a path of many states (verifySolution).
+  // A curve of many pieces needs some hundred queries for each piece.
   plain.workLimit = std::max<std::uint64_t>(plain.workLimit, 2000 * curve.knots.size());
-  // A curve outside the bounds is refuted already, and may be of any length: its times may have
-  // another unit, for instance. Contacts that are found quickly are reported, too.
+  // A curve outside the bounds is refuted already, and may be of any length, for instance if its
+  // times have a wrong unit. So only contacts that are found quickly are reported, too.
   if (!report.violations.empty()) plain.workLimit = 10'000;
   report.pathReport = verifyCurve(plain, curve.pieces);
   report.verdict = report.violations.empty() ? report.pathReport.verdict : PathVerdict::refuted;

@@ -41,8 +41,8 @@ struct VerifyReport {
   /// The time of each row of a trajectory, seconds; empty if it has no times. An edge of
   /// `pathReport` is the curve from one row to the next.
   std::vector<double> times;
-  /// The shares of the problem's limits that the trajectory uses, proved for all times; set only
-  /// for a trajectory with times. The verdict does not depend on them.
+  /// For each kind of limit, the largest fraction of a limit that the trajectory uses, proved for
+  /// all times; set only for a trajectory with times. The verdict does not depend on them.
   std::optional<LimitRatios> limits;
   std::vector<Note> notes;  ///< notes on a trajectory's file, start and end
 };
@@ -67,8 +67,9 @@ PathProblem plainProblem(const Problem& problem);
 /// Verifies that the path begins at the start, ends in the goal and stays in the bounds. Then
 /// planner/verify verifies that every curve in the problem's tube around the path keeps the
 /// problem's margin. planner/verify shares no bounds, poses or trees with the checker of the
-/// planner. If the solution has a digest, this is first compared with the digest of the problem's
-/// files, which are read again for this purpose.
+/// planner. If the solution has a digest, the digest is first compared with that of the problem's
+/// files, which are read again for this purpose. If the digests differ, nothing is verified, unless
+/// `other` is `ignored`.
 /// @throws InputError if one of the problem's files can't be read.
 VerifyReport verifySolution(const Problem& problem, const Solution& solution,
                             DigestMismatch other = DigestMismatch::refused);
@@ -79,8 +80,8 @@ VerifyReport verifySolution(const Problem& problem, const Solution& solution,
 ///
 /// A trajectory does not claim to solve the problem. If it does not begin at the problem's start,
 /// or does not end in the goal, a note says so, and the verdict is the same.
-/// @param between the interpolation between rows. nullopt: interpolationOf chooses it by the values
-/// that the rows have.
+/// @param between the interpolation between rows. nullopt: interpolationOf chooses it, by whether
+/// the rows have velocities and accelerations.
 /// @throws InputError: as interpolationOf and curveOf.
 VerifyReport verifyTrajectory(const Problem& problem, TrajectoryRows rows,
                               std::optional<RowInterpolation> between = {});

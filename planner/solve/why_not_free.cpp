@@ -104,9 +104,9 @@ double tubeOf(const Checker& checker, const Configuration& q, const Contact& pai
 
 /// Returns directions in which to search for a free configuration, as steps of its numbers. For a
 /// pose the directions are evenly spread positions (a circle, or a Fibonacci spiral on the sphere)
-/// with the orientation kept. Otherwise a direction changes one line or circle alone, or is a
-/// random mixture of all lines and circles. Then the largest step of a number is 1, and rotations
-/// are kept.
+/// with the orientation kept. Otherwise a direction changes one coordinate alone, or is a random
+/// mixture of all coordinates; rotations (quaternions) are kept. In these directions the largest
+/// step of a number is 1.
 std::vector<Configuration> directions(const ConfigurationSpace& space) {
   constexpr int count = 64;
   const auto size = static_cast<Eigen::Index>(space.size());
@@ -142,13 +142,13 @@ std::vector<Configuration> directions(const ConfigurationSpace& space) {
 
 struct NearestFree {
   Configuration q;
-  int digits = 17;  ///< if `q` is printed with this many digits and read back, it is still free
+  int digits = 17;  ///< if `q` is printed with so many digits and read back, it is still free
   double away = 0;  ///< for a pose the distance of its position, metres; else the largest step
 };
 
 /// Rounds the numbers that the message prints to 4, 6, 9 or 12 digits: the fewest with which
 /// `exact` remains free. If it remains free with none of them, nothing is rounded. For a pose, the
-/// position is rounded; otherwise the numbers that differ from `from`.
+/// numbers of the position are rounded; otherwise, the numbers that differ from `from`.
 NearestFree withFewDigits(const Configuration& exact, const Configuration& from, double away,
                           const Checker& checker) {
   const CoordinateGroup* const pose = onlyPose(checker.space());
@@ -164,9 +164,9 @@ NearestFree withFewDigits(const Configuration& exact, const Configuration& from,
   return {exact, 17, away};
 }
 
-/// Searches for a free configuration near q: on shells about q, each larger than the last by a
-/// tenth, and then by bisection along the first direction that is free. Returns nullopt if no free
-/// configuration was found on any shell.
+/// Searches for a free configuration near q: on shells about q, each larger by a tenth than the
+/// shell before, and then by bisection along the first direction that is free. Returns nullopt if
+/// no free configuration was found on any shell.
 std::optional<NearestFree> nearestFree(const Configuration& q, const Checker& checker) {
   const auto freeAt = [&](const Configuration& step) { return checker.isProvedFree(q + step); };
   double size = 1, farthest = std::numbers::pi;  // for joints: rad or m
@@ -191,8 +191,8 @@ std::optional<NearestFree> nearestFree(const Configuration& q, const Checker& ch
   return std::nullopt;
 }
 
-/// The text has all numbers of a configuration, so that a user can copy those of an arm into the
-/// problem.
+/// Describes the free configuration that was found, or says that none was. The text has all numbers
+/// of the configuration, so that a user can copy the numbers of an arm into the problem.
 std::string describedFree(const std::optional<NearestFree>& free, const Configuration& q,
                           const ConfigurationSpace& space) {
   if (const CoordinateGroup* pose = onlyPose(space)) {
@@ -255,7 +255,8 @@ std::optional<std::string> whyNotFree(const Configuration& q, const Checker& che
                                     : options.margin;
   const std::string kept = margin > options.margin ? "margin and padding" : "margin";
   if (result.verdict == MotionVerdict::undecided && result.reason == UndecidedReason::clearance) {
-    // `needed` does not contain the clearance slack: the message on the tolerance covers that.
+    // `needed` does not include the clearance that the tolerance requires: another message, on the
+    // tolerance, covers that.
     const double needed = result.pair ? tubeOf(checker, q, *result.pair) : 0;
     if (result.gap <= needed) {
       return "the gap between " + pair + " is " + number(result.gap) + " m, and the tube needs " +

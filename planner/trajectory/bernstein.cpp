@@ -26,7 +26,7 @@ Polynomial restricted(Polynomial p, double from, double to) {
   if (to < 1)  // the part [0, to]
     for (int level = 1; level <= n; ++level)
       for (int i = n; i >= level; --i) p.c[i] = (1 - to) * p.c[i - 1] + to * p.c[i];
-  if (from > 0) {  // of the part [0, to], the part from `from / to` on
+  if (from > 0) {  // of [0, to], which is now p, keep the part from the parameter from/to on
     const double t = from / to;
     for (int level = 1; level <= n; ++level)
       for (int i = 0; i <= n - level; ++i) p.c[i] = (1 - t) * p.c[i] + t * p.c[i + 1];

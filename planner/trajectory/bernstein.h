@@ -6,11 +6,11 @@
 #include <cstddef>
 #include <vector>
 
-/// Polynomials in Bernstein form on [0, 1], in plain double arithmetic: no rounding is bounded
-/// here.
+/// Polynomials in Bernstein form on [0, 1], in plain double arithmetic. Nothing here bounds the
+/// rounding.
 namespace corridor::bernstein {
 
-/// Σ_i B_i(t)·c[i], with the Bernstein polynomials of this degree.
+/// The polynomial Σ_i B_i(t)·c[i], where B_i are the Bernstein polynomials of degree `degree`.
 struct Polynomial {
   static constexpr int kLargestDegree = 32;
   int degree = 0;
@@ -23,7 +23,7 @@ struct Polynomial {
   }
 };
 
-/// Sets weights[i] = B_i(t) for i = 0 … degree.
+/// Sets weights[i] = B_i(t) for i = 0 … degree, where B_i are the Bernstein polynomials.
 inline void basis(int degree, double t, double* weights) {
   weights[0] = 1;
   for (int n = 1; n <= degree; ++n) {
@@ -37,9 +37,9 @@ inline void basis(int degree, double t, double* weights) {
   }
 }
 
-/// Returns the part of a polynomial on [from, to], as a polynomial on [0, 1] (de Casteljau, twice).
+/// Returns the part of `p` on [from, to], as a polynomial on [0, 1] (de Casteljau, twice).
 Polynomial restricted(Polynomial p, double from, double to);
-/// Returns the same polynomial with a higher degree.
+/// Returns `p` written with the degree `degree`. @pre degree ≥ p.degree
 Polynomial elevated(const Polynomial& p, int degree);
 Polynomial product(const Polynomial& a, const Polynomial& b);
 /// Computes outer(inner(t)) for several outer polynomials and one inner polynomial.

@@ -19,7 +19,8 @@ struct Column {
   std::string joint;
 };
 
-/// The words that mark a column's quantity: pan_velocity, pan.vel, vel_pan, velocity/pan.
+/// The words in a column's name that say which quantity the column has, as in pan_velocity,
+/// pan.vel, vel_pan, velocity/pan.
 struct QuantityWord {
   const char* word;
   Quantity quantity;
@@ -70,7 +71,8 @@ bool isNumber(const std::string& word) {
 }
 
 /// Returns whether a line of words is a header: it has a known name, or no number at all. Any other
-/// line is a row of numbers, one of which may be misspelt. (A joint may have a number as its name.)
+/// line is a row of numbers, some of which may be misspelt. (A joint may have a number as its
+/// name.)
 bool isHeader(const std::vector<std::string>& words, const JointNames& names) {
   if (std::all_of(words.begin(), words.end(), isNumber)) return false;
   return std::none_of(words.begin(), words.end(), isNumber) ||

@@ -14,7 +14,7 @@ using Real = long double;
 using RealMatrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
 using RealVector = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
 
-// Factors of M, derived in the header.
+// Factors of the error bounds, derived in the header.
 constexpr Real kLinear = 0x1p-49L, kCubic = 0x1p-45L, kQuintic = 0x1p-42L, kPower = 0x1p-47L,
                kSpline = 0x1p-46L;
 
@@ -31,9 +31,10 @@ CurvePiece pieceOf(const RealMatrix& coefficients, const RealVector& error) {
   return piece;
 }
 
-/// Sets the coefficient rows of rotations: the first and the last quaternion of each. Rotations are
-/// not converted. Their error is that of a controller's slerp in doubles: below 200 roundings of a
-/// half turn (moving_joint.cpp counts those of such a formula), 2^-44 rad.
+/// Sets the rows of `piece.coefficients` that belong to rotations, from the quaternions in `from`
+/// and `to`, without conversion. The error bound of a rotation is that of a controller's slerp in
+/// doubles: 2^-44 rad, which is more than 200 roundings of a half turn. (moving_joint.cpp counts
+/// the roundings of such a formula.)
 void setRotations(const ConfigurationSpace& space, const Configuration& from,
                   const Configuration& to, CurvePiece& piece) {
   for (const Coordinate& c : space.coordinates()) {
@@ -115,7 +116,8 @@ CurvePiece quinticPiece(const ConfigurationSpace& space, const CurvePoint& from,
 CurvePiece powerPiece(const Eigen::MatrixXd& coefficients, double duration) {
   const Eigen::Index n = coefficients.cols() - 1;
   requireDegree(n);
-  RealMatrix terms = coefficients.cast<Real>();  // of the power series in τ = t/duration
+  // The coefficients of the power series in τ = t/duration.
+  RealMatrix terms = coefficients.cast<Real>();
   Real power = 1;
   for (Eigen::Index k = 0; k <= n; ++k, power *= duration) terms.col(k) *= power;
   // c_i = Σ_{k ≤ i} C(i, k) / C(n, k) · terms_k (Farouki and Rajan 1987, equation 3).
@@ -155,7 +157,8 @@ Curve curveOfPath(const ConfigurationSpace& space, const std::vector<Configurati
   constexpr Real kTurn = 2 * std::numbers::pi_v<Real>;
   Curve curve;
   curve.knots.push_back(0);
-  Configuration turns = Configuration::Zero(states.front().size());  // whole turns, added so far
+  // For each circle coordinate, the angle of the whole turns added so far.
+  Configuration turns = Configuration::Zero(states.front().size());
   for (std::size_t k = 0; k + 1 < states.size(); ++k) {
     if (space.ambiguous(states[k], states[k + 1]))
       throw std::invalid_argument("the shorter way of an edge is ambiguous");

@@ -14,9 +14,10 @@
 namespace corridor {
 namespace {
 
-/// An interval between rows is halved if it exceeds a limit by more than this factor. If the law is
-/// slowed down, it becomes slower than needed by this factor, and then no interval may exceed a
-/// limit. So the next attempt succeeds.
+/// In the first attempt, an interval between rows is halved if its curve exceeds a limit by more
+/// than this factor. If the law must be slowed down, it is made slower than needed by this factor.
+/// In later attempts, every interval that exceeds a limit is halved; because of the slower law, few
+/// do.
 constexpr double kMostExcess = 1.0005;
 /// The largest number of times that one segment of the law is halved.
 constexpr int kLevels = 10;
@@ -50,8 +51,8 @@ class Rows {
   std::size_t extra = 0;
 
  private:
-  /// The rows that must be there: start and end, stops, ends of pieces if rotations move, and the
-  /// regular ones.
+  /// Collects the times that must have a row: start, end, stops, the regular times and, if the
+  /// space has rotations, the ends of pieces.
   void addRequired(const std::vector<double>& stops) {
     std::vector<LawTime> all;
     const double end = clock_.timeOf(clock_.end());
@@ -69,15 +70,15 @@ class Rows {
     std::stable_sort(all.begin(), all.end(), [&](const LawTime& a, const LawTime& b) {
       return clock_.timeOf(a) < clock_.timeOf(b);
     });
-    // Rows that are closer in time than this are merged, such as a stop and a regular row that
-    // differ by rounding only. With a rate, rounding would spoil the derivatives at rows that are
-    // very close together.
+    // Two rows that are at most `least` seconds apart become one row, such as a stop and a regular
+    // row that differ only by rounding. With a rate, rounding would spoil the derivatives at rows
+    // that are very close together.
     const double least = std::max(1e-9 * end, options_.rate ? 1e-3 / *options_.rate : 0);
     for (const LawTime& t : all)
       if (required_.empty() || clock_.timeOf(t) > clock_.timeOf(required_.back()) + least)
         required_.push_back(t);
       else if (t.since == 0)
-        required_.back() = t;  // the begin of a segment is exact
+        required_.back() = t;  // prefer the begin of a segment, whose time is exact
     while (required_.size() > 1 && clock_.timeOf(required_.back()) > end - least)
       required_.pop_back();
     required_.push_back(clock_.end());
@@ -88,8 +89,8 @@ class Rows {
     const TimedRow first = rows.back(), last = clock_.row(to);
     const double distance = rowDeviation(segments_, view_, from, to, first, last, options_.degree);
     const bool isNear = distance <= options_.deviation;
-    // A law does not switch inside a segment. So in one segment, only the deviation is a reason to
-    // halve.
+    // A law does not switch inside a segment. So after three halvings within one segment, only the
+    // deviation is a reason to halve again.
     const bool oneSegment =
         to.segment == from.segment || (to.segment == from.segment + 1 && to.since == 0);
     const bool fine = isNear && (usesLittle(first, last) || (oneSegment && halvings < kLevels - 2));
@@ -104,7 +105,7 @@ class Rows {
     fill(middle, to, left);
   }
 
-  /// Returns a time in the middle: the begin of a segment, or the middle of one segment.
+  /// Returns a time between two times: the begin of a segment, or, within one segment, the middle.
   LawTime between(const LawTime& from, const LawTime& to, bool oneSegment) const {
     if (oneSegment) {
       const double end = to.segment == from.segment ? to.since : segments_[from.segment].duration;
@@ -114,8 +115,8 @@ class Rows {
     return {from.segment + (last - from.segment + 1) / 2, 0};
   }
 
-  /// Whether the curve of two rows exceeds no limit by more than the factor `excess_`. Speeds of
-  /// links are sampled here; proveLimits proves them.
+  /// Returns whether the curve of two rows exceeds no limit by more than the factor `excess_`.
+  /// Speeds of links are only estimated here; proveLimits proves them.
   bool usesLittle(const TimedRow& first, const TimedRow& last) const {
     const auto size = static_cast<Eigen::Index>(view_.space().size());
     constexpr int kinds = 3;
@@ -139,8 +140,9 @@ class Rows {
       }
     if (limits_.links.empty()) return true;
     // The speeds between the rows are estimated by the Bernstein coefficients of the velocity. The
-    // first half of them is evaluated at the first row's position, the others at the last row's. If
-    // the rows are near each other, these estimates are near the speeds.
+    // link speeds for the first half of these coefficients are evaluated at the first row's
+    // position, the others at the last row's position. If the rows are near each other, these
+    // estimates are near the speeds.
     for (int i = 0; i <= degrees[0]; ++i) {
       Configuration& velocity = values[0][static_cast<std::size_t>(i)];
       const TimedRow& row = 2 * i < degrees[0] ? first : last;
@@ -162,7 +164,7 @@ class Rows {
   std::vector<LawTime> required_;
 };
 
-/// Makes each run last a whole number of periods, by slowing it down.
+/// Slows down each motion between two stops so that it lasts a whole number of periods.
 void alignRuns(TimeLaw& law, double period) {
   std::vector<LawSegment> result;
   std::vector<double> ends = law.stopTimes, stops;
@@ -171,7 +173,7 @@ void alignRuns(TimeLaw& law, double period) {
   std::size_t k = 0;
   for (const double end : ends) {
     const double length = end - begin;
-    // 1e-9: a run that is longer than whole periods by rounding only keeps its number of periods.
+    // 1e-9: if a run exceeds a whole number of periods only by rounding, it gets no further period.
     const double wanted = std::max(1.0, std::ceil(length / period - 1e-9)) * period;
     std::vector<LawSegment> run;
     for (; k < law.segments.size() && law.segments[k].time < end - 1e-12 * law.duration; ++k) {
@@ -253,7 +255,7 @@ Emission emitRows(const TimeLaw& given, const std::vector<CurvePiece>& path,
     result.rows = std::move(rows.rows);
     result.deviation = rows.deviation;
     result.extraRows = options.rate ? rows.extra : 0;
-    // Times are rounded when they are multiplied, so one more round may be needed.
+    // Times are rounded when they are multiplied, so the proof may need another multiplication.
     for (int round = 0; round < 4; ++round) {
       result.ratios = proveLimits(result.rows, options.degree, space, limits, tree);
       const double factor = neededFactor(result.ratios);
@@ -262,7 +264,8 @@ Emission emitRows(const TimeLaw& given, const std::vector<CurvePiece>& path,
         return result;
       }
       if (!std::isfinite(factor)) break;
-      if (!atRest || options.rate) break;  // a uniform stretch would change rates, or periods
+      // Multiplying times would change the rates at the ends, or the period.
+      if (!atRest || options.rate) break;
       result.stretch *= factor * (1 + 1e-9);
       slowDown(result.rows, factor * (1 + 1e-9));
     }

@@ -8,19 +8,22 @@
 namespace corridor {
 namespace {
 
-/// The least number of intervals in each piece: a rounded corner has a slow part in its middle.
+/// The smallest number of intervals in each piece: a law is slow in the middle of a rounded corner,
+/// so one interval is not enough.
 constexpr int kIntervalsOfPiece = 6;
-/// Intervals of a run, in the first and in the second search, before they are halved.
+/// Numbers of intervals of a run before intervals are halved: `kFewIntervals` in the first search,
+/// from `kFewIntervals` to `kMostIntervals` in the second.
 constexpr double kFewIntervals = 64, kMostIntervals = 200;
-/// Intervals in which a number goes from no acceleration to its limit.
+/// The number of intervals in the time in which the largest jerk takes a component from no
+/// acceleration to its limit of acceleration.
 constexpr double kIntervalsOfRamp = 4;
-/// Weights of the barrier method, in ascending order. With 300, results are some 1 % longer than
-/// the optimum of their knots, with 2000 some 0.2 %.
+/// Weights of the barrier method, in ascending order. With the weight 300, a law takes some 1 %
+/// longer than the optimum on its knots; with 2000, some 0.2 %.
 constexpr double kWeights[] = {10, 60, 300, 2000};
-/// Rounds in which intervals are halved, at each of the last two weights.
+/// The largest number of times that intervals are halved, for each of the last two weights.
 constexpr int kHalvings = 4;
 
-/// Returns states of a law at about `count` equal times, and at ends of pieces.
+/// Returns the states of a law at about `count` equally spaced times, and at the ends of pieces.
 std::vector<PathState> statesOf(const PathRun& run, const std::vector<double>& begins,
                                 const std::vector<LawSegment>& law, double count) {
   std::vector<PathState> states;
@@ -49,8 +52,8 @@ std::vector<PathState> statesOf(const PathRun& run, const std::vector<double>& b
   return states;
 }
 
-/// Returns the segments between states. Three jerks, each for a third of the time, meet s, ṡ and s̈
-/// at the end of an interval.
+/// Returns the segments of a law between its states. In each interval, three constant jerks, each
+/// for a third of the time, lead from s, ṡ and s̈ of one state to those of the next.
 std::vector<LawSegment> segmentsBetween(const PathRun& run, const std::vector<double>& begins,
                                         const std::vector<std::size_t>& parts,
                                         const std::vector<PathState>& states) {
@@ -59,8 +62,8 @@ std::vector<LawSegment> segmentsBetween(const PathRun& run, const std::vector<do
     const PathState &a = states[i], &b = states[i + 1];
     const PathRun::Part& part = run.parts[parts[i]];
     const double h = b.time - a.time, third = h / 3;
-    // In units of a third: ∫j = j1 + j2 + j3, ∫j·(3 − t) = (5j1 + 3j2 + j3)/2, and
-    // ∫j·(3 − t)²/2 = (19j1 + 7j2 + j3)/6.
+    // The equations for the three jerks j1, j2, j3, with t in units of `third`: ∫j = j1 + j2 + j3,
+    // ∫j·(3 − t) = (5j1 + 3j2 + j3)/2, and ∫j·(3 − t)²/2 = (19j1 + 7j2 + j3)/6.
     const double sum = (b.acceleration - a.acceleration) / third,
                  first = (b.rate - a.rate - h * a.acceleration) / (third * third),
                  second =
@@ -87,7 +90,8 @@ std::vector<LawSegment> jerkLimitedLaw(const PathView& view, const PathRun& run,
                                        const JointLimits& limits, const KinematicTree& tree,
                                        const std::vector<LawSegment>& start) {
   JerkSpline spline(view, run, limits, tree);
-  double ramp = INFINITY;  // the shortest time in which a number reaches its acceleration
+  // The shortest time in which a component can reach its limit of acceleration.
+  double ramp = INFINITY;
   for (const LimitedNumbers& n : limitedNumbers(view.space()))
     if (std::isfinite(limits.jerk[n.first]))
       ramp = std::min(ramp, limits.acceleration[n.first] / limits.jerk[n.first]);

@@ -9,8 +9,8 @@
 
 namespace corridor {
 
-/// Returns a law of a run, from rest to rest, that is locally the fastest one under the limits of
-/// velocity, acceleration and jerk.
+/// Returns a time law of a run (path_runs.h), from rest to rest. The law is locally the fastest one
+/// under the limits of velocity, acceleration and jerk.
 ///
 /// Method: the law is described by y(σ) = σ̇², where s(σ) is a fixed map of a parameter to the path:
 /// s = σ + constant, except near both ends, where s ~ σ³, because a law of bounded jerk leaves rest
@@ -23,14 +23,15 @@ namespace corridor {
 /// makes the law better. (Barrier methods: Boyd and Vandenberghe, Convex Optimization, chapter 11.
 /// The same constraints are found in Debrouwere et al. 2013, "Time-Optimal Path Following for
 /// Robots With Convex–Concave Constraints Using Sequential Convex Programming", IEEE Transactions
-/// on Robotics 29(6).) The search runs twice. In the second run, the knots stand at equal times of
-/// the first result.
+/// on Robotics 29(6).) The search is done twice. In the second search, the first knots are at about
+/// equal times of the first search's result.
 ///
-/// Returns an empty law if the search fails. Takes time linear in the number of pieces, in the size
-/// of a configuration, and in the duration divided by the shortest time in which a number goes from
-/// no acceleration to its limit of acceleration.
+/// Returns an empty law if the search fails. The running time is linear in the number of pieces and
+/// in the number of components of a configuration. It is also linear in the law's duration, divided
+/// by the shortest time in which the largest jerk takes a component from no acceleration to its
+/// limit of acceleration.
 /// @param start a law from rest to rest, at rest only at its ends. It need not keep any limit. The
-/// search starts with this law, and the first knots stand at about equal times of it.
+/// first search starts with this law, and its first knots are at about equal times of this law.
 std::vector<LawSegment> jerkLimitedLaw(const PathView& view, const PathRun& run,
                                        const JointLimits& limits, const KinematicTree& tree,
                                        const std::vector<LawSegment>& start);

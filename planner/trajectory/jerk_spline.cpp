@@ -8,29 +8,34 @@
 namespace corridor {
 namespace {
 
-/// The places in an interval at which limits hold.
+/// The places in an interval, from 0 to 1, at which limits hold.
 constexpr std::array kPlaces{0.0, 0.5, 1.0};
 /// Gauss–Legendre quadrature with three points: places and weights.
 const std::array<std::array<double, 2>, 3> kQuadrature{
     {{0.5 - std::sqrt(0.15), 5.0 / 18}, {0.5, 8.0 / 18}, {0.5 + std::sqrt(0.15), 5.0 / 18}}};
-/// Newton's method ends when a step promises less than this decrease for each coefficient. A limit
-/// that is reached adds about 1 to the objective.
+/// Newton's method ends when the decrease that a step predicts, divided by the number of
+/// coefficients, is below this. For comparison, each limit that is nearly reached adds about 1 to
+/// the objective.
 constexpr double kSmallDecrease = 1e-3;
 constexpr int kMostSteps = 20;
-/// An interval is halved if limits between its places are exceeded by more than this.
+/// An interval is halved if times must be multiplied by more than this to keep the limits between
+/// its places.
 constexpr double kExcess = 1.002;
-/// An interval is halved if y varies by a larger factor.
+/// An interval is halved if y varies by more than this factor in it.
 constexpr double kMostVariation = 1.5;
-/// Two intervals are halved if the jerk jumps between them by more than this share of its limit.
+/// Two adjacent intervals are halved if the jerk jumps between them by more than this fraction of
+/// its limit.
 constexpr double kJump = 0.5;
-/// An interval is halved if the jerk varies by more than this share of its limit: otherwise it
-/// could reach its limit at one place of the interval only.
+/// An interval is halved if the jerk varies in it by more than this fraction of its limit.
+/// Otherwise the jerk could reach its limit only at one place of the interval.
 constexpr double kJerkVariation = 0.15;
 
-/// A symmetric matrix with two diagonals beside the main one: (i, i), (i, i + 1), (i, i + 2).
+/// A symmetric band matrix. Row i has the elements (i, i), (i, i + 1) and (i, i + 2); the other
+/// elements of the upper half are 0.
 using Band = std::vector<std::array<double, 3>>;
 
-/// Solves a system in place. @returns false if the matrix is not positive definite.
+/// Solves band·solution = x in place: `x` becomes the solution, and `band` is overwritten. @returns
+/// false if the matrix is not positive definite.
 bool solveBand(Band& band, std::vector<double>& x) {
   const std::size_t n = band.size();
   for (std::size_t i = 0; i < n; ++i) {
@@ -85,7 +90,7 @@ void JerkSpline::set(const std::vector<PathState>& states) {
   }
   knots_.front() = 0;
   knots_.back() = map_.end();
-  y.front() = y[1];  // 0/0 above
+  y.front() = y[1];  // the ends are 0/0 in the loop above
   y.back() = y[y.size() - 2];
   std::size_t part = 0;
   for (std::size_t i = 0; i + 1 < knots_.size(); ++i) {
@@ -99,9 +104,10 @@ void JerkSpline::set(const std::vector<PathState>& states) {
   setRows();
 }
 
-/// The Bernstein coefficients of y in an interval. The second one is the spline's coefficient. The
-/// first and the third one lie between it and its two neighbours, at the shares in `blend_`, which
-/// the widths of the intervals determine.
+/// Returns the Bernstein coefficients of y in interval i. The second one is the spline's
+/// coefficient c[i + 1]. The first one is between c[i] and c[i + 1], and the third one is between
+/// c[i + 1] and c[i + 2]. The two weights are in `blend_`; they follow from the widths of the
+/// intervals.
 JerkSpline::Triple JerkSpline::bernstein(const std::vector<double>& c, std::size_t i) const {
   const auto& [left, right] = blend_[i];
   return {c[i] + left * (c[i + 1] - c[i]), c[i + 1], c[i + 1] + right * (c[i + 2] - c[i + 1])};
@@ -188,7 +194,7 @@ double JerkSpline::excessAt(std::size_t i, double t) const {
   double excess = std::sqrt(y / most);
   auto row = rows.begin();
   for (const LimitedNumbers& n : numbers_) {
-    double acceleration = 0, jerk = 0;  // squares
+    double acceleration = 0, jerk = 0;  // squared ratios to the limits
     for (Eigen::Index m = 0; m < n.count; ++m, ++row) {
       acceleration += std::pow(row->acceleration(y, u), 2);
       jerk += y * std::pow(row->jerk(y, u, w), 2);
@@ -232,7 +238,8 @@ bool JerkSpline::refine(double shortest) {
                        (most > kMostVariation * least || (varies && timeOf(b, h) > shortest) ||
                         std::max(excessAt(i, 0.25), excessAt(i, 0.75)) > kExcess);
     parts.push_back(parts_[i]);
-    if (halve) {  // the same spline: the coefficient of an interval is its second Bernstein one
+    if (halve) {  // the spline stays the same: the coefficient of a new interval is its second
+                  // Bernstein coefficient
       parts.push_back(parts_[i]);
       knots.push_back(knots_[i] + h / 2);
       c.push_back((b[0] + b[1]) / 2);
@@ -262,7 +269,8 @@ bool JerkSpline::slowToLimits() {
 double JerkSpline::barrier(const std::vector<double>& c) const {
   for (const double value : c)
     if (!(value > 0)) return INFINITY;
-  double sum = 0, product = 1;  // of gaps: one logarithm of a product costs less than many
+  // `product` is a product of gaps: its logarithm costs less than one logarithm for each gap.
+  double sum = 0, product = 1;
   bool within = true;
   const auto add = [&](double gap) {
     within = within && gap > 0;
@@ -310,11 +318,11 @@ JerkSpline::Local JerkSpline::barrierAt(std::size_t place, const Value& value) c
     local.gradient[1] += 2 * au / gap;
     local.addSquare(4 / (gap * gap), ay, au, 0);
     for (const Row* r = row; r != end; ++r) local.addSquare(2 / gap, r->second, r->first, 0);
-    // −log(1 − y·|v|²) is not convex. In y and ν = |v|, with p = y·ν² and g = 1 − p, its second
-    // derivatives by (yν) and (νν) are 2ν/g² and 2y(1 + p)/g². The derivative by (yy) is replaced
-    // by (2ν/g²)²/(2y(1 + p)/g²), which is larger. Then the Hessian is positive semidefinite: 2y(1
-    // + p)/g² times the square of dν + ν/(y(1 + p))·dy. Here ν·dν = vᵀdv. The other directions of v
-    // have 2y/g.
+    // −log(1 − y·|v|²) is not convex. As a function of y and ν = |v|, with p = y·ν² and g = 1 − p,
+    // it has the second derivatives 2ν/g² by (yν), and 2y(1 + p)/g² by (νν). The derivative by (yy)
+    // is replaced by (2ν/g²)²/(2y(1 + p)/g²), which is larger. Then the Hessian is positive
+    // semidefinite: it is 2y(1 + p)/g² times the square of dν + ν/(y(1 + p))·dy, where ν·dν = vᵀdv.
+    // In the directions of v that are perpendicular to v, the second derivative is 2y/g.
     const double share = y * vv, rest = 1 - share;
     local.gradient[0] += (vv + 2 * y * vy) / rest;
     local.gradient[1] += 2 * y * vu / rest;
@@ -334,13 +342,14 @@ JerkSpline::Local JerkSpline::barrierAt(std::size_t place, const Value& value) c
 bool JerkSpline::improve(double weight) {
   Band band(c_.size(), {0, 0, 0});
   std::vector<double> step(c_.size(), 0);
-  // Adds the derivatives by the values (y, u, w) at a place. Each value is a row of three factors
-  // times the three coefficients from i on.
+  // Adds a gradient and a Hessian by (y, u, w) to those by the spline's coefficients. Each of y, u
+  // and w is the product of a row of three factors with the three coefficients c[i], c[i + 1], c[i
+  // + 2].
   const auto add = [&](std::size_t i, const std::array<Triple, 3>& rows, const Local& local) {
     const auto& H = local.hessian;
     const std::array<Triple, 3> full{{{H[0], H[1], H[2]}, {H[1], H[3], H[4]}, {H[2], H[4], H[5]}}};
     for (std::size_t a = 0; a < 3; ++a) {
-      Triple product{};  // of a row of the transpose and the Hessian
+      Triple product{};  // row a of the transpose of `rows`, times the Hessian
       for (std::size_t r = 0; r < 3; ++r) {
         step[i + a] -= rows[r][a] * local.gradient[r];
         for (std::size_t m = 0; m < 3; ++m) product[m] += rows[r][a] * full[r][m];
@@ -353,7 +362,8 @@ bool JerkSpline::improve(double weight) {
     const double h = widthOf(i);
     const double left = blend_[i][0], right = blend_[i][1];
     const Triple b = bernstein(c_, i);
-    // The rows of values by the spline's coefficients, from those by Bernstein coefficients.
+    // Returns the factors by which y, u and w at t depend on the spline's three coefficients. They
+    // follow from the factors of the Bernstein coefficients.
     const auto rowsOf = [&](double t) {
       const auto combined = [&](double x, double y, double z) -> Triple {
         return {x * (1 - left), x * left + y + z * (1 - right), z * right};

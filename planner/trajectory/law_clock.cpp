@@ -23,7 +23,7 @@ TimedRow LawClock::row(const LawTime& t) const {
       t.segment + 1 == segments_.size() || segments_[t.segment + 1].piece != s.piece;
   if (endsPiece && d == s.duration) tau = 1;
   double rate = s.rate + d * (s.acceleration + d / 2 * s.jerk);
-  // If the law ends at rest, the rate here is 0 up to rounding.
+  // Where the law ends at rest, this rate is 0 up to rounding; make it exactly 0.
   if (endsPiece && d == s.duration && std::abs(rate) < 0x1p-40 * s.rate) rate = 0;
   Configuration first, second;
   view_.derivatives(s.piece, tau, first, second);

@@ -9,8 +9,7 @@
 
 namespace corridor {
 
-/// A time of a law: a segment, and the time since its begin. The end of the law is the end of the
-/// last segment.
+/// A time of a law: a segment, and the time since the begin of this segment.
 struct LawTime {
   std::size_t segment = 0;
   double since = 0;  ///< seconds
@@ -25,8 +24,9 @@ class LawClock {
   double timeOf(const LawTime& t) const { return segments_[t.segment].time + t.since; }
   LawTime at(double time) const;
   LawTime end() const { return {segments_.size() - 1, segments_.back().duration}; }
-  /// Returns the row of a time. At the end of the path and at ends of pieces, the position is the
-  /// piece's first or last coefficient itself, bit for bit.
+  /// Returns the row of the trajectory at a time: position, velocity and acceleration. At the end
+  /// of the path and at ends of pieces, the position is the piece's first or last coefficient, bit
+  /// for bit.
   TimedRow row(const LawTime& t) const;
 
  private:

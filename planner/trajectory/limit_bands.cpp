@@ -85,7 +85,8 @@ double LimitBands::at(std::size_t piece, double tau, double length, double* a, d
     const Eigen::VectorXd along = first_.segment(group.first, group.count);
     const double speed = along.norm(), limit = limits_.acceleration[group.first];
     limitSpeed(speed, limits_.velocity[group.first]);
-    // In the plane of q′ and q″, with e1 along q′: the acceleration is (|q′|u + t·x, n·x).
+    // The acceleration of the position is in the plane of q′ and q″. In this plane, with e1 along
+    // q′, it is (|q′|u + t·x, n·x).
     const Eigen::VectorXd second = second_.segment(group.first, group.count);
     const Eigen::VectorXd e1 =
         speed > 0 ? Eigen::VectorXd(along / speed) : Eigen::VectorXd(second.stableNormalized());

@@ -14,17 +14,17 @@ namespace corridor {
 namespace {
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
-/// A bound within this share of an attained value is not improved further.
+/// A bound that exceeds an attained value by at most this fraction is not improved further.
 constexpr double kTight = 1e-4;
-/// Each halving brings the control polygon four times nearer to the curve, so 24 halvings are
-/// beyond what kTight needs, except near a value of 0.
+/// The largest number of halvings. Each halving brings the control polygon four times nearer to the
+/// curve. So 24 halvings are more than kTight needs, except near 0.
 constexpr int kBoundHalvings = 24;
 
-/// A vector of up to three polynomials of one degree.
+/// A vector of up to three polynomials of the same degree.
 struct Vectors {
   int degree = 0, count = 0;
   std::array<std::array<double, 3>, 6> c{};
-  double error = 0;  // of each coefficient vector's length
+  double error = 0;  // a bound of the error of each coefficient vector's length
 
   void add(const BoundedPolynomial& p) {
     degree = p.degree;
@@ -32,7 +32,8 @@ struct Vectors {
     error += *std::max_element(p.error.begin(), p.error.end());
     ++count;
   }
-  /// The length of coefficient i. 8u: at most 3 squares, 2 sums and a root, or one absolute value.
+  /// Returns the length of coefficient vector i, rounded up. The factor 1 + 8u (u = 2^-53) covers
+  /// the roundings of at most 3 squares, 2 sums and a root. An absolute value does not round.
   double length(int i) const {
     double squares = 0;
     for (int k = 0; k < count; ++k) squares += c[i][k] * c[i][k];
@@ -45,9 +46,9 @@ struct Vectors {
     return std::isnan(most) ? kUnbounded : most + error;
   }
   double attained() const { return std::max(length(0), length(degree)) - error; }
-  /// Splits at 1/2 by de Casteljau's algorithm; this becomes the first half. Each of `degree`
-  /// levels rounds once, by at most 2^-53 of a length that is below the bound. For vectors of three
-  /// numbers, twice that suffices.
+  /// Splits the polynomials at 1/2 by de Casteljau's algorithm. The object becomes the first half;
+  /// the second half is returned. Each of the `degree` levels rounds each component once, by at
+  /// most 2^-53 of a length below the bound. For vectors of three components, twice that is enough.
   Vectors split() {
     Vectors second = *this;
     const double rounding = degree * 0x1p-52 * bound();
@@ -63,8 +64,8 @@ struct Vectors {
   }
 };
 
-/// Returns a bound of the largest length on [0, 1]. Parts whose bound is at most `known` are not
-/// improved.
+/// Returns a bound of the largest length of the vector on [0, 1]. Parts whose bound is at most
+/// `known` are not halved further.
 /// @param limit a bound above `limit` is improved as far as possible, unless `known` or an attained
 /// length exceeds `limit`.
 double largestLength(Vectors part, double known, double limit, int halvings = kBoundHalvings) {
@@ -83,17 +84,18 @@ void raise(LimitShare& most, double share, std::size_t number, double time) {
   if (!(share <= most.share)) most = {std::isnan(share) ? kUnbounded : share, number, time};
 }
 
-/// Raises `most` by the share of a limit that polynomials use.
+/// Raises `most` to the ratio of the vector's length to its limit, if that is larger.
 void raiseBy(const Vectors& vectors, double limit, Eigen::Index number, double time,
              LimitShare& most) {
   if (std::isinf(limit)) return;
   const double length = largestLength(vectors, most.share * limit, limit);
-  // 2^-51: the quotient and the product above.
+  // 2^-51 covers the roundings of the quotient here and of the product above.
   const double share = length == 0 ? 0 : length / limit * (1 + 0x1p-51);
   raise(most, share, static_cast<std::size_t>(number), time);
 }
 
-/// Returns a bound of the largest value of g on [0, 1]; returns 0 if it is below 0.
+/// Returns an upper bound of the polynomial with the Bernstein coefficients g on [0, 1], or 0 if
+/// the bound is below 0. @param error a bound of the error of each coefficient.
 double largestValue(std::array<double, 6> g, int degree, double error, int halvings) {
   const double bound = *std::max_element(g.begin(), g.begin() + degree + 1) + error;
   const double attained = std::max({g[0], g[static_cast<std::size_t>(degree)], 0.0});
@@ -110,7 +112,7 @@ double largestValue(std::array<double, 6> g, int degree, double error, int halvi
                   largestValue(second, degree, error, halvings - 1));
 }
 
-/// Returns a bound of the distance by which the curve leaves [lower, upper].
+/// Returns an upper bound of the distance by which the curve leaves [lower, upper].
 double excessOf(const RowPolynomials& p, double lower, double upper) {
   double most = 0;
   for (const double sign : {1.0, -1.0}) {
@@ -122,11 +124,11 @@ double excessOf(const RowPolynomials& p, double lower, double upper) {
     for (int i = 0; i <= p.rise.degree; ++i) {
       const double gap = sign * (p.near[i] - limit), rise = sign * p.rise.c[i];
       g[i] = gap + rise;
-      // The difference and the sum round once each. At a row itself (rise 0), the sign is exact.
+      // The difference and the sum round once each. At a row (rise 0), the sign of g is exact.
       const double slack =
           rise == 0 ? 0 : p.rise.error[i] + 0x1p-51 * (std::abs(gap) + std::abs(rise));
       error = std::max(error, slack);
-      // gap ≤ 0 and a rise that is surely not positive: the coefficient is within the limit.
+      // If gap ≤ 0 and the rise is surely not positive, the coefficient is within the limit.
       if (gap <= 0 && rise + p.rise.error[i] <= 0) continue;
       any = any || g[i] + slack > 0;
     }
@@ -187,8 +189,9 @@ class Prover {
   }
 
   void addRotation(std::size_t i, Eigen::Index r) {
-    // 2^-45: the angle is computed from products of two unit quaternions, to some tens of u of a
-    // half turn, and angles here are differences of values that are rounded to u of a half turn.
+    // 2^-45 rad: the angle is computed from the product of two unit quaternions, with an error of
+    // some tens of u of a half turn (u = 2^-53). The quaternions themselves are rounded, too, which
+    // adds some u of a half turn.
     constexpr double rounding = 0x1p-45;
     const double duration = rows_[i + 1].time - rows_[i].time;
     const Eigen::Vector3d rate = turnRate(i, r);
@@ -213,7 +216,8 @@ class Prover {
       }
   }
 
-  /// A bend of linear rows is an infinite acceleration.
+  /// Counts a bend of linear rows as an infinite acceleration, for components with a limit of
+  /// acceleration.
   void addBends(std::size_t i) {
     if (i == 0) return;
     for (Eigen::Index n = 0; n < limits_.acceleration.size(); ++n) {
@@ -255,7 +259,8 @@ class Prover {
     }
   }
 
-  /// Returns a bound of the share of a link's speed on the part [a, b] of interval i.
+  /// Returns an upper bound of the ratio of a link's speed to its limit, on the part [a, b] of
+  /// interval i. The interval has the parameters 0 to 1.
   double linkShare(std::size_t i, std::size_t l, const std::vector<RowPolynomials>& curves,
                    const PointBounds& bounds, double a, double b, int halvings) const {
     const double middle = (a + b) / 2, duration = rows_[i + 1].time - rows_[i].time;
@@ -284,9 +289,10 @@ class Prover {
     const LinkSpeed& link = limits_.links[l];
     const double attained = linkSpeedShares(tree_, {link}, q, v).front();
     const double largestAngle = q.cwiseAbs().maxCoeff();
-    // The speed changes by at most half of the time times the acceleration. 2^-40 of the largest
-    // speed is far above the rounding of kinematics, some u in each of up to 100 frames. Only large
-    // angles round more: an error of 2u of each angle turns all points after the joint.
+    // From the middle of the part on, the speed changes by at most half of the part's duration
+    // times the acceleration. 2^-40 of the largest speed is far above the rounding of the
+    // kinematics, some u in each of up to 100 frames. Only large angles have a larger effect: an
+    // error of 2u times the angle rotates all points after the joint.
     const double bound = attained + ((b - a) / 2 * duration * bounds.acceleration +
                                      (0x1p-40 + 0x1p-45 * largestAngle) * bounds.speed) /
                                         link.speed * (1 + 0x1p-40);
@@ -307,7 +313,7 @@ class Prover {
   const ConfigurationSpace& space_;
   const JointLimits& limits_;
   const KinematicTree& tree_;
-  std::vector<PositionGroup> positions_;  // also single numbers, as groups of one
+  std::vector<PositionGroup> positions_;  // single components, too, as groups of one
   std::vector<Eigen::Index> rotations_;
   LimitRatios ratios_;
 };

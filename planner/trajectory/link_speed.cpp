@@ -87,10 +87,10 @@ std::vector<double> linkSpeedShares(const KinematicTree& tree, const std::vector
 PointBounds pointBounds(const KinematicTree& tree, const LinkSpeed& link,
                         const Configuration& reach, const Configuration& velocity,
                         const Configuration& acceleration) {
-  // On the way from the link to the world, each frame adds a rotation with |ω| ≤ w, |ω̇| ≤ e about
-  // its origin, and a translation with |d| ≤ l, |ḋ| ≤ v, |d̈| ≤ c, to a point. Relative to that
-  // origin, the point has |r| ≤ L, |ṙ| ≤ V and |r̈| ≤ A. The point's new bounds are those of the
-  // sum and of the products:
+  // The loop goes from the link to the world. In each frame, a point has |r| ≤ L, |ṙ| ≤ V and |r̈|
+  // ≤ A relative to the frame's origin. The frame rotates the point about this origin, with |ω| ≤ w
+  // and |ω̇| ≤ e, and translates it, with |d| ≤ l, |ḋ| ≤ v and |d̈| ≤ c. The new bounds of the
+  // point, from the sum and the products:
   //   r ← R·r + d;  L + l;  V + w·L + v;  A + 2·w·V + e·L + w²·L + c.
   double length = 0, speed = 0, result = 0;
   for (const Eigen::Vector3d& point : link.points) length = std::max(length, point.norm());

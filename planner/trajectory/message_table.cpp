@@ -10,7 +10,8 @@
 namespace corridor {
 namespace {
 
-/// The fields in which messages of ROS and MoveIt hold a JointTrajectory, at any depth.
+/// The fields of ROS and MoveIt messages that may contain a JointTrajectory, directly or in one
+/// another.
 constexpr std::array kWrappers{"joint_trajectory",    "trajectory", "planned_trajectory",
                                "robot_trajectory",    "goal",       "result",
                                "motion_plan_response"};
@@ -33,7 +34,8 @@ bool hasPoints(const YamlValue& map) {
   return points && !points->items.empty();
 }
 
-/// Adds all maps that are trajectories. Adds a fault for trajectories of poses.
+/// Adds all maps in `value` that are joint trajectories to `found`. Adds a fault for each
+/// trajectory of poses.
 void collectTrajectories(const YamlValue& value, std::vector<const YamlValue*>& found,
                          YamlSource& source) {
   for (const YamlValue& item : value.items) collectTrajectories(item, found, source);
@@ -69,8 +71,8 @@ const YamlValue* trajectoryIn(const YamlValue& document, YamlSource& source) {
   return found.size() == 1 ? found.front() : nullptr;
 }
 
-/// Returns the seconds of a duration: a number, {sec, nanosec} or {secs, nsecs}. The result is the
-/// double nearest to it (below 2^53 ns, which is 104 days).
+/// Returns the seconds of a duration: a number, {sec, nanosec} or {secs, nsecs}. Below 2^53 ns (104
+/// days), the result is the double nearest to the exact duration.
 std::optional<double> readTime(const YamlMap& point) {
   const YamlValue* const time = point.find("time_from_start");
   if (!time) return std::nullopt;
@@ -149,7 +151,7 @@ class PointReader {
   }
 
  private:
-  /// Adds a fault and returns true if the row has other fields than the first row.
+  /// Returns whether the row has other fields than the first row; if so, adds a fault.
   bool mixed(const YamlMap& point, const TrajectoryTable::Row& row) const {
     const TrajectoryTable::Row& first = table_.rows.front();
     const auto differs = [&](const char* what, bool has, bool firstHas) {
@@ -169,7 +171,8 @@ class PointReader {
   TrajectoryTable table_;
 };
 
-/// Returns the text without a last line `---`, which `rostopic echo` writes after each message.
+/// Returns the text. If its last line is `---`, which `rostopic echo` writes after each message,
+/// this line is left out.
 std::string withoutLastMark(const std::string& text) {
   const std::size_t end = text.find_last_not_of(" \t\r\n");
   if (end == std::string::npos || end < 3 || text.compare(end - 2, 3, "---") != 0 ||

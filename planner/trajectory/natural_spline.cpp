@@ -6,7 +6,8 @@
 namespace corridor {
 namespace {
 
-/// Returns the second derivatives m of the natural spline at the states, one column each. Inside,
+/// Returns the second derivatives m of the natural spline, one column for each state. At the inner
+/// states,
 ///   h_{i−1}·m_{i−1} + 2(h_{i−1} + h_i)·m_i + h_i·m_{i+1} = 6(d_i − d_{i−1}),
 /// where h_i = |q_{i+1} − q_i| and d_i = (q_{i+1} − q_i)/h_i. At both ends m is 0. The matrix is
 /// diagonally dominant, so elimination needs no pivots.
@@ -15,7 +16,8 @@ Eigen::MatrixXd secondDerivatives(const std::vector<Configuration>& q,
   const std::size_t n = h.size();
   Eigen::MatrixXd m = Eigen::MatrixXd::Zero(q[0].size(), static_cast<Eigen::Index>(n) + 1);
   const auto slope = [&](std::size_t i) -> Configuration { return (q[i + 1] - q[i]) / h[i]; };
-  std::vector<double> upper(n + 1, 0);  // of the eliminated rows, whose diagonal is 1
+  // The elements above the diagonal, after elimination; the diagonal is then 1.
+  std::vector<double> upper(n + 1, 0);
   for (std::size_t i = 1; i < n; ++i) {
     const auto column = static_cast<Eigen::Index>(i);
     const double diagonal = 2 * (h[i - 1] + h[i]) - h[i - 1] * upper[i - 1];
@@ -27,16 +29,16 @@ Eigen::MatrixXd secondDerivatives(const std::vector<Configuration>& q,
   return m;
 }
 
-/// Returns an upper bound of the speed |dq/dτ| on a piece: a Bernstein polynomial is within the
-/// hull of its coefficients, which are degree·(c_{i+1} − c_i) for the derivative.
+/// Returns an upper bound of |dq/dτ| on a piece: a polynomial is within the convex hull of its
+/// Bernstein coefficients, and those of dq/dτ are degree·(c_{i+1} − c_i).
 double largestSpeed(const CurvePiece& piece) {
   const int degree = piece.degree();
   const Eigen::MatrixXd& c = piece.coefficients;
   return degree * (c.rightCols(degree) - c.leftCols(degree)).colwise().norm().maxCoeff();
 }
 
-/// Returns the index of the first piece with a sample that touches something, or the number of
-/// pieces.
+/// Returns the index of the first piece with a sample that touches something. Returns the number of
+/// pieces if no sample does.
 std::size_t firstTouching(const ConfigurationSpace& space, const std::vector<CurvePiece>& pieces,
                           const std::function<bool(const Configuration&)>& touches, double step) {
   for (std::size_t k = 0; k < pieces.size(); ++k) {

@@ -4,14 +4,14 @@
 
 namespace corridor {
 
-/// A fixed map s(σ) from a parameter to the length along a run, so that a law of bounded jerk,
-/// which leaves rest like t³, has a smooth σ̇ > 0 everywhere: s ~ σ³ near both ends, and s = σ +
-/// constant between. Twice continuously differentiable; s‴ jumps where the parts meet, at `width()`
-/// and at `end() − width()`.
+/// A fixed map s(σ) from a parameter σ to the path parameter s of a run: s ~ σ³ near both ends, and
+/// s = σ + constant between. Near rest, a law of bounded jerk has s ~ t³; so, with this map, σ̇ is
+/// smooth and above 0 everywhere. The map is twice continuously differentiable. s‴ jumps where the
+/// three parts of the map meet, at σ = length/5 and at σ = end() − length/5.
 class Onset {
  public:
   explicit Onset(double length) : length_(length), width_(length / 5) {}
-  /// σ goes from 0 to this.
+  /// Returns the σ of the end of the run; σ begins at 0.
   double end() const { return length_ + 0.8 * width_; }
 
   /// Returns s and its first three derivatives at σ.
@@ -22,7 +22,7 @@ class Onset {
     return {length_ - s, s1, -s2, s3};
   }
 
-  /// Returns the σ of s in [0, length].
+  /// Returns the σ of a given s in [0, length].
   double parameterOf(double s) const {
     if (s > length_ / 2) return end() - parameterOf(length_ - s);
     if (s >= 0.6 * width_) return s + 0.4 * width_;

@@ -6,12 +6,12 @@
 namespace corridor {
 namespace {
 
-/// A tangent below this share of the largest one of its piece counts as 0. Coefficients that were
-/// computed from values have rounding errors of some tens of 2^-52, which this share exceeds.
+/// A tangent counts as 0 if its length is below this fraction of the bound of |dq/dτ| on its piece.
+/// The fraction exceeds the rounding of computed coefficients, some tens of 2^-52.
 constexpr double kNoTangent = 1e-13;
 
 struct End {
-  Configuration first, second;  // by τ
+  Configuration first, second;  // dq/dτ and d²q/dτ²
   double size = 0;              // |first|; 0 if negligible
 };
 
@@ -31,7 +31,7 @@ bool isFree(const End& end, double bound) {
 
 std::vector<PathRun> runsOf(const PathView& view, double cornerAngle, bool smooth) {
   std::vector<PathRun> runs;
-  End before;  // the end of the last part
+  End before;  // the end of the piece before
   double boundOfBefore = 0;
   for (std::size_t piece = 0; piece < view.path().size(); ++piece) {
     const double bound = view.speedBound(piece);
@@ -40,14 +40,15 @@ std::vector<PathRun> runsOf(const PathView& view, double cornerAngle, bool smoot
     bool joined = !runs.empty() && before.size > 0 && start.size > 0;
     double length = bound;  // so that |dq/ds| ≤ 1
     if (joined) {
-      // The norm of the difference of unit vectors is the angle, up to its third power.
+      // The norm of the difference of two unit vectors is the angle between them, up to a term of
+      // third order.
       const Configuration jump = start.first / start.size - before.first / before.size;
       joined = jump.stableNorm() <= cornerAngle;
       const double last = runs.back().parts.back().length;
       length = last * (start.size / before.size);
       joined = joined && std::isfinite(length) && length > 0;
       if (joined && smooth) {
-        // Curvatures (per length of s) that differ by this much change q̈ by 10^-6 of ṡ²/length.
+        // If d²q/ds² jumps by this tolerance, q̈ jumps by 10^-6 of |dq/ds|·ṡ²/length.
         const Configuration bend = start.second / (length * length) - before.second / (last * last);
         joined = bend.stableNorm() <= 1e-6 * (before.size / last) / std::max(length, last);
       }

@@ -8,18 +8,19 @@
 
 namespace corridor {
 
-/// Values and derivatives of a path of pieces, by the parameter τ of each piece. Keeps references:
-/// path and space must outlive it.
+/// Configurations and derivatives along a path of pieces, by the parameter τ in [0, 1] of each
+/// piece. The object keeps references: path and space must outlive it.
 class PathView {
  public:
   PathView(const std::vector<CurvePiece>& path, const ConfigurationSpace& space);
 
   const std::vector<CurvePiece>& path() const { return path_; }
   const ConfigurationSpace& space() const { return space_; }
-  /// Returns the configuration. Rotations are normalised.
+  /// Returns the configuration at τ of a piece. Quaternions are normalised.
   Configuration value(std::size_t piece, double tau) const;
-  /// Computes dq/dτ and d²q/dτ². A rotation has its rotation vector per τ (in the coordinates of
-  /// the frame before the joint; constant in a piece) in the first three of its four numbers.
+  /// Computes dq/dτ and d²q/dτ². For a rotation, the first three of its four components are its
+  /// angular velocity by τ, in radians per unit of τ and in the coordinates of the frame before the
+  /// joint. In `first`, it is constant in a piece.
   void derivatives(std::size_t piece, double tau, Configuration& first,
                    Configuration& second) const;
   /// Returns d³q/dτ³.
@@ -28,7 +29,7 @@ class PathView {
   double speedBound(std::size_t piece) const;
   /// Returns whether the piece is a straight line at a constant rate.
   bool isStraight(std::size_t piece) const;
-  /// Indices of the first numbers of rotations.
+  /// Returns, for each rotation, the index of its first component in a Configuration.
   const std::vector<Eigen::Index>& rotations() const { return rotations_; }
   /// Returns the rotation vector (radians) from the start to the end of a piece. @param r index
   /// into `rotations()`.

@@ -13,14 +13,15 @@ struct Interval {
   double lower = 0, upper = 0;
 };
 
-/// A line of the boundary in the plane (x, u): u = value − slope·x.
+/// A line in the plane (x, u), which bounds the allowed pairs: u = value − slope·x.
 struct Line {
   double value = 0, slope = 0;
   double at(double x) const { return value - slope * x; }
 };
 
-/// The pairs (x, u) that the limits of one interval allow. For each x, u is in [lowest line,
-/// highest line]: upper lines are u ≤ value − slope·x, lower lines u ≥ −value − slope·x.
+/// The pairs (x, u) that the limits of one interval of the grid allow: x is in [0, cap()]. Each
+/// line of `lines_` gives an upper bound, u ≤ value − slope·x, and a lower bound, u ≥ −value −
+/// slope·x.
 class Cell {
  public:
   /// Sets the limits at both ends of interval i.
@@ -37,8 +38,8 @@ class Cell {
   double cap() const { return cap_; }
   double width() const { return width_; }
 
-  /// Returns the highest of the lower lines and the lowest of the upper lines, at x, if the next x
-  /// must be in `next`.
+  /// Sets `low` to the largest lower bound of u at x, and `high` to the smallest upper bound. The
+  /// bounds include those by which the next x is in `next`.
   void bounds(double x, const Interval& next, Line& low, Line& high) const {
     const double half = 0.5 / width_;  // the next x: lower ≤ x + 2Δu ≤ upper
     high = {next.upper * half, half};
@@ -57,16 +58,16 @@ class Cell {
     }
   }
 
-  /// Returns the x from which `next` can be reached; lower > upper if there is none. The set of
-  /// pairs is convex, so the width of u is a concave function of x, and Newton's method from
-  /// outside never steps over a root of this function. The method ends at a root, since the
-  /// function is piecewise linear.
+  /// Returns the interval of the x from which `next` can be reached; lower > upper if there is no
+  /// such x. The set of pairs (x, u) is convex, so the width of the range of u is a concave
+  /// function of x. Newton's method, from outside of the interval, never steps over a root of this
+  /// function. It ends at a root, since the function is piecewise linear.
   Interval reachableFrom(const Interval& next) const {
     double top = cap_;
     if (!std::isfinite(top)) {
-      // u ≥ −value − slope·x of any line and x + 2Δu ≤ upper give x·(1 − 2Δ·slope) ≤ upper +
-      // 2Δ·value. The smallest of these bounds is used: a number that hardly moves has a line whose
-      // value is so large that the root would drown in rounding.
+      // For any line, u ≥ −value − slope·x and x + 2Δu ≤ upper give x·(1 − 2Δ·slope) ≤ upper +
+      // 2Δ·value. The smallest of these bounds of x is used: the line of a component that hardly
+      // moves has a very large value, and from its bound, rounding would hide the root.
       for (const Line& line : lines_)
         if (2 * width_ * std::abs(line.slope) <= 0.5)
           top = std::min(top, 2 * (next.upper + 2 * width_ * line.value));
@@ -93,7 +94,8 @@ class Cell {
       lines_.push_back({1 / size, slope / size});
   }
 
-  /// Returns the first x, from `x` downwards (or upwards) at which some u is allowed; NaN: none.
+  /// Returns the first x at which some u is allowed, from `x` downwards or upwards. Returns NaN if
+  /// there is no such x.
   double root(double x, const Interval& next, bool downwards) const {
     // x = 0 with u = 0 is always allowed if the next x may be 0.
     const double none = downwards && next.lower == 0 ? 0 : NAN;
@@ -102,7 +104,7 @@ class Cell {
       bounds(x, next, low, high);
       const double gap = high.at(x) - low.at(x);
       if (gap >= 0) return x;
-      const double slope = low.slope - high.slope;  // of the gap
+      const double slope = low.slope - high.slope;  // the slope of the gap
       if (downwards ? slope >= 0 : slope <= 0) return none;
       const double to = x - gap / slope;
       if (to < 0) return none;
@@ -134,7 +136,7 @@ Profile fastestProfile(const LimitGrid& grid, double start, double end) {
   std::vector<Interval> sets(n);
   const double last = grid.xMax[n - 1];
   sets[n - 1] = std::isfinite(end) ? Interval{end, end} : Interval{0, last};
-  // A given rate may be at the limit itself, up to its rounding.
+  // A given rate may be exactly at the limit, so its rounding is allowed for.
   if (std::isfinite(end) && end > last * (1 + 0x1p-40))
     return fail(Profile::Failure::end, n - 1, {0, last});
   Cell cell;

@@ -11,7 +11,8 @@ namespace {
 
 using bernstein::Polynomial;
 
-/// Returns τ on the part [from, to] of a segment, for a time from 0 to 1.
+/// Returns τ on the part [from, to] of a segment (seconds since its begin), as a polynomial on [0,
+/// 1].
 Polynomial tauOf(const LawSegment& s, double from, double to) {
   const double T = to - from;
   const double tau = s.tau + from * (s.rate + from / 2 * (s.acceleration + from / 3 * s.jerk));
@@ -33,7 +34,7 @@ Polynomial tauOf(const LawSegment& s, double from, double to) {
   return p;
 }
 
-/// Returns the rows' curve of one number, on [0, 1].
+/// Returns the curve of one component between two rows, as a polynomial on [0, 1].
 Polynomial rowCurve(const TimedRow& first, const TimedRow& last, int degree, Eigen::Index number) {
   const RowPolynomials rows = rowPolynomials(first, last, degree, number);
   Polynomial p;
@@ -51,7 +52,7 @@ double rowDeviation(const std::vector<LawSegment>& segments, const PathView& vie
   const auto& rotations = view.rotations();
   double most = 0;
   Configuration turned = Configuration::Zero(static_cast<Eigen::Index>(rotations.size()));
-  std::vector<double> rates;  // of the rows' slerps: rad/s, along the axis
+  std::vector<double> rates;  // angular speeds of the rows' slerps, rad/s
   for (const Eigen::Index r : rotations)
     rates.push_back(
         rotationVector(first.position.segment<4>(r), last.position.segment<4>(r)).norm() /
@@ -69,7 +70,7 @@ double rowDeviation(const std::vector<LawSegment>& segments, const PathView& vie
     std::size_t r = 0;
     for (Eigen::Index n = 0; n < c.rows(); ++n) {
       if (r < rotations.size() && rotations[r] == n) {
-        // The angle of the law along the axis minus that of the rows' slerp.
+        // The law's angle about the rotation's axis, minus the angle of the rows' slerp.
         const double turn = view.turn(segment.piece, r).norm();
         const auto slot = static_cast<Eigen::Index>(r);
         for (int i = 0; i <= tau.degree; ++i) {

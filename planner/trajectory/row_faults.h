@@ -9,13 +9,14 @@
 
 namespace corridor {
 
-/// The faults of the rows of a file. Rows often share a fault, so only the faults of the first
-/// faulty row are kept. The last of them says how many more rows have faults.
+/// The faults of the rows of a file. Many rows often have the same fault, so only the faults of the
+/// first faulty row are kept. The text of the last of these faults says how many more rows have
+/// faults.
 class RowFaults {
  public:
   explicit RowFaults(std::string file) : file_(std::move(file)) {}
 
-  /// Calls `read` with a list for the faults of one row. Returns whether the row has none.
+  /// Calls `read` with a list for the faults of one row. Returns whether the row has no faults.
   template <class Read>
   bool row(const Read& read) {
     FaultList faults(file_);

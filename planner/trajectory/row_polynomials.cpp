@@ -5,10 +5,11 @@
 namespace corridor {
 namespace {
 
-/// A sum with the sum of the absolute values of its terms. A coefficient here has at most 8 terms,
-/// each of which takes at most 10 roundings: the difference of two positions and of two times (one
-/// each, the latter up to three times), and products and quotients. With at most 7 additions on its
-/// way, its error is at most 17·2^-53·size, up to second order. kRounding is 32·2^-53.
+/// A sum (`value`), and the sum of the absolute values of its terms (`size`). A coefficient in this
+/// file is a sum of at most 8 terms. Each term has at most 10 roundings: those of the difference of
+/// two positions (one), of the difference of two times (one, in up to three factors), and of
+/// products and quotients. Each term takes part in at most 7 additions. So the error of a
+/// coefficient is at most 17·2^-53·size, up to second order. kRounding is 32·2^-53.
 struct Sum {
   double value = 0, size = 0;
   Sum operator+(const Sum& o) const { return {value + o.value, size + o.size}; }
@@ -32,8 +33,9 @@ BoundedPolynomial polynomial(const std::array<Sum, N>& sums) {
   return result;
 }
 
-/// Returns the derivative by time of a polynomial of degree N − 1. @param perTime (N − 1)/T, where
-/// T is the duration in which the polynomial's parameter goes from 0 to 1.
+/// Returns the derivative by time of the polynomial of degree N − 1 with the Bernstein coefficients
+/// `sums`. @param perTime (N − 1)/T, where T is the duration in which the polynomial's parameter
+/// goes from 0 to 1.
 template <std::size_t N>
 std::array<Sum, N - 1> derivative(const std::array<Sum, N>& sums, double perTime) {
   std::array<Sum, N - 1> result;

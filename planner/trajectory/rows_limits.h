@@ -5,31 +5,32 @@
 
 namespace corridor {
 
-/// Proves the limits of the curve that the rows of a file mean, as `proveLimits` does for the rows
-/// of a time law. For linear rows, only limits of velocity are tested, because their velocity jumps
-/// at rows. For cubic rows, limits of acceleration are tested, too, and for quintic rows also
-/// limits of jerk. For each other limit that is given, the share is 0 and `tested` is false. If the
-/// processor's floating-point mode makes the bounds invalid (collision/core/floating_point.h),
-/// every share of a velocity, acceleration, jerk or link speed that is above 0 becomes infinite.
-/// @pre the rows have times, and what `between` needs.
+/// Bounds the ratios of values to limits for the curve that the rows of a file mean, as
+/// `proveLimits` does for the rows of a time law. Velocities, link speeds and positions are always
+/// tested. Accelerations are tested for cubic and quintic rows (the velocity of linear rows jumps
+/// at rows), and jerks only for quintic rows. If an acceleration or jerk has a limit but is not
+/// tested, its `share` is 0 and `tested` is false. If the processor's floating-point mode makes the
+/// bounds invalid (collision/core/floating_point.h), each of the four shares (velocity,
+/// acceleration, jerk and link speed) that is above 0 becomes infinite.
+/// @pre The rows have times, and the velocities and accelerations that `between` needs.
 LimitRatios limitsOfRows(const TrajectoryRows& rows, RowInterpolation between,
                          const ConfigurationSpace& space, const JointLimits& limits,
                          const KinematicTree& tree);
 
-/// What `exceedsLimits` allows for rounding: a share of a limit, and metres or radians beyond a
-/// bound.
+/// The excess that `exceedsLimits` tolerates because of rounding: as a fraction of a limit, and as
+/// metres or radians beyond the bound of a position.
 inline constexpr double kLimitSlack = 0x1p-40;
 
-/// Returns whether the proved upper bound of a tested share is above 1 + kLimitSlack. (The limit
-/// may still be kept.) The rounding of an upper bound is below 2^-44 of it. A motion exactly at a
-/// limit may therefore have a bound above 1; so a share of up to 1 + kLimitSlack counts as kept.
-/// For the same reason, positions may be up to kLimitSlack beyond the bounds, less than the default
-/// tube.
+/// Returns whether the upper bound of a tested ratio is above 1 + kLimitSlack, or a position is
+/// more than kLimitSlack beyond its bounds. (The limit itself may still be kept, because the ratio
+/// is an upper bound.) The rounding of an upper bound is below 2^-44 of it. A motion exactly at a
+/// limit may therefore have a bound above 1; so a ratio of up to 1 + kLimitSlack counts as kept.
+/// For positions, kLimitSlack is less than the default tube.
 bool exceedsLimits(const LimitRatios& ratios);
-/// Returns whether all limits are kept at every instant: none is exceeded, and each that is given
-/// was tested.
+/// Returns whether all limits are kept at every instant: no limit is exceeded (`exceedsLimits`),
+/// and each limit that is given was tested.
 bool keepsLimits(const LimitRatios& ratios);
-/// Returns "kept", "exceeded" or "not tested". The last one means that no limit is exceeded, but
+/// Returns "kept", "exceeded" or "not tested". "not tested" means that no limit is exceeded, but
 /// some limits were not tested.
 const char* limitsVerdict(const LimitRatios& ratios);
 

@@ -6,18 +6,19 @@
 namespace corridor {
 namespace {
 
-/// An interval is halved if its middle exceeds a limit by more than this share. If an acceleration
-/// exceeds its limit by this share, emitRows stretches the time by about half of the share: a
-/// fourth of 0.1 %, the stretch that is acceptable.
+/// An interval is halved if the law exceeds a limit in its middle by more than this fraction. If an
+/// acceleration exceeds its limit by 5e-4, emitRows makes all times longer by about half of this
+/// fraction, 0.025 %. The aim is at most 0.1 %.
 constexpr double kGridExcess = 5e-4;
-/// An interval is halved if a jump of u at its end changes x by more than this share within the
-/// interval: the switch is then known up to about this share of x.
+/// An interval is halved if a jump of u at one of its ends would change x within the interval by
+/// more than this fraction. Where intervals are no longer halved, the position of the switch is
+/// therefore accurate to about this fraction of x.
 constexpr double kSwitch = 0.01;
-/// An interval is halved if x changes by a larger factor within it.
+/// An interval is halved if x changes by more than this factor within it.
 constexpr double kSteep = 2;
 constexpr int kRounds = 6;
 constexpr double kShortest =
-    1e-5;  ///< the shortest interval that is halved, as a share of its piece
+    1e-5;  ///< the shortest interval that is halved, as a fraction of its piece
 
 struct Node {
   std::size_t part = 0;
@@ -38,7 +39,8 @@ class RunGrid {
   bool isStraight() const { return straight_; }
   double length() const { return total_; }
 
-  /// Sets nodes at about `count` equal intervals in each run, and at least four in each piece.
+  /// Sets the nodes of about `count` equal intervals of the run, with at least four intervals in
+  /// each piece.
   void setUniform(int count) {
     nodes_.clear();
     for (std::size_t p = 0; p < run_.parts.size(); ++p) {
@@ -48,7 +50,7 @@ class RunGrid {
       for (int i = 0; i <= n; ++i) {
         const double tau = static_cast<double>(i) / n;
         nodes_.push_back(nodeAt(p, tau));
-        // From and to rest, ṡ varies fast.
+        // Near the ends of a run, where the robot is usually at rest, ṡ varies fast: more nodes.
         const bool first = p == 0 && i == 0, last = p + 1 == run_.parts.size() && i + 1 == n;
         for (int k = 1; k <= 5; ++k) {
           if (first) nodes_.push_back(nodeAt(p, std::ldexp(1.0 / n, k - 6)));
@@ -59,8 +61,9 @@ class RunGrid {
     fill();
   }
 
-  /// Sets nodes where the law on a straight line from `start` to `end` switches: there, x ≤ xMax
-  /// and |u| ≤ uMax have a closed form, and the law on these nodes is the optimum.
+  /// For a straight line, sets nodes where the optimal law from x = `start` to x = `end` switches.
+  /// The limits x ≤ xMax and |u| ≤ uMax are constant on the line, so the switches have a closed
+  /// form, and the law on these nodes is optimal.
   void setSwitches(double start, double end) {
     nodes_ = {nodeAt(0, 0), nodeAt(0, 1)};
     fill();
@@ -78,9 +81,11 @@ class RunGrid {
 
   Profile solve(double start, double end) const { return fastestProfile(grid_, start, end); }
 
-  /// Halves intervals. @returns whether any was halved.
+  /// Halves the intervals that need it (see the constants above). @returns whether any interval was
+  /// halved.
   bool refine(const Profile& profile) {
-    std::vector<bool> marked(nodes_.size(), false);  // interval i, from node i to i + 1
+    // Whether interval i, from node i to node i + 1, is halved.
+    std::vector<bool> marked(nodes_.size(), false);
     bool any = false;
     for (std::size_t i = 0; i + 1 < nodes_.size(); ++i) {
       const double width = grid_.s[i + 1] - grid_.s[i];
@@ -129,13 +134,15 @@ class RunGrid {
     return {part, tau, begins_[part] + tau * run_.parts[part].length};
   }
 
-  /// Whether x changes by a large factor within interval i, although it is not at rest at an end.
+  /// Returns whether x changes by more than the factor kSteep within interval i, and is above 0 at
+  /// both ends.
   bool steep(const Profile& profile, std::size_t i) const {
     const double low = std::min(profile.x[i], profile.x[i + 1]);
     return low > 0 && std::max(profile.x[i], profile.x[i + 1]) > kSteep * low;
   }
 
-  /// Whether u jumps by an amount that matters between interval i and one of its neighbours.
+  /// Returns whether u jumps between interval i and one of its neighbours, by more than kSwitch
+  /// allows. @param x the value that the change of x is compared with.
   bool jumps(const Profile& profile, std::size_t i, double x) const {
     const double width = grid_.s[i + 1] - grid_.s[i], u = profile.u[i];
     const auto differs = [&](std::size_t k) {
@@ -146,8 +153,9 @@ class RunGrid {
            (i + 2 < nodes_.size() && isWide(i + 1) && differs(i + 1));
   }
 
-  /// Whether interval i exceeds a limit of velocity in its middle, or one of acceleration at the
-  /// largest value of the parabola through both ends and the middle.
+  /// Returns whether interval i exceeds a limit of velocity in its middle, or a band in its middle
+  /// or at the extremum of the parabola through the band's values at both ends and in the middle.
+  /// `kGridExcess` is tolerated.
   bool exceeds(const Node& middle, std::size_t i, const Profile& profile) {
     const PathRun::Part& part = run_.parts[middle.part];
     const double x0 = profile.x[i], x1 = profile.x[i + 1], x = (x0 + x1) / 2, u = profile.u[i];
@@ -159,7 +167,7 @@ class RunGrid {
       const double g0 = grid_.a[left] * u + grid_.b[left] * x0, g = a_[k] * u + b_[k] * x,
                    g1 = grid_.a[right] * u + grid_.b[right] * x1;
       if (std::abs(g) > 1 + kGridExcess) return true;
-      // The parabola is g0 + slope·t + bend·t²; its largest or smallest value is at
+      // The parabola is g0 + slope·t + bend·t², for t in [0, 1]. Its extremum is at
       // −slope/(2·bend).
       const double slope = 4 * g - 3 * g0 - g1, bend = 2 * (g0 - 2 * g + g1);
       if (slope * bend < 0 && std::abs(slope) < 2 * std::abs(bend) &&

@@ -13,12 +13,15 @@ namespace corridor {
 struct RunLaw {
   std::vector<LawSegment> segments;  ///< times from 0
   Profile::Failure failure = Profile::Failure::none;
-  double lower = 0, upper = 0;  ///< of a failure: the range of ds/dt that is still possible there
-  std::size_t piece = 0;        ///< of a failure: the piece where it is
-  double tau = 0;               ///< of a failure: τ on that piece
+  double lower = 0, upper = 0;  ///< for a failure: ds/dt for `lower` and `upper` of Profile
+  std::size_t piece = 0;        ///< for a failure: its piece in the path
+  double tau = 0;               ///< for a failure: τ on that piece
 };
 
-/// @param start, end ds/dt at the ends; infinity: any.
+/// Returns the fastest law of a run on a grid, by reachability analysis, or a failure without
+/// segments.
+/// @param start, end ds/dt at the ends of the run; infinity: any rate.
+/// @param intervals the number of grid intervals before refinement.
 RunLaw fastestLaw(const PathView& view, const PathRun& run, const LimitBands& bands, double start,
                   double end, int intervals);
 

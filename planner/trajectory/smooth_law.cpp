@@ -10,16 +10,17 @@
 namespace corridor {
 namespace {
 
-/// Windows that are tried, as shares of the run's duration.
+/// Windows that are always tried, as fractions of the run's duration. smoothLaw also tries a window
+/// that follows from the limits of jerk.
 constexpr double kWindows[] = {0x1p-12, 0x1p-9};
-/// If the averaged law takes this much longer than the law without limits of jerk, a better one is
-/// searched for.
+/// If the averaged law takes longer than the law without limits of jerk by more than this factor,
+/// smoothLaw searches for a better law.
 constexpr double kMuchLonger = 1.01;
 
 /// A law of s over time, with constant s̈ between knots.
 struct PathMotion {
   std::vector<double> time, s, rate;  // at the knots
-  std::vector<double> acceleration;   // of each interval; one less
+  std::vector<double> acceleration;   // in each interval between two knots
 };
 
 PathMotion motionOf(const PathRun& run, const std::vector<LawSegment>& segments) {
@@ -40,13 +41,14 @@ PathMotion motionOf(const PathRun& run, const std::vector<LawSegment>& segments)
   return motion;
 }
 
-/// Walks through a PathMotion at ascending times. Before the first knot and after the last one, s
-/// is constant.
+/// Evaluates a PathMotion at ascending times. Before the first knot and after the last knot, s is
+/// constant.
 class Walk {
  public:
   explicit Walk(const PathMotion& motion) : motion_(motion) {}
-  /// Evaluates the motion at a time, in the interval that contains `inside`. (A knot plus and minus
-  /// the window may be off by rounding, so the side of the knot does not follow from the time.)
+  /// Evaluates the motion at `time`, with the polynomial of the interval that contains `inside`.
+  /// (`time` is usually at a knot, up to rounding, so it does not determine whether the interval
+  /// before or after the knot is meant.)
   void to(double time, double inside) {
     while (next_ < motion_.time.size() && motion_.time[next_] <= inside) ++next_;
     if (next_ == 0) {
@@ -70,12 +72,14 @@ class Walk {
   std::size_t next_ = 0;
 };
 
-/// Returns the times at which s̈ of the averaged motion has a bend.
+/// Returns the times at which the jerk of the averaged motion jumps: the knots of the motion, and
+/// these knots plus the window.
 std::vector<double> knotsOf(const PathMotion& motion, double window) {
   std::vector<double> knots;
   for (const double t : motion.time) knots.push_back(t), knots.push_back(t + window);
   std::sort(knots.begin(), knots.end());
-  // Segments between knots that are closer than this would have no influence.
+  // Knots that are at most `least` seconds apart become one knot: a segment between them would have
+  // no visible effect.
   const double least = 1e-7 * knots.back();
   std::vector<double> apart{knots.front()};
   for (const double t : knots)
@@ -84,8 +88,8 @@ std::vector<double> knotsOf(const PathMotion& motion, double window) {
   return apart;
 }
 
-/// Returns the smallest d in [0, most] at which the cubic reaches `target`. @pre the cubic is
-/// ascending.
+/// Returns the time d in [0, most] at which the cubic's `tau` reaches `target`. @pre The cubic
+/// ascends.
 double timeOf(const LawSegment& cubic, double target, double most) {
   double low = 0, high = most;
   for (int step = 0; step < 60; ++step) {
@@ -97,7 +101,7 @@ double timeOf(const LawSegment& cubic, double target, double most) {
   return (low + high) / 2;
 }
 
-/// Returns the averaged motion, as segments of the pieces.
+/// Returns the motion averaged over the window, as segments of a law; each segment is in one piece.
 std::vector<LawSegment> averaged(const PathRun& run, const PathMotion& motion, double window) {
   std::vector<LawSegment> result;
   Walk now(motion), then(motion);
@@ -149,14 +153,16 @@ std::vector<LawSegment> averaged(const PathRun& run, const PathMotion& motion, d
   return result;
 }
 
-/// Returns the fastest law of a straight line: constant jerks in seven intervals, or fewer. Empty
-/// if there is no limit of jerk, or if limits vary along the line.
+/// Returns the fastest law of a run that is a straight line: constant jerks in at most seven
+/// intervals. Returns an empty law for any other run, if there is no limit of jerk, or if a link's
+/// speed is limited.
 std::vector<LawSegment> straightLaw(const PathView& view, const PathRun& run,
                                     const JointLimits& limits) {
   if (run.parts.size() != 1 || !view.isStraight(run.parts[0].piece) || !limits.links.empty())
     return {};
   const std::size_t piece = run.parts[0].piece;
-  double v = INFINITY, a = INFINITY, j = INFINITY;  // of τ, which goes from 0 to 1
+  // Limits of the derivatives of τ, which goes from 0 to 1.
+  double v = INFINITY, a = INFINITY, j = INFINITY;
   Configuration first, second;
   view.derivatives(piece, 0, first, second);
   for (const LimitedNumbers& n : limitedNumbers(view.space())) {
@@ -167,7 +173,7 @@ std::vector<LawSegment> straightLaw(const PathView& view, const PathRun& run,
     j = std::min(j, limits.jerk[n.first] / way);
   }
   if (!std::isfinite(j)) return {};
-  double ramp = 0, steady = 0;  // durations of a constant jerk, and of the largest acceleration
+  double ramp = 0, steady = 0;  // durations of each constant jerk, and of the largest acceleration
   const auto setTop = [&](double top) {
     const bool isShort = top * j < a * a;
     ramp = isShort ? std::sqrt(top / j) : a / j;
@@ -203,7 +209,8 @@ std::vector<LawSegment> straightLaw(const PathView& view, const PathRun& run,
 double neededFactor(const PathView& view, const JointLimits& limits, const KinematicTree& tree,
                     const std::vector<LawSegment>& segments) {
   const std::vector<LimitedNumbers> numbers = limitedNumbers(view.space());
-  double velocity = 0, acceleration = 0, jerk = 0;  // the largest shares
+  // The largest ratios to the limits. `velocity` includes link speeds.
+  double velocity = 0, acceleration = 0, jerk = 0;
   Configuration first, second;
   for (const LawSegment& segment : segments) {
     for (int k = 0; k <= 2; ++k) {
@@ -226,7 +233,8 @@ double neededFactor(const PathView& view, const JointLimits& limits, const Kinem
              third * (rate * rate * rate) + second * (3 * rate * change) + first * segment.jerk,
              limits.jerk);
       }
-      if (!limits.links.empty() && k < 2)  // the end is the begin of the next segment, or at rest
+      // Not at the end of a segment (k = 2): it is the begin of the next segment, or at rest.
+      if (!limits.links.empty() && k < 2)
         for (const double share :
              linkSpeedShares(tree, limits.links, view.value(segment.piece, tau), first * rate))
           velocity = std::max(velocity, share);
@@ -265,7 +273,8 @@ std::vector<LawSegment> smoothLaw(const PathView& view, const PathRun& run,
     shortest = total;
   };
   for (const double share : kWindows) attempt(averaged(run, motion, share * duration));
-  double ramp = 0;  // the longest time in which a number reaches its acceleration
+  double ramp = 0;  // the longest time that the largest jerk of a component takes to reach its
+                    // limit of acceleration
   for (const LimitedNumbers& n : limitedNumbers(view.space()))
     if (std::isfinite(limits.acceleration[n.first]))
       ramp = std::max(ramp, limits.acceleration[n.first] / limits.jerk[n.first]);

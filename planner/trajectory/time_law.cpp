@@ -32,8 +32,8 @@ std::string checked(const PathView& view, const JointLimits& limits) {
   return "";
 }
 
-/// Returns why a path can't be passed through: a number moves, but its limit is not positive.
-/// Returns "" if there is no such number.
+/// Returns why a path can't be passed through: a component moves although its limit is not
+/// positive, or the speed limit of a link is not positive. Returns "" if neither is the case.
 std::string whyStuck(const PathView& view, const JointLimits& limits) {
   Configuration moves = Configuration::Zero(static_cast<Eigen::Index>(view.space().size()));
   for (std::size_t k = 0; k < view.path().size(); ++k) {
@@ -66,7 +66,7 @@ std::string whyStuck(const PathView& view, const JointLimits& limits) {
 }
 
 /// Returns the message for a failure of reachability analysis. @param rate the given dτ/dt at the
-/// start or end of the path. @param length ds/dτ there.
+/// start or end of the path. @param length ds/dτ at the same place.
 std::string faultOf(const RunLaw& law, double rate, double length) {
   const std::string place =
       "piece " + std::to_string(law.piece) + ", τ = " + shortest(law.tau) + ": ";
@@ -88,7 +88,7 @@ std::string faultOf(const RunLaw& law, double rate, double length) {
   }
 }
 
-/// Sets the shares of the time in which numbers use their limits.
+/// Sets `law.use`. The middle of each segment stands for the whole segment.
 void setUse(const PathView& view, const JointLimits& limits, TimeLaw& law) {
   law.use.assign(view.space().size(), {});
   Configuration first, second;
@@ -144,7 +144,8 @@ TimeLaw timeLaw(const std::vector<CurvePiece>& path, const ConfigurationSpace& s
     const PathRun& run = runs[k];
     const bool isFirst = k == 0, isLast = k + 1 == runs.size();
     const double startLength = run.parts.front().length, endLength = run.parts.back().length;
-    // Where the tangent is 0, the robot rests at any rate.
+    // Returns ds/dt at an end of a run; infinity: any. Where the tangent is 0 (`isFree`), the robot
+    // is at rest at any rate.
     const auto rateOf = [&](bool isEnd, double rate, double length, bool isFree) {
       if (isEnd && rate > 0) return rate * length;
       return isFree && !options.smooth ? INFINITY : 0.0;

@@ -16,12 +16,13 @@ namespace {
 
 using Real = long double;
 
-/// A controller that computes times in doubles, as seconds plus nanoseconds times 1e-9, is off by 3
-/// roundings at both ends of a piece, and by one in their difference: by at most 7·2^-53 of the
-/// larger time.
+/// The rounding of durations. A controller may compute times in doubles, as seconds plus
+/// nanoseconds times 1e-9. Then each of the two times of a piece has 3 roundings, and their
+/// difference has one. So the duration is off by at most 7·2^-53 of the larger time.
 constexpr Real kTimeRounding = 0x1p-50L;
 
-/// Adds a fault for each circle that jumps by more than half a turn between two rows.
+/// Adds a fault for each circle coordinate that turns by more than half a turn between row − 1 and
+/// row.
 void checkTurns(const TrajectoryRows& rows, std::size_t row, const ConfigurationSpace& space,
                 FaultList& faults) {
   for (const Coordinate& c : space.coordinates()) {
@@ -33,7 +34,7 @@ void checkTurns(const TrajectoryRows& rows, std::size_t row, const Configuration
         rows.file, rows.rows[row].line,
         c.name + " jumps from " + shortest(from) + " to " + shortest(to) +
             " rad, by more than half a turn: angles are literal; add or subtract whole turns "
-            "so that they go on, or add rows between");
+            "so that the angles continue, or add rows between");
   }
 }
 

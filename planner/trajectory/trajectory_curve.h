@@ -10,11 +10,12 @@
 
 namespace corridor {
 
-/// What a robot does between two rows of a trajectory.
+/// The curve of each component of a configuration between two rows of a trajectory.
 enum class RowInterpolation {
-  linear,  ///< every number is linear in time
+  linear,  ///< linear in time
   cubic,   ///< the cubic polynomial with the positions and velocities of both rows
-  quintic  ///< degree 5, with positions, velocities and accelerations of both rows
+  quintic  ///< the polynomial of degree 5 with the positions, velocities and accelerations of both
+           ///< rows
 };
 const char* nameOf(RowInterpolation between);
 
@@ -24,16 +25,20 @@ const char* nameOf(RowInterpolation between);
 /// @throws InputError if the file lacks the values that `wanted` needs.
 RowInterpolation interpolationOf(TrajectoryRows& rows, std::optional<RowInterpolation> wanted);
 
-/// Returns the curve that the rows mean, with one piece from each row to the next. Its knots are
-/// the times or, if the file has none, 0, 1, 2, … Angles are literal, and rotations go by slerp.
-/// curve_pieces.h derives the error of the pieces. This error includes the rounding of a
-/// controller's times, if the controller counts them in doubles from the begin of the file.
-/// @throws InputError with all faults: a circle that jumps by more than half a turn from one row to
-/// the next (which is a jump of the angle, not a motion); values that are too large.
+/// Returns the curve that the rows mean, with one piece from each row to the next. The knots are
+/// the times of the rows or, if the file has no times, 0, 1, 2, … Angles are literal, and rotations
+/// are interpolated by slerp. curve_pieces.h derives the error of the pieces. This error includes
+/// the rounding of a controller's times, if the controller counts them in doubles from the begin of
+/// the file.
+/// @throws InputError if a circle coordinate (a continuous joint, or a yaw) turns by more than half
+/// a turn from one row to the next, or if values are too large. Such a turn is a jump of the angle,
+/// not a motion. The error has the faults of the first faulty row, and says how many more rows have
+/// faults.
 Curve curveOf(const TrajectoryRows& rows, const ConfigurationSpace& space,
               RowInterpolation between);
 
-/// A place where a curve is outside of the bounds of a coordinate.
+/// A place where a curve is outside of the bounds of a coordinate, or could not be proved to be
+/// within.
 struct OutsideBounds {
   std::size_t coordinate = 0;  ///< in the space
   std::size_t piece = 0;
@@ -41,11 +46,11 @@ struct OutsideBounds {
   double value = 0;  ///< of the coordinate at t, m or rad
 };
 
-/// Proves that the line coordinates of a curve stay within their bounds everywhere, not only at its
-/// rows. For each coordinate of which this can't be proved, returns a place in the first piece that
-/// leaves the bounds (verify/polynomial_range.h). The rows themselves are compared exactly. Between
-/// them, a value is not outside if it is beyond a bound by at most the rounding of the piece's
-/// coefficients, which is below 2^-42 of them.
+/// Proves that the line coordinates (Coordinate::Kind::line) of a curve stay within their bounds
+/// everywhere, not only at the rows. For each coordinate for which the proof fails, returns a place
+/// in the first piece for which it fails (verify/polynomial_range.h). The rows themselves are
+/// compared exactly. Between the rows, the curve may be beyond a bound by the piece's error bound,
+/// or by 2^-42 of its largest coefficient if that is less.
 std::vector<OutsideBounds> outsideBounds(const ConfigurationSpace& space,
                                          std::span<const CurvePiece> pieces);
 

@@ -18,7 +18,8 @@ namespace {
 
 using Meaning = JointNames::Meaning;
 
-/// Returns the next line that is neither empty nor a comment, without blanks at its ends, or "".
+/// Removes lines from `text` up to the next line that is neither empty nor a comment, and returns
+/// this line without blanks at its ends. Returns "" if there is no such line.
 std::string_view nextLine(std::string_view& text) {
   while (!text.empty()) {
     const std::size_t end = text.find('\n');
@@ -31,8 +32,8 @@ std::string_view nextLine(std::string_view& text) {
   return {};
 }
 
-/// Returns whether a line belongs to YAML or JSON: a bracket, a key with a colon, or an item of a
-/// list.
+/// Returns whether a line looks like YAML or JSON: it begins with a bracket or a list item, or it
+/// has a key with a colon.
 bool isYamlLine(std::string_view line) {
   if (line.starts_with('{') || line.starts_with('[') || line.starts_with("---") ||
       line.starts_with("%YAML") || line == "-" || line.starts_with("- "))
@@ -43,7 +44,7 @@ bool isYamlLine(std::string_view line) {
          (colon + 1 == line.size() || line[colon + 1] == ' ' || line[colon + 1] == '\t');
 }
 
-/// Converts the rows of a table to rows of a space's numbers.
+/// Converts the rows of a table to rows of configurations.
 class RowMaker {
  public:
   RowMaker(const std::string& file, const Model& model, const JointNames& names)
@@ -212,7 +213,7 @@ class RowMaker {
   void checkHeld(double held, const std::string& name, const std::string& joint, std::size_t column,
                  const TrajectoryTable& table) {
     double lower = HUGE_VAL, upper = -HUGE_VAL;
-    const TrajectoryTable::Row* first = nullptr;  // the first row with another value
+    const TrajectoryTable::Row* first = nullptr;  // the first row whose value is not the held value
     for (const TrajectoryTable::Row& row : table.rows) {
       const double value = row.positions[column];
       lower = std::min(lower, value), upper = std::max(upper, value);

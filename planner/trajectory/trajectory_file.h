@@ -10,26 +10,29 @@
 
 namespace corridor {
 
-/// A row of a trajectory file: what the robot does at one time.
+/// A row of a trajectory file: the state of the robot at one time.
 struct TrajectoryRow {
-  int line = 0;     ///< in the file, counted from 1
-  double time = 0;  ///< seconds; of no meaning if the file has no times
-  /// In the order of the space's numbers: m, rad, quaternions as (x, y, z, w). The values are as
-  /// the file has them. Angles are literal: they are never reduced to one revolution.
+  int line = 0;     ///< the line in the file, counted from 1
+  double time = 0;  ///< seconds; meaningless if the file has no times
+  /// The components of a configuration, in the order of the space (`numberNames`): m, rad,
+  /// quaternions as (x, y, z, w). The values are those in the file. Angles are literal: they are
+  /// never reduced to one revolution.
   Configuration positions;
-  /// m/s, rad/s; and m/s², rad/s². Empty if the file has none. The numbers of a rotation are 0:
-  /// a file can't give them.
+  /// m/s and rad/s; m/s² and rad/s². Empty if the file has no velocities (accelerations). The
+  /// components of a rotation are 0, because a file can't give them.
   Configuration velocities, accelerations;
 };
 
-/// The content of a trajectory file: rows of a problem's numbers. planner/trajectory/README.md
-/// lists the formats.
+/// The content of a trajectory file: configurations of a problem, row by row.
+/// planner/trajectory/README.md lists the formats.
 struct TrajectoryRows {
   std::string file;                 ///< for messages
   std::vector<TrajectoryRow> rows;  ///< two or more
   bool timed = false;               ///< every row has a time; the times are strictly ascending
-  bool hasVelocities = false, hasAccelerations = false;  ///< accelerations: only with velocities
-  /// The file is a message for a controller. A controller begins with the robot's state at time 0.
+  /// A file with accelerations has velocities, too.
+  bool hasVelocities = false, hasAccelerations = false;
+  /// The file is a message for a controller. A controller begins at time 0, in the robot's state at
+  /// that time.
   bool isMessage = false;
   std::vector<Note> notes;  ///< on values that are not used, and on joints that mimic others
 };
@@ -46,17 +49,18 @@ TrajectoryFormat trajectoryFormatOf(std::string_view text);
 
 /// Returns the text of a file that describes a motion; "-" is the standard input.
 /// @param what the kind of file for messages: "a trajectory".
-/// @throws InputError as readTextFile and readTextStream (collision/core/read_file.h).
+/// @throws InputError for the same reasons as readTextFile and readTextStream
+/// (collision/core/read_file.h).
 std::string readMotionText(const std::filesystem::path& file, const std::string& what);
 
 /// Reads a trajectory of all joints that the model plans for.
-/// - Names are those of the space's numbers (`numberNames`), in any order. The robot's name before
-///   them ("left/pan") may be left out if only one robot has the joint.
+/// - The names in the file are those of the space (`numberNames`), in any order. The robot's name
+///   before them ("left/pan") may be left out if only one robot has the joint.
 /// - A joint that is held must have the value at which it is held, up to `limitSlack`
 ///   (planner/problem/urdf_robot.h). Otherwise the file is refused: a proof would be about another
 ///   robot.
-/// - A joint that mimics another one is not read. A note says so, and by how much the joint's
-///   values are off its rule.
+/// - The values of a joint that mimics another joint are not used. A note says so, and by how much
+///   the values differ from the mimic rule.
 /// @param file the name for messages.
 /// @param text a text of the format `rows` or `message`.
 /// @throws InputError with all faults; from the rows, only the faults of the first faulty row.

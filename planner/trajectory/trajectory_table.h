@@ -18,14 +18,15 @@ class JointNames {
  public:
   struct Meaning {
     enum class Kind {
-      number,  ///< a number of a Configuration
+      number,  ///< a component of a Configuration
       held,    ///< a single joint that is not planned for
       mimic,   ///< a joint that follows another joint
       other    ///< a joint that has no value of its own here: fixed, or a pose that is held
     };
     Kind kind = Kind::number;
-    std::size_t index = 0;  ///< of the number; for other kinds, of the joint in its robot
-    std::size_t robot = 0;  ///< in Model::robots; not for `number`
+    /// `number`: index into a Configuration; other kinds: index of the joint in its robot.
+    std::size_t index = 0;
+    std::size_t robot = 0;  ///< index into Model::robots; unused for `number`
     bool operator==(const Meaning&) const = default;
   };
 
@@ -37,7 +38,7 @@ class JointNames {
   /// right/pan"); else "".
   std::string ambiguous(const std::string& name) const;
   const std::vector<std::string>& known() const { return known_; }
-  /// Returns the names of the numbers of a Configuration, in its order.
+  /// Returns the names of the components of a Configuration, in their order.
   std::vector<std::string> numbers() const {
     return {known_.begin(), known_.begin() + static_cast<std::ptrdiff_t>(numberCount_)};
   }
@@ -45,7 +46,7 @@ class JointNames {
  private:
   std::map<std::string, Meaning> meanings_;
   std::map<std::string, std::vector<std::string>> short_;  // full names, by the short name
-  std::vector<std::string> known_;                         // full names, the numbers first
+  std::vector<std::string> known_;  // full names; those of kind `number` come first
   std::size_t numberCount_ = 0;
 };
 
@@ -56,7 +57,8 @@ struct TrajectoryTable {
     std::optional<double> time;
     std::vector<double> positions, velocities, accelerations;
   };
-  int namesLine = 0;  ///< 0: the file has no names, and the columns are the space's numbers
+  int namesLine = 0;  ///< the line of the names; 0: the file has no names, and its columns are the
+                      ///< components of a Configuration
   /// The name of each value of a row. If a table has no velocities, the list of their names is
   /// empty; the same holds for accelerations.
   std::vector<std::string> positions, velocities, accelerations;

@@ -6,7 +6,7 @@
 namespace corridor::verify {
 namespace {
 
-/// Exceeds the relative rounding of any sum of errors here.
+/// A computed sum of errors times this factor is an upper bound of the real sum.
 constexpr Real kUp = 1 + 0x1p-50L;
 
 /// A rounded result, and the absolute value of its rounding.
@@ -50,8 +50,9 @@ Bernstein derivativeOf(const Bernstein& polynomial, Real length, Real lengthErro
     const Rounded step = sumOf(polynomial.c[i + 1], -polynomial.c[i]);
     const Real product = n * step.value, result = product / length;
     // Let n be the degree, d the real difference and L the real length. The real result is n·d / L,
-    // and n·d − result·L = (n·d − product) + (product − result·length) + result·(length − L).
-    // `ofProduct` and the quotient's rounding are exact numbers.
+    // and n·d − result·L = (n·d − product) + (product − result·length) + result·(length − L). In
+    // the first term, n times the rounding of the difference is bounded by `ofDifference`. std::fma
+    // computes the rest of this term, and the second term, exactly.
     const Real ofDifference = n * (step.rounding + 2 * polynomial.error),
                ofProduct = std::abs(std::fma(n, step.value, -product)),
                ofQuotient = std::abs(std::fma(-result, length, product)),
@@ -69,8 +70,9 @@ std::array<Bernstein, 2> halvesOf(const Bernstein& polynomial) {
   std::array<Real, Bernstein::kLargestDegree + 1>& level = halves[1].c;
   Real error = polynomial.error;
   for (std::size_t k = 1; k <= n; ++k) {
-    // After k levels, level[i] holds the k-th average from i, for i ≤ n − k. The numbers after
-    // these are those of the right half already.
+    // After k levels of de Casteljau's algorithm, level[i] for i ≤ n − k is the average of level k
+    // that begins at coefficient i. The entries after these are already coefficients of the right
+    // half.
     Real most = 0;
     for (std::size_t i = 0; i + k <= n; ++i) {
       const Rounded sum = sumOf(level[i], level[i + 1]);

@@ -218,8 +218,8 @@ Number BodyDistance::boxGap(std::uint32_t a, std::uint32_t b, const PlacedBox<Nu
              : X.direction.dot(boxOfB.around.centre) - along.dot(boxOfB.around.half);
   gap = std::max(gap, startOfB - endOfA);
   if (gap >= enough) return gap;
-  // For a long triangle that is oblique to the axes, the slab along its normal gives a better bound
-  // than its box.
+  // For a long triangle that is oblique to the axes, the slab along the triangle's normal gives a
+  // better bound than the triangle's box.
   if (const std::uint32_t leaf = a_->node(a).leaf; leaf != BodyTree::noLeaf && !a_->hasParts())
     gap = std::max(gap, planeGap<Number>(a_->leaf(leaf).normal.template cast<Number>(),
                                          cornersA<Number>(leaf), boxOfB.around));

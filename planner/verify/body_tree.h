@@ -42,7 +42,7 @@ class BodyTree {
   std::size_t size() const { return nodes_.size(); }
   const LeafPrimitive& leaf(std::uint32_t i) const { return leaves_[i]; }
   bool hasParts() const { return leaves_[0].part != nullptr; }
-  /// Returns the distance of the farthest point from the origin, rounded up.
+  /// Returns the distance of the farthest point from the origin of the body's frame, rounded up.
   Real radius() const { return radius_; }
 
  private:
@@ -77,13 +77,13 @@ struct CentredBox {
 /// Computes distances of two bodies, with b placed in the frame of a. Owns the scratch memory.
 ///
 /// Boxes are compared in double, which takes a fraction of the time of long double. Let S be the
-/// sum of both radii and the distance of the two frames, and u = 2^-53. Every length that
-/// occurs is at most √3·S. A coordinate of a placed box takes the rounding of the placement, three
+/// sum of both radii and the distance of the two frames, and u = 2^-53. Every length that occurs is
+/// at most √3·S. A coordinate of a placed box is computed from the rounded placement by three
 /// products and three sums: it is off by less than 35u·S. The difference of two boxes along the
-/// axes of b takes another such step, so each of its coordinates is off by less than 90u·S, and its
-/// norm by less than 170u·S. Widths of slabs take fewer steps. `boxError_` is 512u·S. If a
-/// bound in double is within `boxError_` of the value with which it is compared, it is computed
-/// again in long double.
+/// axes of b is placed a second time in this way. So each coordinate of the difference is off by
+/// less than 90u·S, and its norm by less than 170u·S. Widths of slabs take fewer steps. `boxError_`
+/// is 512u·S. If a bound in double is within `boxError_` of the value with which it is compared, it
+/// is computed again in long double.
 class BodyDistance {
  public:
   /// Sets the bodies and their relative placement. Both trees must outlive all queries.
@@ -100,8 +100,8 @@ class BodyDistance {
   /// pairs and all tested pairs of leaf primitives. Let R be the rotation of X_AB. The box of a
   /// node of b, in a's frame, has the half extents |R|·(half extents) about the image of its
   /// centre. The caller must add all rounding, also that of the boxes in long double. The rounding
-  /// of the boxes is below 32u·S, with u = 2^-64: it consists of 3 sums of 3 products, and a root
-  /// of three squares.
+  /// of the boxes is below 32u·S, with u = 2^-64: it comes from 3 sums of 3 products, and from the
+  /// root of a sum of three squares.
   BodyGap measure(LeafPair guess, Real doubt, Real stop,
                   const std::function<bool(LeafPair)>& touches);
 
@@ -118,7 +118,7 @@ class BodyDistance {
 
   ConvexSet setA(std::uint32_t leaf) const;
   ConvexSet setB(std::uint32_t leaf) const;  ///< in a's frame
-  /// Returns the bounds of the distance of two leaf primitives. @param guess,enough as in
+  /// Returns the bounds of the distance of two leaf primitives. @param guess,enough see
   /// convexGap().
   DistanceBounds gap(LeafPair pair, const RealVec& guess = RealVec::Zero(),
                      Real enough = std::numeric_limits<Real>::infinity()) const;
@@ -160,11 +160,11 @@ class BodyDistance {
   template <class Number>
   PlacedBox<Number> placedBox(std::uint32_t node) const;
   const PlacedBox<double>& boxB(std::uint32_t node);  ///< computed once for each placement
-  /// Returns boxes that contain those of the two nodes.
+  /// Returns a box, along the axes of a, that contains the box of a node of a or of b.
   CentredBox aroundA(std::uint32_t node) const;
   CentredBox aroundB(std::uint32_t node);
-  /// Sets the direction of the slab to that of `between`, the vector between the closest points so
-  /// far.
+  /// Sets the direction of the slab that boxGap() tries. @param between the vector between the
+  /// closest points found so far.
   void lookAlong(const RealVec& between);
   /// Returns a lower bound of the distance of two nodes. Tries better and more expensive bounds
   /// until one reaches `enough`.
@@ -175,8 +175,8 @@ class BodyDistance {
   Item item(std::uint32_t a, std::uint32_t b, Real enough) { return {a, b, boxGap(a, b, enough)}; }
   /// Splits one node of a node pair into its children. @pre the two nodes are not both leaves.
   std::array<Item, 2> split(const Item& item, Real enough);
-  /// Returns a lower bound of the distance of a triangle and a box: the width of the slab along the
-  /// triangle's normal, for the box on either side.
+  /// Returns a lower bound of the distance of a triangle and a box: the width of the slab between
+  /// them along the triangle's normal. The box may be on either side of the triangle.
   template <class Number>
   static Number planeGap(const Vec<Number>& normal, const std::array<Vec<Number>, 3>& corners,
                          const Box<Number>& box);

@@ -8,8 +8,8 @@ namespace corridor::verify {
 namespace {
 
 constexpr int kMostSteps = 200;
-/// The search ends when upper and lower bound differ by less than this share of the norms of the
-/// farthest points. The rounding of the bounds is nearly as large.
+/// The search ends when upper and lower bound differ by less than this fraction of the norms of the
+/// farthest points. The rounding of the bounds is nearly as large as this difference.
 constexpr Real kFine = 0x1p-58L;
 
 /// A corner of the difference B − A, and the two points whose difference it is.
@@ -126,8 +126,8 @@ DistanceBounds convexGap(const ConvexSet& a, const ConvexSet& b, const RealVec& 
         }))
       break;  // no progress is possible
     corners.push_back(corner);
-    // If a point of the new hull is nearer than the last point, it has a positive weight at the new
-    // corner. So only subsets with the new corner are tried.
+    // If a point of the new hull is nearer to the origin than the nearest point so far, it has a
+    // positive weight at the new corner. So only subsets with the new corner are tried.
     Nearest best;
     best.square = length * length;
     const unsigned newest = 1u << (corners.size() - 1);

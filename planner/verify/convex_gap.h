@@ -27,8 +27,8 @@ struct ConvexSet {
 ConvexSet placed(const ConvexPart& part, const Placement& placement);
 
 /// Returns a lower and an upper bound of the distance of two convex sets, as DistanceBounds
-/// describes: `upper` by witness points, `lower` by the width of a slab. A slab in any direction
-/// gives a true bound.
+/// describes: `upper` is the distance of the witness points, `lower` the width of a slab. A slab in
+/// any direction gives a true bound.
 ///
 /// Method (Gilbert, Johnson, Keerthi 1988): finds the point of least norm in the difference of the
 /// two sets without their swept spheres. Each step has at most four corners of this difference, and

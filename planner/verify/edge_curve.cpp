@@ -30,8 +30,8 @@ RealVec axisOf(const Frame& frame) {
   return frame.axis.cast<Real>().normalized();
 }
 
-/// Returns whether the circle moves the frame such that the frame has another pose after a full
-/// turn of the circle.
+/// Returns whether the circle moves the frame, and a full turn of the circle leaves the frame in
+/// another pose.
 bool leavesCircle(const Frame& frame, const Coordinate& circle) {
   if (frame.joint == Frame::Joint::none || frame.variable != circle.first) return false;
   return frame.joint != Frame::Joint::revolute || frame.multiplier != std::trunc(frame.multiplier);
@@ -77,8 +77,8 @@ EdgeCurve::EdgeCurve(const KinematicTree& tree, const std::vector<Coordinate>& c
     const auto i = static_cast<Eigen::Index>(c.first);
     const bool circle = c.kind == Coordinate::Kind::circle;
     const Real way = circle ? circleDifference(from[i], to[i]) : Real(to[i]) - Real(from[i]);
-    // `way` is off by u·|way|, or by 32u for a circle. Each product and each sum is off by u
-    // times its value.
+    // `way` is off by u·|way|, or by 32u for a circle. Each product and each sum is off by u times
+    // the absolute value of its result.
     Number& number = numbers_[c.first];
     number.from = from[i];
     number.way = way;

@@ -29,7 +29,7 @@ struct FrameState {
 struct Perturbation {
   struct Twist {
     RealVec linear = RealVec::Zero(), angular = RealVec::Zero();
-    /// Index in a configuration. All joints that this number moves share one twist.
+    /// Index of a number in a configuration. All joints that this number moves share one twist.
     std::size_t number = 0;
   };
   struct PivotRotation {
@@ -78,13 +78,13 @@ std::size_t commonAncestor(const KinematicTree& tree, std::size_t a, std::size_t
 /// rotation is a rotation by at most τ about any axis, after the rotation of the slerp. Two
 /// successive rotations about one point have the same R. They are bounded like one rotation by the
 /// sum of their angles.) So x differs from x(t) + Σ a_j ∂x/∂q_j(t) by at most half of the first
-/// line of `bend`, computed with |s| V_j + τ_j. This line is a quadratic form in these numbers.
+/// line of `bend`, computed with |s| V_j + τ_j. This first line is a quadratic form in the V_j.
 /// Moreover, |q_j(t + s) − q_j(t) − s q_j'(t)| ≤ s² A_j / 2. So Σ a_j ∂x/∂q_j(t) differs from s
 /// x'(t) + Σ δ_j ∂x/∂q_j(t) by at most half of s² times the second line. Hence
 ///   |x − x(t) − s x'(t) − Σ δ_j ∂x/∂q_j(t)| ≤ (s² bend + |s| bendCross + bendTube) / 2.
 ///
-/// The values of all joints stay, during this linear motion too, within the range that R_j assumes:
-/// the range of their values is convex, and R_j includes τ_j.
+/// R_j assumes a range of joint values. During this linear motion, too, all joints stay within this
+/// range: the range is convex, and includes τ_j.
 struct Reach {
   Real speed = 0, bend = 0, tube = 0;
   Real bendCross = 0;  ///< the mixed terms of V and τ in the quadratic form
@@ -109,9 +109,10 @@ struct Segment {
   std::size_t index = 0;
 };
 
-/// The curve of an edge, as ConfigurationSpace defines it, in the verifier's own arithmetic. Lines
-/// are linear in t. Circles go the shorter way round. Rotations are the slerp of the quaternions,
-/// normalised in real arithmetic, along the shorter arc. Frames follow by forward kinematics on the
+/// The curve of an edge, as ConfigurationSpace defines it, in the verifier's own arithmetic. There
+/// are three kinds of coordinates. Lines (bounded numbers) are linear in t. Circles (angles without
+/// bounds) go the shorter way round. Rotations (quaternions) are the slerp along the shorter arc,
+/// with the quaternions normalised in real arithmetic. Frames follow by forward kinematics on the
 /// tree's stored doubles, with quaternions and axes normalised.
 ///
 /// The object may also be the curve of a CurvePiece, as CurvePiece defines it, with t = τ. The
@@ -145,12 +146,13 @@ class EdgeCurve {
   EdgeCurve(const KinematicTree& tree, const std::vector<Coordinate>& coordinates,
             const CurvePiece& piece);
 
-  /// Returns whether the shorter way round is not unique within 1e-9 rad. Then the edge defines no
-  /// curve.
+  /// Returns whether a rotation, or a circle of an edge, makes a half turn, within 1e-9 rad. The
+  /// shorter way round is then not defined, so the edge or piece defines no curve.
   bool ambiguous() const { return ambiguous_; }
-  /// Returns whether a joint would jump. Then the edge defines no curve. A joint jumps if it mimics
-  /// a circle that crosses its seam at ±π, and has another pose after a full turn of the circle.
-  /// Such a joint is prismatic, or revolute with a multiplier that is not a whole number.
+  /// Returns whether a joint would jump. The edge then defines no curve. A joint jumps if two
+  /// conditions hold: it mimics a circle that crosses the seam at ±π on the edge; and a full turn
+  /// of this circle leaves the joint in another pose. Such a joint is prismatic, or revolute with a
+  /// multiplier that is not a whole number.
   bool jumps() const { return jumps_; }
   FrameState at(const KinematicChain& chain, Real t) const;
   Perturbation perturbationAt(const KinematicChain& chain, Real t, const Configuration& tube) const;
@@ -170,7 +172,7 @@ class EdgeCurve {
   };
   /// Bounds of a number of the configuration, or of a joint's value, in one segment.
   struct Bounds {
-    Real value = 0, rate = 0, bend = 0;  ///< of the value and its first and second derivative
+    Real value = 0, rate = 0, bend = 0;  ///< of the value, its 1st and its 2nd derivative
     Real terms = 0;                      ///< as Number::terms
   };
   struct Arc {

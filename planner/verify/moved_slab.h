@@ -51,9 +51,9 @@ BodyMotion motionSeenFrom(const Placement& at, const FrameState& state, Perturba
 /// these bounds may not be attained.
 ///
 /// A direction that turns. A face that turns about its closest point stays beside the other body.
-/// Its far corners cross every slab of a fixed direction, unless the interval is as short as gap /
-/// (length of the face · rate). So the direction may be n(s) = n + s·m, with m = turn × n. For the
-/// core points x of A and y of B,
+/// The face's far corners cross every slab of a fixed direction, unless the interval is as short as
+/// gap / (length of the face · rate). So the direction may be n(s) = n + s·m, with m = turn × n.
+/// For the core points x of A and y of B,
 ///   n(s)·(y(s) − x(s)) = n·(y − x) + s·(n·(v(y) − v(x)) + m·(y − x)) + s²·m·(v(y) − v(x)),
 /// except for the terms that Reach bounds. The term m·(y − x) is affine, and is added to the
 /// velocities. The last term and the tube along s·m are at most half·|m|·displacement. Let W be the
@@ -114,8 +114,8 @@ struct PairMotion {
 /// Thresholds for a lower bound of the clearance, metres.
 struct Sought {
   Real needed = 0;  ///< a bound of this or less is useless
-  Real little = 0;  ///< above `needed`; a bound of this is enough if `wanted` costs too much
-  Real wanted = 0;  ///< a larger bound is of no use
+  Real little = 0;  ///< > `needed`; such a bound is enough if `wanted` costs too much
+  Real wanted = 0;  ///< > `little`; a bound above this is of no more use than this
 };
 
 /// Returns a lower bound of the clearance of two bodies, for the whole interval and tube. Each near

@@ -201,8 +201,8 @@ PairProver::PairReach PairProver::reachOf(std::size_t edge, std::size_t pair,
                                           const Configuration& error) const {
   PairReach reach;
   reach.sum = sumOf(edge, pair, tubes_[edge], {});
-  // 2^-50·size = 2^14·u·size for each chain. The relative placement, the boxes (32u), the slabs
-  // (16u) and the displacements together add no more than that.
+  // Each chain has a rounding of up to 2^-50·size = 2^14·u·size. The relative placement, the boxes
+  // (32u), the slabs (16u) and the displacements together add at most as much again.
   reach.rounding = 0x1p-49L * reach.sum.size;
   if (!error.isZero(0)) reach.stray = sumOf(edge, pair, error, {}).tube;
   reach.sharp =
@@ -243,7 +243,7 @@ const FrameState& PairProver::stateOf(std::size_t edge, std::size_t chainIndex, 
 /// translation, and the other body is fixed in the base. The tube can displace the first body in
 /// any direction (of the plane, for a planar translation) by the smallest number of the
 /// translation's tube. The real curve may keep a larger distance, by up to the displacement that
-/// the piece's `error` allows. The result includes this displacement.
+/// the piece's `error` allows. This displacement is added to the result.
 Real PairProver::leastInTube(std::size_t edge, std::size_t pair, const Measured& m) const {
   const RealVec between = m.gap.onB - m.gap.onA;
   const auto isFixed = [&](std::size_t chain) {
@@ -417,7 +417,8 @@ std::optional<Vec3> PairProver::pointInside(std::size_t solid, std::size_t other
   }
   const BodyTree::Node& box = treeOf(solid).node(0);
   const RealVec lower = box.lower.cast<Real>(), upper = box.upper.cast<Real>();
-  // A point outside of the box is outside of the mesh. The margin is far above all rounding.
+  // A point outside of the mesh's bounding box is outside of the mesh. `margin` is far above all
+  // rounding.
   const Real size = lower.norm() + upper.norm() + X_SolidOther.position.norm();
   for (const Vec3& point : points) {
     const RealVec p = X_SolidOther.rotation * point.cast<Real>() + X_SolidOther.position;

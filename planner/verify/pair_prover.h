@@ -34,7 +34,7 @@ struct OpenPair {
 struct PairAnswer {
   /// - proved: `bound` exceeds the margin and padding.
   /// - refuted: `reason` says why.
-  /// - undecided: not even a shorter interval about the same middle can be proved; `reason` says
+  /// - undecided: no shorter interval about the same middle can be proved, either; `reason` says
   ///   why.
   /// - empty: halve the interval.
   std::optional<PathVerdict> verdict;
@@ -46,7 +46,7 @@ struct PairAnswer {
   LeafPair closest;                 ///< the closest pair of leaf primitives at the middle
   RealVec point = RealVec::Zero();  ///< a contact, or the closest point of b; in a's frame
   const char* reason =
-      nullptr;  ///< without a verdict: why, if the interval can't be halved any more
+      nullptr;  ///< without a verdict: the reason to report if the interval can't be halved
 };
 
 /// Decides one pair of bodies in one time interval of one edge. verifyPath() calls it for
@@ -65,9 +65,10 @@ class PairProver {
 
   std::size_t edges() const { return curves_.size(); }
   std::size_t pairs() const { return pairs_.size(); }
-  /// Returns the finding `refuted` if the edge defines no curve: an end is not a state, a half turn
-  /// is ambiguous, or a joint jumps. Also returns it if a piece does not begin where the piece
-  /// before it ends. Such an edge must not be passed to the functions below.
+  /// Returns a finding `refuted` if the edge defines no curve, else nullopt. An edge defines no
+  /// curve if an end is not a state, a half turn is ambiguous, or a joint jumps; a piece also if it
+  /// does not begin where the piece before it ends. Such an edge must not be passed to the
+  /// functions below.
   const std::optional<PathFinding>& noCurve(std::size_t edge) const { return noCurve_[edge]; }
 
   /// Decides a pair of bodies in an interval.
@@ -75,7 +76,8 @@ class PairProver {
   PairAnswer decide(const TimeInterval& interval, const OpenPair& open, Real usefulBound);
 
   /// Refutes a pair if, at t = 0 of the first edge, a point of one body is inside the other body,
-  /// which is a solid mesh. Returns nullopt otherwise. @pre the bodies do not touch there.
+  /// and this other body is a solid mesh. Returns nullopt otherwise. @pre the bodies do not touch
+  /// there.
   std::optional<PairAnswer> insideAtStart(std::size_t pair);
 
   /// Returns the finding that reports an answer. @pre the answer has a verdict.
@@ -128,8 +130,8 @@ class PairProver {
   /// Measures the distance of the placed bodies.
   void measure(const PairReach& reach, std::size_t pair, LeafPair guess, Real stop, Measured& m);
   /// Returns an upper bound of the second-order terms, which reduce the distance in an interval in
-  /// any direction. If the tube does not matter (`tubeMatters`), it includes the whole displacement
-  /// by the tube.
+  /// any direction. If the tube does not matter (`tubeMatters`), the result includes the whole
+  /// displacement by the tube.
   Real secondOrder(const Reach& reach, Real half) const;
   /// Returns a lower bound of the clearance by boundBySlabs().
   Real boundPiecewise(const TimeInterval& interval, std::size_t pair, const Measured& m,

@@ -12,9 +12,10 @@ namespace {
 /// from the polynomial's values by 2^-120 of the second derivative. This is far less than one
 /// rounding of the coefficients.
 constexpr int kDepth = 60;
-/// A polynomial of degree 9 touches its limits at 10 times at most. Around each of them there are
-/// two intervals of each length. Only a polynomial that stays within rounding of a limit all along
-/// needs more halvings.
+/// The maximum number of halvings; a part that would need more is undecided. A polynomial of degree
+/// 9 touches its limits at 10 times at most. Around each of these times there are two intervals of
+/// each length. Only a polynomial that stays within rounding of a limit over a whole interval needs
+/// more halvings.
 constexpr int kMostHalvings = 4000;
 
 struct Part {
@@ -29,8 +30,8 @@ RangeAnswer rangeOf(const Bernstein& polynomial, Real lower, Real upper) {
   RangeAnswer answer;
   /// Returns by how much a value is beyond the limits; negative inside.
   const auto beyond = [&](Real value) { return std::max(value - upper, lower - value); };
-  // A difference is rounded once, so its sign is right. Where it is compared with `error`, a factor
-  // covers this rounding.
+  // A difference is rounded once, so its sign is right. Where the difference is compared with
+  // `error`, a factor covers this rounding.
   constexpr Real up = 1 + 0x1p-50L, down = 1 - 0x1p-50L;
   const auto record = [&](RangeAnswer::Verdict verdict, Real at, Real value) {
     answer = {verdict, at, value};

@@ -9,10 +9,10 @@ struct RangeAnswer {
   enum class Verdict {
     /// The real polynomial is within [lower, upper] for every τ in [0, 1]. Never wrong.
     within,
-    /// It is not, at τ = `at`. Never wrong.
+    /// The real polynomial is beyond a limit at τ = `at`. Never wrong.
     exceeded,
-    /// At τ = `at` it is so close to a limit that rounding, or the polynomial's own `error`,
-    /// decides.
+    /// The polynomial was not shown to exceed a limit, but near τ = `at` it is so close to a limit
+    /// that rounding, or the polynomial's own `error`, decides.
     undecided,
   };
   Verdict verdict = Verdict::within;
@@ -21,8 +21,9 @@ struct RangeAnswer {
 };
 
 /// Decides whether a polynomial stays within [lower, upper] on [0, 1]. Both limits are inclusive,
-/// and may be infinite. A limit of positions takes the piece's coefficients as they are. A limit of
-/// velocities or accelerations takes derivativeOf() with the piece's duration, once or twice.
+/// and may be infinite. To test a limit of positions, pass a piece's coefficients. To test a limit
+/// of velocities or accelerations, pass the result of derivativeOf() with the piece's duration,
+/// applied once or twice.
 ///
 /// Method (Lane, Riesenfeld 1980): the polynomial is within its coefficients' range. If this range
 /// is not within the limits, and no end of the interval is beyond them, the interval is halved. The
@@ -31,9 +32,9 @@ struct RangeAnswer {
 /// Halving ends where no coefficient is beyond the limit by more than Bernstein::error. In such an
 /// interval, no value can be shown to exceed the limit.
 ///
-/// A piece that starts or ends exactly on a limit, and turns inwards there, is usually decided: its
-/// first and last coefficient are its values. If sums of its coefficients are rounded, `undecided`
-/// is possible there, too.
+/// A piece that starts or ends exactly on a limit, and turns inwards there, is usually decided: the
+/// first and the last coefficient are the exact values at the ends. If sums of coefficients are
+/// rounded, `undecided` is possible at such an end, too.
 /// @pre all coefficients are finite; lower ≤ upper.
 RangeAnswer rangeOf(const Bernstein& polynomial, Real lower, Real upper);
 

@@ -17,7 +17,7 @@ void keepCloser(DistanceBounds& best, const RealVec& onA, const RealVec& onB) {
 
 /// Tries the closest points p + t·d1 and r + u·d2 of two segments (Ericson, Real-Time Collision
 /// Detection, 5.1.9). If the segments are nearly parallel, rounding may make the first value of t
-/// arbitrary. So the best u is computed for it, and then the best t for this u.
+/// arbitrary. So the best u is computed for this t, and then the best t for this u.
 void edgeEdge(DistanceBounds& best, const RealVec& p, const RealVec& q, const RealVec& r,
               const RealVec& s) {
   const RealVec d1 = q - p, d2 = s - r, w = p - r;
@@ -29,7 +29,8 @@ void edgeEdge(DistanceBounds& best, const RealVec& p, const RealVec& q, const Re
   keepCloser(best, p + t * d1, r + u * d2);
 }
 
-/// Computes the foot of `p` on the plane of `t`. @returns whether it is inside the triangle.
+/// If the orthogonal projection of `p` onto the plane of the triangle `t` is inside the triangle,
+/// sets `foot` to this projection. @returns whether it is inside.
 bool footInside(const RealVec& p, const RealVec t[3], RealVec& foot) {
   const RealVec normal = (t[1] - t[0]).cross(t[2] - t[0]);
   const Real square = normal.squaredNorm();
@@ -42,8 +43,8 @@ bool footInside(const RealVec& p, const RealVec t[3], RealVec& foot) {
 }
 
 /// Returns the width of the widest slab along these directions: the normals of the triangles, the
-/// cross products of their edges, and the normals of edges in the planes of the triangles. This is
-/// needed for triangles that are so thin that their computed closest points are wrong.
+/// cross products of their edges, and the normals of edges in the planes of the triangles. These
+/// slabs are needed for triangles that are so thin that their computed closest points are wrong.
 Real widestSlab(const RealVec a[3], const RealVec b[3]) {
   const RealVec normalA = (a[1] - a[0]).cross(a[2] - a[0]);
   const RealVec normalB = (b[1] - b[0]).cross(b[2] - b[0]);

@@ -27,14 +27,15 @@ using RealMat = Eigen::Matrix<Real, 3, 3>;
 /// O(u)). The difference of two dot products adds u·2|n|S, and the division by |n| a factor 1 ± 4u.
 /// So `lower` exceeds the true distance of the given triangles by less than (3 + 3 + 2 + 8)u·S =
 /// 2^-60·S. `upper` may be below the distance of the witness points, also by less than 2^-60·S.
-/// Callers add this error.
+/// Callers must account for this error.
 struct DistanceBounds {
   Real lower = 0;
   Real upper = std::numeric_limits<Real>::infinity();
   RealVec onA = RealVec::Zero(), onB = RealVec::Zero();
 };
 
-/// Returns the width of the slab along `direction`, which may have any length; 0 if it is zero.
+/// Returns the width of the slab along `direction`, a vector of any length; 0 if `direction` is
+/// zero.
 Real slabWidth(const RealVec a[3], const RealVec b[3], const RealVec& direction);
 
 DistanceBounds triangleGap(const RealVec a[3], const RealVec b[3]);

@@ -20,13 +20,13 @@ constexpr int kFindings = 100;
 /// rounding allow 63 bits.
 constexpr int kDepth = 60;
 /// An edge is first halved into 2^kCoarse intervals. In this phase the interval with the smallest
-/// estimate is halved next: this order finds a deep collision quickly. Afterwards the shortest
-/// interval is halved next: this order goes deep first, so it finds an undecidable place without
-/// halving all other intervals to the same length.
+/// estimate is always halved next: this order finds a deep collision quickly. Afterwards the
+/// shortest interval is always halved next: this depth-first order finds an undecidable time
+/// without halving all other intervals to the same length.
 constexpr int kCoarse = 5;
 /// After the proof, the bound of the clearance is refined. The refinement may take kRefinement
-/// queries, plus four times the number of queries of the proof. It ends when the bound reaches the
-/// share kRefined of the largest possible bound.
+/// queries, plus four times the number of queries of the proof. It ends when the bound reaches
+/// kRefined times the largest possible bound.
 constexpr std::uint64_t kRefinement = 4000;
 constexpr Real kRefined = 0.9L;
 /// The search for the first contact may take as many queries as the refinement. It ends at
@@ -97,7 +97,8 @@ class Verifier {
     return found != findings_.end() &&
            (found->second.verdict == PathVerdict::refuted || outOfWork());
   }
-  /// A larger bound than this would not change the reported clearance. It never increases.
+  /// Returns a bound of the clearance; larger bounds would not change the reported clearance. The
+  /// result never increases from call to call.
   Real usefulBound() const { return goalFor(smallest_); }
   /// Returns the clearance at which refining ends, if the clearance is at most `most`.
   Real goalFor(Real most) const {
@@ -281,7 +282,7 @@ PathReport Verifier::run() {
   const auto refuted = std::find_if(findings_.begin(), findings_.end(), [](const auto& each) {
     return each.second.verdict == PathVerdict::refuted;
   });
-  // Only a finding with two bodies has a first contact. A finding about an edge that defines no
+  // Only a finding about two bodies has a first contact; a finding about an edge that defines no
   // curve has none.
   if (refuted != findings_.end() && !refuted->second.a.empty() && !single_)
     findFirst(refuted->second);
@@ -293,8 +294,8 @@ PathReport Verifier::report() const {
   report.edges = static_cast<int>(prover_.edges());
   report.edgesProved = report.edges - static_cast<int>(findings_.size());
   if (findings_.empty()) {
-    // Every proved pair that isn't in `proved_` had a bound of at least `usefulBound()`, which
-    // never increases.
+    // A proved pair that is not in `proved_` had a bound of at least `usefulBound()`, and
+    // `usefulBound()` never increases.
     Real least = single_ ? leastAtStates_ : usefulBound();
     if (!proved_.empty()) least = std::min(least, proved_.top().bound);
     least = std::max<Real>(least, problem_.margin);

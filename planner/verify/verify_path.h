@@ -15,8 +15,8 @@
 namespace corridor {
 
 /// The verifier proves or refutes a path of all robots of a problem. It is independent of the
-/// planner's checker. The two share only the plain data of meshes, parts, frames and coordinates.
-/// They share no bound, pose, tree, distance or predicate.
+/// planner's checker: the verifier and the checker share only the plain data of meshes, parts,
+/// frames and coordinates. They share no bound, pose, tree, distance or predicate.
 ///
 /// The method is adaptive bisection (Schwarzer, Saha, Latombe 2005). At the middle of a time
 /// interval of an edge, the distance d of two bodies is bounded from below. Take any point of one
@@ -121,9 +121,11 @@ struct PathFinding {
   std::string a, b;
   /// Indices of the triangles in the meshes, or of the convex parts in the bodies.
   std::uint32_t triangleA = 0, triangleB = 0;
-  Vec3 point = Vec3::Zero();  ///< the contact, or the closest point of `b`; metres, world
-  double gap = 0;             ///< distance of the two bodies at t, metres; 0: contact
-  std::string reason;         ///< a few words: "contact", "ambiguous half turn", …
+  /// A point of contact, a point of one body inside the other, or the closest point of `b`; metres,
+  /// in the world frame.
+  Vec3 point = Vec3::Zero();
+  double gap = 0;      ///< distance of the two bodies at t, metres; 0: contact, or inside
+  std::string reason;  ///< a few words: "contact", "ambiguous half turn", …
 };
 
 struct PathReport {
@@ -147,8 +149,9 @@ struct PathReport {
   std::uint64_t distanceQueries = 0;
 };
 
-/// Verifies a path through `states`. For a path of one state, this state is verified. The caller
-/// must check the bounds of the variables, and that start and goal are those of the problem.
+/// Verifies a path through `states`. If there is only one state, it is verified alone. The caller
+/// must check that all states are within their bounds, and that the first and the last state are
+/// the problem's start and goal.
 ///
 /// A state that is not finite, or has a zero quaternion, gives the finding `refuted`. If the
 /// processor's floating-point mode makes the bounds invalid (collision/core/floating_point.h),

@@ -24,7 +24,8 @@ std::vector<std::vector<std::uint32_t>> componentsOf(const TriangleMesh& mesh) {
     while (root[i] != i) i = root[i] = root[root[i]];
     return i;
   };
-  // Each edge of the mesh, as the numbers of its two ends, with one triangle that has this edge.
+  // For each edge of the mesh, the key is the pair of indices of its two ends, and the value is one
+  // triangle that has this edge.
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> edges;
   for (std::uint32_t t = 0; t < root.size(); ++t) {
     for (int i = 0; i < 3; ++i) {

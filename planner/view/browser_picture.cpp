@@ -24,8 +24,8 @@ extern char** environ;
 namespace corridor {
 namespace {
 
-/// Time limit in seconds. A page of a million triangles takes about ten seconds without a graphics
-/// card.
+/// The time limit for the browser, seconds. Without a graphics card, a page of a million triangles
+/// takes about ten seconds.
 constexpr int kPatience = 180;
 
 /// A temporary folder for one picture. It is removed with all files that the browser leaves in it.
@@ -49,7 +49,8 @@ class WorkFolder {
   WorkFolder& operator=(const WorkFolder&) = delete;
   ~WorkFolder() {
     std::error_code ignored;
-    // Processes of the browser that were killed may still write a last file.
+    // Processes of the browser that were killed may still be writing files, so removing is
+    // repeated.
     for (int i = 0; i < 100 && std::filesystem::exists(path_, ignored); ++i) {
       if (i > 0) std::this_thread::sleep_for(std::chrono::milliseconds(10));
       std::filesystem::remove_all(path_, ignored);
@@ -61,7 +62,7 @@ class WorkFolder {
   std::filesystem::path path_;
 };
 
-/// Returns the contents of a file that the browser wrote; "" if it can't be read.
+/// Returns the contents of a file that the browser wrote, or "" if the file can't be read.
 std::string contents(const std::filesystem::path& file) {
   try {
     return readFile(file, "a file of the browser");
@@ -70,12 +71,13 @@ std::string contents(const std::filesystem::path& file) {
   }
 }
 
-/// Returns whether a picture is complete: on a full disk browsers leave an incomplete file.
+/// Returns whether the bytes are a complete PNG: if the disk is full, browsers leave an incomplete
+/// file.
 bool isWholePng(const std::string& png) {
   return png.starts_with("\x89PNG") && png.ends_with("IEND\xAE\x42\x60\x82");
 }
 
-/// Returns a file's URL: bytes other than letters, digits and /-_. are escaped.
+/// Returns the URL of a file: all bytes except letters, digits and the characters /-_. are escaped.
 std::string fileUrl(const std::filesystem::path& path) {
   constexpr std::string_view digits = "0123456789ABCDEF";
   std::string url = "file://";
@@ -89,9 +91,9 @@ std::string fileUrl(const std::filesystem::path& path) {
   return url;
 }
 
-/// Returns the environment with TMPDIR set to this folder, because Chromium leaves files in TMPDIR
-/// when it is killed. One of them is a socket, whose path can have at most 107 bytes. If the
-/// folder's name is too long for that, TMPDIR is unchanged.
+/// Returns the environment for the browser, with TMPDIR set to `folder`: Chromium leaves files in
+/// TMPDIR when it is killed. One of these files is a socket, and the path of a socket has at most
+/// 107 bytes. If the name of `folder` is too long for that, TMPDIR is unchanged.
 std::vector<std::string> environmentIn(const std::filesystem::path& folder) {
   constexpr std::size_t kLongest =
       107 - std::string_view("/org.chromium.Chromium.XXXXXX/SingletonSocket").size();
@@ -142,7 +144,7 @@ bool writePicture(const std::string& page, const std::filesystem::path& browser,
   writeWhole(html, page);
   std::vector<std::string> words = {
       browser.string(), "--headless", "--hide-scrollbars", "--no-first-run",
-      // WebGL on the processor: the same picture with any graphics card, or none.
+      // WebGL is computed by the processor, so the picture does not depend on the graphics card.
       "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--force-device-scale-factor=1",
       "--disable-dev-shm-usage", "--enable-logging=stderr",
       "--user-data-dir=" + (folder.path() / "profile").string(),

@@ -10,7 +10,7 @@ namespace corridor::view {
 std::optional<ClosestPair> closestPair(const Checker& checker, const std::vector<Transform>& X_WF,
                                        QueryContext& context) {
   const Scene& scene = checker.scene();
-  // For each pair: a lower bound of its distance, and its index.
+  // For each tested pair: a lower bound of its distance, and the pair's index.
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t i = 0; i < scene.pairs().size(); ++i) {
     const Scene::Placed &a = scene.bodies()[scene.pairs()[i].a],

@@ -11,8 +11,9 @@ namespace {
 
 using verify::Bernstein;
 
-constexpr std::size_t kPlotSteps = 800;      // of all pieces together; each piece has at least one
-constexpr std::size_t kMostPieceSteps = 40;  // of one piece
+// Intervals of all pieces together; each piece has at least one.
+constexpr std::size_t kPlotSteps = 800;
+constexpr std::size_t kMostPieceSteps = 40;  // intervals of one piece
 
 Bernstein polynomialOf(const CurvePiece& piece, const Coordinate& coordinate) {
   const Eigen::VectorXd c = piece.coefficients.row(static_cast<Eigen::Index>(coordinate.first));
@@ -58,7 +59,7 @@ double limitOf(const ConfigurationSpace& space, std::size_t coordinate,
   std::size_t k = coordinate;
   for (const CoordinateGroup& group : space.groups()) {
     if (group.kind == CoordinateGroup::Kind::joints) continue;
-    // The last coordinate of the group is the yaw or the rotation.
+    // The last coordinate of the group is the yaw or the rotation; the others are the position.
     const auto last = group.coordinates.end() - 1;
     if (std::find(group.coordinates.begin(), last, coordinate) != last)
       k = group.coordinates.front();

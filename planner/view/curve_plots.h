@@ -7,25 +7,27 @@
 
 namespace corridor::view {
 
-/// The values that plots of a trajectory show: its numbers and their derivatives over time.
+/// The data that plots of a trajectory show: joint values and components of poses, and their
+/// derivatives, over time.
 struct CurvePlots {
   struct Number {
-    std::size_t coordinate = 0;                            ///< in the space
-    std::vector<double> position, velocity, acceleration;  ///< at `times`; m or rad, s
+    std::size_t coordinate = 0;                            ///< index into the space's coordinates
+    std::vector<double> position, velocity, acceleration;  ///< at `times`, in m or rad and s
   };
-  /// Seconds, ascending. A knot between two pieces occurs twice: first with the values of the piece
-  /// before it, then with those of the piece after it. Velocities and accelerations may jump there.
+  /// Seconds, ascending. The time of a knot between two pieces occurs twice: first for the values
+  /// of the piece before the knot, then for those of the piece after it. Velocities and
+  /// accelerations may jump at knots.
   std::vector<double> times;
-  std::vector<Number> numbers;  ///< one for each line and circle; none for rotations
+  std::vector<Number> numbers;  ///< one for each coordinate, except rotations (quaternions)
 };
 
 /// Evaluates a curve at the ends of each piece, and at up to 39 instants inside each piece.
 CurvePlots curvePlots(const ConfigurationSpace& space, const Curve& curve);
 
-/// Returns the limit of a line or circle: the element of `limits` for the coordinate's number. The
-/// position of a planar or floating joint has one limit for the length of its vector. It is the
-/// element of the position's first number, and is returned for each coordinate of the position.
-/// Returns infinity if `limits` is empty.
+/// Returns the element of `limits` that limits a coordinate, or infinity if `limits` is empty. The
+/// position of a planar or floating joint has one limit, for the length of its vector. This is the
+/// element of the position's first coordinate, and it is returned for each coordinate of the
+/// position.
 double limitOf(const ConfigurationSpace& space, std::size_t coordinate,
                const Configuration& limits);
 

@@ -46,7 +46,8 @@ DisplayMesh displayMesh(const ModelBody& body) {
   return display;
 }
 
-/// Keeps one of several equal meshes, such as those of two arms of one kind.
+/// A list of meshes without duplicates. Equal meshes occur, for example, if there are two arms of
+/// one kind.
 class MeshList {
  public:
   std::size_t add(DisplayMesh mesh) {
@@ -73,8 +74,8 @@ class MeshList {
 /// Returns whether every joint that moves rotates about a vertical axis or translates horizontally.
 /// Testing the start pose is enough: such joints keep all axes vertical or horizontal.
 bool isPlanar(const Problem& problem) {
-  constexpr double kUpright =
-      1e-9;  // for unit vectors: above rounding, and far below visible tilts
+  constexpr double kUpright = 1e-9;  // tolerance for components of unit vectors: above rounding,
+                                     // and far below visible tilts
   const std::vector<Transform> poses = framePoses(problem.model.tree, problem.task.start);
   bool moves = false;
   for (std::size_t i = 1; i < problem.model.tree.frames.size(); ++i) {

@@ -7,12 +7,13 @@
 
 namespace corridor::view {
 
-/// The arrays of a page in one buffer: little-endian, each starting at a multiple of 4 bytes.
+/// A buffer with all arrays of a page: little-endian, each array starting at a multiple of 4 bytes.
 class PageBuffers {
  public:
-  /// The place of an array in the buffer, for a typed array of JavaScript.
+  /// Where an array is in the buffer, and the type of its elements, for a typed array of
+  /// JavaScript.
   struct View {
-    const char* type;    ///< "f4", "u4", "u2", "u1"
+    const char* type;    ///< "f4" (float), "u4", "u2" or "u1" (unsigned integers of 4, 2, 1 bytes)
     std::size_t offset;  ///< bytes
     std::size_t count;
   };
@@ -25,7 +26,8 @@ class PageBuffers {
     bytes_.append(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Number));
     return view;
   }
-  /// Adds indices that are below `limit`, in two bytes each if that is enough, else in four.
+  /// Adds indices below `limit`, in two bytes each if `limit` allows that, else in four. @pre All
+  /// indices are below `limit`.
   View addIndices(const std::vector<std::uint32_t>& indices, std::size_t limit) {
     if (limit > 0x10000) return add(indices);
     return add(std::vector<std::uint16_t>(indices.begin(), indices.end()));

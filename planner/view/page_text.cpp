@@ -32,7 +32,7 @@ std::string escapedHtml(std::string_view text) {
 }
 
 std::string scriptJson(std::string json) {
-  // JSON has `<` only inside strings, where the escape is legal.
+  // In JSON, `<` occurs only inside strings, where the escape is legal.
   for (std::size_t at = json.find('<'); at != std::string::npos; at = json.find('<', at))
     json.replace(at, 1, "\\u003c");
   return json;

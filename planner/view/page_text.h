@@ -7,7 +7,7 @@
 
 namespace corridor::view {
 
-/// Functions that make the text of an HTML page with all its data in one file.
+/// Functions for the text of an HTML page that contains all its data.
 
 /// Escapes text for HTML, between tags or in quotes.
 std::string escapedHtml(std::string_view text);

@@ -10,13 +10,15 @@
 namespace corridor::view {
 namespace {
 
-constexpr double kTurn = std::numbers::pi / 90;  // largest rotation from sample to sample, rad
-constexpr double kShare = 1.0 / 400;             // largest step, as a share of the path's length
+// Largest rotation of a body from sample to sample, rad.
+constexpr double kTurn = std::numbers::pi / 90;
+// Largest step from sample to sample, as a fraction of the path's length.
+constexpr double kShare = 1.0 / 400;
 constexpr double kMostSamples = 1500;
 constexpr int kPiecesForEstimate =
-    8;  // pieces into which an edge is cut to estimate how far bodies move on it
+    8;  // the number of pieces of an edge, for an estimate of how far the bodies move on it
 
-/// Computes how far the moving bodies move between two poses.
+/// Measures how far the moving bodies move from one configuration to another.
 class Travel {
  public:
   explicit Travel(const Problem& problem) {
@@ -36,7 +38,7 @@ class Travel {
     }
   }
 
-  /// Returns the largest distance that a corner of the bodies' bounds moves, metres.
+  /// Returns the largest distance that a corner of a body's bounds moves, metres.
   double between(const std::vector<Transform>& from, const std::vector<Transform>& to) const {
     double farthest = 0;
     for (const auto& [frame, p] : corners_)
@@ -61,8 +63,8 @@ double turnBetween(const std::vector<Transform>& from, const std::vector<Transfo
   return largest;
 }
 
-/// Returns the values of t of an edge's samples: evenly spaced ones, and those of the edge's
-/// findings.
+/// Returns the parameters t of the samples of an edge: evenly spaced ones, and those of the
+/// findings on the edge.
 std::vector<double> parametersOf(std::size_t edge, double steps,
                                  const std::vector<PathFinding>& findings) {
   std::vector<double> all;
@@ -76,7 +78,7 @@ std::vector<double> parametersOf(std::size_t edge, double steps,
   return all;
 }
 
-/// Sets the place of each sample to its time, as a share of the duration.
+/// Sets `at` of each sample to the elapsed fraction of the duration.
 void placeByTime(const std::vector<double>& times, std::vector<PathSample>& samples) {
   for (PathSample& s : samples) {
     const double begin = times[s.edge], end = times[s.edge + 1];
@@ -85,8 +87,8 @@ void placeByTime(const std::vector<double>& times, std::vector<PathSample>& samp
   }
 }
 
-/// Divides the place of each sample, which is a sum of distances, by the whole distance. If nothing
-/// moves, the samples are evenly spaced.
+/// Divides `at` of each sample, which is the distance moved so far, by the total distance. If
+/// nothing moves, sets `at` to evenly spaced numbers.
 void placeByDistance(std::vector<PathSample>& samples) {
   const double length = samples.back().at;
   for (std::size_t i = 1; i < samples.size(); ++i)
@@ -127,7 +129,7 @@ PathSamples samplePath(const Problem& problem, std::size_t edges, const Configur
   for (std::size_t edge = 0; edge < edges; ++edge) {
     const double fewer = std::min(1.0, kMostSamples / sum);
     for (const double t : parametersOf(edge, fewer * steps[edge], findings)) {
-      if (t == 0) continue;  // this is the last sample of the previous edge
+      if (t == 0) continue;  // this state already is a sample: the last sample of the previous edge
       PathSample sample{edge, t, 0, poses(edge, t)};
       const PathSample& before = result.samples.back();
       sample.at = before.at + travel.between(before.X_WF, sample.X_WF);

@@ -23,7 +23,7 @@ void Camera::fit(const std::vector<Vec3>& points, double width, double border) {
     high = high.cwiseMax(seen);
   }
   const Vec3 size = (high - low).cwiseMax(1e-9 * (high - low).maxCoeff());
-  // Limit the width to `width`, and the height to about 0.8 times that.
+  // The picture's width is at most `width`, and its height at most about 0.8 times `width`.
   scale_ = std::min((width - 2 * border) / size.x(), 0.8 * width / size.y());
   width_ = scale_ * size.x() + 2 * border;
   height_ = scale_ * size.y() + 2 * border;

@@ -9,11 +9,11 @@
 namespace corridor::view {
 
 /// A parallel projection from world coordinates (metres) to picture coordinates (pixels): x to the
-/// right, y down, depth towards the viewer.
+/// right, y down, z (the depth) towards the viewer.
 class Camera {
  public:
-  /// @param azimuth of the viewer about z, radians. @param elevation of the viewer above the
-  /// ground, radians.
+  /// @param azimuth the direction of the viewer about z, radians. @param elevation the angle of the
+  /// viewer above the ground, radians.
   Camera(double azimuth, double elevation);
   /// Sets scale and offset so that the points fill a picture of at most this width, with a border.
   /// The picture's height is at most about 0.8 times `width`. Pixels.
@@ -21,7 +21,7 @@ class Camera {
 
   Vec3 project(const Vec3& point) const;
   const Vec3& towardsViewer() const { return toViewer_; }
-  /// Returns the length in the world, metres, that is one pixel wide.
+  /// Returns the length in the world, in metres, of one pixel.
   double worldPixel() const { return 1 / scale_; }
   double width() const { return width_; }
   double height() const { return height_; }
@@ -31,9 +31,10 @@ class Camera {
   double scale_ = 1, left_ = 0, top_ = 0, width_ = 0, height_ = 0;
 };
 
-using Corners = std::array<Vec3, 3>;  ///< projected
+using Corners = std::array<Vec3, 3>;  ///< of a triangle, in picture coordinates
 
-/// A depth buffer that also stores the owner of the nearest surface of each pixel.
+/// A depth buffer. For each pixel, it also stores which owner (an integer, such as the index of a
+/// face) the nearest surface belongs to.
 class DepthBuffer {
  public:
   /// @param width, height of the picture, pixels. @param bufferPixelsPerPixel pixels of the buffer

@@ -9,7 +9,8 @@
 namespace corridor::view {
 namespace {
 
-/// Triangles with edges longer than this, in pixels, are cut, so that they can be sorted by depth.
+/// The longest edge of a piece, pixels. Triangles with longer edges are cut into pieces, so that
+/// the pieces can be sorted by depth.
 constexpr double kPiece = 70;
 
 /// Returns the faces with more than `least` visible pixels, farthest first.
@@ -25,8 +26,8 @@ std::vector<Face> visible(const Camera& camera, const std::vector<Face>& faces, 
   return kept;
 }
 
-/// Returns SVG paths with coordinates in whole pixels. Consecutive faces of equal shade share a
-/// path.
+/// Returns SVG paths of faces, with coordinates in whole pixels. Consecutive faces of the same
+/// palette and shade are in one path.
 std::string draw(const std::vector<Face>& faces) {
   std::string svg;
   const Face* last = nullptr;

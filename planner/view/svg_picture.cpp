@@ -26,20 +26,21 @@ using view::palette;
 using view::Triangle3;
 
 constexpr double kWidth = 1000, kBorder = 20;  // sizes of the picture, pixels
-/// Limits on the number of copies of the robots drawn between start and goal. The more triangles a
-/// copy has, the fewer are drawn.
+/// Limits of the number of copies of the robots that are drawn between start and goal. The more
+/// triangles a copy has, the fewer copies are drawn.
 constexpr int kMostGhosts = 14, kFewestGhosts = 4;
-/// Limits of the SVG text, bytes: obstacles, one copy of the robots, all copies between the ends.
+/// Limits of the length of the SVG text, in bytes: of the bodies that stand still, of one copy of
+/// the robots, and of all copies between start and goal.
 constexpr std::size_t kWorldLimit = 220'000, kRobotLimit = 60'000, kGhostsLimit = 180'000;
 /// A moving shape with more than `kFewTriangles` triangles is drawn coarser, on a grid of cells.
 /// The cells are enlarged, up to `kLargestCell`, until one copy of all moving bodies has at most
-/// `kMostTriangles` triangles. Cell sizes are shares of the scene's diagonal.
+/// `kMostTriangles` triangles. Edge lengths of cells are fractions of the scene's diagonal.
 constexpr std::size_t kFewTriangles = 500, kMostTriangles = 5000;
 constexpr double kCell = 1.0 / 250, kLargestCell = 1.0 / 60;
 
-/// Returns the distinct triangles of a body, in its frame's coordinates: many mesh files have both
-/// sides of every face.
-/// @param cell see view::coarsened; 0: the mesh as it is.
+/// Returns the triangles of a body, in the coordinates of its frame. Triangles with the same
+/// corners are returned once: many mesh files have both sides of every face.
+/// @param cell the cell for view::coarsened, metres; 0: the mesh is not coarsened.
 std::vector<Triangle3> distinctTriangles(const ModelBody& body, double cell) {
   std::set<std::array<std::array<double, 3>, 3>> seen;
   std::vector<Triangle3> triangles;
@@ -60,14 +61,14 @@ std::vector<Triangle3> distinctTriangles(const ModelBody& body, double cell) {
   return triangles;
 }
 
-/// The triangles of all moving bodies, and for each the frame that it is fixed to.
+/// The triangles of all moving bodies, and for each triangle the frame that it is fixed to.
 struct Moving {
   std::vector<Triangle3> triangles;
   std::vector<std::size_t> frames;
 };
 
-/// Returns all moving bodies, with at most `kMostTriangles` triangles if the largest cells allow
-/// that.
+/// Returns the triangles of all moving bodies: at most `kMostTriangles`, if cells up to
+/// `kLargestCell` are enough for that.
 /// @param size the scene's diagonal, metres.
 Moving movingBodies(const Problem& problem, double size) {
   const std::vector<std::size_t> movers = moversOf(problem.model.tree);
@@ -92,13 +93,14 @@ std::vector<Triangle3> placedAt(const Problem& problem, const Moving& moving,
   return placed;
 }
 
-/// The triangles of all bodies that stand still, in the world's coordinates, and for each its body.
+/// The triangles of all bodies that stand still, in world coordinates, and for each triangle its
+/// body.
 struct Standing {
   std::vector<Triangle3> triangles;
   std::vector<std::size_t> bodies;
 };
 
-/// @param size as for `movingBodies`.
+/// @param size the scene's diagonal, metres.
 Standing standingBodies(const Problem& problem, double size, const Configuration& q) {
   const std::vector<std::size_t> movers = moversOf(problem.model.tree);
   const std::vector<Transform> poses = framePoses(problem.model.tree, q);
@@ -115,7 +117,7 @@ Standing standingBodies(const Problem& problem, double size, const Configuration
   return standing;
 }
 
-/// Returns the diagonal of the bounds of all bodies, for configuration q, metres.
+/// Returns the length of the diagonal of the box around all bodies in configuration q, metres.
 double sceneSize(const Problem& problem, const Configuration& q) {
   const std::vector<Transform> poses = framePoses(problem.model.tree, q);
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
@@ -131,8 +133,8 @@ double sceneSize(const Problem& problem, const Configuration& q) {
 
 using PlaneKey = std::array<long, 5>;
 
-/// Returns a key that is equal for triangles of one body in about the same plane: unit normal to
-/// 0.01, offset to 2 pixels.
+/// Returns a key that is usually equal for triangles of one body in about the same plane. The key
+/// is rounded: the unit normal to 0.01, the offset of the plane to 2 pixels.
 PlaneKey planeOf(std::size_t body, const Triangle3& triangle, double pixel) {
   Vec3 normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).stableNormalized();
   int largest = 0;
@@ -143,8 +145,9 @@ PlaneKey planeOf(std::size_t body, const Triangle3& triangle, double pixel) {
           std::lround(normal.dot(triangle[0]) / (2 * pixel))};
 }
 
-/// Returns poses evenly spaced along the path, ends included. The length of an edge is the largest
-/// distance that a corner moves, among a sample of the triangles' corners.
+/// Returns `count` configurations that are evenly spaced along the path, start and end included.
+/// The length of an edge is estimated: the largest distance that a corner moves, for some of the
+/// triangles.
 Path poses(const Problem& problem, const Moving& moving, const Path& path, int count) {
   Moving sample;
   const std::size_t stride = moving.triangles.size() / 64 + 1;
@@ -173,7 +176,7 @@ Path poses(const Problem& problem, const Moving& moving, const Path& path, int c
   return chosen;
 }
 
-/// Returns an SVG line along which the origin of a frame moves. It is a curve if joints rotate.
+/// Returns an SVG polyline along the curve on which the origin of a frame moves.
 std::string polyline(const Camera& camera, const Problem& problem, const Path& path,
                      std::size_t frame) {
   constexpr int parts = 12;
@@ -194,7 +197,7 @@ std::string polyline(const Camera& camera, const Problem& problem, const Path& p
          "\" fill=\"none\" stroke=\"#1f4e9e\" stroke-width=\"2\"/>\n";
 }
 
-/// Returns an SVG text with the duration, in the lower left corner.
+/// Returns an SVG text that states the duration, in the lower left corner of the picture.
 std::string caption(const Camera& camera, double seconds) {
   char text[160];
   std::snprintf(text, sizeof text,
@@ -204,7 +207,8 @@ std::string caption(const Camera& camera, double seconds) {
   return text;
 }
 
-/// Returns whether the problem is a single planar body, which is drawn as seen from above.
+/// Returns whether the problem has only one planar body that is planned for; it is drawn as seen
+/// from above.
 bool isSeenFromAbove(const Problem& problem) {
   return problem.model.space.groups().size() == 1 &&
          problem.model.space.groups()[0].kind == CoordinateGroup::Kind::planar;
@@ -248,15 +252,15 @@ std::string svgPicture(const Problem& problem, const Path& path,
     for (const Face& face : faces) robots.draw(face.corners, 0);
   }
   std::vector<Face> faces;
-  // For each plane, the number of robots' pixels that it hides. Walls are drawn transparent as a
-  // whole, not triangle by triangle.
+  // For each plane, the number of pixels of robots that it hides. All triangles of a wall are drawn
+  // alike: transparent or solid.
   std::map<PlaneKey, int> hides;
   for (std::size_t i = 0; i < world.size(); ++i) {
     const Triangle3& triangle = world[i];
     faces.push_back(
         makeFace(camera, triangle, problem.model.bodies[worldBodies[i]].robot ? 'f' : 'w'));
-    // Seen from above, walls have no visible sides that distinguish them from the ground. So
-    // everything that is higher than the robot's lowest point is drawn dark.
+    // Seen from above, the sides of walls are not visible, so walls look like the ground. Therefore
+    // every triangle that reaches above the robot's lowest point is drawn dark.
     if (plan)
       faces.back().shade =
           std::max({triangle[0].z(), triangle[1].z(), triangle[2].z()}) > feet ? 1 : kShades - 1;

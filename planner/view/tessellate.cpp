@@ -11,11 +11,11 @@
 namespace corridor::view {
 namespace {
 
-/// The grid of directions.
+/// The numbers of meridians and parallels of the grid of directions.
 struct Grid {
   int meridians = 16, parallels = 8;
 };
-constexpr Grid kCoarse{4, 2};  ///< makes an octahedron of a ball
+constexpr Grid kCoarse{4, 2};  ///< with this grid, a ball becomes an octahedron
 
 Vec3 farthest(const ConvexPart& part, const Vec3& axis, const Vec3& direction) {
   Vec3 best = part.points.front();

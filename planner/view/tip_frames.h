@@ -6,10 +6,10 @@
 
 namespace corridor::view {
 
-/// Returns each robot's tip: among the frames with a body, the one with the most moving joints
-/// before it; if several have equally many, the last of these. A rigid body's tip is its own frame;
-/// an arm's tip is its hand. Held joints don't move; joints that mimic a planned one do. Robots
-/// that stand still are left out.
+/// Returns the tip frame of each robot that moves. The tip is the frame with a body that has the
+/// most moving joints between it and the robot's base; if several frames have equally many, it is
+/// the last of them. A rigid body's tip is its own frame; an arm's tip is usually its hand. Joints
+/// that mimic a planned joint count as moving, held joints do not.
 std::vector<std::size_t> tipFrames(const Model& model);
 
 }  // namespace corridor::view

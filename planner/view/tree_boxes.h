@@ -8,16 +8,19 @@
 
 namespace corridor::view {
 
-/// The boxes of a tree, level by level, for pictures. Each box is ten floats: the centre relative
-/// to `origin`, a quaternion x, y, z, w, and the half extents; metres, in the body's frame. The
-/// boxes contain the shape only up to the rounding to float.
+/// The boxes of an OBB tree, level by level, for pictures. Each box is ten floats: its centre
+/// relative to the `origin` given to `treeBoxes`, its rotation as a quaternion x, y, z, w, and its
+/// half extents. They are in metres, in the frame of the tree's body. The boxes contain the shape
+/// only up to the rounding to float.
 struct TreeBoxes {
-  std::vector<float> numbers;        ///< level 0 (the root) first
-  std::vector<std::uint8_t> leaves;  ///< 1: the box contains leaf primitives, not boxes
-  std::vector<std::size_t> counts;   ///< boxes per level; a leaf is counted on its own level only
+  std::vector<float> numbers;        ///< ten for each box, from level 0 (the root) on
+  std::vector<std::uint8_t> leaves;  ///< for each box: 1 if it contains primitives, 0: boxes
+  /// The number of boxes of each level; a leaf counts only on its own level.
+  std::vector<std::size_t> counts;
 };
 
-/// Returns the first levels, from the root down: as many as have at most `most` boxes together.
+/// Returns the first levels of a tree, from the root down: as many levels as have, together, at
+/// most `most` boxes.
 TreeBoxes treeBoxes(const Obb4Tree& tree, const Vec3& origin, std::size_t most);
 
 }  // namespace corridor::view

@@ -31,9 +31,9 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr std::size_t kMostDistances = 500;  // evenly chosen samples that get a closest pair
-constexpr std::size_t kMostBoxes = 16'000;   // all trees together: 640 KB
-constexpr std::size_t kMostGoals = 8;        // goals shown
+constexpr std::size_t kMostDistances = 500;  // evenly chosen samples with a closest pair, at most
+constexpr std::size_t kMostBoxes = 16'000;   // of all trees together; they take 640 KB
+constexpr std::size_t kMostGoals = 8;        // the largest number of goals that are shown
 
 ordered_json jsonOf(const PageBuffers::View& view) {
   return {view.type, view.offset, view.count};
@@ -115,8 +115,8 @@ class PageData {
     json_["goal_count"] = problem_.task.goals.size();
   }
 
-  /// Adds the number of tested pairs, the skipped pairs by reason, and the tested pairs that are
-  /// out of reach of each other.
+  /// Adds the number of tested pairs, the skipped pairs by reason, and those tested pairs whose
+  /// bodies can never reach each other.
   void addPairs() {
     std::size_t tested = 0;
     std::map<std::string, std::vector<std::uint32_t>> skipped;
@@ -137,7 +137,7 @@ class PageData {
     pairs["far"] = jsonOf(buffers_.addIndices(far, bodies));
   }
 
-  /// Adds for each mesh the trees of its shapes, level by level.
+  /// Adds, for each mesh, the boxes of the trees of its shapes, level by level.
   void addTrees() {
     ordered_json& trees = json_["trees"] = ordered_json::array();
     std::vector<bool> done(scene_.meshes.size(), false);
@@ -256,7 +256,7 @@ class PageData {
     addDistances(samples);
   }
 
-  /// Adds positions, velocities and accelerations over the time.
+  /// Adds the positions, velocities and accelerations of the joints over time.
   void addPlots() {
     const ConfigurationSpace& space = problem_.model.space;
     const CurvePlots plots = curvePlots(space, *path_->curve);
@@ -285,8 +285,8 @@ class PageData {
     json_["plots"] = {{"at", jsonOf(buffers_.add(at))}, {"joints", joints}};
   }
 
-  /// Adds the closest pair at evenly chosen samples, at all findings, and at all states unless
-  /// there are too many.
+  /// Adds the closest pairs: at evenly chosen samples, at all findings, and at all states if there
+  /// are at most 2·kMostDistances states.
   void addDistances(const PathSamples& samples) {
     const std::size_t count = samples.samples.size();
     const std::size_t stride = (count + kMostDistances - 1) / kMostDistances;

@@ -21,7 +21,8 @@ std::vector<Vec3> corners(const Vec3& center, const Mat3& axes, const Vec3& half
   return points;
 }
 
-/// Returns unit vectors within the angle from the z axis: rings of points, and the axis itself.
+/// Returns unit vectors at an angle of at most `angle` from the z axis: the axis itself, and rings
+/// around it.
 std::vector<Vec3> directions(double angle) {
   constexpr int kRings = 8, kAround = 16;
   std::vector<Vec3> all = {Vec3::UnitZ()};
@@ -51,7 +52,8 @@ ConvexPart outline(const Rss& rss) {
   return {corners(rss.core.center, rss.core.axes, rss.core.half), rss.size};
 }
 
-/// The corners are the points where three faces meet, except points outside of another slab.
+/// Returns the corners of a k-DOP: the points where three faces' planes meet, except points outside
+/// of another slab.
 template <int K>
 ConvexPart outline(const Kdop<K>& kdop) {
   constexpr std::size_t slabs = K / 2;
@@ -74,7 +76,8 @@ ConvexPart outline(const Kdop<K>& kdop) {
           x < kdop.low[i] - 1e-9 * size || x > kdop.high[i] + 1e-9 * size)
         return;
     for (const Vec3& q : points)
-      if ((p - q).norm() < 1e-7 * size) return;  // found before, from three other faces
+      // This corner was found before, from three other faces.
+      if ((p - q).norm() < 1e-7 * size) return;
     points.push_back(p);
   };
   for (std::size_t i = 0; i < slabs; ++i)

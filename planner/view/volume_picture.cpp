@@ -27,20 +27,20 @@ using view::Camera;
 using view::Face;
 
 constexpr double kPictureWidth = 640, kPictureBorder = 12;  // sizes of the picture, pixels
-/// Limits of the SVG text, bytes: the mesh, and all volumes together.
+/// Limits of the length of the SVG text, in bytes: of the mesh, and of all volumes together.
 constexpr std::size_t kMeshLimit = 50'000, kVolumesLimit = 40'000;
 /// A line is drawn between two faces of a volume whose normals differ by more than this angle.
 constexpr double kCrease = 12 * std::numbers::pi / 180;
 
-/// The volumes of a level, as convex parts.
+/// The volumes of a level as convex parts, and the number of levels of the tree.
 struct Level {
   std::vector<ConvexPart> volumes;
   std::size_t levels = 0;
 };
 
-/// Collects the volumes of a level, and the leaves above it.
-/// @param items the root. @param below returns the children of an item. @param part returns its
-/// volume.
+/// Returns the volumes of a level, and of the leaves above it.
+/// @param items a list with the root only. @param below returns the children of an item. @param
+/// part returns the volume of an item.
 template <class Item, class Below, class Part>
 Level levelOf(std::vector<Item> items, std::size_t level, const Below& below, const Part& part) {
   std::vector<std::vector<Item>> all;
@@ -106,7 +106,8 @@ Level levelOf(const TriangleMesh& mesh, const TreeNames& words, std::size_t leve
   });
 }
 
-/// Returns the corners of the hull of projected points, in whole pixels; its ends if it is a line.
+/// Returns the corners of the convex hull of the projected points, in whole pixels. If the hull is
+/// a line, returns its ends.
 std::vector<Vec2> silhouette(const Camera& camera, const std::vector<Vec3>& points) {
   std::vector<Vec2> seen;
   for (const Vec3& x : points) seen.emplace_back(camera.project(x).head<2>().array().round());
@@ -122,8 +123,8 @@ std::vector<Vec2> silhouette(const Camera& camera, const std::vector<Vec3>& poin
   return {hull.vertices().begin(), hull.vertices().end()};
 }
 
-/// Returns the visible edges between faces whose normals differ by more than `kCrease`, as an SVG
-/// path.
+/// Returns an SVG path of the visible edges of the points' convex hull. It has the edges between
+/// two faces whose normals differ by more than `kCrease`.
 std::string creases(const Camera& camera, const std::vector<Vec3>& points) {
   std::map<std::array<std::uint32_t, 2>, Vec3> normals;
   std::string path;
@@ -151,7 +152,8 @@ std::string creases(const Camera& camera, const std::vector<Vec3>& points) {
   return path;
 }
 
-/// Draws one volume: its silhouette filled like glass, and its edges.
+/// Returns the SVG elements of one volume: its silhouette, filled like glass, and its visible
+/// edges.
 std::string draw(const Camera& camera, const ConvexPart& volume, std::size_t number) {
   const bool round = volume.radius > 0;
   const std::vector<Vec3> points = round ? view::tessellated(volume).vertices : volume.points;
@@ -183,8 +185,8 @@ VolumePicture volumePicture(const TriangleMesh& mesh, const TreeNames& trees, st
         volume.radius > 0 ? view::tessellated(volume).vertices : volume.points;
     points.insert(points.end(), own.begin(), own.end());
   }
-  // Adds six points around the centre, so that a point, or a segment along the view, has an extent
-  // in the picture, too.
+  // Add six points around the centre: without them, a single point, or a segment along the line of
+  // sight, would have no extent in the picture.
   Vec3 low = points.front(), high = low;
   for (const Vec3& p : points) {
     low = low.cwiseMin(p);
@@ -208,8 +210,8 @@ VolumePicture volumePicture(const TriangleMesh& mesh, const TreeNames& trees, st
                     view::palette('w', {112, 118, 130}, {233, 232, 226}) +
                     "</style>\n<rect width=\"100%\" height=\"100%\" fill=\"#fbfaf7\"/>\n";
   svg += drawVisible(camera, faces, kMeshLimit) + "<g fill-opacity=\".13\" stroke-width=\"1\">\n";
-  // The farthest volumes are drawn first. The colour of a volume follows from its index on the
-  // level, so that neighbours differ.
+  // The farthest volumes are drawn first. The index of a volume on the level determines its colour,
+  // so that neighbours differ.
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t i = 0; i < found.volumes.size(); ++i) {
     Vec3 sum = Vec3::Zero();
@@ -221,7 +223,8 @@ VolumePicture volumePicture(const TriangleMesh& mesh, const TreeNames& trees, st
   VolumePicture picture{"", 0, found.volumes.size(), found.levels};
   std::string volumes;
   for (auto at = order.rbegin(); at != order.rend() && volumes.size() < kVolumesLimit; ++at) {
-    volumes.insert(0, draw(camera, found.volumes[at->second], at->second));  // nearest last
+    // The loop goes from near to far. Each volume is inserted before those that are nearer.
+    volumes.insert(0, draw(camera, found.volumes[at->second], at->second));
     ++picture.drawn;
   }
   picture.svg = svg + volumes + "</g>\n</svg>\n";

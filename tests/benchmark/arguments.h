@@ -15,7 +15,8 @@
 
 namespace corridor::bench {
 
-/// A benchmark's command line: options `--name value`, which may be repeated, and flags.
+/// A benchmark's command line: options `--name value`, each of which may be repeated, and flags
+/// without a value.
 class Arguments {
  public:
   /// @throws std::runtime_error for an option that is not in `known`, or that has no value.
@@ -40,8 +41,8 @@ class Arguments {
     const auto all = texts(name);
     return all.empty() ? fallback : all.back();
   }
-  /// Returns the option's values as numbers. @throws std::runtime_error for a value that is not a
-  /// number above 0.
+  /// Returns the option's values as numbers, or `fallback` if the option is not given. @throws
+  /// std::runtime_error for a value that is not a number above 0.
   std::vector<double> numbers(const std::string& name, const std::vector<double>& fallback) const {
     std::vector<double> all;
     for (const std::string& text : texts(name)) {
@@ -60,7 +61,8 @@ class Arguments {
   double number(const std::string& name, double fallback) const {
     return numbers(name, {fallback}).back();
   }
-  /// Returns the value of --rounds, a whole number above 0.
+  /// Returns the value of --rounds, rounded down to an integer but at least 1; `fallback` without
+  /// the option.
   int rounds(int fallback) const {
     return std::max(static_cast<int>(number("--rounds", fallback)), 1);
   }
@@ -69,8 +71,8 @@ class Arguments {
     const auto shared = test::dataFolder();
     return text("--data", shared ? shared->string() : "");
   }
-  /// Returns the workloads of `data()` whose names contain one of --workload's texts; without
-  /// --workload, all workloads. @throws std::runtime_error if there is none.
+  /// Returns the names of the workloads in `data()` that contain one of the texts given with
+  /// --workload; without --workload, all names. @throws std::runtime_error if there is none.
   std::vector<std::string> workloads() const {
     if (data().empty())
       throw std::runtime_error("--data DIR is required if $CORRIDOR_DATA is not set");
@@ -109,7 +111,8 @@ inline int pin(const Arguments& arguments) {
   return cpu;
 }
 
-/// The body of a benchmark's main function; returns its exit status.
+/// The body of a benchmark's main function. Calls run(Arguments), and returns the exit status: 0,
+/// or 2 after printing the message of an exception.
 template <class Run>
 int runWith(int argc, char** argv, const std::vector<std::string>& known, const Run& run,
             const std::vector<std::string>& flags = {}) {

@@ -1,7 +1,6 @@
 // The C++ side of `python_cost`: decides states, and the edges between consecutive ones, on one
-// thread, and prints the seconds of each.
-//   batch_benchmark PROBLEM STATES
-// STATES: a file of raw doubles, one row of numbers for each state.
+// thread, and prints the seconds of each. batch_benchmark PROBLEM STATES STATES: a binary file of
+// doubles: for each state, the components of its configuration.
 #include <chrono>
 #include <cstdio>
 #include <fstream>
@@ -15,7 +14,8 @@ namespace {
 
 using namespace corridor;
 
-/// Returns the seconds of work(i) for each i below `count`, and adds to `free` how many are free.
+/// Calls work(i) for each i below `count`, adds to `free` how many calls return true, and returns
+/// the seconds of all calls together.
 template <class Work>
 double secondsOf(std::size_t count, std::size_t& free, const Work& work) {
   const auto before = std::chrono::steady_clock::now();
@@ -38,7 +38,7 @@ int main(int argc, char** argv) try {
   for (std::size_t i = 0; i < count; ++i)
     states.emplace_back(
         Eigen::Map<const Configuration>(numbers + i * size, static_cast<Eigen::Index>(size)));
-  checker.certifyState(states[0]);  // builds what the checker builds when it is first used
+  checker.certifyState(states[0]);  // makes the checker build what it builds only at its first use
   std::size_t freeStates = 0, freeEdges = 0;
   const double s =
       secondsOf(count, freeStates, [&](std::size_t i) { return checker.certifyState(states[i]); });

@@ -5,11 +5,10 @@
 /// `results/campaign.db`, and measures:
 /// * storing a run: each in a transaction of its own, as a campaign does, and many together;
 /// * resuming (reading the database into memory), writing the rows and logs, and writing the
-///   report: the time of each, and the largest memory of the process up to then;
+///   report: the time of each, and the largest memory that the process has used by then;
 /// * the program itself: `corridor benchmark FOLDER/campaign.yaml -o FOLDER/results --resume`,
-///   which has no run to make.
-/// With --shards, it stores the runs in turn in the databases `shard_1/campaign.db`, … instead, and
-/// stops: they are to be merged.
+///   which has no run to make. With --shards, it only stores the runs, in turn in the databases
+///   `shard_1/campaign.db`, …, which `corridor benchmark --merge` can then merge.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -39,7 +38,8 @@ double secondsOf(const std::function<void()>& work) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-/// The largest memory of this process so far, or of its largest child, MB.
+/// Returns the largest memory, in MB, that this process (RUSAGE_SELF) or its largest child process
+/// (RUSAGE_CHILDREN) has used so far.
 double largestMemory(int who) {
   rusage usage{};
   ::getrusage(who, &usage);
@@ -51,7 +51,7 @@ void print(const std::string& what, double seconds, double megabytes) {
   std::fflush(stdout);
 }
 
-/// Runs a step in a child process, so that memory of other steps does not count.
+/// Runs a step in a child process, so that the memory of other steps does not count.
 void inFork(const std::function<void()>& step) {
   std::fflush(stdout);
   const pid_t id = ::fork();
@@ -93,7 +93,8 @@ void store(const Campaign& campaign, SimulatedRuns& simulated, const std::vector
       });
       runs.clear();
     };
-    // As in a campaign: seed by seed.
+    // The order is that of a campaign: all cells with the first seed, then with the second, and so
+    // on.
     for (std::uint64_t i = shard; i < all; i += files.size()) {
       const std::size_t cell = i % simulated.cells();
       runs.emplace_back(cell, simulated.run(cell, campaign.seed + i / simulated.cells()));

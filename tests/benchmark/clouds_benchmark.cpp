@@ -3,11 +3,12 @@
 /// [--length L]`.
 ///
 /// An arm stands in a room of four wavy walls, each 2.4 m wide and 2 m high, some 0.7 m from its
-/// base. Each wall is a grid of points, 10^3 to N (default 10^6) in all. The mesh joins them by
-/// triangles. The cloud has a ball about each point, whose radius is 0.8 of the points' distance.
-/// The map has the cubic cells that contain a point; their size is the points' distance. States and
-/// edges are random, the same for all. If FCL is installed, it tests the same states: the mesh by
-/// its OBBRSS trees, and the map by its octree.
+/// base. Each wall is a grid of points; the four walls have 10^3 to N points together (default
+/// 10^6). The mesh joins the points by triangles. The cloud has a ball about each point; its radius
+/// is 0.8 of the distance between neighbouring points. The map has the cubic cells that contain a
+/// point; the edge of a cell is as long as this distance. States and edges are random, and the same
+/// for all three. If FCL is installed, it tests the same states: the mesh by its OBBRSS trees, and
+/// the map by its octree.
 ///
 /// Prints CSV on stdout; the plot is written to FOLDER.
 #include <chrono>
@@ -128,7 +129,8 @@ double fclMeshState(const Checker& checker, const Edges& edges) {
 #endif
 
 #if defined(CORRIDOR_WITH_FCL) && FCL_HAVE_OCTOMAP
-/// FCL's octree against the links; self-contacts are left out.
+/// Returns the median time in which FCL tests the links against its octree at one state. Pairs of
+/// two links are left out.
 double fclMapState(const Checker& checker, const Walls& walls, const Edges& edges) {
   auto map = std::make_shared<octomap::OcTree>(walls.spacing);
   for (const Vec3& p : walls.mesh.vertices)

@@ -2,12 +2,12 @@
 /// `coherence_benchmark [--most N] [--steps N] [--cpu N]`.
 ///
 /// Two polytopes of n vertices, hulls of random points on a sphere, pass each other at a gap of 5 %
-/// of their size, or with an overlap of as much, and rotate. For each motion per step (as a share
-/// of the size), the program runs each query cold, and warm: begun with what the previous query has
-/// kept (the simplex of GJK, collision/convex/convex_cache.h; the features of V-Clip; the last
-/// separating axis). Prints CSV: mean times in microseconds, each the least of three runs, their
-/// ratio, and mean numbers of steps (rounds of GJK; for V-Clip also pairs of features; for axes the
-/// axes tested).
+/// of their size, or with an overlap of as much, and rotate. For each length of a step (as a
+/// fraction of the size), the program runs each query cold, and warm. A warm query begins with what
+/// the previous query has kept: the simplex of GJK (collision/convex/convex_cache.h), the features
+/// of V-Clip, or the last separating axis. Prints CSV: mean times in microseconds, each the least
+/// of three runs; their ratio; and mean numbers of steps. Steps are iterations of GJK, for V-Clip
+/// also pairs of features, and for separating axes the axes tested.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -56,7 +56,7 @@ struct Mean {
   double microseconds = HUGE_VAL, steps = 0;
 };
 
-/// @param call  called as call(i, last); returns its number of steps.
+/// @param call runs query i as call(i, last), and returns the number of steps of the query.
 template <class Call>
 Mean meanOf(std::size_t count, bool warm, const Call& call) {
   Mean mean;
@@ -128,7 +128,8 @@ void measure(std::size_t n, std::size_t steps) {
           return last.axis.faces + last.axis.edgePairs;
         });
     }
-  if (sink == 1) std::cerr << ' ';  // keeps the results
+  // Uses the results, so that the compiler can't remove the queries.
+  if (sink == 1) std::cerr << ' ';
 }
 
 }  // namespace

@@ -23,9 +23,9 @@
 #include "planner/benchmark/query_timing.h"
 #include "tests/support/workload.h"
 
-/// The competitors in query_benchmark. FCL is called in its fastest way: BVHModels are built once,
-/// transforms are prepared, and only the first contact is requested, without contact points or
-/// nearest points.
+/// The competitors in query_benchmark: our trees, and FCL. FCL is called in its fastest way:
+/// BVHModels are built once, transforms are prepared, and only the first contact is requested,
+/// without contact points or nearest points.
 namespace corridor::bench {
 
 enum class Query { interference, distance, tolerance };
@@ -40,11 +40,11 @@ struct Answer {
 struct Record {
   std::string name;
   double buildMs = 0, bytesPerTriangle = 0;
-  std::vector<double> ns;       ///< per pose: the least of the rounds
+  std::vector<double> ns;       ///< per pose: the shortest time over all passes
   std::vector<Answer> answers;  ///< per pose
 };
 
-/// A library that is measured, with its trees of a pair of meshes.
+/// A library that is measured on a pair of meshes. It holds its trees of these meshes.
 class Competitor {
  public:
   virtual ~Competitor() = default;
@@ -53,8 +53,8 @@ class Competitor {
   Record record;
 };
 
-/// Measures the times of a `Library`, a class with prepare(poses), answer(pose number) → Answer,
-/// forget() and bytes().
+/// Measures the times of a `Library`: a class with the functions prepare(poses), answer(i), which
+/// returns the `Answer` at pose i, forget() and bytes().
 template <class Library>
 class Timed : public Competitor {
  public:
@@ -107,7 +107,7 @@ class Ours {
   std::size_t bytes() const { return a_.bytes() + b_.bytes(); }
   void prepare(const std::vector<Transform>& poses) { poses_ = poses; }
   /// Clears the pair from which the next query would start. Otherwise a repeated query would be
-  /// cheap because of the answer before.
+  /// cheap, because it would start at the answer of the previous one.
   void forget() { last_ = {}; }
   Answer answer(std::size_t i) {
     Answer answer;
@@ -179,7 +179,8 @@ class Fcl {
       const fcl::CollisionRequestd request(1, false);
       fcl::CollisionResultd result;
       answer.hit = fcl::collide(a_.get(), still_, b_.get(), poses_[i], request, result) > 0;
-    } else {  // FCL's meshes have no tolerance query: its distance query stops at the tolerance
+    } else {  // FCL has no tolerance query for meshes; here its distance query stops at the
+              // tolerance
       const fcl::DistanceRequestd request(false);
       fcl::DistanceResultd result;
       if (query_ == Query::tolerance) result.min_distance = std::nextafter(tolerance_, HUGE_VAL);

@@ -8,14 +8,14 @@
 
 namespace corridor::bench {
 
-/// The arithmetic operations of a piece of code. Divisions and square roots count as products.
+/// Numbers of arithmetic operations. Divisions and square roots count as products.
 struct OperationCounts {
   std::uint64_t sums = 0, products = 0, comparisons = 0, absolutes = 0;
   std::uint64_t total() const { return sums + products + comparisons + absolutes; }
 };
 
-/// A double that counts the operations on it, for templates that take any number type. The counts
-/// belong to the thread.
+/// A double that counts the operations on it, for templates that take any number type. Each thread
+/// has its own counts.
 class Counted {
  public:
   Counted(double value = 0) : value_(value) {}  // NOLINT: a double is a number
@@ -29,7 +29,8 @@ class Counted {
   friend Counted operator-(Counted x, Counted y) { return sum(x.value_ - y.value_); }
   friend Counted operator*(Counted x, Counted y) { return product(x.value_ * y.value_); }
   friend Counted operator/(Counted x, Counted y) { return product(x.value_ / y.value_); }
-  Counted operator-() const { return {-value_}; }  // usually part of another instruction
+  // Not counted: usually part of another instruction.
+  Counted operator-() const { return {-value_}; }
   Counted& operator+=(Counted x) { return *this = *this + x; }
   Counted& operator-=(Counted x) { return *this = *this - x; }
   Counted& operator*=(Counted x) { return *this = *this * x; }

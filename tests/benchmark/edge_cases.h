@@ -19,20 +19,22 @@
 #include "tests/collision/motion/grazing.h"
 
 /// Edges whose true verdict is known by construction, in closed form, or from the independent
-/// verifier, and never by sampling.
+/// verifier. No verdict is taken from samples.
 namespace corridor::bench {
 
 struct EdgeCase {
   const Scene* scene = nullptr;
   double size = 1;  ///< metres; tolerances are relative to this size
   bool contact = false;
-  double firstContact = -1;  ///< t, if it is known
+  double firstContact = -1;  ///< time t in [0, 1] of the first contact; −1 if it is not known, or
+                             ///< if there is no contact
   /// Constructs the motion. The time for this counts as part of the edge's cost.
   std::function<MotionSource&()> motion;
   /// Computes the poses of the scene's frames at t.
   std::function<void(double t, std::vector<Transform>& X_WF)> poses;
 #ifdef CORRIDOR_WITH_FCL
-  /// Makes FCL's models. If it is empty, they are made from `scene`, whose bodies are all meshes.
+  /// Makes FCL's models. If this function is empty, the models are made from `scene`, whose bodies
+  /// are then all meshes.
   std::function<std::shared_ptr<FclScene>()> fcl;
 #endif
 };
@@ -45,7 +47,7 @@ struct EdgeSet {
   int dropped = 0;  ///< edges that the verifier left undecided
 };
 
-/// Adds a case of one rigid mesh, moving from pose to pose, and one fixed mesh.
+/// Adds a case of one rigid mesh, which moves from pose `from` to pose `to`, and one fixed mesh.
 inline void addRigid(EdgeSet& set, TriangleMesh fixed, TriangleMesh moving, const RigidPose& from,
                      const RigidPose& to, double size, bool contact, double firstContact = -1) {
   std::vector<Scene::Placed> bodies;
@@ -70,8 +72,8 @@ inline void addRigid(EdgeSet& set, TriangleMesh fixed, TriangleMesh moving, cons
   set.kept.push_back(scene);
 }
 
-/// Returns edges that graze by construction: at the end of the motion or all along it, two meshes
-/// overlap or are apart by 10^-2 to 10^-13 of their size.
+/// Returns edges that graze by construction. At the end of the motion or all along it, two meshes
+/// penetrate each other, or are apart, by 10^-2 to 10^-13 of their size.
 inline EdgeSet grazingEdges(int count, std::mt19937_64& random) {
   EdgeSet set{"grazing", {}, {}, 0};
   for (int n = 0; static_cast<int>(set.cases.size()) < count; ++n) {
@@ -85,7 +87,7 @@ inline EdgeSet grazingEdges(int count, std::mt19937_64& random) {
 
 /// Returns edges whose time of first contact has a closed form: a rod that rotates about its end
 /// down onto a plate, a box that slides into a wall, and a blade that rotates past a needle. Half
-/// of them are free.
+/// of the edges are free.
 inline EdgeSet closedForms(int count, std::mt19937_64& random) {
   EdgeSet set{"closed forms", {}, {}, 0};
   const auto real = [&](double low, double high) {
@@ -99,8 +101,8 @@ inline EdgeSet closedForms(int count, std::mt19937_64& random) {
     const double amount = std::pow(10.0, -1 - n / 6 % 8);
     const bool contact = n / 3 % 2;
     if (n % 3 == 0) {
-      // A rod from the origin along x rotates down by `angle` about y. The plate is at z = −sin(a):
-      // the rod's far end meets it at the angle a.
+      // A rod from the origin along x rotates down by `angle` about y. The plate is at z = −sin(a),
+      // so the rod's far end meets the plate at the angle a.
       const double angle = real(0.3, 1.5), a = contact ? angle * real(0.01, 0.99) : angle + amount;
       const double depth = std::sin(std::min(a, std::numbers::pi / 2));
       addRigid(
@@ -113,15 +115,16 @@ inline EdgeSet closedForms(int count, std::mt19937_64& random) {
           {Vec3::Zero(), still}, {Vec3::Zero(), turnedBy(angle, Vec3::UnitY())}, 1, contact,
           contact ? a / angle : -1);
     } else if (n % 3 == 1) {
-      // A box moves 2 m towards a thin wall; it meets the wall at t, or ends `amount` before it.
+      // A box moves 2 m towards a thin wall. It meets the wall at t, or stops at the distance
+      // `amount` from the wall.
       const double t = contact ? real(0.01, 0.99) : 1 + amount / 2;
       const double wall = 2 * t + 0.5;
       addRigid(set, test::box(Vec3(wall, -1, -1), Vec3(wall + 0.001, 1, 1)),
                test::box(-0.5 * Vec3::Ones(), 0.5 * Vec3::Ones()), {Vec3::Zero(), still},
                {Vec3(2, 0, 0), still}, 1, contact, contact ? t : -1);
     } else {
-      // A blade of length 1 rotates about z past a needle at the angle a, whose distance from the
-      // axis is a little below or above 1.
+      // A blade of length 1 rotates about z past a needle, which stands at the angle a. The
+      // distance of the needle from the axis is a little below or above 1.
       const double angle = real(0.5, 2.5), a = angle * real(0.3, 0.9);
       const double reach = contact ? 1 - amount : 1 + amount;
       const Vec3 tip = reach * Vec3(std::cos(a), std::sin(a), 0);
@@ -138,7 +141,8 @@ inline EdgeSet closedForms(int count, std::mt19937_64& random) {
 }
 
 /// Returns random edges of a problem between states in its bounds. The first state of each edge is
-/// free. Half of the edges are free, if there are enough. The true verdict is the verifier's.
+/// free. Half of the edges are free, if enough free edges are found. The true verdict is the
+/// verifier's.
 inline EdgeSet sceneEdges(const std::string& file, int count, std::uint64_t seed) {
   const auto problem = std::make_shared<const Problem>(readProblem(file));
   const auto checker = std::make_shared<const Checker>(*problem);
@@ -153,7 +157,8 @@ inline EdgeSet sceneEdges(const std::string& file, int count, std::uint64_t seed
         random.next(random.rigid() ? std::vector{0.02, 0.05, 0.1, 0.2}[n % 4]
                                    : std::vector{0.1, 0.3, 1.0, 3.0}[n % 4]);
     if (!checker->inBounds(e.to) || checker->interference(e.from)) continue;
-    // This verdict only serves to get as many free edges as others.
+    // The checker's verdict is used only to choose about as many free edges as others. It is not
+    // the true verdict.
     const bool maybeFree = checker->certifyEdge(e.from, e.to, false).verdict == MotionVerdict::free;
     if ((maybeFree ? free : touching) >= count / 2) continue;
     const PathVerdict truth = verifyPath(plain, {e.from, e.to}).verdict;

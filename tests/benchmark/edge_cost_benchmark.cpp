@@ -2,16 +2,16 @@
 /// PROBLEM… [--edges N]`.
 ///
 /// For each problem (YAML, OMPL.app's .cfg, SET.json#INDEX), it draws random edges that start at
-/// valid states. For a rigid body they are 2, 5, 10 and 20 % of the scene's size long. For joints
-/// they are 0.1, 0.3, 1 and 3 long (the root of the sum of squares, rad and m), in a random
-/// direction.
+/// valid states. For a rigid body, the edges are 2, 5, 10 and 20 % of the scene's size long. For
+/// joints, they are 0.1, 0.3, 1 and 3 long, in a random direction; this length is the root of the
+/// sum of the squared changes of all joints, in rad and m.
 ///
-/// For each edge it measures the certified query, and two discrete tests at n samples, that is n +
-/// 1 evenly spaced poses, up to the first contact. These are Corridor's own interference test and
+/// For each edge it measures the certified query, and two discrete tests at n + 1 evenly spaced
+/// poses, up to the first contact. The discrete tests use Corridor's own interference test and
 /// FCL's (Debian's build; BVHModel<OBBRSS> and FCL's own primitives; poses by Corridor's
-/// kinematics). All use the same edges, the same pairs, the same run, and one thread. Times are
-/// medians of three repeats, summed separately over the edges that the certified query calls free
-/// and over the others. Prints CSV on stdout.
+/// kinematics). All three tests use the same edges and pairs, and run in turn on one thread. Times
+/// are medians of three repeats. They are summed separately over the edges with the verdict `free`
+/// and over the other edges. Prints CSV on stdout.
 #include <algorithm>
 #include <chrono>
 #include <cmath>

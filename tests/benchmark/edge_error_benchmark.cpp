@@ -2,9 +2,9 @@
 /// N] [--rounds N] [--seed N] [--cpu N] [--out FOLDER]`.
 ///
 /// Runs every edge method with several values of its accuracy parameter (its knob), and Debian's
-/// FCL as a competitor. The true verdict of each edge is known without sampling: edges that graze
-/// by construction, closed forms with the time of first contact, and random edges of problems, for
-/// which the independent verifier decides.
+/// FCL as a competitor. The true verdict of each edge is known without sampling. There are edges
+/// that graze by construction, closed forms with the time of first contact, and random edges of
+/// problems, for which the independent verifier decides.
 ///
 /// FCL's methods:
 /// * its static test at samples ("FCL discrete");
@@ -15,7 +15,7 @@
 /// Prints CSV on stdout, one line per set, method and knob: µs of processor time per edge, contacts
 /// missed, free edges called contact, undecided edges, free edges lost (called contact, or
 /// undecided), and the error of the time of first contact. With --out, also writes plots for each
-/// set, of those methods that tested all of the set's edges within a minute.
+/// set. They have only the methods that tested all edges of the set within a minute.
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
@@ -37,13 +37,14 @@ namespace {
 
 struct Answer {
   MotionVerdict verdict = MotionVerdict::free;
-  double firstContact = -1;  ///< t, if a contact was found
+  double firstContact = -1;  ///< time t in [0, 1]; −1 if no contact was found
 };
 
 /// A method with a value of its knob: a function that returns the answer for an edge.
 using Method = std::function<Answer(const EdgeCase&)>;
 
-/// Requests the first contact, as a planner does that continues from the last valid state.
+/// Returns a method that proves edges. It requests the time of first contact, as does a planner
+/// that continues from the last valid state.
 Method proving(EdgeMethod method, double tolerance) {
   const auto context = std::make_shared<QueryContext>();
   return [=](const EdgeCase& edge) {
@@ -56,8 +57,8 @@ Method proving(EdgeMethod method, double tolerance) {
   };
 }
 
-/// Samples by OMPL's rule, with a resolution that is a share of the edge: tests poses one after
-/// another from the start.
+/// Returns a method that samples by OMPL's rule: it tests `steps` + 1 evenly spaced poses, one
+/// after another from the start, up to the first contact.
 template <class Touches>
 Method sampling(int steps, Touches touches) {
   const auto poses = std::make_shared<std::vector<Transform>>();
@@ -79,7 +80,7 @@ Method discrete(int steps) {
 }
 
 #ifdef CORRIDOR_WITH_FCL
-/// FCL's models of scenes; building them is never part of a measured time.
+/// FCL's models of scenes. Building these models is never part of a measured time.
 class FclScenes {
  public:
   void add(const EdgeCase& edge, const std::shared_ptr<FclScene>& scene) {
@@ -105,16 +106,16 @@ class FclMoving {
     for (const EdgeCase& edge : set.cases) {
       auto& motions = motions_[edge.scene];
       if (!motions) motions = FclMotions::of(*edge.scene);
-      // 1e-9 of the size is far more than the rounding of poses, and as small as the finest time
-      // tolerance requested.
+      // 1e-9 of the size is far more than the rounding of poses, and as small as the smallest
+      // tolerance with which the methods run.
       all_ = all_ && motions && motions->moveAs(edge.poses, 1e-9 * edge.size);
     }
   }
-  /// Whether all bodies are meshes, and move as FCL's motions do.
+  /// Returns whether, in all edges, all bodies are meshes and move as FCL's motions do.
   bool all() const { return all_; }
 
-  /// `first` computes the time of first contact from models and motions. Setting up the motions
-  /// counts as run time.
+  /// Returns the method that sets up the motions of FCL and calls `first` with models and motions,
+  /// which computes the time of first contact. Setting up the motions counts as run time.
   template <class First>
   Method method(First first) const {
     return [this, first, from = std::make_shared<std::vector<Transform>>(),
@@ -163,8 +164,8 @@ double processorTime() {
   return 1e6 * static_cast<double>(t.tv_sec) + 1e-3 * static_cast<double>(t.tv_nsec);
 }
 
-/// Measures a method on all edges: the median time of the rounds, and the answers of the last
-/// round. Stops after a minute; the tally then covers only the edges tested so far.
+/// Measures a method on all edges: for each edge, the median time of the rounds, and the answer of
+/// the last round. Stops after a minute; the tally then covers only the edges tested by then.
 Tally run(const EdgeSet& set, const Method& method, int rounds) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
@@ -271,7 +272,8 @@ void compare(const EdgeSet& set, int rounds, const std::string& folder) {
   if (moving.all()) {
     using Obbrss = fcl::OBBRSS<double>;
     using Rss = fcl::RSS<double>;
-    for (const int n : {10, 100, 1'000, 10'000})  // answers as "FCL discrete", but slower
+    // The answers are those of "FCL discrete", but slower.
+    for (const int n : {10, 100, 1'000, 10'000})
       report.line("FCL naive", 1.0 / n,
                   fclContinuous<Obbrss>(moving, fcl::CCDC_NAIVE, static_cast<std::size_t>(n + 1)));
     const auto solver = fcl::CCDC_CONSERVATIVE_ADVANCEMENT;

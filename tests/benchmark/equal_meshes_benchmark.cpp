@@ -1,11 +1,12 @@
-/// Measures what it costs, and saves, that obstacles of one mesh share it:
+/// Measures what it costs, and what it saves, if obstacles with equal meshes share one mesh:
 /// `equal_meshes_benchmark [--robot URDF] [--out FOLDER] [--uses N] [--largest N] [--edges N]
 /// [--length L]`.
 ///
 /// N bumpy balls (default 20) of 0.1 m stand about an arm at random poses, 0.3 m to 0.9 m from its
-/// base. All of them are one mesh, of 80 triangles to --largest (default 327,680). Either each ball
-/// is a copy of the mesh in world coordinates, or each has a frame of its own and all share the
-/// mesh and its tree. States and edges are random, the same for all meshes.
+/// base. All balls have equal meshes of 8·4^k triangles, for k = 1, 2, … up to about --largest
+/// triangles (default 327,680). Either each ball is a copy of the mesh in world coordinates, or
+/// each has a frame of its own and all share the mesh and its tree. States and edges are random,
+/// and the same for all meshes.
 ///
 /// Prints CSV on stdout; the plot is written to FOLDER. Memory is what the checker and the model
 /// hold, all trees of the obstacles included; set-up time includes the building of these trees.

@@ -14,38 +14,39 @@
 
 #include "planner/benchmark/fcl_scene.h"
 
-/// FCL's tests of whole motions of rigid meshes. Each body moves as an fcl::InterpMotion; the
-/// earliest contact of all pairs counts.
+/// FCL's continuous tests of motions of rigid meshes. Each body moves as an fcl::InterpMotion; the
+/// result is the earliest contact of all pairs.
 namespace corridor::bench {
 
 using FclMotion = fcl::InterpMotion<double>;
 
-/// Returns the motion of FCL that equals that of our edges: the frame's origin moves straight, and
-/// the body rotates the shorter way at constant speed. Two other constructors of FCL don't work:
-/// one leaves the reference point unset, one the velocities.
+/// Returns the FCL motion that equals the motion of our edges: the frame's origin moves on a
+/// straight line, and the body rotates the shorter way at constant speed. Two other constructors of
+/// this FCL class don't work: one leaves the reference point unset, the other the velocities.
 inline FclMotion fclMotion(const Transform& from, const Transform& to) {
   return FclMotion(from.m, from.t, to.m, to.t, fcl::Vector3d::Zero());
 }
 
 /// FCL's own advancement on trees of RSSs, which its continuousCollide never calls.
-/// continuousCollide uses the variant for volumes without axes: it moves the stored vertices in
-/// every step, and applies the motion once more in its bounds. FCL fixes the step of t below which
-/// it reports contact. `leastStep` replaces this step. It is a static member because FCL constructs
-/// the object itself.
+/// continuousCollide uses FCL's variant for volumes without axes instead. That variant moves the
+/// stored vertices in every step, and its bounds apply the motion once more. FCL reports contact
+/// when a step of t is below a fixed limit. `leastStep` replaces this limit. It is a static member
+/// because FCL constructs the object of this class.
 struct FclAdvancementNode : fcl::detail::MeshConservativeAdvancementTraversalNodeRSS<double> {
-  static inline thread_local double leastStep = 1e-5;  ///< the least step of t
+  /// Contact is reported when a step of t is below this limit.
+  static inline thread_local double leastStep = 1e-5;
   FclAdvancementNode() { t_err = leastStep; }
 };
 
 class FclMotions {
  public:
-  /// Returns nullptr if not all bodies are meshes.
+  /// Returns the models of the scene's bodies, or nullptr if not all bodies are meshes.
   static std::shared_ptr<const FclMotions> of(const Scene& scene) {
     for (const Scene::Placed& placed : scene.bodies())
       if (!placed.body.isMesh()) return nullptr;
     return std::make_shared<const FclMotions>(scene);
   }
-  /// @pre all bodies are meshes.
+  /// @pre all bodies of `scene` are meshes.
   explicit FclMotions(const Scene& scene) : pairs_(scene.pairs()) {
     for (const Scene::Placed& placed : scene.bodies())
       bodies_.push_back({placed.frame, placed.body.radius(),
@@ -53,7 +54,7 @@ class FclMotions {
                          fclMesh(placed.body.mesh())});
   }
 
-  /// Returns each body's motion, from its frame's poses at both ends.
+  /// Returns the motion of each body, from the poses of its frame at both ends.
   std::vector<FclMotion> motions(std::span<const Transform> from,
                                  std::span<const Transform> to) const {
     std::vector<FclMotion> all;
@@ -61,9 +62,11 @@ class FclMotions {
     for (const FclBody& body : bodies_) all.push_back(fclMotion(from[body.frame], to[body.frame]));
     return all;
   }
-  /// Tests at some t whether bodies on frames with these poses move as FCL's motions do, to within
-  /// `tolerance` metres. (Links of arms move along arcs, so they don't.)
-  /// @param poses  computes the frames' poses at t: poses(t, X_WF).
+  /// Returns whether the bodies, on frames that move as `poses` says, move as FCL's motions do, to
+  /// within `tolerance` metres. This is tested at five times. (Links of arms move along arcs, so
+  /// they differ from FCL's motions.)
+  /// @param poses a function that is called as poses(t, X_WF), and stores the poses of all frames
+  /// at t in X_WF.
   template <class Poses>
   bool moveAs(const Poses& poses, double tolerance) const {
     std::vector<Transform> from, to, X_WF;
@@ -97,7 +100,7 @@ class FclMotions {
     });
   }
   /// Returns the time of first contact in [0, 1] that FclAdvancementNode reports, or nullopt.
-  /// `leastStep` is a step of t.
+  /// Contact is reported when a step of t is below `leastStep`.
   std::optional<double> advance(std::span<const FclMotion> motions, double leastStep) const {
     FclAdvancementNode::leastStep = leastStep;
     return earliest(motions, [&](std::size_t a, std::size_t b) -> std::optional<double> {
@@ -114,7 +117,8 @@ class FclMotions {
  private:
   struct FclBody {
     std::size_t frame = 0;
-    double reach = 0;  ///< largest distance of its points from the frame's origin, metres
+    double reach = 0;  ///< largest distance of the body's points from the origin of its frame,
+                       ///< metres
     std::shared_ptr<fcl::BVHModel<fcl::RSS<double>>> rss;
     std::shared_ptr<fcl::BVHModel<fcl::OBBRSS<double>>> obbrss;
 
@@ -131,7 +135,8 @@ class FclMotions {
   std::optional<double> earliest(std::span<const FclMotion> motions, const Ask& ask) const {
     std::optional<double> first;
     for (const Scene::Pair& pair : pairs_) {
-      motions[pair.a].integrate(0);  // back to the start: FCL would begin where the last pair ended
+      motions[pair.a].integrate(0);  // back to the start: otherwise FCL would begin at the time at
+                                     // which the previous pair ended
       motions[pair.b].integrate(0);
       if (const auto t = ask(pair.a, pair.b); t && (!first || *t < *first)) first = t;
     }

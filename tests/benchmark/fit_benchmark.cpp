@@ -1,9 +1,10 @@
 /// Compares the three fits of oriented boxes: `fit_benchmark [--most N] [--poses N] [--out FOLDER]
 /// [--cpu N]`.
 ///
-/// Gottschalk, Lin and Manocha 1996 place a box by the mean and covariance of the vertices, of the
-/// triangles as infinitely dense samples, or of the triangles of the convex hull. Vertices mislead
-/// where a mesh is unevenly tessellated; triangles mislead where parts are buried inside.
+/// Gottschalk, Lin and Manocha 1996 place a box by a mean and a covariance: those of the vertices,
+/// those of the triangles (as infinitely dense samples), or those of the triangles of the convex
+/// hull. Vertices mislead if a mesh is unevenly tessellated; triangles mislead if parts of the mesh
+/// are buried inside.
 ///
 /// Models of some 10,000 triangles: a sphere, an ellipsoid with a finely tessellated end, and the
 /// same ellipsoid, evenly tessellated, with small spheres buried in one quarter of it. The query is
@@ -14,7 +15,7 @@
 /// * for each model and fit: the sum of the volumes of the boxes at a level of the binary OBB tree,
 ///   relative to the volume of the boxes with the default fit at level 0;
 /// * the time to build a binary OBB tree over tori of 1,000 to N triangles (100,000 by default),
-///   with n·log n and n·log² n through the first point.
+///   with curves of n·log n and n·log² n through the first point.
 ///
 /// FOLDER gets a plot of the building times.
 #include <chrono>
@@ -45,7 +46,8 @@ const std::vector<std::pair<std::string, ObbFit>> kFits = {
     {"vertices", ObbFit::vertices}, {"triangles", ObbFit::triangles}, {"hull", ObbFit::hull}};
 
 /// Returns an ellipsoid of half axes 1, 0.5 and 0.3. With `power` > 1 the triangles get finer
-/// towards one end: the angle from that end is π·t^power for evenly spaced t.
+/// towards one end: rows of vertices are at the angles π·t^power from that end, for evenly spaced t
+/// in [0, 1].
 TriangleMesh ellipsoid(std::uint32_t rows, double power) {
   const std::uint32_t columns = rows;
   TriangleMesh mesh;
@@ -92,7 +94,8 @@ double buildMilliseconds(const Make& make) {
     const auto tree = make();
     const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
     least = std::min(least, time.count());
-    if (least > 2'000) break;  // long builds vary little
+    // One measurement is enough for a long build, because long builds vary little.
+    if (least > 2'000) break;
   }
   return least;
 }
@@ -119,7 +122,7 @@ void measure(const std::string& label, const TriangleMesh& model, const Triangle
             << buildMilliseconds([&] { return make(model); }) << std::endl;
 }
 
-/// Returns the sums of the volumes of the boxes at each level.
+/// Returns, for each level, the sum of the volumes of the boxes at this level.
 std::vector<double> volumesByLevel(const VolumeTree<Obb>& tree) {
   std::vector<double> sums;
   std::vector<std::pair<std::uint32_t, std::size_t>> stack = {{0, 0}};
@@ -135,8 +138,8 @@ std::vector<double> volumesByLevel(const VolumeTree<Obb>& tree) {
   return sums;
 }
 
-/// Returns poses of b, at the identity for a, at which the bounding spheres about the origin
-/// overlap.
+/// Returns poses of b at which the bounding spheres of a and b about their origins overlap. The
+/// pose of a is the identity.
 std::vector<Transform> nearPoses(int count) {
   std::mt19937_64 random(1996);
   std::uniform_real_distribution<double> real(-2.4, 2.4);

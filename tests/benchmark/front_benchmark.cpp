@@ -2,10 +2,10 @@
 /// `front_benchmark [--triangles N] [--steps N] [--cpu N]`.
 ///
 /// Two tori with bumps (20,000 triangles each by default) pass each other at a gap of 0.1, 0.01 or
-/// 0.001 of their size; b slides along a, back and forth, and rotates. For each motion per step, as
-/// a share of the size, prints CSV: mean microseconds and N_v per step of the queries without a
-/// front (4-wide OBB tree, binary OBBs, RSSs), and with a front (binary OBBs, RSSs), and the size
-/// of the front.
+/// 0.001 of their size; b slides along a, back and forth, and rotates. For each length of a step,
+/// as a fraction of the size, prints CSV: the mean microseconds and N_v per query without a front
+/// (4-wide OBB tree, binary OBBs, RSSs) and with a front (binary OBBs, RSSs), and the number of
+/// node pairs in the front.
 #include <chrono>
 #include <cstdio>
 #include <numbers>
@@ -56,7 +56,8 @@ void run(const bench::Arguments& arguments) {
     const Vec3 across = begin.t.unitOrthogonal();
     for (const double step : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2}) {
       std::vector<Transform> poses;
-      // Back and forth across the gap's direction: by a quarter of the gap, or by four steps.
+      // b moves back and forth, orthogonally to the direction of the gap, by a quarter of the gap
+      // or by four steps, whichever is more.
       const double reach = std::max(0.25 * gap, 4 * step) * size;
       for (int i = 0; i < steps; ++i) {
         const double along = std::abs(std::remainder(step * size * i, 4 * reach)) - reach;

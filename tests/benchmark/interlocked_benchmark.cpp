@@ -4,22 +4,23 @@
 /// Gottschalk, Lin and Manocha 1996 had a wrinkled torus that moves among pipes. Here a torus with
 /// bumps (N triangles, 100,000 by default) moves through eight pipes that are bent to rings (N/5
 /// triangles in all). Each ring is a link of a chain with the torus. The bumps come as close to the
-/// rings as 0.02 of the torus' radius. The torus makes one turn about its axis in the steps (1,000
-/// by default), and sways by up to 0.02, so that it comes close to the rings. The query is
-/// interference, and uses nothing from the previous step.
+/// rings as 0.02 of the torus' radius. During all steps (1,000 by default) the torus makes one turn
+/// about its axis, and sways by up to 0.02, so that it comes close to the rings. The query is
+/// interference. It uses nothing from the previous step.
 ///
 /// Prints CSV on stdout, one row for each volume:
 /// * steps, contacts: the number of steps, and at how many of them the models touch;
 /// * bv_tests, triangle_tests: N_v and N_p, means over the steps;
 /// * us: the mean time of a step;
-/// * bv_test_ns, triangle_test_ns, traversal_ns: C_v and C_p, measured test by test, and the
-///   traversal's share of a volume test. These are measured at even steps;
-/// * predicted_us, measured_us: the mean time at odd steps, as these costs predict it, and as
-///   measured;
-/// * bytes, build_ms: both trees.
+/// * bv_test_ns, triangle_test_ns, traversal_ns: C_v and C_p, measured test by test, and the time
+///   of the traversal per volume test. These are measured at even steps;
+/// * predicted_us, measured_us: the mean time of a query at odd steps, once predicted by these
+///   costs, once measured;
+/// * bytes, build_ms: memory and building time of both trees together.
 ///
-/// For the 4-wide OBB tree (obb) single tests can't be run apart, so the columns from bv_test_ns to
-/// measured_us are empty. The cost of triangle tests is empty where no triangles are tested.
+/// For the 4-wide OBB tree (obb), single tests can't be measured separately, so the columns from
+/// bv_test_ns to measured_us are empty. The cost of triangle tests is empty if no triangles are
+/// tested.
 #include <chrono>
 #include <cstdio>
 #include <numbers>

@@ -3,10 +3,11 @@
 /// [--far]`.
 ///
 /// An arm stands in a room of four walls, each 2.4 m wide and 2 m high, 0.7 m from its base. The
-/// walls are cut into 10 to N square boxes in all (default 10^5), so the space that they take is
-/// always the same. With --far, the boxes stand 10 m to 50 m away instead, out of the arm's reach,
-/// and the walls are 10 boxes. States and edges are random, the same for every N. Each is certified
-/// with the broad phase (what the planner does), and by a test of each pair of bodies.
+/// walls are cut into 10 to N square boxes in all (default 10^5), so the boxes always fill the same
+/// space. With --far, the boxes stand 10 m to 50 m away instead, out of the arm's reach, and the
+/// walls are cut into only 10 boxes. States and edges are random, and the same for every number of
+/// boxes. Each state and edge is certified with the broad phase (as the planner does), and by a
+/// test of each pair of bodies.
 ///
 /// Prints CSV on stdout; the plot is written to FOLDER.
 #include <chrono>

@@ -9,8 +9,8 @@
 
 namespace corridor::bench {
 
-/// Times each item three times, takes its shortest time, and returns the median over all items, in
-/// µs.
+/// Times call(i) three times for each i below `count`, and takes the shortest of the three times.
+/// Returns the median of these times over all i, in µs.
 template <class Call>
 double medianMicroseconds(std::size_t count, const Call& call) {
   std::vector<double> least(count, HUGE_VAL);

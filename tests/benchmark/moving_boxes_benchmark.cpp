@@ -1,11 +1,12 @@
 /// Measures the broad phase of many moving bodies: `moving_boxes_benchmark [--most N] [--cpu N]`.
 ///
-/// n boxes of size 1 fill a cube, so that each overlaps 0.8 others in the mean, n = 10, 100, … up
-/// to N (default 10^5). In each step a share of them moves by 1 % of their size in a direction of
-/// their own. Prints CSV: the time of one step in microseconds (the median of 20 steps), for
-/// * `sweep and prune`: the ends of the moved boxes are sorted in; the pairs are then known;
-/// * `tree`: the moved boxes are refitted in the scene's tree over bodies, and each queries the
-/// tree;
+/// n boxes of size 1 fill a cube, so that each overlaps 0.8 others in the mean; n is 10, 100, … up
+/// to N (default 10^5). In each step a fraction of the boxes moves, each by 1 % of its size in its
+/// own direction. Prints CSV: the time of one step in microseconds (the median of 20 steps), for
+/// * `sweep and prune`: the ends of the moved boxes are sorted into the lists of ends; the
+///   overlapping pairs are then known;
+/// * `tree`: the moved boxes are refitted in the scene's tree over bodies, and each moved box
+///   queries the tree;
 /// * `tree rebuilt`: the tree is built anew, and each box queries it.
 #include <algorithm>
 #include <chrono>
@@ -82,7 +83,8 @@ void measure(std::size_t n, double share) {
       for (std::size_t i = 0; i < moving; ++i) found += query(fresh, boxes[i]);
     }));
   }
-  if (found == 1) std::cerr << ' ';  // keeps the results
+  // Uses the results, so that the compiler can't remove the queries.
+  if (found == 1) std::cerr << ' ';
   const auto row = [&](const char* by, const std::vector<double>& times) {
     std::cout << n << ',' << share << ',' << by << ',' << medianOf(times) << std::endl;
   };

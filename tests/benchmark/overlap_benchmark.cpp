@@ -11,18 +11,18 @@
 /// sphere and a torus made here.) Up to 2,000 pairs that are separated and 2,000 that overlap are
 /// kept, sampled evenly, in the order in which the queries test them. Each test gets the pairs in
 /// the same form as in a query: boxes in their meshes' frames, and the relative pose. In every
-/// round each test runs on all pairs; the least time of the rounds counts. *Mixed* is the mean over
-/// both kinds, weighted by how often the queries test them.
+/// round each test runs on all pairs; the least time of the rounds counts. *Mixed* is the mean time
+/// over separated and overlapping pairs, weighted by how often queries test each kind.
 ///
 /// *Posing* is the first step of all our tests: computing the pose of one box relative to the
 /// other. Competitors are FCL's overlap test of OBBs, which guarantees nothing about rounding, and
-/// the kernel of our 4-wide OBB tree. The kernel's C_v, a pair's share of the traversal included,
-/// is fitted by least squares over whole queries (planner/benchmark/cost_model.h).
+/// the kernel of our 4-wide OBB tree. The kernel's C_v, the traversal included, is fitted by least
+/// squares over whole queries (planner/benchmark/cost_model.h).
 ///
 /// CSV follows the table: each test's mixed cost (geometric mean over the workloads), and its ratio
-/// to that of separating axes. More CSV has the arithmetic operations of a test by separating axes:
-/// the least, mean and largest number, over all kept pairs. They include our margins for rounding,
-/// and posing, whose number is given, too.
+/// to that of separating axes. A second CSV has the number of arithmetic operations of a test by
+/// separating axes: the least, the mean and the largest over all kept pairs. These numbers include
+/// our margins for rounding, and posing; the operations of posing alone are given, too.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -64,7 +64,7 @@ double nanosecondsSince(std::chrono::steady_clock::time_point start) {
 struct BoxPair {
   Obb a, b;
   std::size_t pose;
-  std::uint64_t met;  ///< its position among all pairs met
+  std::uint64_t met;  ///< the pair's index among all pairs that the queries test
 };
 
 /// Keeps some of the pairs that are passed to it, each with equal probability (reservoir sampling).
@@ -82,7 +82,7 @@ struct Sample {
   }
 };
 
-/// A query's overlap test that passes each tested pair to a sample.
+/// An overlap test for a query. It also passes each tested pair to a sample.
 struct Recorder {
   const PairTest<Obb>& test;
   std::size_t pose;
@@ -95,7 +95,7 @@ struct Recorder {
   }
 };
 
-/// Nanoseconds per test, of pairs that are separated and of pairs that overlap.
+/// Nanoseconds per test: for pairs that are separated, and for pairs that overlap.
 struct Cost {
   double apart = HUGE_VAL, meet = HUGE_VAL;
   double mixed(double share) const { return share * apart + (1 - share) * meet; }
@@ -131,9 +131,9 @@ struct Recorded {
   VolumeBounds bounds_[2];
 };
 
-/// Returns the mean time of `separated(pair number)`, and adds the number of pairs that it
-/// separated to `found`. Costs are comparable only between tests with the same verdicts, so the
-/// report shows differences of these numbers.
+/// Returns the mean time in ns of `separated(i)` over all pairs i, and adds the number of separated
+/// pairs to `found`. Costs are comparable only between tests with the same verdicts, so the report
+/// shows how far the numbers of separated pairs differ.
 template <class Separated>
 double pass(std::size_t count, std::uint64_t& found, const Separated& separated) {
   if (count == 0) return 0;
@@ -212,7 +212,7 @@ class Wide {
     }
   }
   double boxTestNs() const {
-    // Queries that the first node decides only measure the overhead of a call.
+    // Queries that the first node decides are left out: they measure only the overhead of a call.
     std::vector<QueryCost> walked;
     std::ranges::copy_if(costs_, std::back_inserter(walked),
                          [](const QueryCost& c) { return c.boxTests > 32; });
@@ -235,8 +235,8 @@ struct Posing {
   }
 };
 
-/// Makes the workload for a machine without shared data: a sphere in a torus' tube and beside it,
-/// at random poses.
+/// Returns the workload for a machine without shared data: a sphere inside the tube of a torus and
+/// beside this tube, at random poses.
 test::Workload made() {
   test::Workload w;
   w.name = "made: torus, sphere";
@@ -289,7 +289,8 @@ struct Means {
 /// The operations of tests by separating axes.
 struct Operations {
   std::uint64_t least = UINT64_MAX, most = 0, tests = 0;
-  std::uint64_t posing = 0;  ///< of each test: the pose of one box relative to the other
+  /// Operations in each test that compute the pose of one box relative to the other.
+  std::uint64_t posing = 0;
   bench::OperationCounts sum;
 
   void add(const bench::OperationCounts& n) {
@@ -301,7 +302,7 @@ struct Operations {
   }
 };
 
-/// The pair of boxes as `internal::BoxPair`, in numbers that count.
+/// A pair of boxes like `internal::BoxPair`, in numbers that count their operations.
 struct CountedPair {
   Eigen::Matrix<bench::Counted, 3, 3> R, absR;
   Eigen::Matrix<bench::Counted, 3, 1> T;
@@ -379,7 +380,7 @@ void run(test::Workload workload, int rounds, Means& means, Operations& operatio
   } else {
     std::printf(" |");
   }
-  for (std::size_t i = 1; i < 4; ++i)  // pairs separated, of both samples
+  for (std::size_t i = 1; i < 4; ++i)  // numbers of separated pairs, in both samples together
     std::printf(" %+.2g",
                 100 * (static_cast<double>(found[i]) / static_cast<double>(found[0]) - 1));
   std::printf(" |\n");

@@ -10,9 +10,10 @@
 
 namespace corridor::bench {
 
-/// Returns poses of b; the pose of a is the identity. b is rotated at random, and its distance from
-/// a differs from `gap` by at most 1 %. b approaches from outside along a random line through the
-/// origin of a's frame; each step is as long as the distance that is left.
+/// Returns `count` poses of b at which its distance from a exceeds `gap` by at most 1 % (up to
+/// rounding). The pose of a is the identity. b is rotated at random, and approaches from outside
+/// along a random line through the origin of a's frame; the length of each step is the current
+/// distance minus `gap`. @throws std::runtime_error if too few poses are found.
 inline std::vector<Transform> posesAtGap(const Obb4Tree& a, const Obb4Tree& b, double gap,
                                          int count, std::mt19937_64& random) {
   std::normal_distribution<double> normal;

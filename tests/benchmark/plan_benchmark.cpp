@@ -1,13 +1,13 @@
 /// `corridor benchmark` with competitors: `plan_benchmark --problem FILE… [--variant NAME[:KNOB]…]
-/// [--planner NAME…] [--runs N] [--seed N] [--time S] [--out FOLDER]`, each option any number of
-/// times.
+/// [--planner NAME…] [--runs N] [--seed N] [--time S] [--out FOLDER]`, each option may be given any
+/// number of times.
 ///
 /// Variants are those of the program, and:
 /// * `fcl:RESOLUTION`, if FCL is installed: states are tested by FCL (Debian's; BVHModel<OBBRSS>
 ///   and FCL's own primitives, all meshes as surfaces, no margin), and edges are sampled by OMPL's
 ///   rule;
-/// * `replay[:TOLERANCE]`: the certified run again with its recorded verdicts, which then cost
-///   nothing.
+/// * `replay[:TOLERANCE]`: a certified run that is repeated with its recorded verdicts, so that
+///   verdicts cost nothing.
 ///
 /// Prints the same table as the program, the failures, and the ratio of the time of `certified` to
 /// that of its replay.

@@ -9,7 +9,7 @@
 #include "planner/benchmark/plot.h"
 #include "planner/solve/whole_file.h"
 
-/// Additions of the benchmarks to the plots of planner/benchmark: lines with a dot at every
+/// What the benchmarks add to the plots of planner/benchmark: lines with a dot at every
 /// measurement.
 namespace corridor::bench {
 
@@ -24,7 +24,7 @@ inline double logSlope(const std::vector<PlotPoint>& points) {
   return n < 2 ? NAN : (n * xy - x * y) / (n * xx - x * x);
 }
 
-/// Returns a number as text with at most `digits` digits.
+/// Returns a number as text with at most `digits` significant digits.
 inline std::string text(double value, int digits = 3) {
   std::ostringstream out;
   out.precision(digits);

@@ -7,18 +7,20 @@
 /// CSV; times are medians over the queries, in microseconds, each the least of three runs.
 ///
 /// * `extreme`: the farthest vertex along a random direction.
-/// * `plane`: on which side of a plane a polytope is, or whether it is across it. The planes are
-///   random; they meet or miss the polytope by up to half of its size.
+/// * `plane`: on which side of a plane a polytope lies, or whether the plane cuts it. The planes
+///   are random; they cut the polytope or miss it, by up to half of its size.
 /// * `interference`: whether two polytopes of n vertices touch. Half of the pairs have a gap of 5 %
 ///   of the size, the others overlap by 5 %, along random directions.
-/// * `touching`: the same with a gap or depth of 1e-12 of the size.
-/// * `distance` of the disjoint pairs; `depth` and `depth along` of the overlapping pairs.
-/// * `separation`: the signed separation from a random plane, with its witness. `side`: only the
-///   side.
+/// * `touching`: like `interference`, with a gap or depth of 1e-12 of the size.
+/// * `distance`: the distance of the disjoint pairs. `depth`, `depth along`: the penetration depth
+///   of the overlapping pairs, least or along a given direction.
+/// * `separation`: the signed separation of a polytope from a random plane, with its witness.
+///   `side`: only the side of the plane on which the polytope lies.
 /// * The contact queries also run by Barba and Langerman's algorithm with inner and outer
 ///   hierarchies, by V-Clip, by separating axes (up to 1000 vertices) and by linear programming (up
 ///   to 10^4). The distance also runs by V-Clip.
-/// * `polygon interference`: whether two convex polygons of n vertices touch, in the same way.
+/// * `polygon interference`: whether two convex polygons of n vertices touch. The pairs are made
+///   like those of `interference`.
 #include <cmath>
 #include <iomanip>
 #include <iostream>
@@ -90,7 +92,8 @@ Pair pairWith(Random& random, const DobkinKirkpatrick& a, const DobkinKirkpatric
   pair.X_WB.t = pair.X_WA.t + 4 * d;
   const double apart = convexDistance({a, pair.X_WA}, {b, pair.X_WB}).distance;
   Transform X = pair.X_WB;
-  // The gap along the line is found by advancing; for spheres of many vertices one step is enough.
+  // b advances along the line until the polytopes touch; each step is as long as the distance that
+  // is left. For polytopes that are nearly spheres, one step is enough.
   X.t -= d * apart;
   for (int i = 0; i < 50; ++i) {
     const double left = convexDistance({a, pair.X_WA}, {b, X}).distance;
@@ -102,8 +105,9 @@ Pair pairWith(Random& random, const DobkinKirkpatrick& a, const DobkinKirkpatric
   return pair;
 }
 
-/// Larger polytopes are not tested by these two methods. Their separating axes take seconds,
-/// because the number of axes is O(n²). Their linear programs take long, although the time is O(n).
+/// The largest numbers of vertices for which separating axes and linear programming are measured.
+/// For more vertices, separating axes take seconds, because their number is O(n²); linear programs
+/// take long, too, although their time is O(n).
 constexpr std::size_t kMostForAxes = 1000, kMostForPrograms = 10'000;
 
 void measure(std::size_t n, std::size_t queries) {

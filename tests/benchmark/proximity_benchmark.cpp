@@ -1,17 +1,18 @@
 /// Measures parallel close proximity (Gottschalk, Lin, Manocha 1996, section 6) for every volume:
 /// `proximity_benchmark [--out FOLDER] [--frequency N]… [--rotations N]`.
 ///
-/// A sphere of 20·N² triangles (corners at radius 1) is inside another one, concentric and rotated
-/// at random. The facet planes of the outer sphere are 1 + gap away from the centre. The query is
-/// interference. Nothing touches, but every point of one sphere is near the other. Gaps go from 0.3
-/// down to 30 sagittas, where the spheres are still parallel for boxes of a leaf's size.
+/// A sphere of 20·N² triangles (corners at radius 1) is inside a second, concentric sphere, and
+/// rotated at random. The facet planes of the outer sphere are 1 + gap away from the centre. The
+/// query is interference. Nothing touches, but every point of one sphere is near the other. Gaps go
+/// from 0.3 down to 30 sagittas, where the spheres are still parallel for boxes of a leaf's size.
 ///
 /// Prints CSV on stdout:
 /// * N_v and N_p (means over the rotations) and the median time;
-/// * the slope of log N_v over log 1/gap, for all gaps, and for those at which fewer than one test
-///   in 100 is of triangles (at smaller gaps the queries reach the leaves nearly everywhere);
-/// * the same measurements for such a pair at several placements, and which of the trees that share
-///   one traversal is the best.
+/// * the slope of log N_v over log 1/gap, for all gaps, and for those gaps at which fewer than one
+///   test in 100 is a test of triangles (at smaller gaps, the queries reach the leaves nearly
+///   everywhere);
+/// * the same measurements for a pair of such spheres at several placements, and the best of the
+///   trees that share one traversal.
 ///
 /// FOLDER gets the plots.
 #include <functional>
@@ -65,7 +66,7 @@ std::vector<Cost> ask(const TriangleMesh& sphere, const std::vector<double>& sca
       double least = nanosecondsOf(counted, counted);
       cost.boxTests += static_cast<double>(context.counters.boxTests);
       cost.triangleTests += static_cast<double>(context.counters.triangleTests);
-      for (int i = 0; i < 2 && least < 1e8; ++i)  // long queries vary little
+      for (int i = 0; i < 2 && least < 1e8; ++i)  // no repeat above 0.1 s
         least = std::min(least, nanosecondsOf(query, query));
       ns.push_back(least);
     }
@@ -134,11 +135,12 @@ void sweep(const Options& o, std::mt19937_64& random) {
   std::cout << "\ntriangles,volume,slope_all_gaps,slope_unsaturated,gaps_unsaturated\n" << slopes;
 }
 
-/// Measures the same pair of spheres at other placements.
+/// Measures a pair of spheres at several placements.
 void placements(std::mt19937_64& random) {
   const TriangleMesh sphere = icosphere(32);
   constexpr double gap = 0.02;
-  const double reach = (1 + gap) / inradius(sphere);  // of the outer sphere's corners
+  // Distance of the outer sphere's corners from its centre.
+  const double reach = (1 + gap) / inradius(sphere);
   const Vec3 diagonal = Vec3::Ones().normalized(), axis = Vec3::UnitX();
   const Vec3 slanted = Vec3(3, 2, 1).normalized();
   struct Placement {

@@ -5,17 +5,17 @@
 /// Runs every workload of DIR/collision whose name contains a TEXT (DIR defaults to
 /// $CORRIDOR_DATA). All competitors build their trees once. Then there are N rounds. In each round
 /// every competitor in turn answers all poses in one pass. So no pose is repeated immediately,
-/// except by queries that are too short for the clock (planner/benchmark/query_timing.h), and other
-/// programs on the machine disturb all competitors alike. A pose's time is the least of its rounds,
-/// because other programs only ever add time. A workload's time is the median of its poses'.
-/// competitors.h describes how each competitor is called.
+/// except by queries that are too short for the clock (planner/benchmark/query_timing.h). Other
+/// programs on the machine disturb all competitors alike. The time of a pose is its least time over
+/// the rounds, because other programs can only add time. The time of a workload is the median over
+/// its poses. competitors.h describes how each competitor is called.
 ///
 /// Prints three tables. The first has the poses at which the root boxes of the reference tree
 /// overlap. The second has the other poses, where the overhead of a call counts. The third has the
-/// building of trees. Ratios are the time of the quickest FCL tree of the row over ours: above 1
-/// ours is quicker. *Wrong* counts verdicts that are not exact. For distance it counts results that
-/// are off by more than 1e-12·d + 4·2^-53·S, where S is the largest |v| of the vertices plus the
-/// largest coordinate of the translations.
+/// time to build trees. Ratios are the time of the quickest FCL tree of the row, divided by ours:
+/// above 1, ours is quicker. *Wrong* counts verdicts that are not exact. For distance it counts
+/// results that are off by more than 1e-12·d + 4·2^-53·S, where S is the largest |v| of the
+/// vertices plus the largest coordinate of the translations.
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -57,7 +57,8 @@ void enter(Field& field, const std::string& name, const test::Workload& w, const
   }));
 }
 
-/// Returns the competitors: ours first, because ratios are relative to it, then FCL's.
+/// Returns the competitors: our 4-wide tree first, because ratios are relative to it, and FCL's
+/// last.
 Field competitors(const test::Workload& w, const Options& o, double tolerance) {
   Field field;
   enter<Ours<Obb4Tree>>(field, "ours", w, o, tolerance, o.fit);
@@ -126,7 +127,7 @@ double medianOver(const Record& r, const Take& take) {
   return ns.empty() ? 0 : medianOf(ns);
 }
 
-/// Returns the time of the quickest other competitor over ours, or 0 if there is none.
+/// Returns the time of the quickest competitor of FCL, divided by ours, or 0 if there is none.
 double ratio(const std::vector<double>& values) {
   if (values.size() < 2 || values[0] <= 0) return 0;
   return *std::min_element(values.begin() + 1, values.end()) / values[0];

@@ -22,9 +22,9 @@ class RandomEdges {
            problem_.model.space.groups()[0].kind != CoordinateGroup::Kind::joints;
   }
   /// Returns an edge that starts at a random state. The edge may leave the bounds.
-  /// @param length for a rigid body, the length of its translation as a share of the scene's size;
-  /// the body also rotates, by at most length·π. For joints, the Euclidean norm of the change of
-  /// their values.
+  /// @param length for a rigid body, the length of its translation divided by the scene's size (the
+  /// diagonal of the bounds of its position); the body also rotates, by at most length·π rad. For
+  /// joints, the Euclidean norm of the change of all joint values, in rad and m.
   Edge next(double length) {
     Edge e{uniform(), {}};
     e.to = e.from;

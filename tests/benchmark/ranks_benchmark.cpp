@@ -1,7 +1,7 @@
 // Measures how `mpirun` campaigns hand out runs: messages, time and processor time of rank 0 per
-// run, for runs that take no time.
-//   mpirun -n 64 --oversubscribe build/release/tests/ranks_benchmark [RUNS [BYTES]]
-// BYTES: length of each result (default 3000, as of a run without trajectories).
+// run, for runs that take no time. mpirun -n 64 --oversubscribe build/release/tests/ranks_benchmark
+// [RUNS [BYTES]] BYTES: length of each result. The default is 3000, the length for a run without
+// trajectories.
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -43,7 +43,7 @@ double processorSeconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// Hands out all tasks. @returns false if one is missing, or came twice.
+/// Hands out all tasks. @returns false if the result of a task is missing, or came twice.
 bool handOut(RankExecutor& executor, std::uint64_t tasks, std::size_t bytes) {
   std::vector<char> done(tasks, 0);
   std::uint64_t next = 0, ended = 0;

@@ -17,19 +17,21 @@
 #include "planner/benchmark/child_process.h"
 #include "planner/solve/planner_factory.h"
 
-/// Measures the time of a run if verdicts cost nothing. The run is made twice, in two processes,
-/// with the same random numbers. The first records every answer of Corridor's checkers, and the
-/// second gets the recorded answers. Both runs therefore visit the same states, and the second
-/// run's time is that of the planner and the simplifier alone.
+/// Measures the time that a run would take if verdicts cost nothing. The run is made twice, in two
+/// processes, with the same random numbers. The first run records every answer of Corridor's
+/// checkers, and the second run gets the recorded answers. Both runs therefore visit the same
+/// states. The search time of the second run is that of the planner and the simplifier alone, plus
+/// the time for comparing the queries with the recorded ones.
 namespace corridor::bench {
 
-/// The queries of a run to the checkers and their answers, in order, as bytes. For one thread.
+/// The queries of a run to the checkers, and the answers to them, in order, as bytes. Only one
+/// thread may use the object.
 class Transcript {
  public:
   enum class Ask : char { state, clearance, motion, lastValid };
 
-  /// Records a query, or compares it with the recorded one.
-  /// @throws std::runtime_error if they differ in kind, or in any bit of a state.
+  /// Records a query, or compares it with the next recorded query.
+  /// @throws std::runtime_error if the two queries differ in kind, or in any bit of a state.
   void question(Ask ask, const ompl::base::SpaceInformation& si, const ompl::base::State* s1,
                 const ompl::base::State* s2 = nullptr) {
     ++questions_;
@@ -45,7 +47,7 @@ class Transcript {
     } else if (bytes_.size() - at_ < scratch_.size() ||
                std::memcmp(bytes_.data() + at_, scratch_.data(), scratch_.size()) != 0) {
       throw std::runtime_error("replay: question " + std::to_string(questions_) +
-                               " is not the one that was recorded");
+                               " differs from the recorded one");
     } else {
       at_ += scratch_.size();
     }
@@ -134,7 +136,7 @@ class TranscriptStates final : public ompl::base::StateValidityChecker {
 class TranscriptMotions final : public ompl::base::MotionValidator {
  public:
   /// Records the answers of the motion validator of `si`, or returns the recorded answers instead.
-  /// @pre That validator doesn't use OMPL's validity checker.
+  /// @pre The motion validator of `si` doesn't use OMPL's validity checker.
   TranscriptMotions(const ompl::base::SpaceInformationPtr& si, Transcript& transcript)
       : MotionValidator(si), inner_(si->getMotionValidator()), transcript_(transcript) {}
   bool checkMotion(const ompl::base::State* s1, const ompl::base::State* s2) const override {
@@ -157,8 +159,8 @@ class TranscriptMotions final : public ompl::base::MotionValidator {
   Transcript& transcript_;
 };
 
-/// Returns a competitor with certified edges that are recorded, or replayed. @pre `transcript`
-/// outlives it.
+/// Returns a competitor with certified edges, whose answers are recorded or replayed. @pre
+/// `transcript` outlives the competitor.
 inline BenchmarkCompetitor transcriptPeer(Transcript& transcript) {
   return {"replay",
           [&transcript](const auto& si, const Checker&) {
@@ -170,9 +172,10 @@ inline BenchmarkCompetitor transcriptPeer(Transcript& transcript) {
           "certified"};
 }
 
-/// Makes both runs and returns the second. Both runs do the set-up (which tests start and goals)
-/// and the last certification in full; BenchmarkRun::searchProcessorTime excludes both. OMPL's own
-/// tests of the path are replayed, too; they are outside of all measured times.
+/// Makes both runs and returns the second. Both runs do the set-up (which tests the start and the
+/// goals) and the final certification in full; BenchmarkRun::searchProcessorTime excludes the
+/// set-up and this certification. OMPL's own tests of the path are replayed, too, outside of all
+/// measured times.
 /// @throws std::runtime_error for a planner that doesn't repeat, or if recording failed.
 inline BenchmarkRun replayedRun(const Problem& planned, double memory, Path& path) {
   for (const PlannerInfo& info : knownPlanners())
@@ -187,7 +190,8 @@ inline BenchmarkRun replayedRun(const Problem& planned, double memory, Path& pat
     Path ignored;
     const BenchmarkRun run = runUnderOmpl(planned, "", transcriptPeer(transcript), memory, ignored);
     if (!run.failure.empty()) throw std::runtime_error(run.failure);
-    // The time may have run out, and the moment when that happens does not repeat.
+    // If the time ran out, the run can't be replayed: the moment at which it runs out does not
+    // repeat.
     if (!run.solved) throw std::runtime_error(run.why);
     transcript.write(file.get());
     send("done");

@@ -1,18 +1,18 @@
 /// Measures the cost of queries as meshes get finer: `scaling_benchmark [--out FOLDER] [--largest
 /// N] [--poses N] [--gap G]…`.
 ///
-/// Two bumpy tori of the same shape, from 10^3 to N triangles each (default 10^6), are apart by a
-/// gap of G times their size (default 0.1, 0.01, 0.001). The query is interference; nothing
-/// touches. Our 4-wide OBB tree runs at all sizes. The reference tree and FCL's OBB tree need
-/// several times the memory, and run up to 10^6 triangles only. All competitors run in turns
-/// (competitors.h). Before each turn the program reads other memory, so that no nodes of a tree are
-/// in the processor's caches.
+/// Two bumpy tori of the same shape have 10^3 to N triangles each (default 10^6), and a gap of G
+/// times their size (default 0.1, 0.01, 0.001). The query is interference; nothing touches. Our
+/// 4-wide OBB tree runs at all sizes. The reference tree and FCL's OBB tree need several times the
+/// memory, and run up to 10^6 triangles only. All competitors run in turns (competitors.h). Before
+/// each turn the program reads other memory, so that no nodes of a tree are in the processor's
+/// caches.
 ///
 /// Prints CSV on stdout. At the end, for each competitor and gap, it prints by which factors time,
 /// the number of volume tests (N_v) and the logarithm of the number of triangles grew from the
 /// smallest mesh to the largest. It also prints these factors from the first mesh whose facets are
-/// nearer to the true surface than the gap. On coarser meshes, a refinement also adds places where
-/// the two surfaces are close. The plot is written to FOLDER.
+/// closer to the true surface than the gap is wide. On coarser meshes, a refinement also adds
+/// places where the two surfaces are close. The plot is written to FOLDER.
 #include <iostream>
 #include <map>
 
@@ -45,8 +45,8 @@ struct Curve {
   std::vector<PlotPoint> us, boxTests;
 };
 
-/// Returns how far the facets of a torus of n triangles are from the true surface, at most: the
-/// sagitta of a circle of radius 0.4 that is divided into √(n/4) chords.
+/// Returns the largest distance of the facets of a torus of n triangles from the true surface
+/// (without the bumps): the sagitta of a circle of radius 0.4 that is divided into √(n/4) chords.
 double sagitta(double n) {
   return 0.4 * (1 - std::cos(std::numbers::pi / std::sqrt(n / 4)));
 }

@@ -1,11 +1,11 @@
 /// Compares our distances and contacts of convex shapes with those of FCL's two solvers:
 /// `shape_distance_benchmark [SEED]`.
 ///
-/// For each pair of kinds and each gap, known by construction, it prints the median nanoseconds of
-/// a query with witness points (batches of 100 pairs, interleaved) and the largest error in metres.
-/// Shapes are some 1 m in size. `-` means that FCL reported contact of shapes that are apart.
-/// A second table has the median nanoseconds of a contact query, and the number of wrong verdicts
-/// of 100. A negative gap is a depth.
+/// The gap of each pair is known by construction. For each pair of kinds and each gap, the program
+/// prints the median nanoseconds of a query with witness points (batches of 100 pairs, interleaved)
+/// and the largest error in metres. Shapes are some 1 m in size. `-` means that FCL reported
+/// contact of shapes that are apart. A second table has the median nanoseconds of a contact query,
+/// and the number of wrong verdicts out of 100. A negative gap is a depth.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -34,8 +34,8 @@ using test::ShapeFeature;
 constexpr const char* kNames[] = {"box", "sphere", "capsule", "cylinder", "convex"};
 constexpr int kBatch = 100, kRounds = 15;
 
-/// Returns a shape that is nowhere thinner than 5 cm. The convex polytope is an octahedron, with
-/// its top as the feature.
+/// Returns a shape that is nowhere thinner than 5 cm. The convex polytope is an octahedron; its
+/// feature is its top corner.
 ShapeFeature featureOf(test::Touching& make, Shape shape) {
   if (shape != Shape::convex)
     while (true) {

@@ -11,10 +11,10 @@
 #include "collision/core/transform.h"
 #include "collision/geometry/triangle_mesh.h"
 
-/// Meshes of any fineness, and poses, for benchmarks.
+/// Meshes of any fineness, and random rotations, for benchmarks.
 namespace corridor::bench {
 
-/// Returns the diagonal of a mesh's bounds.
+/// Returns the length of the diagonal of a mesh's bounding box.
 inline double diagonal(const TriangleMesh& mesh) {
   Vec3 low = mesh.vertices[0], high = low;
   for (const Vec3& v : mesh.vertices) {
@@ -24,8 +24,8 @@ inline double diagonal(const TriangleMesh& mesh) {
   return (high - low).norm();
 }
 
-/// Returns a unit sphere of 20·frequency² triangles with corners on the sphere: each face of an
-/// icosahedron, divided. Corners along the edges of the icosahedron are stored once per face.
+/// Returns a mesh of 20·frequency² triangles with corners on the unit sphere: each face of an
+/// icosahedron is divided. Corners along the edges of the icosahedron are stored once per face.
 inline TriangleMesh icosphere(int frequency) {
   constexpr double g = std::numbers::phi;
   const std::array<Vec3, 12> corner = {Vec3(-1, g, 0),  Vec3(1, g, 0),   Vec3(-1, -g, 0),

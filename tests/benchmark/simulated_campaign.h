@@ -11,17 +11,19 @@
 #include "planner/benchmark/campaign_yaml.h"
 
 /// Campaigns of many simulated runs, to measure the cost of storing, reading and reporting them.
-/// Their figures are random, the texts of failed runs are constant, and all else is that of one
-/// real run of each variant and planner.
+/// The figures of the runs are random, and the texts of failed runs are constant. All other data is
+/// that of one real run of each variant and planner.
 namespace corridor::bench {
 
 struct SimulatedSize {
-  std::size_t runs = 100'000;  ///< in all; rounded up, so that all cells have equally many
+  std::size_t runs = 100'000;  ///< number of runs in all; it is rounded up, so that all cells have
+                               ///< equally many runs
   std::size_t problems = 50, variants = 4, planners = 2;
 };
 
-/// Writes a campaign's files: problems of a cube in a hall, each with its wall in another place.
-/// @returns the campaign's file.
+/// Writes the files of a campaign: problems of a cube in a hall, in each of which the wall is in
+/// another place.
+/// @returns the path of the campaign file.
 inline std::filesystem::path writeSimulated(const SimulatedSize& size,
                                             const std::filesystem::path& folder) {
   const auto write = [&](const std::string& name, const std::string& text) {

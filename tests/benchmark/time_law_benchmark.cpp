@@ -1,5 +1,6 @@
 /// Measures how long it takes to compute time laws and their rows, for paths of 7 joints: one of 20
-/// pieces (goal for the law: below 3 ms), and one of 1000 pieces. Prints medians over repeats.
+/// pieces (the law should take less than 3 ms), and one of 1000 pieces. Prints medians over
+/// repeats.
 
 #include <algorithm>
 #include <chrono>

@@ -1,8 +1,9 @@
-/// Compares the tolerance query with interference, such that both have the same gap to prove:
-/// `tolerance_benchmark [--data DIR] [--workload TEXT]… [--poses N] [--rounds N]`.
+/// Compares the time of the tolerance query with that of interference, at poses at which both must
+/// prove the same gap: `tolerance_benchmark [--data DIR] [--workload TEXT]… [--poses N] [--rounds
+/// N]`.
 ///
 /// Runs every workload of DIR/collision whose name contains a TEXT (DIR defaults to
-/// $CORRIDOR_DATA). It uses the first N poses that are free and that the root boxes alone do not
+/// $CORRIDOR_DATA). It uses the first N poses without contact that the root boxes alone do not
 /// decide. The gap of such a pose is g. The program compares interference at this pose with "closer
 /// than t?" at a pose where the gap is g + t, for t = 10^-4, 10^-3 and 10^-2 of the smaller mesh's
 /// size. Both queries have g left to prove: the former that the gap is above 0, the latter that it
@@ -10,9 +11,9 @@
 ///
 /// To widen the gap, B is moved along the line between the closest points, as far as needed. If one
 /// mesh is inside the other (concentric spheres), no such motion helps; then A is scaled about the
-/// origin. A pose is left out if its gap is then off by more than 1 % of g. The program reports the
-/// ratio of the times of both queries: the median over the poses. Each time is the least of the
-/// rounds, in which both queries take turns. Trees are 4-wide OBB trees.
+/// origin. A pose is left out if the widened gap is off by more than 1 % of g. The program reports
+/// the median, over the poses, of the ratio of the times of both queries. Each time is the least of
+/// the rounds, in which both queries take turns. Trees are 4-wide OBB trees.
 #include <limits>
 #include <optional>
 
@@ -44,7 +45,7 @@ std::optional<Transform> widened(const Obb4Tree& a, const Obb4Tree& b, Transform
   const Vec3 from = X.t;
   double moved = 0, gap = start.distance;
   for (int i = 0; i < 100; ++i) {
-    // The gap grows at most as fast as b moves: no step overshoots.
+    // The gap grows by at most the length that b moves, so no step overshoots.
     moved += wanted - gap;
     if (moved > 4 * (wanted - start.distance)) return {};
     X.t = from + moved * away;
@@ -70,7 +71,8 @@ Row measure(const test::Workload& w, double relative, const Options& o) {
   const bool concentric = w.name.find("spheres") != w.name.npos;
   const Obb4Tree smaller(concentric ? scaled(w.a, 1 - tolerance) : w.a);
   QueryContext context;
-  const auto inner = [&](const Transform& X) {  // free, and not decided by the roots alone
+  const auto inner = [&](const Transform& X) {  // returns whether there is no contact, and the root
+                                                // boxes alone don't decide this
     context.counters = {};
     const bool hit = interference(Posed(a), Posed(b, X), context).has_value();
     return !hit && context.counters.boxTests > Obb4Tree::kWidth * Obb4Tree::kWidth;

@@ -1,17 +1,19 @@
 /// Compares trajectories that a robot may execute: `trajectory_benchmark --problem FILE… [--count
-/// N] [--seed N] [--fcl]`. FILE is a problem, or a set of MotionBenchMaker, of which the first N
-/// problems are taken (20).
+/// N] [--seed N] [--fcl]`. FILE is a problem, or a set of MotionBenchMaker; the first N problems of
+/// a set are taken (default 20).
 ///
 /// Each problem is solved once by its own planner. Along this path, four trajectories are compared,
 /// with the same limits and the same law (planner/benchmark/trajectory_run.h): `blends` (ours),
 /// `stop`, `spline` and `inserted`. The independent verifier judges the rows of all of them.
 /// `corridor benchmark` compares the same trajectories in campaigns.
 ///
-/// Prints one CSV line per problem, then the summary. `free` is the law of the path without its
-/// inner corners' limits: no motion along the path is faster. `saved` is (stop − ours)/(stop −
-/// free). With --fcl: the cost of proving our trajectory against FCL's samples of it, one every
-/// 0.01 rad or m. `bulge_ratio`: the cost of cubic pieces whose middle is 5 % of the chord's length
-/// off the chord, over the cost of the chords, for the path's edges where both are free.
+/// Prints one CSV line per problem, then the summary. `free` is the duration of the law for the
+/// path as if its inner corners set no limits: no motion along the path is faster. `saved` is (stop
+/// − ours)/(stop − free), in durations. With --fcl, the program also compares the cost of proving
+/// our trajectory with the cost of FCL's samples of this trajectory, one every 0.01 rad or m.
+/// `bulge_ratio` is the cost of proving cubic pieces whose middle is off the chord by 5 % of the
+/// chord's length, divided by the cost of proving the chords. The chords are the edges of the path;
+/// only edges count for which both are free.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -37,7 +39,7 @@ double secondsOf(const Call& call) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
 }
 
-/// Returns an upper bound of the length of a piece: that of its control polygon.
+/// Returns an upper bound of the length of a piece: the length of its control polygon.
 double lengthOf(const CurvePiece& piece) {
   return (piece.coefficients.rightCols(piece.degree()) -
           piece.coefficients.leftCols(piece.degree()))
@@ -46,8 +48,8 @@ double lengthOf(const CurvePiece& piece) {
       .sum();
 }
 
-/// Returns the cost of proving bulging cubic pieces over that of their chords, the path's edges; 0
-/// if no bulging piece is free.
+/// Returns the cost of proving bulging cubic pieces, divided by the cost of proving their chords,
+/// which are the edges of the path; 0 if no bulging piece is free.
 double bulgeRatio(const Checker& checker, const Path& path, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;

@@ -1,7 +1,8 @@
 // Measures run time against error of the test whether two triangles touch. The methods are a
-// textbook test in float and in double, ours (double with a filter, integers where the filter can't
-// decide), integers always, and rationals always. They run on the shared pairs (CORRIDOR_DATA) and
-// on the stress suite's families and placings.
+// textbook test in float and in double, our test (double with a filter, and integers if the filter
+// can't decide), our test in integers only, and a test in rationals. They run on the shared pairs
+// (CORRIDOR_DATA), and on pairs made by the families and placings of the stress tests
+// (tests/support/triangle_families.h).
 //
 //   triangle_error_benchmark [PAIRS_PER_FAMILY, default 2000]
 #include <algorithm>
@@ -157,8 +158,8 @@ constexpr Named kMethods[] = {
      [](const test::PlacedPair& p) { return test::rationalContact(p.a, p.X_WA, p.b, p.X_WB); },
      true}};
 
-/// Returns nanoseconds of processor time per pair, in one pass over all pairs, or over some of them
-/// if the method is slow.
+/// Returns the nanoseconds of processor time per pair, from one pass over all pairs, or over some
+/// of them if the method is slow.
 double nanoseconds(const Named& named, const std::vector<Judged>& pairs) {
   const std::size_t count = named.slow ? std::min<std::size_t>(200, pairs.size()) : pairs.size();
   int hits = 0;

@@ -1,12 +1,12 @@
 /// Measures the cost of every bounding volume in generic trees: `volume_tree_benchmark WORKLOAD
 /// [FOLDER]`.
 ///
-/// WORKLOAD is the name of one of the shared collision workloads in FOLDER (default:
+/// WORKLOAD is the name of a shared collision workload in FOLDER (default:
 /// $CORRIDOR_DATA/collision). Prints CSV on stdout, with one row per volume and build method, and
-/// one for the octree (a tree that divides space). Columns: milliseconds to build and to refit the
-/// tree of the first mesh (least of three), the bytes of this tree, median microseconds of
+/// one row for the octree (a tree that divides space). Columns: milliseconds to build and to refit
+/// the tree of the first mesh (least of three), the bytes of this tree, median microseconds of
 /// interference, distance and "closer than 10^-3 of the size?" over the poses, and the means of N_v
-/// and N_p of interference. For the octree there are no refitting and no distances.
+/// and N_p of interference. For the octree, refitting and distances are not measured.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>

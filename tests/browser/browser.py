@@ -1,4 +1,4 @@
-"""Helpers for the tests of pages: they run the program and a browser without a display, and check every page.
+"""Helpers for the tests of HTML pages: they run the program `corridor` and a headless browser, and check every page.
 
 A test is a script that imports this file and ends with `main([test, …])`, a list of functions, each of which takes a
 browser and a folder. Without Chromium, its driver or Selenium the script prints the reason and ends with status 77, which
@@ -13,13 +13,13 @@ import tempfile
 import time
 
 SKIPPED = 77
-WAIT = 120  # seconds: a busy machine with two cores and no graphics card draws slowly
+WAIT = 120  # seconds: a busy machine with two cores and no graphics card renders slowly
 
 SIZES = {"desktop": (1366, 768), "phone": (390, 844)}
 
 
 def skip(why):
-    print(f"browser: Skipped\n{why}")  # GoogleTest's form: ./corridor test lists the reasons
+    print(f"browser: Skipped\n{why}")  # in GoogleTest's format, so that ./corridor test lists the reason
     sys.exit(SKIPPED)
 
 
@@ -35,7 +35,7 @@ except ImportError:
 
 
 def corridor(*words, status=0):
-    """Runs the program (CORRIDOR_PROGRAM) and returns what it printed."""
+    """Runs the program (CORRIDOR_PROGRAM), requires its exit status, and returns what it printed."""
     result = subprocess.run([os.environ["CORRIDOR_PROGRAM"], *map(str, words)], capture_output=True, text=True)
     assert result.returncode == status, f"corridor {words}: {result.returncode}\n{result.stdout}{result.stderr}"
     return result.stdout
@@ -55,7 +55,7 @@ class Browser:
     """Chromium with one open page."""
 
     def __init__(self, *flags):
-        """flags: command-line flags of Chromium, in addition to those for drawing without a graphics card."""
+        """flags: command-line flags of Chromium, in addition to those for rendering without a graphics card."""
         browser, driver = shutil.which("chromium"), shutil.which("chromedriver")
         if not browser or not driver:
             skip("needs Debian's chromium and chromium-driver")
@@ -63,7 +63,7 @@ class Browser:
         options.binary_location = browser
         for word in ("--headless", "--hide-scrollbars", "--disable-dev-shm-usage", "--force-device-scale-factor=1",
                      "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
-                     "--webgl-antialiasing-mode=none",  # takes a quarter of the time, and no test is about it
+                     "--webgl-antialiasing-mode=none",  # four times as fast; no test needs antialiasing
                      *flags):
             options.add_argument(word)
         if os.geteuid() == 0:
@@ -113,7 +113,8 @@ class Browser:
         return [entry["message"] for entry in self.driver.get_log("browser") if entry["level"] == "SEVERE"]
 
     def check_page(self):
-        """Checks the rules for every page at any size: no error, nothing loaded, nothing wider than the window."""
+        """Checks the rules for every page at any size: no error in the console, no file loaded, nothing wider than the
+        window."""
         assert not (found := self.complaints()), found
         loaded = self.js("performance.getEntriesByType('resource').map((entry) => entry.name)")
         assert not loaded, f"the page loads {loaded}"
@@ -133,7 +134,8 @@ class Browser:
 
     def canvas(self, selector):
         """Returns the number of colours of a canvas that WebGL draws on, and a hash of its pixels."""
-        # Without a graphics card, copying the pixels to a 2D canvas and reading that takes a hundred times as long.
+        # Without a graphics card, copying the pixels to a 2D canvas and reading this canvas takes a hundred times as
+        # long.
         return self.driver.execute_script("""
             const canvas = document.querySelector(arguments[0]), gl = canvas.getContext('webgl2') || canvas.getContext('webgl');
             const pixels = new Uint32Array(gl.drawingBufferWidth * gl.drawingBufferHeight);

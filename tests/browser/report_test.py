@@ -1,4 +1,5 @@
-"""Tests a campaign's report in a browser: no errors, no file loaded, plots with all their points, texts on the points."""
+"""Tests a campaign's report in a browser: it has no errors and loads no file, and its plots have all points, each with
+a text."""
 
 import csv
 import os
@@ -32,23 +33,24 @@ def pages(browser, folder):
         browser.open(os.path.join(out, "report.html"))
         browser.check_page()
     assert browser.js("document.title") == "pages"
-    assert browser.js("document.querySelectorAll('figure svg').length") == 9  # three per problem, three of all problems
+    # Three plots for each of the two problems, and three for all problems together.
+    assert browser.js("document.querySelectorAll('figure svg').length") == 9
     names = browser.js("[...document.querySelectorAll('figure')].map((figure) => figure.dataset.plot)")
     assert sorted(names) == sorted(
         [f"{kind}.{problem}" for kind in ("error", "solved", "clearance") for problem in ("thin_plate", "gantry_bins")] + ["cost", "error", "profile"]
     ), names
     assert browser.js("document.querySelectorAll('#ranking tbody tr').length") == 3
-    # certified ranks first: none of its paths is refuted.
+    # The variant `certified` ranks first, because none of its paths is refuted.
     first = browser.find("#ranking tbody tr").text
     assert first.startswith("certified") and "0 of 12" in first, first
-    # A label that looks like HTML is text.
+    # A label that looks like HTML is shown as text.
     assert browser.js("document.querySelectorAll('#cells b').length") == 0
     assert "<b>short</b>" in browser.find("#cells").text
     points_have_texts(browser, out)
 
 
 def points_have_texts(browser, out):
-    """A plot has a point for each row of its file, and a point shows a text when the pointer is on it."""
+    """A plot has a point for each row of its CSV file, and each point shows a text when the pointer is on it."""
     browser.size("desktop")
     browser.open(os.path.join(out, "report.html"))
     with open(os.path.join(out, "plots", "error.thin_plate.csv"), newline="") as file:
@@ -57,7 +59,9 @@ def points_have_texts(browser, out):
     points = browser.driver.find_elements(By.CSS_SELECTOR, "figure[data-plot='error.thin_plate'] g[onmousemove]")
     assert len(points) == len(rows), len(points)
     said = set()
-    for point in points:  # by events, since some points are covered; the text is read at once, since scrolling hides it
+    # The events are simulated, because some points are covered by others. The text is read at once, because scrolling
+    # hides it.
+    for point in points:
         browser.driver.execute_script("arguments[0].scrollIntoView({block: 'center'})", point)
         words, tip = browser.driver.execute_script("""
             const box = arguments[0].getBoundingClientRect(), tip = document.getElementById('tip');
@@ -67,7 +71,7 @@ def points_have_texts(browser, out):
         said.add(words.split("\n")[0])
         assert tip["width"] > 50 and 0 <= tip["left"] and tip["right"] <= SIZES["desktop"][0] and tip["top"] >= 0, tip
     assert len(said) == len(points), said
-    # A real pointer on the topmost point, once the page has stopped scrolling.
+    # A real pointer is moved to the topmost point, again and again until the page has stopped scrolling.
     use = points[-1].find_element(By.TAG_NAME, "use")
     for step in range(20):
         ActionChains(browser.driver).move_to_element_with_offset(use, step % 2, 0).pause(0.1).perform()
@@ -82,7 +86,8 @@ def points_have_texts(browser, out):
 
 
 def folded(browser, folder):
-    """With many problems, a plot is stored as text until its part of the page is opened and scrolled to, or printed."""
+    """With many problems, the plot of a problem is stored as text. It is drawn when its part of the page has been
+    opened and scrolled to, or when the page is printed."""
     campaign = os.path.join(folder, "folded.yaml")
     with open(campaign, "w") as file:
         file.write("format: corridor-campaign-1\nproblems: [%s]\ncheckers: {sampled: {edges: discrete}}\nruns: 1\nlimits: {time: 60}\n"

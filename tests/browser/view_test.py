@@ -1,4 +1,5 @@
-"""Pages of `corridor view` in a browser: they draw, move, fit and report no error, at the sizes of a desktop and of a phone."""
+"""Tests the pages of `corridor view` in a browser, at the sizes of a desktop and of a phone: they draw, play, fit the
+window and have no errors."""
 
 import json
 import os
@@ -73,7 +74,7 @@ def two_arms(browser, path):
         if browser.js("corridorView.player.playing") == 0:
             break
     assert browser.js("corridorView.player.playing") == 0
-    # Everything shown on demand is off at first.
+    # What is shown only on demand is off at first.
     if browser.js("document.body.classList.contains('closed')"):
         browser.click("#toggle")
     for body in ("closest-body", "trees-body", "pairs-body"):
@@ -153,7 +154,7 @@ def refuted(browser, path):
 
 
 def trajectory(browser, path):
-    """A trajectory plays at its true speed. One cursor is in all plots and in the table."""
+    """A trajectory plays at its true speed. All plots and the table mark the same time."""
     for file, text in {
             "robot.yaml": "format: corridor-robot-1\nname: cube\nrigid: SE2\nshapes: [{box: [1, 1, 1]}]\n",
             "problem.yaml": "format: corridor-problem-1\nrobot: robot.yaml\nworld: {wall: {box: [0.1, 1, 1]}}\n"
@@ -191,7 +192,7 @@ def trajectory(browser, path):
     assert browser.find("#badge").get_attribute("class") == "undecided"
     assert "Limitsexceeded; velocity " in browser.js("document.getElementById('facts').textContent")
     shown(browser, page, "desktop")
-    # The true speed: w seconds later by the clock of the frames, the place is w seconds later.
+    # The true speed: w seconds later by the browser's clock, the trajectory is `speed`·w seconds later.
     for speed in (0.25, 1, 2):
         browser.driver.execute_script("document.getElementById('speed').value = arguments[0];", str(speed))
         played = browser.driver.execute_async_script("""
@@ -276,7 +277,7 @@ def pictured(browser, page, size):
 
 
 def picture_shows_the_verdict(browser, path):
-    """The legend has the verdict. For a refuted path a ring marks the place, and all poses keep their own colours."""
+    """The legend shows the verdict. For a refuted path a ring marks the contact, and all poses keep their own colours."""
     ring = "corridorView.contact.ring.visible"
     sizes = (1366, 768), (600, 400)
     page = page_of(path, "thin_plate", "--seed", 1)
@@ -298,7 +299,7 @@ def picture_shows_the_verdict(browser, path):
     shown(browser, page, "desktop")
     assert not browser.js(ring), "a page draws the ring before a finding is selected"
     assert browser.js("document.querySelector('#legend .verdict')") is None, "the legend shows a verdict: pages have a panel for it"
-    # A violation, which is not a finding; and very long names.
+    # A violation of a limit, which is not a finding of the verifier; and very long names.
     long = "from_here_to_there_and_back_again_" * 5
     for file, text in {
             "robot.yaml": f"format: corridor-robot-1\nname: {long}\nrigid: SE2\nshapes: [{{box: [1, 1, 1]}}]\n",
@@ -318,7 +319,7 @@ def picture_shows_the_verdict(browser, path):
 
 
 def not_shown_as_proved(browser, path):
-    """Neither a path of another problem, nor one of a problem without tested pairs, may look proved."""
+    """A path of another problem must not look proved, nor may a path of a problem in which no pair is tested."""
     for file, text in {
             "robot.yaml": "format: corridor-robot-1\nname: cube\nrigid: SE2\nshapes: [{box: [1, 1, 1]}]\n",
             "free.yaml": "format: corridor-problem-1\nrobot: robot.yaml\nworld: {wall: {box: [0.1, 1, 1]}}\nallow: [[cube, wall]]\n"

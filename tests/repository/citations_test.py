@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Tests that every promise and section that a comment cites exists, and every file to which a page links."""
+"""Tests that every promise and section that a comment or page cites exists, and every file and heading to which a page
+links."""
 
 import pathlib
 import re
@@ -26,7 +27,8 @@ def anchorOf(heading):
 
 
 def citationFaults(text, name, pages):
-    """Yields citations that lead nowhere. A citation is `PAGE.md, promise N` or `PAGE.md, "Section"`, maybe over two lines."""
+    """Yields a fault for each citation that leads nowhere. A citation is `PAGE.md, promise N` or `PAGE.md, "Section"`;
+    it may extend over two lines."""
     flat = re.sub(r"\n\s*(///?|#|\*)?\s*", " ", text)
     for page, what in re.findall(rf"({'|'.join(PAGES)})\)?, (promises? \d|\"[^\"]+\")", flat):
         headings = pages[page]

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Enforces the layers of planner/ARCHITECTURE.md: a file includes only from its own folder or from lower ones."""
+"""Enforces the layers of planner/ARCHITECTURE.md: a file includes headers only from its own folder or from folders of
+lower layers."""
 
 import pathlib
 import re
@@ -11,7 +12,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 LAYERS = [
     "collision/core", "collision/predicates", "collision/geometry", "collision/convex", "collision/volumes",
     "collision/hierarchy", "collision/queries", "collision/motion", "collision/world",
-    "collision/collision.h",  # only for programs of users: our own files include the headers that they need
+    "collision/collision.h",  # only for programs of users: Corridor's own files include the headers that they need
     "planner/robot", "planner/model", "planner/problem", "planner/checker", "planner/verify", "planner/trajectory",
     "planner/solve", "planner/view", "planner/benchmark", "planner/app", "planner/python",
 ]

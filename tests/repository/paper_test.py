@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tests that tests/benchmark/PAPER.md is what paper.py makes of its CSV."""
+"""Tests that tests/benchmark/PAPER.md is exactly what paper.py writes from the CSV files in tests/benchmark/paper/."""
 
 import pathlib
 import subprocess

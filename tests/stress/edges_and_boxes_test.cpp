@@ -1,4 +1,5 @@
-// Compares certified edges with the independent verifier, and the box overlap test with rationals.
+// Compares the verdicts on certified edges with those of the independent verifier, and the box
+// overlap test with a test in rationals.
 #include <array>
 #include <iostream>
 #include <random>
@@ -49,7 +50,8 @@ TriangleMesh soup(Random& random, int triangles, double size, double edge) {
 struct Case {
   const char* name;
   TriangleMesh moving, fixed;
-  double size, step;  // range of positions (for the arm: of angles), and length of an edge
+  double size, step;  // size: bound of |coordinates| of a state (m, or rad for angles of the arm);
+                      // step: their largest change along an edge
   enum Mount { floating, planar, arm } mount;
 };
 
@@ -81,8 +83,8 @@ std::vector<Case> cases(Random& random) {
   return all;
 }
 
-/// The robot of a case. Its last frame carries the moving mesh. On an arm, the two frames before
-/// the last one carry a copy, too.
+/// The robot of a case. The robot's last frame carries the moving mesh. On an arm, each of the two
+/// frames before the last one carries a copy of this mesh, too.
 struct Robot {
   KinematicTree tree;
   ConfigurationSpace space;
@@ -123,7 +125,8 @@ struct Robot {
     frames.push_back(tree.add(turn));
   }
 
-  /// Returns a random edge. @param little  rotations of a floating body are small.
+  /// Returns a random edge. @param little if true, the rotation of a floating body along the edge
+  /// is small.
   std::pair<Configuration, Configuration> edge(Random& random, const Case& c, bool little) const {
     Configuration from(space.size()), to(space.size());
     for (Eigen::Index k = 0; k < from.size(); ++k) {
@@ -254,8 +257,8 @@ TEST(Stress, BoxOverlapAgainstRationals) {
     Transform X;
     X.m = rotation(random).normalized().toRotationMatrix();
     if (i % 8 < 2) X.m = a.axes * b.axes.transpose();  // parallel boxes
-    // Places the boxes so that they just touch along one of the 15 axes, then moves one by a tiny
-    // step along it.
+    // Places the boxes so that they just touch along one of the 15 axes, then moves one box by a
+    // tiny step along this axis.
     const Mat3 ub = X.m * b.axes;
     const int which = i % 15;
     Vec3 n = which < 3   ? Vec3(a.axes.col(which))
@@ -296,8 +299,8 @@ TEST(Stress, BoxOverlapAgainstRationals) {
     } else {
       ++apart;
       proved += separated;
-      // The margin grows with the boxes' sizes and the distance of their centres, even if they are
-      // thin along n. It is divided by the axis' length |L| ≥ 0.01.
+      // The margin grows with the boxes' sizes and the distance of their centres, even if the boxes
+      // are thin along n. The margin is divided by the length |L| ≥ 0.01 of the axis.
       const double total =
           std::sqrt(3.0) * (X * b.center - a.center).norm() + a.half.sum() + b.half.sum();
       if (i % 4 && step * scale > 2 * (margins.relative * total / 0.01 + margins.absolute)) {

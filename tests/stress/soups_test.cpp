@@ -1,7 +1,7 @@
-// Meshes of triangles for which contact is hard to decide. The 4-wide OBB tree is compared with the
-// binary one, with brute force and with rationals. Properties that do not depend on the answer are
-// tested, too: results after rotating, scaling and adding triangles. 1,000 pairs of meshes; 20,000
-// with CORRIDOR_STRESS.
+// Queries of meshes whose triangles make contact hard to decide. The 4-wide OBB tree is compared
+// with the binary OBB tree, with brute force and with rationals. Rotating and scaling both meshes,
+// or adding triangles, must change the results in a known way; this is tested, too. There are 1,000
+// pairs of meshes, or 20,000 with CORRIDOR_STRESS.
 #include "tests/support/soups.h"
 
 #include <algorithm>
@@ -36,10 +36,10 @@ struct Soups {
   Transform X_WA, X_WB;
 };
 
-/// Returns two meshes: pairs of triangles of the families at random places. If both meshes have the
-/// same map, pairs that touch by construction still touch. Compared with the size of their
-/// triangles, some meshes are dense and some sparse. Some maps are rigid only up to rounding, with
-/// large translations.
+/// Returns two meshes, made of pairs of triangles of the families (triangle_families.h) at random
+/// places. If both meshes have the same map, pairs that touch by construction still touch. In some
+/// meshes the triangles are dense, in others they are far apart. Some maps are rigid only up to
+/// rounding, with large translations.
 Soups anySoups(Random& random, int count) {
   Soups s;
   const auto families = test::pairFamilies();
@@ -54,7 +54,7 @@ Soups anySoups(Random& random, int count) {
     for (Triangle* t : {&a, &b})
       for (Vec3& p : *t) p += place;
     test::add(s.a, a);
-    // Of each pair, b is added only sometimes, so that most meshes do not touch everywhere.
+    // Only one in eight of the triangles b is added, so that most meshes do not touch everywhere.
     if (random() % 8 == 0 || s.b.triangles.empty()) test::add(s.b, b);
   }
   if (random() % 2) {
@@ -90,8 +90,7 @@ TrianglePairs pairsOf(const std::vector<TriangleContact>& contacts) {
 
 class SoupQueries : public testing::Test {
  protected:
-  /// Expects that contacts, distances and tolerance queries agree with brute force, for both kinds
-  /// of trees and both orders of the meshes.
+  /// Expects that contacts, distances and tolerance queries agree with brute force.
   void expectAgreement(const Soups& s, const TrianglePairs& expected) {
     const Obb4Tree a(s.a), b(s.b);
     const ObbTree binaryA(s.a), binaryB(s.b);
@@ -123,7 +122,7 @@ class SoupQueries : public testing::Test {
     }
   }
 
-  /// Expects the same contacts in another frame and in another unit of length.
+  /// Expects the same contacts after both meshes are rotated and scaled by a power of two.
   void expectInvariance(Random& random, const Soups& s, const TrianglePairs& expected) {
     const Mat3 R = test::exactRotation(random);
     const double unit = std::ldexp(1.0, static_cast<int>(random() % 401) - 200);
@@ -150,7 +149,8 @@ class SoupQueries : public testing::Test {
   void expectSameDistance(const Soups& s, const Soups& turned, const Soups& scaled, double unit) {
     const auto answerOf = [](const Soups& t) {
       const Tree a(t.a), b(t.b);
-      QueryContext hit, far;  // new ones: a used context may change the last digits
+      QueryContext hit, far;  // new contexts: a context that other queries have used may change the
+                              // last digits
       return std::pair(interference(Posed(a, t.X_WA), Posed(b, t.X_WB), hit).has_value(),
                        distance(Posed(a, t.X_WA), Posed(b, t.X_WB), {}, far).distance);
     };
@@ -167,7 +167,7 @@ class SoupQueries : public testing::Test {
   }
 
   QueryContext context_;
-  std::set<std::vector<double>> rotations_;  // those that occurred
+  std::set<std::vector<double>> rotations_;  // the exact rotations that occurred
   int distances_ = 0,
       otherBits_ = 0;  // distances compared; those whose last bits differ after a rotation
 };
@@ -185,7 +185,8 @@ TEST_F(SoupQueries, AgainstBruteForce) {
     expectInvariance(random, s, expected);
     touching += !expected.empty();
     pairs += expected.size();
-    // With more triangles, all contacts remain, and the distance does not grow.
+    // After triangles are added to mesh a, all contacts must remain, and the distance must not
+    // grow.
     const TriangleMesh old = s.a;
     const double size = test::errorScale(old, {});
     for (const auto& t : old.triangles)
@@ -217,8 +218,8 @@ TEST_F(SoupQueries, AgainstBruteForce) {
   EXPECT_TRUE(rotations_.size() == 24 || cases < 500) << rotations_.size() << " of 24 rotations";
 }
 
-/// Tests by rationals some of the reported contacts, and some unreported pairs whose bounds
-/// overlap. Adds up both numbers.
+/// Tests in rationals some of the reported contacts, and some unreported pairs whose bounding boxes
+/// overlap. Adds the numbers of tested pairs to `touching` and `apart`.
 void expectRationals(Random& random, const Soups& s, const TrianglePairs& found, int& touching,
                      int& apart) {
   const auto contact = [&](std::uint32_t i, std::uint32_t k) {
@@ -251,8 +252,8 @@ void expectRationals(Random& random, const Soups& s, const TrianglePairs& found,
   }
 }
 
-/// Large meshes: compares both kinds of trees with each other and with rationals. The trees share
-/// only the predicate.
+/// Compares, on large meshes, 4-wide and binary OBB trees with each other and with rationals. The
+/// two kinds of trees share only the predicate for triangles.
 TEST_F(SoupQueries, HugeSoups) {
   Random random(test::testSeed(92));
   const int count = (test::isStressRun() ? 50'000 : 4'000) / test::kSlowdown;

@@ -1,7 +1,7 @@
-// Pairs of triangles for which contact is hard to decide (tests/support/triangle_families.h),
-// compared with rationals. Properties that do not depend on the verdict are tested, too: results
-// after swapping, rotating, scaling and growing the triangles. 10^5 pairs; 10^7 with
-// CORRIDOR_STRESS.
+// Compares the contact test with rationals, on pairs of triangles for which contact is hard to
+// decide (tests/support/triangle_families.h). Swapping, rotating and scaling a pair must not change
+// the verdict, and enlarging a triangle must keep a contact; this is tested, too. There are 10^5
+// pairs, or 10^7 with CORRIDOR_STRESS.
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -65,8 +65,8 @@ double lost(double x, double y) {
   return (x - (sum - part)) + (y - part);
 }
 
-/// Returns the triangle scaled by 2 from its first corner: it contains the given triangle. Returns
-/// nullopt if a coordinate would be rounded.
+/// Returns the triangle scaled by 2 from its first corner. The result contains the given triangle.
+/// Returns nullopt if a coordinate would be rounded.
 std::optional<Triangle> grown(const Triangle& t) {
   Triangle g = t;
   for (int k = 1; k < 3; ++k)
@@ -80,8 +80,9 @@ std::optional<Triangle> grown(const Triangle& t) {
 
 class Pairs : public testing::TestWithParam<test::PairFamily> {
  protected:
-  /// Expects the exact verdict from all predicates, also for the swapped, rotated, scaled and grown
-  /// triangles.
+  /// Expects the exact verdict from both predicates for the pair, and from `trianglesTouch` also
+  /// for the swapped, the rotated and the scaled pair. If the triangles touch, they must also touch
+  /// after triangle a is enlarged.
   void expectVerdict(Random& random, const PlacedPair& p, bool expected) {
     ASSERT_EQ(touch(p), expected);
     ASSERT_EQ(touch(swapped(p)), expected);
@@ -99,7 +100,7 @@ class Pairs : public testing::TestWithParam<test::PairFamily> {
     }
   }
 
-  /// Expects that queries of trees of one triangle each are right.
+  /// Expects right answers of queries on trees that have one triangle each.
   static void expectQueries(Random& random, const PlacedPair& p, bool expected, bool reference) {
     const TriangleMesh meshA = meshOf(p.a), meshB = meshOf(p.b);
     const Obb4Tree a(meshA), b(meshB);
@@ -114,14 +115,14 @@ class Pairs : public testing::TestWithParam<test::PairFamily> {
     ASSERT_EQ(distance(Posed(b, p.X_WB), Posed(a, p.X_WA), {}, context).distance == 0, expected);
     ASSERT_EQ(distance(Posed(binaryA, p.X_WA), Posed(binaryB, p.X_WB), {}, context).distance == 0,
               expected);
-    // The error that distance.h promises. Without contact the distance is at least the smallest
-    // normal number.
+    // `off` is the error that distance.h promises. Without contact, the distance is at least the
+    // smallest normal number.
     const double scale = errorScale(p.a, p.X_WA, p.b, p.X_WB);
     const double off = 1e-12 * d + 4 * kUnit * scale + 0x1p-1022;
     ASSERT_EQ(closerThan(Posed(a, p.X_WA), Posed(b, p.X_WB), 0, context), expected);
     ASSERT_TRUE(closerThan(Posed(a, p.X_WA), Posed(b, p.X_WB), d + off, context)) << d;
     ASSERT_TRUE(closerThan(Posed(binaryB, p.X_WB), Posed(binaryA, p.X_WA), d + off, context)) << d;
-    const double below = d - 2 * off - 4 * kTiny;  // 4 kTiny: underflow in roundedUp
+    const double below = d - 2 * off - 4 * kTiny;  // 4 kTiny allow for underflow in roundedUp
     if (below > 0) {
       ASSERT_FALSE(closerThan(Posed(a, p.X_WA), Posed(b, p.X_WB), below, context)) << d;
     }
@@ -150,13 +151,14 @@ class Pairs : public testing::TestWithParam<test::PairFamily> {
     ASSERT_LE(apart({R * s.p, R * s.q}, t), 2 * 0x1p-50 * scale + 0x1p-1074) << "turned";
   }
 
-  /// Returns the largest difference of a coordinate of two segments, in either order of their ends.
+  /// Returns the largest difference of any coordinate of two segments, for the order of their ends
+  /// that makes it smaller.
   static double apart(const Segment& s, const Segment& t) {
     const auto off = [&](const Vec3& p, const Vec3& q) {
       return std::max((s.p - p).cwiseAbs().maxCoeff(), (s.q - q).cwiseAbs().maxCoeff());
     };
-    // If two diagonals are equally long, either of them may be reported. Then only the lengths are
-    // compared.
+    // If two diagonals of the intersection are equally long, either may be reported. Then only the
+    // lengths are compared.
     const double ends = std::min(off(t.p, t.q), off(t.q, t.p));
     const double lengths = std::abs((s.p - s.q).stableNorm() - (t.p - t.q).stableNorm());
     return std::min(ends, lengths);
@@ -168,7 +170,7 @@ class Pairs : public testing::TestWithParam<test::PairFamily> {
     return mesh;
   }
 
-  std::set<std::vector<double>> rotations_;  // those that occurred
+  std::set<std::vector<double>> rotations_;  // the exact rotations that occurred
 };
 
 TEST_P(Pairs, AgainstRationals) {

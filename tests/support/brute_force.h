@@ -6,14 +6,15 @@
 
 #include "collision/geometry/triangle_mesh.h"
 
-/// Oracles for queries on trees: brute force over all pairs of triangles, by exact tests.
+/// Oracles for queries on trees: brute force over all pairs of triangles. The tests of contact are
+/// exact.
 namespace corridor::test {
 
 /// Returns whether two meshes share a point.
 bool bruteForceTouch(const TriangleMesh& a, const Transform& X_WA, const TriangleMesh& b,
                      const Transform& X_WB);
 
-/// Pairs of triangle numbers: first the triangle of mesh a, then that of mesh b.
+/// Pairs of triangle indices: first the triangle of mesh a, then the triangle of mesh b.
 using TrianglePairs = std::set<std::pair<std::uint32_t, std::uint32_t>>;
 /// Returns all pairs of triangles that touch.
 TrianglePairs bruteForcePairs(const TriangleMesh& a, const Transform& X_WA, const TriangleMesh& b,

@@ -11,15 +11,15 @@
 namespace corridor::test {
 
 /// A kinematic chain of revolute and prismatic joints from body a to body b. Joint values are
-/// linear or quadratic in t. Poses are products of exponentials in long double. In long double,
-/// they are the reference for the positions of points. Rounded to double, they are what this
-/// MotionSource reports.
+/// linear or quadratic in t. Poses are products of exponentials, computed in long double. Tests use
+/// these poses as the reference for the positions of points. `relativeMotion` reports them rounded
+/// to double.
 class ChainMotion final : public MotionSource {
  public:
   using Vec3L = Eigen::Matrix<long double, 3, 1>;
   using Mat3L = Eigen::Matrix<long double, 3, 3>;
   struct Joint {
-    bool slides = false;
+    bool slides = false;                              ///< true: prismatic; false: revolute
     Vec3 axis = Vec3::UnitZ(), point = Vec3::Zero();  ///< at joint value 0; |axis| is not 0
     double from = 0, to = 0;
     double bend = 0;  ///< the joint value is from + t(to − from) + bend·t(1 − t), rad or m
@@ -39,7 +39,7 @@ class ChainMotion final : public MotionSource {
 
   explicit ChainMotion(std::vector<Joint> joints) : joints_(std::move(joints)) {}
 
-  /// Returns the pose after the first `count` joints.
+  /// Returns the pose at time t after the first `count` joints, as seen from body a.
   Pose pose(long double t, std::size_t count) const {
     Pose X;
     for (std::size_t j = 0; j < count; ++j) {
@@ -91,8 +91,9 @@ class ChainMotion final : public MotionSource {
     w.speed = roundedUp(w.linear.norm());
     w.angle = roundedUp(w.angular.norm());
     w.screws = screws_;
-    // Each number is rounded once. With u the unit roundoff, one joint needs 4u of all lengths and
-    // 4u of all angles; 16u leaves room for several joints.
+    // Each number is rounded once. With u the unit roundoff, one joint causes errors of at most 4u
+    // times the sum of all lengths and 4u times the sum of all angles. The factor 16u leaves room
+    // for several joints.
     w.fixedError = 16 * kUnit * static_cast<double>(size);
     w.reachError = 16 * kUnit * static_cast<double>(1 + angular.norm());
     return w;

@@ -10,7 +10,7 @@
 /// Helpers that build small meshes and read their triangles.
 namespace corridor::test {
 
-/// Returns the t-th triangle.
+/// Returns the triangle with index t.
 inline Triangle corners(const TriangleMesh& mesh, std::size_t t) {
   return {mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)};
 }

@@ -14,8 +14,8 @@
 
 namespace corridor::test {
 
-/// A number of the oracle for polygons in the plane. The oracle computes in rationals, directly by
-/// the definitions, in O(n²).
+/// The numbers of the oracle for polygons in the plane: exact rationals. The oracle applies the
+/// definitions directly, in O(n²).
 using Fraction = boost::multiprecision::cpp_rational;
 struct Point2 {
   Fraction x, y;
@@ -46,8 +46,8 @@ inline std::vector<Point2> exactly(const std::vector<Eigen::Vector2d>& points) {
   return {points.begin(), points.end()};
 }
 
-/// Returns whether edges i and k of a polygon share a point. The common end of two edges that
-/// follow each other does not count.
+/// Returns whether edges i and k of a polygon share a point. The common end of two consecutive
+/// edges does not count.
 inline bool edgesMeet(const std::vector<Point2>& p, std::size_t i, std::size_t k) {
   const std::size_t n = p.size(), i1 = (i + 1) % n, k1 = (k + 1) % n;
   if (i1 == k) return isOn(p[i], p[k], p[k1]) || isOn(p[k1], p[i], p[k]);
@@ -55,6 +55,7 @@ inline bool edgesMeet(const std::vector<Point2>& p, std::size_t i, std::size_t k
   return segmentsMeet(p[i], p[i1], p[k], p[k1]);
 }
 
+/// Returns whether no two edges share a point, except the common ends of consecutive edges.
 inline bool isSimple(const std::vector<Point2>& p) {
   if (p.size() < 3) return false;
   for (std::size_t i = 0; i < p.size(); ++i)
@@ -63,6 +64,7 @@ inline bool isSimple(const std::vector<Point2>& p) {
   return true;
 }
 
+/// Returns twice the signed area, which is positive if the polygon runs counterclockwise.
 inline Fraction twiceArea(const std::vector<Point2>& p) {
   Fraction sum = 0;
   for (std::size_t i = 0; i < p.size(); ++i) {
@@ -72,8 +74,8 @@ inline Fraction twiceArea(const std::vector<Point2>& p) {
   return sum;
 }
 
-/// Returns whether a point is in the closed polygon: on an edge, or with an odd number of edges to
-/// its right.
+/// Returns whether a point is in the closed polygon: the point is on an edge, or has an odd number
+/// of edges to its right.
 inline bool contains(const std::vector<Point2>& p, const Point2& q) {
   bool inside = false;
   for (std::size_t i = 0; i < p.size(); ++i) {
@@ -105,9 +107,11 @@ class Polygons {
     return std::uniform_real_distribution(low, high)(engine_);
   }
 
-  /// Returns a polygon of about n points. Kinds: 0 a star, 1 a spiral, 2 a comb, 3 points of a
-  /// small grid in random order, 4 such points, most crossings of their edges removed, 5 a
-  /// staircase with many points of equal x.
+  /// Returns a polygon of about n points. Kinds:
+  /// * 0: a star; 1: a spiral; 2: a comb;
+  /// * 3: points of a small grid in random order;
+  /// * 4: such points, reordered so that most crossings of edges are removed;
+  /// * 5: a staircase with many points of equal x.
   Points polygon(std::size_t n, int kind) {
     Points p;
     const auto size = static_cast<double>(n);
@@ -165,7 +169,7 @@ class Polygons {
 
   /// Returns a variant of a polygon. Points may be inserted on its edges, exactly or up to
   /// rounding. The polygon may be rotated, mirrored, scaled, moved far away, or given the other
-  /// orientation. Its first point may be another one.
+  /// orientation. The list may begin with another point.
   Points varied(Points p) {
     if (p.size() < 2) return p;
     if (below(3) == 0) {
@@ -193,8 +197,8 @@ class Polygons {
   }
 
  private:
-  /// Reverses parts of the boundary until no two edges cross, in at most 60 rounds. Points on other
-  /// edges may remain.
+  /// Reverses parts of the boundary until no two edges that are not neighbours share a point. Stops
+  /// after 60 rounds at the latest, so some common points may remain.
   void uncross(Points& p) const {
     if (p.size() < 4) return;
     std::vector<Point2> e = exactly(p);

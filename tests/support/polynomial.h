@@ -32,10 +32,11 @@ class Polynomial {
   friend bool operator==(const Polynomial& a, const Polynomial& b) { return a.c_ == b.c_; }
 
  private:
-  std::vector<Integer> c_;  // the last is not 0
+  std::vector<Integer> c_;  // the last coefficient is not 0; empty for zero
 };
 
-/// Returns the remainder of a divided by b, times the positive factor that makes it primitive.
+/// Returns the remainder of a divided by b, times the positive factor that makes the remainder
+/// primitive.
 /// @pre b is not zero.
 Polynomial remainder(const Polynomial& a, const Polynomial& b);
 /// Returns a/b, or nullopt if b does not divide a. @pre b is primitive and not zero.

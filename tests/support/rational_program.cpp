@@ -9,7 +9,7 @@
 namespace corridor::test {
 namespace {
 
-/// Returns these doubles in units of a power of two that makes all of them integers.
+/// Returns the doubles as integers, in units of one power of two.
 std::vector<Integer> integers(const std::vector<double>& values) {
   int least = std::numeric_limits<int>::max();
   const auto split = [](double x) {
@@ -37,7 +37,8 @@ bool hasSolution(IntegerSystem T) {
   std::vector<std::size_t> basis(rows);
   for (std::size_t i = 0; i < rows; ++i) basis[i] = columns + i;  // artificial variables, of cost 1
   for (;;) {
-    // Reduced cost of column j: −Σ over rows whose basic variable is artificial.
+    // The reduced cost of column j is −Σ T[i][j] over the rows i whose basic variable is
+    // artificial.
     std::size_t enter = columns;
     for (std::size_t j = 0; j < columns && enter == columns; ++j) {
       Integer gain = 0;

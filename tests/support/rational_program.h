@@ -10,8 +10,9 @@ namespace corridor::test {
 /// must be ≥ 0.
 using IntegerSystem = std::vector<std::vector<Integer>>;
 
-/// The oracle for linear programs: returns whether there is an x ≥ 0 with M x = r. Phase one of the
-/// simplex method with Bland's rule, by integer pivoting (Edmonds): exact, and it always ends.
+/// The oracle for linear programs: returns whether there is an x ≥ 0 with M x = r. Method: phase
+/// one of the simplex method with Bland's rule, by integer pivoting (Edmonds). The method is exact,
+/// and always ends.
 bool hasSolution(IntegerSystem system);
 
 /// Returns, exactly, whether there is an x ≥ 0 with M x = `right`, where `columns[j][i]` is the

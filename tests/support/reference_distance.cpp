@@ -38,7 +38,7 @@ WholeNumber square(const P& d) {
   return dot(d, d);
 }
 
-/// Returns the exponent of a double's last bit that isn't zero; at most 0.
+/// Returns the smaller of 0 and the exponent of the lowest bit of x that is not zero.
 int lastBit(double x) {
   int exponent = 0;
   const auto bits =
@@ -46,7 +46,7 @@ int lastBit(double x) {
   return bits == 0 ? 0 : std::min(0, exponent - 53 + std::countr_zero(bits));
 }
 
-/// Converts world points to integers: coordinates times 2^-(2 * unit).
+/// Converts world points to integers: their coordinates in units of 2^(2·unit_).
 class Grid {
  public:
   void cover(double x) { unit_ = std::min(unit_, lastBit(x)); }
@@ -65,7 +65,8 @@ class Grid {
     }
     return q;
   }
-  /// Returns the square root, from some 75 bits.
+  /// Returns the square root of a squared distance, in world units. It is rounded from a root of
+  /// some 75 bits.
   double distance(const Quotient& squared) const {
     const auto bits = [](const WholeNumber& x) { return x == 0 ? 0 : static_cast<int>(msb(x)); };
     const int shift = (150 + bits(squared.under) - bits(squared.over)) / 2;
@@ -78,7 +79,7 @@ class Grid {
   WholeNumber integer(double x) const {
     int exponent = 0;
     const auto bits = static_cast<long long>(std::ldexp(std::frexp(x, &exponent), 53));
-    const int shift = exponent - 53 - unit_;  // below zero: only zeros are lost
+    const int shift = exponent - 53 - unit_;  // if negative, only zero bits are shifted out
     return shift < 0 ? WholeNumber(bits >> -shift) : WholeNumber(bits) << shift;
   }
   int unit_ = 0;  // at most 0: `mapped` also needs 1 as an integer
@@ -104,8 +105,9 @@ Quotient toTriangle(const P& p, const std::array<P, 3>& t) {
   return std::min(sides, {height * height, area});
 }
 
-/// Returns the lesser of `best` and the squared distance of two edges if their closest points are
-/// inner points. `toTriangle` handles the edges' ends.
+/// If the closest points of the edges p–p1 and q–q1 are inner points, returns the lesser of `best`
+/// and the squared distance of the edges. Otherwise returns `best`: `toTriangle` handles the ends
+/// of edges.
 Quotient edges(const P& p, const P& p1, const P& q, const P& q1, const Quotient& best) {
   const P d = minus(p1, p), e = minus(q1, q), r = minus(q, p), n = cross(d, e);
   const WholeNumber area = square(n);

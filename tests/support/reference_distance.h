@@ -5,10 +5,10 @@
 namespace corridor::test {
 
 /// The oracle: returns the distance of two triangles, each under its map, correct to a unit in the
-/// last place (two units for subnormals). The method differs from that of the code
-/// under test, and computes in fractions of integers. The result is the root of the least squared
-/// distance: of each corner from the other triangle (by Voronoi regions), and of each edge from
-/// each edge of the other triangle.
+/// last place (two units for subnormals). The method differs from that of the code under test. It
+/// computes in fractions of integers. The result is the root of the least squared distance: of each
+/// corner from the other triangle (by Voronoi regions), and of each edge from each edge of the
+/// other triangle.
 double referenceDistance(const Triangle& a, const Transform& X_WA, const Triangle& b,
                          const Transform& X_WB);
 

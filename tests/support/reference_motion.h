@@ -7,8 +7,9 @@
 
 namespace corridor::test {
 
-/// A second implementation of a rigid body's edge, in long double. Its formula differs from that of
-/// the code under test: slerp as a sum of the two quaternions, weighted by sines.
+/// A second implementation of the motion of a rigid body along an edge, in long double. Its formula
+/// differs from that of the code under test: slerp as a sum of the two quaternions, weighted by
+/// sines.
 class ReferenceMotion {
  public:
   using Vec3L = Eigen::Matrix<long double, 3, 1>;

@@ -11,9 +11,9 @@
 
 namespace corridor::test {
 
-/// Returns triangles of very different sizes, some slivers, some degenerate, some duplicates. Each
-/// lies within about √3·s of a point of the cube [−1, 1]³ (metres), for an s between e^-2 and e^2
-/// times `size`.
+/// Returns `count` triangles of very different sizes, some of them slivers or degenerate, and some
+/// duplicates of these. Each triangle lies within about √3·s of a point of the cube [−1, 1]³
+/// (metres), for an s between e^-2 and e^2 times `size`.
 inline TriangleMesh soup(std::mt19937_64& random, int count, double size) {
   std::uniform_real_distribution<double> real(-1, 1);
   const auto any = [&] {
@@ -32,6 +32,8 @@ inline TriangleMesh soup(std::mt19937_64& random, int count, double size) {
   return mesh;
 }
 
+/// Returns a random rotation and translation. The coordinates of the translation have a standard
+/// deviation of `distance`.
 inline Transform anyPose(std::mt19937_64& random, double distance) {
   std::normal_distribution<double> normal;
   Transform X;

@@ -33,7 +33,7 @@ class IntegerGrid {
     const double digits = std::ldexp(std::frexp(x, &e), 53);
     const int shift = e - 53 - exponent_;
     const Integer n = static_cast<std::int64_t>(digits);
-    return shift < 0 ? n >> -shift : n << shift;  // only zeros are lost
+    return shift < 0 ? n >> -shift : n << shift;  // a right shift drops zero bits only
   }
   int exponent() const { return exponent_; }
 
@@ -108,7 +108,7 @@ struct PolynomialPose {
   }
 };
 
-/// One pair of triangles, with all corners times W.
+/// A pair of triangles. All corners are multiplied by W, the denominator of the pose.
 class Pair {
  public:
   Pair(const Triangle& fixed, const Triangle& moving, const RationalMotion& motion) {
@@ -152,7 +152,7 @@ class Pair {
     Vector normal;
   };
 
-  // Only signs matter, so factors W, which is positive everywhere, are left out.
+  // Removes all factors W: only signs matter, and W is positive everywhere.
   Polynomial reduced(Polynomial p) const {
     if (divisor_.degree() == 2)
       while (const std::optional<Polynomial> q = p.isZero() ? std::nullopt : quotient(p, divisor_))
@@ -172,8 +172,8 @@ class Pair {
     }
   }
 
-  /// Records the earliest root at which `meet` is true as the first contact, unless an earlier
-  /// contact is known.
+  /// Finds the earliest root of p at which `meet` is true. Records this root as the first contact,
+  /// unless an earlier contact is known.
   template <class Meet>
   void tryRoots(const Polynomial& p, const Meet& meet) {
     if (p.isZero()) return;
@@ -204,7 +204,7 @@ class Pair {
     const Polynomial height = above(face.normal, 0);
     if (!height.isZero()) {
       tryRoots(height, inside);
-    } else {  // the corner stays in the plane: it enters over a side
+    } else {  // the corner stays in the plane, and enters the face across an edge
       for (int i = 0; i < 3; ++i) tryRoots(above(face.inward[i], i), inside);
     }
   }
@@ -217,8 +217,8 @@ class Pair {
                  &b = fixed_.corners[j], &b1 = fixed_.corners[(j + 1) % 3];
     const Vector normal = reduced(cross(e, f));
     tryRoots(reduced(dot(normal, b - a)), [&](Root& root) {
-      // Returns on which side of an edge's line the other edge's end is; 0 for all ends if the
-      // edges are parallel.
+      // Returns 1 or −1 for the side of an edge's line on which an end of the other edge is, and 0
+      // for an end on the line. Returns 0 for all ends if the edges are parallel.
       const auto side = [&](const Vector& offset, const Vector& edge) {
         return root.signOf(dot(normal, reduced(cross(offset, edge))));
       };

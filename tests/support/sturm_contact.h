@@ -18,16 +18,17 @@ class RationalMotion {
   static RationalMotion line(const RigidPose& from, const Vec3& p);
   /// Returns the rotation by the angle 2·atan(|m|) about m, an axis in the world. @pre m is not
   /// zero.
-  /// @throws std::invalid_argument  if the last quaternion, (1, m)·from.q, isn't exact in doubles.
+  /// @throws std::invalid_argument  if the quaternion at s = 1, (1, m)·from.q, is not exact in
+  /// doubles.
   static RationalMotion turn(const RigidPose& from, const Vec3& m);
 
   const RigidPose& from() const { return from_; }
   const RigidPose& to() const { return to_; }
   /// Returns the vector m of a rotation, or zero for a line.
   const Vec3& m() const { return m_; }
-  /// Returns t at s, with an error below 2^-60. In long double, s|m|, both arcs, |m| and the ratio
-  /// are each off by a few units of 2^-64, and the relative error of an arc is at most that of its
-  /// argument.
+  /// Returns the edge's t at the parameter s, with an error below 2^-60. In long double, s|m|, both
+  /// arcs, |m| and the ratio are each off by a few units of 2^-64, and the relative error of an arc
+  /// is at most that of its argument.
   long double time(long double s) const;
 
   /// The pose at s, multiplied by a weight > 0 so that it has no fractions: X has the pose's matrix
@@ -59,7 +60,7 @@ struct FirstContact {
 /// coplanar. Sturm's theorem isolates the roots of this polynomial. At each root, an algebraic
 /// number, the signs of further polynomials decide exactly whether the features meet. No case is
 /// left out: if a corner stays in a face's plane, the oracle uses the times at which the corner
-/// crosses the lines of the face's sides.
+/// crosses the lines of the face's edges.
 ///
 /// All polynomials are determinants of the corners. They are divided by the pose's denominator as
 /// often as possible, which leaves them quadratic.
@@ -69,8 +70,8 @@ struct FirstContact {
 FirstContact sturmContact(const Triangle& fixed, const Triangle& moving,
                           const RationalMotion& motion);
 
-/// Returns whether the triangles touch at s, exactly. s must have few digits, else doubles can't
-/// hold the pose. @throws as RationalMotion::at.
+/// Returns whether the triangles touch at s, exactly. @throws std::invalid_argument  if s has so
+/// many digits that doubles cannot hold the pose.
 bool touchesAt(const Triangle& fixed, const Triangle& moving, const RationalMotion& motion,
                double s);
 

@@ -8,7 +8,7 @@
 namespace corridor::test {
 
 /// Returns the folder of shared test data: the environment variable CORRIDOR_DATA, or `shared/data`
-/// beside the project; nullopt if there is no such folder. Tests that need the data are then
+/// beside the project; nullopt if there is no such folder. Without it, tests that need the data are
 /// reported as skipped.
 std::optional<std::filesystem::path> dataFolder();
 

@@ -23,13 +23,15 @@ Vec3 grid(Random& random, int most) {
             z = integer(random, -most, most);
   return Vec3(x, y, z);
 }
-/// Coarse grids often give degenerate positions; fine ones need many bits.
+/// Returns a random size of grid. Coarse grids often give degenerate positions; fine grids need
+/// many bits.
 int anySize(Random& random) {
   constexpr int kSizes[] = {2, 5, 100, 1 << 20};
   return kSizes[integer(random, 0, 3)];
 }
-/// Shuffles the corners of both triangles, and swaps the triangles half of the time. Every third
-/// time, also moves one triangle by a step.
+/// Shuffles the corners of both triangles, and swaps the triangles with probability 1/2. With
+/// probability 1/3, also moves one triangle by at most one step per coordinate. The comments of the
+/// families below describe the triangles before `finish`.
 void finish(Random& random, Triangle& a, Triangle& b) {
   std::shuffle(a.begin(), a.end(), random);
   std::shuffle(b.begin(), b.end(), random);
@@ -51,8 +53,8 @@ void anyOnAGrid(Random& random, Triangle& a, Triangle& b) {
     for (Vec3& p : *t) p = grid(random, size);
 }
 
-/// Each triangle is a segment with a third corner one step off it. Both segments pass through one
-/// point.
+/// Each triangle is a segment with a third corner at most one step off the segment. Both segments
+/// pass through a common point.
 void slivers(Random& random, Triangle& a, Triangle& b) {
   const Vec3 common = grid(random, 100);
   for (Triangle* t : {&a, &b}) {
@@ -87,6 +89,8 @@ void zeroArea(Random& random, Triangle& a, Triangle& b) {
   finish(random, a, b);
 }
 
+/// Triangles in one plane. With probability 1/4, one corner then leaves the plane by at most a
+/// step.
 void coplanar(Random& random, Triangle& a, Triangle& b) {
   const int size = anySize(random);
   const Vec3 p = grid(random, size), u = grid(random, size), v = grid(random, size);
@@ -101,6 +105,7 @@ void sharedCorner(Random& random, Triangle& a, Triangle& b) {
   finish(random, a, b);
 }
 
+/// The triangles share an edge, or an edge of b contains an edge of a as one half.
 void sharedEdge(Random& random, Triangle& a, Triangle& b) {
   anyOnAGrid(random, a, b);
   b[0] = a[0];
@@ -131,8 +136,8 @@ void edgeOnFace(Random& random, Triangle& a, Triangle& b) {
   finish(random, a, b);
 }
 
-/// An edge of a and an edge of b cross in a point, or end there. The rest of a and the rest of b
-/// are on different sides of the plane of both edges.
+/// An edge of a and an edge of b share a point, where they cross or end. The third corners of a and
+/// b are on different sides of the plane of both edges, or in this plane.
 void edgeOnEdge(Random& random, Triangle& a, Triangle& b) {
   const int size = anySize(random) / 2;
   const Vec3 p = grid(random, size), u = grid(random, size), v = grid(random, size);
@@ -176,10 +181,10 @@ PlacedPair byExactRotation(Random& random, const Triangle& a, const Triangle& b)
   return pair;
 }
 /// Rotates the pair by a rational (Pythagorean) rotation times its denominator. This map takes
-/// integers to integers. Without that factor, doubles hold only 24 rotation matrices exactly, the
-/// signed permutations: a row of doubles is (x, y, z)/2^k with integers, and x² + y² + z² = 4^k. If
-/// k > 0, all three integers are even, because only then is the sum of their squares a multiple of
-/// 4. So the row can be reduced until k = 0.
+/// integers to integers. Without the denominator as a factor, doubles hold only 24 rotation
+/// matrices exactly, the signed permutations: a row of doubles is (x, y, z)/2^k with integers, and
+/// x² + y² + z² = 4^k. If k > 0, the sum of their squares is a multiple of 4, which requires that
+/// all three integers are even. So the fraction can be reduced until k = 0.
 PlacedPair byRationalRotation(Random& random, const Triangle& a, const Triangle& b) {
   const double w = integer(random, -5, 5), x = integer(random, -5, 5), y = integer(random, -5, 5),
                z = integer(random, 1, 5);
@@ -205,8 +210,8 @@ PlacedPair movedTogether(Random& random, const Triangle& a, const Triangle& b) {
   pair.X_WB = pair.X_WA;
   return pair;
 }
-/// Stores the corners of b, and sometimes of a, in a rotated frame of their own, rounded: triangles
-/// that touched may no longer touch.
+/// Stores the corners of b, and sometimes those of a, in a rotated frame of their own. This rounds
+/// them, so triangles that touched may no longer touch.
 PlacedPair inOwnFrames(Random& random, const Triangle& a, const Triangle& b) {
   PlacedPair pair{a, b, {}, {}};
   pair.X_WB = {rotation(random), random() % 2 ? anyOffset(random) : grid(random, 10)};
@@ -226,8 +231,8 @@ PlacedPair scaledByTens(Random& random, const Triangle& a, const Triangle& b) {
   const double scale = std::pow(10.0, integer(random, -100, 100)) / 3;
   return baked(a, b, [&](const Vec3& p) { return Vec3(p * scale); });
 }
-/// Scales each axis by another power of two, so that coordinates have very different magnitudes: a
-/// common grid for all of them needs hundreds or thousands of bits.
+/// Scales each axis by a different power of two, so that coordinates have very different
+/// magnitudes: a common grid for all of them needs hundreds or thousands of bits.
 PlacedPair stretched(Random& random, const Triangle& a, const Triangle& b) {
   const Vec3 scale(std::ldexp(1.0, integer(random, -400, 400)), 1,
                    std::ldexp(1.0, integer(random, -40, 40)));

@@ -19,7 +19,8 @@ struct KnownPairs {
   std::string name;
   std::vector<KnownPair> pairs;
 };
-/// Returns all files, sorted by name.
+/// Reads all files of the folder `tripairs` in the shared collision data. Returns them sorted by
+/// name.
 std::vector<KnownPairs> sharedPairs(const std::filesystem::path& collisionFolder);
 
 }  // namespace corridor::test

@@ -28,8 +28,9 @@ Workload loadWorkload(const std::filesystem::path& collisionFolder, const std::s
 /// Returns the indices of the poses on which the `way`-th of `ways` tree variants is tested. Under
 /// CORRIDOR_STRESS every variant gets all poses. Otherwise, to save time, only every `step`-th pose
 /// is tested, and the variants take turns. For a workload of fewer than 100 poses, building several
-/// trees would take longer than the queries: variant 0 gets all of its turns, and the others get
-/// none. In slow builds only every `kSlowdown`-th of these poses is tested.
+/// trees would take longer than the queries. So variant 0 is tested on the poses of all variants,
+/// and the other variants on none. In slow builds only every `kSlowdown`-th of all these poses is
+/// tested.
 std::vector<std::size_t> posesInTurn(const Workload& w, std::size_t step, std::size_t way,
                                      std::size_t ways);
 

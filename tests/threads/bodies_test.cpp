@@ -1,7 +1,7 @@
-// Tests of collision/ in several threads, which share bodies and have a QueryContext each. Every
-// test starts with bodies without trees, so that some threads build trees while others wait for
-// them. The answers must be those of one thread: to the last bit on the same bodies; on copies of
-// these bodies, only the verdicts must agree.
+// Tests of collision/ in several threads, which share bodies and have a QueryContext each. The
+// tests of queries start with bodies that have no trees yet, so that some threads build trees while
+// others wait for them. The answers must be those of one thread: to the last bit on the same
+// bodies; on copies of these bodies, only the verdicts must agree.
 #include "tests/collision/motion/bodies.h"
 
 #include <array>
@@ -97,10 +97,10 @@ Answers askStill(const std::vector<Body>& bodies, TreeKind trees) {
   return answers;
 }
 
-/// Compares the answers of several threads with those of one thread, for each kind of trees. On the
-/// same bodies all bits must agree. On copies that only the one thread has used, the verdicts must
-/// agree. `make` makes the bodies. Half of the threads start with another kind of trees than the
-/// others.
+/// Runs `ask(bodies, kind)` in several threads and in one thread, for each kind of trees, and
+/// compares the answers. On the same bodies all bits must agree. On copies of the bodies that only
+/// the one thread has used, the verdicts must agree. `make` makes the bodies. Half of the threads
+/// start with the second kind of trees. Returns the answers of the one thread, for each kind.
 template <class Make, class Ask>
 std::vector<Answers> expectOneAnswerOfEachKind(const Make& make, const Ask& ask) {
   constexpr std::size_t kinds = std::size(kKinds);
@@ -130,7 +130,8 @@ TEST(Threads, StillBodies) {
   }
 }
 
-/// All threads must get the same tree, at the same address.
+/// Threads use the trees of bodies for the first time. All threads must get the same trees, at the
+/// same addresses.
 TEST(Threads, TreesAreBuiltOnce) {
   for (int round = 0; round < 20; ++round) {
     const std::vector<Body> bodies = someBodies();
@@ -164,7 +165,7 @@ TEST(Threads, TreesBuiltByThreads) {
   });
 }
 
-/// Returns a scene with two moving bodies among fixed ones.
+/// Returns a scene in which two bodies move as one rigid body among fixed bodies.
 RigidScene someScene() {
   std::vector<Body> moving, fixed;
   for (Body& body : someBodies())
@@ -240,8 +241,8 @@ const char* const kCollada = R"(<?xml version="1.0"?>
 <scene><instance_visual_scene url="#s"/></scene></COLLADA>
 )";
 
-/// The library creates some data at their first use. Here all threads make this first use at the
-/// same time. This works because ctest starts each test in its own process.
+/// The library creates some data when they are first used. Here all threads use these data for the
+/// first time, at the same moment. This works because ctest starts each test in its own process.
 TEST(Threads, FirstUse) {
   const std::filesystem::path folder = test::newFolder();
   std::ofstream(folder / "a.dae") << kCollada;

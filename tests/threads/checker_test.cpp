@@ -39,7 +39,7 @@ struct Edge {
 };
 
 /// Returns random edges that begin near the start or the goal, where states are often free. Half of
-/// them are short, a quarter longer, a quarter end near the goal.
+/// the edges are short, a quarter are longer, and a quarter end near the goal.
 std::vector<Edge> someEdges(const Problem& problem, std::size_t count) {
   std::mt19937_64 random(71);
   std::normal_distribution<double> normal;
@@ -76,7 +76,8 @@ class Threads : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Problems, Threads, testing::Values("thin_plate", "two_arms"),
                          [](const auto& parameter) { return std::string(parameter.param); });
 
-/// With the same queries in the same order, answers agree to the last bit, and no count is lost.
+/// All threads make the same queries in the same order. Their answers must agree to the last bit,
+/// and the counters must include the queries of all threads.
 TEST_P(Threads, CheckerInOneOrder) {
   for (const char* const volume : {"obb", "kdop18"}) {
     Problem problem = ownProblem(GetParam());
@@ -94,8 +95,8 @@ TEST_P(Threads, CheckerInOneOrder) {
   }
 }
 
-/// In another order, queries start from other pairs, which the context stores. The verdicts must
-/// not change.
+/// The threads make the same queries in different orders. So queries start from other pairs of
+/// triangles, which the context stores (`LastPair`). The verdicts must not change.
 TEST_P(Threads, CheckerInAnotherOrder) {
   const Problem problem = ownProblem(GetParam());
   const std::vector<Edge> edges = someEdges(problem, 60);
@@ -116,7 +117,8 @@ TEST_P(Threads, CheckerInAnotherOrder) {
   });
 }
 
-/// Without a checker: the threads share a scene, and have an EdgeMotion and a QueryContext each.
+/// Certifies edges without a checker: the threads share a scene, and have an EdgeMotion and a
+/// QueryContext each.
 TEST_P(Threads, SceneAndEdgeMotions) {
   const Problem problem = ownProblem(GetParam());
   const std::vector<Edge> edges = someEdges(problem, 16);
@@ -141,8 +143,8 @@ TEST_P(Threads, SceneAndEdgeMotions) {
   EXPECT_GT(answers.count(MotionVerdict::contact), 2);
 }
 
-/// Tests the classes through which OMPL calls the checker, with three methods. They are wrapped in
-/// the counters of benchmarks (`CheckingTally`).
+/// Tests the classes through which OMPL calls the checker, with three methods. `CheckingTally`,
+/// which benchmarks use, counts the calls.
 TEST_P(Threads, Validators) {
   for (const char* const method : {"certified", "adaptive", "discrete"}) {
     Problem problem = ownProblem(GetParam());
@@ -191,7 +193,8 @@ TEST_P(Threads, Validators) {
   }
 }
 
-/// The verifier keeps no state between calls.
+/// Threads verify the same edges at once. The verifier keeps no state between calls, so all reports
+/// must agree.
 TEST_P(Threads, Verifier) {
   const Problem problem = ownProblem(GetParam());
   const PathProblem plain = plainProblem(problem);

@@ -19,8 +19,8 @@ namespace corridor::test {
 
 constexpr int kThreads = 4;
 
-/// Calls `work(k)` for each k in [0, kThreads), each in its own thread. All start at the same
-/// moment. Returns when all have finished.
+/// Calls `work(k)` for each k in [0, kThreads), each in its own thread. All calls start at the same
+/// moment. Returns when all calls have returned.
 template <class Work>
 void inThreads(const Work& work) {
   std::barrier start(kThreads);
@@ -77,7 +77,7 @@ class Answers {
 
  private:
   std::vector<std::uint64_t> bits_;
-  std::vector<int> verdicts_;  // these must agree on copies of the bodies, too
+  std::vector<int> verdicts_;  // must agree also on copies of the bodies
 };
 
 /// Calls `ask()` in all threads at once, and then in one more thread. Expects the same bits from

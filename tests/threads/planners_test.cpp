@@ -27,17 +27,20 @@ namespace {
 namespace ob = ompl::base;
 using test::ownProblem;
 
+/// A recorded query of a state, and its answer.
 struct AskedState {
   Configuration q;
   bool valid;
 };
+/// A recorded query of a motion, and its answer.
 struct AskedMotion {
   Configuration from, to;
   bool valid;
 };
 
-/// Records the queries of planners, in one log per thread. So recording needs no lock: a lock would
-/// order the threads' accesses, and hide a data race.
+/// Records the queries of planners, in one log per thread. So recording takes a lock only once per
+/// thread, to add its log. A lock at every query would order the threads' accesses, and hide data
+/// races.
 class Recorder {
  public:
   struct Log {
@@ -56,7 +59,7 @@ class Recorder {
     }
     return *log;
   }
-  /// @pre the threads have ended.
+  /// @pre the threads that recorded queries have ended.
   const std::vector<std::unique_ptr<Log>>& logs() const { return logs_; }
 
  private:
@@ -118,7 +121,7 @@ class RecordedMotions final : public ob::MotionValidator {
 
 struct Case {
   std::string planner, problem;
-  bool severalThreadsQuery = true;  ///< false: one thread queries, another waits for a path
+  bool severalThreadsQuery = true;  ///< false: one thread makes queries, another only waits
   bool finds = true;  ///< false: finding a path takes too long; some queries are enough
 };
 std::ostream& operator<<(std::ostream& out, const Case& one) {
@@ -137,7 +140,7 @@ Problem problemOf(const Case& one) {
   return problem;
 }
 
-/// A run of a planner, with all data that are compared afterwards.
+/// A run of a planner, and all data of the run that are compared afterwards.
 struct Recording {
   Recorder recorder;
   std::shared_ptr<RecordedMotions> motions;
@@ -153,8 +156,8 @@ struct Recording {
   }
 };
 
-/// Repeats the recorded queries on a new checker in one thread, and expects the same verdicts.
-/// @returns the number of motions.
+/// Repeats the recorded queries with a new checker in one thread, and expects the same verdicts.
+/// @returns the number of recorded queries of motions.
 std::size_t expectTheSameOfOneThread(const Problem& problem, const Recorder& recorder) {
   const Checker checker(problem);
   std::size_t asked = 0, wrong = 0;
@@ -177,7 +180,8 @@ class PlannersWithThreads : public testing::TestWithParam<Case> {};
 
 TEST_P(PlannersWithThreads, VerdictsAreThoseOfOneThread) {
   Problem problem = problemOf(GetParam());
-  // On a slow or busy machine the planner gets more time until it has done enough.
+  // On a slow or busy machine the planner may not do enough in its time. Then it is run again with
+  // twice the time.
   std::optional<Recording> run;
   const auto done = [&] {
     return GetParam().finds ? run->report.outcome == SolveOutcome::solved

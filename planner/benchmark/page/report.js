@@ -1,4 +1,5 @@
-// The functions that gnuplot's SVGs call when a pointer comes to rest on a point or leaves it.
+// Functions that gnuplot's SVGs call: one when the mouse pointer comes to rest on a point, one when it leaves the
+// point.
 const tip = document.getElementById("tip");
 const gnuplot_svg = {
   showHypertext(event, text) {
@@ -13,7 +14,7 @@ const gnuplot_svg = {
   },
 };
 addEventListener("scroll", gnuplot_svg.hideHypertext, {passive: true});
-// Large and folded plots are texts until they come near the window.
+// Draws a plot whose SVG is still a text: large and folded plots are texts until they come near the window.
 const draw = (figure) => {
   const text = figure.querySelector("script");
   if (text) figure.innerHTML = text.textContent;
@@ -27,7 +28,7 @@ const near = new IntersectionObserver((figures) => {
   }
 }, {rootMargin: "50%"});
 for (const figure of later) near.observe(figure);
-// Printed details can't be opened: open all of them first.
+// Readers of a printed page can't open folded details, so open all of them before printing.
 addEventListener("beforeprint", () => {
   later.forEach(draw);
   for (const details of document.querySelectorAll("details")) details.open = true;

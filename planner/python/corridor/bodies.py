@@ -1,7 +1,8 @@
 """Collision queries of two bodies. Poses are 4×4 matrices, or N×4×4 for N queries at once.
 
-A matrix may be any affine map, also a scaled one, and is used as it is. Only the poses of `first_contact` must be
-rigid: their matrices may differ from a rotation by 1e-6, and then stand for the nearest rotation.
+A matrix may be any affine map, also one that scales, and is used as it is. Only the poses of `first_contact` must be
+rigid. For their 3×3 part M, each element of MᵀM may differ from the identity by 1e-6; M then stands for the nearest
+rotation.
 """
 
 from __future__ import annotations
@@ -46,7 +47,7 @@ def _restored(kind: type[Body], shape: Shape, fingerprint: str) -> Body:
 
 
 class Distances(NamedTuple):
-    """Distances of two bodies at N poses, and the points that are closest."""
+    """Distances of two bodies at N poses, and the closest points of the bodies."""
 
     distance: NDArray[np.float64]  #: N metres; 0 if and only if the bodies touch
     on_a: NDArray[np.float64]  #: N×3, the closest point of a, world coordinates
@@ -65,7 +66,7 @@ class FirstContact(NamedTuple):
 
     verdict: Verdict
     free_until: float  #: the motion is proved free on [0, free_until]
-    time: float  #: CONTACT: the first contact is in [free_until, time]. UNDECIDED: an undecided time. FREE: −1
+    time: float  #: if CONTACT: the first contact is in [free_until, time]; if UNDECIDED: an undecided time; if FREE: −1
 
 
 def _natives(a: Body, b: Body) -> tuple[_native.Body, _native.Body]:
@@ -98,7 +99,7 @@ def closer_than(
 def distance(
     a: Body, b: Body, pose_a: ArrayLike = _ORIGIN, pose_b: ArrayLike = _ORIGIN, threads: int = 0
 ) -> Distances:
-    """Returns the distances of the bodies and their closest points."""
+    """Returns the distances of the bodies, and the closest points of the bodies."""
     return Distances(*_native.distance(*_natives(a, b), *_poses(pose_a, pose_b), _whole("threads", threads, 0)))
 
 

@@ -19,13 +19,13 @@ class CertificateFault(NamedTuple):
     """Why a certificate is not accepted."""
 
     kind: str
-    """One word or two:
+    """One of these words:
 
     "gap": the intervals of the pair do not cover time t. "refuted": at t, the pair is closer than an interval claims,
-    or one body is inside the other. "unproved": the edge keeps the margin at t, but this method can't prove the
-    interval with tube and rounding. "work limit": it took too long. "malformed": the numbers are no certificate of
-    this problem. "ambiguous": the edge is no motion, such as a half turn. "floating point": the processor's rounding
-    mode is not the usual one.
+    or one body is inside the other. "unproved": the edge keeps the margin at t, but the method of `check` can't prove
+    the interval with tube and rounding. "work limit": the check took too long. "malformed": the arrays are no
+    certificate of this problem. "ambiguous": the edge is no motion, such as a half turn. "floating point": the
+    processor's rounding mode is not the usual one.
     """
     pair: int  #: index into `Certificate.pairs`
     t: float  #: time on the edge, from 0 to 1
@@ -38,8 +38,8 @@ class Certificate:
     Interval k states: on all of [t0[k], t1[k]], for every path in the tube, the two shapes of `shapes[pair[k]]` stay
     at least `clearance[k]` metres apart. This distance includes the margin; all rounding is covered. For each pair, the
     intervals cover [0, free_until] without a gap. They are in any order, and some may lie beyond `free_until`.
-    Intervals are statements about surfaces. The query also tests whether a body is inside a solid mesh; if this alone
-    decides the verdict, there are no intervals.
+    Intervals are statements about surfaces. `Problem.certificate` also tests whether a body is inside a solid mesh; if
+    only this test decides the verdict, there are no intervals.
 
     Pairs that are not tested, such as adjacent links, are not listed.
     """
@@ -49,7 +49,7 @@ class Certificate:
     q1: NDArray[np.float64]  #: (J,)
     verdict: Verdict
     reason: str  #: why undecided: "clearance", "work limit", "ambiguous", "rounding", "floating point"; or ""
-    free_until: float  #: no contact on [0, free_until]; 0: no such part. Bounds of joints are not tested
+    free_until: float  #: proved free on [0, free_until]; 0: nothing is proved. The bounds of joints are not tested
     shapes: list[tuple[str, str]]  #: P names of shapes, a and b of each tested pair
     pairs: NDArray[np.int64]  #: P×2, the bodies of each tested pair, indices into `problem.bodies`
     margins: NDArray[np.float64]  #: P, the distance that each pair must keep, m
@@ -60,7 +60,7 @@ class Certificate:
     contact: tuple[int, int] | None  #: the two bodies in contact or undecided, indices into `problem.bodies`
     time: float | None  #: time of the contact, or a time in the undecided part
     point: NDArray[np.float64] | None  #: (3,), the point of contact, in the frame of the body `contact[0]`, m
-    tolerance: float  #: the clearance beyond margin and tube that FREE needs, m
+    tolerance: float  #: the checker's tolerance, m: UNDECIDED is possible if the clearance is below twice this
 
     @property
     def tube(self) -> NDArray[np.float64]:
@@ -68,7 +68,7 @@ class Certificate:
         return self.problem.tube
 
     def covered(self) -> NDArray[np.float64]:
-        """Returns for each pair, (P,), the end of the part [0, end] that its intervals cover without a gap."""
+        """Returns for each pair, (P,), the end of the part [0, end] that the pair's intervals cover without a gap."""
         ends = np.zeros(len(self.pairs))
         for k in np.lexsort((self.t0, self.pair)):
             p = self.pair[k]
@@ -95,7 +95,7 @@ class Certificate:
 
         Proves that each pair stays farther apart than margin + (clearance − margin)/2 in its intervals, and that the
         intervals cover [0, free_until]. If `free_until` is 0, nothing is proved. The fault "unproved" is no refutation.
-        With default options and without a tube, it is the answer for at most one of 100 certificates of random edges.
+        With default options and without a tube, at most one of 100 certificates of random edges gets this fault.
         """
         if mismatch := self._mismatch():
             return mismatch

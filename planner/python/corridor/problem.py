@@ -33,7 +33,7 @@ _EDITS = (
 
 
 class Problem:
-    """A planning problem. It never changes: `edited` returns another one.
+    """A planning problem. It never changes: `edited` returns another problem.
 
     It can be pickled. Unpickling reads its files again, and raises ValueError if they have changed.
 
@@ -67,7 +67,7 @@ class Problem:
 
     @classmethod
     def read(cls, file: str | os.PathLike[str]) -> Problem:
-        """Reads a problem.yaml, a folder that holds one, an OMPL.app .cfg, or SET.json#INDEX.
+        """Reads a problem.yaml, a folder that contains a problem.yaml, an OMPL.app .cfg, or SET.json#INDEX.
 
         Raises InputError with all faults.
         """
@@ -143,13 +143,13 @@ class Problem:
 
     @property
     def start(self) -> NDArray[np.float64]:
-        """(J,): where paths begin. Raises ValueError if the problem was built without one."""
+        """(J,): where paths begin. Raises ValueError if the problem was built without a start."""
         self._require("start")
         return self._native.start
 
     @property
     def goals(self) -> NDArray[np.float64]:
-        """G×J: a path may end at any of them. Empty if the problem was built without one."""
+        """G×J: a path may end at any of the G goals. Empty if the problem was built without goals."""
         return self._native.goals
 
     @property
@@ -187,11 +187,13 @@ class Problem:
         return Results(self.bodies, *_native.check(self._native, _array("states", states), _whole("threads", threads, 0)))
 
     def certify(self, q0: ArrayLike, q1: ArrayLike, earliest: bool = False, threads: int = 0) -> Results:
-        """Decides whether edges are proved free, from each row of q0 to that of q1, (J,) or (N, J).
+        """Decides whether edges are proved free. Edge i goes from row i of q0 to row i of q1, both (N, J). A q0 or q1
+        of shape (J,) is one row, which is used for all edges.
 
-        Continuous joints and rotations go the shorter way. `time` is the time of a contact. With `earliest`, it is the
-        time of the first contact: at most 1/1024 of the edge before it is not proved free, unless the contact is
-        grazing. `certificate` returns the part that is proved free, as `free_until`.
+        Continuous joints and rotations go the shorter way. `time` is the time of a contact. With `earliest`, `time` is
+        that of the first contact: the edge before it is proved free, except for a last part of at most 1/1024 of the
+        edge, which is longer only if the contact is grazing. `certificate` returns the end of the part that is proved
+        free, as `free_until`.
         """
         return Results(
             self.bodies,
@@ -203,8 +205,9 @@ class Problem:
     def certificate(self, q0: ArrayLike, q1: ArrayLike, earliest: bool = False) -> Certificate:
         """Decides one edge, from (J,) to (J,), and returns the proof as data.
 
-        With `earliest`, the part before a contact is proved, too. This takes longer than `certify`: every pair is
-        proved, also pairs that are far apart all the time. The method is always `certified`, whatever `edges` is.
+        With `earliest`, the part before a contact is proved, too. `certificate` takes longer than `certify`: it proves
+        every pair, also pairs that are far apart all the time. The method is always "certified", whatever
+        `edited(edges=...)` set.
         """
         return certificate_of(self, _array("q0", q0), _array("q1", q1), _flag("earliest", earliest))
 
@@ -256,7 +259,7 @@ def _frame(page: str) -> str:
 
 @dataclass(repr=False, eq=False)
 class Solution:
-    """The result of `solve`. It can be pickled. As a condition, it is true if the problem is solved."""
+    """The result of `solve`. It can be pickled. `bool(solution)` is True if the problem is solved."""
 
     problem: Problem
     outcome: str  #: "solved", "not found", "approximate only"
@@ -414,10 +417,10 @@ def _solve_one(arguments: tuple[Problem, dict[str, Any]]) -> Solution:
 def solve_many(problems: Iterable[Problem], processes: int | None = None, **options: Any) -> Iterator[Solution]:
     """Solves several problems, and yields their solutions in the same order.
 
-    processes: default, as many as there are cores. options: those of `solve`, except progress. Nothing is solved, and no
-    argument tested, before the first solution is requested.
-    As always when Python starts processes, a script must call it under `if __name__ == "__main__":`. Ctrl-C ends all
-    of the processes.
+    processes: the number of processes; default: the number of cores. options: those of `solve`, except progress. The
+    arguments are tested, and the first problem is begun, only when the first solution is requested. As always when
+    Python starts processes, a script must call `solve_many` under `if __name__ == "__main__":`. Ctrl-C ends all of the
+    processes.
     """
     if isinstance(problems, Problem):
         raise TypeError("problems: a list of problems is needed, not one problem")

@@ -12,7 +12,7 @@ class Verdict(enum.IntEnum):
     """The answer for a state or an edge."""
 
     FREE = 0  #: proved: all pairs keep the margin; the proof covers tube and rounding
-    CONTACT = 1  #: a pair touches, or is within the margin
+    CONTACT = 1  #: a pair touches, or is not farther apart than the margin
     UNDECIDED = 2  #: neither FREE nor CONTACT is proved; usually the clearance is below twice the tolerance
     OUT_OF_BOUNDS = 3  #: a joint or a position is out of bounds
 
@@ -21,7 +21,7 @@ class Results:
     """Answers for N states or edges, as arrays.
 
     verdict: N int8, values of Verdict.
-    time: N float, the time in [0, 1] of the contact, or of the undecided state, on the edge; NaN if there is none.
+    time: N float, the time on the edge, in [0, 1], of the contact or of the undecided state; NaN if there is neither.
     gap: N float, metres, the distance of an undecided pair beyond the margin.
     pairs: N×2 int64, indices into `bodies`; −1 if there is no pair.
     """

@@ -15,7 +15,8 @@ from .shapes import Shape, _numbers, _pose, _require_shape
 
 @dataclass(frozen=True)
 class Joint:
-    """A joint between two links. At the value 0, the child link is at the joint's `origin`; it moves with the value.
+    """A joint between two links. At the value 0, the child link is at the joint's `origin`; the child link moves as the
+    value changes.
 
     type: "fixed", "revolute", "continuous" (revolute without limits), "prismatic", "planar" or "floating".
     parent, child: names of links. origin: a `Pose` or 4×4, the joint in its parent link. axis: (3,), in the joint's
@@ -43,11 +44,12 @@ def robot(
     """Describes a robot by links and joints, which form a tree with one root.
 
     links: the shapes of each link by its name, in the link's frame; None or () for a link without shapes.
-    joints: in any order. allow: pairs of links that may touch. As in a URDF, two links that a joint connects are not
-    tested against each other, unless the joint is planar or floating.
-    planned: the names of the joints that are planned for; default: all that can move. The others stay at the value
-    nearest to 0. base: a `Pose` or 4×4, the pose of the root link. bounds: for each planar and floating joint
-    [[x, y, z], [x, y, z]], the corners of its position, m. name: needed if there are several robots.
+    joints: in any order. allow: pairs of links that may touch. As in a URDF, if a joint connects two links, these are
+    not tested against each other, unless the joint is planar or floating.
+    planned: the names of the joints that are planned for; default: all that can move. The other joints stay at the
+    value within their limits that is nearest to 0. base: a `Pose` or 4×4, the pose of the root link. bounds: for each
+    planar and floating joint [[x, y, z], [x, y, z]], the corners of its position, m. name: needed if there are several
+    robots.
 
     `corridor.Problem` raises InputError with all faults. If all poses are given as `Pose`, the robot is the same, to
     the last bit, as the robot of a URDF with equal numbers.

@@ -1,7 +1,8 @@
 """Shapes of links, obstacles and rigid bodies. Lengths are metres.
 
-`pose` is a 4×4 matrix, or a `Pose`; default: the identity. The rotation of a matrix may differ from a rotation matrix
-by 1e-6, and then stands for the nearest rotation. The vertices of a mesh are moved to its pose in double, with rounding.
+`pose` is a 4×4 matrix, or a `Pose`; default: the identity. For the 3×3 part M of a matrix, each element of MᵀM may
+differ from the identity by 1e-6; M then stands for the nearest rotation. The vertices of a mesh are moved to the pose
+in double, with rounding.
 """
 
 from __future__ import annotations
@@ -117,6 +118,6 @@ def mesh(vertices: ArrayLike, triangles: ArrayLike, solid: bool = False, pose: A
 def mesh_file(
     file: str | os.PathLike[str], metres_per_unit: float | None = None, solid: bool = False, pose: ArrayLike | None = None
 ) -> Shape:
-    """A mesh file: OBJ, STL, PLY, OFF, Collada, glTF and more. metres_per_unit: None: the unit of the file."""
+    """A mesh file: OBJ, STL, PLY, OFF, Collada, glTF and more. If metres_per_unit is None, the file's unit is used."""
     unit = None if metres_per_unit is None else _number("metres_per_unit", metres_per_unit)
     return _shape("file", os.path.abspath(file), unit, _flag("solid", solid), pose=pose)

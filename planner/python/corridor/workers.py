@@ -136,9 +136,9 @@ class _Answers:
 def in_order(function: Callable[[Any], Any], arguments: Sequence[Any], processes: int | None) -> Iterator[Any]:
     """Yields function(argument) for each argument, in this order, computed by several processes.
 
-    processes: None: as many as there are cores. If the function raises an exception for an argument, the iterator
-    raises it instead of yielding this result. The processes go on while the caller works. When the iterator ends, also
-    early, as by Ctrl-C, it kills them.
+    processes: the number of processes; None: the number of cores. If the function raises an exception for an argument,
+    the iterator raises this exception instead of yielding a result. The processes go on while the caller works. When
+    the iterator ends, it kills the processes, also if it ends early, as by Ctrl-C.
     """
     if processes is None:
         processes = os.cpu_count() or 1

@@ -1,11 +1,14 @@
 'use strict';
 
 /**
- * A chart over the path, with a cursor at the place that is shown. A click shows another place. Subclasses draw the curves:
- * `begin`, their own shapes, `finish`.
+ * A chart over the path, with a cursor at the position that the scene shows. A click goes to another position.
+ * Subclasses draw with: `begin`, their own shapes, `finish`.
  */
 class Chart {
-  /** @param seek is called with the place that is clicked. @param hover with the place under the mouse, or null. */
+  /**
+   * @param seek called with the position that is clicked, in [0, 1]. @param hover called with the position under the
+   * mouse, or null.
+   */
   constructor(parent, label, seek, hover = () => {}) {
     Object.assign(this, {parent, label, seek, hover, width: 284, height: 132, left: 52, top: 10, at: 0});
     this.right = this.width - 8;
@@ -13,7 +16,10 @@ class Chart {
     this.x = (at) => this.left + at * (this.right - this.left);
   }
 
-  /** Begins a new drawing. @param y the function from values to pixels. @param ticks values with grid lines, and `text` for each. */
+  /**
+   * Begins a new drawing. @param y the function from values to pixels. @param ticks the values with grid lines. @param
+   * text the label of a tick.
+   */
   begin(y, ticks, text) {
     this.y = y;
     this.svg = this.element('svg', {viewBox: `0 0 ${this.width} ${this.height}`, role: 'img', 'aria-label': this.label});
@@ -23,11 +29,14 @@ class Chart {
     }
   }
 
-  /** Draws a curve through points: strings "x,y". */
+  /** Draws a curve through points, given as strings "x,y". */
   curve(points, stroke) {
     this.add('polyline', {points: points.join(' '), fill: 'none', stroke, 'stroke-width': 1.5, 'stroke-linejoin': 'round'});
   }
-  /** Draws a dashed line at a value, with a word above its end, or left of other `words` that are there. */
+  /**
+   * Draws a dashed line at a value. A label, `word`, stands above the end of the line, left of the labels `words` that
+   * stand there already.
+   */
   level(value, stroke, word = '', words = '') {
     this.line(this.left, this.y(value), this.right, this.y(value), {stroke, 'stroke-dasharray': '4 3'});
     if (word) this.add('text', {x: this.right - 7 * words.length, y: this.y(value) - 3, 'text-anchor': 'end'}, word);
@@ -74,7 +83,9 @@ class Chart {
   }
 }
 
-/** The closest pair's distance over the path, with the margin, the proved clearance, and the edges that are not proved. */
+/**
+ * The closest pair's distance over the path, with the margin, the proved clearance, and the edges that are not proved.
+ */
 class DistanceChart extends Chart {
   constructor(parent, closest, seek, hover) {
     super(parent, 'Distance of the closest pair along the path', seek, hover);
@@ -82,7 +93,10 @@ class DistanceChart extends Chart {
     this.draw(false);
   }
 
-  /** @param decades true: a logarithmic scale, on which micrometres and metres are visible; contact is at its lower end. */
+  /**
+   * @param decades true: a logarithmic scale, which shows micrometres as well as metres; contact is at the lower end of
+   * the scale.
+   */
   draw(decades) {
     const {closest, right, top, bottom} = this, margin = data.solution.margin_m, proved = data.verdict.clearance_m;
     const most = closest.metres.reduce((a, b) => Math.max(a, b), 2 * margin) || 1;
@@ -112,13 +126,13 @@ class DistanceChart extends Chart {
   }
 }
 
-/** Returns powers of ten in a range, about five at most. */
+/** Returns powers of ten in a range: about five at most. */
 function powers(lowest, highest) {
   const count = Math.round(Math.log10(highest / lowest)), step = Math.ceil(count / 5);
   return Array.from({length: Math.floor(count / step) + 1}, (_, i) => lowest * 10 ** (i * step));
 }
 
-/** Returns about three round values in a range. */
+/** Returns about three values in a range that have few digits. */
 function niceTicks(least, most) {
   const step = roundDown((most - least) / 2), first = Math.ceil(least / step - 1e-9);
   return Array.from({length: Math.floor(most / step + 1e-9) - first + 1}, (_, i) => (first + i) * step);

@@ -23,7 +23,8 @@ const palette = {
 };
 const light = (hex) => new THREE.Color(hex).convertSRGBToLinear();
 /**
- * Returns the colour at a place `at`, in [0, 1] of the path. The colour goes from the start's, through `way` at 0.5, to the goal's.
+ * Returns the colour at the position `at` on the path, in [0, 1]: from the start's colour, through `palette.way` at
+ * 0.5, to the goal's colour.
  */
 const wayColour = (at) => at < 0.5 ? new THREE.Color(palette.start).lerp(new THREE.Color(palette.way), 2 * at)
   : new THREE.Color(palette.way).lerp(new THREE.Color(palette.goal), 2 * at - 1);
@@ -47,7 +48,7 @@ const digits = (x) => String(Number(x.toPrecision(4)));
 const seconds = (x) => `${x.toFixed(3)} s`;
 const counted = (n, noun) => `${n.toLocaleString('en')} ${noun}${n === 1 ? '' : 's'}`;
 
-/** Returns the index of the last of the ascending `values` that is at most `x`, or 0. */
+/** Returns the index of the last value that is at most `x`, or 0 if there is none. `values` ascends. */
 function lastNotAbove(values, x) {
   let low = 0;
   for (let high = values.length; high - low > 1;) {

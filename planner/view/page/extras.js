@@ -1,6 +1,9 @@
 'use strict';
 
-/** Draws the witness points of the closest pair, at the computed sample that is nearest to the place on the path. */
+/**
+ * Draws the witness points of the closest pair. They are those of the sample (of `data.distances`) nearest to the
+ * current position on the path.
+ */
 class ClosestPair {
   constructor(scene) {
     this.sample = data.array(data.distances.sample);
@@ -37,7 +40,10 @@ class ClosestPair {
   }
 }
 
-/** Draws the boxes of the OBB trees as lines, one level at a time. Lines are made when a level is first shown. */
+/**
+ * Draws the boxes of the OBB trees as lines, one level at a time. The lines of a level are made when the level is first
+ * shown.
+ */
 class Trees {
   constructor() {
     this.byMesh = new Map(data.trees.map((tree) => [tree.mesh, tree.shapes.map((shape) => (
@@ -47,7 +53,7 @@ class Trees {
     this.shown = [];
   }
 
-  /** Returns a mesh's boxes on a level, and the leaves of the levels above. */
+  /** Returns the lines of a mesh's boxes: of those on a level, and of the leaves above this level. */
   geometry(mesh, level) {
     const key = `${mesh}/${level}`;
     if (this.made.has(key)) return this.made.get(key);
@@ -71,8 +77,8 @@ class Trees {
   }
 
   /**
-   * Shows a level. @param level -1: none. @param parentOf(body) the object that the body's boxes move with. @returns the number
-   * of boxes.
+   * Shows a level of the trees. @param level -1: no level. @param parentOf(body) returns the object that moves the
+   * body's boxes. @returns the number of boxes.
    */
   show(level, parentOf) {
     for (const object of this.shown) object.parent.remove(object);
@@ -93,7 +99,7 @@ class Trees {
     return sum;
   }
 
-  /** Returns whether some tree has boxes on `level` that the page does not contain. */
+  /** Returns whether the page lacks boxes on `level` of some tree. */
   cut(level) {
     return [...this.byMesh.values()].some((trees) => trees.some((tree) => tree.counts.length - 1 < level && !finished(tree)));
   }
@@ -105,7 +111,9 @@ function finished({counts, leaves}) {
   return leaves.subarray(leaves.length - last).every((leaf) => leaf);
 }
 
-/** Appends the twelve edges of a box. The box is ten numbers from `first` on: its centre, quaternion and half extents. */
+/**
+ * Appends the twelve edges of a box. The box is ten numbers from `first` on: its centre, quaternion and half extents.
+ */
 function addBox(boxes, first, positions) {
   const centre = new THREE.Vector3().fromArray(boxes, first), q = new THREE.Quaternion().fromArray(boxes, first + 3);
   const axes = [0, 1, 2].map((k) => new THREE.Vector3().setComponent(k, boxes[first + 7 + k]).applyQuaternion(q));
@@ -115,7 +123,7 @@ function addBox(boxes, first, positions) {
   }
 }
 
-/** Shows a finding in the scene: highlights its two bodies, and draws a ring where they meet. */
+/** Shows a finding in the scene: highlights its two bodies, and draws a ring around the place where they meet. */
 class Contact {
   constructor(scene) {
     this.ring = new THREE.Mesh(new THREE.RingBufferGeometry(11, 14, 40), new THREE.MeshBasicMaterial(
@@ -125,7 +133,7 @@ class Contact {
     this.lit = [];
   }
 
-  /** @param materialsOf(index) the materials of a body. @param finding null: none. */
+  /** @param finding null: no finding is shown. @param materialsOf(index) returns the materials of a body. */
   show(finding, materialsOf) {
     this.finding = finding;
     for (const material of this.lit) material.emissive.setHex(0);

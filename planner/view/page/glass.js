@@ -1,6 +1,9 @@
 'use strict';
 
-/** Shares of the robots' pixels: a body that hides more than kHides becomes glass, and solid again below kNoLonger. */
+/**
+ * Fractions of the robots' pixels. A body that hides more than kHides is drawn like glass; when it hides less than
+ * kNoLonger, solid again.
+ */
 const kHides = 0.08, kNoLonger = 0.03;
 
 /** Makes glass more opaque at its rims, where the surface is seen at a grazing angle. */
@@ -60,9 +63,9 @@ class Obstacles {
   }
 
   /**
-   * Measures the share of the robots' pixels that each body hides. Renders a small picture of the robots alone, then a picture with
-   * the obstacles. Obstacles that hide robots are then removed and the rest is rendered again, four pictures at most, to find
-   * obstacles behind them.
+   * Measures the share of the robots' pixels that each body hides. Renders a small picture of the robots alone, then a
+   * picture with the obstacles. Obstacles that hide robots are then removed and the rest is rendered again, four
+   * pictures at most, to find obstacles behind them.
    */
   look(motion, stage) {
     const width = 256, height = Math.max(16, Math.round(width / stage.aspect)), pixels = new Uint8Array(4 * width * height);

@@ -47,7 +47,7 @@ function start() {
   const triangles = data.bodies.reduce((sum, body) => sum + shapes[body.mesh].triangles, 0);
   if (!kTopFirst && triangles <= kShadowTriangles) stage.castShadows();
 
-  // Buttons: obstacles solid or like glass, and the view.
+  // Buttons that draw obstacles solid or like glass, and that choose the view.
   const glass = (mode) => {
     if (obstacles.apply(mode, motion, stage)) stage.renderer.shadowMap.needsUpdate = true;
     byId('glass').querySelectorAll('button').forEach((button) => button.setAttribute('aria-pressed', String(button.dataset.glass === mode)));
@@ -69,7 +69,7 @@ function start() {
   if (closest) stage.beforeDraw.push(() => closest.root.visible && closest.place(motion.at, stage));
   stage.beforeDraw.push(() => motion.placeTrace(stage));
 
-  // The place on the path.
+  // The function that goes to a position on the path.
   const seek = (at, keepFinding = false) => {
     motion.goTo(at);
     byId('slider').value = at;
@@ -105,7 +105,7 @@ function start() {
     byId('ghosts-row').hidden = byId('trace-row').hidden = true;
   }
 
-  // Controls of parts that are shown on demand.
+  // Controls of what is shown only on request.
   const ghosts = byId('ghosts');
   ghosts.max = motion.mostGhosts;
   ghosts.value = motion.ghosts.length;
@@ -142,7 +142,7 @@ function start() {
   glass('auto');
   if (path) seek(0);
   if (image && path) motion.hideNow();
-  if (ringed) contact.show(ringed, () => []);  // only the ring: the poses keep their colours
+  if (ringed) contact.show(ringed, () => []);  // draws only the ring; the robots keep their colours
   stage.drawNow();
   let looking = 0;
   stage.onView = () => {
@@ -154,8 +154,8 @@ function start() {
 }
 
 /**
- * Returns the points that the first view shows (points that the robots reach, and obstacles near these), and the bounds of
- * everything.
+ * Returns the points that the first view must show (points that the robots reach, and obstacles near these points), and
+ * the bounds of everything.
  */
 function interest(robotPoints, robotBox, obstacles) {
   const bounds = robotBox.clone(), near = robotBox.clone();
@@ -175,7 +175,10 @@ function interest(robotPoints, robotBox, obstacles) {
   return [points, bounds];
 }
 
-/** Plays the path, with times at their true speed or a multiple of it, and handles slider, button and keys. */
+/**
+ * Plays the path, and handles slider, button and keys. A path with times is played at its true speed, or at a multiple
+ * of it.
+ */
 class Player {
   constructor(seek, now) {
     Object.assign(this, {seek, now, playing: 0});

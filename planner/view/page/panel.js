@@ -56,7 +56,10 @@ const Panel = {
     });
   },
 
-  /** Returns the index of the finding that a picture shows: the first finding with the path's verdict; -1: none. */
+  /**
+   * Returns the index of the finding that a picture shows: the first finding whose verdict is the path's verdict; -1 if
+   * there is none.
+   */
   mainFinding() {
     return data.verdict ? data.verdict.findings.findIndex((f) => f.verdict === data.verdict.verdict) : -1;
   },
@@ -67,13 +70,16 @@ const Panel = {
   /** Returns whether a trajectory exceeds the limits over time. */
   exceedsLimits: () => data.verdict.limits !== undefined && data.verdict.limits.verdict === 'exceeded',
 
-  /** Returns the CSS class of the verdict: only a proof with tested pairs, and without an exceeded limit, is green. */
+  /**
+   * Returns the CSS class of the verdict. Only a proof is green, and only if pairs were tested and no limit is
+   * exceeded.
+   */
   verdictClass() {
     const {verdict} = data.verdict, weaker = this.provedOfNothing() || (verdict === 'proved' && this.exceedsLimits());
     return weaker || verdict === 'other problem' ? 'undecided' : verdict;
   },
 
-  /** Returns the verdict in a line: "refuted: seat and shelf touch". */
+  /** Returns the verdict in one line, such as "refuted: seat and shelf touch". */
   verdictText() {
     if (this.provedOfNothing()) return 'no pair is tested';
     const {verdict, findings, violations} = data.verdict, f = findings[this.mainFinding()];
@@ -124,14 +130,15 @@ const Panel = {
     legend.append(item('scale', '', `grid ${metres(stage.step)}`));
     if (!path || !image) return;
     if (path.times) legend.append(make('span', `duration ${digits(path.times[1] - path.times[0])} s`));
-    // Pictures have no panel: their legend states the verdict, with the mark of the ring in the scene.
+    // Pictures have no panel, so their legend states the verdict. A mark in the legend stands for the ring in the
+    // scene.
     const finding = data.verdict.findings[this.mainFinding()], said = make('span', this.verdictText());
     said.className = `verdict ${this.verdictClass()}`;
     if (finding && finding.a !== null) said.prepend(make('i'));
     legend.append(said);
   },
 
-  /** Shows the place on the path, or the time of a trajectory, and the closest pair there. */
+  /** Shows the position on the path, or the time of a trajectory, and the closest pair there. */
   place(at, closest) {
     const i = lastNotAbove(path.at, at), k = Math.min(i + 1, path.at.length - 1);
     const u = path.at[k] > path.at[i] ? (at - path.at[i]) / (path.at[k] - path.at[i]) : 0;

@@ -1,12 +1,12 @@
 'use strict';
 
 const kQuantities = ['position', 'velocity', 'acceleration'];
-const kPerSecond = ['', '/s', '/s²'];  // their units, after that of the position
-const kDrawnSpans = 600;               // at most so many spans of a curve are drawn, each by its extremes
+const kPerSecond = ['', '/s', '/s²'];  // of position, velocity, acceleration: what follows the position's unit
+const kDrawnSpans = 600;               // the most spans of a curve; of each, the smallest and largest value are drawn
 
 /**
- * The joints of a trajectory; `at` has the places of their values. If two values have one place, they are those before
- * and after a jump.
+ * The joints of a trajectory. `at` has the positions on the path of their values. If two values have one position, they
+ * are those before and after a jump.
  */
 const joints = data.plots && data.plots.joints.map((joint, i, all) => ({...joint,
   values: joint.values.map((values) => data.array(values)),
@@ -23,8 +23,8 @@ function limitsOf(joint, quantity) {
 const unitsOf = (quantity) => [...new Set(joints.map((joint) => joint.unit + kPerSecond[quantity]))].join(', ');
 
 /**
- * A quantity of all joints over the time. If all have limits, it is drawn as a share of them: 0 and 100 % are the bounds of a
- * position, −100 and 100 % the limits of a velocity or acceleration.
+ * A quantity of all joints over time. If all joints have limits, it is drawn in percent of them: 0 and 100 % are the
+ * bounds of a position, −100 and 100 % the limits of a velocity or acceleration.
  */
 class JointChart extends Chart {
   constructor(parent, quantity, seek, hover) {
@@ -48,7 +48,10 @@ class JointChart extends Chart {
   }
 }
 
-/** Returns the indices of values to draw: all, or of many values the smallest and largest of each span. */
+/**
+ * Returns the indices of the values to draw: all indices or, if there are many, those of the smallest and largest value
+ * of each span.
+ */
 function extremes(values) {
   if (values.length <= 2 * kDrawnSpans) return [...values.keys()];
   const chosen = [0];
@@ -65,8 +68,8 @@ function extremes(values) {
 }
 
 /**
- * The plots of a trajectory below the player, and the table of its joints. One cursor for all plots and the table: the place that is
- * shown or, while the mouse is over a plot, the place there.
+ * The plots of a trajectory below the player, and the table of its joints. All have one cursor: at the position that
+ * the scene shows or, while the mouse is over a plot, at the position under the mouse.
  */
 class Plots {
   constructor(closest, seek) {

@@ -1,12 +1,12 @@
 'use strict';
 
 const origin = new THREE.Vector3(...data.origin);
-const kGhostTriangles = 1.5e6;  // at most, for all poses along the path together
+const kGhostTriangles = 1.5e6;  // the largest number of triangles of all copies along the path together
 const kPose = 7;                // numbers per pose of a frame
 
 /**
  * Reads the pose (x y z and a quaternion) at index `first` of an array. With u > 0, interpolates to the pose at `next`,
- * by the share u.
+ * by the fraction u.
  */
 function poseOf(array, first, next, u, position, quaternion) {
   position.set(array[first], array[first + 1], array[first + 2]);
@@ -34,9 +34,9 @@ function placeObstacle(object, body) {
 const path = data.path && {
   at: data.array(data.path.at), t: data.array(data.path.t), edge: data.array(data.path.edge), poses: data.array(data.path.poses),
   states: data.path.states, findings: data.path.findings, trace: data.path.trace,
-  times: data.path.times,  // of the ends, seconds; undefined: the path has no times
+  times: data.path.times,  // the times of start and end, seconds; undefined: the path has no times
 };
-/** Returns the time of the place `at`, seconds. */
+/** Returns the time at the position `at` on the path, seconds. */
 const timeAt = (at) => path.times[0] + at * (path.times[1] - path.times[0]);
 const frameCount = data.array(data.start).length / kPose;
 /** For each frame, whether it never moves on the path (without a path: between start and goals), like an arm's base. */
@@ -48,14 +48,17 @@ const isStill = Array.from({length: frameCount}, (_, frame) => {
   return true;
 });
 
-/** Computes the pose of a frame at the share `at` of the path, in [0, 1]. */
+/** Computes the pose of a frame at the position `at` on the path, in [0, 1]. */
 function framePose(at, frame, position, quaternion) {
   const i = lastNotAbove(path.at, at), k = Math.min(i + 1, path.at.length - 1);
   const u = k > i && path.at[k] > path.at[i] ? Math.min(1, (at - path.at[i]) / (path.at[k] - path.at[i])) : 0;
   poseOf(path.poses, (i * frameCount + frame) * kPose, (k * frameCount + frame) * kPose, u, position, quaternion);
 }
 
-/** A copy of all robots: a group per frame, with the meshes that `meshOf(body, shape, index)` returns for each body. */
+/**
+ * A copy of all robots: a group of three.js for each frame, with the meshes that `meshOf(body, shape, index)` returns
+ * for each body.
+ */
 class RobotCopy {
   constructor(meshOf) {
     this.root = new THREE.Group();
@@ -90,19 +93,27 @@ function surface(colour, shape, more = {}) {
   return new THREE.MeshPhongMaterial({color: light(colour), specular: 0x111111, shininess: 24, side: THREE.DoubleSide,
     flatShading: shape.flat, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1, ...more});
 }
-/** Properties of a blended material that is drawn among the opaque ones, in order of `renderOrder`. */
+/**
+ * Properties of a transparent material that is drawn together with the opaque materials, in the order of `renderOrder`.
+ */
 const blended = {blending: THREE.CustomBlending, blendSrc: THREE.SrcAlphaFactor, blendDst: THREE.OneMinusSrcAlphaFactor};
 
 function lines(shape, colour, opacity) {
   return new THREE.LineSegments(shape.edges, new THREE.LineBasicMaterial({color: light(colour), transparent: true, opacity, depthWrite: false}));
 }
 
-/** Returns the depth offset of a copy of the robots. Where copies at several poses coincide, the one of least rank is visible. */
+/**
+ * Returns the depth offset of a copy of the robots. Where several copies coincide, the copy with the smallest rank is
+ * visible.
+ */
 const behind = (rank) => ({polygonOffsetFactor: 1 + 0.25 * rank, polygonOffsetUnits: 1 + 300 * rank});
 
-/** Solid robots. Parts that other bodies hide are dimly visible. */
+/** A copy of the robots that is drawn solid. Where other bodies hide it, it is dimly visible, except large meshes. */
 class Robots extends RobotCopy {
-  /** @param hex colour; unset: a colour per robot. @param rank if above 0, frames that never move are left out. */
+  /**
+   * @param hex the colour; unset: each robot has its own colour. @param rank see `behind`; above 0, frames that never
+   * move are left out.
+   */
   constructor(hex, rank = 0) {
     const materials = new Map();
     super((body, shape, index) => {
@@ -124,8 +135,8 @@ class Robots extends RobotCopy {
 }
 
 /**
- * Another pose of the robots, like glass. All ghosts form one layer: their depths are drawn first, behind solid things, and then
- * their colours. So the nearest ghost is visible, whatever the order of drawing.
+ * A copy of the robots at another pose, like glass. All ghosts form one layer: their depths are drawn first, behind
+ * solid things, and then their colours. So the nearest ghost is visible, in whatever order the ghosts are drawn.
  */
 class Ghost extends RobotCopy {
   constructor(colour, opacity, rank) {
@@ -144,9 +155,12 @@ class Ghost extends RobotCopy {
   }
 }
 
-/** All robots: at the current place, at the start and goals, and at poses along the path; and a trace of each robot. */
+/**
+ * All copies of the robots (at the current position, at the start and goals, and at poses along the path), and a trace
+ * of each robot.
+ */
 class Motion {
-  /** @param picture true for pictures, which show poses but no robots at the current place. */
+  /** @param picture true for pictures, which show the poses along the path, but no robots at the current position. */
   constructor(scene, picture) {
     this.scene = scene;
     this.at = 0;
@@ -186,19 +200,22 @@ class Motion {
     this.now.goTo(at);
   }
 
-  /** Shows or hides start, goals and the poses between. If hidden, only the robots at the current place remain visible. */
+  /**
+   * Shows or hides the copies at start, goals and poses between. If hidden, only the robots at the current position
+   * remain visible.
+   */
   showPoses(shown) {
     for (const copy of [this.start, ...this.goals, ...this.ghosts]) copy.root.visible = shown;
   }
 
-  /** Hides the robots at the current place, for pictures, except frames that never move. */
+  /** For pictures: hides the robots at the current position, except frames that never move. */
   hideNow() {
     this.now.frames.forEach((frame, i) => { frame.visible = isStill[i]; });
   }
 
   /**
-   * Returns points that the robots reach: the corners of their bodies' bounds, at the start and along the path. Without a path: at
-   * start and goals.
+   * Returns points that the robots reach: the corners of their bodies' bounds, at the start and along the path or,
+   * without a path, at start and goals.
    */
   points() {
     const points = [], position = new THREE.Vector3(), quaternion = new THREE.Quaternion(), one = new THREE.Vector3(1, 1, 1);
@@ -224,7 +241,10 @@ class Motion {
       .map((body) => 2 * shapes[body.mesh].geometry.boundingSphere.radius));
   }
 
-  /** Draws a thin tube along the curve of each robot's last frame, with dots at its ends, since small robots are hard to find. */
+  /**
+   * Draws a thin tube along the curve of each robot's tip frame. Dots mark the ends of the tube, since small robots are
+   * hard to find.
+   */
   addTrace() {
     this.trace = new THREE.Group();
     this.tubes = [];
@@ -248,7 +268,9 @@ class Motion {
     this.scene.add(this.trace);
   }
 
-  /** Called before drawing. Keeps the sizes of tubes and dots constant in pixels, whatever their distance. */
+  /**
+   * Called before each drawing: scales tubes and dots so that their sizes in pixels do not depend on their distance.
+   */
   placeTrace(stage) {
     if (!this.trace) return;
     const radius = 1.2 * stage.pixelAt(stage.target);
@@ -257,7 +279,10 @@ class Motion {
   }
 }
 
-/** Creates a tube around a curve of points, with colours from the start's to the goal's. `scaleTube` sets its radius. */
+/**
+ * Creates a tube around the curve through points. Its colours go from the start's to the goal's. `scaleTube` sets its
+ * radius.
+ */
 function tube(points) {
   const sides = 6, kept = points.filter((point, i) => i === 0 || point.p.distanceTo(points[i - 1].p) > 0);
   const positions = [], directions = [], colours = [], indices = [];

@@ -1,13 +1,16 @@
 'use strict';
 
 /**
- * Geometry of meshes. A mesh of at most this many triangles gets lines along its creases, and normals that are smooth elsewhere.
- * Larger meshes are drawn with flat triangles, so that they do not delay the first picture.
+ * Geometry of meshes. A mesh of at most this many triangles gets lines along its creases, and normals that are smooth
+ * elsewhere. Larger meshes are drawn with flat triangles, so that they do not delay the first picture.
  */
 const kMostCreased = 120000;
 const kCrease = Math.cos(32 * Math.PI / 180);
 
-/** Numbers the vertices. Equal positions get the same number, so that meshes without shared vertices become smooth, too. */
+/**
+ * Gives each vertex a number. Vertices at equal positions get the same number, so that meshes without shared vertices
+ * become smooth, too.
+ */
 function welded(positions) {
   const count = positions.length / 3, bits = new Int32Array(positions.buffer, positions.byteOffset, positions.length);
   let size = 16;
@@ -38,7 +41,7 @@ function cornersOf(vertices, count) {
 }
 
 function faceNormals(positions, indices) {
-  const normals = new Float32Array(indices.length);  // their lengths are twice the areas
+  const normals = new Float32Array(indices.length);  // not normalised: their lengths are twice the areas of the triangles
   for (let c = 0; c < indices.length; c += 3) {
     const a = 3 * indices[c], b = 3 * indices[c + 1], d = 3 * indices[c + 2];
     const ux = positions[b] - positions[a], uy = positions[b + 1] - positions[a + 1], uz = positions[b + 2] - positions[a + 2];

@@ -7,7 +7,7 @@ const kTopFirst = data.from ? data.from[1] > 89.9 * kDegree && Math.abs(data.fro
 const kAzimuth = data.from && !kTopFirst ? data.from[0] : -60 * kDegree;
 /** The first elevation in 3D: never quite vertical, since the camera keeps z upwards. */
 const kElevation = data.from && !kTopFirst ? Math.min(Math.max(data.from[1], -89.9 * kDegree), 89.9 * kDegree) : 32 * kDegree;
-const kFieldOfView = 30;  // degrees, vertical: little perspective, so that sizes can be compared
+const kFieldOfView = 30;  // degrees, vertical: a small angle, so that near and far things have nearly the same scale
 
 /** The canvas with cameras, lights and ground; redraws when something has changed. */
 class Stage {
@@ -21,7 +21,7 @@ class Stage {
     this.scene = new THREE.Scene();
     this.beforeDraw = [];
     this.onView = () => {};
-    this.below = 0;  // pixels at the bottom that the legend covers, if they are more than the 5 % that `fit` always leaves free
+    this.below = 0;  // height of the legend at the bottom, pixels; used above the 5 % that `fit` always leaves free
     this.moved = false;  // whether the user has moved the camera; then `frame` keeps it where it is
     this.top = options.top;
     this.perspective = new THREE.PerspectiveCamera(kFieldOfView, 1, 0.1, 10);
@@ -46,7 +46,7 @@ class Stage {
   get camera() { return this.top ? this.flat : this.perspective; }
   get target() { return this.controls[this.top ? 1 : 0].target; }
 
-  /** Sets what is shown. @param points that must be visible, on robots and obstacles near them. @param bounds of all bodies. */
+  /** Sets what is shown. @param points points that must be visible. @param bounds the bounds of all bodies. */
   show(points, bounds) {
     this.points = points;
     this.bounds = bounds;
@@ -75,7 +75,7 @@ class Stage {
   }
 
   /**
-   * Switches shadows on. They cost as much as drawing everything again. So they are not used for large meshes, nor from above.
+   * Switches shadows on. They cost as much as drawing everything again, so large meshes and views from above have none.
    */
   castShadows() {
     this.renderer.shadowMap.enabled = true;
@@ -85,7 +85,10 @@ class Stage {
     this.key.castShadow = true;
   }
 
-  /** Adds a ground below everything, with a grid that fades out. The grid's step is a round number. */
+  /**
+   * Adds a ground below everything, with a grid that fades out. The spacing of its lines is 1, 2 or 5 times a power of
+   * ten.
+   */
   addGround() {
     const centre = this.box.getCenter(new THREE.Vector3()), size = this.box.getSize(new THREE.Vector3());
     const extent = Math.max(size.x, size.y, 0.4 * size.z) || 1, step = roundDown(extent / 8);
@@ -128,10 +131,10 @@ class Stage {
   }
 
   resize() {
-    if (this.fitToPage()) this.drawNow();  // at once: setting a canvas's size clears it
+    if (this.fitToPage()) this.drawNow();  // draw at once, because setting the size of a canvas clears it
   }
 
-  /** Fits canvas and cameras to the page. @returns whether the size is not empty and has changed. */
+  /** Fits canvas and cameras to the page. @returns whether the size has changed, and neither width nor height is 0. */
   fitToPage() {
     const {clientWidth: width, clientHeight: height} = this.canvas.parentElement;
     if (!width || !height || !this.points) return false;
@@ -186,8 +189,8 @@ class Stage {
   }
 
   /**
-   * Moves the camera, without turning it, so that the point is in the middle, and near enough that `size` fills a third of the
-   * picture. Never moves the camera farther away.
+   * Moves the camera, without turning it, so that the point is in the middle, and near enough that `size` fills a third
+   * of the picture. Never moves the camera farther away.
    */
   approach(point, size) {
     const camera = this.camera, away = camera.position.clone().sub(this.target);

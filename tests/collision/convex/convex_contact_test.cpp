@@ -16,8 +16,10 @@ using test::Shape;
 using test::ShapeFeature;
 using test::Touching;
 
-/// All pairs of shapes and features, at gaps and depths that are fractions of the largest
-/// coordinate. The verdict is known by construction, without an oracle.
+/// Tests contact for all pairs of shapes and features, at gaps and depths that are fractions of the
+/// largest coordinate. The verdict is known by construction. It must be right unless the gap is so
+/// small that contact may be reported for separate sets (the band); it must never be a false
+/// separation.
 TEST(ConvexContact, RightOutsideTheBandNeverFalselyFree) {
   Touching make(test::testSeed(21));
   const double factors[] = {0x1p-10, 0x1p-30, 0x1p-40, 0x1p-43, 0x1.1p-44};
@@ -25,7 +27,7 @@ TEST(ConvexContact, RightOutsideTheBandNeverFalselyFree) {
   int moreDigits = 0;
   for (const Shape sa : test::kShapes)
     for (const Shape sb : test::kShapes) {
-      // Two triangles have an exact predicate.
+      // Pairs of triangles are left out: they have an exact predicate.
       if (sa == Shape::triangle && sb == Shape::triangle) continue;
       for (int n = 0; n < 600; ++n) {
         const ShapeFeature a = make.feature(sa), b = make.feature(sb);
@@ -86,8 +88,8 @@ long double distanceFrom(const Primitive& primitive, const Vec3L& q) {
   return std::hypot(beyond(radial - c.radius), beyond(z - 0.5L * c.length));
 }
 
-/// Tests spheres against all primitives with closed forms. A third of the spheres are nearly
-/// points, so containment in every primitive is tested, too.
+/// Tests contact of spheres with all primitives against closed forms. A third of the spheres are
+/// nearly points, so spheres inside of every primitive are tested, too.
 TEST(ConvexContact, SpheresAgainstClosedForms) {
   Touching make(test::testSeed(22));
   int touching = 0, apart = 0;
@@ -126,9 +128,9 @@ TEST(ConvexContact, SpheresAgainstClosedForms) {
   EXPECT_GT(apart, 2'000);
 }
 
-/// Compares polytopes of integer corners with the separating-axis theorem in integers. Axes: all
-/// normals of faces and cross products of edges, where any pair of corners counts as an edge. Many
-/// pairs touch exactly.
+/// Compares polytopes of integer corners with the separating-axis theorem in integers. The axes are
+/// all normals of faces and all cross products of edges, where any two corners count as an edge.
+/// Many pairs touch exactly.
 TEST(ConvexContact, PolytopesAgainstIntegers) {
   using Int = std::int64_t;
   using IntVec = Eigen::Matrix<Int, 3, 1>;
@@ -209,7 +211,7 @@ TEST(ConvexContact, TouchingSetsTouchUnderACommonMap) {
   EXPECT_EQ(falseFree, 0);
 }
 
-/// Under a map that is not rigid, the query is about the image of the set: a sphere becomes an
+/// Under a map that is not rigid, the query tests the image of the set: a sphere becomes an
 /// ellipsoid. Here a sphere and a cylinder are stretched along z, above a plate.
 TEST(ConvexContact, AnyAffineMap) {
   const ConvexPart plate = placed(Box{Vec3(4, 4, 1)}, {});

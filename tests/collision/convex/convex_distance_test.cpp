@@ -32,7 +32,8 @@ double sizeOf(const PosedPart& a, const PosedPart& b) {
   return std::max(test::largestCoordinate(a.part, a.X), test::largestCoordinate(b.part, b.X));
 }
 
-/// Returns the guaranteed error bound.
+/// Returns the error bound that convex_distance.h guarantees for sets of this size at this
+/// distance.
 double allowedAt(double distance, double size) {
   return 1e-12 * distance + 4 * kUnit * size;
 }
@@ -54,8 +55,8 @@ double checked(const PosedPart& a, const PosedPart& b, const std::string& what) 
   EXPECT_LE(d.lower, d.distance) << what;
   EXPECT_LE(range.lower, d.distance) << what;
   EXPECT_GE(range.upper, d.lower) << what;
-  // In the band, contact may be reported for sets that are apart. A witness point may then be as
-  // far from one set as the sets are apart.
+  // At distances of at most 2^-44·size, contact may be reported for sets that are apart. A witness
+  // point may then be as far from one set as the sets are apart.
   const double surface = (touch ? 0x1p-44 : 16 * kUnit) * size;
   EXPECT_LE(test::outside(a.part, a.X, d.p_WA),
             touch && a.part.points.size() > 3 ? HUGE_VAL : surface)
@@ -165,8 +166,8 @@ TEST(ConvexDistance, RandomPosesAgainstASeparatingPlane) {
   EXPECT_GT(touching, 500 / test::kSlowdown);
 }
 
-/// Compares distances of polytopes with brute force over all triangles of their corners, with a
-/// hundred digits.
+/// Compares distances of polytopes with brute force over all triangles of any three corners of
+/// each, in arithmetic with a hundred digits.
 TEST(ConvexDistance, PolytopesAgainstAllTheirTriangles) {
   Touching make(test::testSeed(33));
   int apart = 0;
@@ -174,7 +175,7 @@ TEST(ConvexDistance, PolytopesAgainstAllTheirTriangles) {
     PosedPart a, b;
     for (int i = 0; i < 3 + n % 3; ++i) a.part.points.push_back(make.vector());
     for (int i = 0; i < 3 + n / 3 % 3; ++i) b.part.points.push_back(make.vector());
-    if (n % 2) {  // b gets a face that is nearly parallel to a face of a
+    if (n % 2) {  // b gets a face that is nearly parallel to one of a
       for (int i = 0; i < 3; ++i)
         b.part.points[i] = a.part.points[i] + std::pow(10.0, -n % 13) * make.vector();
     }
@@ -266,7 +267,7 @@ TEST(ConvexDistance, ClosedForms) {
          "cylinders, crossed");
   expect(cylinder, placedAt(Cylinder{0.25, 3}, {2, 0, 0.1}, Vec3::UnitX(), 0.7), 1.25,
          "cylinders, askew");
-  // A corner beside a rim, in a plane with the axis.
+  // A corner beside a rim; the corner and the axis lie in one plane.
   expect(cylinder, placedAt(Convex{{{1.5, 0, 2}, {2, 1, 3}, {2, -1, 3}}}, {0, 0, 0}), std::sqrt(2),
          "rim, corner");
 }
@@ -347,8 +348,8 @@ TEST(ConvexDistance, BallsFlattenedByTheirMap) {
 }
 
 /// The error grows with the coordinates after the map, not with the coordinates before the map.
-/// This map takes points at 10^12 m to within a metre or to one point; the ellipsoid needs all
-/// digits of the bound.
+/// These maps take points at 10^12 m to points that are a few metres apart, or to one point. The
+/// other set is a sheared sphere, for which the search needs the full error bound.
 TEST(ConvexDistance, FarPointsUnderAMapThatShrinks) {
   ConvexPart ball = placed(Sphere{12.75}, {});
   Transform shear;
@@ -403,7 +404,7 @@ TEST(ConvexDistance, AsCloseAsRequested) {
     EXPECT_LE(d.distance, exact.distance + allowed) << n;
     EXPECT_LE(d.lower, exact.distance);
     EXPECT_LE(d.distance - d.lower, allowed) << n;
-    // The search of the range may stop early, but only if the lower bound exceeds the requested
+    // The search for the range may stop early, but only if its lower bound exceeds the requested
     // lower bound.
     EXPECT_GT(convexDistanceRange(a.set(), b.set(), gap / 2, 0).lower, gap / 2);
     EXPECT_LE(convexDistanceRange(a.set(), b.set(), HUGE_VAL, 2 * gap).upper, 2 * gap);

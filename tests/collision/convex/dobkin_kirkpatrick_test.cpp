@@ -104,7 +104,7 @@ TEST(DobkinKirkpatrick, ExtremeVerticesAreExact) {
     for (int k = 0; k < 60; ++k) {
       Vec3 d = random.direction();
       if (k % 6 == 1) d = Vec3(Vec3::Unit(k / 6 % 3)) * (k % 4 ? 1 : -1);
-      if (k % 6 == 2) {  // the normal of a face, rounded, and nearly so
+      if (k % 6 == 2) {  // the rounded normal of a face, or a direction near it
         const auto& face =
             hierarchy.polytope().faces()[random.below(hierarchy.polytope().faces().size())];
         d = (vertices[face[1]] - vertices[face[0]]).cross(vertices[face[2]] - vertices[face[0]]);

@@ -23,7 +23,7 @@ TEST(ExactContact, AgreesWithTheRationalSimplexMethod) {
     const ConvexPart a{p, 0, false}, b{q, 0, false};
     const bool expected = test::hullRelation<3>(p, q) != HullRelation::disjoint;
     ASSERT_EQ(convexHullsTouch({a, {}}, {b, {}}), expected) << n;
-    // The verdict is that of rationals, whatever the cache contains.
+    // The verdict must be that of the oracle, whatever the cache contains.
     ConvexCache wrong;
     wrong.count = 4;
     for (auto& corner : wrong.corner) corner = {static_cast<std::uint32_t>(n % 9), 0, {0, 0, 1}};
@@ -39,7 +39,7 @@ TEST(ExactContact, AgreesWithTheRationalSimplexMethod) {
   EXPECT_GT(tooClose, 0);
 }
 
-/// Rationals decide every pair here, because the cache proves nothing.
+/// Every pair is decided in rationals, because the cache proves nothing.
 TEST(ExactContact, AgreesUnderMaps) {
   test::ExactPairs make(test::testSeed(82));
   int touching = 0;

@@ -15,9 +15,9 @@ using test::Shape;
 using test::ShapeFeature;
 using test::Touching;
 
-/// Prints two figures of a search, and limits them: the number of rounds, and the difference
-/// between the upper and the lower bound of the cores' distance at the end of the search, relative
-/// to the size.
+/// Prints the largest values of two figures, and tests that they are below limits: the number of
+/// iterations of a search, and the difference between its final upper and lower bounds of the
+/// cores' distance, divided by the size.
 TEST(Gjk, WorstErrors) {
   Touching make(test::testSeed(24));
   const char* names[] = {"box", "sphere", "capsule", "cylinder", "convex", "triangle"};

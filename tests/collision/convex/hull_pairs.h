@@ -19,8 +19,8 @@ using Points = std::vector<Eigen::Matrix<double, D, 1>>;
 /// with Corridor.
 /// * The hulls share a point if Σ λ_i p_i = Σ μ_j q_j, Σ λ = Σ μ = 1 has a solution λ, μ ≥ 0.
 /// * No plane separates the hulls, not even one that touches them, if the rows (p, −1) and (−q, 1)
-///   span all of space with weights ≥ 0: the rows have full rank, and Σ w_i row_i = 0 has a
-///   solution with all w_i ≥ 1.
+///   span all of space with weights ≥ 0: that is, if the rows have full rank, and Σ w_i row_i = 0
+///   has a solution with all w_i ≥ 1.
 template <int D>
 HullRelation hullRelation(const Points<D>& first, const Points<D>& second) {
   std::vector<std::vector<double>> meet, rows;
@@ -39,8 +39,8 @@ HullRelation hullRelation(const Points<D>& first, const Points<D>& second) {
   right[D] = right[D + 1] = 1;
   if (!hasSolution(meet, right)) return HullRelation::disjoint;
   if (rankOf(rows) < D + 1) return HullRelation::touching;
-  // w_i = 1 + v_i with v ≥ 0. A sum of all rows in doubles would not be exact, so each row occurs
-  // twice: with the weight v_i, and with a weight that one more equation sets to 1.
+  // w_i = 1 + v_i with v ≥ 0. A sum of all rows in doubles would not be exact. So each row occurs
+  // twice: once with the weight v_i, and once with a weight that an additional equation sets to 1.
   const std::size_t count = rows.size();
   std::vector<std::vector<double>> all = rows;
   all.insert(all.end(), rows.begin(), rows.end());
@@ -50,10 +50,11 @@ HullRelation hullRelation(const Points<D>& first, const Points<D>& second) {
   return hasSolution(all, zero) ? HullRelation::overlapping : HullRelation::touching;
 }
 
-/// Makes pairs of point sets, of four kinds in equal shares: random; on a small grid, where
-/// touching and coplanar points abound; sets that share some points, mostly with the other points
-/// on opposite sides of a plane; needles and nearly flat sets. Half of all pairs are moved away
-/// from the origin by up to 10^6, in grid steps, so that touching sets still touch.
+/// Makes pairs of point sets, of four kinds, which are equally frequent: random points; points of a
+/// small grid, where sets often touch and points are often coplanar; sets that share some points,
+/// the other points being mostly on opposite sides of a plane; needles and nearly flat sets. Half
+/// of all pairs are moved away from the origin by up to 10^6, in steps of the grid, so that
+/// touching sets still touch.
 template <int D>
 class HullPairs {
  public:
@@ -111,7 +112,8 @@ class HullPairs {
   Point gridPoint() {
     return Point::NullaryExpr([&] { return static_cast<double>(random_() % 5) - 2; });
   }
-  /// A grid point on one side of the plane through the origin, or on it.
+  /// Returns a grid point on one side of the plane through the origin with this normal, or on the
+  /// plane.
   Point side(const Point& normal, double s) {
     const Point x = gridPoint();
     return s * normal.dot(x) < 0 ? Point(-x) : x;

@@ -22,7 +22,7 @@ using Vector = Eigen::Matrix<double, D, 1>;
 
 /// Returns the status of the program, by the rational simplex method and duality.
 /// * Infeasible: Σ w_i normal_i = 0, Σ w_i offset_i = −1 has a solution w ≥ 0.
-/// * Bounded: Σ w_i normal_i = goal has a solution w ≥ 0.
+/// * Bounded: Σ w_i normal_i = goal has a solution w ≥ 0. (`goal` is the vector of the objective.)
 template <int D>
 LinearProgramStatus statusOf(const std::vector<HalfSpace<D>>& list, const Vector<D>& goal) {
   std::vector<std::vector<double>> normals;
@@ -41,8 +41,8 @@ class Programs {
  public:
   explicit Programs(std::uint64_t seed) : random_(seed) {}
 
-  /// Random half-spaces: real or small whole numbers, with repeated and opposite normals, around
-  /// the origin or not.
+  /// Returns random half-spaces. Their coefficients are real numbers or small integers. Some
+  /// normals are repeated or opposite. Some half-spaces contain the origin, others don't.
   std::vector<HalfSpace<D>> next() {
     const bool whole = random_() % 2;
     const std::size_t count = random_() % 9;
@@ -108,7 +108,7 @@ void compare(int count, std::uint64_t seed) {
     } else {
       EXPECT_LE(found.proof.size(), static_cast<std::size_t>(D));
       EXPECT_LT((sum - goal).norm(), 1e-13 * (1 + weights)) << "program " << n;
-      // Duality: the proof bounds the goal by the value that x has.
+      // Duality: the bound that the proof gives for the objective equals the objective at x.
       EXPECT_NEAR(offsets, goal.dot(found.x), 1e-13 * (1 + weights) * size) << "program " << n;
     }
   }

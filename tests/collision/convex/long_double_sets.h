@@ -7,7 +7,8 @@
 
 #include "collision/convex/convex_set.h"
 
-/// Oracles for convex sets, in long double, by other formulas than the code under test.
+/// Oracles for convex sets. They compute in long double, by other formulas than the code under
+/// test.
 namespace corridor::test {
 
 using Vec3L = Eigen::Matrix<long double, 3, 1>;
@@ -31,10 +32,9 @@ inline long double toTriangle(const Vec3L& p, const Vec3L& a, const Vec3L& b, co
   return best;
 }
 
-/// Returns the distance of a point from a convex part, in the part's frame; 0 inside. For a hull of
-/// four points or more: the distance from the nearest triangle of its points. Exception: if the
-/// point is inside a hull of four points or more, the result is its distance from some triangle,
-/// which may be above 0.
+/// Returns the distance of point q from a convex part, both in the part's frame. For a hull of four
+/// points or more, this is the distance from the nearest triangle of any three of its points, which
+/// may be above 0 if q is inside the hull. For any other part, the result is 0 if q is inside.
 inline long double outside(const ConvexPart& part, const Vec3L& q) {
   const auto at = [&](std::size_t i) -> Vec3L { return part.points[i].cast<long double>(); };
   const std::size_t n = part.points.size();
@@ -53,14 +53,14 @@ inline long double outside(const ConvexPart& part, const Vec3L& q) {
   return std::max(0.0L, core - part.radius);
 }
 
-/// Returns the distance of a point of the world from a part under a map that is rigid up to
-/// rounding; 0 inside.
+/// Returns the distance of a point in the world from a part under the map X, which must be rigid up
+/// to rounding. A point inside the part is treated as in the function above.
 inline long double outside(const ConvexPart& part, const Transform& X, const Vec3& p_W) {
   return outside(part, X.m.cast<long double>().transpose() *
                            (p_W.cast<long double>() - X.t.cast<long double>()));
 }
 
-/// Returns max n·x over the points x of a part under any affine map.
+/// Returns the largest n·x over all points x of the image of a part under any affine map.
 inline long double highest(const ConvexPart& part, const Transform& X, const Vec3L& n) {
   const Vec3L m = X.m.cast<long double>().transpose() * n;
   long double most = -HUGE_VALL;

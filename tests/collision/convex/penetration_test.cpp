@@ -32,8 +32,8 @@ Transform moved(Transform X, const Vec3& direction, double length) {
   return X;
 }
 
-/// Returns the depth by the explicit Minkowski difference: the least distance of the origin from
-/// the planes of the hull of all a − b. Negative: the sets are apart.
+/// Returns the depth by the explicit Minkowski difference: the least signed distance of the origin
+/// from the planes of the hull of all a − b. It is negative if the sets are apart.
 double explicitDepth(const std::vector<Vec3>& a, const std::vector<Vec3>& b,
                      Vec3* along = nullptr) {
   std::vector<Vec3> all;
@@ -63,8 +63,8 @@ std::vector<Vec3> mapped(const Transform& X, std::span<const Vec3> points) {
   return result;
 }
 
-/// Random polytopes: the depth is that of the explicit Minkowski difference, and the two bounds of
-/// the depth are close.
+/// For random polytopes, the bounds of the depth must enclose the depth by the explicit Minkowski
+/// difference, and must be close to each other.
 TEST(Penetration, AgreesWithTheExplicitDifference) {
   Touching make(test::testSeed(31));
   const int cases = test::isStressRun() ? 3000 : 150 / test::kSlowdown + 5;
@@ -113,8 +113,9 @@ TEST(Penetration, AgreesWithTheExplicitDifference) {
   EXPECT_LE(widest, 1e-9);
 }
 
-/// All pairs of shapes: after a translation by `upper` along the direction, b does not overlap a.
-/// After a translation by less than `lower` in any direction, b overlaps a.
+/// Tests the bounds for all pairs of shapes. After a translation by `upper` along the reported
+/// direction, b does not overlap a. After a translation by less than `lower` in any direction, b
+/// still overlaps a.
 TEST(Penetration, BoundsHoldForAllShapes) {
   Touching make(test::testSeed(32));
   double widest = 0;
@@ -174,7 +175,7 @@ TEST(Penetration, ClosedForms) {
   EXPECT_NEAR(depth(ball, ball, {0.75, 0, 0}).upper, 0.25, 1e-13);
   EXPECT_NEAR(depth(ball, ball, {0.75, 0, 0}).direction_W.x(), 1, 1e-13);
   EXPECT_NEAR(depth(ball, capsule, {0.5, 0, 0.75}).upper, 0.25, 1e-13);
-  EXPECT_NEAR(depth(ball, ball, {0, 0, 0}).lower, 1, 1e-12);  // every direction is right
+  EXPECT_NEAR(depth(ball, ball, {0, 0, 0}).lower, 1, 1e-12);  // any direction is right
   EXPECT_NEAR(depth(box, box, {1.5, 0, 1}).upper, 0.5, 1e-13);
   EXPECT_NEAR(depth(box, box, {0, 0, 0}).lower, 2, 1e-13);
   EXPECT_NEAR(depth(box, ball, {1.25, 0, 0}).upper, 0.25, 1e-13);
@@ -188,8 +189,8 @@ TEST(Penetration, ClosedForms) {
   EXPECT_NEAR(along.upper, 5, 1e-12);
 }
 
-/// Flat cores: the depth is that of the spheres, and the reported points are the points that touch
-/// after the translation.
+/// If the cores are flat and touch, the depth is the sum of the radii, and the reported points are
+/// those that touch after the translation.
 TEST(Penetration, WitnessesOfFlatCores) {
   const ConvexPart ball = placed(Sphere{0.5}, {}), capsule = placed(Capsule{0.25, 2}, {});
   const Transform across{Eigen::AngleAxisd(M_PI / 2, Vec3::UnitX()).toRotationMatrix(),

@@ -36,7 +36,8 @@ HalfSpace<3> plane(test::ExactPairs& random, const Polytope& polytope, int kind)
   if (kind == 2) {
     const auto& f = polytope.faces()[random.pick(static_cast<int>(polytope.faces().size()))];
     half.normal = (vertices[f[1]] - vertices[f[0]]).cross(vertices[f[2]] - vertices[f[0]]);
-    half.offset = half.normal.dot(vertices[f[0]]);  // a product of few bits, mostly exact
+    half.offset = half.normal.dot(vertices[f[0]]);  // a product of factors with few bits; it is
+                                                    // mostly exact
     if (random.pick(3) == 0) half.offset = std::nextafter(half.offset, random.pick(2) ? 9 : -9);
   }
   if (kind == 3) half.offset = half.normal.dot(any());
@@ -85,12 +86,12 @@ TEST(PlaneSeparation, AgreesWithEveryVertexInRationals) {
     const Wide separation = Wide(numerator(most)) / Wide(denominator(most)) / length;
     EXPECT_LE(Wide(found.lower), separation) << n;
     EXPECT_GE(Wide(found.upper), separation) << n;
-    // A height is off by 8u of its terms, and rounding a bound adds 2^-48 = 32u. Together, both
-    // bounds are off by 80u.
+    // With u = 2^-53, a height is off by 8u times its terms, and rounding a bound adds 2^-48 = 32u.
+    // Together, both bounds are off by 80u.
     const double size =
         std::sqrt(3.0) * (1e6 * isFar + 4) + std::abs(half.offset) / half.normal.norm();
     EXPECT_LE(found.upper - found.lower, 96 * 0x1p-53 * size) << n;
-    // The height of the witness is the separation, up to the bounds.
+    // The height of the witness must be between the two bounds of the separation.
     const Rational there = height(half, vertices[found.witness]);
     const Wide value = abs(Wide(numerator(there)) / Wide(denominator(there)) / length);
     EXPECT_LE(abs(value - abs(separation)), Wide(found.upper - found.lower)) << n;

@@ -121,8 +121,9 @@ TEST(PolygonIntersection, AgreesWithRationalSimplex) {
   EXPECT_LT(exact, pairs / 10);
 }
 
-/// Returns whether the hull of some vertices of p meets the half-planes of some edges of q; @pre
-/// all coordinates are whole numbers below 2^20, so that the half-planes are exact.
+/// Returns whether the hull of the remaining vertices of p meets the intersection of the
+/// half-planes of the remaining edges of q. @pre all coordinates are integers below 2^20, so that
+/// the half-planes are exact.
 bool partsMeet(const ConvexPolygon& p, const ConvexPolygon& q, const PolygonPruning& left) {
   // Σ λ_i (n_k·p_i) + s_k = b_k, Σ λ = 1, λ, s ≥ 0.
   const std::size_t edges = std::min(left.q[1] - left.q[0] + 1, q.size());
@@ -144,8 +145,8 @@ bool partsMeet(const ConvexPolygon& p, const ConvexPolygon& q, const PolygonPrun
   return test::hasSolution(columns, right);
 }
 
-/// The correctness invariant: after each step, what is left of P meets what is left of Q if and
-/// only if P meets Q. Each step prunes half of a chain.
+/// Tests the invariant of the algorithm: after each step, the remaining part of P meets the
+/// remaining part of Q if and only if P meets Q. Each step removes half of a chain.
 TEST(PolygonIntersection, EachPruningKeepsTheAnswer) {
   RandomPolygons random(test::testSeed(44));
   const int pairs = test::isStressRun() ? 3000 : 200 / test::kSlowdown;
@@ -198,7 +199,8 @@ TEST(PolygonIntersection, TakesLogarithmicallyManySteps) {
   }
 }
 
-/// A vertex on a slanted edge, up to rounding: doubles cannot decide whether it is inside.
+/// A vertex is on a slanted edge, up to rounding: doubles cannot decide whether the vertex is
+/// inside the other polygon.
 TEST(PolygonIntersection, VerticesNearEdges) {
   RandomPolygons random(test::testSeed(46));
   int meeting = 0;

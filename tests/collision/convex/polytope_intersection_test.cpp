@@ -26,7 +26,8 @@ namespace {
 using seidel::Rational;
 using seidel::rational;
 
-/// A polytope with both of its hierarchies. Not movable: the outer one refers to the inner one.
+/// A polytope with both of its hierarchies. The object can't be moved, because the outer hierarchy
+/// refers to the inner one.
 struct Preprocessed {
   DobkinKirkpatrick inner;
   OuterHierarchy outer;
@@ -79,7 +80,8 @@ void expectRight(const Preprocessed& p, const Transform& X_WP, const Preprocesse
   EXPECT_LT(last, first) << "pair " << tally.pairs;
 }
 
-/// Boxes, grids, needles, nearly flat polytopes, cones, prisms and random polytopes, also far away.
+/// Compares verdicts for boxes, polytopes of grid points, needles, nearly flat polytopes, cones,
+/// prisms and random polytopes, near the origin and far away.
 TEST(PolytopeIntersection, AgreesWithRationalSimplexUnderPoses) {
   test::ExactPairs random(test::testSeed(61));
   Tally tally;
@@ -101,8 +103,8 @@ TEST(PolytopeIntersection, AgreesWithRationalSimplexUnderPoses) {
   EXPECT_LT(tally.exact, pairs / 4);
 }
 
-/// Point sets that share vertices, edges or faces, needles, and sets that are nearly flat or far
-/// away.
+/// Compares verdicts for polytopes that share vertices, edges or faces, for needles, and for
+/// polytopes that are nearly flat or far away.
 TEST(PolytopeIntersection, AgreesWithRationalSimplexOnDegeneratePairs) {
   test::HullPairs<3> random(test::testSeed(62));
   Tally tally;
@@ -141,12 +143,13 @@ class Random {
   std::normal_distribution<double> normal_;
 };
 
-/// The tolerance of this test. The points and half-spaces are below 4. The search has some 100
-/// roundings in a row, and each error grows if planes are nearly parallel. A wrong plane or point
-/// is off by far more.
+/// The tolerance of this test. Coordinates of points and half-spaces are below 4. The search has
+/// some 100 successive roundings, and each error grows if planes are nearly parallel. A wrong plane
+/// or point is off by far more.
 constexpr double kClose = 1e-9;
 
-/// Tests the two invariants after a step, and that at most one vertex or half-space is beyond.
+/// Tests the two invariants of the search after a step, and that at most one vertex or half-space
+/// violates the current plane or point.
 void expectInvariants(const PolytopePruning& left, const Preprocessed& p, const Transform& X_QP,
                       const Preprocessed& q) {
   const DobkinKirkpatrick& polar = *q.outer.polar();
@@ -211,8 +214,8 @@ TEST(PolytopeIntersection, EachPruningKeepsBothInvariants) {
     for (std::size_t i = 0; i < trace.size(); ++i) {
       const PolytopePruning& left = trace[i];
       expectInvariants(left, p, X_QP, q);
-      // A step goes down in one hierarchy, to the level above the level of the vertex or half-space
-      // that it has found beyond.
+      // A step descends in one hierarchy: to the level above the level of the vertex or half-space
+      // that violates the current plane or point.
       EXPECT_LE(left.levelP, levelP);
       EXPECT_LE(left.levelQ, levelQ);
       EXPECT_EQ(left.apart ? left.levelQ : left.levelP, left.apart ? levelQ : levelP);
@@ -255,7 +258,7 @@ TEST(PolytopeIntersection, TakesLogarithmicallyManySteps) {
       most = std::max(most, found.steps);
       sum += found.steps;
       exact += found.exact;
-      // The vertices that prove a common point are few.
+      // Few vertices prove that there is a common point.
       EXPECT_LE(found.verticesP.size(), 4u * static_cast<std::size_t>(found.steps));
       EXPECT_LE(found.verticesQ.size(), 13u);
     }
@@ -275,7 +278,8 @@ Polytope box(const Vec3& low, const Vec3& high) {
   return Polytope(corners);
 }
 
-/// Boxes that share a vertex, an edge or a face, and one unit in the last place more or less.
+/// Boxes that share a vertex, an edge or a face, and boxes that are moved from there by one unit in
+/// the last place.
 TEST(PolytopeIntersection, OneUlpDecides) {
   for (const double far : {0.0, 1e6}) {
     const Vec3 o = Vec3::Constant(far), one = Vec3::Ones();
@@ -310,7 +314,7 @@ TEST(PolytopeIntersection, OneContainsTheOther) {
   }
 }
 
-/// Maps that no search can use are left to the exact test of all vertices.
+/// Under maps that the search cannot use, the exact test of all vertices decides.
 TEST(PolytopeIntersection, TakesAnyFiniteMap) {
   const Preprocessed p(box(-Vec3::Ones(), Vec3::Ones())), q(box(-Vec3::Ones(), Vec3::Ones()));
   Transform flat;
@@ -358,7 +362,8 @@ TEST(OuterHierarchy, PassesTheCheck) {
   EXPECT_EQ(many.outer.polar()->polytope().vertices().size(), many.polytope().faces().size());
 }
 
-/// A polytope that is flat in double has no polar; the verdict stays exact.
+/// A polytope that is flat in double precision has no polar polytope. The verdict must be exact
+/// nevertheless.
 TEST(OuterHierarchy, FlatPolytopesHaveNoPolar) {
   const double e = std::numeric_limits<double>::denorm_min();
   const std::vector<Vec3> points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, e}};
@@ -368,7 +373,8 @@ TEST(OuterHierarchy, FlatPolytopesHaveNoPolar) {
   EXPECT_FALSE(intersection(q.inner, {Mat3::Identity(), Vec3(0, 0, 1)}, flat.outer, {}).intersects);
 }
 
-/// The weights of each player prove that those of the other player are optimal.
+/// Tests the weights of both players: the weights of each player prove that the other player's
+/// weights are optimal.
 TEST(MatrixGame, WeightsAreOptimal) {
   Random random(test::testSeed(68));
   for (int n = 0; n < 2000; ++n) {

@@ -1,4 +1,5 @@
-// Queries of polytopes: every way to find the farthest vertex, and caches, give the same answers.
+// Tests queries of polytopes: the answers must be the same for every way to find the farthest
+// vertex, and with and without caches.
 #include <cmath>
 #include <iostream>
 #include <vector>
@@ -18,7 +19,7 @@ namespace {
 
 using test::Touching;
 
-/// A polytope in all three forms.
+/// A polytope in all three forms, which differ in how the farthest vertex is found.
 struct Forms {
   DobkinKirkpatrick hierarchy;
   ConvexPart part;
@@ -104,7 +105,7 @@ TEST(PolytopeQueries, CachesDoNotChangeAnswers) {
   std::cout << meeting << " of " << queries << " touch\n";
   EXPECT_GT(meeting, queries / 20);
   EXPECT_LT(meeting, queries * 19 / 20);
-  // A cache of other sets, with numbers of points that do not exist, is ignored.
+  // A cache of other sets, which has indices of points that do not exist, is ignored.
   const ConvexPart box = placed(Box{{1, 1, 1}}, {});
   ConvexCache wrong;
   wrong.count = 3;

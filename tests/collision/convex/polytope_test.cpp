@@ -17,8 +17,8 @@
 namespace corridor {
 namespace {
 
-/// Point sets of many kinds: on a sphere, in a box, on a small grid (coplanar and equal points), on
-/// a cylinder, nearly flat, far away.
+/// Returns a point set of one of several kinds: on a sphere, in a box, on a small grid (with
+/// coplanar and equal points), on a cylinder, nearly flat, or far away.
 std::vector<Vec3> points(std::mt19937_64& random, int kind, std::size_t count) {
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> real(-1, 1);
@@ -50,8 +50,8 @@ std::vector<Vec3> points(std::mt19937_64& random, int kind, std::size_t count) {
   return result;
 }
 
-/// Compares with the rational simplex method: a point is extreme if it is not in the hull of the
-/// points that differ from it.
+/// Compares the vertices with the rational simplex method: a point is a vertex if it is not in the
+/// hull of the points that differ from it.
 TEST(Polytope, VerticesAreTheExtremePoints) {
   std::mt19937_64 random(test::testSeed(11));
   const int sets = test::isStressRun() ? 3000 : 120 / test::kSlowdown + 6;
@@ -149,7 +149,7 @@ TEST(Polytope, WrongBoundariesAreFound) {
 /// edge is convex. The apexes wind around twice, but only a few of their neighbours show it.
 TEST(Polytope, ATinyLoopOfTheBoundaryIsFound) {
   constexpr std::uint32_t kCorners = 1000;
-  constexpr double kLoop = 1e-4;  // its radius
+  constexpr double kLoop = 1e-4;  // the loop's radius
   const auto bipyramid = [&](bool loop, std::uint32_t from) {
     std::vector<Vec3> ring;
     for (std::uint32_t i = 1; i < kCorners; ++i) {
@@ -173,7 +173,7 @@ TEST(Polytope, ATinyLoopOfTheBoundaryIsFound) {
     return checkConvexBoundary(points, faces);
   };
   EXPECT_EQ(bipyramid(false, 0), std::nullopt);
-  // The check may begin at any neighbour, also at those of the loop.
+  // The check may begin at any neighbour of an apex, also at a neighbour on the loop.
   for (std::uint32_t from = 0; from<kCorners; from += from> 20 && from < 980 ? 37 : 1) {
     const auto wrong = bipyramid(true, from);
     ASSERT_TRUE(wrong) << from;
@@ -207,7 +207,7 @@ TEST(Polytope, FlatAndInvalidSetsAreRefused) {
   EXPECT_THROW(build({{1, 1, 1}, {1, 1, 1}, {1, 1, 1}, {1, 1, 1}}), std::invalid_argument);
   EXPECT_THROW(build({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, std::nan("")}}),
                std::invalid_argument);
-  // One ulp is enough.
+  // A fourth point that is one unit in the last place off the plane is enough.
   EXPECT_EQ(build({{0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, std::nextafter(1.0, 2.0)}}), 4u);
 }
 

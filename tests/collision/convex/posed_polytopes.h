@@ -16,8 +16,9 @@ namespace corridor::test {
 
 /// Makes polytopes and poses whose mapped vertices are doubles, without any rounding: coordinates
 /// are multiples of 2^-10 below 4, rotations are rounded to multiples of 2^-34, and translations
-/// are multiples of 2^-10. Therefore oracles that take points decide contact of the posed polytopes
-/// exactly. Far from the origin, mapped vertices are exact only under maps of axes to axes.
+/// are multiples of 2^-10. Therefore oracles that take points as doubles decide contact of the
+/// posed polytopes exactly. Far from the origin, mapped vertices are exact only if the rotation
+/// maps axes to axes.
 class ExactPairs {
  public:
   explicit ExactPairs(std::uint64_t seed) : random_(seed) {}
@@ -67,8 +68,8 @@ class ExactPairs {
     }
   }
 
-  /// Returns a pose. Half of the poses (or all) map axes to axes, with a translation on the coarse
-  /// grid, so that many pairs touch. All others are random.
+  /// Returns a pose. Half of the poses (or all, if `axesToAxes`) map axes to axes, with a
+  /// translation on the coarse grid, so that many pairs touch. The other poses are random.
   Transform pose(double far, bool axesToAxes = false) {
     Transform X;
     if (axesToAxes || pick(2) == 0) {
@@ -107,8 +108,8 @@ inline Vec3L mappedL(const Transform& X, const Vec3& p) {
   return X.m.cast<long double>() * p.cast<long double>() + X.t.cast<long double>();
 }
 
-/// Returns the distance of two segments in long double. It is the least of the distances of each
-/// end from the other segment, and of the distance of the two lines if both feet are within the
+/// Returns the distance of two segments in long double. It is the least of these distances: of each
+/// end from the other segment, and of the two lines if their closest points are inside the
 /// segments.
 inline long double betweenSegments(const Vec3L& a, const Vec3L& b, const Vec3L& c, const Vec3L& d) {
   long double best =

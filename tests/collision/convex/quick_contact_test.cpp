@@ -26,9 +26,10 @@ ShapeFeature scaled(ShapeFeature f, double scale) {
   return f;
 }
 
-/// Pairs of shapes of any size, near the origin or far away, whose gap is known by construction.
-/// The quick step and the full search (a query with a cache skips the quick step) must both be
-/// right outside the band, and neither may miss a contact.
+/// Pairs of shapes of any size, near the origin or far away, whose gap or depth is known by
+/// construction and exceeds 2^-44 of the largest coordinate. If the quick step decides, its verdict
+/// must be the known one. A query with a cache skips the quick step, and must have the same verdict
+/// as a query without a cache.
 TEST(QuickContact, AgreesWithTheConstructionAndTheFullSearch) {
   Touching make(test::testSeed(31));
   int decided = 0, cases = 0, wrong = 0, different = 0;
@@ -55,7 +56,8 @@ TEST(QuickContact, AgreesWithTheConstructionAndTheFullSearch) {
             const bool full = convexSetsTouch(setA, setB, &cache);
             ++cases;
             decided += quick.has_value();
-            // Two triangles that are pushed into each other may pass through.
+            // Two triangles with a negative gap may have passed through each other completely, so
+            // their verdict is not known.
             const bool flat = a.isTriangle && b.isTriangle;
             wrong += !flat && quick && *quick != (gap < 0);
             different += full != convexSetsTouch(setA, setB);
@@ -67,8 +69,8 @@ TEST(QuickContact, AgreesWithTheConstructionAndTheFullSearch) {
   std::cout << cases << " cases, decided by the quick step: " << decided << "\n";
 }
 
-/// At gaps that matter, the quick step decides nearly every pair. If it stopped doing so, queries
-/// would be right but slow.
+/// At gaps of a millimetre, the quick step decides nearly every pair. If it stopped doing so,
+/// queries would be right but slow.
 TEST(QuickContact, DecidesAllButContactsOfAThousandth) {
   Touching make(test::testSeed(32));
   int decided = 0, cases = 0;
@@ -87,8 +89,9 @@ TEST(QuickContact, DecidesAllButContactsOfAThousandth) {
   std::cout << decided << " of " << cases << "\n";
 }
 
-/// A query with a cache skips the quick step. A cache never changes a verdict, even under maps that
-/// scale, mirror or flatten. At scales far from 1, `size` is far above the coordinates.
+/// A query with a cache skips the quick step. A cache must never change a verdict, not even under
+/// maps that scale, mirror or flatten. If a map scales by a factor far from 1, `size` is far above
+/// the coordinates.
 TEST(QuickContact, AgreesWithTheFullSearchUnderMapsThatAreNotRigid) {
   Touching make(test::testSeed(34));
   int different = 0, contacts = 0, cases = 0;
@@ -138,8 +141,9 @@ using Int = std::int64_t;
 using IntVec = Eigen::Matrix<Int, 3, 1>;
 using IntMat = Eigen::Matrix<Int, 3, 3>;
 
-/// Returns a rotation times 25, of integers: a product of two rotations about
-/// coordinate axes by the angles of (3, 4, 5), or of quarter turns.
+/// Returns 25 times a rotation, which is a matrix of integers. The rotation is a product of two
+/// rotations about coordinate axes, each by an angle of the right triangle (3, 4, 5) or by a
+/// quarter turn.
 IntMat turned(Touching& make) {
   const auto about = [&](int axis) {
     constexpr Int kSides[][2] = {{5, 0}, {3, 4}, {4, 3}, {0, 5}, {-3, 4}, {-5, 0}};
@@ -205,8 +209,9 @@ TEST(QuickContact, BoxesAgainstIntegers) {
   std::cout << exactly << " touch exactly, " << decided << " decided by the quick step\n";
 }
 
-/// Corners that are nearly those of a box: the box test takes eight points only if they are a box
-/// up to rounding. Otherwise they are a hull. One corner that sticks out decides the contact.
+/// Eight points that are nearly the corners of a box. The box test may treat them as a box only if
+/// they are a box up to rounding; otherwise it must treat them as a hull. Here one corner sticks
+/// out, and decides whether there is contact.
 TEST(QuickContact, EightPointsThatAreNoBox) {
   Touching make(test::testSeed(34));
   const ConvexPart wall = placed(Box{Vec3(1, 4, 4)}, {Mat3::Identity(), Vec3(1.5, 0, 0)});

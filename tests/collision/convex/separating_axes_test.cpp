@@ -1,5 +1,5 @@
-// The separating-axis test of two polytopes against the rational simplex method, and its witnesses
-// against long double.
+// Compares the verdicts of the separating-axis test of two polytopes with the rational simplex
+// method, and its witnesses with long double.
 #include "collision/convex/separating_axes.h"
 
 #include <cmath>
@@ -28,7 +28,7 @@ long double gapAlong(const Vec3L& n, const std::vector<Vec3>& a, const std::vect
   return least - most;
 }
 
-/// The axis of a pair of features, in long double.
+/// Returns the axis of a pair of features, in long double.
 Vec3L axisOf(const PolytopeFeatures& a, const std::vector<Vec3>& p, const PolytopeFeatures& b,
              const std::vector<Vec3>& q, const SeparatingAxis& axis) {
   const auto normal = [](const PolytopeFeatures& shape, const std::vector<Vec3>& x,
@@ -89,8 +89,8 @@ TEST(SeparatingAxes, AgreesWithTheRationalSimplexMethod) {
   EXPECT_GT(byEdges, pairs / 50);
 }
 
-/// Two boxes whose edges cross at a gap. Only the cross product of the two edges is a separating
-/// axis.
+/// Two boxes with a gap between two edges that cross. Only the cross product of these edges is a
+/// separating axis.
 TEST(SeparatingAxes, TwoCrossedEdgesNeedTheirProduct) {
   std::vector<Vec3> corners;
   for (int i = 0; i < 8; ++i)
@@ -109,7 +109,7 @@ TEST(SeparatingAxes, TwoCrossedEdgesNeedTheirProduct) {
   }
 }
 
-/// Powers of 2 scale without rounding, so the verdicts are those without a scale.
+/// Scaling by a power of 2 rounds nothing, so the verdicts must be those of the unscaled polytopes.
 TEST(SeparatingAxes, TakesMapsOfAnyScale) {
   ExactPairs make(test::testSeed(72));
   int touching = 0;

@@ -59,8 +59,7 @@ void compareSets(int count, std::uint64_t seed) {
       for (const auto& x : q) EXPECT_GE(found.normal.dot(x) - found.offset, -error) << "pair " << n;
     }
     if (truth != HullRelation::disjoint) {
-      // The hulls of the named points alone share a point, and this point is near the reported
-      // point.
+      // The hulls of the reported vertices alone share a point, which is near the reported point.
       const Points<D> a = chosen(p, found.first), b = chosen(q, found.second);
       EXPECT_NE(test::hullRelation<D>(a, b), HullRelation::disjoint) << "pair " << n;
       const Eigen::Matrix<double, D, 1> half =

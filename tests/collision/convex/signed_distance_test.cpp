@@ -28,7 +28,7 @@ void expectSigned(const SignedDistance& d, double expected, double tolerance) {
   EXPECT_NEAR((d.p_WB - d.p_WA - d.distance * d.normal_W).norm(), 0, 1e-9);
 }
 
-/// Two spheres: the distance of the centres minus the radii.
+/// For two spheres, the signed distance is the distance of the centres minus the radii.
 TEST(SignedDistance, Spheres) {
   Touching make(test::testSeed(41));
   for (int n = 0; n < 200; ++n) {
@@ -47,8 +47,8 @@ TEST(SignedDistance, Spheres) {
   }
 }
 
-/// Two cubes with the same axes: the gap along the one axis along which they are apart, or the
-/// least overlap.
+/// For two cubes with parallel axes, the signed distance is the gap along the only axis along which
+/// they are apart; if there is none, it is minus the least overlap along an axis.
 TEST(SignedDistance, Cubes) {
   Touching make(test::testSeed(42));
   const ConvexPart cube = placed(Box{Vec3::Constant(2)}, {});
@@ -66,7 +66,8 @@ TEST(SignedDistance, Cubes) {
   }
 }
 
-/// The bounds enclose a grazing contact, which rounding may put on either side.
+/// For sets that just touch, the bounds must enclose 0, although rounding may separate the sets or
+/// make them overlap.
 TEST(SignedDistance, TouchingSets) {
   Touching make(test::testSeed(43));
   for (int n = 0; n < 300; ++n) {

@@ -18,8 +18,8 @@ using test::Point2;
 using Kind = PolygonFault::Kind;
 using PolygonPoints = test::Polygons::Points;
 
-/// The boundary of polygons as a sum of segments without points of `corners` inside, each with its
-/// direction: opposite segments cancel.
+/// The boundary of polygons as a formal sum of directed segments, which are divided at the points
+/// of `corners`. Opposite segments cancel.
 class Chain {
  public:
   explicit Chain(const std::vector<Point2>& corners) : corners_(corners) {}
@@ -60,8 +60,9 @@ bool isStrictlyConvex(const std::vector<Point2>& p) {
   return p.size() >= 3;
 }
 
-/// The boundaries of the convex pieces add up to that of the polygon. So at each point off the
-/// boundaries, the number of pieces around it is the winding number of the polygon: 1 or 0.
+/// Expects that the boundaries of the convex pieces add up to the boundary of the polygon. Then the
+/// number of pieces that contain a point, at any point off the boundaries, is the winding number of
+/// the polygon: 1 or 0.
 void expectTiling(const PolygonPoints& points, const std::string& name) {
   const std::vector<Point2> corners = exactly(points);
   const Fraction area = test::twiceArea(corners);
@@ -118,7 +119,7 @@ TEST(SimplePolygon, PiecesContainWhatThePolygonContains) {
     std::vector<std::vector<Point2>> pieces;
     for (const auto& piece : convexPieces(p)) pieces.push_back(cornersOf(corners, piece));
     for (int k = 0; k < 20; ++k) {
-      // PolygonPoints, middles of chords, and points near corners.
+      // The tested points are corners, middles of chords, and points near corners.
       const Eigen::Vector2d &a = p[random.below(p.size())], &b = p[random.below(p.size())];
       const Eigen::Vector2d q = k % 3 == 0 ? a
                                 : k % 3 == 1
@@ -169,7 +170,8 @@ TEST(SimplePolygon, Faults) {
   EXPECT_EQ(std::get<0>(fault({{0, 0}, {1, 0}, {0.5, 1}})), -1);
 }
 
-/// A corner on an edge, from each side, in each direction of the plane and of the boundary.
+/// A corner touches an edge. The polygon is also tested mirrored, with exchanged axes, with its
+/// boundary reversed, and with each corner as the first.
 TEST(SimplePolygon, CornersThatTouchEdges) {
   const PolygonPoints touching{{0, 0}, {4, 1}, {4, 3}, {2, 0.5}, {0, 2}};
   for (int n = 0; n < 80; ++n) {
@@ -200,7 +202,7 @@ TEST(SimplePolygon, LargePolygons) {
   comb.pop_back();
   EXPECT_FALSE(checkSimple(comb));
   std::vector<std::uint32_t> used(comb.size());
-  double area = 0, sum = 0;  // whole numbers
+  double area = 0, sum = 0;  // exact: sums of integers
   for (std::size_t i = 0; i < comb.size(); ++i) {
     const auto &a = comb[i], &b = comb[(i + 1) % comb.size()];
     area += a.x() * b.y() - a.y() * b.x();

@@ -11,8 +11,8 @@
 
 namespace corridor::test {
 
-/// A solid or a triangle with a point x on its surface and an outward normal m at x, all in the
-/// frame of the shape. −m points into the shape, except at the face of a triangle.
+/// A solid or a triangle, with a point x on its surface and an outward normal m at x, all in the
+/// frame of the shape. The direction −m points into the shape, except at the face of a triangle.
 struct ShapeFeature {
   ConvexPart part;  ///< a triangle is the hull of its corners
   bool isTriangle = false, flat = false;
@@ -25,7 +25,7 @@ enum class Shape { box, sphere, capsule, cylinder, convex, triangle };
 inline constexpr Shape kShapes[] = {Shape::box,      Shape::sphere, Shape::capsule,
                                     Shape::cylinder, Shape::convex, Shape::triangle};
 
-/// A generator of shapes and of poses in which two of them touch at known points.
+/// A generator of shapes, and of poses in which two shapes touch at known points.
 class Touching {
  public:
   explicit Touching(std::uint64_t seed) : random_(seed) {}
@@ -39,8 +39,8 @@ class Touching {
   /// Returns a random length; one in six is very small.
   double extent() { return pick(6) == 0 ? 1e-6 * real(0.5, 1) : real(0.05, 1); }
 
-  /// Returns a random solid of a shape, with a random point of a face, edge, corner or curved
-  /// surface.
+  /// Returns a random solid (or triangle) of the given kind, with a random point on a face, an
+  /// edge, a corner or a curved surface.
   ShapeFeature feature(Shape shape) {
     ShapeFeature f;
     const double turn = real(0, 6.3);
@@ -143,8 +143,8 @@ class Touching {
   std::mt19937_64 random_;
 };
 
-/// Returns the largest coordinate of a set in its own frame and in the world, radii included;
-/// metres.
+/// Returns the largest magnitude of a coordinate of a set, in the set's frame or in the world,
+/// radii included; metres.
 inline double largestCoordinate(const ConvexSet& set, const Transform& X) {
   double largest = X.t.cwiseAbs().maxCoeff();
   for (const Vec3& p : set.points)

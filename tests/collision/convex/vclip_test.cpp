@@ -1,5 +1,5 @@
-// Tests of V-Clip. Verdicts are compared with the rational simplex method. Distances and closest
-// features are compared with all pairs of features in long double.
+// Tests of V-Clip. Verdicts are compared with those of the rational simplex method. Distances and
+// closest features are compared with brute force over all pairs of features, in long double.
 #include "collision/convex/vclip.h"
 
 #include <cmath>
@@ -137,7 +137,8 @@ TEST(VClip, EveryStartReachesTheClosestPair) {
                     found.distance.distance, 1e-12);
         ASSERT_LT(found.steps, 40);
         ++starts;
-        // More than a round in double and one in double-double: the walk ended elsewhere.
+        // If GJK needed more than one iteration in double and one in double-double, the walk did
+        // not end at a closest pair.
         mended += found.rounds > 2;
       }
   }
@@ -146,7 +147,8 @@ TEST(VClip, EveryStartReachesTheClosestPair) {
   EXPECT_LT(mended, starts / 20);
 }
 
-/// Warm and cold queries agree along motions in small steps, and warm queries take few steps.
+/// Along motions in small steps, warm and cold queries must agree, and warm queries must visit few
+/// pairs of features.
 TEST(VClip, WarmIsColdOnMotions) {
   ExactPairs make(test::testSeed(63));
   const int motions = test::isStressRun() ? 400 : 20 / test::kSlowdown + 2;
@@ -206,8 +208,8 @@ TEST(VClip, WarmIsColdOnMotions) {
   EXPECT_LT(warmSteps, coldSteps);
 }
 
-/// Gaps within the band in which `convexSetsTouch` may report contact: the verdict is exact, and
-/// the distance has its promised error.
+/// At gaps that are so small that `convexSetsTouch` may report contact, the verdict must be exact,
+/// and the distance must be within its promised error.
 TEST(VClip, GapsBelowTheBandAreNoContact) {
   std::vector<Vec3> corners;
   for (int i = 0; i < 8; ++i) corners.emplace_back(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
@@ -229,7 +231,7 @@ TEST(VClip, GapsBelowTheBandAreNoContact) {
       EXPECT_EQ(closestFeatures(f, {}, f, overlapping, pair).distance.distance, 0) << k;
       EXPECT_FALSE(convexHullsTouch({box, {}}, {box, X}));
     }
-  EXPECT_GT(inBand, 0);  // otherwise this test tests nothing
+  EXPECT_GT(inBand, 0);  // otherwise no such small gap was tested
 }
 
 /// For maps that are not rotations, the query uses GJK, with the same guarantee. If the cache has

@@ -31,8 +31,8 @@ TEST(FloatingPointTest, EverySettingIsDetected) {
   }
 }
 
-/// Bodies and trees store bounds that proofs use. Therefore building a body or a tree must fail in
-/// a floating-point mode that does not round to nearest.
+/// Bodies and trees store bounds that proofs use. Therefore, in a floating-point mode that does not
+/// round to nearest, building a body or a tree must fail.
 TEST(FloatingPointTest, NothingIsBuiltInOtherFloatingPointModes) {
   TriangleMesh mesh;
   test::add(mesh, Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY());

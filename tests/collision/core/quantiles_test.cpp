@@ -29,7 +29,7 @@ TEST(Quantiles, NearestRank) {
   EXPECT_TRUE(std::isnan(quantileOf({}, 0.95)));
 }
 
-/// If 95 % of the count is a whole number, that whole number is the rank, and rounding must not
+/// If 95 % of the count is an integer, the rank is this integer, and rounding errors must not
 /// increase the rank.
 TEST(Quantiles, WholeRanksStayWhole) {
   for (std::size_t n = 20; n <= 20'000; n += 20) {

@@ -58,7 +58,7 @@ TEST_F(ReadFile, RefusesWhatIsNoOrdinaryFile) {
   expectRefused(folder_, "is a folder; a file is needed");
   for (const char* const device : {"/dev/zero", "/dev/null", "/dev/full"})
     expectRefused(device, "is a device; an ordinary file is needed");
-  // The pipe has no writer: opening it would wait for one.
+  // The pipe has no writer, so opening the pipe would wait for a writer.
   const auto pipe = folder_ / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   expectRefused(pipe, "is a pipe; an ordinary file is needed");
@@ -113,8 +113,8 @@ TEST_F(ReadFile, TextHasNoByte0) {
               blank.string() + ": is empty; a thing is needed");
 }
 
-/// Only `readTextStream` accepts a pipe. It must read the pipe to its end, even if this needs many
-/// short reads.
+/// Only `readTextStream` accepts a pipe. It must read to the end of the pipe, even if this needs
+/// many short reads.
 TEST_F(ReadFile, AStreamTakesAPipe) {
   const auto pipe = folder_ / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);

@@ -11,7 +11,8 @@ namespace {
 
 using Quaternion = Eigen::Quaternion<long double>;
 
-/// All 24 rotations that take axes to axes, with coefficients as files have them.
+/// The matrices of all 24 rotations that take axes to axes must be exact, from quaternions with
+/// coefficients as they occur in files.
 TEST(RotationMatrix, IsExactForQuarterTurns) {
   int rotations = 0;
   for (const double half : {0.7071067811865476, 0.7071068, 3.0})

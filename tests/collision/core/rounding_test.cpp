@@ -18,8 +18,8 @@ namespace {
 #define CORRIDOR_APART
 #endif
 
-/// Rounds two doubles to float. g++ 12 vectorised this function at -O2, and the result did not
-/// round. The build therefore uses -fno-tree-vectorize.
+/// Rounds two doubles to float. g++ 12 vectorised this function at -O2, and the compiled code did
+/// not round. The build therefore uses -fno-tree-vectorize.
 CORRIDOR_APART void throughFloat(const double* from, double* to) {
   const float x = static_cast<float>(from[0]), y = static_cast<float>(from[1]);
   to[0] = x;

@@ -29,7 +29,8 @@
 namespace corridor {
 namespace {
 
-/// The least normal number; volatile, so that the compiler does not halve it at compile time.
+/// The least normal number. It is volatile, so that the compiler does not compute its half at
+/// compile time.
 volatile double least = 0x1p-1022;
 
 TEST(FlushToZero, IsSetFromTheStart) {
@@ -46,7 +47,7 @@ double tiny(int k) {
   return std::bit_cast<double>(k < 0 ? bits | std::uint64_t{1} << 63 : bits);
 }
 
-/// The relation of two hulls does not depend on the scale, down to subnormal coordinates.
+/// The relation of two hulls must not depend on their scale, down to subnormal coordinates.
 TEST(FlushToZero, RelationsOfTinyHullsAreExact) {
   std::mt19937_64 random(test::testSeed(8));
   int touching = 0;
@@ -72,7 +73,8 @@ TEST(FlushToZero, RelationsOfTinyHullsAreExact) {
   EXPECT_GT(touching, 10);
 }
 
-/// Contact of tiny polytopes is exact, by closest features, separating axes and hierarchies.
+/// Contact of tiny polytopes must be exact by each method: closest features, separating axes and
+/// hierarchies.
 TEST(FlushToZero, ContactOfTinyPolytopesIsExact) {
   std::vector<Vec3> cube;
   for (int i = 0; i < 8; ++i) cube.push_back({tiny(i & 1), tiny(i >> 1 & 1), tiny(i >> 2)});
@@ -91,15 +93,16 @@ TEST(FlushToZero, ContactOfTinyPolytopesIsExact) {
   }
 }
 
-/// Contacts of primitives of any scale are never missed, even if squares or products of three
-/// lengths become 0. At scales of 2^-90 m and more, gaps are found, too.
+/// Contacts of primitives of any scale must not be missed, even if squares or products of three
+/// lengths become 0. At scales of 2^-90 m and more, gaps must be found, too.
 TEST(FlushToZero, ContactsOfTinyPrimitivesAreNotMissed) {
   test::Touching make(test::testSeed(11));
   int apart = 0;
   for (const test::Shape sa : test::kShapes)
     for (const test::Shape sb : test::kShapes)
       for (int n = 0; n < 50; ++n) {
-        // Two triangles that are pushed into each other may pass through.
+        // Two triangles that are pushed into each other may have passed through each other
+        // completely.
         if (sa == test::Shape::triangle && sb == test::Shape::triangle) continue;
         test::ShapeFeature a = make.feature(sa), b = make.feature(sb);
         const double scale = std::ldexp(1.0, n % 2 ? -make.pick(90) : -make.pick(1050));
@@ -122,7 +125,8 @@ TEST(FlushToZero, ContactsOfTinyPrimitivesAreNotMissed) {
   EXPECT_GT(apart, 800);
 }
 
-/// The square of the plate's thickness is flushed to zero, as a whole or in part.
+/// The square of the plate's thickness is flushed to zero, or some of the terms from which it is
+/// computed are.
 TEST(FlushToZero, ContactsOfThinPlatesAreNotMissed) {
   const ConvexPart cube = placed(Box{{1, 1, 1}}, {});
   const Transform turned{Eigen::AngleAxisd(0.785398, Vec3::UnitZ()).matrix(), Vec3(0.7, 0, 0)};
@@ -155,7 +159,8 @@ TEST(FlushToZero, ExtremeVerticesAreExact) {
   const DobkinKirkpatrick hierarchy{Polytope(cube)};
   for (int n = 0; n < 27; ++n) {
     const int sign[] = {n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1};
-    for (const int big : {-1, 0, 1, 2}) {  // which component is large; −1: none
+    for (const int big : {-1, 0, 1, 2}) {  // index of the large component; −1: no component is
+                                           // large
       Vec3 d;
       for (int k = 0; k < 3; ++k) d[k] = k == big ? 400.0 * sign[k] : tiny(sign[k]);
       const Vec3& found = hierarchy.polytope().vertices()[hierarchy.extreme(d)];
@@ -168,7 +173,8 @@ TEST(FlushToZero, ExtremeVerticesAreExact) {
   }
 }
 
-/// A unit cube and planes with tiny normals or offsets.
+/// The side of a plane on which a unit cube lies must be exact for planes with tiny normals or
+/// offsets.
 TEST(FlushToZero, SidesOfPlanesAreExact) {
   std::vector<Vec3> cube;
   for (int i = 0; i < 8; ++i) cube.emplace_back(i & 1, i >> 1 & 1, i >> 2);

@@ -1,4 +1,5 @@
-// Tests that the caller gets a mesh or an InputError, however the process of assimp ends.
+// Tests that the caller gets a mesh or an InputError, no matter how the process that runs assimp
+// ends.
 #include "collision/geometry/assimp_process.h"
 
 #include <atomic>
@@ -53,7 +54,8 @@ std::string grid(int n) {
 
 class AssimpProcess : public MeshFileTest {
  protected:
-  /// Returns the message of readWithAssimp with a shell script in place of the helper program.
+  /// Returns the message of the error that `readWithAssimp` throws if a shell script replaces the
+  /// helper program.
   std::string complaintWith(const std::string& script, double seconds = 600) const {
     const auto program = write("helper", "#!/bin/sh\n" + script + "\n");
     std::filesystem::permissions(program, std::filesystem::perms::owner_all);
@@ -119,8 +121,8 @@ TEST_F(AssimpProcess, MemoryEnds) {
             "no complaint");
 }
 
-/// The time limit of the parent also ends the real helper program. (The helper's own limit of
-/// processor time is larger.)
+/// The time limit of the calling process must also end the real helper program. (The helper's own
+/// limit of processor time is larger.)
 TEST_F(AssimpProcess, TimeEnds) {
   write("a.dae", grid(400));
   EXPECT_EQ(complaint({1e-6, 1 << 30, AssimpLimits::assimpProgram()}),

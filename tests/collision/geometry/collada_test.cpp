@@ -97,7 +97,7 @@ TEST_F(Collada, InvalidUnitsAndUpAxes) {
         "<comments><![CDATA[<unit meter=\"0\"/>]]></comments><up_axis >Z_UP</up_axis>"})
     EXPECT_EQ(complaint("a.dae", collada(sound)), "no complaint") << sound;
   EXPECT_THROW(readOmplAppMesh(write("z.dae", collada("<unit meter=\"0\"/>"))), InputError);
-  // The check of the file's text does not find these wrong units. The check of the imported mesh
+  // The check of the file's text does not detect these wrong units; the check of the imported mesh
   // does.
   const std::string message = ": its <unit> is not above 0, or too small";
   for (const char* const hidden : {"<unit name=\"a>b\" meter=\"0\"/>", "<unit meter=\"1e-60\"/>"}) {
@@ -119,8 +119,8 @@ TEST_F(Collada, OmplAppTurnsToYUp) {
 
 TEST_F(Collada, OmplAppAveragesAllVerticesThoseOfLinesToo) {
   const OmplAppMesh read = readOmplAppMesh(write("y.dae", collada("<up_axis>Y_UP</up_axis>", "0")));
-  // All faces are in one plane and have equal normals, so assimp keeps each of their five vertices
-  // once. In addition, it keeps the line's two vertices.
+  // All faces are in one plane and have equal normals, so assimp keeps each of the five different
+  // vertices of the faces once. In addition, assimp keeps the two vertices of the line.
   EXPECT_EQ(read.importedVertices, 7);
   EXPECT_LT((read.vertexAverage - Vec3(10, 2 * 34.0 / 7, 6)).norm(), 1e-5)
       << read.vertexAverage.transpose();

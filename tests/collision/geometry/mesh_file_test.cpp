@@ -13,7 +13,7 @@ namespace {
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
-/// Expects the tetrahedron of the fixture, with any numbering of its vertices.
+/// Expects the tetrahedron of the fixture; the order of its vertices is arbitrary.
 void expectTetrahedron(const MeshFile& file) {
   ASSERT_EQ(file.mesh.vertices.size(), 4u);
   const MeshHealth health = inspectMesh(file.mesh);
@@ -172,7 +172,7 @@ TEST_F(MeshFileComplaint, ObjVertices) {
   EXPECT_EQ(complaint("a.obj", "v 0 0 -inf" + face), "a.obj:1: coordinate \"-inf\" is not finite");
   EXPECT_EQ(complaint("a.obj", "v 1e999 0 0" + face),
             "a.obj:1: coordinate \"1e999\" is too large for a double");
-  // These are beyond the exponents of long double, too.
+  // The exponents of these numbers are out of range for long double, too.
   for (const std::string word : {"1e5000", "-1e5000", "1e99999999999999999999"})
     EXPECT_EQ(complaint("a.obj", "v " + word + " 0 0" + face),
               "a.obj:1: coordinate \"" + word + "\" is too large for a double");

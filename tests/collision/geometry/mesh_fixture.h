@@ -14,7 +14,7 @@
 
 namespace corridor::test {
 
-/// Tests that write small mesh files into a folder of their own.
+/// The fixture of tests that write small mesh files. Each test has a folder of its own.
 class MeshFileTest : public testing::Test {
  protected:
   void TearDown() override { std::filesystem::remove_all(folder_); }
@@ -57,7 +57,8 @@ class MeshFileTest : public testing::Test {
   std::filesystem::path folder_ = newFolder();
 };
 
-/// Returns the bytes of a number, least or most significant first.
+/// Returns the bytes of a number: the most significant byte first if `bigEndian`, otherwise the
+/// least significant.
 template <class T>
 std::string bytesOf(T value, bool bigEndian = false) {
   std::string bytes;
@@ -74,7 +75,7 @@ std::string bytesOf(T value, bool bigEndian = false) {
   }
 }
 
-/// A tetrahedron in each format.
+/// The same tetrahedron as a file of each format.
 inline const char* const objTetrahedron =
     "# a comment\nmtllib missing.mtl\no thing\nv 0 0 0\nv 1 0 0 1.0\nv 0 1 0 0.5 0.5 0.5\nvn 0 0 "
     "1\n"

@@ -1,5 +1,5 @@
-// Damaged files must never crash or hang a reader. A reader returns a sound mesh, or throws an
-// InputError whose text has no control characters.
+// Damaged files must never crash or hang a reader. A reader must return a mesh without faults, or
+// throw an InputError whose text has no control characters.
 #include <random>
 
 #include "collision/geometry/mesh_health.h"

@@ -83,7 +83,8 @@ TEST(InspectMesh, OpenTurnedAndDoubledMeshes) {
   EXPECT_EQ(health.whyNotWatertight,
             "6 of its edges have three triangles or more, repeated ones included");
 
-  TriangleMesh finned = tetrahedron();  // closed; has also a collinear triangle at the edge 0-1
+  // Closed, with an additional collinear triangle at the edge 0-1.
+  TriangleMesh finned = tetrahedron();
   finned.vertices.push_back({2, 0, 0});
   finned.triangles.push_back({0, 1, 4});
   EXPECT_EQ(inspectMesh(finned).whyNotWatertight,

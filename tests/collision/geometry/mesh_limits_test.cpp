@@ -1,5 +1,5 @@
-// Mesh files that claim or need too much are refused. Readers must not allocate more memory than
-// the size of the file justifies.
+// Tests that mesh files are refused if they claim too many items or need too much memory. Readers
+// must not allocate more memory than the size of the file justifies.
 #include <gmock/gmock.h>
 
 #include "planner/benchmark/child_process.h"
@@ -10,7 +10,8 @@ namespace {
 
 class MeshLimits : public MeshFileTest {
  protected:
-  /// Returns the message of the error when a file is read in a process that may allocate 64 MB.
+  /// Returns the message of the error that is thrown when a file is read in a process that may
+  /// allocate at most 64 MB.
   std::string complaintInLittleMemory(const std::string& name, const std::string& bytes) const {
 #ifdef __SANITIZE_ADDRESS__
     const std::size_t memory = 0;  // no limit: the sanitizer would end the process
@@ -76,7 +77,7 @@ TEST_F(MeshLimits, PlyLists) {
          ":13: face 1 of 1: the file ends here: it is cut short");
 }
 
-/// The size of headers is limited, since every name is compared with all others.
+/// The size of PLY headers is limited, because every name in a header is compared with all others.
 TEST_F(MeshLimits, PlyHeaders) {
   std::string elements, properties = "element vertex 1\n";
   for (int i = 0; i < 100'000; ++i) {
@@ -108,8 +109,8 @@ TEST_F(MeshLimits, StlOffAndObj) {
          ":2: face corner \"99999999999999999999\" is not of the form 1, 1/2, 1/2/3 or 1//3");
 }
 
-/// The count of triangles is limited even if the file really has that many: one face has more than
-/// 10^8 corners.
+/// The number of triangles is limited even if the file really has that many: here one face has more
+/// than 10^8 corners.
 TEST_F(MeshLimits, PolygonsOfTooManyTriangles) {
   if (!isStressRun()) GTEST_SKIP() << "2 GB of memory: set CORRIDOR_STRESS";
   std::string face = "v 0 0 0\nf";

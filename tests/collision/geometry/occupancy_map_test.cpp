@@ -24,8 +24,8 @@ std::string header(int nodes) {
          std::to_string(nodes) + "\nres 0.1\ndata\n";
 }
 
-/// Returns the data of a .bt file: `levels` inner nodes, each of which is child number `child` of
-/// the node above and its only child; then `last`, the 16 bits of the last node.
+/// Returns the data of a .bt file: `levels` inner nodes, each of which is the only child of the
+/// node above it, at index `child`; then `last`, the 16 bits of the last node.
 std::string chain(int child, std::uint16_t last, int levels = 15) {
   std::string data;
   for (int i = 0; i < levels; ++i) data += bytesOf(static_cast<std::uint16_t>(3 << 2 * child));
@@ -55,7 +55,7 @@ TEST(OccupancyMap, SmallCells) {
   EXPECT_LT((map.centerOf(map.cubes[1]) - Vec3(0.05, 0.15, 0.05)).norm(), 1e-15) << "bit 1 is y";
   EXPECT_EQ(map.sizeOf(map.cubes[0]), 0.1);
 
-  // The box of the three cells has one unknown cell inside.
+  // The bounding box of the three cells contains one unknown cell.
   const OccupancyMap all =
       parseOccupancyMap(header(19) + data, {.unknownIsOccupied = true}, "map.bt");
   ASSERT_EQ(all.cubes.size(), 3u);
@@ -69,7 +69,7 @@ TEST(OccupancyMap, SmallCells) {
   EXPECT_EQ(joined.centerOf(joined.cubes[0]), Vec3(0.1, 0.1, 0.1));
 }
 
-/// A message has the nodes of a file, without the header.
+/// A message of OctoMap has the nodes of a file, without the file's header.
 TEST(OccupancyMap, Messages) {
   const std::string data = chain(0, 2);
   const OccupancyMap file = parseOccupancyMap(header(17) + data, {}, "map.bt");
@@ -151,7 +151,7 @@ TEST(OccupancyMap, TheThresholdItselfIsOccupied) {
 
 using Cell = std::array<int, 3>;
 
-/// Returns the smallest cells of all cubes.
+/// Returns the cells of the smallest size that all cubes of the map contain.
 std::set<Cell> cellsOf(const OccupancyMap& map) {
   std::set<Cell> cells;
   for (const OccupancyMap::Cube& cube : map.cubes)
@@ -205,7 +205,7 @@ TEST(OccupancyMap, FilesOfOctomap) {
     ASSERT_TRUE(tree.write(full));
     const OccupancyMap ot = parseOccupancyMap(full.str(), {}, "map.ot");
     EXPECT_EQ(ot.format, "OctoMap (.ot)");
-    EXPECT_NEAR(ot.resolution, tree.getResolution(), 1e-15);  // written with six digits
+    EXPECT_NEAR(ot.resolution, tree.getResolution(), 1e-15);  // the file has six digits
     const auto half = [](double p) { return p >= 0.5; };
     EXPECT_EQ(cellsOf(ot), cellsOf(tree, half));
     const OccupancyMap sure = parseOccupancyMap(full.str(), {.threshold = 0.8}, "map.ot");
@@ -213,7 +213,8 @@ TEST(OccupancyMap, FilesOfOctomap) {
     EXPECT_LT(cellsOf(sure).size(), cellsOf(ot).size());
 
     std::ostringstream binary;
-    ASSERT_TRUE(tree.writeBinary(binary));  // replaces probabilities by the most likely state
+    // This also replaces probabilities by the most likely state.
+    ASSERT_TRUE(tree.writeBinary(binary));
     const OccupancyMap bt = parseOccupancyMap(binary.str(), {}, "map.bt");
     EXPECT_EQ(cellsOf(bt), cellsOf(tree, half));
     EXPECT_GT(bt.free, 0u);

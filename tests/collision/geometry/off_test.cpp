@@ -46,8 +46,8 @@ TEST_F(Off, Faults) {
   fault("OFF\n99999 1 0\n", "2: 99999 vertices are more than the file has bytes for");
   fault("OFF\n3 1\n          ",
         "2: the number of edges is missing; add a third number to the line, for example 0");
-  // If this file were accepted, a number of the first vertex would be read as the count of edges,
-  // and the additional face would hide the error.
+  // If this file were accepted, a coordinate of the first vertex would be read as the count of
+  // edges, and the additional face would hide the error.
   fault("OFF\n3 1\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 1 1\n",
         "2: the number of edges is missing; add a third number to the line, for example 0");
   fault("OFF 3 1 0 0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n",

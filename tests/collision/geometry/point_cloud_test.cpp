@@ -50,7 +50,7 @@ TEST_F(PointCloudTest, Ply) {
       bytes += bytesOf(0.0F, big) + bytesOf(p[0], big) + bytesOf(p[1], big) + bytesOf(p[2], big);
     EXPECT_EQ(read("b.ply", bytes).points, kThree);
   }
-  // A mesh's faces are skipped.
+  // The faces of a mesh are skipped.
   EXPECT_EQ(read("c.ply",
                  "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
                  "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
@@ -80,7 +80,8 @@ TEST_F(PointCloudTest, Pcd) {
             4u);
 }
 
-/// Packs bytes as liblzf does: literals, and copies of up to 264 bytes from 8 KiB back at most.
+/// Compresses bytes to the format of liblzf: literals, and copies of up to 264 bytes that begin at
+/// most 8 KiB before.
 std::string packed(const std::string& bytes) {
   std::string out, literal;
   const auto flush = [&] {

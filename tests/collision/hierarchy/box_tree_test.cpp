@@ -1,4 +1,4 @@
-// Compares queries of the tree of bodies' boxes with tests of all boxes.
+// Compares queries of the tree over the boxes of bodies with tests of all boxes.
 #include "collision/hierarchy/box_tree.h"
 
 #include <algorithm>
@@ -87,8 +87,8 @@ BoundingBox cube(const Vec3& c, double half) {
   return {c - h, c + h, (c - h).cwiseAbs().sum() + (c + h).cwiseAbs().sum()};
 }
 
-/// A crowd of boxes far away costs little: queries test boxes of the crowd only near the root. With
-/// halves at the median, the near boxes would be ten levels deep.
+/// A crowd of boxes far away must cost little: queries skip the crowd near the root. If the tree
+/// were split at the median, the few near boxes would be ten levels deep.
 TEST(BoxTree, PassesOverAFarCrowdNearTheRoot) {
   std::vector<BoundingBox> near, all;
   for (int i = 0; i < 8; ++i) near.push_back(cube(Vec3(i % 2, i / 2 % 2, i / 4), 0.1));
@@ -109,13 +109,14 @@ TEST(BoxTree, PassesOverAFarCrowdNearTheRoot) {
   EXPECT_LE(testsIn(all), testsIn(near) + 8);
 }
 
-/// Boxes for which the heuristic cannot choose, or would make a tree that is too deep.
+/// Boxes for which the split heuristic cannot choose, or would make a tree that is too deep.
 TEST(BoxTree, FindsAllOfOddBoxes) {
   std::vector<std::vector<BoundingBox>> sets(4);
   for (int i = 0; i < 1000; ++i) {
-    sets[0].push_back(cube(Vec3(1, 2, 3), 0));                           // one point
-    sets[1].push_back(cube(Vec3(i, 0, 0), 0));                           // points of a line
-    sets[2].push_back(cube(Vec3::Constant(std::ldexp(1.0, -i)), 1e-9));  // ever closer to 0
+    sets[0].push_back(cube(Vec3(1, 2, 3), 0));  // one point
+    sets[1].push_back(cube(Vec3(i, 0, 0), 0));  // points of a line
+    // A sequence that converges to 0.
+    sets[2].push_back(cube(Vec3::Constant(std::ldexp(1.0, -i)), 1e-9));
     sets[3].push_back(cube(Vec3(1e200 * (i - 500), 1e308 * (i % 3 - 1), i), 1e100));  // overflow
   }
   std::vector<BoundingBox> infinite = sets[1];
@@ -132,7 +133,8 @@ TEST(BoxTree, FindsAllOfOddBoxes) {
                 return false;
               });
     EXPECT_EQ(found.size(), boxes.size());
-    for (std::size_t i = 0; i < boxes.size(); i += 37) {  // inner boxes contain each leaf
+    // The boxes of inner nodes must contain each leaf.
+    for (std::size_t i = 0; i < boxes.size(); i += 37) {
       bool seen = false;
       const Vec3 p = boxes[i].lower;
       tree.walk(
@@ -151,7 +153,7 @@ TEST(BoxTree, FindsAllOfOddBoxes) {
   }
 }
 
-/// Random changes: after each of them the tree finds what a test of all boxes finds.
+/// After each of many random changes, the tree must find what a test of all boxes finds.
 TEST(BoxTree, ChangesLikeAListOfBoxes) {
   std::mt19937_64 random(testSeed(242));
   std::uniform_real_distribution<double> real(-1, 1);
@@ -207,7 +209,7 @@ TEST(BoxTree, ChangesLikeAListOfBoxes) {
 }
 
 /// Insertions in sorted order, or of equal or infinite boxes. Without balancing, they would turn
-/// the tree into a list. The depth of the walk is what bounds its cost.
+/// the tree into a list. The cost of an insertion is bounded by the depth of the tree.
 TEST(BoxTree, InsertionsInOrderMakeNoDeepTree) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const BoundingBox everywhere{Vec3::Constant(-infinity), Vec3::Constant(infinity), infinity};
@@ -248,7 +250,8 @@ TEST(BoxTree, RefusesWhatItCantFind) {
   EXPECT_TRUE(tree.check());
 }
 
-/// A few boxes that move cost far fewer tests than all boxes, also without a new build.
+/// If a few boxes have moved, a query needs far fewer tests than there are boxes, although the tree
+/// is not rebuilt.
 TEST(BoxTree, FindsLittleAfterMovesOfAFew) {
   std::vector<BoundingBox> boxes;
   for (int i = 0; i < 4096; ++i) boxes.push_back(cube(Vec3(i % 16, i / 16 % 16, i / 256), 0.3));

@@ -1,5 +1,5 @@
-// Refitting of 4-wide OBB trees: boxes contain the moved triangles in rationals, and queries give
-// the verdicts of new trees.
+// Tests the refitting of 4-wide OBB trees: in rationals, the boxes must contain the moved
+// triangles, and queries must have the verdicts of rebuilt trees.
 #include <cmath>
 #include <cstring>
 #include <functional>
@@ -28,8 +28,9 @@ struct Deformation {
   std::function<Vec3(const Vec3&)> map;
 };
 
-/// Returns maps of a mesh of about the size 1: small, large, mirrored, flat, far, tiny and huge.
-/// The image under each map is far from the frame and the unit of the image under the map before.
+/// Returns maps for a mesh of about the size 1. They make it small, large, mirrored, flat, far
+/// away, tiny or huge. The image under each map differs much in position and scale from the image
+/// under the previous map.
 std::vector<Deformation> deformations(std::mt19937_64& random) {
   const auto noise = [&random](double size) {
     return [&random, size](const Vec3& p) {
@@ -84,10 +85,10 @@ void expectTreeOf(const TriangleMesh& mesh, const Obb4Tree& tree) {
     for (int k = 0; k < 3; ++k) {
       const Vec3& p = mesh.corner(tree.meshTriangle(i), k);
       ASSERT_EQ(tree.corner(i, k), p);
-      // The norms here are rounded, the radii are rounded up.
+      // These norms are rounded, and the radii of the tree are rounded up.
       ASSERT_LE((p - tree.origin()).stableNorm(), tree.radius() * (1 + 1e-15));
       ASSERT_LE(p.stableNorm(), tree.reach() * (1 + 1e-15));
-      // The coordinates of the smallest doubles are not in units of the tree's length.
+      // In the tree of the tiniest mesh, coordinates are not in units of `length()`.
       if (tree.length() > 0x1p-900) {
         ASSERT_LE((p - tree.origin()).cwiseAbs().maxCoeff(), tree.length());
       }
@@ -144,9 +145,9 @@ TEST(Obb4Refit, ContainsTheMovedTrianglesUnderFlushToZero) {
 }
 #endif
 
-/// If a mesh returns to its original place, the refitted tree has the boxes of the original tree,
-/// whatever happened in between. The boxes are equal to a part in 2^20, since a box may list its
-/// sides in another order.
+/// If a mesh returns to its original shape, the refitted tree must have the boxes of the original
+/// tree, whatever happened in between. The sizes are compared to a relative accuracy of 2^-20,
+/// because a box may list its axes in another order.
 TEST(Obb4Refit, BoxesAreAsSmallAsTheirAxesAllow) {
   std::mt19937_64 random(test::testSeed(33));
   const TriangleMesh mesh = test::soup(random, 500, 0.1);
@@ -185,8 +186,8 @@ TEST(Obb4Refit, TheSameForAnyInstructionSet) {
   }
 }
 
-/// Compares queries with those of new trees, and with brute force, while both bodies deform. The
-/// context and the last pair of triangles are those of earlier frames.
+/// Compares queries on refitted trees with queries on new trees, and with brute force, while both
+/// bodies deform. The context and the last pair of triangles are those of earlier deformations.
 TEST(Obb4Refit, QueriesGiveTheAnswersOfNewTrees) {
   std::mt19937_64 random(test::testSeed(35));
   const TriangleMesh first = test::soup(random, 80, 0.1), second = bentSheet(7);
@@ -231,7 +232,7 @@ TEST(Obb4Refit, QueriesGiveTheAnswersOfNewTrees) {
   EXPECT_LT(hits, queries * 9 / 10);
 }
 
-/// The moved mesh may number its vertices in another way.
+/// The moved mesh may have its vertices in another order.
 TEST(Obb4Refit, OnlyTheTrianglesCount) {
   const TriangleMesh mesh = bentSheet(5);
   TriangleMesh apart;  // each triangle has vertices of its own, and one vertex is unused

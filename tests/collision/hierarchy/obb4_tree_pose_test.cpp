@@ -43,8 +43,8 @@ class Obb4TreePoses : public test::EveryTarget {
 INSTANTIATE_TEST_SUITE_P(Targets, Obb4TreePoses, testing::ValuesIn(test::simdTargets()),
                          test::targetName);
 
-/// A corner of one box is at a known gap from a face of another box. The tree's boxes are tight
-/// there, so a margin that is too small or too large makes the test fail. Some maps are not
+/// A corner of one box is at a known gap from a face of another box. The boxes of the trees are
+/// tight there, so a margin that is too small or too large makes the test fail. Some maps are not
 /// rotations, and some meshes are far from their frames' origins.
 TEST_P(Obb4TreePoses, CornersAtFaces) {
   int apartPairs = 0;
@@ -87,8 +87,8 @@ TEST_P(Obb4TreePoses, CornersAtFaces) {
       ASSERT_FALSE(apart(mesh[a], X[a], mesh[b], X[b], 0)) << n;
     }
     // For rotations, margins are 180 unit roundoffs of the sizes and of the centres' distance. A
-    // gap of more than eight times these margins must be detected, and its lower bound must exceed
-    // half of the gap.
+    // gap of more than eight times these margins must be detected, and the lower bound of the
+    // distance must exceed half of the gap.
     if (noise == 0 && d > 8 * 180 * 0x1p-24 * size) {
       ASSERT_TRUE(apart(mesh[a], X[a], mesh[b], X[b], d / 2)) << n << ": " << d;
       ASSERT_TRUE(apart(mesh[a], X[a], mesh[b], X[b], 0)) << n << ": " << d;

@@ -111,7 +111,7 @@ TEST(Obb4Tree, FewAndDegenerateTriangles) {
 }
 
 /// Triangles of size 2^-i around a point make a very deep tree. Ten thousand equal triangles cannot
-/// be divided between two nodes.
+/// be divided into two groups by position.
 TEST(Obb4Tree, DeepAndIndivisible) {
   TriangleMesh deep, same;
   for (int i = 0; i < 1'000; ++i) {
@@ -156,8 +156,8 @@ void expectSame(const Obb4Tree& a, const Obb4Tree& b) {
   EXPECT_EQ(a.reach(), b.reach());
 }
 
-/// Returns meshes that are so large that threads build parts of their trees. The triangles of the
-/// second mesh are in random order.
+/// Returns meshes that are so large that several threads build parts of their trees. The triangles
+/// of the second mesh are in random order.
 std::vector<TriangleMesh> largeMeshes() {
   std::mt19937_64 random(test::testSeed(22));
   return {sheet(100), test::soup(random, 20'000, 0.1)};

@@ -134,11 +134,12 @@ TEST(ObbTree, OfAConvexPart) {
   }
 }
 
-/// These fits of a box depend on the shape, not on its tessellation. If one face of a cube is
-/// refined a thousandfold, the moments of the surface and of the hull do not change.
+/// The fits of a box by triangles and by the hull depend on the shape, not on its tessellation. If
+/// one face of a cube is refined a thousandfold, the moments of the surface and of the hull must
+/// not change.
 TEST(ObbFrame, MomentsIgnoreTessellation) {
   const Vec3 size(4, 2, 1);
-  const auto cube = [&](int n) {  // the face x = 4 has n × n cells, the others have one
+  const auto cube = [&](int n) {  // the face x = 4 has n × n cells, each other face has one cell
     std::vector<Triangle> all;
     const auto quad = [&](Vec3 p, Vec3 u, Vec3 v) {
       all.push_back({p, p + u, p + u + v});
@@ -157,7 +158,7 @@ TEST(ObbFrame, MomentsIgnoreTessellation) {
       EXPECT_GT(std::abs(coarse.axes.col(k).dot(fine.axes.col(k))), 1 - 1e-13);
     EXPECT_GT(std::abs(fine.axes(0, 0)), 1 - 1e-13) << "longest axis first";
   }
-  // The vertex fit does depend on the tessellation: the fine face dominates it.
+  // The fit by vertices does depend on the tessellation: the fine face dominates.
   EXPECT_GT(
       (fitFrame(cube(1), ObbFit::vertices).mean - fitFrame(cube(32), ObbFit::vertices).mean).norm(),
       1.0);

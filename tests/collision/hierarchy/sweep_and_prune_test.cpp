@@ -44,8 +44,8 @@ Pairs pairsOf(const SweepAndPrune& sweep) {
   return pairs;
 }
 
-/// Boxes that move a little, jump, shrink to points, or touch (on a grid): after each step, the
-/// pairs are those of brute force.
+/// Boxes move a little, jump, shrink to points, or touch (on a grid). After each step, the pairs
+/// must be those of brute force.
 TEST(SweepAndPrune, AgreesWithBruteForce) {
   std::mt19937_64 random(test::testSeed(61));
   const int runs = test::isStressRun() ? 2000 : 100 / test::kSlowdown + 2;
@@ -87,8 +87,8 @@ TEST(SweepAndPrune, AgreesWithBruteForce) {
   std::cout << pairs << " pairs\n";
 }
 
-/// The cost of a step depends only on what moves: among 10^4 boxes in a row, a box that moves by
-/// its own size passes few ends of other boxes.
+/// The cost of a step must depend only on the boxes that move: among 10^4 boxes in a row, a box
+/// that moves by its own size passes few ends of other boxes.
 TEST(SweepAndPrune, OnlyWhatMovedIsVisited) {
   std::vector<BoundingBox> boxes;
   for (int i = 0; i < 10'000; ++i) {

@@ -141,7 +141,7 @@ TEST(TreeKinds, BodiesBuildTreesInTheChosenWay) {
   EXPECT_NE(depths[2], depths[1]);
 }
 
-/// Each of a body's trees is built when a query first needs it, and only once, even if several
+/// Each tree of a body must be built when a query first needs it, and only once, even if several
 /// threads need it at the same time.
 TEST(TreeKinds, BodiesBuildTheChosenTrees) {
   std::mt19937_64 random(test::testSeed(51));
@@ -151,7 +151,8 @@ TEST(TreeKinds, BodiesBuildTheChosenTrees) {
   std::vector<std::thread> threads;
   for (std::size_t k = 0; k < seen.size(); ++k)
     threads.emplace_back([&, k] {
-      // Half of the threads begin with one kind, the others with another.
+      // Half of the threads begin with the one kind of trees, the other threads with the other
+      // kind.
       for (const TreeKind trees :
            {k % 2 ? TreeKind::rss : TreeKind::sphere, k % 2 ? TreeKind::sphere : TreeKind::rss})
         withVolume(trees, [&]<class Volume, class Overlap>() {

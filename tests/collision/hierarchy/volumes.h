@@ -19,7 +19,7 @@
 
 namespace corridor::test {
 
-/// The volumes on which the suites for all volumes run.
+/// The kinds of volumes on which the test suites for all volumes run.
 using Volumes = testing::Types<Obb, Aabb, BoundingSphere, Rss, Kdop<14>, Kdop<18>, Kdop<26>, Shell,
                                Ellipsoid, Hull>;
 struct VolumeNames {
@@ -37,7 +37,7 @@ struct VolumeNames {
   }
 };
 
-/// The fits of boxes with which these suites run.
+/// The fits of oriented boxes with which these suites run.
 inline constexpr std::pair<ObbFit, const char*> kFits[] = {
     {ObbFit::triangles, "triangles"}, {ObbFit::vertices, "vertices"}, {ObbFit::hull, "hull"}};
 /// The ways of building a tree with which these suites run.
@@ -59,9 +59,10 @@ inline std::string str(const TreeParams& p) {
 /// Returns the indices of the poses of a workload on which the `fit`-th fit is tested. Fit 0, the
 /// default, is tested on every step-th pose. Each other fit is tested on every (4·step)-th pose:
 /// from pose 0 if `fit + turn` is even, else from pose 2·step. If the workload has few poses, fits
-/// other than 0 get none, because building their trees would take longer than the queries. Slow
-/// builds test fewer poses. With CORRIDOR_STRESS every fit is tested on all poses.
-/// @param turn the number of the workload, so that successive workloads test different poses.
+/// other than 0 get none, because building their trees would take longer than the queries. Builds
+/// with sanitizers, which are slow, test fewer poses. With CORRIDOR_STRESS every fit is tested on
+/// all poses.
+/// @param turn the index of the workload, so that successive workloads test different poses.
 inline std::vector<std::size_t> posesOfFit(const Workload& w, std::size_t step, std::size_t fit,
                                            std::size_t turn) {
   if (fit > 0 && w.poses.size() < 100 && !isStressRun()) return {};

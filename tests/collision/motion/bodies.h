@@ -19,7 +19,7 @@ inline Body bodyOf(TriangleMesh mesh) {
   return Body("", std::move(mesh));
 }
 
-/// A way to prove a motion: a method, on trees of a kind.
+/// A way to prove a motion: a method, and the kind of trees that it uses.
 struct Proof {
   EdgeMethod method = EdgeMethod::directional;
   TreeKind trees = TreeKind::obb4;
@@ -42,8 +42,9 @@ inline MotionResult certify(const Body& moving, const Body& fixed, const RigidMo
   return proof(edge, {&pair, 1}, options, context);
 }
 
-/// The parameters of the suite that every way to prove motions must pass: all methods, and for the
-/// default method also kinds of trees that differ in their shape.
+/// Returns the parameters of the suite that every way to prove motions must pass: all methods on
+/// the default trees, the default method also on other kinds of trees, and `adaptive` also on trees
+/// of spheres.
 inline auto everyProof() {
   using enum EdgeMethod;
   return testing::Values(Proof(directional), Proof(adaptive), Proof(advancement),
@@ -68,14 +69,15 @@ inline std::string proofName(const testing::TestParamInfo<Proof>& proof) {
 }
 
 /// Draws a vector whose coordinates are in [-1, 1]. The order in which the coordinates are drawn is
-/// fixed. If they were drawn in the arguments of one call, the order would depend on the compiler.
+/// fixed. If the coordinates were drawn as arguments of one call, the order would depend on the
+/// compiler.
 inline Vec3 randomInCube(std::mt19937_64& random) {
   std::uniform_real_distribution<double> real(-1, 1);
   const double z = real(random), y = real(random), x = real(random);
   return {x, y, z};
 }
 
-/// Returns triangles about random points in a cube: each coordinate is at most `spread`.
+/// Returns triangles about random points in a cube, in which no coordinate is larger than `spread`.
 inline TriangleMesh blob(std::mt19937_64& random, int count, double spread, double size) {
   TriangleMesh mesh;
   for (int i = 0; i < count; ++i) {
@@ -87,9 +89,9 @@ inline TriangleMesh blob(std::mt19937_64& random, int count, double spread, doub
   return mesh;
 }
 
-/// Returns two poses. The first position is in a cube, with coordinates of at most 2 m. The
-/// positions differ by centimetres to metres in most cases, the rotations by a similar number of
-/// radians.
+/// Returns two poses. The first position is in a cube, with coordinates of at most 2 m. In most
+/// cases the positions differ by centimetres to metres, and the rotations by hundredths of a radian
+/// to some radians.
 inline std::pair<RigidPose, RigidPose> randomEdge(std::mt19937_64& random) {
   std::uniform_real_distribution<double> real(-1, 1);
   const double length = std::pow(10.0, std::uniform_real_distribution(-2.0, 0.5)(random));

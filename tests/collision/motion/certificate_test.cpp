@@ -23,8 +23,8 @@ using test::randomEdge;
 using test::turned;
 using Kind = CertificateFault::Kind;
 
-/// A motion, the answer to its query with a certificate, and the result of checking the
-/// certificate.
+/// A motion of one body past a fixed body, and what is tested about it: the answer of the query,
+/// which returns a certificate, and the result of checking this certificate.
 struct Case {
   const Body &fixed, &moving;
   RigidMotion motion;
@@ -70,8 +70,8 @@ TEST_P(Certificate, ASlideHasTheClearanceOfItsGap) {
     ASSERT_EQ(slide.result.verdict, MotionVerdict::free);
     EXPECT_FALSE(slide.certificate.point_A);
     EXPECT_LE(slide.leastClearance(), gap * (1 + 1e-12));
-    // The cross product of two edges is not of unit length, so it may prove only a fraction of the
-    // gap.
+    // The cross product of two edges may be shorter than 1. As a separating axis, it may then prove
+    // only a fraction of the gap.
     EXPECT_GE(slide.leastClearance(), 0.1 * gap);
     EXPECT_FALSE(slide.check());
   }
@@ -203,7 +203,7 @@ TEST_P(Certificate, WhatIsInsideASolidIsNotFree) {
       if (fault) {
         EXPECT_EQ(fault->kind, Kind::refuted);
       }
-      // Now the shell moves, and the body inside it is at rest.
+      // Now the solid shell moves, and the body inside is at rest.
       Case around(*moving, *fixed, RigidMotion::spatial(at(Vec3(-1, 0, 0)), at(Vec3(1, 0, 0)), {}));
       around.result.certifiedUntil = 1;
       around.certificate.free = {{0, 0, 1, 0.5}};
@@ -224,8 +224,8 @@ TEST_P(Certificate, TheWorkLimitEndsTheCheck) {
   EXPECT_EQ(slide.check()->kind, Kind::workLimit);
 }
 
-/// Certificates claim as much as possible, true or not. If one is accepted, its claim must hold at
-/// samples, margin and tube included.
+/// These certificates make large claims, some of them false. If a certificate is accepted, its
+/// claim must hold at samples, margin and tube included.
 TEST_P(Certificate, AcceptedClaimsHold) {
   std::mt19937_64 random(test::testSeed(43));
   int accepted = 0, refused = 0;
@@ -235,7 +235,8 @@ TEST_P(Certificate, AcceptedClaimsHold) {
     const Tube tube{n % 2 ? 0.01 : 0, n % 4 / 2 ? 0.01 : 0};
     Case c(fixed, moving, RigidMotion::spatial(a, b, tube), 1e-6);
     c.options.margin = n % 3 ? 0.1 * std::uniform_real_distribution(0.0, 1.0)(random) : 0;
-    // Computes distances at samples of the nominal motion, and of motions at the edge of the tube.
+    // Computes distances at samples of the nominal motion, and of motions on the boundary of the
+    // tube.
     double least = HUGE_VAL, leastInTube = HUGE_VAL;
     for (int k = 0; k <= 64; ++k) {
       Transform X = c.motion.at(k / 64.0);

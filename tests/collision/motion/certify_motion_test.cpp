@@ -41,9 +41,9 @@ TEST(CertifyMotion, BoxPastAWall) {
   }
 }
 
-/// A cube moves 10 m along a wall, at a distance of 1e-10 m or less. It moves along one of its
-/// edges, or diagonally. Each motion is also tested with both bodies and the motion rotated, so
-/// that coordinates are off by 1e-15 m. The cost is measured by counters, not by time.
+/// A cube moves 10 m along a wall, at a distance of 1e-10 m or less. It moves in the direction of
+/// one of its edges, or diagonally. Each motion is also tested with both bodies and the motion
+/// rotated, so that coordinates are off by 1e-15 m. The cost is measured by counters, not by time.
 TEST(CertifyMotion, BoxPastAWallAlmostTouching) {
   const Mat3 turn = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
   for (const Mat3& R : {Mat3(Mat3::Identity()), turn}) {
@@ -106,9 +106,9 @@ TEST(CertifyMotion, NeedleThroughAHole) {
 
 // ---- random edges ----
 
-/// Queries with `earliest`, with the reversed motion and with margins must agree with the verdict.
-/// Motions with the verdict `free` are also sampled by the exact interference test, at rounded
-/// poses of the curve, which are inside the default tube.
+/// Queries with `earliest`, queries of the reversed motion and queries with margins must agree with
+/// the verdict of the plain query. If the verdict is `free`, the exact interference test must find
+/// no contact at sampled, rounded poses of the motion. (These poses are inside the default tube.)
 TEST(CertifyMotion, RandomEdges) {
   std::mt19937_64 random(test::testSeed(9));
   const int count = (test::isStressRun() ? 450'000 : 25'000) / test::kSlowdown;
@@ -158,7 +158,7 @@ TEST(CertifyMotion, RandomEdges) {
   EXPECT_LE(undecided, 1 + count / 100'000);
 }
 
-// ---- faults found in reviews ----
+// ---- former bugs ----
 
 /// The closest points are 1e-163 apart, so their squared distance underflows. This once made the
 /// direction infinite.
@@ -180,7 +180,7 @@ TEST(CertifyMotion, GapWhoseSquareUnderflows) {
 /// remainder by 2π in double would give the longer way here: 2π in double is off by 2.4e-16, and
 /// over 10^8 revolutions this error adds up to enough to decide which way is shorter.
 TEST(CertifyMotion, LargeYawsTakeTheShorterWay) {
-  const double yaw = 628318558.99229252;  // 3.141592647 rad plus whole turns
+  const double yaw = 628318558.99229252;  // 3.141592647 rad plus whole revolutions
   const RigidMotion turn = RigidMotion::planar(Vec3::Zero(), Vec3(0, 0, yaw), {});
   EXPECT_FALSE(turn.ambiguous());
   EXPECT_NEAR(turn.at(1).m(0, 0), std::cos(yaw), 1e-14);
@@ -200,7 +200,7 @@ TEST(CertifyMotion, ClearanceOverTwiceTheToleranceIsFreeBesideLargeTriangles) {
       const Eigen::Quaterniond q(u(random), u(random), u(random), u(random));
       const Mat3 R = q.normalized().toRotationMatrix();
       const Vec3 d(std::cos(0.1 * i), std::sin(0.1 * i), 0);
-      TriangleMesh a, b;  // a's edge at height 0, b's edge or corner at height `gap`
+      TriangleMesh a, b;  // a has an edge at height 0, b an edge or a corner at height `gap`
       add(a, R * Vec3(-large, 0, 0), R * Vec3(0.7 * large, 0, 0),
           R * Vec3(u(random), u(random), i % 2 ? -1 : 0) * large);
       add(b, R * (-0.7 * d + gap * Vec3::UnitZ()),

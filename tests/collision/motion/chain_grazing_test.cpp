@@ -15,9 +15,9 @@ using test::add;
 using test::ChainMotion;
 using Vec3L = ChainMotion::Vec3L;
 
-/// Two joints move b: two revolute joints, or a revolute and a prismatic joint. At t = 1 the height
-/// of b above a plane is `gap`, at a place where a touches the plane from below. Before t = 1 b is
-/// higher. Therefore the verdict is known without an oracle.
+/// Two joints move body b: two revolute joints, or a revolute and a prismatic joint. At t = 1 the
+/// height of b above a plane is `gap`, at a point where body a touches the plane from below. Before
+/// t = 1, b is higher. Therefore the verdict is known without an oracle.
 struct ChainGrazing {
   TriangleMesh a, b;
   std::vector<ChainMotion::Joint> joints;

@@ -1,4 +1,4 @@
-// All methods that prove motions, on random kinematic chains, compared with static samples.
+// Compares all methods that prove motions with static samples, on random kinematic chains.
 #include <array>
 #include <random>
 
@@ -23,7 +23,8 @@ class EdgeMethodsOfChains : public testing::TestWithParam<Proof> {};
 
 INSTANTIATE_TEST_SUITE_P(All, EdgeMethodsOfChains, test::everyProof(), test::proofName);
 
-/// Kinematic chains: the relative motions come from another motion source, `ChainMotion`.
+/// The motions are those of kinematic chains: the relative motions come from the motion source
+/// `ChainMotion` instead of `RigidEdge`.
 TEST_P(EdgeMethodsOfChains, RandomChainsAgainstSamples) {
   std::mt19937_64 random(test::testSeed(24));
   const auto real = [&](double low = -1, double high = 1) {

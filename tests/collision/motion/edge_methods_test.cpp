@@ -58,8 +58,8 @@ TEST_P(EdgeMethods, SlideBesideAWall) {
     EXPECT_EQ(context_.counters.edges, 1u);
     EXPECT_EQ(context_.counters.states, 0u) << "queries within an edge must not count as states";
     if (gap > 0) {
-      // In an interval that is proved the body may move by up to twice the gap. Halving makes
-      // intervals shorter than necessary by a factor of two at most. `advancement` computes up to
+      // If an interval is proved, the body may move by up to twice the gap in it. Halving makes
+      // intervals shorter than necessary, by a factor of two at most. `advancement` computes up to
       // three motion bounds per step.
       EXPECT_LE(static_cast<double>(context_.counters.poses), 64 + 4 * 10 / gap) << gap;
     }
@@ -77,8 +77,8 @@ TEST_P(EdgeMethods, DisplacementsThatOverflowAreUndecided) {
   }
 }
 
-/// With other rounding modes no bound holds. The query must report the rounding mode, and must not
-/// answer `free` or `contact`.
+/// In other rounding modes no bound holds. The query must report the rounding mode as the reason,
+/// and must not answer `free` or `contact`.
 TEST_P(EdgeMethods, OtherArithmeticIsRefused) {
   const Body wall = bodyOf(box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))),
              cube = bodyOf(box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5)));
@@ -109,7 +109,7 @@ TEST_P(EdgeMethods, FirstContactOfATranslation) {
   options_.earliest = true;
   for (const double clearanceSlack : {0.0, 1e-3, 1e-2}) {
     if (clearanceSlack > 0 && GetParam().method == EdgeMethod::directional)
-      continue;  // `directional` stops at whole intervals
+      continue;  // `directional` stops only at ends of bisected intervals
     options_.clearanceSlack = clearanceSlack;
     const MotionResult r =
         ask(cube, wall, RigidMotion::spatial(at(Vec3(0, -5, 0)), at(Vec3(0, 5, 0)), {}));
@@ -173,8 +173,8 @@ TEST_P(EdgeMethods, ThinPlateIsNotJumped) {
 TEST_P(EdgeMethods, MarginTubeSlackAndWorkLimit) {
   const Body wall = bodyOf(box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))),
              cube = bodyOf(box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5)));
-  // The clearance is 0.1. Methods other than `directional` get a shorter way, since they take small
-  // steps if the margin is nearly as large as the clearance.
+  // The clearance is 0.1. For methods other than `directional` the motion is shorter, because they
+  // take small steps if the margin is nearly as large as the clearance.
   const double way = GetParam().method == EdgeMethod::directional ? 5 : 0.01;
   const RigidPose a = at(Vec3(-way, 0.4, 0)), b = at(Vec3(way, 0.4, 0));
   Tube tube;
@@ -247,7 +247,7 @@ TEST_P(EdgeMethods, LeavesOfManyTriangles) {
     add(needle, s * Vec3(0, 0, -2), s * Vec3(0.1, 0, 1), s * Vec3(-0.1, 0, 1));
   const Body plate = bodyOf(nested), tip = bodyOf(needle);
   // The needle comes down on an edge of the plate's third triangle, inside the third triangle,
-  // inside only the fourth triangle, or beside all triangles.
+  // inside the fourth triangle only, or beside all triangles.
   for (const double x : {0.0, 3.0, 10.0, 13.0}) {
     const bool hits = x < 12;
     const auto through = [&](double sign) {  // the tips are 1 below the origin: at −1.5 in the end
@@ -282,8 +282,8 @@ TEST_P(EdgeMethods, PointBesideAnEdge) {
     }
 }
 
-/// The size of points is 0, so no motion bound is small compared with it. Halving must end at
-/// intervals of 2^-48 of the motion, not with a stack overflow.
+/// The size of points is 0, so no motion bound is small compared with their size. Halving must end
+/// at intervals of 2^-48 of the motion, without a stack overflow.
 TEST_P(EdgeMethods, PointThroughAPointEnds) {
   TriangleMesh mesh;
   add(mesh, Vec3::Zero(), Vec3::Zero(), Vec3::Zero());

@@ -9,10 +9,10 @@
 
 namespace corridor::test {
 
-/// A fixed mesh below the plane through x with normal n, and a moving mesh above this plane. The
-/// height of the moving mesh is `gap` at t = 1, or at all times if it slides. The verdict is known
-/// by construction. If the gap is negative, the features penetrate each other in their interior.
-/// Otherwise the gap is the distance of the meshes.
+/// A fixed mesh below a plane with normal n, and a moving mesh above this plane. The height of the
+/// moving mesh above the plane is `gap` at t = 1, or at all times if the mesh slides. The verdict
+/// is known by construction. If the gap is negative, two features (a corner and a face, or two
+/// edges) penetrate each other. Otherwise the gap is the distance of the meshes at t = 1.
 struct Grazing {
   enum Feature { cornerOnFace, faceOnCorner, edgeOnEdge, features };
   TriangleMesh fixed, moving;
@@ -33,10 +33,10 @@ struct Grazing {
     };
     const auto around = [&](int i) {
       return inPlane(2.1 * i, real(0.3, 1));
-    };  // three of these surround the origin
+    };  // the results for i = 0, 1, 2 surround the origin
     const Vec3 x = 3 * Vec3(real(), real(), real());
     // Points are relative to x, and heights are along n. Heights are at most 0 on the fixed
-    // triangle, and at least 0 (plus `gap`) on the moving one.
+    // triangle, and at least `gap` on the moving triangle.
     Triangle a, b;
     if (feature == cornerOnFace) {
       for (int i = 0; i < 3; ++i) a[i] = around(i);

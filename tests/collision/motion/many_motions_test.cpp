@@ -1,5 +1,5 @@
-// Tests queries of several motions at once. Swept spheres, as seen from the world, separate some of
-// the bodies.
+// Tests queries of several motions at once. Spheres that are swept in the world frame separate some
+// of the bodies.
 #include <cmath>
 #include <vector>
 
@@ -16,7 +16,7 @@ using test::bodyOf;
 using test::box;
 using test::ChainMotion;
 
-/// Several motions, by their numbers.
+/// A motion source that consists of several motions, which are selected by their indices.
 class Motions final : public MotionSource {
  public:
   explicit Motions(std::vector<ChainMotion> motions) : motions_(std::move(motions)) {}
@@ -39,8 +39,8 @@ ChainMotion::Joint slide(const Vec3& axis, double from, double to) {
 }
 
 /// Two cubes move along side by side. Their spheres are closer than the margin, but their faces are
-/// not. The first pair has a body with a large rotation, and is separated nevertheless. This early
-/// separation must not affect the pair of cubes.
+/// not. The first pair has a body with a large rotation; its swept spheres separate it
+/// nevertheless. This early separation must not affect the pair of cubes.
 TEST(ManyMotions, CertificateChangesNoVerdict) {
   const Body obstacle = cube(1, Vec3(100, 0, 0)), tip = cube(0.05, Vec3(1, 0, 0)), left = cube(0.5),
              right = cube(0.5);

@@ -17,9 +17,9 @@ using test::at;
 using test::bodyOf;
 using test::box;
 
-/// A sphere reaches 0.3e-162 into a body. The gap to its centre is 1.6e-162, and the square of this
-/// gap is subnormal. The code once rounded it to the square of 2.2e-162, and so reported the bodies
-/// as separated.
+/// A sphere reaches 0.3e-162 into a body. The distance of the sphere's centre from the body is
+/// 1.6e-162, and the square of this distance is subnormal. The code once rounded this square to
+/// that of 2.2e-162, and so reported the bodies as separated.
 TEST(MayMeet, GapWhoseSquareIsSubnormal) {
   const double e = 1.6e-162, r = 1.9e-162;
   TriangleMesh a, b;
@@ -30,8 +30,8 @@ TEST(MayMeet, GapWhoseSquareIsSubnormal) {
   EXPECT_TRUE(mayMeet(bodyOf(a), sweptSphere(bodyOf(b), still), 0));
 }
 
-/// A motion along a wall that is ten times as long as the gap is wide. Only the motion's component
-/// across the gap may count.
+/// A motion along a wall that is ten times as long as the gap is wide. Only the component of the
+/// motion across the gap may reduce the bound.
 TEST(MayMeet, ASlideKeepsItsGap) {
   const Body wall = bodyOf(box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))),
              bar = bodyOf(box(Vec3(-0.5, 0, 0), Vec3(0.5, 0, 0)));
@@ -46,8 +46,8 @@ TEST(MayMeet, ASlideKeepsItsGap) {
   }
 }
 
-/// The bound never exceeds the distance at any sampled time. For sideways motions it proves more
-/// than the isotropic bound.
+/// The lower bound must not exceed the distance at any sampled time. It must never be below the
+/// isotropic bound, and must prove some motions for which the isotropic bound is 0.
 TEST(MayMeet, RandomMotions) {
   std::mt19937_64 random(test::testSeed(66));
   const auto real = [&](double low = -1, double high = 1) {
@@ -98,7 +98,7 @@ TEST(MayMeet, RandomMotions) {
   std::cout << proved << " proved, " << sideways << " of them only by the directional bound\n";
 }
 
-/// Both bodies move far, and nearly in the same way. Their common motion must not count.
+/// Both bodies move far, and nearly in the same way. Their common motion must not reduce the bound.
 TEST(MayMeet, CommonMotionKeepsTheGap) {
   const Body bar = bodyOf(box(Vec3(-0.5, 0, 0), Vec3(0.5, 0, 0)));
   std::array<ScrewMotion, 2> screwsA, screwsB;
@@ -115,7 +115,7 @@ TEST(MayMeet, CommonMotionKeepsTheGap) {
   }
 }
 
-/// The bound never exceeds the distance at any sampled time, here for two bodies that both move.
+/// The lower bound must not exceed the distance at any sampled time if both bodies move.
 TEST(MayMeet, RandomMotionsOfBoth) {
   std::mt19937_64 random(test::testSeed(67));
   const auto real = [&](double low = -1, double high = 1) {

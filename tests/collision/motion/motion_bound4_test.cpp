@@ -1,5 +1,5 @@
-// The motion bounds of the boxes of a 4-wide OBB tree equal those of `motionBound` for their
-// bounding spheres.
+// Compares the motion bounds for the boxes of a 4-wide OBB tree with the bounds of `motionBound`
+// for the boxes' bounding spheres.
 #include <cmath>
 #include <random>
 

@@ -16,8 +16,8 @@ using test::Shape;
 using test::ShapeFeature;
 using test::Touching;
 
-/// A relative motion: b's origin moves on a straight line and b rotates about it, both at constant
-/// speed, from the pose at t = 0.
+/// A relative motion, which starts at a given pose: the origin of body b moves on a straight line,
+/// and b rotates about its origin, both at constant speed.
 struct LineAndTurn {
   Transform start;
   Vec3 delta = Vec3::Zero(), axis = Vec3::UnitZ();
@@ -67,7 +67,7 @@ Verdict certify(const ShapeFeature& a, const ShapeFeature& b, const LineAndTurn&
 
 using Vec3L = Eigen::Matrix<long double, 3, 1>;
 
-/// Returns the least height of b along n, in long double, by its closed form.
+/// Returns the least height of b along n at time t, by a closed form, in long double.
 long double lowest(const ShapeFeature& b, const LineAndTurn& motion, long double t, const Vec3& n) {
   const Eigen::Matrix<long double, 3, 3> R =
       Eigen::AngleAxis<long double>(t * motion.angle, motion.axis.cast<long double>().normalized())
@@ -82,10 +82,10 @@ long double lowest(const ShapeFeature& b, const LineAndTurn& motion, long double
   return origin.dot(nL) + least - set.ball * m.norm() - set.disc * m.cross(axis).norm();
 }
 
-/// Bodies that graze by construction. Body a is below a plane and touches the plane at one place. b
-/// is above the plane, and its lowest point is exactly above that place, at a distance `gap`. This
-/// holds at the end of the motion, and throughout the motion if b slides along the plane and
-/// rotates about its normal.
+/// Bodies that graze by construction. Body a is below a plane, and touches the plane at one point.
+/// Body b is above the plane, and its lowest point is exactly above that point, at a distance
+/// `gap`. This holds at the end of the motion, and throughout the motion if b slides along the
+/// plane and rotates about its normal.
 TEST(MovingParts, GrazingByConstruction) {
   Touching make(test::testSeed(25));
   const int count = (test::isStressRun() ? 100'000 : 20'000) / test::kSlowdown;
@@ -97,7 +97,7 @@ TEST(MovingParts, GrazingByConstruction) {
     const ShapeFeature a = make.feature(sa), b = make.feature(sb);
     const double amount = std::pow(10.0, -2 - n % 12);
     const double gap = n / 12 % 2 ? amount : -amount;
-    if (gap < -0.4e-7) continue;                                // some parts are that thin
+    if (gap < -0.4e-7) continue;  // some parts are so thin that a larger depth is not possible
     const Transform end = make.pose(b, a.x + gap * a.m, -a.m);  // in a's frame
     const Vec3 up = a.m, u = up.unitOrthogonal(), v = up.cross(u);
     LineAndTurn motion;
@@ -126,7 +126,8 @@ TEST(MovingParts, GrazingByConstruction) {
     if (gap < 0) {
       falseFree += verdict == Verdict::free;
     } else {
-      // The pose at the motion's end is rounded again, so the bands include the error of that pose.
+      // The pose at the end of the motion is rounded again, so the limit includes the error of that
+      // pose.
       falseContact += verdict == Verdict::contact && amount > 0x1p-44 * 8;
       notFree += verdict != Verdict::free && amount > 2e-7;
       if (slide && amount > 1e-3) slideIntervals += decided, ++slides;

@@ -20,8 +20,9 @@ MovingPairAnswer decide(const Triangle& a, const Triangle& b, ChainMotion& motio
   return decideMovingTriangles(a, b, motion.relativeMotion(0, 0.5, 0.5), 0);
 }
 
-/// A revolute joint rotates the direction of a prismatic one. To first order b's top corner moves
-/// along x, parallel to a. At the ends of the interval it has risen by 0.2·sin(0.1), through a.
+/// A revolute joint rotates the direction of a prismatic joint. To first order, the top corner of
+/// triangle b moves along x, parallel to triangle a. At the ends of the interval this corner has
+/// risen by 0.2·sin(0.1), through a.
 TEST(MovingTriangles, ASlideThatIsTurnedRises) {
   ChainMotion motion({{false, Vec3::UnitZ(), Vec3::Zero(), -0.1, 0.1},
                       {true, Vec3::UnitX(), Vec3::Zero(), -0.2, 0.2}});
@@ -35,8 +36,9 @@ TEST(MovingTriangles, ASlideThatIsTurnedRises) {
   EXPECT_TRUE(separated(0.022));
 }
 
-/// a is a large triangle across the way of b. Along the normal of a, b moves farther than its
-/// distance from a. So the two triangles meet, and must not be reported as separated.
+/// Triangle a is large, and stands across the path of triangle b. Along the normal of a, b moves
+/// farther than its distance from a. So the two triangles meet, and must not be reported as
+/// separated.
 TEST(MovingTriangles, TrianglesThatMeetAreNotSeparated) {
   std::mt19937_64 random(test::testSeed(26));
   const auto real = [&](double low = -1, double high = 1) {

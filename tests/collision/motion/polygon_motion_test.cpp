@@ -1,5 +1,5 @@
 // Tests of planar polygons as bodies: contact is compared with rationals, and certified motions
-// graze.
+// that graze have known verdicts.
 #include <cmath>
 #include <iostream>
 
@@ -38,8 +38,9 @@ std::vector<test::Point2> mapped(const Points& polygon, const Transform& X) {
   return points;
 }
 
-/// Compares contact with rationals, for polygons of whole numbers. Some maps are translations by
-/// whole numbers, under which many pairs touch without overlapping; others are rotations.
+/// Compares contact with rationals, for polygons with integer coordinates. Some maps are
+/// translations by integers, under which many pairs touch without overlapping; others are
+/// rotations.
 TEST(PolygonBodies, ContactAgreesWithRationals) {
   test::Polygons random(test::testSeed(61));
   const int count = test::isStressRun() ? 50'000 : 600 / test::kSlowdown;
@@ -64,7 +65,7 @@ TEST(PolygonBodies, ContactAgreesWithRationals) {
     ASSERT_EQ(d == 0, truth) << "pair " << n;
     meeting += truth;
     ++tested;
-    Transform moved = X_WQ;  // away by a step of the grid: apart, if they only touch
+    Transform moved = X_WQ;  // one step of the grid farther away: apart, if they only touched
     moved.t.x() += 0x1p-10;
     touching += truth && n % 3 != 0 && !test::polygonsMeet(a, mapped(q, moved));
   }
@@ -107,7 +108,7 @@ TEST(PolygonBodies, MotionsThatSlideAtAKnownHeight) {
       left = std::min(left, v.x());
       size = std::max(size, v.norm());
     }
-    // Pose: y = gap − lowest, which is exact up to one rounding of the size.
+    // The pose has y = gap − lowest, with one rounding.
     Points fixed = corner;
     for (Vec2& v : fixed) v = (v.array() > 1).select(10 * size, v);  // longer than the motion
     const double y = gap * size - lowest, from = 0.1 * size - left, to = from + 2 * size;
@@ -129,7 +130,7 @@ TEST(PolygonBodies, RotationsThatGraze) {
     for (const Vec2& v : p)
       if (v.norm() > farthest.norm()) farthest = v;
     const double r = farthest.norm(), angle = std::atan2(farthest.y(), farthest.x());
-    // A U around the wall's line, open to the right.
+    // A polygon in the form of a U, open to the right, whose left edge is on the line at x.
     const double x = r + gap * r;
     const Points wall{{x, -3 * r},    {x + 2 * r, -3 * r}, {x + 2 * r, -2 * r}, {x + r, -2 * r},
                       {x + r, 2 * r}, {x + 2 * r, 2 * r},  {x + 2 * r, 3 * r},  {x, 3 * r}};

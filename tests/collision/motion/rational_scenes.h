@@ -10,21 +10,22 @@
 
 namespace corridor::test {
 
-/// A moving triangle and a fixed one, with short dyadic coordinates: random near misses and hits,
-/// and features that meet exactly during the motion and are then pushed apart or together by a
-/// little. The oracle computes their first contact.
+/// A moving triangle and a fixed triangle, whose coordinates are dyadic fractions of few bits. Some
+/// scenes are random near misses and hits. In others, two features meet exactly during the motion,
+/// and then the fixed triangle is moved a little, apart or together. The oracle computes their
+/// first contact.
 struct RationalScene {
   enum Kind {
     nearby,    ///< the fixed triangle is near the path of the moving one
     coplanar,  ///< both triangles and the motion are in one plane
     /// Features meet exactly at some time. The two triangles are then on opposite sides of a plane.
     meeting,
-    tangential,  ///< like `meeting`, and at that time the velocity is along the plane
+    tangential,  ///< like `meeting`; the velocity at the time of meeting is parallel to the plane
     kinds
   };
   Triangle fixed, moving;
   RationalMotion motion = RationalMotion::line({}, Vec3::Zero());
-  int push = 0;  ///< the fixed triangle is moved by 2^-push of the unit; 0: it is not moved
+  int push = 0;  ///< the fixed triangle is moved by about 2^-push; 0: it is not moved
 
   RationalScene(std::mt19937_64& random, Kind kind, bool turns)
       : random_(random), flat_(kind == coplanar) {
@@ -44,8 +45,8 @@ struct RationalScene {
         motion = RationalMotion::line(from, from.p + std::ldexp(1, halvings) * nonZero(6));
       }
       const auto pose = motion.at(s0);
-      const Vec3 centre = pose.X.t / pose.weight;  // whole numbers
-      Triangle there;                              // the moving triangle at s0, in whole numbers
+      const Vec3 centre = pose.X.t / pose.weight;  // integers
+      Triangle there;                              // the moving triangle at s0, in integers
       const Vec3 lever = vector(3);
       for (int i = 0; i < 3; ++i) {
         const Vec3 p = lever + vector(3);
@@ -76,13 +77,14 @@ struct RationalScene {
     while (v.isZero(0)) v = vector(size);
     return v;
   }
-  static bool onALine(const Triangle& t) {  // exact: the numbers are short
+  static bool onALine(const Triangle& t) {  // exact, because coordinates have few bits
     return (t[1] - t[0]).cross(t[2] - t[0]).isZero(0);
   }
 
-  /// Places the fixed triangle so that it meets a feature of b, if possible on the other side of a
-  /// plane than b. If `velocity` is not zero, the plane contains its direction. Then moves the
-  /// fixed triangle by 2^-push.
+  /// Places the fixed triangle so that one of its features meets a feature of triangle b. If
+  /// possible, the two triangles are on opposite sides of a plane; if `velocity` is not zero, this
+  /// plane is parallel to `velocity` in most cases. Then chooses `push`, and moves the fixed
+  /// triangle along the plane's normal by about 2^-push.
   void meet(const Triangle& b, const Vec3& velocity) {
     Vec3 n = nonZero(3);
     const int feature = whole(0, 4);
@@ -97,10 +99,10 @@ struct RationalScene {
     const auto below = [&](const Vec3& d) { return n.dot(d) > 0 ? Vec3(-d) : d; };
     const auto level = [&] { return Vec3(n.cross(vector(3))); };
     const Vec3 d = below(nonZero(20)), e = below(nonZero(20));
-    if (feature == 0) {  // a corner in the face
+    if (feature == 0) {  // a corner of b in the fixed face
       const Vec3 u = level(), v = level();
       fixed = {b[0] + u, b[0] + v, b[0] - u - v};
-    } else if (feature == 1) {  // a corner on an edge
+    } else if (feature == 1) {  // a corner of b on a fixed edge
       const Vec3 u = level();
       fixed = {b[0] + u, b[0] - 2 * u, b[0] + d};
     } else if (feature == 2) {  // two corners
@@ -129,7 +131,7 @@ struct RationalScene {
   }
 
   std::mt19937_64& random_;
-  bool flat_;  // in the plane z = 0
+  bool flat_;  // whether all is in the plane z = 0
 };
 
 /// Motions whose first contact is known.
@@ -153,10 +155,12 @@ inline std::vector<ClosedForm> closedForms() {
   const auto plate = [](double y) {
     return Triangle{Vec3(-40, y, -40), Vec3(80, y, -40), Vec3(0, y, 80)};
   };
-  const auto mast = [](double r) {  // an edge along z at r·(4, 3); the rest is behind it
+  const auto mast = [](double r) {  // an edge along z at r·(4, 3); the rotating rod meets it before
+                                    // the other points
     return Triangle{Vec3(4 * r, 3 * r, -9), Vec3(4 * r, 3 * r, 9), Vec3(8, 60, 0)};
   };
-  // A triangle parallel to the xy-plane, with its tip at (2, 1.5); the rest is behind the tip.
+  // A triangle parallel to the xy-plane. The rotating rod meets its tip, at (2, 1.5), before its
+  // other points.
   const auto thorn = [](double z) {
     return Triangle{Vec3(2, 1.5, z), Vec3(8, 60, z), Vec3(9, 60, z)};
   };

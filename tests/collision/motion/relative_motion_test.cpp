@@ -24,7 +24,7 @@ Vec3 vector(Random& random) {
   return Vec3(real(random), real(random), real(random));
 }
 
-/// All data of an interval's middle on which a motion bound depends, and the point, position and
+/// All data, at the middle of an interval, on which a motion bound depends; and the point and
 /// direction for which the bound is evaluated.
 struct Trial {
   struct Joint {
@@ -32,9 +32,9 @@ struct Trial {
     Vec3 axis, point;
     double amount;         // signed
     double tube;           // ≥ 0
-    double strays;         // perturbation of the motion, in [−1, 1], as a share of the tube
+    double strays;         // perturbation of the motion, in [−1, 1], relative to the tube
     double deviation = 0;  // ≥ 0
-    double deviates = 0;   // deviation from uniform motion, in [−1, 1], as a share of `deviation`
+    double deviates = 0;   // deviation from uniform motion, in [−1, 1], relative to `deviation`
     Vec3 about;            // pivot rotations: the axis of the perturbation
   };
   std::vector<Joint> joints;
@@ -46,7 +46,7 @@ struct Ratios {
   double isotropic = 0, beyond = 0, pad = 0, all = 0;
 };
 
-/// Returns the real motion of the point, computed in long double, divided by the bounds of
+/// Returns the displacements of the point, computed in long double, divided by the bounds of
 /// `motionBound`.
 Ratios ratios(const Trial& trial) {
   RelativeMotion w;
@@ -117,8 +117,9 @@ Ratios ratios(const Trial& trial) {
   return r;
 }
 
-/// Chains of many kinds: parallel, equal and intersecting axes, translations before and after
-/// rotations, rotations above π, pivot rotations, joints that do not move.
+/// Returns a random chain. The chains are of many kinds: parallel, equal and intersecting axes,
+/// translations before and after rotations, rotations above π, pivot rotations, joints that do not
+/// move.
 Trial start(Random& random, int n) {
   Trial trial;
   const int count = 1 + n % 5;
@@ -166,8 +167,9 @@ Trial perturbed(Random& random, Trial trial, double step) {
   return trial;
 }
 
-/// Adversarial search: hill climbing for the chain that attains the largest share of each bound.
-/// The share must never exceed 1, and the search must find a chain whose share is close to 1.
+/// Adversarial search: hill climbing for the chain whose displacement is the largest fraction of
+/// each bound. This fraction must never exceed 1, and the search must find a chain whose fraction
+/// is close to 1.
 TEST(MotionBounds, IsNeverExceededAndAttained) {
   Random random(test::testSeed(21));
   const int starts = test::isStressRun() ? 5000 : 300;
@@ -195,8 +197,8 @@ TEST(MotionBounds, IsNeverExceededAndAttained) {
   for (const double share : best) EXPECT_GT(share, 0.995);
 }
 
-/// Tests that random chains of many joints do not exceed the bounds. Prints the median of the share
-/// that they attain.
+/// Tests that random chains of many joints do not exceed the bounds. Prints the median ratio of
+/// displacement to bound.
 TEST(MotionBounds, RandomChains) {
   Random random(test::testSeed(22));
   const int count = test::isStressRun() ? 10'000'000 : 50'000;
@@ -253,8 +255,7 @@ TEST(MotionBounds, OneRotationWithARoundedRate) {
       w.angle = w.angular.norm();
       w.reachError = error;
       const MotionBound bound = motionBound(w, Vec3::UnitX(), 0);
-      // Towards the axis the point moves by 1 − cos of the angle; the first-order term of this is
-      // 0.
+      // Towards the axis, the point moves by 1 − cos of the angle, whose first-order term is 0.
       const Vec3 n = Vec3::UnitX();
       EXPECT_GE(bound.secondOrderAcross * n.cross(w.angular).norm() + bound.secondOrder,
                 1 - std::cos(amount))
@@ -289,8 +290,8 @@ TEST(MotionBounds, Tubes) {
   EXPECT_NEAR(bound.secondOrder, 0.5 * (0.01 + 0.02), 1e-14);
 }
 
-/// Deviations from uniform motion add to the second order, with the arms as far as the joints after
-/// them may reach. Such deviations never add to `pad`.
+/// Deviations from uniform motion add to the second-order term, with lever arms as long as the
+/// following joints may reach. Such deviations must not add to `pad`.
 TEST(MotionBounds, Deviations) {
   using Kind = ScrewMotion::Kind;
   const ScrewMotion screws[] = {{Kind::revolute, Vec3::UnitZ(), Vec3(4, 0, 0), 0, 0, 0.02},

@@ -23,8 +23,8 @@ class Cases {
   Eigen::Quaterniond orientation() {
     return Eigen::Quaterniond(real(), real(), real(), real()).normalized();
   }
-  /// Returns pairs of poses at angles of every size, including nearly equal and nearly opposite
-  /// ones.
+  /// Returns a pair of poses. Their rotations differ by angles of every size: some are nearly
+  /// equal, some differ by nearly a half turn.
   std::pair<RigidPose, RigidPose> edge() {
     RigidPose a{vector(10), orientation()}, b{vector(10), {}};
     const double angles[] = {0,    1e-300, 1e-17, 1e-12, 5e-5, 8.9e-5,
@@ -42,11 +42,11 @@ class Cases {
   int n_ = 0;
 };
 
-/// As the header promises: with a tube of zero, the error of the pose, at every point, is within
-/// fixedError + reachError·|y|.
+/// With a tube of zero, the error of the pose at a point y must be at most fixedError +
+/// reachError·|y|, as the header promises.
 TEST(RigidMotion, PosesAreWithinTheirStatedError) {
   Cases cases(test::testSeed(1));
-  double worst = 0;  // error as a share of its bound
+  double worst = 0;  // the largest error, divided by its bound
   for (int n = 0; n < 20'000; ++n) {
     const auto [a, b] = cases.edge();
     const RigidMotion motion = RigidMotion::spatial(a, b, {});
@@ -64,8 +64,8 @@ TEST(RigidMotion, PosesAreWithinTheirStatedError) {
   EXPECT_GT(worst, 1e-4) << "a bound that no case comes near is not measured by this test";
 }
 
-/// For random points, times and directions in random intervals, the bound is never below the
-/// displacement. In some interval the displacement attains the bound.
+/// For random points, times and directions in random intervals, the bound must not be below the
+/// displacement. In some intervals the displacement must be close to the bound.
 TEST(RigidMotion, IntervalsBoundTheDisplacement) {
   Cases cases(test::testSeed(2));
   double tightest = 0, tightestDirectional = 0;
@@ -132,12 +132,12 @@ TEST(RigidMotion, PlanarPosesAreWithinTheirStatedError) {
   }
 }
 
-/// No curve in the tube deviates from the nominal motion by more than the stated errors. Some curve
-/// comes close to them.
+/// No curve in the tube may deviate from the nominal motion by more than the stated errors, and
+/// some curve must come close to these errors.
 TEST(RigidMotion, TubesAreWithinTheStatedError) {
   Cases cases(test::testSeed(5));
   for (const bool planar : {false, true}) {
-    double fullest = 0;  // the largest deviation, as a share of its bound
+    double fullest = 0;  // the largest deviation, divided by its bound
     for (int n = 0; n < 2'000; ++n) {
       const Tube tube{n % 3 ? 0.01 : 0, n % 3 != 1 ? 0.02 : 0};
       auto [a, b] = cases.edge();

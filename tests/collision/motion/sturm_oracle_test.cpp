@@ -1,6 +1,6 @@
 // Tests the oracle for motions (tests/support/sturm_contact.h) by known roots, by first contacts in
-// closed form, by static samples with rational linear programming, and by other descriptions of the
-// same motion.
+// closed form, by static samples with rational linear programming, and by the reversed and the
+// relative description of the same motion.
 #include <random>
 
 #include <gtest/gtest.h>
@@ -19,7 +19,8 @@ Polynomial linear(int root, int denominator) {  // 0 at root/denominator
   return Polynomial({-root, denominator});
 }
 
-/// Products of linear factors, some of them squared, and one factor without real roots.
+/// The roots of products of linear factors (some of them squared) and one factor without real roots
+/// are known.
 TEST(Polynomials, RootsThatAreKnown) {
   std::mt19937_64 random(testSeed(42));
   const auto whole = [&](int low, int high) {
@@ -75,8 +76,8 @@ RationalScene sceneNumber(int n, std::mt19937_64& random) {
                        n % 5 != 0);
 }
 
-/// The oracle's motion must be the motion of the edge. The test computes the edge's motion from its
-/// definition, in long double.
+/// The oracle's motion must be the motion of the edge, which the test computes from its definition,
+/// in long double.
 TEST(SturmContact, MotionIsThatOfTheEdge) {
   std::mt19937_64 random(testSeed(43));
   for (int n = 0; n < 300; ++n) {
@@ -109,8 +110,8 @@ TEST(SturmContact, ClosedForms) {
   }
 }
 
-/// No sample before the first contact touches; if there is no contact, no sample touches at all. At
-/// the first contact the distance is zero up to rounding.
+/// No sample before the first contact may touch; if there is no contact, no sample may touch at
+/// all. At the first contact the distance must be zero up to rounding.
 TEST(SturmContact, Samples) {
   std::mt19937_64 random(testSeed(44));
   const int count = (isStressRun() ? 8'000 : 400) / kSlowdown;
@@ -140,8 +141,8 @@ TEST(SturmContact, Samples) {
     double size = from.p.norm() + to.p.norm();
     for (const Vec3& p : scene.moving) size = std::max(size, p.norm());
     if (!rationalContact(scene.fixed, {}, scene.moving, X)) {
-      // The bound covers the error of the pose (rigid_motion.cpp), and the error of the time,
-      // multiplied by angles up to π.
+      // The limit covers the error of the pose (rigid_motion.cpp), and the error of the time, which
+      // is multiplied by angles of up to π.
       ASSERT_LE(referenceDistance(scene.fixed, {}, scene.moving, X), 0x1p-42 * size) << n;
     }
   }
@@ -149,12 +150,13 @@ TEST(SturmContact, Samples) {
             << " of them, and missed " << missed << "\n";
   EXPECT_GT(contacts, count / 3);
   EXPECT_GT(count - contacts, count / 5);
-  if (count >= 400) {  // with sanitizers there are fewer cases, and maybe none of these
+  if (count >= 400) {  // with sanitizers there are fewer cases, and perhaps none with a missed
+                       // contact
     EXPECT_GT(missed, count / 200) << "samples must miss some contacts";
   }
 }
 
-/// The reversed motion touches, too. As seen from the other triangle, the motion touches at the
+/// The reversed motion must touch, too. The motion relative to the other triangle must touch at the
 /// same time.
 TEST(SturmContact, InvariantUnderOtherDescriptions) {
   std::mt19937_64 random(testSeed(45));
@@ -181,7 +183,7 @@ TEST(SturmContact, InvariantUnderOtherDescriptions) {
         p[k] -= from.p[k];
         exact = exact && p[k] == difference;
       }
-    if (!exact) continue;  // a coordinate that was pushed by 2^-40 may have no spare bit
+    if (!exact) continue;  // a coordinate that was moved by 2^-40 may have no spare bit
     ++swapped;
     const FirstContact other = sturmContact(
         scene.moving, fixed,

@@ -88,8 +88,8 @@ class Sturm : public testing::TestWithParam<Proof> {
           ASSERT_LE((real.point(r.contactTime, p) - (X.m * p + X.t).cast<long double>()).norm(),
                     poseError(moving, from, to) + 0x1p-50 * p.norm() + 0x1p-50 * X.t.norm());
         // Therefore, at the reported time, the exact motion is at most the rounding of the pose
-        // away from a contact. The exact motion has a contact by then, too, unless the reported
-        // contact exists only because of that rounding.
+        // away from a contact. The exact motion has a contact at or before the reported time, too,
+        // unless the reported contact exists only because of that rounding.
         counts_.onlyRounded += !known.contact || r.contactTime < path.time(known.low) - kTimeError;
         if (!earliest) break;
         if (!r.grazing) {
@@ -135,8 +135,8 @@ TEST_P(Sturm, ClosedForms) {
     }
 }
 
-/// The random scenes are hard on purpose. But queries must decide the scenes that were not
-/// constructed as near misses.
+/// Most kinds of random scenes are hard on purpose. But queries must decide nearly all scenes of
+/// the kind `nearby`, which are not constructed as near misses.
 TEST_P(Sturm, Motions) {
   std::mt19937_64 random(test::testSeed(41));
   const int count = (test::isStressRun() ? 40'000 : 2'000) / test::kSlowdown;

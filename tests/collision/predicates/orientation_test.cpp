@@ -72,7 +72,7 @@ TEST(OrientationSign, NearlyCoplanarPointsUnderTwoMaps) {
   EXPECT_GT(roundedWrongly, 250) << "the cases must be hard";
 }
 
-/// A point that is off the plane by the least positive double must not count as a point in the
+/// A point that is off a plane by the least positive double must not be treated as a point in this
 /// plane.
 TEST(OrientationSign, OneSubnormalOffThePlane) {
   const Transform X;

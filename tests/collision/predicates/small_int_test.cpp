@@ -13,7 +13,7 @@ namespace {
 
 using Reference = boost::multiprecision::cpp_int;
 
-/// Returns a random integer of at most `most` bits; all lengths are equally likely.
+/// Returns a random integer of at most `most` bits. All numbers of bits are equally likely.
 std::int64_t any(std::mt19937_64& random, unsigned most) {
   const auto length = static_cast<unsigned>(random() % (most + 1));
   const auto value = static_cast<std::int64_t>(random() & ((1ULL << length) - 1));
@@ -29,7 +29,7 @@ TEST(SmallInt, OrientationsAgreeWithBoost) {
     std::int64_t x[3][3];
     for (auto& row : x)
       for (auto& value : row) value = any(random, 62);
-    if (n % 2)  // nearly or exactly dependent
+    if (n % 2)  // nearly or exactly linearly dependent vectors
       for (int k = 0; k < 3; ++k) {
         for (auto& row : x) row[k] >>= 1;
         x[2][k] = x[0][k] + x[1][k];

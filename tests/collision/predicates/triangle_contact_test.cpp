@@ -131,7 +131,8 @@ TEST(TriangleContact, DegenerateTrianglesAreTheirPointSets) {
   EXPECT_FALSE(touch(segment, point(1, 1, 1.5)));
   const Triangle collinear = {Vec3(1, 1, 1), Vec3(1, 1, 3), Vec3(1, 1, 2)};
   EXPECT_TRUE(touch(segment, collinear));
-  // Triangles that are segments and share only an end. No edge is a single point.
+  // Triangles that are segments, and share only one end. No edge of these triangles is a single
+  // point.
   const Triangle first = {Vec3(0, 0, 0), Vec3(1, 1, 0), Vec3(2, 2, 0)};
   for (const Vec3& d : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(1, 3, 2), Vec3(0, 0, 1)}) {
     const Triangle second = {Vec3(2, 2, 0), Vec3(Vec3(2, 2, 0) + d), Vec3(Vec3(2, 2, 0) + 2 * d)};
@@ -145,8 +146,8 @@ TEST(TriangleContact, DegenerateTrianglesAreTheirPointSets) {
 
 #ifdef __SSE2__
 /// A corner touches a face, or is off the face by a subnormal number. This number is a coordinate
-/// of the corner, an entry of the map's matrix, or an entry of its translation. The verdict must be
-/// right although the processor reads subnormals as zero: a linked library may have set this mode.
+/// of the corner, or an entry of the matrix or of the translation of the map. The verdict must be
+/// right even if the processor reads subnormals as zero: a linked library may have set this mode.
 TEST(TriangleContact, SubnormalsThatAreReadAsZero) {
   const Triangle face = {Vec3(-8, -8, 0), Vec3(8, -8, 0), Vec3(0, 8, 0)};
   const Triangle tip = {Vec3(1, 2, 0), Vec3(1, 2, 4), Vec3(2, 2, 4)};
@@ -201,7 +202,8 @@ TEST(TriangleContact, GridsOfAnyNumberOfBits) {
   EXPECT_LT(touching, cases - cases / 8);
 }
 
-/// The exact maps decide contact; rounded corners would give the opposite answer.
+/// Contact is defined by the exact images of the corners. Rounded images would give the opposite
+/// answer.
 TEST(TriangleContact, TheMapsAreExactNotTheirRoundedImages) {
   const Triangle floor = {Vec3(-8, -8, 0), Vec3(8, -8, 0), Vec3(0, 8, 0)};
   const Triangle tip = {Vec3(0, 0, 1), Vec3(1, 0, 2), Vec3(-1, 0, 2)};

@@ -51,13 +51,14 @@ long double distanceToTriangle(const Vec3& point, const Triangle& triangle, cons
   return std::min(best, std::max(0.0L, std::abs(n.dot(x - t[0])) / n.norm() - rounding));
 }
 
-/// Expects that both ends are on both triangles, and that the fast path differs from the exact one
-/// by no more than triangle_intersection.h guarantees.
+/// Expects that both ends of the segment are on both triangles, and that the fast path and the
+/// exact path differ by no more than triangle_intersection.h guarantees.
 void expectSound(const Segment& s, const Triangle& a, const Transform& X_WA, const Triangle& b,
                  const Transform& X_WB) {
   const double scale = errorScale(a, X_WA, b, X_WB);
   for (const Vec3& end : {s.p, s.q}) {
-    // The guaranteed √3·2^-50, doubled for the rounding of long double on badly shaped triangles.
+    // The guaranteed bound is √3·2^-50. It is more than doubled here, for the rounding of long
+    // double on badly shaped triangles.
     EXPECT_LE(distanceToTriangle(end, a, X_WA), 4 * 0x1p-50 * scale);
     EXPECT_LE(distanceToTriangle(end, b, X_WB), 4 * 0x1p-50 * scale);
   }
@@ -103,7 +104,8 @@ TEST(Contacts, SharedWorkloadsAgainstBruteForce) {
   EXPECT_GT(found, 3'000u / test::kSlowdown);
 }
 
-/// Expects the ends p and q, in any order, also if the triangles are swapped.
+/// Expects that the triangles share the segment with the ends p and q (in any order), also if the
+/// triangles are swapped.
 void expectEnds(const Triangle& a, const Triangle& b, const Vec3& p, const Vec3& q) {
   for (const bool swapped : {false, true}) {
     const Segment s =
@@ -115,8 +117,8 @@ void expectEnds(const Triangle& a, const Triangle& b, const Vec3& p, const Vec3&
 
 TEST(TriangleIntersection, ClosedForms) {
   const Triangle flat{Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0)};
-  // Triangles that cross. The shared segment is the whole cut through one triangle, or a piece of
-  // both cuts, or a segment that ends at a corner inside the other triangle.
+  // Triangles that cross. Each triangle cuts the plane of the other in a segment. The shared
+  // segment is one of these two segments, or a piece of both, or only a point.
   expectEnds(flat, {Vec3(1, 1, -1), Vec3(1, 1, 1), Vec3(3, 1, 1)}, {1, 1, 0}, {2, 1, 0});
   expectEnds(flat, {Vec3(1, 1, -1), Vec3(1, 1, 1), Vec3(9, 1, 1)}, {1, 1, 0}, {3, 1, 0});
   expectEnds(flat, {Vec3(1, 1, 0), Vec3(1, 1, 1), Vec3(2, 1, 1)}, {1, 1, 0}, {1, 1, 0});

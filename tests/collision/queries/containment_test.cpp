@@ -48,7 +48,8 @@ TEST(Containment, PointsOfAGridInTwoOverlappingShells) {
   test::addBox(mesh, Vec3(0, -0.5, -0.5), Vec3(2, 0.5, 0.5));
   const Solid solid(mesh);
   int inside = 0;
-  // The points are 1/8 off the faces, and the grid has the same symmetries as the mesh.
+  // The points of the grid are at least 1/8 away from all faces, and the grid has the same
+  // symmetries as the mesh.
   for (double x = -1.875; x < 3; x += 0.25)
     for (double y = -1.875; y < 2; y += 0.25)
       for (double z = -1.875; z < 2; z += 0.25) {
@@ -112,20 +113,22 @@ TEST(Containment, PrimitivesInSolidMeshes) {
   EXPECT_TRUE(findEnclosed(Posed<MeshWithComponents>(solid), Posed(ball), context));
   EXPECT_FALSE(findEnclosed(Posed<MeshWithComponents>(solid),
                             Posed(ball, {Mat3::Identity(), Vec3(3, 0, 0)}), context));
-  // A convex part is always solid: `interference` reports a mesh inside the part.
+  // A convex part is always solid, so `interference` reports a mesh that is inside the part.
   const ObbTree big(ConvexPart{{Vec3(0, 0, 0)}, 5, false});
   EXPECT_TRUE(interference(Posed(big), Posed(solid.tree), context));
   EXPECT_TRUE(interference(Posed(solid.tree), Posed(big), context));
 }
 
-/// Returns whether a comb (see `comb`) fills the unit cell at x along its axis, y and z across it.
+/// Returns whether a comb (see `comb`) fills the unit cell at the position x along the axis of the
+/// comb, and at y and z across this axis.
 bool inComb(int plates, int width, int x, int y, int z) {
   const bool within = x >= 0 && x < 2 * plates - 1 && y >= 0 && y < width && z >= 0 && z < width;
   return within && (x % 2 == 0 || y == 0);
 }
 
-/// Returns the surface of a comb: plates of thickness 1 along `axis`, 1 apart, which a spine joins.
-/// The surface is the boundary of unit cells, with a vertex at every corner of a cell.
+/// Returns the surface of a comb: a row of plates along `axis`, with thickness 1 and gaps of 1, and
+/// a spine that joins the plates. The surface is the boundary of unit cells, with a vertex at every
+/// corner of a cell.
 TriangleMesh comb(int axis, int plates, int width) {
   const int length = 2 * plates - 1;
   const auto filled = [&](const Eigen::Vector3i& cell) {
@@ -158,7 +161,7 @@ TriangleMesh comb(int axis, int plates, int width) {
   return mesh;
 }
 
-/// A ray from a plate crosses other plates: the number of crossings is odd, but not 1.
+/// A ray from inside a plate crosses other plates, so the number of crossings is odd, but not 1.
 TEST(Containment, RaysLeaveAndEnterAgain) {
   for (int axis = 0; axis < 3; ++axis) {
     const Solid solid(comb(axis, 4, 5));
@@ -173,9 +176,9 @@ TEST(Containment, RaysLeaveAndEnterAgain) {
   }
 }
 
-/// At coordinates of 2^51 all doubles are multiples of ½, and so are the coordinates of the ends of
-/// rays. Therefore many rays meet an edge or a vertex of the mesh, or lie in the plane of a
-/// triangle.
+/// At coordinates of 2^51 all doubles are multiples of ½, and so are the coordinates of the end
+/// points of rays. Therefore many rays meet an edge or a vertex of the mesh, or lie in the plane of
+/// a triangle.
 TEST(Containment, RaysThroughEdgesAndVertices) {
   for (int axis = 0; axis < 3; ++axis) {
     TriangleMesh mesh = comb(axis, 2, 4);

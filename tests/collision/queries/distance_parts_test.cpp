@@ -21,7 +21,8 @@ namespace {
 using test::anyPose;
 using test::kParams;
 
-/// The leaf primitives of a tree as convex sets, by their numbers in the mesh or the list.
+/// The leaf primitives of a tree as convex sets, in the order of the mesh's triangles or of the
+/// list of parts.
 struct Items {
   std::vector<Triangle> triangles;
   std::vector<ConvexPart> parts;
@@ -144,8 +145,8 @@ TEST_P(Obb4PartsDistance, AgreesWithBruteForceAndIsSymmetric) {
   });
 }
 
-/// 4-wide trees find the distances of binary trees for bodies of many parts and triangles, and test
-/// few of them.
+/// For bodies of many parts and triangles, 4-wide trees must find the same distances as binary
+/// trees, and must test few pairs of parts and triangles.
 TEST_P(Obb4PartsDistance, EqualsThatOfBinaryTrees) {
   std::mt19937_64 random(test::testSeed(2502));
   const TriangleMesh mesh = test::soup(random, 3000, 0.02);

@@ -62,7 +62,7 @@ TEST(ClosestPoints, WithinTheirErrorOfTheExactDistance) {
     const DistanceRange range = TriangleDistances(X_WA, reachA, X_WB, reachB)(a, b);
     EXPECT_LE(range.lower, truth) << n;
     EXPECT_GE(range.upper, truth) << n;
-    // The tolerance query is true for the next double above the true distance.
+    // The tolerance query must be true for the next double above the true distance.
     EXPECT_TRUE(CloserTriangles(X_WA, reachA, X_WB, reachB, std::nextafter(truth, HUGE_VAL))(
         a, b, counters))
         << n;
@@ -73,9 +73,9 @@ TEST(ClosestPoints, WithinTheirErrorOfTheExactDistance) {
   std::cout << "worst error, as a share of the allowed error: " << worst << "\n";
 }
 
-/// Two triangles in one plane. One triangle is a segment, except for a corner that is 2^-1074 off
-/// it. A hundred digits cannot distinguish this triangle's two long sides: an oracle with a hundred
-/// digits returned a distance of 0.
+/// Two triangles in one plane. One of them is nearly a segment: one corner is only 2^-1074 off the
+/// line through the others. With a hundred digits, the two long sides of this triangle cannot be
+/// distinguished: an oracle with a hundred digits returned a distance of 0.
 TEST(ClosestPoints, TriangleOneSubnormalWide) {
   const Triangle a = {Vec3(-6, -5, 14), Vec3(-4, -4, std::nextafter(13.0, 0.0)),
                       Vec3(std::nextafter(2.0, 0.0), 2, 1)},

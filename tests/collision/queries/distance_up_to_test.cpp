@@ -16,7 +16,7 @@ namespace {
 
 using test::anyPose;
 
-/// Compares queries with limits below and above the distance with the query without a limit.
+/// Compares queries whose limit is below or above the distance with the query without a limit.
 template <class Tree>
 void compare(const Tree& a, const Tree& b, std::mt19937_64& random, int& below, int& above) {
   std::uint64_t wholeWork = 0, briefWork = 0;

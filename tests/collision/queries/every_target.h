@@ -9,7 +9,7 @@
 
 namespace corridor::test {
 
-/// Returns the SIMD targets that this build contains and this machine runs.
+/// Returns the SIMD targets (instruction sets) that this build contains and this machine supports.
 inline std::vector<std::int64_t> simdTargets() {
   std::vector<std::int64_t> all;
   for (std::int64_t rest = hwy::SupportedTargets() & HWY_TARGETS & ~(HWY_SCALAR | HWY_EMU128); rest;
@@ -18,7 +18,7 @@ inline std::vector<std::int64_t> simdTargets() {
   return all;
 }
 
-/// Runs each test on one target; restores the best target afterwards.
+/// Runs each test once per SIMD target, and restores the best target afterwards.
 class EveryTarget : public testing::TestWithParam<std::int64_t> {
  protected:
   void SetUp() override { hwy::SetSupportedTargetsForTest(GetParam()); }

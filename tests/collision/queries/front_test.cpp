@@ -1,5 +1,5 @@
-// Tests of fronts: along motions with steps of any length, verdicts are those of queries without a
-// front.
+// Tests of fronts: along motions with steps of any length, verdicts must be those of queries
+// without a front.
 #include "collision/queries/front.h"
 
 #include <cmath>
@@ -37,7 +37,7 @@ TriangleMesh bumpy(std::uint32_t rows, double bump) {
 
 struct Work {
   int contacts = 0, queries = 0;
-  std::uint64_t warm = 0, cold = 0;  ///< box tests
+  std::uint64_t warm = 0, cold = 0;  ///< box tests with a front and without a front
 };
 
 /// Moves b by random steps of the given size about a place where the surfaces nearly touch.
@@ -89,7 +89,7 @@ TYPED_TEST(Fronts, VerdictsAreThoseOfQueriesWithoutAFront) {
   EXPECT_LT(all.contacts, all.queries * 9 / 10);
 }
 
-/// Without contacts, small steps cost nearly no tests.
+/// If nothing touches, small steps must cost nearly no tests.
 TYPED_TEST(Fronts, SmallStepsCostFewTests) {
   const VolumeTree<TypeParam> a(bumpy(16, 0.1)), b(bumpy(16, 0.1));
   QueryContext warm, cold;
@@ -114,7 +114,8 @@ TYPED_TEST(Fronts, TinyAndHugeBodies) {
 TYPED_TEST(Fronts, MapsThatScaleAndJump) {
   std::mt19937_64 random(test::testSeed(33));
   std::uniform_real_distribution<double> real(-1, 1);
-  // Under maps that are not rigid, boxes separate nothing, so the meshes are small.
+  // The meshes are small because, under maps that are not rigid, no pair of boxes is reported as
+  // separated.
   const VolumeTree<TypeParam> a(bumpy(4, 0.1)), b(bumpy(3, 0.2));
   QueryContext context;
   Front front;

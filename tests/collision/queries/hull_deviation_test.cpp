@@ -71,7 +71,8 @@ TEST(HullDeviation, OfAHollowIsKnown) {
     }
 }
 
-/// The hull is the mesh itself, even if the triangles of the mesh divide the faces in another way.
+/// The hull of a convex mesh has the same surface as the mesh, even if the triangles of the mesh
+/// divide the faces in another way. So the deviation must be no more than rounding.
 TEST(HullDeviation, OfConvexMeshesIsRounding) {
   std::mt19937_64 random(test::testSeed(72));
   TriangleMesh ball;
@@ -121,7 +122,7 @@ TEST(HullDeviation, OfFinelyTessellatedConvexMeshesIsWithin) {
   EXPECT_LE(d.upper, 1e-4);
 }
 
-/// A tetrahedron with one face pushed in, so small that squares of lengths vanish.
+/// A tetrahedron with one face pushed in. It is so small that squares of lengths underflow to 0.
 TEST(HullDeviation, IsNotLostAtTinyScale) {
   for (const double s : {0x1p-500, 0x1p-530, 0x1p-540, 0x1p-700, 0x1p-1000}) {
     const Vec3 o = Vec3::Zero(), x(4 * s, 0, 0), y(0, 4 * s, 0), z(0, 0, 4 * s), in(s, s, s);
@@ -136,8 +137,8 @@ TEST(HullDeviation, IsNotLostAtTinyScale) {
   }
 }
 
-/// Components that are apart: the hull bridges the gap between two cubes. The distance of the point
-/// in the middle from both cubes is half the gap.
+/// The hull of two cubes that are apart bridges the gap between them. The distance of the point in
+/// the middle from both cubes is half the gap.
 TEST(HullDeviation, OfTwoCubesIsHalfTheGap) {
   TriangleMesh mesh = hollowCube(0.3, 0, {});
   Transform right;

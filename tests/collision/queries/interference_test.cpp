@@ -55,7 +55,8 @@ TEST_P(Fits, AgreesWithBruteForceUnderTwoMaps) {
     const TriangleMesh meshA = soup(random, 25, 0.2), meshB = soup(random, 25, 0.2);
     const ObbTree a(meshA, {GetParam()}), b(meshB, {GetParam()});
     const double defect =
-        n % 4 == 0 ? 0 : std::pow(10.0, -3 * (n % 4));  // defects up to 1e-3: clearly not rigid
+        // The maps differ from rotations by up to 1e-3.
+        n % 4 == 0 ? 0 : std::pow(10.0, -3 * (n % 4));
     const double offset = n % 3 == 0 ? 1e6 : 1;
     Transform X_WA, X_WB;
     const Vec3 common = offset * Vec3(real(), real(), real());
@@ -79,8 +80,8 @@ TEST_P(Fits, AgreesWithBruteForceUnderTwoMaps) {
   EXPECT_LT(touching, cases - 10);
 }
 
-/// Both bodies share a corner exactly, under equal maps that are only nearly rigid. A tree that
-/// pruned by the rounded relative pose without a margin would lose this contact.
+/// Both bodies have one corner exactly in common, under equal maps that are only nearly rigid. A
+/// tree that pruned by the rounded relative pose without a margin would lose this contact.
 TEST_P(Fits, ExactMapDecidesDeepInATree) {
   std::mt19937_64 random(test::testSeed(11));
   const auto real = [&] { return std::uniform_real_distribution(-1.0, 1.0)(random); };

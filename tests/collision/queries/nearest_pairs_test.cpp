@@ -1,5 +1,6 @@
-// Tests how a distance query chooses among its last pairs. The test makes up ranges and measured
-// distances. The errors of both are as large as the errors for triangles and convex parts can be.
+// Tests how a distance query chooses among the pairs of leaves that remain at its end. The test
+// makes up ranges and measured distances of pairs. The errors of both are as large as they can be
+// for triangles and convex parts.
 #include "collision/queries/nearest_pairs.h"
 
 #include <random>
@@ -19,7 +20,7 @@ struct Measured {
   Vec3 p_WA = Vec3::Zero(), p_WB = Vec3::Zero();
 };
 
-/// Pairs of numbers (i, i), whose distances are known.
+/// Pairs of items with equal indices (i, i), whose distances are known.
 class MadeUp : public NearestPairs {
  public:
   using NearestPairs::NearestPairs;
@@ -30,8 +31,9 @@ class MadeUp : public NearestPairs {
   }
 };
 
-/// Distances are nearly equal, or exceed the least one by as much as the options allow, and come in
-/// any order. The result must exceed the least distance by no more than distance.h allows.
+/// The distances are nearly equal, or exceed the least distance by as much as the options allow.
+/// Their order is random. The result must exceed the least distance by no more than distance.h
+/// allows.
 TEST(NearestPairs, TiesStayWithinTheAllowedError) {
   std::mt19937_64 random(test::testSeed(53));
   const auto real = [&](double low, double high) {
@@ -52,7 +54,7 @@ TEST(NearestPairs, TiesStayWithinTheAllowedError) {
       const double base = i == 0 ? least : n % 2 && i == 1 ? least : allowed;
       const double d = i == 0 ? least : base * (1 + real(0, 1.3e-12));
       // A measured distance is too large by at most a factor of 1 + 2^-41. A range is as wide as
-      // rounding makes it for bodies far away.
+      // rounding makes it for bodies far from the origin.
       measures.push_back(d * (1 + real(0, 0x1p-41)));
       const double loose = i % 2 ? 0 : real(0, 2e-12);
       if (i == 0) continue;

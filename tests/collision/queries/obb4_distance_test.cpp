@@ -115,8 +115,8 @@ Mat3 turned(int n) {
   return Eigen::AngleAxisd(n, Vec3(1, 2, 3).normalized()).toRotationMatrix();
 }
 
-/// A triangle lies over its copy, so the feet of its corners are on edges. In doubles the feet seem
-/// to be inside the face, in more precise numbers outside.
+/// A triangle lies above its copy, so its corners project to the copy's boundary. In doubles the
+/// projected points seem to be inside the copy; in more precise numbers they are outside.
 TEST(Obb4Distance, FeetOnEdges) {
   TriangleMesh low, high;
   const Vec3 up(0, 0, 0.1);
@@ -131,8 +131,8 @@ TEST(Obb4Distance, FeetOnEdges) {
   }
 }
 
-/// Tips over tips at nearly equal distances. Floats cannot decide which tips are closest, and the
-/// margins must not exclude the closest pair.
+/// Two bodies with many tips, whose opposite tips have nearly equal distances. Floats cannot decide
+/// which tips are closest, and the margins must not exclude the closest pair.
 TEST(Obb4Distance, NearTies) {
   for (int n = 0; n < 20; ++n) {
     TriangleMesh low, high;
@@ -148,12 +148,13 @@ TEST(Obb4Distance, NearTies) {
     const Distance d = distance(Posed(a), Posed(b), {}, context);
     EXPECT_EQ(d.a, 0U) << n;
     EXPECT_EQ(d.b, 0U) << n;
-    EXPECT_NEAR(d.distance, 0.001, 8 * kUnit) << n;  // 2 of the 8: rounding of the corners
+    EXPECT_NEAR(d.distance, 0.001, 8 * kUnit) << n;  // 2 of the 8 kUnit are for the rounding of the
+                                                     // corners
   }
 }
 
-/// Gaps of a few roundings, and tolerance queries just below them: bounds in double alone cannot
-/// decide these queries.
+/// Gaps of a few rounding errors, and tolerance queries with limits just below the gap: bounds in
+/// double alone cannot decide these queries.
 TEST(Obb4Distance, CloserThanIsRightUpToFourRoundings) {
   QueryContext context;
   int queries = 0;
@@ -177,7 +178,7 @@ TEST(Obb4Distance, CloserThanIsRightUpToFourRoundings) {
     EXPECT_TRUE(closerThan(Posed(a), Posed(b), gap, context)) << n;
   }
   EXPECT_GT(queries, 80);
-  // Under rotations the true distance is known up to the error of `distance`, 4u·S.
+  // Under rotations the true distance is known up to 4u·S, the error of `distance`.
   TriangleMesh low, high;
   test::add(low, Vec3(-1, -1, 1), Vec3(1, -1, 1), Vec3(0, 1, 1));
   test::add(high, Vec3(-1, 1, 1 + 0x1p-40), Vec3(1, 1, 1 + 0x1p-40), Vec3(0, -1, 1 + 0x1p-40));

@@ -1,7 +1,6 @@
-// Bodies that just meet, or are a known distance apart. They are boxes made of triangles, which
-// equal their oriented bounding boxes: no bounding box has room to spare. Therefore, if any term
-// were missing in the trees' margins, some proof of separation would be wrong, also for maps far
-// from rigid.
+// Bodies that just meet, or are a known distance apart. The bodies are boxes made of triangles,
+// which fill their oriented bounding boxes completely. Therefore, if any term were missing in the
+// trees' margins, some proof of separation would be wrong, also for maps far from rigid.
 #include <cmath>
 #include <random>
 
@@ -31,11 +30,13 @@ Vec3 anyVector(Random& random, double size) {
   return size * Vec3(x, y, z);
 }
 
-/// Returns a mesh of a few boxes. `apartBy` places the first box (12 triangles, 8 vertices).
+/// Returns a mesh of a few boxes. `apartBy` uses the first box, which has the first 12 triangles
+/// and 8 vertices.
 TriangleMesh boxes(Random& random, double size, const Vec3& place) {
   TriangleMesh mesh;
   for (auto more = random() % 3; mesh.triangles.empty() || more-- > 0;) {
-    // Boxes are small only near the origin, because rounding would change their shape elsewhere.
+    // Very small boxes are made only near the origin, because elsewhere rounding would change their
+    // shape.
     const double s = std::pow(10.0, real(random, random() % 2 || !place.isZero() ? -3 : -10, 0));
     const Vec3 half = s * (Vec3::Constant(0.55) + anyVector(random, 0.45));
     const Mat3 turn = random() % 4 ? anyPose(random, 0).m : Mat3::Identity();
@@ -48,7 +49,7 @@ TriangleMesh boxes(Random& random, double size, const Vec3& place) {
   return mesh;
 }
 
-/// Returns a map that is off a rotation by up to `defect`.
+/// Returns a matrix that differs from a rotation by up to `defect`.
 Mat3 nearRotation(Random& random, double defect) {
   Mat3 strain;
   for (int i = 0; i < 3; ++i)

@@ -84,8 +84,8 @@ TEST_P(Obb4Interference, AgreesWithBruteForceUnderTwoMaps) {
   EXPECT_LT(touching, cases - 50);
 }
 
-/// Two meshes of sizes 2^i and 2^k. Once both are around one point; once a vertex of each mesh is
-/// at the same point, up to rounding.
+/// Two meshes of sizes 2^i and 2^k. First both are around one point; then a vertex of one mesh and
+/// a vertex of the other are at the same point, up to rounding.
 TEST_P(Obb4Interference, ExtremeSizesAndRatios) {
   std::mt19937_64 random(test::testSeed(3));
   for (const int i : {-1020, -500, -100, -30, 0, 30, 100, 500, 950})
@@ -107,7 +107,8 @@ TEST_P(Obb4Interference, ExtremeSizesAndRatios) {
     }
 }
 
-/// Boxes on a grid, one rotated by a permutation of the axes, that touch exactly or miss by 2^-40.
+/// Boxes on a grid, which touch exactly or miss each other by 2^-40. One box is rotated by a
+/// permutation of the axes.
 TEST_P(Obb4Interference, ExactTouch) {
   const Obb4Tree a(test::box(Vec3(0, 0, 0), Vec3(1, 2, 3))),
       b(test::box(Vec3(-1, -1, -1), Vec3(0, 1, 2)));

@@ -32,8 +32,8 @@ struct MeshAndTree {
   Obb4Tree tree;
 };
 
-/// Runs every query on two bodies, once starting from `last` and once from no pair, and compares
-/// the answers. Returns whether the bodies touch.
+/// Runs every query on two bodies twice, starting from the pair `last` and starting from no pair,
+/// and expects equal answers. Returns whether the bodies touch.
 bool expectSame(const MeshAndTree& a, const Transform& X_WA, const MeshAndTree& b,
                 const Transform& X_WB, QueryContext& context, LastPair& last,
                 const std::string& where) {
@@ -51,7 +51,7 @@ bool expectSame(const MeshAndTree& a, const Transform& X_WA, const MeshAndTree& 
   const double size = std::max(errorScale(a.mesh, X_WA), errorScale(b.mesh, X_WB)),
                allowed = 2e-12 * d.distance + 8 * kUnit * size;
   EXPECT_NEAR(e.distance, d.distance, allowed);
-  // The witness points are on the triangles reported.
+  // The witness points must be on the reported triangles.
   EXPECT_LE(test::referenceDistance(e.p_WA, corners(a.mesh, e.a), X_WA), 4 * kUnit * size);
   EXPECT_LE(test::referenceDistance(e.p_WB, corners(b.mesh, e.b), X_WB), 4 * kUnit * size);
   const Distance loose =
@@ -103,7 +103,7 @@ TEST(Obb4LastPair, MotionsOfManyBodies) {
   EXPECT_LT(touching, cases - cases / 10);
 }
 
-/// Returns a stack of slats, 0.1 apart, with their triangles in order.
+/// Returns a stack of slats, 0.1 apart. The triangles are in the order of the slats.
 TriangleMesh slats(int count) {
   TriangleMesh mesh;
   for (int i = 0; i < count; ++i)
@@ -111,8 +111,8 @@ TriangleMesh slats(int count) {
   return mesh;
 }
 
-/// The pair that decided the last query is tested first. So the next query tests no box, or far
-/// fewer boxes.
+/// A query first tests the pair that decided the previous query. So it tests no box, or far fewer
+/// boxes.
 TEST(Obb4LastPair, DecidesTheNextQuery) {
   std::mt19937_64 random(test::testSeed(42));
   const MeshAndTree a(slats(40)), b(soup(random, 100, 0.1));
@@ -157,15 +157,15 @@ TEST(Obb4LastPair, CostsLittleForUnrelatedQueries) {
     used.counters = fresh.counters = {};
     (void)interference(Posed(a.tree), Posed(b.tree, X), used, &last);
     (void)interference(Posed(a.tree), Posed(b.tree, X), fresh);
-    // A guess that fails costs one more pair of triangles.
+    // A stored pair that does not decide the query costs one additional test of two triangles.
     more += used.counters.triangleTests - fresh.counters.triangleTests;
     all += fresh.counters.triangleTests;
   }
   EXPECT_LE(1000 * more, all);
 }
 
-/// The stored pair may belong to other trees: smaller, elsewhere, touching or not. Then it must
-/// only cost time.
+/// The stored pair may be from a query on other trees, which are smaller or elsewhere, and touch or
+/// don't. The answer must be right nevertheless.
 TEST(Obb4LastPair, OfOtherTrees) {
   std::mt19937_64 random(test::testSeed(44));
   TriangleMesh far = slats(1);

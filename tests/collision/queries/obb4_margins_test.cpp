@@ -27,11 +27,11 @@ class Obb4Margins : public test::EveryTarget {};
 INSTANTIATE_TEST_SUITE_P(Simd, Obb4Margins, testing::ValuesIn(test::simdTargets()),
                          &test::targetName);
 
-/// A leaf has small triangles in a long flat row. The floats of the leaf are off by 2^-24 of the
-/// length of the row, and not of the size of a triangle. Each triangle of the row in turn is
-/// touched in one corner by a triangle in the plane x + z = const, whose other points are farther
-/// out. The floats of the other triangle are relative to a corner that does not touch: relative to
-/// the touching corner, both triangles would round alike.
+/// A leaf has small triangles in a long flat row. The floats of the leaf are off by 2^-24 times the
+/// length of the row, not times the size of a triangle. Each triangle of the row in turn is touched
+/// in one corner by a triangle in the plane x + z = const, whose other points are farther out. The
+/// floats of this second triangle are relative to a corner that does not touch, because relative to
+/// the touching corner, both triangles would be rounded alike.
 TEST_P(Obb4Margins, SmallTrianglesInARow) {
   QueryContext context;
   const double s = 1e-4;  // not a multiple of the spacing of floats of the row's length
@@ -93,7 +93,7 @@ struct FarCorner {
   }
 };
 
-/// For meshes of 2^1000 m and more, coordinates in the tree's unit are not below 1.
+/// For meshes of 2^1000 m and more, coordinates in units of the tree are not below 1.
 TEST_P(Obb4Margins, LargestMeshes) {
   std::mt19937_64 random(test::testSeed(61));
   int touching = 0;
@@ -142,13 +142,13 @@ TEST_P(Obb4Margins, RadiusWhoseSquareIsFlushed) {
   EXPECT_TRUE(interference(Posed(b, X), Posed(a), context));
 }
 
-/// Small entries of a rotation are flushed to 0. Their effect is not negligible, because they are
-/// multiplied by the unit of a large mesh.
+/// Small entries of a rotation matrix are flushed to 0. Their effect is not negligible, because
+/// they are multiplied by the unit of length of a large mesh.
 TEST_P(Obb4Margins, EntriesThatAreFlushed) {
   std::mt19937_64 random(test::testSeed(62));
   int touching = 0;
   for (const int exponent : {960, 985, 995, 999, 1022})
-    for (int n = 3; n < 600; n += 12) {  // small rotations, and two large meshes
+    for (int n = 3; n < 600; n += 12) {  // the cases with small rotations of two large meshes
       const FarCorner c(random, exponent, n);
       if (!c.touch) continue;
       ++touching;
@@ -198,9 +198,9 @@ TEST_P(Obb4Margins, DifferencesThatAreFlushed) {
   EXPECT_GT(touching, 5'000 / test::kSlowdown);
 }
 
-/// Edges of 2^-124 of the mesh against edges of 2^14. Some products of floats underflow and are
-/// flushed; other products are not flushed. The sum of the products that are not flushed is
-/// multiplied by the large edge.
+/// Edges of 2^-124 of the size of the mesh against edges of 2^14 of this size. Some products of
+/// floats underflow and are flushed, others are not. The sum of the others is multiplied by the
+/// large edge.
 TEST_P(Obb4Margins, ProductsThatAreFlushed) {
   std::mt19937_64 random(test::testSeed(19));
   const auto sparse = [&](int exponent) {  // floats of very different sizes
@@ -236,8 +236,8 @@ TEST_P(Obb4Margins, ProductsThatAreFlushed) {
 
 /// Edges that are parallel up to the last bits. Their closest points were once computed from a
 /// difference that consisted only of rounding errors: distances were off by 2.5 to 4.9 u·S, and
-/// `closerThan` was wrong. Two edges cross far from their ends, with the triangles on either side.
-/// The true distances are computed in quadruple precision.
+/// `closerThan` was wrong. Two edges cross far from their ends; the triangles are on opposite sides
+/// of the crossing. The true distances are computed in quadruple precision.
 TEST_P(Obb4Margins, NearlyParallelEdges) {
   struct Case {
     Triangle a, b;

@@ -1,5 +1,5 @@
-// Trees of OBBs with every overlap test. The leaves decide each verdict exactly, so all overlap
-// tests must give the same verdicts.
+// Tests queries on trees of OBBs with every overlap test. Verdicts are decided exactly, by
+// triangles, so all overlap tests must give the same verdicts.
 #include <gtest/gtest.h>
 
 #include "collision/queries/contacts.h"

@@ -29,7 +29,7 @@ TEST(SelfIntersections, NoneOfSoundMeshes) {
   EXPECT_EQ(found(box(Vec3(0, 0, 0), Vec3(1, 2, 3))), OwnPairs())
       << "no triangle is reported with itself";
   std::mt19937_64 random(test::testSeed(63));
-  TriangleMesh hills;  // one height per place: it cannot intersect itself
+  TriangleMesh hills;  // a surface with one height at each (x, y): it cannot intersect itself
   for (int x = 0; x < 20; ++x)
     for (int y = 0; y < 20; ++y)
       hills.vertices.emplace_back(0.1 * x, 0.1 * y, std::uniform_real_distribution()(random));
@@ -105,9 +105,9 @@ TEST(SelfIntersections, CollinearTrianglesAreIgnored) {
   EXPECT_EQ(found(mesh), OwnPairs());
 }
 
-/// Returns a triangle without the part near its shared corner or edge, which is cut off at 2^-12 of
-/// the way to the other corners. What remains is two triangles if a corner is shared, and one
-/// triangle if an edge is shared.
+/// Returns a triangle without the part near its shared corner or edge: this part is cut off at
+/// 2^-12 of the way to the other corners. The remaining part consists of two triangles if a corner
+/// is shared, and is one triangle if an edge is shared.
 std::vector<Triangle> without(const Triangle& t, const std::vector<int>& shared) {
   const auto toward = [](const Vec3& from, const Vec3& to) {
     return Vec3(from + 0x1p-12 * (to - from));

@@ -41,7 +41,7 @@ struct CurvedShell {
       const Vec3 out = any().normalized(), side = out.unitOrthogonal(), other = out.cross(side);
       TriangleMesh one;
       const double size = 0.05;
-      if (n % 2)  // its box is as near as the triangle
+      if (n % 2)  // a thin one: its box is as near as the triangle itself
         test::add(one, out + size * side, out - size * side, out + size * other);
       else
         test::add(one, out + size * any(), out + size * any(), out + size * any());

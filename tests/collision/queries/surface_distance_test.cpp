@@ -10,8 +10,8 @@
 namespace corridor {
 namespace {
 
-/// The search may stop at a distance above the true distance, if the options allow an error. The
-/// proved lower bound must not be above the true distance.
+/// If the options allow an error, the search may stop at a distance above the true distance. But
+/// the lower bound that it reports as proved must not be above the true distance.
 TEST(SurfaceDistance, WhatIsProvedIsNotAboveTheTrueDistance) {
   std::mt19937_64 random(test::testSeed(27));
   for (const TreeKind trees : {TreeKind::obb4, TreeKind::obbBinary, TreeKind::sphere}) {

@@ -14,9 +14,9 @@
 
 namespace corridor::test {
 
-/// Tests distances, witness points and tolerance queries on trees of a workload's meshes against
-/// its true distances.
-/// @returns how many of the poses have a true distance.
+/// Tests distances, witness points and tolerance queries, on trees of the meshes of a workload,
+/// against the true distances that the workload contains.
+/// @returns the number of tested poses with a known true distance.
 template <class Tree>
 int expectTrueDistances(const Workload& w, const Tree& a, const Tree& b,
                         const std::vector<std::size_t>& poses, const std::string& built,
@@ -34,7 +34,7 @@ int expectTrueDistances(const Workload& w, const Tree& a, const Tree& b,
         std::max({errorScale(corners(w.a, d.a), {}), errorScale(corners(w.b, d.b), X), a.reach()});
     const double allowed = 1e-12 * truth + 4 * kUnit * size;
     EXPECT_NEAR(d.distance, truth, allowed);
-    // The witness points are on their triangles, and as far apart as reported.
+    // The witness points are on the reported triangles, and their distance is the reported one.
     EXPECT_LE(referenceDistance(d.p_WA, corners(w.a, d.a), {}), 4 * kUnit * size);
     EXPECT_LE(referenceDistance(d.p_WB, corners(w.b, d.b), X), 4 * kUnit * size);
     EXPECT_NEAR((d.p_WA - d.p_WB).norm(), d.distance, allowed + 4 * kUnit * size);

@@ -30,8 +30,8 @@ TYPED_TEST(VolumeInterference, SharedWorkloads) {
   std::size_t turn = 0;
   for (const std::string& name : test::workloadNames(*data / "collision")) {
     const test::Workload w = test::loadWorkload(*data / "collision", name);
-    // On nearly parallel surfaces (workloads whose names begin with a), looser volumes cost
-    // thousands of times more, so fewer poses are tested.
+    // On nearly parallel surfaces (the workloads whose names begin with "a"), looser volumes cost
+    // thousands of times more. So fewer of their poses are tested.
     const std::size_t step = name[0] == 'a' ? 10 : 5;
     ++turn;
     for (std::size_t v = 0; v < std::size(kParams); ++v) {
@@ -117,7 +117,7 @@ TYPED_TEST(VolumeInterference, ManyConvexParts) {
     const auto found = interference(Posed(a, X_WA), Posed(b, X_WB), context);
     EXPECT_EQ(found.has_value(), parts) << n;
     EXPECT_EQ(interference(Posed(mesh, X_WB), Posed(a, X_WA), context).has_value(), soupHit) << n;
-    if (found) {  // the reported numbers must be those of the list of parts
+    if (found) {  // the reported indices must be those of the list of parts
       bool same = false;
       for (std::size_t i = 0; i < a.parts().size(); ++i)
         same = same || (a.meshTriangle(static_cast<std::uint32_t>(i)) == found->a &&

@@ -209,7 +209,7 @@ TEST(OverlapHulls, AgreeWithLinearPrograms) {
     const std::vector<Vec3> p = cloud(random, n % kFamilies, 6);
     std::vector<Vec3> q = cloud(random, n / kFamilies % kFamilies, 6);
     const Vec3 by = (n % 2 ? 1 : 0.1) * anyVector(random);
-    // Some pairs share a vertex, or miss a common vertex by little.
+    // Some pairs share a vertex; others would do so if they were moved a little.
     const Vec3 shift = n % 3 ? by : Vec3(p[0] - q[0] + std::pow(10.0, -n % 17) * by);
     for (Vec3& v : q) v += shift;
     const Hull a = fitted<Hull>(trianglesOf(p)), b = fitted<Hull>(trianglesOf(q));
@@ -223,7 +223,8 @@ TEST(OverlapHulls, AgreeWithLinearPrograms) {
     ASSERT_FALSE(truth && test.distanceBound(a, b) > 0) << n;
     meet += truth;
     separated += answer;
-    // Gaps of the order of rounding may be missed. A gap may be far smaller than the shift.
+    // Gaps as small as rounding errors may be missed. Such pairs are not counted; others may be
+    // missed, too, if their gap is far smaller than the shift.
     missed += !truth && !answer && (n % 3 || n % 17 < 13);
   }
   EXPECT_GT(meet, 500);
@@ -238,8 +239,8 @@ Ellipsoid anyEllipsoid(Random& random, int n) {
   return e;
 }
 
-/// Two ellipsoids on both sides of a plane. They touch in one point, overlap by `-gap`, or are
-/// `gap` apart.
+/// Two ellipsoids are on opposite sides of a plane. They touch in one point, overlap by −`gap`, or
+/// are `gap` apart.
 TEST(OverlapEllipsoids, TouchingByConstruction) {
   Random random(test::testSeed(86));
   int proved = 0, close = 0, possible = 0;
@@ -262,12 +263,13 @@ TEST(OverlapEllipsoids, TouchingByConstruction) {
     b.core.center = extreme(a, normal) - extreme(b, -normal) + gap * normal;
     for (Ellipsoid* e : {&a, &b}) e->core.center *= scale, e->core.half *= scale, e->size *= scale;
     const PairTest<Ellipsoid> test(boundsOf(a), boundsOf(b), {}, 0);
-    // The construction is off by some 2^-50. Both points are in both sets, so no bound may be
-    // larger.
+    // The construction is off by some 2^-50. The distance of the two extreme points is known up to
+    // this error, so no bound may be larger than `distance`.
     const double off = 0x1p-50 * scale, distance = std::max(0.0, gap * scale) + off;
     ASSERT_LE(test.distanceBound(a, b), distance) << n;
     ASSERT_FALSE(test.separated(a, b, distance)) << n;
-    // The search approximates ellipsoids that are swept by large spheres by other ellipsoids.
+    // For ellipsoids that are swept by large spheres, the search uses other ellipsoids as
+    // approximations, so small gaps may be missed.
     if (gap < (a.size > 0 ? 1e-4 : 0x1p-30)) continue;
     ++possible;
     proved += test.separated(a, b, 0.5 * gap * scale);
@@ -292,7 +294,8 @@ Vec3 anyPoint(Random& random, const Shell& s) {
          real(random, 0, 1) * s.size * anyDirection(random);
 }
 
-/// The sphere about the middle contains the whole volume, not only its content.
+/// The sphere around a volume contains the whole volume, not only the content to which the volume
+/// is fitted.
 TEST(CurvedVolumeBalls, ContainSampledPoints) {
   Random random(test::testSeed(88));
   int cones = 0;
@@ -319,8 +322,8 @@ TEST(CurvedVolumeBalls, ContainSampledPoints) {
   EXPECT_GT(cones, 100);
 }
 
-/// Bounds of pairs of shells against sampled points, for all relations: cones that face each other,
-/// one shell in the hole of another, and nested caps.
+/// Compares bounds for pairs of shells with the distances of sampled points, for all relations:
+/// cones that face each other, one shell in the hole of the other, and nested caps.
 TEST(OverlapShells, NeverFartherThanSampledPoints) {
   Random random(test::testSeed(87));
   int byHole = 0, positive = 0;

@@ -60,13 +60,13 @@ double sign(double x) {
 enum class By { directions, isotropic };
 
 /// Four pairs of boxes: the i-th box of a with the i-th box of b. At one end of the interval the
-/// gap of each pair, along one of the 15 axes, is `gap` times its sizes. The boxes move towards
-/// each other as far as the contract allows.
+/// gap of each pair, along one of the 15 axes, is `gap` times the sizes of the pair. The boxes move
+/// towards each other as far as the contract of the kernel allows.
 struct Pairs {
   Obb4 a = {}, b = {};
   Obb4Pose pose = {};
   Obb4MotionBound bound = {};
-  bool steady = true;  // true: no cross axis is short
+  bool steady = true;  // whether no cross product of two edges is short
 
   Pairs(Random& random, int n, By by, double gap, bool beyond, double most = 2) {
     const auto f = [](double x) { return static_cast<float>(x); };
@@ -128,8 +128,8 @@ struct Pairs {
         const Vec3 across = normal - angular * (angular.dot(normal) / angular.squaredNorm());
         if (across.norm() > 1e-6) goes -= secondOrderAcross * angular.norm() * across.normalized();
       }
-      // The lowest point of the moved b and the highest point of a. Each is a corner, or any point
-      // of a level edge or face.
+      // The lowest point of the moved b and the highest point of a. Each is a corner, or an
+      // arbitrary point of an edge or face that is parallel to the separating plane.
       const auto corner = [&](const Mat3& axes, const Vec3& towards) {
         Vec3 p = Vec3::Zero();
         for (int j = 0; j < 3; ++j) {
@@ -144,7 +144,7 @@ struct Pairs {
       // Places a's box in the middle, and b's box so that the two points meet.
       const Vec3 c = high - low - goes + gap * sizes * normal;
       const double length = std::max(1.0, c.norm());
-      // Centres must be within 3: shrink the whole pair by a power of two.
+      // Centres must be at most 3 apart, so the pair is shrunk by a power of two.
       const double less = std::ldexp(1.0, -std::ilogb(length) - 1) * std::min(1.0, scale);
       const Vec3 cb = M.transpose() * (less * c) / scale;
       for (int k = 0; k < 3; ++k) {
@@ -177,7 +177,7 @@ TEST_P(MovingBoxesKernel, BoxesThatMeetAreNotSeparated) {
 }
 
 /// Nearly all pairs of boxes that stay apart must be separated. Here the motion bounds have only
-/// first-order terms, or only the isotropic bound. For these the kernel's test is tight up to
+/// first-order terms, or only the isotropic term. For such bounds the kernel's test is tight up to
 /// rounding.
 TEST_P(MovingBoxesKernel, BoxesThatStayApartAreSeparated) {
   Random random(test::testSeed(62));

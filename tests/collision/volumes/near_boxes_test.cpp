@@ -47,8 +47,8 @@ class NearBoxes : public test::EveryTarget {
     return std::uniform_real_distribution(low, high)(random_);
   }
 
-  /// Returns four boxes of very different sizes, about the frame's origin. If `upright`, their axes
-  /// are those of the frame, and their centres are on the z-axis.
+  /// Returns four boxes of very different sizes, around the frame's origin. If `upright`, their
+  /// axes are parallel to those of the frame, and their centres are on the z axis.
   Obb4 boxes(bool upright) {
     Obb4 four = {};
     for (int l = 0; l < 4; ++l) {
@@ -85,10 +85,10 @@ class NearBoxes : public test::EveryTarget {
 INSTANTIATE_TEST_SUITE_P(Targets, NearBoxes, testing::ValuesIn(test::simdTargets()),
                          test::targetName);
 
-/// The bound must never be above the distance d, and no pair within the limit may be separated. The
-/// bound must also not be below the gap along the line between the centres. Take the two extreme
-/// points of the boxes along that line. They differ by this gap along the line, and by at most the
-/// sum r of both radii across the line. So gap² ≥ d² − r².
+/// The bound must never be above the distance d, and no pair within the limit may be reported as
+/// separated. The bound must also not be below the gap along the line between the centres. Consider
+/// the two extreme points of the boxes along that line. They differ by this gap along the line, and
+/// by at most the sum r of both radii across the line. So gap² ≥ d² − r².
 TEST_P(NearBoxes, BoundTheirDistances) {
   QueryContext context;
   int apart = 0, within = 0;
@@ -103,7 +103,7 @@ TEST_P(NearBoxes, BoundTheirDistances) {
     const double unit = n % 3 == 1 && n % 5 == 0 ? 0x1p45 : 1;
     const double scale = unit * std::ldexp(1.0, n % 7 - 3);
     X.t *= unit;
-    if (upright) {  // the first two boxes, a little apart
+    if (upright) {  // the first two boxes are a little apart
       const auto middle = [](const Obb4& four) { return four.vectors[2][Obb4::kCenter][0]; };
       const double gap = std::pow(10.0, real(-8, 1));
       X = {Mat3::Identity(),

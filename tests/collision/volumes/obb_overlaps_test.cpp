@@ -20,8 +20,8 @@ using exact::dot;
 using exact::Rational;
 using exact::Row;
 
-/// The exact answer, in rationals, for two boxes. A box is the parallelepiped that its doubles
-/// define. If two parallelepipeds are apart, a face normal or a common normal of two edges
+/// The exact answer for two boxes, computed in rationals. A box is the parallelepiped that its
+/// doubles define. If two parallelepipeds are apart, a face normal or a common normal of two edges
 /// separates them. A flat box is the limit of thicker boxes with the same axes, so none of the 15
 /// axes may be left out.
 struct Truth {
@@ -64,14 +64,14 @@ struct Truth {
 struct Boxes {
   Obb a, b;
   Transform X_AB;
-  double scale = 1;  ///< metres: the order of sizes and coordinates
+  double scale = 1;  ///< metres: order of magnitude of sizes and coordinates
   /// The distance of the two supporting features, metres; negative if one is inside the other box.
   double step = 0;
 };
 
 /// Makes two boxes whose supporting features meet along one of the 15 axes. Then moves the boxes
-/// apart or together by 10^-2 to 10^-17 of their size. Boxes are parallel, nearly parallel, flat,
-/// very unequal, far away, huge and tiny.
+/// apart or together by 10^-2 to 10^-17 of their size. Some pairs are parallel, nearly parallel,
+/// flat, of very different sizes, far away, huge or tiny.
 Boxes nearTouching(std::mt19937_64& random, int n) {
   const auto uniform = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
@@ -133,7 +133,7 @@ VolumeBounds boundsOfBox(const Obb& box) {
   return {box.axisDefect(), box.centerReach(), roundedUp(box.centerReach() + box.radius())};
 }
 
-/// Returns the smallest gap at which the header promises separation.
+/// Returns the smallest gap at which the headers promise that the boxes are separated.
 double clearGap(const Boxes& x) {
   const VolumeBounds a = boundsOfBox(x.a), b = boundsOfBox(x.b);
   const BoxPairMargins m =
@@ -159,8 +159,8 @@ struct OverlapNames {
 };
 TYPED_TEST_SUITE(ObbOverlaps, Overlaps, OverlapNames);
 
-/// This test uses no rationals, and therefore can test many more pairs. If the separating-axis
-/// theorem separates a pair by several times its rounding margin, every test must separate it.
+/// This test uses no rationals, so it can test many more pairs. If the separating-axis theorem
+/// separates a pair by several times its rounding margin, every test must separate it.
 TYPED_TEST(ObbOverlaps, SeparateBoxesThatAreClearlyApart) {
   std::mt19937_64 random(test::testSeed(64));
   const int rounds = (test::isStressRun() ? 10'000'000 : 100'000) / test::kSlowdown;
@@ -182,7 +182,7 @@ TYPED_TEST(ObbOverlaps, APadIsADistance) {
   for (int n = 1; n < 10'000; n += 2) {
     const Boxes x = nearTouching(random, n);
     const auto test = TestFixture::of(x);
-    // The two features that met are apart by the step, up to rounding.
+    // The distance of the two supporting features is the step, up to rounding.
     const double distance = x.step * (1 + 1e-9) + 1e-13 * x.scale;
     ASSERT_FALSE(test.separated(x.a, x.b, distance)) << n;
     ASSERT_FALSE(TestFixture::of(x, distance).separated(x.a, x.b, 0)) << n;
@@ -205,7 +205,7 @@ TYPED_TEST(ObbOverlaps, ExactlyTouching) {
     x.X_AB.t = (1 + 0x1p-30) * t;
     EXPECT_EQ(TestFixture::of(x).separated(x.a, x.b, 0), t.norm() > 1) << t.transpose();
   }
-  x.X_AB.t = Vec3(0.5, 0, 0);  // one box inside the other, or the other way round, or flat
+  x.X_AB.t = Vec3(0.5, 0, 0);  // box a contains box b, or b contains a, or one box is flat
   for (const double size : {0.0, 0.25, 100.0}) {
     x.b.half = Vec3::Constant(size);
     EXPECT_FALSE(TestFixture::of(x).separated(x.a, x.b, 0)) << size;
@@ -230,7 +230,8 @@ TYPED_TEST(ObbOverlaps, NonFiniteBoxesAreNotSeparated) {
         spoil(spoilt);
         EXPECT_FALSE(TestFixture::of(spoilt).separated(spoilt.a, spoilt.b, 0))
             << what << " " << bad;
-        // The same test with bounds that were computed without the NaN or infinity.
+        // The same test, with bounds that were computed from the boxes before the NaN or infinity
+        // was inserted.
         EXPECT_FALSE(TestFixture::of(x).separated(spoilt.a, spoilt.b, 0)) << what << " " << bad;
       };
       blind([&](Boxes& y) { y.a.center[axis] = bad; }, "centre of a");
@@ -272,7 +273,8 @@ TEST(ObbOverlapsAgainstRationals, AgreeUpToTheMargin) {
         EXPECT_TRUE(separated) << names[which] << ", case " << n << ", " << gap / x.scale;
       }
     };
-    look(0, PairTest<Obb>(a, b, x.X_AB, 0), truth.raw);  // cross axes are not unit vectors here
+    // Here, cross products of axes are not normalised.
+    look(0, PairTest<Obb>(a, b, x.X_AB, 0), truth.raw);
     look(1, PairTest<Obb, Gjk>(a, b, x.X_AB, 0), truth.widest);
     look(2, PairTest<Obb, LinearProgram>(a, b, x.X_AB, 0), truth.widest);
     look(3, PairTest<Obb, EdgeFace>(a, b, x.X_AB, 0), truth.widest);

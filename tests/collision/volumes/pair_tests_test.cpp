@@ -16,8 +16,8 @@
 namespace corridor {
 namespace {
 
-/// Two point clouds on opposite sides of a plane. They meet in one point of the plane, or are `gap`
-/// apart at that point.
+/// Two point clouds on opposite sides of a plane. They meet in one point of the plane, or their
+/// closest points there are `gap` apart.
 struct Meeting {
   std::vector<Triangle> a, b;
   Transform X_AB;
@@ -26,8 +26,8 @@ struct Meeting {
   double distance = 0;
 };
 
-/// Returns a random normal of the plane, or one for which a face of some volume lies in the plane,
-/// so a margin that is too small makes the test fail.
+/// Returns a random normal of the plane, or a normal for which a face of some volume lies in the
+/// plane. In the latter case, a margin that is too small makes the test fail.
 Vec3 normalOf(std::mt19937_64& random, int n) {
   if (n % 3 == 0) return test::anyPose(random, 1).m.col(0);
   Vec3 v(n % 5 - 2, n % 7 - 3, n / 7 % 3 - 1);
@@ -35,7 +35,9 @@ Vec3 normalOf(std::mt19937_64& random, int n) {
   return v.norm() > 0 ? Vec3(v.normalized()) : Vec3::UnitX();
 }
 
-/// @param defect  approximate defect of the map from a rotation; 0: as small as a pose's
+/// Returns two clouds that meet, or are `gap` apart. @param offset the distance of the clouds from
+/// the origin. @param defect the approximate difference of the map from a rotation; 0: only
+/// rounding.
 Meeting meeting(std::mt19937_64& random, int n, double gap, double offset, double defect = 0) {
   std::uniform_real_distribution<double> real(-1, 1);
   const Vec3 normal = normalOf(random, n);
@@ -49,7 +51,8 @@ Meeting meeting(std::mt19937_64& random, int n, double gap, double offset, doubl
     m.X_AB.m += n % 7 == 2 ? Mat3(Vec3(bent.row(0)).asDiagonal()) : bent;
   }
   const Mat3 inverse = m.X_AB.m.inverse();
-  const double depth = n % 2 ? 0 : std::pow(10.0, -(n % 9));  // flat, or extended behind the plane
+  // Clouds are flat, or extend behind the plane.
+  const double depth = n % 2 ? 0 : std::pow(10.0, -(n % 9));
   const auto cloud = [&](double side) {
     std::vector<Vec3> points = {where + (side > 0 ? gap : 0) * normal};
     // A segment along the normal: even a sphere around it meets the plane in one point only.
@@ -97,7 +100,8 @@ template <class Volume>
 class PairTests : public testing::Test {};
 TYPED_TEST_SUITE(PairTests, test::Volumes, test::VolumeNames);
 
-/// No bound may exceed the distance of two points of the contents, not even by the last bit.
+/// No bound may exceed the distance of two points of the volumes' contents, not even in the last
+/// bit.
 TYPED_TEST(PairTests, NeverFartherThanTwoPointsThatMeet) {
   std::mt19937_64 random(test::testSeed(41));
   int positiveBounds = 0;
@@ -177,7 +181,7 @@ Meeting scaled(Meeting m, int exponent) {
 }
 
 /// Squares of lengths underflow or overflow at these scales. No bound may exceed the distance of
-/// two points of the contents, also if the processor flushes subnormal numbers to zero.
+/// two points of the volumes' contents, even if the processor flushes subnormal numbers to zero.
 TYPED_TEST(PairTests, NoFalseSeparationAtExtremeScales) {
   std::mt19937_64 random(test::testSeed(46));
   for (int n = 0; n < 150; ++n) {
@@ -208,7 +212,8 @@ bool touch(const std::vector<Triangle>& a, const std::vector<Triangle>& b, const
   return false;
 }
 
-/// A mesh and a shifted copy that share points, from huge coordinates to subnormal ones.
+/// A mesh and a shifted copy of the mesh that share points, at scales from huge to subnormal
+/// coordinates.
 TYPED_TEST(PairTests, OverlappingCopiesAreNotSeparatedAtAnyScale) {
   for (int exponent = -1070; exponent <= 1000; exponent += 10) {
     const double s = std::ldexp(1.0, exponent);

@@ -1,6 +1,6 @@
-// Tests of the bounds of the penetration depth: closed forms, and the definition itself. No
-// translation by less than the lower bound separates the bodies; a translation by the upper bound
-// does.
+// Tests of the bounds of the penetration depth, by closed forms and by the definition of the
+// bounds: no translation by less than the lower bound separates the bodies, and the reported
+// translation by the upper bound does.
 #include "collision/world/body_depth.h"
 
 #include <cmath>
@@ -69,7 +69,8 @@ TEST(BodyDepth, TinyAndHugeCubes) {
     }
 }
 
-/// A map that is nearly a rotation counts exactly as stored, and not as the nearest rotation.
+/// A map that is nearly a rotation is used exactly as stored; it is not replaced by the nearest
+/// rotation.
 TEST(BodyDepth, MapsThatAreNearlyRotations) {
   QueryContext context;
   Transform X_AB = at({1.7, 0.2, 0.1});
@@ -79,8 +80,8 @@ TEST(BodyDepth, MapsThatAreNearlyRotations) {
   EXPECT_NEAR(d.upper, 0.3 + 1e-7, 1e-4);
 }
 
-/// For two convex parts the bounds are those of `penetration`; the upper bound may be larger,
-/// because few directions are tried.
+/// For two convex parts the bounds are close to those of `penetration`, but the upper bound may be
+/// larger, because few directions are tried.
 TEST(BodyDepth, ConvexParts) {
   QueryContext context;
   const Body a("a", placed(Box{Vec3::Constant(2)}, {})), ball("ball", placed(Sphere{0.5}, {}));

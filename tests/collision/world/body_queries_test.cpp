@@ -11,7 +11,8 @@
 namespace corridor {
 namespace {
 
-/// Returns a cube of edge 2 about the origin and, with `hollow`, another of edge 1 inside.
+/// Returns the surface of a cube of edge 2 about the origin; with `hollow`, also the surface of a
+/// cube of edge 1 inside.
 TriangleMesh cube(bool hollow = false) {
   TriangleMesh mesh;
   for (const double half : {1.0, 0.5}) {
@@ -48,12 +49,12 @@ TEST(BodyQueries, InsideASolidMesh) {
                               distance(Posed(body, in), Posed(solid), {}, context)}) {
       EXPECT_EQ(d.distance, 0);
       EXPECT_EQ(d.p_WA, d.p_WB);
-      EXPECT_LT((d.p_WA - in.t).norm(), 0.4);  // the witness point is a point of the small body
+      EXPECT_LT((d.p_WA - in.t).norm(), 0.4);  // the witness point is in the small body
     }
     EXPECT_TRUE(closerThan(Posed(solid), Posed(body, in), 0, context));
     EXPECT_TRUE(closerThan(Posed(body, in), Posed(solid), 1e-3, context));
 
-    // The surface alone does not touch the body inside: their distance is not 0.
+    // The surface alone does not touch the body inside, and their distance is not 0.
     EXPECT_FALSE(interference(Posed(surface), Posed(body, in), context));
     const Distance d = distance(Posed(surface), Posed(body, in), {}, context);
     EXPECT_GT(d.distance, 0.4);

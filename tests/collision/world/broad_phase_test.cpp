@@ -94,7 +94,8 @@ TEST(BroadPhase, MotionsHaveTheSameAnswers) {
   EXPECT_GT(verdicts[MotionVerdict::contact], 20);
 }
 
-/// Containment is decided for the pairs that the broad phase finds at the start.
+/// Containment is tested only for the pairs that the broad phase finds at the start of the motion.
+/// These must include all bodies inside solids.
 TEST(BroadPhase, FindsBodiesInsideSolids) {
   std::mt19937_64 random(testSeed(243));
   int inside = 0, free = 0;
@@ -115,7 +116,7 @@ TEST(BroadPhase, FindsBodiesInsideSolids) {
         if (one.verdict != MotionVerdict::free && worst != MotionVerdict::contact)
           worst = one.verdict;
       EXPECT_EQ(all.verdict, worst) << "scene " << scenes << ", edge " << n;
-      // Tests each pair of bodies on its own at the start.
+      // The expected answer is computed by a test of each pair of bodies at the start.
       const Transform X_WB = RigidMotion::spatial(from, from, {}).at(0);
       bool touches = false;
       for (const Scene::Pair& pair : scene.scene().pairs())
@@ -140,7 +141,8 @@ TEST(BroadPhase, FindsBodiesInsideSolids) {
   EXPECT_GT(free, 20);
 }
 
-/// A cube starts inside of a solid hall and leaves it. The hall must be found at the start.
+/// A cube starts inside a solid hall, and leaves the hall. The broad phase must find the hall at
+/// the start.
 TEST(BroadPhase, FindsTheSolidThatABodyLeaves) {
   std::vector<Body> moving, fixed;
   const TriangleMesh cube = box(Vec3(-0.1, -0.1, -0.1), Vec3(0.1, 0.1, 0.1));
@@ -159,8 +161,8 @@ TEST(BroadPhase, FindsTheSolidThatABodyLeaves) {
   EXPECT_EQ(result.certifiedUntil, 0);
 }
 
-/// Interference and clearance of states, also if the world's frame has a pose other than the
-/// identity.
+/// Interference and clearance of states must be the same as without a broad phase, also if the pose
+/// of the world frame is not the identity.
 TEST(BroadPhase, StatesHaveTheSameAnswers) {
   std::mt19937_64 random(testSeed(244));
   int contacts = 0, apart = 0;
@@ -212,7 +214,7 @@ TEST(BroadPhase, TakesLogarithmicTime) {
 
 /// Let d be the defect of a map, the largest entry of MᵀM − 1. Such a map can move a point by more
 /// than d times the point's distance from the origin. The robot is between the sphere of radius 1 +
-/// d and the surface of the ball's image.
+/// d and the surface of the image of a ball of radius 1.
 TEST(BroadPhase, BodiesAtRestUnderMapsThatAreNotRigid) {
   for (const double d : {0x1p-11, 0.1, 0.9}) {
     const Mat3 square = Mat3::Identity() + Mat3::Constant(d);

@@ -1,5 +1,5 @@
-// A cube slides past boxes in a row, each at a known distance. Therefore the test knows which
-// margins of pairs the motion keeps.
+// Tests of margins that differ from pair to pair. A cube slides past a row of boxes, each at a
+// known distance. So it is known which margins the motion keeps.
 #include <random>
 #include <vector>
 
@@ -116,11 +116,13 @@ TEST(PairMargins, ACertificateProvesThem) {
   // The same intervals do not prove larger margins of pairs.
   for (double& margin : metres) margin *= 1.05;
   EXPECT_TRUE(check(certificate, PairMargins(metres)));
-  // Claims of less than the margins, which the motion does keep, are refused.
+  // A certificate that claims less than the margins is refused, although the motion keeps the
+  // margins.
   MotionCertificate modest = certificate;
   for (FreeInterval& i : modest.free) i.clearance = 0.01;
   EXPECT_TRUE(check(modest, margins));
-  // A claim that is false by a little is refuted, although it is far below the largest margin.
+  // A claim that exceeds the true clearance a little is refuted, although the claim is far below
+  // the largest margin.
   MotionCertificate bold = certificate;
   for (std::size_t k = 0; k < row.size(); ++k) metres[k] = 1.01 * row.gapOf(k);
   for (FreeInterval& i : bold.free) i.clearance = metres[i.pair] + 2 * kTolerance;
@@ -147,7 +149,8 @@ TEST(PairMargins, RefusesWrongNumbers) {
   }
 }
 
-/// The pairs near the cube, and their distances, have closed forms.
+/// The query must find the pairs that are closer than their margins, and their distances, which are
+/// known in closed form.
 TEST(PairMargins, FindsThePairsWithinThem) {
   const std::vector<double> gaps{0.05, 0.3, 0.1, 0.02};
   const Row row(gaps);

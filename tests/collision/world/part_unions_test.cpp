@@ -67,7 +67,7 @@ TEST(PartUnions, TreesContainAllParts) {
   EXPECT_EQ(surface.tree().check(), std::nullopt);
 }
 
-/// `check()` must find a fault in a box; otherwise the test above proves nothing.
+/// `check()` must find a box that is too small; otherwise the test above would prove nothing.
 TEST(PartUnions, CheckFindsAPartOutsideOfItsBox) {
   auto parts = std::make_shared<std::vector<ConvexPart>>(cloud(5));
   const Obb4Tree tree(parts);

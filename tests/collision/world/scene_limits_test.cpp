@@ -37,8 +37,8 @@ TEST(SceneLimits, CancellingMapsAreNotSkipped) {
     Transform X;
     X.m.setZero();
     X.m(0, 0) = 3.1, X.m(0, 1) = -3.1 * p[0] / p[1];
-    // The first coordinate of X·p, exact up to 2^-106: fma computes the rounding error of a
-    // product.
+    // The first coordinate of X·p, with a relative error of some 2^-106: fma computes the rounding
+    // errors of the products.
     const double big = X.m(0, 0) * p[0], other = X.m(0, 1) * p[1];
     const double exact =
         (big + other) + (std::fma(X.m(0, 0), p[0], -big) + std::fma(X.m(0, 1), p[1], -other));
@@ -62,8 +62,8 @@ TEST(SceneLimits, StretchingMapsAreNotSkipped) {
   }
 }
 
-/// A map that shrinks: lengths in the body's frame differ from those in the world. The second pair
-/// is closer than the first one, by less than the amount by which the map shrinks lengths.
+/// Under a map that shrinks, lengths in the body's frame differ from those in the world. The second
+/// pair is closer than the first pair, by less than the amount by which the map shrinks lengths.
 TEST(SceneLimits, ClearanceUnderMapsThatAreNotRigid) {
   const auto box = [](const Vec3& low, const Vec3& high) { return Body("", test::box(low, high)); };
   std::vector<Scene::Placed> bodies;

@@ -92,7 +92,7 @@ TEST(EveryTreeKind, StatesAndClearances) {
   std::cout << contacts << " of " << asked << " in contact\n";
   EXPECT_GT(contacts, asked / 5);
   EXPECT_GT(asked - contacts, asked / 5);
-  // Queries walked trees of each kind, and the kinds differ in their counts.
+  // Queries have used trees of each kind, and the counts of tests differ from kind to kind.
   for (const auto& [trees, counted] : counters) {
     EXPECT_GT(counted.boxTests, 0u) << treeName(trees);
     EXPECT_GT(counted.triangleTests, 0u) << treeName(trees);
@@ -101,8 +101,8 @@ TEST(EveryTreeKind, StatesAndClearances) {
   EXPECT_NE(counters[TreeKind::kdop14].boxTests, counters[TreeKind::kdop26].boxTests);
 }
 
-/// The verdict must be `free`, or `contact` at a pose that touches. The scenes have room between
-/// bodies, so only a few edges may be `undecided`.
+/// The verdict must be `free`, or `contact` at a pose that touches. Bodies of these scenes are
+/// rarely close to each other, so only a few edges may be `undecided`.
 TEST(EveryTreeKind, Edges) {
   std::mt19937_64 random(test::testSeed(62));
   const int count = (test::isStressRun() ? 20'000 : 1'000) / test::kSlowdown;
@@ -174,8 +174,8 @@ TEST(EveryTreeKind, FarBodiesGetNoTree) {
   EXPECT_FALSE(rigid.fixed()[1].body.treeBuilt());
 }
 
-/// Certificates that were made with any kind of trees are checked by another method, with other
-/// trees.
+/// Certificates that were made with any kind of trees must be accepted by `checkCertificate`, which
+/// uses another method and other trees.
 TEST(EveryTreeKind, CertificateHolds) {
   std::mt19937_64 random(test::testSeed(63));
   const int count = (test::isStressRun() ? 400 : 40) / test::kSlowdown + 1;

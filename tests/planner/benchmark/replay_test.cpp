@@ -84,11 +84,11 @@ TEST(Replay, ReportsADifferentQuery) {
     return std::string("nothing");
   };
   EXPECT_EQ(summaryOf(Transcript::Ask::state, a),
-            "replay: question 2 is not the one that was recorded");
+            "replay: question 2 differs from the recorded one");
   EXPECT_EQ(summaryOf(Transcript::Ask::clearance, a),
-            "replay: question 1 is not the one that was recorded");
+            "replay: question 1 differs from the recorded one");
   EXPECT_EQ(summaryOf(Transcript::Ask::state, b),  // q differs in one bit
-            "replay: question 1 is not the one that was recorded");
+            "replay: question 1 differs from the recorded one");
 }
 
 }  // namespace

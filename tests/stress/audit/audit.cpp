@@ -13,8 +13,8 @@
 namespace corridor::audit {
 namespace {
 
-/// Each case gets one of these kinds of trees at random. The list has the default kind five times,
-/// and every other kind once.
+/// Each case gets one of these kinds of trees at random. The default kind occurs five times in the
+/// list, so that it is chosen more often.
 constexpr TreeKind kTrees[] = {TreeKind::obb4,
                                TreeKind::obb4,
                                TreeKind::obb4,
@@ -29,12 +29,13 @@ constexpr EdgeMethod kMethods[] = {EdgeMethod::directional, EdgeMethod::directio
                                    EdgeMethod::advancement};
 constexpr int kGaps = 6;
 
-/// Chooses method, trees, tolerance and work limit of a case. Returns the gap of the case in
-/// metres, with the given sign. If bodies pass along each other, the work grows as 1/√tolerance.
-/// For the methods that use distances the work grows faster, so these methods get larger
-/// tolerances. In some cases gap and tolerance are so small that only rounding decides between free
-/// and contact.
-/// @param curve the bodies move along a piece of a curve, which only one method certifies.
+/// Chooses the method, the trees, the tolerance and the work limit of a case, and stores them in
+/// `question`. Returns the gap of the case in metres, with the given sign. If bodies pass along
+/// each other, the work grows as 1/√tolerance. For the methods that use distances the work grows
+/// faster, so these methods get larger tolerances. In some cases the gap and the tolerance are so
+/// small that only rounding decides between free and contact.
+/// @param fine the gap and the tolerance must be that small. @param curve the bodies move along a
+/// piece of a curve, which only the method `directional` certifies.
 double chooseProof(Dice& dice, const Graze& graze, double sign, bool fine, bool curve,
                    Question& question) {
   MotionOptions& o = question.options;
@@ -136,15 +137,15 @@ void Audit::make(long number) {
     const Case c{edge, graze, rest, truth, question, name};
     ask(c, row);
     // The verifier has no `clearanceSlack`. With a slack, the true verdict of the case would not be
-    // the verifier's.
+    // the one that the verifier must report.
     if (o.clearanceSlack == 0 && dice.oneIn(options_.verify)) verify(c, row);
   }
 }
 
-/// Sets the tube's half width of each coordinate. All lengths get the same half width, and all
-/// angles get the same one. Unless a single rigid body moves (`rigid`), some are then set to 0; in
-/// half of the cases all except one. On a piece of a curve, most coordinates get an error as well,
-/// or instead.
+/// Sets the tube's half width of each coordinate. All lengths get one half width, and all angles
+/// get another. Unless `rigid` is true (a single rigid body moves), some half widths are then set
+/// to 0: in half of the cases all except one, otherwise a third of them. On a piece of a curve, two
+/// thirds of the coordinates get an error; half of these lose their tube.
 void Audit::setTube(Dice& dice, Edge& edge, double size, bool rigid) const {
   const double position = size * dice.power(-9, -1), rotation = dice.power(-9, -1.5);
   const auto& coordinates = edge.space.coordinates();

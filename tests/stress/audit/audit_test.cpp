@@ -1,5 +1,6 @@
-// The audit: the checker and the verifier decide edges on which bodies graze by construction. The
-// true verdict is computed in 128 bits. ../README.md describes the audit.
+// The audit: the checker and the verifier decide edges, states and pieces of curves on which bodies
+// graze by construction. The true verdicts are computed in 128 bits. ../README.md describes the
+// audit.
 #include "tests/stress/audit/audit.h"
 
 #include <gtest/gtest.h>
@@ -28,8 +29,8 @@ TEST(Audit, Curves) {
   audit.expectDecided();
 }
 
-/// Bodies penetrate by no more than the rounding of poses: an error bound that is too small would
-/// prove them free.
+/// The gap or depth of the bodies is less than the rounding of poses: if an error bound were too
+/// small, bodies that penetrate would be proved free.
 TEST(Audit, DepthsOfRounding) {
   for (const bool states : {false, true}) {
     Audit audit(9, {.states = states, .fine = true, .verify = 20});
@@ -41,8 +42,8 @@ TEST(Audit, DepthsOfRounding) {
   curves.report("depths of rounding, curves");
 }
 
-/// Angles of continuous joints up to 10^25 rad, in `from`, in `to`, or in both. If rounding decides
-/// which way round is the shorter one, the only right answer is `undecided`.
+/// The angles of continuous joints are up to 10^25 rad in `from`, in `to`, or in both. If rounding
+/// decides which way round is the shorter one, the only right answer is `undecided`.
 TEST(Audit, LargeValuesOfCircles) {
   for (const bool states : {false, true}) {
     Audit audit(3, {.states = states, .verify = 1, .family = Family::largeCircles});
@@ -51,8 +52,8 @@ TEST(Audit, LargeValuesOfCircles) {
   }
 }
 
-/// Queries run in another floating-point mode: each answer must be right or a refusal. Under
-/// flush-to-zero they must not refuse.
+/// Queries run in another floating-point mode than the usual one. Each answer must be right, or the
+/// query must refuse. Under flush-to-zero, queries must not refuse.
 class Modes : public testing::TestWithParam<Mode> {};
 
 TEST_P(Modes, RightOrRefused) {

@@ -1,5 +1,6 @@
-// Tests of certificates that must be refused, and of edges that have no proof: forged certificates,
-// half turns, a body inside a solid, mimics over the seam of a circle. ../README.md describes them.
+// Tests of certificates that must be refused, and of edges that must not be proved: forged
+// certificates, half turns, a body inside a solid, and joints that mimic a continuous joint across
+// ±π. ../README.md describes the audit.
 #include <cmath>
 #include <iostream>
 #include <numbers>
@@ -45,7 +46,7 @@ TEST(Certificates, AcceptedImpliesTheMarginIsKept) {
     o.tolerance = std::max(1e-7 * size, 4 * graze.rounding());
     o.workLimit = 100'000;
     for (const double sign : {-1.0, 1.0}) {
-      // Up to 0.9 of the margin is missing, or the bodies penetrate.
+      // With sign −1 the distance is too small by up to 0.9 of the margin, or the bodies penetrate.
       const double gap = sign * std::max(size * dice.power(-4, -1), dice.real(0, 0.9) * keep);
       Truth truth;
       const Shape rest = graze.rest(gap, truth);
@@ -77,8 +78,8 @@ TEST(Certificates, AcceptedImpliesTheMarginIsKept) {
 }
 
 /// A rotation within 1e-9 rad of a half turn has no defined direction. Even if all bodies are far
-/// apart, the checker must report it as ambiguous, the verifier must not prove it, and no
-/// certificate may be accepted.
+/// apart, the checker must report the edge as ambiguous, the verifier must not prove the edge, and
+/// no certificate may be accepted.
 TEST(Certificates, HalfTurnsAreNotProved) {
   const std::uint64_t seed = test::testSeed(6);
   const long count = countOf(1'000, 50'000);
@@ -178,9 +179,10 @@ TEST(Certificates, NothingIsFreeInsideASolid) {
   EXPECT_EQ(accepted, 0) << "certificate accepted inside a solid";
 }
 
-/// A joint mimics a circle with a multiplier that is not whole. When the circle passes its seam, at
-/// ±π, the joint's value jumps. So no motion ends in the edge's last state, in which the bodies
-/// touch, and the edge must not be free. An edge that does not pass the seam is decided as usual.
+/// A joint mimics a continuous joint with a multiplier that is not an integer. When the continuous
+/// joint passes ±π (the seam), the value of the mimicking joint jumps. So no continuous motion
+/// reaches the edge's second state, in which the bodies touch, and the edge must not be free. An
+/// edge that does not pass the seam is decided as usual.
 TEST(Certificates, MimicsOverTheSeamOfACircle) {
   const std::uint64_t seed = test::testSeed(8);
   const long count = countOf(1'000, 50'000);

@@ -26,8 +26,8 @@ const Coordinate& coordinateOf(const ConfigurationSpace& space, std::size_t numb
   });
 }
 
-/// Returns multiplier·(q(t) − q(0)) of a number, without rounding as far as 113 bits hold the
-/// differences of two doubles.
+/// Returns multiplier·(q(t) − q(0)) for component q of the configuration (index `number`). It is
+/// exact if the differences of two doubles, and the products, fit into 113 bits.
 Polynomial<Quad> changeOf(const Edge& edge, std::size_t number, double multiplier) {
   const auto i = static_cast<Eigen::Index>(number);
   Polynomial<Quad> change;
@@ -45,16 +45,17 @@ Polynomial<Quad> changeOf(const Edge& edge, std::size_t number, double multiplie
   return change;
 }
 
-/// Returns the scale of the rounding errors of one number of the configuration: on a piece of
-/// degree n, n times its largest coefficient; on an edge, the larger of its two magnitudes.
+/// Returns the magnitude to which the rounding errors of component i of the configuration are
+/// proportional. On a piece of degree n, this is n times the largest coefficient; on an edge, the
+/// larger magnitude of the component in both states.
 double largestOf(const Edge& edge, Eigen::Index i) {
   return edge.piece ? edge.piece->degree() * edge.piece->coefficients.row(i).cwiseAbs().maxCoeff()
                     : std::max(std::abs(edge.from[i]), std::abs(edge.to[i]));
 }
 
 /// Upper bounds of the norm, the rate and the acceleration of a vector of up to three polynomials.
-/// The vector and its derivatives are polynomials in Bernstein form, so the longest of its
-/// coefficients bounds each.
+/// The vector and its derivatives are polynomials in Bernstein form, so each is bounded by the norm
+/// of its longest coefficient.
 struct Size {
   double way = 0, rate = 0, bend = 0;
 };
@@ -122,8 +123,8 @@ void Curve<Quad>::add(const Edge& edge, std::size_t index, bool inverted,
   const auto first = static_cast<Eigen::Index>(held ? 0 : f.variable);
   length_ += f.fixed.p.norm();
   if (f.joint == Frame::Joint::revolute || f.joint == Frame::Joint::prismatic) {
-    // multiplier·q is exact in 106 bits. The sum with the offset stays exact until whole
-    // revolutions are removed.
+    // multiplier·q has at most 106 bits, so it is exact. Adding the offset is exact, too, until
+    // whole revolutions are removed.
     Twofold value{f.offset, 0};
     if (!held) {
       value = sum(Quad(f.multiplier) * edge.from[first], f.offset);
@@ -166,7 +167,8 @@ template <>
 Curve<Quad>::Curve(const Edge& edge, std::size_t watcher, std::size_t watched,
                    const Perturbation& stray) {
   std::vector<std::size_t> up, down;
-  for (std::size_t a = watcher, b = watched; a != b;) {  // parents come before their children
+  // The index of a parent is smaller than those of its children.
+  for (std::size_t a = watcher, b = watched; a != b;) {
     if (a > b) {
       up.push_back(a);
       a = edge.tree.frames[a].parent;

@@ -15,13 +15,15 @@ struct Edge {
   KinematicTree tree;
   ConfigurationSpace space;
   Configuration from, to;
-  Configuration tube;                 ///< as `EdgeMotion` takes it; mostly zero
+  Configuration tube;                 ///< half widths, as `EdgeMotion` takes them; zero in most
+                                      ///< cases
   std::size_t first = 0, second = 0;  ///< frames
   /// If set, the bodies move along this piece. `from` and `to` are then its ends.
   std::optional<CurvePiece> piece = {};
 
-  /// Returns how far one number of the configuration may stray from this edge or piece, exactly: a
-  /// proof must cover all curves that stray no farther.
+  /// Returns the exact sum of the tube's half width and the piece's error for one component of the
+  /// configuration. A proof must cover all curves whose component strays no farther than this from
+  /// the edge or piece. @param number the component's index.
   Quad strayOf(std::size_t number) const {
     const auto i = static_cast<Eigen::Index>(number);
     return piece ? Quad(tube[i]) + Quad(piece->error[i]) : Quad(tube[i]);
@@ -48,33 +50,37 @@ struct Polynomial {
   }
 };
 
-/// A perturbation of a curve: the amount that is added to each number of its configurations. For a
-/// rotation the first three numbers are a rotation vector, which is applied after the rotation.
+/// A perturbation of a curve: the amount that is added to each component of its configurations. For
+/// a rotation, the first three of its four components hold a rotation vector instead; that rotation
+/// is applied after the curve's rotation.
 using Perturbation = std::vector<Quad>;
 
 /// The motion of one frame as seen from another along an edge or a piece. It follows the definition
 /// of an edge, or of a CurvePiece:
-/// - lines: linear in t; in a piece, the polynomial in Bernstein form;
-/// - circles: linear in t, the shorter way round, of the exact difference modulo 2π; in a piece,
-///   the polynomial, literally;
-/// - rotations: slerp of the normalised quaternions along the shorter arc;
-/// - a joint's value: multiplier·q + offset.
+/// - line coordinates: linear in t; in a piece, the polynomial in Bernstein form;
+/// - circle coordinates: linear in t, by the exact difference modulo 2π, the shorter way round; in
+///   a piece, the polynomial, without removing revolutions;
+/// - rotation coordinates: slerp of the normalised quaternions along the shorter arc, also in a
+///   piece;
+/// - value of a joint: multiplier·q + offset, where q is the joint's coordinate.
 template <class S>
 class Curve {
  public:
-  /// @param stray the perturbation of the curve; empty: none.
+  /// @param watcher the frame in which the motion is expressed. @param watched the frame that
+  /// moves. @param stray the perturbation of the curve; empty: none.
   Curve(const Edge& edge, std::size_t watcher, std::size_t watched, const Perturbation& stray = {});
-  /// Copies a curve into another number type, of fewer digits.
+  /// Converts a curve to another number type, which has fewer digits.
   template <class Other>
   explicit Curve(const Curve<Other>& other);
 
-  /// Returns the map from the watched frame to the watcher's at t.
+  /// Returns the map from the watched frame to the watcher frame at t.
   Pose<S> at(S t) const;
 
-  /// Return bounds of |x'| and |x''| for points x of the watched frame within `radius` of its
-  /// origin. They are ΩR + V and Ω²R + 2ΩV + AR + B. Ω and V are the sums of the largest rates of
-  /// all rotations and of all translations, A and B the sums of their largest accelerations. R is
-  /// the sum of all lengths, `radius` included. On an edge, A and B are 0.
+  /// Return bounds of |x'| (`speed`) and |x''| (`bend`) for points x of the watched frame within
+  /// `radius` of its origin. The bounds are ΩR + V and Ω²R + 2ΩV + AR + B. Ω is the sum of the
+  /// largest rates of all rotations, V the same for all translations; A and B are the sums of the
+  /// largest accelerations of rotations and of translations. R is the sum of all lengths, `radius`
+  /// included. On an edge, A and B are 0.
   double speed(double radius) const { return turned_ * (length_ + radius) + slid_; }
   double bend(double radius) const {
     return turned_ * (speed(radius) + slid_) + turnBend_ * (length_ + radius) + slideBend_;
@@ -82,16 +88,18 @@ class Curve {
   double turned() const { return turned_; }        ///< Ω, rad
   double turnBend() const { return turnBend_; }    ///< A, rad
   double slideBend() const { return slideBend_; }  ///< B, m
-  double length() const { return length_; }        ///< m; bounds the chain's length at every t
-  /// Returns n times the largest coefficient of a rotation's polynomial of degree n, summed over
-  /// all rotations, rad. One rounding error of the number type, times this angle, bounds the
-  /// rounding of the sums of a polynomial.
+  /// Returns an upper bound of the chain's length at every t, metres.
+  double length() const { return length_; }
+  /// Returns the sum, over all rotating joints, of n times the largest coefficient of the joint's
+  /// polynomial of degree n, rad. This angle, times the unit roundoff of the number type, bounds
+  /// the rounding errors of the evaluated polynomials.
   double terms() const { return terms_; }
   double largest() const { return largest_; }  ///< the largest stored value of a joint, rad or m
-  /// Returns whether only one joint rotates. Then all accelerations, except B, are orthogonal to
-  /// its axis.
+  /// Returns whether exactly one joint rotates. Then all accelerations, except those of
+  /// translations (B), are orthogonal to that joint's axis.
   bool hasOneRotation() const { return turning_ == 1; }
-  /// Returns the unit axis of the first joint that rotates, at t, in the watcher's frame.
+  /// Returns the unit axis at t of the first joint that rotates, in the watcher frame; the x axis
+  /// if no joint rotates.
   Vec<S> axisAt(S t) const;
 
   std::size_t joints() const { return elements_.size(); }
@@ -106,13 +114,13 @@ class Curve {
     Pose<S> fixed;
     Vec<S> axis;           // axis of a rotation, or direction of a translation
     S value = 0;           // the joint's value at t = 0
-    Polynomial<S> change;  // from that value
+    Polynomial<S> change;  // change since t = 0
     bool turns = false;    // a rotation that is not constant
     Vec<S> shift;
     std::array<Polynomial<S>, 3> shiftChange;
     std::array<S, 4> q0{}, q1{};
     S omega = 0, sineOfOmega = 0;
-    Mat<S> stray;  // perturbation of a rotation: multiplied from the left
+    Mat<S> stray;  // perturbation of a rotation; it is multiplied from the left
   };
   Pose<S> poseOf(const Element& e, S t) const;
   void add(const Edge& edge, std::size_t frame, bool inverted, const Perturbation& stray);
@@ -124,8 +132,8 @@ class Curve {
   int turning_ = 0;
 };
 
-/// Returns the change of a circle coordinate from one value to another, the shorter way round, to
-/// 33 digits.
+/// Returns the change of a circle coordinate from angle `from` to angle `to`, the shorter way
+/// round, to 33 digits, rad.
 Quad circleDifference(double from, double to);
 
 template <class S>

@@ -10,7 +10,7 @@ namespace {
 using std::numbers::pi;
 using Kind = Coordinate::Kind;
 
-/// Makes kinematic trees and edges in their configuration spaces, one coordinate at a time.
+/// Makes a kinematic tree and an edge in its configuration space, one coordinate at a time.
 struct Maker {
   explicit Maker(Dice& d) : dice(d) {}
 
@@ -98,8 +98,8 @@ struct Maker {
     for (; count > 0; --count) parent = single(parent);
     return parent;
   }
-  /// Adds a joint that mimics another joint: with any multiplier for a line, with a whole one for a
-  /// circle.
+  /// Adds a joint that mimics another joint. The multiplier is an integer if the other joint has a
+  /// circle coordinate, and arbitrary if it has a line coordinate.
   std::size_t follower(std::size_t parent) {
     Frame f = place(parent, 0.7 * scale);
     f.axis = dice.vector();

@@ -6,9 +6,9 @@
 namespace corridor::audit {
 namespace {
 
-/// The maximum numbers of poses that are evaluated in long double and in 128 bits. A case that
-/// needs more is given up. Most cases need about a hundred in long double, and about fifty in 128
-/// bits.
+/// The largest numbers of poses that are evaluated in long double and in 128 bits. If a case needs
+/// more, no lower bound of the distance is proved. Most cases need about a hundred in long double,
+/// and about fifty in 128 bits.
 constexpr int kMostSamples = 4000, kQuadLooks = 250;
 /// Intervals shorter than this are evaluated in 128 bits.
 constexpr long double kShort = 0x1p-14L;
@@ -17,12 +17,13 @@ Vec<Quad> randomUnit(Dice& dice) {
   return unit(Vec<Quad>(dice.vector()));
 }
 
-/// Returns the parameter of the closest point to x on the line from p (0) to p + d (1).
+/// Returns the parameter s of the point p + s·d that is closest to x.
 Quad closestOn(const Vec<Quad>& p, const Vec<Quad>& d, const Vec<Quad>& x) {
   return dot(x - p, d) / dot(d, d);
 }
 
-/// Returns whether the segment crosses the triangle, by more than the rounding of 128 bits.
+/// Returns whether the segment certainly crosses the triangle: by more than the rounding of 128
+/// bits.
 bool crossesTriangle(const Vec<Quad>& from, const Vec<Quad>& to, const std::array<Vec<Quad>, 3>& t,
                      double scale) {
   const Vec<Quad> n = unit(cross(t[1] - t[0], t[2] - t[0]));
@@ -79,11 +80,12 @@ Graze::Look<S> Graze::look(const Curve<S>& curve, const Shape& rest, S t) const 
   return l;
 }
 
-/// Returns a lower bound of the bodies' distance between two times w apart: the smaller of the
-/// distances at both times minus f''·w²/8, where f'' bounds the second derivative (Ω and A:
-/// curve.h):
+/// Returns a lower bound of the bodies' distance between two times that differ by w: the smaller of
+/// the distances at these times, minus b·w²/8, where b bounds the second derivative f'' of the
+/// distance f. (Ω, A and bend are those of curve.h.) There are three kinds of f:
 /// - height of a point along a fixed direction: f'' ≤ bend;
-/// - distance |y| of two points, or of a point from a line: f'' ≤ bend + |y'|²/|y|;
+/// - distance |y| of two points, or of a point from a line, y being the vector between them: f'' ≤
+///   bend + |y'|²/|y|;
 /// - distance n·y of two lines: n = u/|u|, u the cross product of their unit vectors, |u'| ≤ Ω,
 ///   |u''| ≤ Ω² + A. With s = |u|, it follows that |n'| ≤ Ω/s and |n''| ≤ (Ω² + A)/s + 3Ω²/s².
 template <class S>
@@ -123,7 +125,8 @@ void Graze::proveHeights() {
     lowest_ = static_cast<double>(std::max(first.flat, first.along)) - error128_;
     return;
   }
-  // First finds, in long double, the intervals in which the bodies are apart by more than rounding.
+  // First, long double finds the intervals in which the bodies are farther apart than required, by
+  // more than its rounding. The other intervals are collected in `close`.
   const Curve<long double> rough(*curve_);
   const long double error =
       scale * (0x1p-57L * static_cast<long double>(rough.joints() + 2) + 0x1p-62L * rough.terms());
@@ -184,7 +187,8 @@ void Graze::proveHeights() {
       }
       if (++looks > kQuadLooks) return;
       const Look<Quad> middle = look(*curve_, base_, (part.a.t + part.b.t) / 2);
-      // The bodies are closer here than at `time_`: the bound to prove is lowered to this distance.
+      // The bodies may be closer here than at `time_`. Then the bound to be proved is lowered to
+      // this distance.
       const Quad met = std::max(middle.flat, middle.along) - 1e-15 * size_;
       enough = std::min(enough, met);
       parts128.push_back({middle, part.b});
@@ -195,7 +199,7 @@ void Graze::proveHeights() {
 }
 
 /// Chooses the plane's normal at the meeting point, in the rest's frame, so that the tip meets the
-/// plane as `meeting` says. Returns false if no normal makes this edge do so.
+/// plane as `meeting` requires. Returns false if this edge has no such normal.
 bool Graze::chooseNormal(Dice& dice, Meeting meeting) {
   const Vec<Quad> x(touch_);
   const Quad e = Quad(1e-9) / std::max(1.0, curve_->turned());
@@ -209,7 +213,7 @@ bool Graze::chooseNormal(Dice& dice, Meeting meeting) {
   switch (meeting) {
     case Meeting::along:
       normal_ = unit(normal_ - forward * dot(forward, normal_));
-      if (dice.oneIn(4)) {  // along the normal part of the acceleration
+      if (dice.oneIn(4)) {  // along the part of the acceleration that is orthogonal to the velocity
         const Vec<Quad> in = bent - forward * dot(forward, bent);
         if (dot(in, in) > 0) normal_ = unit(in);
       }
@@ -230,8 +234,8 @@ bool Graze::chooseNormal(Dice& dice, Meeting meeting) {
   return true;
 }
 
-/// Replaces the curve by the one at the corner of the edge's tube where the tip is lowest at
-/// `time_`, to first order.
+/// Replaces `curve_` by a curve at a corner of the edge's tube: the corner at which the tip is
+/// lowest at `time_`, to first order.
 void Graze::perturbToWorstCorner(const Edge& edge) {
   const Quad e = 1e-12;
   const Vec<Quad> at = curve_->at(time_) * touch_;
@@ -266,16 +270,16 @@ Graze::Graze(Dice& dice, const Edge& edge, const Wish& wish)
   const Meeting meetings[] = {Meeting::along, Meeting::along, Meeting::along,
                               Meeting::start, Meeting::end,   Meeting::slide};
   Meeting meeting = meetings[dice.index(6)];
-  // The effect of a tube may grow along the edge. So in half of the cases with a tube the bodies
-  // meet at an end.
+  // The effect of a tube may grow along the edge. So in half of the cases with a tube, the bodies
+  // meet at the start or the end.
   if (inTube_ && dice.oneIn(2)) meeting = dice.oneIn(2) ? Meeting::start : Meeting::end;
   const double depth = std::exp2(1 + static_cast<double>(dice.index(10)));
   time_ = dice.oneIn(2) ? std::floor(dice.real(0, depth)) / depth : dice.real(0, 1);
   passesAlong_ = curve_->speed(1) > 0 && (meeting == Meeting::along || meeting == Meeting::slide);
   if (meeting == Meeting::start) time_ = 0;
   if (meeting == Meeting::end) time_ = 1;
-  // The first frame often stands still. A tip on that frame is placed where the rest's frame is at
-  // `time_`.
+  // The first frame often stands still. If the tip is on that frame, it is placed near the position
+  // of the rest's frame at `time_`.
   const double away = swapped ? curve_->length() : 0;
   touch_ = Vec<Quad>(Vec3(size_ * dice.real(0, 2) * dice.vector()));
   if (away > 0) {
@@ -284,7 +288,7 @@ Graze::Graze(Dice& dice, const Edge& edge, const Wish& wish)
   }
   if (!chooseNormal(dice, meeting)) return;
   if (inTube_) {
-    if (dice.oneIn(2)) {  // normal along the effect of one number of the tube
+    if (dice.oneIn(2)) {  // normal along the displacement due to one component of the tube
       std::vector<std::size_t> strays;
       for (const Coordinate& c : edge.space.coordinates())
         if (edge.strayOf(c.first) > 0) strays.push_back(c.first);
@@ -312,7 +316,7 @@ Graze::Graze(Dice& dice, const Edge& edge, const Wish& wish)
   const Vec<Quad> other = along * std::cos(turn) + cross(normal_, along) * std::sin(turn);
   ExactBody tip = randomExactBody(dice, tips[which], p, normal_, along, size_);
   const bool round = tip.radius > 0 && !tip.flatEnds;
-  // If the rest's feature is an edge or a corner, the tip's corner must be round. Otherwise the
+  // If the rest's feature is an edge or a corner, a corner of the tip must be round. Otherwise the
   // depth would not be known.
   Feature restFeature = rests[which];
   if (restFeature == Feature::corner && dice.oneIn(2)) restFeature = Feature::edge;

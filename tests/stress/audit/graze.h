@@ -10,23 +10,24 @@ namespace corridor::audit {
 /// The facts from which the true verdict of a case follows, computed from the stored doubles in 128
 /// bits.
 struct Truth {
-  double t = 0;              ///< the time at which the bodies come closest, by construction
-  bool violates = false;     ///< at t the bodies are closer than `keep`, or touch
-  double apart = -HUGE_VAL;  ///< lower bound of their distance along the whole edge, metres
+  double t = 0;              ///< the time at which the bodies are made to meet (at gap 0)
+  bool violates = false;     ///< proved: at t the bodies are closer than `keep`, or cross
+  double apart = -HUGE_VAL;  ///< lower bound of the bodies' distance along the whole edge, metres
 };
 
 /// Two bodies that just meet, by construction.
 ///
 /// At a time t one body, the tip, touches a plane with one feature (a corner, an edge or a face),
 /// and lies above the plane. At t the tip moves along the plane, or leaves the plane at the start
-/// of the edge, or reaches it at the end. The other body is called the rest. It lies below the
-/// plane, at a known distance; `rest(gap)` returns it. From this the true verdict follows.
+/// of the edge, or reaches the plane at the end. The other body is called the rest. It lies below
+/// the plane, at a distance of `keep` + gap; `rest(gap)` returns this body. The true verdict
+/// follows from this distance.
 ///
 /// The plane is fixed in the frame of the rest, which is one of the edge's two frames. The height
 /// of the tip above the plane is bounded from below over the whole edge, by intervals: between two
-/// times that differ by w, the height is at least the smaller of its two values minus bend·w²/8,
-/// where `bend` bounds the height's second derivative. This is computed in long double far from the
-/// plane, in 128 bits close to it.
+/// times that differ by w, the height is at least the smaller of the heights at these times, minus
+/// bend·w²/8, where `bend` bounds the height's second derivative. Heights are computed in long
+/// double far from the plane, and in 128 bits close to it.
 class Graze {
  public:
   enum class Meeting { along, start, end, slide };
@@ -38,17 +39,18 @@ class Graze {
   };
   Graze(Dice& dice, const Edge& edge, const Wish& wish);
 
-  /// Returns whether the construction succeeded. If not, the object must not be used.
+  /// Returns whether the construction succeeded. Otherwise no other function may be called.
   bool usable() const { return usable_; }
 
   double size() const { return size_; }
   const Shape& tip() const { return tip_; }
   std::size_t tipFrame() const { return tipFrame_; }
   std::size_t restFrame() const { return restFrame_; }
-  /// Returns the other body, `gap` metres farther below the plane.
-  /// @param[out] truth the facts about the case with this body.
+  /// Returns the rest, `keep` + `gap` metres below the plane. The gap may be negative.
+  /// @param[out] truth the facts from which the true verdict of the case with this body follows.
   Shape rest(double gap, Truth& truth) const;
-  /// Returns a lower bound of the bodies' distance at t, along the better of two directions.
+  /// Returns a lower bound of the bodies' distance at t: the larger of their distances along two
+  /// directions.
   double apartAt(const Shape& rest, double t) const;
 
   /// Returns the rounding of poses that Corridor may have, metres: L·((n + 2)·2^-43 + v·2^-48) for
@@ -57,8 +59,8 @@ class Graze {
   double rounding() const { return rounding_; }
   /// Returns the rounding of one operation, metres: 2^-53·L.
   double ulp() const { return ulp_; }
-  /// Returns whether the tip moves along the plane at t. Otherwise the tip moves towards the plane
-  /// or away from it, or stands still.
+  /// Returns whether the tip moves along the plane at the time of meeting. Otherwise the tip moves
+  /// towards the plane or away from it, or stands still.
   bool passesAlong() const { return passesAlong_; }
 
  private:
@@ -66,7 +68,7 @@ class Graze {
   struct Look {
     S t = 0;
     Pose<S> X;
-    Vec<S> normal;   // direction from the rest's feature to the tip's
+    Vec<S> normal;   // direction from the rest's feature to the tip's feature
     S flat = 0;      // distance of the bodies along the plane's normal
     S along = 0;     // distance of the bodies along `normal`
     S features = 0;  // distance of the features along `normal`
@@ -88,7 +90,7 @@ class Graze {
   bool inTube_;
   std::optional<Curve<Quad>> curve_;
   std::optional<Curve<Quad>> nominal_;
-  // The plane's upward normal, in the other body's frame; the meeting point, in the tip's frame.
+  // The plane's upward normal, in the rest's frame; the meeting point, in the tip's frame.
   Vec<Quad> normal_, touch_;
   ExactBody restPlan_;
   Shape tip_, base_;

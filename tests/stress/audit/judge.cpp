@@ -15,7 +15,7 @@ namespace {
 /// The smallest clearance that doubles resolve, as a fraction of the bodies' size: about the square
 /// root of the unit roundoff. At a distance d the direction between the closest points is off by an
 /// angle of 2^-53·size/d, which changes the computed clearance by up to size·2^-53·size/d. This
-/// equals d at about 2^-26 of the size.
+/// error equals d if d is about 2^-26 of the size.
 constexpr double kResolved = 0x1p-26;
 
 RigidPose poseOf(const Configuration& q) {

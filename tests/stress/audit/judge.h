@@ -22,18 +22,19 @@ struct Question {
   MotionOptions options;
   EdgeMethod method = EdgeMethod::directional;
   bool rigidMotion = false;  ///< use `RigidMotion` instead of `EdgeMotion`
-  bool inTube = false;  ///< the facts are about one curve in the tube, not about the edge itself
+  bool inTube = false;       ///< the true verdict is that of one curve in the tube, not of the edge
+                             ///< itself
   Mode mode = Mode::usual;
 };
 
-/// One case: two bodies on an edge, the facts known about them, and the query.
+/// One case: two bodies on an edge, the facts from which their true verdict follows, and the query.
 struct Case {
   const Edge& edge;
   const Graze& graze;
   const Shape& rest;
   Truth truth;
   Question question;
-  std::string name;  ///< how to repeat it
+  std::string name;  ///< how to repeat the case
 
   Body body(bool tip) const;
   Scene scene() const;
@@ -44,32 +45,34 @@ struct Case {
   double largestUndecidedClearance() const;
 };
 
-/// Sets the edge or the piece.
+/// Sets the motion to the edge, or to the edge's piece of a curve if it has one.
 void setMotion(EdgeMotion& motion, const Edge& edge);
 
-/// Return the answers of the checker and of the verifier; nullopt if they refuse by an exception,
-/// which is allowed only in an unusual floating-point mode.
+/// Return the answers of the checker and of the verifier; nullopt if they refuse by an exception in
+/// an unusual floating-point mode. In the usual mode, exceptions are passed on.
 std::optional<MotionResult> askChecker(const Case& c);
 std::optional<PathReport> askVerifier(const Case& c);
-/// An answer of the method `certified`, and whether `checkCertificate` accepts its certificate.
+/// An answer of the method `certified`, and whether `checkCertificate` accepts the certificate of
+/// that answer.
 struct Certificate {
   MotionResult result;
   bool accepted = false;
 };
 Certificate certifiedAnswer(const Case& c);
-/// Returns whether `checkCertificate` accepts a forged certificate: it claims this clearance along
-/// the whole edge, in this many intervals.
+/// Returns whether `checkCertificate` accepts a forged certificate, which claims `clearance`
+/// (metres) along the whole edge, in `intervals` equal intervals.
 bool acceptsForged(const Case& c, double clearance, int intervals);
 
-/// Returns how far the edge is from a half turn, in radians: π minus the largest rotation of a
-/// circle or an orientation along the edge, minus the rounding of large values.
+/// Returns how far the edge is from a half turn, in radians: π minus the largest angle by which a
+/// circle or rotation coordinate changes along the edge, minus the rounding of large angles. Circle
+/// coordinates of a piece of a curve are left out.
 double leftToHalfTurn(const Edge& edge);
 
-/// Return what is wrong with an answer, or "".
+/// Return what is wrong with an answer, or "" for a right answer.
 std::string faultOf(const Case& c, const MotionResult& answer);
 std::string faultOf(const Case& c, const PathReport& answer);
 
-/// Returns all data of a case as text, numbers in hexadecimal: exact.
+/// Returns all data of a case as text. Numbers are hexadecimal, so that they are exact.
 std::string describe(const Case& c);
 
 /// Counts answers, one row per family, and prints them as a table.

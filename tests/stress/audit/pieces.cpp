@@ -6,8 +6,10 @@
 namespace corridor::audit {
 namespace {
 
-/// Fills a row with the coefficients of one number from `a` to about `b`.
-/// @param unit the distance, rad or m, that a number goes and returns if a = b.
+/// Fills a row with the coefficients of one component of the configuration, which goes from `a` to
+/// about `b`.
+/// @param unit the distance, rad or m, to which the component moves, and from which it returns, if
+/// a and b are equal.
 void fillRow(Dice& dice, Eigen::MatrixXd::RowXpr row, double a, double b, double unit) {
   const Eigen::Index n = row.size() - 1;
   double way = std::abs(b - a);
@@ -31,7 +33,7 @@ void fillRow(Dice& dice, Eigen::MatrixXd::RowXpr row, double a, double b, double
       case 4:
         row[i] = inner ? chord + way * dice.real() : chord;
         break;
-      case 5:  // rests at the middle
+      case 5:  // stops and reverses at the middle
         row[i] = a + std::abs(static_cast<double>(2 * i - n)) * way / static_cast<double>(n);
         break;
       default:  // a + large·(1 − 2τ)^n

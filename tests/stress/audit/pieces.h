@@ -5,13 +5,14 @@
 
 namespace corridor::audit {
 
-/// Makes the edge a piece of a curve of degree 1 to 9 between its states: each number rests, is
-/// linear, is near its chord or anywhere, turns round at the middle, or has large coefficients that
-/// cancel. Rotations stay slerps.
-/// @param size of the bodies, metres: the scale of positions that leave their place and return.
+/// Gives the edge a piece of a curve of degree 1 to 9 between the edge's states. Each component of
+/// the configuration is constant, is linear, stays near its chord, goes anywhere, reverses at the
+/// middle, or has large coefficients that cancel. Rotation coordinates stay slerps.
+/// @param size size of the bodies, metres: the scale of the motion of a position that is equal in
+/// both states.
 void bendEdge(Dice& dice, Edge& edge, double size);
 
-/// Returns whether a number of the configuration is an angle.
+/// Returns whether a coordinate of the configuration is an angle.
 bool isAngle(const Edge& edge, const Coordinate& coordinate);
 
 }  // namespace corridor::audit

@@ -8,9 +8,9 @@
 
 #include "collision/core/transform.h"
 
-/// Vectors, matrices and angles in 128 bits, for the audit alone, which shares no arithmetic with
-/// Corridor. All are templates, because the same formulas also run in long double, where many
-/// samples are needed but few digits.
+/// Vectors, matrices and angles in 128-bit floating point, for the audit, which shares no
+/// arithmetic with Corridor. Vectors and matrices are templates, because the same formulas also run
+/// in long double, where many samples are needed but few digits.
 namespace corridor::audit {
 
 __extension__ typedef __float128 Quad;
@@ -78,7 +78,8 @@ Vec<S> unit(const Vec<S>& a) {
   S largest = 0;
   for (const S& x : a.c) largest = magnitude(x) > largest ? magnitude(x) : largest;
   if (largest == 0) return a;
-  const Vec<S> b = a * (1 / largest);  // squares of tiny or huge numbers would under- or overflow
+  const Vec<S> b = a * (1 / largest);  // without this, squares of tiny or huge numbers would under-
+                                       // or overflow
   return b * (1 / length(b));
 }
 
@@ -117,7 +118,7 @@ struct Pose {
   }
 };
 
-/// Returns the rotation about the unit axis k, given sine and cosine of its angle.
+/// Returns the rotation about the unit axis k by the angle with sine s and cosine c.
 template <class S>
 Mat<S> turnAbout(const Vec<S>& k, S s, S c) {
   const S v = 1 - c;
@@ -128,7 +129,7 @@ Mat<S> turnAbout(const Vec<S>& k, S s, S c) {
   return R;
 }
 
-/// Returns the rotation of a quaternion x, y, z, w of any norm above 0.
+/// Returns the rotation matrix of a quaternion (x, y, z, w) of any norm above 0.
 template <class S>
 Mat<S> rotationOf(const std::array<S, 4>& q) {
   const S k = 2 / (q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
@@ -140,7 +141,7 @@ Mat<S> rotationOf(const std::array<S, 4>& q) {
   return R;
 }
 
-/// A number of some 226 bits, high + low: for angles of up to 10^30 rad.
+/// A number of some 226 bits, the sum high + low. It can hold angles of up to 10^30 rad.
 struct Twofold {
   Quad high = 0, low = 0;
 };
@@ -149,7 +150,7 @@ inline Twofold sum(Quad a, Quad b) {
   const Quad s = a + b, c = s - a;
   return {s, (a - (s - c)) + (b - c)};
 }
-/// Returns the angle modulo 2π, in [−π, π], to 33 digits.
+/// Returns the angle minus whole revolutions, in [−π, π], to 33 digits.
 inline Quad withoutTurns(Twofold angle) {
   static const Quad pi = acosq(-1), piLow = sinq(pi);  // π = pi + sin(pi) to twice the digits
   const Quad turns = roundq(angle.high / (2 * pi));

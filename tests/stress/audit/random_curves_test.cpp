@@ -1,6 +1,6 @@
-// Random pieces of curves against an oracle that minimises the distance of the bodies in long
-// double. Only plain data is shared with the checker and the verifier. ../README.md describes this
-// test.
+// Compares the checker and the verifier, on random pieces of curves, with an oracle that minimises
+// the distance of the bodies in long double. The oracle shares only plain data with them.
+// ../README.md describes this test.
 #include <algorithm>
 #include <cstdlib>
 #include <iostream>
@@ -34,7 +34,7 @@ Real distanceOfSegments(const Point& p, const Point& q, const Point& r, const Po
   const auto onSecond = [&](Real u) { return ee > 0 ? clamped(dot(p + d * u - r, e) / ee) : 0; };
   Real least = HUGE_VALL;
   const auto consider = [&](Real u, Real v) { least = std::min(least, length(y + d * u - e * v)); };
-  // The minimum is inside of both segments, or at an end of one of them.
+  // The closest points are inside both segments, or one of them is an end of a segment.
   if (determinant > 0) {
     const Real u = clamped((de * dot(e, y) - ee * dot(d, y)) / determinant), v = onSecond(u);
     consider(onFirst(v), v);
@@ -113,7 +113,8 @@ struct TestBody {
   }
 };
 
-/// The distance of two things at each time of a curve, in the frame of the first thing.
+/// The distance of two bodies as a function of time, along a curve that maps the second body's
+/// frame to the first body's frame.
 struct Distance {
   const Curve<Real>& curve;
   const TestBody &first, &second;
@@ -132,8 +133,8 @@ struct Distance {
     }
     return least;
   }
-  /// Returns the time and the value of the least distance found: golden section about the smallest
-  /// samples.
+  /// Returns the time of the least distance that is found, and this distance. The search is by
+  /// golden section around each of the eight smallest of 81 samples.
   std::pair<Real, Real> least() const {
     constexpr int samples = 80;
     std::vector<std::pair<Real, int>> found;
@@ -150,7 +151,8 @@ struct Distance {
       for (int i = 0; i < 40 && best.second > 0; ++i) {
         if (fa < best.second) best = {a, fa};
         if (fb < best.second) best = {b, fb};
-        // The rest of the bracket can't bring the value below the best one found.
+        // The remaining bracket is so narrow that it can't contain a smaller distance than the best
+        // one.
         if (curve.speed(1) * (high - low) < best.second * 1e-3 && fa > best.second) break;
         if (fa < fb)
           high = b, b = a, fb = fa, a = high - golden * (high - low), fa = at(a);
@@ -256,8 +258,9 @@ void runCase(long number, std::uint64_t seed, Counts& counts) {
       ++counts.free;
       EXPECT_GT(least, options.margin) << "FALSE FREE, at t = " << t << ": " << name;
     } else if (tubed && least <= options.margin + 2e-7L) {
-      // There is no proof. The first contact may be undecided, too: just before it, the curve is
-      // free, and its tube is not.
+      // The edge can't be proved, because the tube comes too close. If the curve itself touches,
+      // `undecided` is right, too: just before its first contact the curve is free, but its tube is
+      // not.
       ++counts.inTube;
     } else {
       ++counts.undecided;
@@ -287,7 +290,8 @@ void runCase(long number, std::uint64_t seed, Counts& counts) {
   }
 }
 
-/// All kinds of joints, degrees 1 to 9, margins, tubes and errors of pieces.
+/// Random pieces with all kinds of joints, degrees 1 to 9, margins, tubes and errors must not get a
+/// wrong verdict, and few of them may stay undecided.
 TEST(Audit, RandomCurves) {
   const std::uint64_t seed = test::testSeed(14);
   const char* only = std::getenv("CORRIDOR_AUDIT_CASE");

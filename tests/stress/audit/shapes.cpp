@@ -8,7 +8,7 @@ namespace {
 /// A factor that is less than 1, by more than the rounding of 128 bits in any formula of this file.
 const Quad kInside = 1 - Quad(0x1p-90);
 
-/// Adds triangles above the feature, so that trees have several levels.
+/// Adds triangles above the plane that the body touches, so that its tree has several levels.
 void addTrianglesAbove(Dice& dice, ExactBody& plan, const Vec<Quad>& q, const Vec<Quad>& up,
                        const Vec<Quad>& along, double size) {
   const Vec<Quad> across = cross(up, along);
@@ -21,7 +21,7 @@ void addTrianglesAbove(Dice& dice, ExactBody& plan, const Vec<Quad>& q, const Ve
   }
 }
 
-/// Adds the faces of a parallelepiped; bit i of a corner's number selects the end of edge i.
+/// Adds the faces of a parallelepiped. Bit i of a corner's index selects the end of edge i.
 void addBoxFaces(ExactBody& plan) {
   plan.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
                     {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};

@@ -37,12 +37,12 @@ class Dice {
   std::mt19937_64 random_;
 };
 
-/// The feature with which a body meets another: a corner (for a sphere its centre, for a cylinder a
-/// point of its rim), an edge (for a capsule its axis), or a face.
+/// The feature with which a body meets the other: a corner (the centre of a sphere, a point on the
+/// rim of a cylinder), an edge (the axis of a capsule), or a face.
 enum class Feature { corner, edge, face };
 
-/// A convex or nearly convex body before it is rounded to doubles, in any frame. It lies above a
-/// plane that it touches (`randomExactBody`).
+/// A convex or nearly convex body before its coordinates are rounded to doubles, in any frame. It
+/// lies above a plane, and touches it (`randomExactBody`).
 struct ExactBody {
   Feature feature = Feature::corner;
   bool mesh = false, flatEnds = false;
@@ -51,10 +51,11 @@ struct ExactBody {
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-/// Returns a body of about `size` metres that touches the plane through `q` with the normal `up`,
-/// at q and nowhere else but at its `feature`. All other points are above the plane, on the side of
-/// the unit vector `up`. An edge runs along the unit vector `along`, orthogonal to `up`. The
-/// feature of a sphere or capsule, its centre or axis, is above q by the radius.
+/// Returns a body of about `size` metres that touches the plane through `q` with the normal `up`.
+/// It touches the plane only with its `feature`, which contains q. All other points are above the
+/// plane, on the side of the unit vector `up`. An edge runs along the unit vector `along`, which is
+/// orthogonal to `up`. The feature of a sphere or capsule (its centre or axis) lies above q by the
+/// radius.
 ExactBody randomExactBody(Dice& dice, Feature feature, const Vec<Quad>& q, const Vec<Quad>& up,
                           const Vec<Quad>& along, double size);
 
@@ -64,23 +65,25 @@ struct Shape {
   bool isMesh = false;
   TriangleMesh mesh;
   ConvexPart part;
-  /// Points whose hull lies in the body, rounding included. The first are those of its feature: a
-  /// corner, the two ends of an edge, or three corners of a face; the others are any. If
-  /// `coreRadius` > 0, they are points of the core, which is swept by a sphere of that radius.
+  /// Points whose hull lies in the body, rounding included. The first points are those of the
+  /// feature: a corner, the two ends of an edge, or three corners of a face. The others are
+  /// arbitrary points of the body. If `coreRadius` > 0, the hull swept by a sphere of that radius
+  /// lies in the body, too.
   std::array<Vec<Quad>, 3> core;
   double coreRadius = 0;  ///< metres
 
-  double reach = 0;  ///< m; no point is farther from the frame's origin
+  double reach = 0;  ///< m; no point of the body is farther from the origin of its frame
 
-  /// Returns the largest m·x over all points x of the body; m is a unit vector in its frame.
+  /// Returns the largest m·x over all points x of the body; m is a unit vector in the body's frame.
   template <class S>
   S support(const Vec<S>& m) const;
   const std::vector<Vec3>& points() const { return isMesh ? mesh.vertices : part.points; }
 };
 
-/// Moves `plan` by `shift`, maps it to the body's frame by X, and rounds it to doubles.
-/// @param up the unit vector `up` of the plan. @param[out] error an upper bound of the rounding of
-/// any point, metres.
+/// Returns the body `plan`, moved by `shift`, mapped by X to the frame of the stored body, and
+/// rounded to doubles.
+/// @param up the vector `up` with which `randomExactBody` made the plan. @param[out] error an upper
+/// bound of the rounding of any point, metres.
 Shape stored(const ExactBody& plan, const Pose<Quad>& X, const Vec<Quad>& shift,
              const Vec<Quad>& up, double* error = nullptr);
 

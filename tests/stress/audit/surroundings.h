@@ -6,17 +6,17 @@
 
 namespace corridor::audit {
 
-/// Floating-point modes that a program may have set before it calls the library.
+/// Floating-point modes that a program may have set when it calls the library.
 enum class Mode {
   usual,
-  flushToZero,  ///< subnormal operands and results become 0
+  flushToZero,  ///< subnormal operands and results are replaced by 0
   upward,
   downward,
   towardZero,
   shortX87,  ///< long double is rounded to 53 bits
 };
 
-/// Sets a floating-point mode, and restores the previous one when it is destroyed.
+/// Sets a floating-point mode. The destructor restores the previous mode.
 class Surroundings {
  public:
   explicit Surroundings(Mode mode) : csr_(_mm_getcsr()) {

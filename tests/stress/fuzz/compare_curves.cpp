@@ -5,8 +5,8 @@
 namespace corridor::fuzz {
 namespace {
 
-/// Returns a piece from the robot's first state to its last: the coefficients between are near the
-/// edge, or anywhere.
+/// Returns a piece from the edge's first state to its second. The coefficients between the ends are
+/// all near the edge, or all arbitrary.
 CurvePiece decodePiece(Decoder& in, const Robot& robot) {
   const auto size = static_cast<Eigen::Index>(robot.space.size());
   const auto degree = 1 + static_cast<Eigen::Index>(in.below(CurvePiece::kLargestDegree));
@@ -19,7 +19,8 @@ CurvePiece decodePiece(Decoder& in, const Robot& robot) {
     for (double& value : piece.coefficients.col(i))
       value = near ? value + 0.1 * in.real() : in.real();
   }
-  // The two ends are exactly the states: a quaternion must not be scaled to 0.
+  // The end coefficients are set to the states exactly: products with 0 and 1 could round, or
+  // change the sign of zeros.
   piece.coefficients.col(0) = robot.from;
   piece.coefficients.col(degree) = robot.to;
   if (in.oneIn(4))
@@ -31,7 +32,8 @@ CurvePiece decodePiece(Decoder& in, const Robot& robot) {
 void compare(Robot& robot, Decoder& in) {
   const CurvePiece piece = decodePiece(in, robot);
   if (!piece.coefficients.allFinite()) return;
-  // The curve may go farther than both states. These are its extreme values, for the rounding.
+  // The curve may go farther than both states. Its largest magnitudes are needed for the bound of
+  // the rounding.
   const Configuration most = piece.coefficients.cwiseAbs().rowwise().maxCoeff();
   Robot wide = robot;
   for (const Coordinate& c : robot.space.coordinates())

@@ -1,5 +1,6 @@
-// Fuzz target: a polygon that moves in the plane among polygons. The pieces of each polygon have
-// its area, and the checker and the verifier must not contradict each other.
+// Fuzz target: a polygon that moves in the plane among polygons. The areas of a polygon's convex
+// pieces must add up to the polygon's area, and the checker and the verifier must not contradict
+// each other.
 #include <algorithm>
 
 #include "collision/convex/simple_polygon.h"
@@ -10,8 +11,8 @@ namespace {
 
 using Points = std::vector<Vec2>;
 
-/// Returns any points, or points in the order of their angles about their mean, which are nearly
-/// always a simple polygon.
+/// Returns a polygon of 3 to 11 corners. In 1 of 4 cases their order is arbitrary; otherwise they
+/// are sorted by their angle about their mean, and the polygon is nearly always simple.
 Points decodePoints(Decoder& in) {
   Points points(3 + in.below(9));
   for (Vec2& p : points) p = in.vector().head<2>();
@@ -25,7 +26,8 @@ Points decodePoints(Decoder& in) {
   return points;
 }
 
-/// Returns the area, and adds the sum of the absolute values of its terms to `terms`.
+/// Returns the signed area of the polygon. Adds the absolute values of the terms of the area's sum
+/// to `terms`.
 double areaOf(const Points& points, double& terms) {
   double area = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -36,7 +38,8 @@ double areaOf(const Points& points, double& terms) {
   return area;
 }
 
-/// Returns the polygon's pieces, or nothing if it is not simple.
+/// Returns the polygon's convex pieces, or an empty list if the polygon is not simple. Reports a
+/// finding if the pieces do not have the polygon's area.
 std::vector<ConvexPart> piecesOf(const Points& points) {
   std::vector<ConvexPart> parts;
   if (checkSimple(points)) return parts;
@@ -51,7 +54,8 @@ std::vector<ConvexPart> piecesOf(const Points& points) {
       part.points.emplace_back(points[i].x(), points[i].y(), 0);
     }
     const double area = areaOf(corners, terms);
-    // 2^-48: each term and each sum rounds by 2^-53, of at most 12 corners.
+    // A polygon has at most 11 corners, and each term and each sum is rounded by a factor of 2^-53.
+    // 2^-48 allows for all of them.
     if (area < -0x1p-48 * terms) fail("a piece of area " + number(area));
     sum += area;
   }

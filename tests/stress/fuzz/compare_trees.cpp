@@ -1,5 +1,5 @@
 // Fuzz target: two bodies under two maps. Queries on 4-wide OBB trees and on binary trees of every
-// volume must agree, within the errors that collision/queries promises.
+// kind of volume must agree, within the errors that collision/queries promises.
 #include <cmath>
 #include <set>
 
@@ -31,7 +31,7 @@ const std::vector<Kind>& everyKind() {
   return kinds;
 }
 
-/// Returns a body, or nullopt if the bytes make no sound body.
+/// Returns a body, or nullopt if the bytes make no valid body.
 std::optional<Body> decodeBody(Decoder& in) {
   const std::size_t kind = in.below(4);
   if (kind == 0) {
@@ -58,7 +58,8 @@ std::optional<Body> decodeBody(Decoder& in) {
   }
 }
 
-/// Returns the largest Σ|m||v| + |t| of all corners v: the scale of rounding of triangles.
+/// Returns the largest component of |m||v| + |t| over all corners v: the rounding of mapped
+/// triangles is proportional to this length.
 double scaleOfCorners(const TriangleMesh& mesh, const Transform& X) {
   double most = 0;
   for (const Vec3& v : mesh.vertices)
@@ -66,8 +67,9 @@ double scaleOfCorners(const TriangleMesh& mesh, const Transform& X) {
   return most;
 }
 
-/// Returns the largest ‖M‖_F·|v| + |t| of all corners v, radii included: the scale of rounding of
-/// pairs with convex parts.
+/// Returns the largest ‖m‖_F·(|v| + r) + |t| over all corners v, where r is the radius of the
+/// convex part (0 for a mesh). The rounding of pairs with convex parts is proportional to this
+/// length.
 double scaleOfParts(const Body& body, const Transform& X) {
   double farthest = 0;
   for (const ConvexPart& part : body.parts())
@@ -94,8 +96,8 @@ void compare(const Case& c, double asked) {
       meshes ? std::max(scaleOfCorners(c.a.mesh(), c.X_WA), scaleOfCorners(c.b.mesh(), c.X_WB))
              : std::max(scaleOfParts(c.a, c.X_WA), scaleOfParts(c.b, c.X_WB));
   if (!std::isfinite(S)) return;
-  // With primitives, contact is exact only outside a band of 2^-44 times the largest coordinate.
-  // The comparison allows 2^-42.
+  // With primitives, the verdict of contact is exact only if the distance or depth exceeds 2^-44
+  // times the largest coordinate. The comparison allows 2^-42.
   const double band = meshes ? 0 : 0x1p-42 * S;
   const auto error = [&](double d) { return 1e-12 * d + 4 * 0x1p-53 * S + band + 0x1p-998; };
 
@@ -104,7 +106,8 @@ void compare(const Case& c, double asked) {
     double distance;
   };
   std::vector<TouchAndDistance> byKind;
-  QueryContext context;  // one for all queries: its stored pairs must not change an answer
+  QueryContext context;  // the same for all queries: the pairs that it stores must not change an
+                         // answer
   for (const Kind& kind : everyKind()) {
     const bool touch =
         interference(Posed(c.a, c.X_WA), Posed(c.b, c.X_WB), context, kind.trees).has_value();
@@ -135,8 +138,8 @@ void compare(const Case& c, double asked) {
         distance(Posed(c.a, c.X_WA), Posed(c.b, c.X_WB), {0.25, 0}, context, kind.trees).distance;
     if (!(rough >= d.distance - 2 * error(d.distance) &&
           rough <= 1.25 * d.distance + 3 * error(d.distance)))
-      fail(kind.name + ": distance " + number(d.distance) + ", with a quarter allowed " +
-           number(rough));
+      fail(kind.name + ": distance " + number(d.distance) +
+           ", with a relative error of 0.25 allowed " + number(rough));
   }
   const double d = byKind.front().distance;
   for (const double x : {asked, d, d * (1 + 1e-9), d * (1 - 1e-9), 0.5 * d}) {

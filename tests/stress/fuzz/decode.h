@@ -22,7 +22,8 @@ namespace corridor::fuzz {
 /// decoder reads zeros.
 ///
 /// Most numbers are from coarse grids, or repeat an earlier number, or differ from an earlier
-/// number in a few last digits. So coplanar, touching and grazing features are as likely as others.
+/// number by a few units in the last place. So coplanar, touching and grazing features are about as
+/// likely as others.
 class Decoder {
  public:
   Decoder(const std::uint8_t* data, std::size_t size) : at_(data), end_(data + size) {}
@@ -32,7 +33,8 @@ class Decoder {
   std::size_t below(std::size_t count) { return byte() % count; }
   bool oneIn(std::size_t n) { return below(n) == n - 1; }
 
-  /// Limits the magnitude of all further numbers: at most `largest`, and 0 or at least 1/`largest`.
+  /// Limits the magnitude of all further numbers: each is 0, or has a magnitude from 1/`largest` to
+  /// `largest`. @pre `largest` ≥ 2.
   void limit(double largest) { largest_ = largest; }
 
   double real() {
@@ -54,12 +56,12 @@ class Decoder {
     const Vec3 v = vector();
     return v.stableNorm() > 0 ? v : Vec3(0, 0, 1);
   }
-  /// Returns a quaternion that is not zero, of any norm.
+  /// Returns a quaternion of any norm except 0.
   Eigen::Quaterniond quaternion() {
     switch (below(4)) {
       case 0:
         return Eigen::Quaterniond::Identity();
-      case 1: {  // multiples of quarter turns, and one about a diagonal
+      case 1: {  // quarter and half turns about the axes, and a third of a turn about a diagonal
         const double h = std::numbers::sqrt2 / 2;
         const Eigen::Quaterniond turns[] = {{h, h, 0, 0},    {h, 0, h, 0}, {h, 0, 0, h},
                                             {0, 1, 0, 0},    {0, 0, 1, 0}, {0, 0, 0, 1},
@@ -80,7 +82,7 @@ class Decoder {
     const Vec3 p = vector();
     return {p, quaternion()};
   }
-  /// Returns a rigid map, rounded.
+  /// Returns a rigid map; its rotation matrix is rounded.
   Transform map() {
     const RigidPose rigid = pose();
     return {rigid.q.normalized().toRotationMatrix(), rigid.p};
@@ -130,7 +132,7 @@ class Decoder {
     if (oneIn(4)) addCopies(mesh);
     return mesh;
   }
-  /// Returns a sound primitive at some pose.
+  /// Returns a valid primitive at some pose.
   ConvexPart part() {
     Primitive primitive;
     switch (below(5)) {
@@ -170,7 +172,7 @@ class Decoder {
         return static_cast<std::int8_t>(byte()) / 8.0;
       case 2:
         return earlier();
-      case 3: {  // some last digits off
+      case 3: {  // a few units in the last place away from an earlier number
         double value = earlier();
         const int steps = static_cast<std::int8_t>(byte()) % 8;
         for (int i = 0; i < std::abs(steps); ++i)
@@ -218,8 +220,9 @@ class Decoder {
     }
   }
   double earlier() { return earlier_.empty() ? 1 : earlier_[below(earlier_.size())]; }
-  /// Returns the value, brought into the range of `limit`: a number out of range keeps its digits
-  /// and gets another power of two.
+  /// Returns the value, brought into the range of `limit`: a number out of range keeps its
+  /// significand, and gets a magnitude in [1/2, 1). An infinity becomes ±`largest_`, and a NaN
+  /// becomes 1.
   double bounded(double value) const {
     if (std::isnan(value)) return 1;
     if (std::isinf(value)) return std::copysign(largest_, value);
@@ -258,7 +261,7 @@ class Decoder {
       addTriangle(mesh, corners);
     }
   }
-  /// Adds copies of the mesh, in a row.
+  /// Adds up to 8 copies of the mesh, in a row.
   void addCopies(TriangleMesh& mesh) {
     const TriangleMesh one = mesh;
     const Vec3 step = vector();

@@ -14,7 +14,8 @@
 
 #include "collision/core/error.h"
 
-/// The entry point of every fuzz target; libFuzzer, or replay.cpp, calls it for each input.
+/// The entry point of every fuzz target. libFuzzer or replay.cpp calls this function for each
+/// input.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 namespace corridor::fuzz {
@@ -63,8 +64,8 @@ struct NamedInput {
   std::string ending;
   std::string_view bytes;
 };
-/// Splits an input. Returns nullopt if the first line is not an extension of 1 to 12 letters and
-/// digits.
+/// Splits an input after its first line. Returns nullopt if that line is not an extension of 1 to
+/// 12 letters and digits.
 inline std::optional<NamedInput> namedInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text = textOf(data, size);
   const std::size_t end = text.find('\n');
@@ -75,7 +76,8 @@ inline std::optional<NamedInput> namedInput(const std::uint8_t* data, std::size_
   return NamedInput{std::string(text.substr(0, end)), text.substr(end + 1)};
 }
 
-/// Checks that every fault is one line of plain text, and not empty.
+/// Reports a finding if a fault has an empty text, a negative line number, or a control character
+/// (such as a line break) in its text.
 inline void checkFaults(const std::vector<Fault>& faults) {
   for (const Fault& fault : faults) {
     if (fault.text.empty()) fail("a fault without a text");
@@ -85,8 +87,9 @@ inline void checkFaults(const std::vector<Fault>& faults) {
   }
 }
 
-/// Calls a reader. It may succeed, or throw InputError with faults that people can read; any other
-/// exception is a finding. @returns whether it succeeded.
+/// Calls a reader, which may succeed, or throw InputError with at least one fault, each with a text
+/// that passes `checkFaults`. Any other exception is reported as a finding. @returns whether the
+/// reader succeeded.
 inline bool readsOrRefuses(const std::function<void()>& read) {
   try {
     read();

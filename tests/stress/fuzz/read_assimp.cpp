@@ -1,6 +1,6 @@
-// Fuzz target: mesh files that assimp reads. assimp reads all files that Corridor's own readers
-// leave to it, and every file that is read by OMPL.app's rules. The first line of an input is the
-// file's extension.
+// Fuzz target: mesh files that assimp reads. assimp reads the files with other extensions than
+// those of Corridor's own readers, and every file that is read by OMPL.app's rules. The first line
+// of an input is the file's extension.
 #include <algorithm>
 
 #include "collision/geometry/mesh_file.h"

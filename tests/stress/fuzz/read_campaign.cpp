@@ -1,4 +1,5 @@
-// Fuzz target: campaign files (corridor-campaign-1) that may name small problems.
+// Fuzz target: campaign files (corridor-campaign-1), in a folder with small problems that they may
+// name.
 #include "planner/benchmark/campaign_yaml.h"
 #include "tests/stress/fuzz/small_world.h"
 

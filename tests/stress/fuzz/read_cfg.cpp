@@ -1,4 +1,4 @@
-// Fuzz target: OMPL.app's .cfg files, beside small meshes.
+// Fuzz target: OMPL.app's .cfg files, in a folder with a small mesh that they may name.
 #include "planner/problem/problem.h"
 #include "tests/stress/fuzz/small_world.h"
 

@@ -1,4 +1,5 @@
-// Fuzz target: poses and motions of `corridor query`, 12 and 24 numbers per line.
+// Fuzz target: files of `corridor query`: poses (12 numbers per line) and motions (24 numbers per
+// line).
 #include "planner/app/query_poses.h"
 #include "tests/stress/fuzz/fuzz.h"
 

@@ -1,5 +1,5 @@
-// Fuzz target: problem files (corridor-problem-1), beside small robots and meshes. The checker must
-// accept every problem that the reader accepts.
+// Fuzz target: problem files (corridor-problem-1), in a folder with small robots and meshes that
+// they may name. The checker must accept every problem that the reader accepts.
 #include "planner/checker/checker.h"
 #include "planner/problem/problem.h"
 #include "tests/stress/fuzz/small_world.h"

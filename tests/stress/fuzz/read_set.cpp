@@ -1,4 +1,5 @@
-// Fuzz target: MotionBenchMaker's sets (mbm-scene-1, JSON), beside a small arm.
+// Fuzz target: MotionBenchMaker's sets (mbm-scene-1, JSON), in a folder with a small arm that they
+// may name.
 #include "planner/problem/problem.h"
 #include "tests/stress/fuzz/small_world.h"
 

@@ -1,5 +1,5 @@
-// Fuzz target: solution files, YAML and .path, for problems in SE(2), in SE(3) and with joints. The
-// first line of an input is the file's extension.
+// Fuzz target: solution files (YAML and .path) of problems in SE(2), of problems in SE(3), and of
+// problems of a robot with two joints. The first line of an input is the file's extension.
 #include "planner/solve/solution.h"
 #include "tests/stress/fuzz/fuzz.h"
 

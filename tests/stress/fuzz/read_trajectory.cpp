@@ -1,6 +1,6 @@
 // Fuzz target: trajectory files (rows and messages), for an arm with held and mimic joints, and for
-// a floating body. Rows that are read make a curve or a fault. Written as text, they read back the
-// same.
+// a floating body. The rows that are read must give a curve or a fault. If they are written as text
+// and read again, they must be the same.
 #include "planner/trajectory/trajectory_curve.h"
 #include "planner/trajectory/trajectory_text.h"
 #include "tests/stress/fuzz/fuzz.h"

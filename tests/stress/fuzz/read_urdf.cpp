@@ -1,5 +1,5 @@
-// Fuzz target: URDF files, beside a small mesh. A robot that was read,
-// taken apart into links and joints and built again must equal the original.
+// Fuzz target: URDF files, in a folder with a small mesh that they may name. If a robot is built
+// again from the links and joints that were read, it must equal the original.
 #include <cmath>
 
 #include "planner/robot/robot_parts.h"
@@ -10,7 +10,8 @@ namespace {
 
 using namespace corridor;
 
-/// Returns the links and joints of a robot, as a program would give them.
+/// Returns the links and joints of a robot in the form in which a program passes them to
+/// `makeRobot`.
 RobotParts partsOf(const RobotModel& model) {
   RobotParts parts;
   parts.links = model.links;

@@ -1,9 +1,8 @@
-// The main program of a fuzz target that is built without libFuzzer. Runs the target on files, on
-// all files in folders, and then on N mutations of them.
-//   fuzz_TARGET [--mutations N] [--longest SECONDS] FILE|FOLDER…
-// An input that takes longer than SECONDS (default 10) is a finding.
-// The same seed (CORRIDOR_SEED) makes the same mutations. Each input is written to TMPDIR/input
-// before it runs: if the program crashes, that file is the reproducer.
+// The main program of a fuzz target that is built without libFuzzer. Runs the target on the given
+// files, on all files in the given folders, and then on N mutations of these files. fuzz_TARGET
+// [--mutations N] [--longest SECONDS] FILE|FOLDER… An input that takes longer than SECONDS (default
+// 10) is a finding. The same seed (CORRIDOR_SEED) makes the same mutations. Each input is written
+// to TMPDIR/input before it runs: if the program crashes, that file is the reproducer.
 #include <algorithm>
 #include <chrono>
 #include <iostream>
@@ -50,7 +49,7 @@ std::string mutated(std::string bytes, const std::vector<std::string>& inputs, R
         bytes.insert(at, other.substr(below(random, other.size()), below(random, 64)));
         break;
       }
-      case 4: {  // a digit becomes another number
+      case 4: {  // a digit is replaced by another number
         const std::size_t digit = bytes.find_first_of("0123456789", at);
         static const char* const numbers[] = {"0", "-1", "1e999", "nan", "4294967296", "1e-320"};
         if (digit != bytes.npos) bytes.replace(digit, 1, numbers[below(random, 6)]);

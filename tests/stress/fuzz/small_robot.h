@@ -12,13 +12,14 @@
 #include "tests/stress/fuzz/decode.h"
 #include "tests/stress/fuzz/fuzz.h"
 
-/// Shared code of the targets that compare the checker with the verifier: makes a small robot among
-/// small bodies from bytes, and tests that checker and verifier do not contradict each other.
+/// Shared code of the targets that compare the checker with the verifier: it makes a small robot
+/// among small bodies from bytes, and tests that the checker and the verifier do not contradict
+/// each other.
 namespace corridor::fuzz {
 
 struct Shape {
   TriangleMesh mesh;
-  std::vector<ConvexPart> parts;  ///< empty: a mesh
+  std::vector<ConvexPart> parts;  ///< empty if the shape is a mesh
   bool solid = false;
   std::size_t frame = 0;
 };
@@ -29,7 +30,8 @@ struct Robot {
   Configuration from, to, tube;
   std::vector<Shape> shapes;
   double size = 0;   ///< sum of all lengths, metres: the scale of rounding
-  double angle = 0;  ///< sum of all angles of mimics, radians: `framePoses` rounds them to double
+  double angle = 0;  ///< sum of the largest angles of all revolute joints, radians: `framePoses`
+                     ///< rounds these angles to double
 
   std::size_t variable(Coordinate::Kind kind) {
     Coordinate c;
@@ -61,7 +63,7 @@ inline void addJoint(Decoder& in, Robot& robot) {
       frame.joint = Frame::Joint::prismatic;
       frame.variable = robot.variable(Kind::line);
       break;
-    case 3: {  // mimics the first line or circle; held if there is none
+    case 3: {  // mimics the first line or circle coordinate; held still if there is none
       frame.joint = in.oneIn(2) ? Frame::Joint::prismatic : Frame::Joint::revolute;
       frame.multiplier = in.real();
       frame.offset = in.real();
@@ -107,7 +109,8 @@ inline void decodeEdge(Decoder& in, Robot& robot) {
   }
 }
 
-/// Computes `size` and `angle` from frames, states and shapes.
+/// Adds to the robot's `size` and `angle` the lengths and angles of its frames, states and shapes.
+/// @pre both members are 0.
 inline void setSize(Robot& robot) {
   const auto length = [](const Vec3& v) { return v.stableNorm(); };
   for (const Shape& shape : robot.shapes) {
@@ -140,7 +143,8 @@ inline void setSize(Robot& robot) {
   }
 }
 
-/// Returns a robot with bodies, or nullopt if the bytes make no sound scene.
+/// Returns a robot with bodies, or nullopt if the bytes make an invalid mesh or lengths that
+/// overflow.
 inline std::optional<Robot> decodeRobot(Decoder& in) {
   Robot robot;
   for (std::size_t n = 1 + in.below(4); n > 0; --n) addJoint(in, robot);
@@ -148,7 +152,7 @@ inline std::optional<Robot> decodeRobot(Decoder& in) {
   const std::size_t bodies = 2 + in.below(3);
   for (std::size_t n = 0; n < bodies; ++n) {
     Shape shape;
-    // The first body is on the last frame, the second in the world.
+    // The first body is on the last frame; the second is fixed in the world.
     shape.frame = n == 0   ? robot.tree.frames.size() - 1
                   : n == 1 ? 0
                            : in.below(robot.tree.frames.size());
@@ -173,17 +177,19 @@ inline std::string number(double value) {
   return text;
 }
 
-/// A robot's scene for the checker, and its data for the verifier. Keeps references to the robot.
+/// The scene of a robot for the checker, and the same data for the verifier. Keeps references to
+/// the robot, which must outlive this object.
 struct Comparison {
   PathProblem problem;
   Scene scene;
   MotionOptions options;
   EdgeMethod method = EdgeMethod::directional;
-  double rounding = 0;   ///< metres: verdicts may differ by this distance
+  double rounding = 0;   ///< metres: a distance below which checker and verifier may disagree
   std::string who = {};  ///< for messages: the method and the trees
 };
 
-/// Returns the comparison of a robot, or nullopt if the robot makes no sound scene.
+/// Returns what is needed to compare checker and verifier on a robot, or nullopt if the robot makes
+/// no valid scene.
 inline std::optional<Comparison> comparisonOf(const Robot& robot, Decoder& in) {
   PathProblem problem;
   problem.tree = &robot.tree;
@@ -212,7 +218,7 @@ inline std::optional<Comparison> comparisonOf(const Robot& robot, Decoder& in) {
         problem.pairs.push_back({a, b});
       }
   Comparison c{std::move(problem), Scene(std::move(bodies), std::move(pairs)), {}};
-  // A mimic's angle, multiplier·q + offset, is off by 2^-53 of both terms and of the sum.
+  // A joint's angle, multiplier·q + offset, is off by 2^-53 times its terms and its sum.
   c.rounding = (0x1p-40 + 0x1p-51 * robot.angle) * robot.size;
   c.options.tolerance = std::max(c.scene.defaultTolerance(), 4 * c.rounding);
   c.options.clearanceSlack = c.options.tolerance;
@@ -257,7 +263,7 @@ inline void compareEdge(const Robot& robot, Decoder& in) {
   requireAgreement(c, c.scene.certify(motion, c.options, context, c.method),
                    verifyPath(c.problem, {robot.from, robot.to}));
 
-  // Tests the two states of the edge, without margin and tube.
+  // The two states of the edge are compared without margin and tube.
   c.problem.margin = 0;
   c.problem.tube.setZero();
   for (const Configuration& q : {robot.from, robot.to}) {

@@ -7,7 +7,8 @@
 
 namespace corridor::fuzz {
 
-/// Returns a tetrahedron in the format of a file's extension; "" for other formats.
+/// Returns the text of a mesh file with a tetrahedron, for the extensions .obj, .ply and .stl; ""
+/// for any other extension.
 inline std::string tetrahedron(const std::string& ending) {
   if (ending == ".obj")
     return "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
@@ -27,9 +28,10 @@ inline std::string tetrahedron(const std::string& ending) {
   return text + "endsolid t\n";
 }
 
-/// Copies the project's problems/ and robots/ into a folder, and replaces every mesh by a
-/// tetrahedron. So robots and meshes that inputs name exist, and reading them is fast. All meshes
-/// are also copied into problems/p/, because the inputs are written there.
+/// Copies the YAML, URDF and SRDF files of the project's problems/ and robots/ into a folder, and
+/// writes a tetrahedron for every OBJ, PLY and STL file. So the robots and meshes that inputs name
+/// exist, and are read fast. The tetrahedra are also written into problems/p/, because the inputs
+/// are written there.
 inline void writeSmallWorld(const Folder& folder) {
   const std::filesystem::path source = CORRIDOR_SOURCE_DIR;
   for (const char* part : {"problems", "robots"})

@@ -26,7 +26,7 @@ WORK = ROOT / "build" / "mutations"
 TREE, RESULTS = WORK / "tree", WORK / "results.json"
 BUILD = TREE / "build" / "release"  # the preset's folder
 
-NAMED_LIMIT = 300  # seconds for one program with a filter; longer is a hang, which counts as caught
+NAMED_LIMIT = 300  # seconds for one program with a filter; a longer run counts as a hang, and the mutation as caught
 WHOLE_LIMIT = 900  # seconds for one whole program
 
 
@@ -70,7 +70,7 @@ def git(*arguments):
 
 
 def copyTree():
-    """Makes TREE equal to HEAD. An unchanged file keeps its modification time, so that little is built again."""
+    """Makes TREE equal to HEAD. An unchanged file keeps its modification time, so only changed code is built again."""
     archive = tarfile.open(fileobj=io.BytesIO(git("archive", "HEAD")))
     kept = set()
     for member in archive.getmembers():
