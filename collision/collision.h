@@ -12,8 +12,8 @@
 /// * `Transform`: an affine map x ↦ m·x + t. It is used exactly as it is stored: a map that scales,
 ///   shears or mirrors is legal.
 /// * `TriangleMesh`: a point set, the union of its triangles with their interiors. `readMeshFile`
-///   reads OBJ, STL, PLY, OFF, Collada, glTF and more. If a file has a fault, it throws InputError,
-///   whose message names the file and, if it is known, the line.
+///   reads OBJ, STL, PLY, OFF, Collada, glTF and more. If a file has a fault, `readMeshFile` throws
+///   InputError, whose message names the file and, if it is known, the line.
 /// * `ConvexPart`: a convex solid that is never tessellated. `placed(Box{size}, X)` makes a box
 ///   with the pose X; instead of Box, use Sphere, Capsule, Cylinder or Convex.
 /// * `Body`: a named mesh, a convex part, or the union of many convex parts. A mesh stands for its
@@ -58,8 +58,9 @@
 ///
 /// 3. How far apart are they, and where are they closest to each other? The distance is 0 if and
 ///    only if the bodies touch. Otherwise the error is at most 1e-12·distance + 4·2^-53·S, plus the
-///    error that the options allow. S is the largest Σ|m||v| + |t| over the corners v of both
-///    bodies, each with its body's map x ↦ m·x + t. This question costs 10 to 70 times as much as
+///    error that the options allow. S is the largest number Σ_k |m_ik||v_k| + |t_i| over the
+///    coordinates i of all corners v of both bodies, where x ↦ m·x + t is the map of the corner's
+///    body. This question costs 10 to 70 times as much as
 ///    the first one.
 ///
 ///        const Distance d = distance(a, b, {}, context);             // d.distance, d.p_WA, d.p_WB
@@ -69,10 +70,10 @@
 ///
 ///        if (closerThan(a, b, 0.05, context)) …
 ///
-/// 5. Is one body inside the other? The other body must be a solid mesh. Questions 1, 3, 4 and 6
-///    include this question. The caller of `findOneInsideOther` must know that the surfaces do not
-///    touch. The answer "no" is a proof. The answer "yes" is exact, except that a point counts as
-///    inside if none of 64 rays can decide.
+/// 5. Is one body inside the other? The other body must be a solid mesh. Questions 1, 3, 4, 6 and
+///    7 include this question. The caller of `findOneInsideOther` must know that the surfaces do
+///    not touch. The answer "no" is a proof. The answer "yes" is exact, except that a point counts
+///    as inside if none of 64 rays can decide.
 ///
 ///        if (findOneInsideOther(a, b, context)) …
 ///

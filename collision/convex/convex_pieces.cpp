@@ -86,7 +86,9 @@ class Subdivision {
     for (Index v = 0; v < count_; ++v) {
       std::vector<Index>& around = outgoing[v];
       sortAround(v, around);
-      Index before = v;  // counterclockwise from the edge to the next vertex
+      // Goes counterclockwise, from the edge to the next vertex. `before` is the previous outgoing
+      // half-edge.
+      Index before = v;
       for (const Index h : around) {
         link(twin(h), before);
         before = h;
@@ -95,7 +97,8 @@ class Subdivision {
     }
   }
 
-  /// Removes each diagonal without which the corners at both of its ends stay convex.
+  /// Removes each diagonal that is not needed: after its removal, the corners at both of its ends
+  /// are still convex.
   void removeNeedless() {
     for (Index h = count_; h < origin_.size(); h += 2)
       if (isConvexWithout(h) && isConvexWithout(twin(h))) {

@@ -5,12 +5,14 @@
 namespace corridor {
 namespace {
 
-/// Replaces control characters, which may come from a damaged file, by '?'. Then each fault is one
-/// line, and no text of a file can send commands to the terminal.
+/// Replaces control characters by '?'. They may come from a damaged file, also in the name of
+/// another file. Then each fault is one line, and no text of a file can send commands to the
+/// terminal.
 std::vector<Fault> printableFaults(std::vector<Fault> faults) {
   for (Fault& fault : faults)
-    for (char& c : fault.text)
-      if ((c >= 0 && c < ' ') || c == 0x7f) c = '?';
+    for (std::string* text : {&fault.file, &fault.text})
+      for (char& c : *text)
+        if ((c >= 0 && c < ' ') || c == 0x7f) c = '?';
   return faults;
 }
 

@@ -19,8 +19,8 @@ struct Fault {
 };
 
 /// The exception for bad input. It carries all faults found; `what()` lists them one per line. In
-/// `faults()` and `what()`, control characters in the texts of the faults are replaced by '?'. A
-/// command of Corridor that gets this exception ends with exit status 2.
+/// `faults()` and `what()`, control characters in the texts and file names of the faults are
+/// replaced by '?'. A command of Corridor that gets this exception ends with exit status 2.
 class InputError : public std::runtime_error {
  public:
   explicit InputError(std::vector<Fault> faults);

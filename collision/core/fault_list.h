@@ -22,7 +22,8 @@ class FaultList {
   void add(const std::vector<Fault>& faults);
   void add(const InputError& error) { add(error.faults()); }
   /// Calls `step`. If `step` throws an InputError, adds the error's faults to the list. If the list
-  /// is already full, rethrows the error instead: `add` threw it, so the list has its faults.
+  /// is full, the error came from `add`, and its faults are already in the list: then rethrows the
+  /// error.
   template <class Step>
   void collect(const Step& step) {
     try {
@@ -38,7 +39,7 @@ class FaultList {
   /// @throws InputError with all distinct faults, if there are any. The faults of the main file
   /// come first. The other files follow in the order of their first faults. The faults of one file
   /// are sorted by line. If the list is full, an additional fault at the end reports that reading
-  /// stopped. (The list contains a fault twice if a file is read twice, with different options.)
+  /// stopped. (Equal faults arise if a file is read twice, with different options.)
   void throwIfAny() const;
 
  private:

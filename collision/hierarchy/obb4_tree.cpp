@@ -56,9 +56,9 @@ void Obb4Tree::refit(const TriangleMesh& moved) {
   requireStandardFloatingPoint();
   if (hasParts()) throw std::invalid_argument("a tree of convex parts can't be refitted");
   if (moved.triangles.size() != triangleCount())
-    throw std::invalid_argument("a tree can only be refitted to a mesh of as many triangles: " +
-                                std::to_string(triangleCount()) + ", not " +
-                                std::to_string(moved.triangles.size()));
+    throw std::invalid_argument(
+        "a tree can only be refitted to a mesh of the same number of triangles: " +
+        std::to_string(triangleCount()) + ", not " + std::to_string(moved.triangles.size()));
   if (const auto complaint = checkMesh(moved)) throw std::invalid_argument(*complaint);
   std::vector<Vec3> vertices = moved.vertices;
   take(refitObb4(moved, meshTriangle_, root_, nodes_));

@@ -17,9 +17,10 @@ namespace {
 struct MovingCorners {
   Triangle posed, first;  ///< corners in a's frame; first-order displacements
   MotionBound bound[3];
-  /// True if a single rotation causes the whole remainder (`secondOrderAcross`). Then the remainder
-  /// is known in full. Along n it is at most |n·second| + |n·third|, with second = ½ ω × (ω × d)
-  /// and third = (α²/6) ω × d. Here ω is `angular`, α its length, and d the lever from the axis.
+  /// True if the motion's only second-order part is that of a single rotation: `secondOrderAcross`
+  /// of a corner is above 0. Then the remainder beyond first order is known in full. Along n it is
+  /// at most |n·second| + |n·third|, with second = ½ ω × (ω × d) and third = (α²/6) ω × d. Here ω
+  /// is `angular`, α its length, and d the lever from the axis.
   bool turns = false;
   Triangle second, third;
   Vec3 loose;  ///< for each corner, a bound of the rounding of the terms above
@@ -67,8 +68,8 @@ TriangleGaps gapsAlong(const Vec3& n, const Triangle& a, const MovingCorners& b)
   const double highest = std::max({n.dot(a[0]), n.dot(a[1]), n.dot(a[2])});
   for (int i = 0; i < 3; ++i) {
     const MotionBound& bound = b.bound[i];
-    // A single rotation has at most the remainder (1 − cos α)|n·(k × (k × d))| + (α − sin α)|n·(k ×
-    // d)| along n, with k = ω/α. This is sharper than the bound by `secondOrderAcross`.
+    // Along n, the remainder of a single rotation is at most (1 − cos α)|n·(k × (k × d))| + (α −
+    // sin α)|n·(k × d)|, with k = ω/α. This is sharper than the bound by `secondOrderAcross`.
     const double beyond = b.turns ? std::abs(n.dot(b.second[i])) + std::abs(n.dot(b.third[i])) : 0;
     const double directional =
         std::abs(n.dot(b.first[i])) + beyond + bound.secondOrder + b.loose[i];
@@ -91,8 +92,8 @@ Vec3 unit(const Vec3& v) {
   return v / std::sqrt(square);
 }
 
-/// Calls `attempt` with directions that are right to a few ulp, whatever the sizes of the
-/// triangles. Each points to the same side as `n`.
+/// Calls `attempt` with directions that are orthogonal, to a few ulp, to the features that they
+/// separate, whatever the sizes of the triangles. Each points to the same side as `n`.
 ///
 /// The direction of the closest points is less accurate. These points are rounded to u times a
 /// triangle's size L. Their difference, of length d, is therefore tilted by uL/d. Across L the tilt
@@ -137,8 +138,8 @@ MovingPairAnswer decideMovingTriangles(const Triangle& a, const Triangle& b,
   // 3·√3·uS < 5.2uS for each triangle. A posed coordinate is off by 4.1u(3|y| + |t|) < 12.3uS;
   // along n this is √3 times as much, 21.3uS. The difference rounds by 4uS. Together: < 36uS.
   const double slack = 64 * kUnit * size + kTiny;
-  // Since |n| ≤ 1 + 4u, gaps along n may be too large by the factor 1 + 4u. For the errors, `slack`
-  // leaves room for this factor; for the margin, the last term covers it.
+  // Since |n| ≤ 1 + 4u, gaps along n may be too large by the factor 1 + 4u. `slack` is
+  // large enough for this factor on the errors; the last term is this factor on the margin.
   const double needed = margin + slack + 4 * kUnit * margin;
 
   const ClosestPoints closest = closestFeaturePoints(a, posed);
@@ -153,7 +154,9 @@ MovingPairAnswer decideMovingTriangles(const Triangle& a, const Triangle& b,
   answer.gap = std::max(0.0, distance - margin);
   if (margin > 0 && distance + slack <= margin) {
     answer.contact = true;
-  } else if (!(gaps.middle > slack)) {  // otherwise n separates the rounded pose
+  } else if (!(gaps.middle > slack)) {
+    // If gaps.middle > slack, n separates the triangles at the rounded pose, and this is not
+    // needed.
     const PredicateResult touch = trianglesTouch(a, {}, b, relative.X_AB);
     answer.contact = touch;
     answer.exact = touch.exact;

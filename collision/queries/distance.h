@@ -11,7 +11,7 @@
 namespace corridor {
 
 /// The error that a distance query may make: the distance reported exceeds the true one by at most
-/// relative·true + absolute. If both are 0, all digits are computed.
+/// relative·(true distance) + absolute. If both are 0, all digits are computed.
 struct DistanceOptions {
   double relative = 0;
   double absolute = 0;  ///< metres
@@ -34,9 +34,10 @@ struct Distance {
 /// The result is 0 if and only if `interference` reports contact; then the two leaf primitives
 /// share a point, and both witness points are this point, up to rounding. Otherwise the error,
 /// beyond what the options allow, is at most 1e-12·distance + 4·2^-53·S, and the result is at least
-/// 2^-1022. S is the largest Σ|m||v| + |t| of the mapped corners, for convex parts with their
-/// radii. If a tree has convex parts and a map is not rigid, S is the largest ‖M‖_F·|v| + |t|.
-/// Curved surfaces are not tessellated.
+/// 2^-1022. S is the largest number Σ_k |m_ik||v_k| + |t_i| over the coordinates i of all corners
+/// v, where x ↦ m·x + t is the map of the corner's body; convex parts count with their radii. If a
+/// tree has convex parts and a map is not rigid, S is the largest ‖M‖_F·|v| + |t|. Curved surfaces
+/// are not tessellated.
 ///
 /// Method: branch and bound by the volumes' lower bounds, nearest pairs first (Larsen et al. 1999).
 /// Distances of leaf primitives are bounded in double. Pairs that may be the closest are measured

@@ -66,7 +66,7 @@ class Nearest : public BoxesWithin<true> {
     if (!(limit < HUGE_VALF)) return;
     least_ = limit;
     closest_ = {s, t};
-    lowerLimit(upper);
+    reduceLimit(upper);
   }
   /// Returns the pair with the least upper bound, for the next query to start from.
   std::optional<PrimitivePair> closest() const {
@@ -74,8 +74,8 @@ class Nearest : public BoxesWithin<true> {
   }
 
   Distance result() {
-    // The pair `closest_` is measured first: because of the allowed error, the limit may be below
-    // the bound of the pair that set it, so that the loop below would skip this pair.
+    // Tests `closest_` first. This pair has set the limit, which is reduced by the allowed error.
+    // So the limit may be below the pair's own bound, and the loop would skip the pair.
     if (least_ < HUGE_VALF) testPair(closest_.a, closest_.b);
     std::erase_if(candidates_, [&](const auto& c) { return c.bound > limit_; });
     std::ranges::sort(candidates_, {}, [](const auto& c) { return std::tuple(c.bound, c.a, c.b); });
@@ -101,7 +101,7 @@ class Nearest : public BoxesWithin<true> {
             least_ = upper[bit];
             closest_ = pairs.triangles(first + bit);
           }
-          if (least_ < HUGE_VALF) lowerLimit(least_ / pose_.unitA * (2 - pose_.shrink));
+          if (least_ < HUGE_VALF) reduceLimit(least_ / pose_.unitA * (2 - pose_.shrink));
           for (unsigned rest = open; rest; rest &= rest - 1) {
             const auto bit = static_cast<unsigned>(std::countr_zero(rest));
             const auto [s, t] = pairs.triangles(first + bit);
@@ -117,9 +117,9 @@ class Nearest : public BoxesWithin<true> {
 
   void testPair(std::uint32_t s, std::uint32_t t) {
     nearest_.testPair(s, a_.triangle(s), t, b_.triangle(t), counters_);
-    lowerLimit(nearest_.upper());
+    reduceLimit(nearest_.upper());
   }
-  void lowerLimit(double metres) { BoxesWithin::lowerLimit(metres, options_); }
+  void reduceLimit(double metres) { BoxesWithin::reduceLimit(metres, options_); }
 
   const DistanceOptions& options_;
   Obb4Leaves leaves_;

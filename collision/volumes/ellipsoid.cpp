@@ -75,8 +75,8 @@ Shape smallest(const std::vector<Vec3>& z) {
     for (std::size_t i = 0; i < z.size(); ++i) mean += weight[i] * z[i];
     for (std::size_t i = 0; i < z.size(); ++i) variance += weight[i] * (z[i] - mean).cwiseAbs2();
     if (step == kFitSteps) break;
-    // The lower limit is for axes along which all points are equal up to rounding: such an axis
-    // hardly changes the weights.
+    // Along some axis all points may be equal up to rounding. The lower limit keeps such an axis
+    // from changing the weights.
     const Vec3 used = variance.cwiseMax(0x1p-20);
     double sum = 0, most = 0;
     for (std::size_t i = 0; i < z.size(); ++i) {
@@ -88,7 +88,8 @@ Shape smallest(const std::vector<Vec3>& z) {
     for (double& w : weight) w /= sum;
     if (most <= 1.01 * sum) break;
   }
-  // A semi-axis below 1, half of the extent, occurs only if the extent is rounding error.
+  // The points extend over [−1, 1], so a semi-axis is at least 1, except along an axis on which the
+  // extent is rounding error.
   return {mean, (3 * variance).cwiseMax(1).cwiseSqrt()};
 }
 

@@ -105,9 +105,9 @@ struct MovingBoxes {
 /// were found by measurement; no proof depends on them.
 constexpr float kTravelOfSize = 1, kRemainderOfSize = 32;
 
-/// Tests the sixteen pairs over a time interval (obb4.h has the derivation). `keys` receives for
-/// each pair the largest value, over the face normals, of the gap along the normal minus the motion
-/// bound of b along that normal, in a's unit.
+/// Tests the sixteen pairs over a time interval (obb4.h has the derivation). For a face
+/// normal, let g be the gap along the normal minus the motion bound of b along it. `keys` receives
+/// the largest g of each pair, in a's unit.
 /// @param clearances  if not null, receives for each separated pair a lower bound of (distance
 /// minus `pad`), valid over the whole interval, in a's unit. The factor 1 − 2^-18 covers axes of
 /// length up to 1 + 2^-20, and the relative rounding error 2^-24 of the difference.

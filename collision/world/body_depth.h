@@ -14,8 +14,8 @@ struct DepthOptions {
   /// direction of the deepest pair, the direction from the centre of a's bounding sphere to that of
   /// b, and the positive and negative axes of both frames.
   std::vector<Vec3> directions;
-  /// The depth along a direction is usually found to within this fraction of a length: the sum of
-  /// the radii of both bounding spheres and the distance of their centres. From 2^-40 to 1/4.
+  /// Let L be the sum of the radii of both bounding spheres and the distance of their centres. The
+  /// error of the depth along a direction is usually at most `accuracy`·L. From 2^-40 to 1/4.
   double accuracy = 0x1p-20;
 };
 

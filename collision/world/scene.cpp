@@ -149,7 +149,8 @@ Scene::Scene(std::vector<Placed> bodies, std::vector<Pair> pairs)
       pair.worldMotionA = motionOf(0, a.frame);
     motionPairs.push_back(pair);
   }
-  // The pairs of a body with all bodies at rest are adjacent, although their motions may differ.
+  // All pairs of one moving body with bodies at rest are adjacent in the order, although their
+  // motions may differ.
   const auto keyOf = [&](std::size_t i) {
     const MotionPair& pair = motionPairs[i];
     const bool atRest = pair.restBox && pair.worldMotionB != MotionPair::kNone;
@@ -220,7 +221,8 @@ void Scene::forNearPairs(std::span<const Transform> X_WF, const double& within,
       if (!mayMeet(*pair.a, worldSphere(pair.bodyB), within)) return false;
     } else {
       const SweptSphere& b = worldSphere(pair.bodyB);
-      // The box of a body on frame 0 holds only while frame 0 is at the identity. Here it is not.
+      // The box of a body on frame 0 holds only while frame 0 is at the identity. Here the map of
+      // body a is not the identity, so only a body on another frame at rest has a valid box.
       const bool boxed = bodies_[pair.bodyA].restX_WF.has_value();
       if ((boxed ? clearanceBound(*pair.restBox, b, within)
                  : clearanceBound(worldSphere(pair.bodyA), b, within)) > within)
@@ -312,7 +314,7 @@ bool provesNothingFree(const MotionResult& result) {
   return result.verdict != MotionVerdict::free && !(result.certifiedUntil > 0);
 }
 
-/// Scratch memory: the pairs that are near each other at the start of a motion.
+/// Scratch memory: numbers of the pairs of bodies that may come near each other in an interval.
 struct NearPairs {
   std::vector<std::uint32_t> pairs;
 };

@@ -46,8 +46,9 @@ std::vector<std::string> problemsIn(const fs::path& folder) {
   return files;
 }
 
-/// Returns the name of a problem without its folder: "set-3", "piano". With `parent`, the name of
-/// that folder comes first.
+/// Returns a short name of a problem: the name of the folder that has the problem.yaml ("piano"),
+/// or the file's name without extension ("set-3"). With `parent`, the name of the folder above
+/// comes first.
 std::string shortNameOf(const std::string& file, bool parent) {
   std::string path = file, index;
   if (const auto hash = file.rfind(".json#"); hash != std::string::npos) {

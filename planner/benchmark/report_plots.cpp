@@ -31,21 +31,22 @@ void forCells(const std::vector<CampaignCell>& cells, std::size_t problem, std::
 }
 
 /// The largest number of steps of a curve. With n > kMostSteps values it has kMostSteps of the n
-/// steps, the first and the last among them. Between two successive drawn steps, fewer than (n −
-/// 1)/(kMostSteps − 1) steps are missing, so the curve is nowhere too high, and too low by less
-/// than 1/499. gnuplot draws a share of 1 at a height of 195 units (`heightOf` in report.cpp), and
-/// the page scales plots by at most 1.32 (a single plot has 738 pixels for 560 units): 0.52 pixels.
+/// steps, the first and the last among them. Each drawn step rises to the
+/// right height, so the curve is never too high. Between two successive drawn steps, fewer than
+/// (n − 1)/(kMostSteps − 1) steps are missing, so it is too low by less than 1/499. gnuplot draws a
+/// share of 1 at a height of 195 units (`heightOf` in report.cpp), and the page scales plots by at
+/// most 1.32 (a single plot has 738 pixels for 560 units). So the error is at most 0.52 pixels.
 constexpr std::size_t kMostSteps = 500;
 
 /// Returns a step function on [first, last] that rises by 1/`of` at each value, starting from 0.
 /// Values below `first` count as `first`. With more than kMostSteps values, only some of the steps
-/// are drawn, each as high as all values up to it.
+/// are drawn; each rises to the height that all values up to it give.
 std::vector<PlotPoint> steps(std::vector<double> values, std::size_t of, double first,
                              double last) {
   std::sort(values.begin(), values.end());
   std::vector<PlotPoint> points{{first, 0}};
   const std::size_t n = values.size(), drawn = std::min(n, kMostSteps);
-  std::size_t reached = 0;  // steps below the curve
+  std::size_t reached = 0;  // number of values counted so far
   for (std::size_t i = 0; i < drawn; ++i) {
     const std::size_t rank = drawn > 1 ? i * (n - 1) / (drawn - 1) : 0;
     const double x = std::max(values[rank], first);

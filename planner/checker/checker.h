@@ -36,7 +36,8 @@ struct CheckerOptions {
 /// unknown, or cannot be combined with the other names (`invalidNameIn`).
 CheckerOptions checkerOptions(const Task& task, const CheckerSettings& settings);
 
-/// Checks states and edges of a model. The OMPL classes in this folder forward to it.
+/// Checks states and edges of a model. The OMPL classes in this folder forward to it, except
+/// `DiscreteMotionValidator`, which samples edges itself.
 ///
 /// Thread safety: all functions may be called from several threads at once, except `counters`. Each
 /// thread has its own QueryContext and EdgeMotion.
@@ -91,7 +92,8 @@ class Checker {
   /// finite, and no quaternion is zero.
   MotionResult certifyEdge(const Configuration& from, const Configuration& to, bool earliest,
                            MotionCertificate& certificate) const;
-  /// Checks a certificate of an edge by another method (collision/motion/check_certificate.h).
+  /// Checks a certificate of an edge, by a method that is independent of the one that made it
+  /// (collision/motion/check_certificate.h).
   /// Returns the first fault of the certificate, or nullopt if it has none. @pre Both states are
   /// finite, and no quaternion is zero.
   /// @param until `certifiedUntil` of the result that came with the certificate.
@@ -114,8 +116,9 @@ class Checker {
   /// numbers, a degree that is not from 1 to 9, or an `error` that is negative, not finite, or of
   /// another size.
   MotionResult certifyCurve(const CurvePiece& piece, bool earliest = false) const;
-  /// Tests exactly whether a tested pair is in contact at the rounded poses of the frames. Margin,
-  /// padding, tolerance and tube are ignored. @pre `q` is finite, and no quaternion is zero.
+  /// Tests whether a tested pair is in contact at the rounded poses of the frames; exact for
+  /// meshes, as `Scene::interference` states. Margin, padding, tolerance and tube are ignored. @pre
+  /// `q` is finite, and no quaternion is zero.
   /// @throws std::runtime_error if the processor's floating-point mode makes the bounds invalid
   /// (collision/core/floating_point.h). `clearance`, `pairsWithin` and `pairsNotFree` throw it,
   /// too.

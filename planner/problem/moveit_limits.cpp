@@ -25,7 +25,7 @@ std::optional<double> readLimit(const YamlMap& joint, const std::string& what) {
   const auto has = joint.boolean(flag);
   if (!joint.find(flag)) {
     if (joint.find(key))
-      joint.fault(key, "MoveIt uses it only with " + flag + ": true; add true or false");
+      joint.fault(key, "MoveIt ignores it without " + flag + "; add " + flag + ": true (or false)");
     return std::nullopt;
   }
   // If has_… is false, MoveIt's files often have max_…: 0.
@@ -46,7 +46,8 @@ void readFile(const YamlMap& map, const Model& model, bool isComplete, LimitSpec
   const std::string& file = map.source().file;
   if (isComplete && map.find("cartesian_limits"))
     notes.push_back(
-        {file + ": cartesian_limits are not used; write link_speed", NoteWeight::motion});
+        {file + ": cartesian_limits are not used; set link_speed in the problem instead",
+         NoteWeight::motion});
   readScale(map, "default_velocity_scaling_factor", spec.velocityScale);
   readScale(map, "default_acceleration_scaling_factor", spec.accelerationScale);
   const YamlValue* value =
@@ -88,12 +89,12 @@ void readFile(const YamlMap& map, const Model& model, bool isComplete, LimitSpec
         {file + ": no robot here has the joint " + quotedWord(name) + didYouMean(name, known),
          NoteWeight::motion});
   if (!notPlanned.empty())
-    notes.push_back(
-        {file + ": limits of " + joinedFirst(notPlanned) + " are not used: not planned for",
-         NoteWeight::detail});
+    notes.push_back({file + ": limits of " + joinedFirst(notPlanned) +
+                         " are not used, because these joints are not planned for",
+                     NoteWeight::detail});
   if (!positions.empty())
     notes.push_back({file + ": limits of the position of " + joinedFirst(positions) +
-                         " are not used; write bounds",
+                         " are not used; set bounds in the problem instead",
                      NoteWeight::motion});
 }
 
@@ -124,8 +125,8 @@ void readMoveitLimits(const std::filesystem::path& file, const Model& model, boo
   const YamlValue document =
       parseYaml(file.string(), readTextFile(file, "limits of joints (MoveIt's joint_limits.yaml)"));
   YamlSource source{file.string(), faults, {}};
-  // Some files have the limits under this key, beside other keys: parameter files, and files that
-  // launch files load.
+  // Parameter files, and files that launch files load, have the limits under the key
+  // `robot_description_planning`, beside other keys.
   const YamlValue& parameters = parametersOf(document);
   const YamlValue* const inner = valueIn(parameters, "robot_description_planning");
   readFile(YamlMap(inner ? *inner : parameters, inner ? "robot_description_planning" : "", &kFile,

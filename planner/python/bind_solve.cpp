@@ -38,7 +38,7 @@ SolveReport solveInThread(const Problem& problem, SolveOptions& options,
     report = std::async(std::launch::async, [&] { return solveProblem(problem, options); });
     while (report.wait_for(std::chrono::milliseconds(100)) != std::future_status::ready) {
       if (failed) continue;
-      failed = hasPendingSignal();
+      failed = runSignalHandlers();
       if (!failed && !callback.is_none()) {
         SolveProgress now;
         {

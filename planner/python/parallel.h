@@ -70,7 +70,7 @@ void forEachUnlocked(std::size_t count, std::size_t threads, const Work& work) {
   bool done = false;
   {
     const py::gil_scoped_release unlocked;
-    done = forEachInParallel(count, threads, work, hasPendingSignal);
+    done = forEachInParallel(count, threads, work, runSignalHandlers);
   }
   if (!done) throw py::error_already_set();
 }

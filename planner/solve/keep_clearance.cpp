@@ -10,8 +10,8 @@ namespace corridor {
 namespace {
 
 /// The share of an edge is the part of its clearance targets that it keeps, from 0 to 1
-/// (keep_clearance.h). A change must raise the smallest share of an edge by at least kLeastGain, or
-/// to at least kAlmost.
+/// (keep_clearance.h). A change replaces some edges by others. It must raise the smallest share of
+/// these edges by at least kLeastGain, or to at least kAlmost.
 constexpr double kLeastGain = 0.05, kAlmost = 0.98;
 /// The maximum number of times that a step away from obstacles is halved.
 constexpr int kHalvings = 2;

@@ -42,9 +42,9 @@ struct PlannerParameter {
 
 /// Creates a planner and sets its parameters.
 /// @param nameAt the place where the name was written, for messages; its key and value are ignored.
-/// @throws InputError for an unknown name of a planner. If the name is known: with all faults of
-/// parameters, which are unknown names (with a list of the planner's parameters), and values of the
-/// wrong type or range.
+/// @throws InputError if the planner's name is unknown. If it is known, but parameters have faults
+/// (unknown names, values of the wrong type or range), throws InputError with all of these faults;
+/// a fault of an unknown name lists the planner's parameters.
 std::shared_ptr<ompl::base::Planner> makePlanner(
     const std::shared_ptr<ompl::base::SpaceInformation>& si, const std::string& name,
     const std::vector<PlannerParameter>& parameters, const PlannerParameter& nameAt = {});

@@ -33,8 +33,8 @@ void checkTurns(const TrajectoryRows& rows, std::size_t row, const Configuration
     faults.add(
         rows.file, rows.rows[row].line,
         c.name + " jumps from " + shortest(from) + " to " + shortest(to) +
-            " rad, by more than half a turn: angles are literal; add or subtract whole turns "
-            "so that the angles continue, or add rows between");
+            " rad, by more than half a turn: angles are used as they are written; add or subtract "
+            "whole turns so that the angles continue, or add rows between");
   }
 }
 

@@ -68,7 +68,7 @@ def two_arms(browser, path):
         browser.check_page()
     browser.press(Keys.SPACE)
     browser.wait("corridorView.motion.at > 0.02")
-    # On a busy machine the path may end before the key is pressed, which then plays it again.
+    # On a busy machine the path may end before the key is pressed; then the key starts the path again.
     for _ in range(5):
         browser.press(Keys.SPACE)
         if browser.js("corridorView.player.playing") == 0:
@@ -111,7 +111,7 @@ def hook_maze(browser, path):
     page = page_of(path, "hook_maze", "--seed", 1)
     for size in SIZES:
         shown(browser, page, size)
-        assert browser.js("corridorView.stage.camera.isOrthographicCamera"), "a plan is seen from above"
+        assert browser.js("corridorView.stage.camera.isOrthographicCamera"), "a plan is not seen from above"
         check_slider(browser)
         browser.click("#view-3d")
         assert not browser.js("corridorView.stage.camera.isOrthographicCamera")
@@ -128,7 +128,7 @@ def without_solution(browser, path):
         browser.check_page()
     glass = "corridorView.obstacles.bodies.filter((body) => body.isGlass).map((body) => data.bodies[body.index].name)"
     shown(browser, page, "desktop")
-    assert browser.js(glass) == ["shelf"], "what hides the arm is seen through"
+    assert browser.js(glass) == ["shelf"], "the shelf hides the arm"
     before = canvas(browser)[1]
     browser.click("[data-glass=solid]")
     assert browser.js(glass) == [] and canvas(browser)[1] != before
@@ -146,7 +146,7 @@ def refuted(browser, path):
         browser.click("#findings button")
         at = browser.js("data.array(data.path.at)[data.path.findings[0]]")
         assert at > 0 and browser.js("corridorView.motion.at") == at
-        assert browser.js("corridorView.contact.lit.length") >= 2, "both bodies are lit"
+        assert browser.js("corridorView.contact.lit.length") >= 2, "fewer than two bodies are lit"
         assert canvas(browser)[1] != before
         browser.click("#findings button")
         assert browser.js("corridorView.contact.lit.length") == 0
@@ -246,7 +246,7 @@ def without_webgl(_, path):
         browser.size("desktop")
         browser.open(page)
         assert "WebGL" in browser.find("#trouble").text
-        assert browser.js("document.getElementById('name').textContent") == "hook_maze", "what needs no scene is there"
+        assert browser.js("document.getElementById('name').textContent") == "hook_maze", "the part that needs no WebGL is missing"
         browser.check_page()
 
 
@@ -299,7 +299,7 @@ def picture_shows_the_verdict(browser, path):
     shown(browser, page, "desktop")
     assert not browser.js(ring), "a page draws the ring before a finding is selected"
     assert browser.js("document.querySelector('#legend .verdict')") is None, "the legend shows a verdict: pages have a panel for it"
-    # A violation of a limit, which is not a finding of the verifier; and very long names.
+    # A path that ends outside of the goal, which is not a finding of the verifier; and very long names.
     long = "from_here_to_there_and_back_again_" * 5
     for file, text in {
             "robot.yaml": f"format: corridor-robot-1\nname: {long}\nrigid: SE2\nshapes: [{{box: [1, 1, 1]}}]\n",

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Tests that every promise and section that a comment or page cites exists, and every file and heading to which a page
-links."""
+"""Tests that these exist: each promise and section that a comment or page cites, and each file and heading that a page
+links to."""
 
 import pathlib
 import re

@@ -166,8 +166,8 @@ TEST(ConvexDistance, RandomPosesAgainstASeparatingPlane) {
   EXPECT_GT(touching, 500 / test::kSlowdown);
 }
 
-/// Compares distances of polytopes with brute force over all triangles of any three corners of
-/// each, in arithmetic with a hundred digits.
+/// Compares distances of polytopes with brute force: all triangles that three corners of a form
+/// against all that three corners of b form, in arithmetic with a hundred digits.
 TEST(ConvexDistance, PolytopesAgainstAllTheirTriangles) {
   Touching make(test::testSeed(33));
   int apart = 0;
@@ -175,7 +175,7 @@ TEST(ConvexDistance, PolytopesAgainstAllTheirTriangles) {
     PosedPart a, b;
     for (int i = 0; i < 3 + n % 3; ++i) a.part.points.push_back(make.vector());
     for (int i = 0; i < 3 + n / 3 % 3; ++i) b.part.points.push_back(make.vector());
-    if (n % 2) {  // b gets a face that is nearly parallel to one of a
+    if (n % 2) {  // b gets a face that is nearly parallel to a face of a
       for (int i = 0; i < 3; ++i)
         b.part.points[i] = a.part.points[i] + std::pow(10.0, -n % 13) * make.vector();
     }
@@ -200,8 +200,8 @@ TEST(ConvexDistance, PolytopesAgainstAllTheirTriangles) {
   EXPECT_GT(apart, 20 / test::kSlowdown);
 }
 
-/// `lower` does not exceed the exact distance even in the last digit. Some faces are so nearly
-/// parallel that, in doubles, all their corners are at the same height along the normal.
+/// `lower` exceeds the exact distance by at most one unit in the last place. Some faces are so
+/// nearly parallel that, in doubles, all their corners are at the same height along the normal.
 TEST(ConvexDistance, LowerNeverExceedsTheExactDistance) {
   Touching make(test::testSeed(36));
   int exact = 0;
@@ -349,7 +349,7 @@ TEST(ConvexDistance, BallsFlattenedByTheirMap) {
 
 /// The error grows with the coordinates after the map, not with the coordinates before the map.
 /// These maps take points at 10^12 m to points that are a few metres apart, or to one point. The
-/// other set is a sheared sphere, for which the search needs the full error bound.
+/// other set is a sheared sphere, for which `lower` is wrong if the error bound leaves out a term.
 TEST(ConvexDistance, FarPointsUnderAMapThatShrinks) {
   ConvexPart ball = placed(Sphere{12.75}, {});
   Transform shear;

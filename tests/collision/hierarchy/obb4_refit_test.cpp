@@ -258,8 +258,9 @@ TEST(Obb4Refit, RefusesAnotherMeshAndStaysAsItWas) {
     tree.refit(fewer);
     ADD_FAILURE();
   } catch (const std::invalid_argument& error) {
-    EXPECT_STREQ(error.what(),
-                 "a tree can only be refitted to a mesh of as many triangles: 18, not 17");
+    EXPECT_STREQ(
+        error.what(),
+        "a tree can only be refitted to a mesh of the same number of triangles: 18, not 17");
   }
   EXPECT_THROW(tree.refit(broken), std::invalid_argument);
   EXPECT_THROW(tree.refit(wrong), std::invalid_argument);

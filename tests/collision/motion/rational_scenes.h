@@ -11,8 +11,9 @@
 namespace corridor::test {
 
 /// A moving triangle and a fixed triangle, whose coordinates are dyadic fractions of few bits. Some
-/// scenes are random near misses and hits. In others, two features meet exactly during the motion,
-/// and then the fixed triangle is moved a little, apart or together. The oracle computes their
+/// scenes are random near misses and hits. Others are first built so that two features meet exactly
+/// during the motion. Then the fixed triangle is displaced a little, towards the moving one or away
+/// from it. The oracle computes their
 /// first contact.
 struct RationalScene {
   enum Kind {

@@ -162,7 +162,8 @@ TEST_F(LimitsTest, EveryFormOfMoveitsFile) {
   specOf("  file: joint_limits.yaml\n");
   ASSERT_EQ(notes_.size(), 3u);
   EXPECT_THAT(notes_[0].text,
-              testing::HasSubstr("cartesian_limits are not used; write link_speed"));
+              testing::HasSubstr("cartesian_limits are not used; set link_speed in the "
+                                 "problem instead"));
   EXPECT_THAT(complaintOfFile("/**:\n" + parameters + "    joint_limit: {}\n"),
               testing::HasSubstr("joint_limits.yaml:3: unknown key \"joint_limit\" (did you mean "
                                  "\"joint_limits\"?)"));
@@ -198,8 +199,8 @@ TEST_F(LimitsTest, Faults) {
   EXPECT_THAT(complaintOfLimits("  file: missing.yaml\n"),
               testing::HasSubstr("problem.yaml:2: limits.file: missing.yaml: "));
   EXPECT_EQ(complaintOfFile("joint_limits: {pan: {max_velocity: 2}}\n"),
-            "joint_limits.yaml:1: joint_limits.pan.max_velocity: MoveIt uses it only with "
-            "has_velocity_limits: true; add true or false");
+            "joint_limits.yaml:1: joint_limits.pan.max_velocity: MoveIt ignores it without "
+            "has_velocity_limits; add has_velocity_limits: true (or false)");
   EXPECT_THAT(
       complaintOfFile("joint_limits: {pan: {has_velocity_limits: true}}\n"),
       testing::HasSubstr(

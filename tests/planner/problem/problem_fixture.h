@@ -41,7 +41,7 @@ inline Configuration numbers(std::initializer_list<double> list) {
   return q;
 }
 
-/// Writes small problem files into a temporary folder, with a robot and a mesh beside them.
+/// Writes small problem files into a temporary folder, with robots and a mesh beside them.
 class ProblemTest : public testing::Test {
  protected:
   void SetUp() override {

@@ -66,15 +66,16 @@ TEST_F(TrajectoryCurve, TheCommandLineMayChooseLess) {
 }
 
 TEST_F(TrajectoryCurve, AnglesAreLiteral) {
-  EXPECT_EQ(
-      curveComplaint("3.1 0\n-3.1 0\n"),
-      "t.csv:2: pan jumps from 3.1 to -3.1 rad, by more than half a turn: angles are literal; "
-      "add or subtract whole turns so that the angles continue, or add rows between");
+  EXPECT_EQ(curveComplaint("3.1 0\n-3.1 0\n"),
+            "t.csv:2: pan jumps from 3.1 to -3.1 rad, by more than half a turn: angles are used as "
+            "they are written; add or subtract whole turns so that the angles continue, or add "
+            "rows between");
   // Degrees instead of radians.
   EXPECT_EQ(
       curveComplaint("0 0\n90 0\n180 0\n270 0\n"),
-      "t.csv:2: pan jumps from 0 to 90 rad, by more than half a turn: angles are literal; add or "
-      "subtract whole turns so that the angles continue, or add rows between (2 more rows have "
+      "t.csv:2: pan jumps from 0 to 90 rad, by more than half a turn: angles are used as they "
+      "are written; add or subtract whole turns so that the angles continue, or add rows between "
+      "(2 more rows have "
       "faults)");
   EXPECT_EQ(curveComplaint("3.1 0\n3.2 0\n6 0\n9 0\n"), "");
   EXPECT_EQ(

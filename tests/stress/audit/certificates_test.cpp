@@ -22,7 +22,8 @@ constexpr EdgeMethod kEdgeMethods[] = {EdgeMethod::directional, EdgeMethod::adap
                                        EdgeMethod::advancement};
 
 /// If the bodies come closer than the margin, a certificate must be refused, whatever clearance it
-/// claims. (`checkCertificate` proves only the distance margin + (clearance − margin)/2.) At least
+/// claims. A claim that is a little too large may be accepted: `checkCertificate` proves only the
+/// distance margin + (clearance − margin)/2. At least
 /// nine in ten certificates that the query returns for free edges must be accepted.
 TEST(Certificates, AcceptedImpliesTheMarginIsKept) {
   const std::uint64_t seed = test::testSeed(5);

@@ -218,7 +218,8 @@ inline std::optional<Comparison> comparisonOf(const Robot& robot, Decoder& in) {
         problem.pairs.push_back({a, b});
       }
   Comparison c{std::move(problem), Scene(std::move(bodies), std::move(pairs)), {}};
-  // A joint's angle, multiplier·q + offset, is off by 2^-53 times its terms and its sum.
+  // A joint's angle, multiplier·q + offset, is off by at most 2^-53 times the sum of the magnitudes
+  // of its terms and of its result.
   c.rounding = (0x1p-40 + 0x1p-51 * robot.angle) * robot.size;
   c.options.tolerance = std::max(c.scene.defaultTolerance(), 4 * c.rounding);
   c.options.clearanceSlack = c.options.tolerance;
@@ -273,14 +274,14 @@ inline void compareEdge(const Robot& robot, Decoder& in) {
     const PathReport state = verifyPath(c.problem, {q});
     if (touches != (clearance == 0)) fail(c.who + "contact, at a distance of " + number(clearance));
     if (touches && state.verdict == PathVerdict::proved && state.provenClearance > c.rounding)
-      fail(c.who + "contact in a state, proved with a clearance of " +
+      fail(c.who + "the scene reports contact in a state that is verified with a clearance of " +
            number(state.provenClearance));
     if (clearance > c.rounding && state.verdict == PathVerdict::refuted)
       fail(c.who + "a state refuted (" + state.findings.front().reason + ") at a clearance of " +
            number(clearance));
     if (state.provenClearance > clearance + c.rounding)
-      fail(c.who + "a state proved with a clearance of " + number(state.provenClearance) +
-           ", but at " + number(clearance));
+      fail(c.who + "the verifier proves a clearance of " + number(state.provenClearance) +
+           " in a state, but the scene measures " + number(clearance));
   }
 }
 
