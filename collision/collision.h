@@ -60,20 +60,21 @@
 ///    only if the bodies touch. Otherwise the error is at most 1e-12·distance + 4·2^-53·S, plus the
 ///    error that the options allow. S is the largest number Σ_k |m_ik||v_k| + |t_i| over the
 ///    coordinates i of all corners v of both bodies, where x ↦ m·x + t is the map of the corner's
-///    body. This question costs 10 to 70 times as much as
-///    the first one.
+///    body. This question costs 10 to 70 times as much as the first one.
 ///
 ///        const Distance d = distance(a, b, {}, context);             // d.distance, d.p_WA, d.p_WB
 ///
-/// 4. Are they at most d apart? `false` is a proof that they are farther apart. This question costs
-///    about as much as the first one, or, if d is close to the distance, as much as the third one.
+/// 4. Are they at most d apart? `false` is a proof that they are more than d apart. This question
+///    costs about as much as the first one, or, if d is close to the distance, as much as the third
+///    one.
 ///
 ///        if (closerThan(a, b, 0.05, context)) …
 ///
-/// 5. Is one body inside the other? The other body must be a solid mesh. Questions 1, 3, 4, 6 and
-///    7 include this question. The caller of `findOneInsideOther` must know that the surfaces do
-///    not touch. The answer "no" is a proof. The answer "yes" is exact, except that a point counts
-///    as inside if none of 64 rays can decide.
+/// 5. Is one body, or a component of its mesh, inside the other body? The other body must be a
+///    solid mesh. Questions 1, 3, 4, 6 and 7 include this question. The caller of
+///    `findOneInsideOther` must know that the surfaces do not touch. The answer "no" is a proof.
+///    The answer "yes" is exact, except that a point counts as inside if none of 64 rays decides
+///    whether it is.
 ///
 ///        if (findOneInsideOther(a, b, context)) …
 ///

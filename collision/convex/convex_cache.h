@@ -9,11 +9,11 @@ namespace corridor {
 
 /// The GJK simplex with which the previous query of two convex sets ended. If the sets move in
 /// small steps, the next query takes fewer rounds when it begins with this simplex. The caller owns
-/// the cache; an empty cache means a cold start. The cache changes no verdict, and no distance
-/// beyond its error bound.
+/// the cache; an empty cache means a cold start. The cache changes no verdict, and changes no
+/// distance by more than the error bound of the distance.
 ///
 /// A cache belongs to one pair of sets: the points of both sets must be the same in each query. The
-/// next query begins with the first three corners at most.
+/// next query uses at most the first three corners.
 struct ConvexCache {
   struct Corner {
     std::uint32_t pointA = 0, pointB = 0;  ///< indices of the sets' points

@@ -22,9 +22,10 @@ PredicateResult convexSetsTouch(const PosedSet& a, const PosedSet& b, ConvexCach
   gjk::Answer quick = gjk::search<double>(a, b, size, near, apart, false, cache);
   if (quick.accepted) return {false, false};
   const bool ballsInCores = !(a.keepsBall() && b.keepsBall());
-  // The search above measures the distance of the cores, and assumes that the maps keep the radii
-  // of the swept spheres. If a map makes an ellipsoid of a sphere, this search may report a contact
-  // that does not exist. So the search is repeated with the ellipsoids as parts of the cores.
+  // The search above measures the distance of the cores. It assumes that the maps do not change the
+  // radii of the swept spheres. If a map makes an ellipsoid of a sphere, this search may report a
+  // contact that does not exist. So the search is repeated with the ellipsoids as parts of the
+  // cores.
   if (ballsInCores) {
     radii = 0;
     near = 0x1p-49 * size;

@@ -10,8 +10,8 @@ namespace corridor {
 ///
 /// `false` is proved in real arithmetic on the given doubles, for any finite maps: a separating
 /// axis exists, with all rounding covered. `true` may be wrong only for sets that are apart by less
-/// than a band: 2^-44 of the largest coordinate involved (times ‖M‖ if a map is not rigid). For
-/// such sets either answer is possible. (PROMISES.md, promise 1.)
+/// than a band. The band is 2^-44 of the largest coordinate involved (times ‖M‖ if a map x ↦ M x +
+/// t is not rigid). For such sets either answer is possible. (PROMISES.md, promise 1.)
 /// @param cache  if not null, the cache of the same two sets (convex_cache.h).
 PredicateResult convexSetsTouch(const PosedSet& a, const PosedSet& b, ConvexCache* cache = nullptr);
 

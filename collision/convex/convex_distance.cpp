@@ -16,16 +16,17 @@
 /// * Lower bound: the widest gap of the cores that GJK has found, minus the sum r_A|m_A| + r_B|m_B|
 ///   for the direction of that gap.
 ///
-/// Under rotations both bounds agree when the search ends. Under a map of defect η they differ by
-/// up to some 3η·r, because the closest points of the ellipsoids are not on the line through the
-/// closest points of the cores. If this difference exceeds the requested error, the search is
-/// repeated with the spheres as parts of the cores.
+/// Under rotations both bounds agree when the search ends. Under a map of defect η
+/// (`orthonormalityDefect`) they differ by up to some 3η times the radius of a sphere, because the
+/// closest points of the ellipsoids are not on the line through the closest points of the cores. If
+/// this difference exceeds the requested error, the search is repeated with the spheres as parts of
+/// the cores.
 ///
-/// Rounding, in units of 2^-53 (double) or 2^-98 (double-double) of `size`: `PosedSet` bounds the
-/// error of its projections. A corner of a simplex is a mapped point with its disc, and the same
-/// derivation bounds its error (three products and sums per coordinate, 6u for the disc). A convex
-/// combination of three corners has 8 roundings. The errors of both witness points together are
-/// below twice the errors of the sets.
+/// Rounding. Let u be 2^-53 in double and 2^-98 in double-double; errors are relative to `size`.
+/// `PosedSet` bounds the error of its projections. A corner of a simplex is a mapped point with its
+/// disc, and the same derivation bounds its error (three products and sums per coordinate, 6u for
+/// the disc). A convex combination of three corners has 8 roundings. The errors of both witness
+/// points together are below twice the errors of the sets.
 namespace corridor {
 namespace {
 
@@ -98,7 +99,8 @@ Vector<Real> ballPoint(const PosedSet& set, const Vector<Real>& n) {
           dot(Vector<Real>(Vec3(rows.row(2))), unit)};
 }
 
-/// Returns how far the set's mapped sphere reaches along n: r|Mᵀn|.
+/// Returns r|Mᵀn|, the reach of the mapped sphere of a set along n, where r is the radius of the
+/// sphere.
 template <class Real>
 Real ballReach(const PosedSet& set, const Vector<Real>& n) {
   return gjk::length(local(set, n)) * Real(set.set().ball);
@@ -112,8 +114,8 @@ class Pair {
         size_(a.reach() + a.pose().t.norm() + b.reach() + b.pose().t.norm()),
         radii_(a.set().ball + b.set().ball),
         // The first two terms are the errors of the projections. The third covers the rounding of
-        // their sum and of subtracting this bound. It also covers that n is not exactly a unit
-        // vector: a gap, which is below `size`, is scaled by |n| ≤ 1 + 5u.
+        // their sum and of subtracting this bound. It also covers the error that arises because n
+        // is not exactly a unit vector: a gap, which is below `size`, is scaled by |n| ≤ 1 + 5u.
         error_(roundedUp(a.error() + b.error() + 7 * kUnit * size_)) {}
 
   double size() const { return size_; }
@@ -142,8 +144,8 @@ class Pair {
   double error() const { return 2 * error_; }
 
   /// Returns whether the closest points of the search's simplex confirm the contact that the search
-  /// found. They do not confirm it if the cores overlap so little that the four corners are nearly
-  /// in one plane, because then the weights of the corners are mostly rounding error.
+  /// found. If the cores overlap so little that the four corners are nearly in one plane, the
+  /// contact is not confirmed: the weights of the corners are then mostly rounding error.
   template <class Real>
   bool met(const gjk::Search<Real>& search) const {
     return search.unit * static_cast<double>(gjk::length(closest(search.simplex).w)) <=
@@ -214,7 +216,7 @@ ConvexDistance convexDistance(const PosedSet& a, const PosedSet& b, double relat
   const double share = relative / 2 + 0x1p-41, least = absolute / 2 + 0x1p-55 * pair.size();
   const auto never = [](const Vec3&, double, std::uint32_t, std::uint32_t) { return false; };
   const auto agreed = [&](double radii, double near, double finest) {
-    return [=](const auto& upper, const auto& lower) {  // of the search's scalar type
+    return [=](const auto& upper, const auto& lower) {  // both have the scalar type of the search
       return static_cast<double>(upper) <= near ||
              static_cast<double>(upper - lower) <=
                  std::max(finest, share * (static_cast<double>(lower) - radii) + least);

@@ -9,15 +9,17 @@ namespace corridor {
 struct ConvexDistance {
   double distance = 0;           ///< distance of the witness points; 0: the sets touch
   double lower = 0;              ///< proved lower bound of the distance
-  Vec3 normal_W = Vec3::Zero();  ///< the direction that proves `lower`, from a to b: unit, rounded
+  Vec3 normal_W = Vec3::Zero();  ///< the direction that proves `lower`, from a to b: unit, rounded;
+                                 ///< 0 if the sets touch
   Vec3 p_WA = Vec3::Zero(), p_WB = Vec3::Zero();  ///< witness points of a and b
   bool exact = false;                             ///< the search used double-double
 };
 
 /// Computes the distance of two convex sets, each under its own affine map, and witness points.
 ///
-/// Let S be the largest Σ_k |M_ik||p_k| + |t_i| over all coordinates i and all points p of both
-/// sets, radii included. (For maps that are not rigid: the largest ‖M‖_F·|p| + |t|.) Guaranteed:
+/// Let x ↦ M x + t be the map of a set. Let S be the largest Σ_k |M_ik||p_k| + |t_i| over all
+/// coordinates i and all points p of both sets, radii included. (For maps that are not rigid: the
+/// largest ‖M‖_F·|p| + |t|.) Guaranteed:
 /// * `distance` is 0 if and only if `convexSetsTouch` returns true. Then both witness points are
 ///   the same point. This point lies in both sets, up to the band of `convexSetsTouch`, or up to
 ///   2^-30·S if the sets overlap by less than 2^-30·S.
@@ -27,8 +29,8 @@ struct ConvexDistance {
 ///   `distance` is at most `distance` − `lower`.
 /// * The witness points are on the surfaces of the sets, up to 2^-50·S.
 ///
-/// Any finite map is allowed. A map that is not rigid makes an ellipsoid of a sphere; such queries
-/// take more time.
+/// Any finite map is allowed. A map that is not rigid turns a sphere into an ellipsoid. Queries
+/// with such maps take more time.
 ///
 /// Method: GJK in double. If its bounds, with all rounding covered, differ by more than the
 /// requested error, the search continues in double-double, from the simplex found. With the default
@@ -56,9 +58,9 @@ struct ConvexRange {
 /// Computes a proved range of the distance of two convex sets, in double only.
 ///
 /// The search stops as soon as the lower end of the range exceeds `beyond`, or the upper end is at
-/// most `near`. If neither happens, both ends differ from the distance by at most 2^-41·S (S as for
-/// `convexDistance`), or 2^-20 of the distance. The range may be wider if caps of cylinders face
-/// each other, or if the map of a sphere is not rigid.
+/// most `near`. If neither happens, both ends differ from the distance by at most the larger of
+/// 2^-41·S (with the S of `convexDistance`) and 2^-20 of the distance. The range may be wider if
+/// caps of cylinders face each other, or if the map of a sphere is not rigid.
 /// @param beyond, near  metres.
 ConvexRange convexDistanceRange(const PosedSet& a, const PosedSet& b, double beyond, double near);
 

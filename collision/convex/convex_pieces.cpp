@@ -13,11 +13,11 @@ namespace {
 using Diagonal = std::array<std::uint32_t, 2>;
 using Index = std::uint32_t;
 
-/// Returns diagonals that cut a counterclockwise simple polygon into monotone polygons: a vertical
-/// line crosses the boundary of a monotone polygon at most twice. `status` has those edges on the
-/// sweep line that go to the right; the inside of the polygon is above them. Some of the vertices
-/// reached so far see such an edge straight below them. The `helper` of the edge is the latest of
-/// these vertices.
+/// Returns diagonals that cut a counterclockwise simple polygon into monotone polygons. (Every
+/// vertical line crosses the boundary of a monotone polygon at most twice.) `status` has those
+/// edges on the sweep line that go to the right; the inside of the polygon is above them. Some of
+/// the vertices reached so far see such an edge straight below them. The `helper` of the edge is
+/// the latest of these vertices.
 std::vector<Diagonal> monotoneDiagonals(const PolygonSweep& sweep) {
   std::set<Index, PolygonSweep::Below> status{PolygonSweep::Below{&sweep}};
   std::vector<Index> helper(sweep.size());
@@ -97,8 +97,8 @@ class Subdivision {
     }
   }
 
-  /// Removes each diagonal that is not needed: after its removal, the corners at both of its ends
-  /// are still convex.
+  /// Removes each diagonal that is not needed. A diagonal is not needed if the corners at both of
+  /// its ends are still convex after its removal.
   void removeNeedless() {
     for (Index h = count_; h < origin_.size(); h += 2)
       if (isConvexWithout(h) && isConvexWithout(twin(h))) {
@@ -143,8 +143,8 @@ class Subdivision {
       return halfA != halfB ? halfA < halfB : sweep_.side(v, a, b) > 0;
     });
   }
-  /// Returns whether the corner at the origin of h stays convex without h. The angles on both sides
-  /// of h are at most half a turn each.
+  /// Returns whether the corner at the origin of h stays convex if h is removed. @pre the angles on
+  /// both sides of h are at most half a turn each.
   bool isConvexWithout(Index h) const {
     const Index v = origin_[h];
     return sweep_.side(origin_[previous_[h]], v, target(next_[twin(h)])) >= 0;
@@ -156,8 +156,8 @@ class Subdivision {
   std::vector<char> alive_;
 };
 
-/// Appends the diagonals that cut a monotone polygon into triangles, none of which is flat. `face`
-/// has the vertices of the polygon, counterclockwise.
+/// Appends diagonals that cut a monotone polygon into triangles. None of these triangles is flat.
+/// `face` has the vertices of the polygon, counterclockwise.
 void triangulate(const PolygonSweep& sweep, const std::vector<Index>& face,
                  std::vector<Diagonal>& diagonals) {
   const std::size_t n = face.size();
@@ -180,7 +180,7 @@ void triangulate(const PolygonSweep& sweep, const std::vector<Index>& face,
     else
       high = (high + n - 1) % n;
   }
-  // The vertices that are not yet cut off: a chain that is not convex.
+  // The vertices that are not yet cut off. They form a chain without convex corners.
   std::vector<Vertex> stack{sorted[0], sorted[1]};
   for (std::size_t j = 2; j + 1 < n; ++j) {
     const Vertex v = sorted[j];
@@ -207,7 +207,8 @@ void triangulate(const PolygonSweep& sweep, const std::vector<Index>& face,
 }  // namespace
 
 std::vector<std::vector<std::uint32_t>> convexPieces(std::span<const Vec2> points) {
-  // The leftmost corner is convex: it shows the orientation.
+  // The leftmost corner is convex, so the direction of its turn shows the orientation of the
+  // polygon.
   std::vector<Vec2> corners(points.begin(), points.end());
   const auto n = static_cast<Index>(corners.size());
   PolygonSweep sweep(corners);

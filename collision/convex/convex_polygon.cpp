@@ -35,7 +35,7 @@ ConvexPolygon::ConvexPolygon(std::span<const Vec2> points) {
   std::vector<Vec2> sorted(points.begin(), points.end());
   std::sort(sorted.begin(), sorted.end(), isBefore);
   sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
-  // The lower chain from left to right, then the upper one back.
+  // Appends the lower chain from left to right, then the upper chain from right to left.
   for (const bool lower : {true, false}) {
     const std::size_t begin = vertices_.size();
     for (std::size_t i = 0; i < sorted.size(); ++i) {
@@ -45,7 +45,7 @@ ConvexPolygon::ConvexPolygon(std::span<const Vec2> points) {
         vertices_.pop_back();
       vertices_.push_back(p);
     }
-    if (!vertices_.empty()) vertices_.pop_back();  // the first vertex of the other chain
+    if (!vertices_.empty()) vertices_.pop_back();  // it is also the first vertex of the other chain
   }
   if (vertices_.size() < 3)
     throw std::invalid_argument("the points of a polygon must not all be on one line");
@@ -81,7 +81,7 @@ std::size_t ConvexPolygon::extreme(const Vec2& direction) const {
         high = middle;
     }
   }
-  // Edge `low` is the last edge below the top, and ends there.
+  // Edge `low` is the last edge that goes up, so it ends at the top.
   return high % n;
 }
 

@@ -13,13 +13,13 @@ class DobkinKirkpatrick;
 class Polytope;
 
 /// A view of a convex part, a triangle or a polytope: a *core* swept by a sphere of radius `ball`.
-/// The core is the hull of `points`, or a cylinder: the segment between two points swept by a disc.
-/// The viewed object must outlive the view. Lengths in metres.
+/// The core is the hull of `points`, or a cylinder, which is the segment between two points swept
+/// by a disc. The viewed object must outlive the view. Lengths in metres.
 ///
 /// Queries need the point that is farthest along a direction. For a part or a triangle they test
 /// all n points, in O(n). For a `Polytope` they climb along edges, in some O(√n). For a
-/// `DobkinKirkpatrick` they use its hierarchy, in O(log n). The choice changes no answer beyond its
-/// promised error.
+/// `DobkinKirkpatrick` they use its hierarchy, in O(log n). The choice changes no answer by more
+/// than the promised error.
 struct ConvexSet {
   ConvexSet(const ConvexPart& part)  // NOLINT: a part is a convex set
       : points(part.points), ball(part.radius) {
@@ -31,8 +31,9 @@ struct ConvexSet {
 
   static constexpr std::uint32_t kCold = ~std::uint32_t{0};
 
-  /// Returns the index of a point that is farthest along m. For polytopes the answer is exact. For
-  /// other sets it is the point whose rounded product with m is the largest.
+  /// Returns the index of a point that is farthest along m. For polytopes the answer is exact,
+  /// unless m has overflowed. For other sets it is the point whose rounded product with m is the
+  /// largest.
   /// @param start  a vertex that is likely near the answer, to save time; `kCold` if no such vertex
   /// is known.
   std::uint32_t farthest(const Vec3& m, std::uint32_t start = kCold) const {
@@ -79,7 +80,7 @@ struct ConvexSet {
 ///
 /// Sizes and coordinates should be 0 or within 2^±440 m. Outside this range, squares overflow or
 /// vanish. Then contact queries may report a contact that does not exist, and distances may be too
-/// small. A contact is never missed, and a distance is never too large.
+/// small. Even then, no contact is missed, and no distance is too large.
 ///
 /// The first call of `error`, `localReach` or `reach` computes all three. So threads must not share
 /// a `PosedSet`.

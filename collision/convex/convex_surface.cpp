@@ -74,7 +74,7 @@ void ConvexSurface::begin(std::span<const Vec3> points, std::array<std::uint32_t
   seen_.clear();
   auto [a, b, c, d] = tetrahedron;
   if (planeSide(points[a], points[b], points[c], points[d]) > 0) std::swap(b, c);
-  // d is below a, b, c, so these are counterclockwise from outside.
+  // d is below the plane of a, b, c, so a, b, c are counterclockwise as seen from outside.
   fan_ = {newFace(a, b, c), newFace(b, a, d), newFace(c, b, d), newFace(a, c, d)};
   faces_[fan_[0]].across = {fan_[1], fan_[2], fan_[3]};
   for (std::size_t k = 0; k < 3; ++k)
@@ -93,7 +93,8 @@ void ConvexSurface::add(std::span<const Vec3> points, std::uint32_t f, std::uint
       if (beyond.corner[k] == to && beyond.corner[(k + 1) % 3] == from) beyond.across[k] = n;
     fan_.push_back(n);
   }
-  // The horizon is a closed walk in order, so each new face is between those before and after it.
+  // The edges of the horizon are in order and form a closed walk. So each new face is between the
+  // new faces before and after it.
   const std::size_t count = fan_.size();
   for (std::size_t i = 0; i < count; ++i) {
     faces_[fan_[i]].across[1] = fan_[(i + 1) % count];

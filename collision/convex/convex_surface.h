@@ -10,9 +10,9 @@
 
 namespace corridor {
 
-/// The triangulated boundary of the convex hull of a growing set of points, with exact predicates:
-/// the part that quickhull (quickhull.h) and the expanding polytope algorithm (penetration.h)
-/// share. No point that was added is ever outside the plane of a face.
+/// The triangulated boundary of the convex hull of a growing set of points, with exact predicates.
+/// Both quickhull (quickhull.h) and the expanding polytope algorithm (penetration.h) use it. No
+/// point that was added is ever outside the plane of a face.
 class ConvexSurface {
  public:
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
@@ -24,7 +24,7 @@ class ConvexSurface {
   };
 
   /// Begins with a tetrahedron of four of the points, in any order. Later calls may pass a longer
-  /// list of points that begins with these.
+  /// list of points, if it begins with the points of this list.
   /// @pre the four points are not on one plane.
   void begin(std::span<const Vec3> points, std::array<std::uint32_t, 4> tetrahedron);
 

@@ -49,7 +49,8 @@ class DobkinKirkpatrick {
   /// The work of one query.
   struct Cost {
     std::size_t products = 0;  ///< inner products of the direction with vertices
-    std::size_t climbs = 0;    ///< steps along edges of P_0, where rounding misled the walk
+    std::size_t climbs =
+        0;  ///< steps of hill climbing on P_0, if rounding misled or prevented the walk
   };
   /// Returns a vertex that is farthest along a direction: exact, in real arithmetic on the given
   /// doubles. O(log n).
@@ -80,7 +81,7 @@ class DobkinKirkpatrick {
     std::uint32_t opposite = kNone;  ///< kNone: a face of P_0
     std::uint16_t born = 0;          ///< the first level i for which it is a face of P_i
   };
-  /// Where `ringVertex_` and `ringFace_` have the entries of a vertex v. The entries of
+  /// The range of the entries of a vertex v in `ringVertex_` and `ringFace_`. The entries of
   /// `ringVertex_` are the neighbours of v in the last polytope that has v, counterclockwise. The
   /// entry of `ringFace_` for a neighbour is the face of v, this neighbour and the next neighbour.
   struct Ring {

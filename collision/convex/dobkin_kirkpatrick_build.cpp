@@ -65,7 +65,8 @@ class DobkinKirkpatrickBuilder {
     return corner[0] == v ? 0 : corner[1] == v ? 1 : 2;
   }
 
-  /// Removes an independent set of vertices of low degree, in the order of their degrees.
+  /// Removes an independent set of vertices of at most `kMostNeighbours` neighbours, in the order
+  /// of their degrees.
   void removeSet() {
     const std::size_t level = to_.vertexCounts_.size();
     if (level >= std::numeric_limits<std::uint16_t>::max())
@@ -121,10 +122,10 @@ class DobkinKirkpatrickBuilder {
     return true;
   }
 
-  /// Cuts ears off the hole until the hole is filled. An ear is a face of the hull if no neighbour
-  /// of v is above its plane, and v is not below it. (The faces of the hull of the neighbours that
-  /// v sees have the ring as their boundary, because each face at v has all neighbours below its
-  /// plane.)
+  /// Fills the hole that v leaves by the faces of the hull of v's neighbours that v sees. The
+  /// boundary of these faces is the ring, because each face at v has all neighbours on or below its
+  /// plane. The faces are cut off the hole one by one, as ears. An ear is a face of the hull if no
+  /// neighbour of v is above the plane of the ear, and v is not below this plane.
   void fill(std::uint32_t v, std::size_t level) {
     std::vector<Side>& hole = hole_;
     hole.clear();
@@ -185,7 +186,7 @@ class DobkinKirkpatrickBuilder {
   DobkinKirkpatrick& to_;
   std::span<const Vec3> points_;
   std::vector<Polytope::Face>
-      across_;  ///< of each face: those beyond the edges from corner k to k + 1
+      across_;  ///< for each face: the faces beyond its edges from corner k to k + 1
   std::vector<std::uint32_t> anyFace_;  ///< one face of each vertex
   std::vector<int> degree_;
   std::vector<std::uint32_t> alive_;

@@ -6,8 +6,8 @@ namespace corridor {
 
 /// A number of some 104 bits: an unevaluated sum hi + lo of two doubles, with |lo| ≤ 2^-53·|hi|.
 /// Used where plain doubles are too coarse: to measure distances of triangles, to find candidates
-/// for separating axes, and for the lower bounds of distances (convex_distance.cpp covers its
-/// rounding).
+/// for separating axes, and for the lower bounds of distances. convex_distance.cpp bounds the
+/// rounding errors of this arithmetic.
 ///
 /// Sources: Dekker 1971; Knuth, TAOCP 2, 4.2.2; accurate addition as in Joldes, Muller, Popescu
 /// 2017, algorithm 6.

@@ -81,7 +81,8 @@ class ExactPoints {
   ///
   /// In double, entries of `rough` are off by at most 2u of themselves, differences and products by
   /// 1u each, and two sums by 2u of all terms. 8u of the sum of magnitudes covers all of this.
-  /// Underflow adds at most 2^-1022 times the largest factor, or 1, for each.
+  /// Underflow adds at most 2^-1022 times the larger of 1 and the largest factor, for each of these
+  /// operations.
   bool isHigher(const Direction& m, const Vec3& rough, std::uint32_t from, std::uint32_t to) const {
     const Vec3 &p = set_.points[from], &q = set_.points[to], d = q - p;
     const double along = rough.dot(d), size = rough.cwiseAbs().dot(d.cwiseAbs());
@@ -156,7 +157,7 @@ bool confirmContact(const PosedSet& a, const PosedSet& b, const ConvexCache& fou
 
 /// The origin is within the tetrahedron of four corners w_i of the Minkowski difference, if the
 /// weights λ_i of Σ λ_i w_i = 0 are above 0. λ_i has the sign of (−1)^i times the determinant of
-/// the other three.
+/// the other three corners.
 ///
 /// Rounding: a mapped point is a sum of three products and a translation, with four roundings on
 /// its longest path. With entries below D that are off by at most e, a determinant is off by at

@@ -11,14 +11,14 @@ namespace corridor {
 /// share a point. The answer is exact, in real arithmetic on the given doubles. Touching is
 /// contact.
 ///
-/// Method: GJK (`convexSetsTouch`) proves for most disjoint pairs that they are apart. For most
-/// other pairs, the four corners with which GJK ends prove an overlap. A linear program in
+/// Method: GJK (`convexSetsTouch`) proves that most disjoint pairs are apart. For most other pairs,
+/// the four corners with which GJK ends prove an overlap (`provedCommonPoint`). A linear program in
 /// rationals decides the remaining pairs. It searches for the normal of a separating plane, from a
 /// few corners of the Minkowski difference. In each round, the corner that violates the plane most
 /// is added, until no corner violates the plane. A pair that needs rationals takes milliseconds.
 /// @param cache  if not null, the cache of the same two sets (convex_cache.h).
 /// @throws std::invalid_argument if a set has a sphere or a disc, or a map is not finite. (If GJK
-/// proves the sets to be apart, this is not tested.)
+/// proves that the sets are apart, these conditions are not tested.)
 bool convexHullsTouch(const PosedSet& a, const PosedSet& b, ConvexCache* cache = nullptr);
 
 /// The second step of `convexHullsTouch`, for sets for which `convexSetsTouch` has returned true:

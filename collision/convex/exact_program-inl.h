@@ -26,7 +26,7 @@ template <std::size_t M>
 using Row = HalfSpace<double, M>;
 
 /// A candidate: the best point in double, and the rows and bounds that are tight at this point.
-/// Names below `count` are those of rows; bounds have the names `count` and above.
+/// Names below `count` are names of rows. The bounds have the names from `count` on.
 template <std::size_t M>
 struct Candidate {
   Point<double, M> x{};
@@ -60,11 +60,12 @@ class Side {
   explicit Side(const Point<Rational, M>& x) : x_(x) {
     for (std::size_t i = 0; i < M; ++i) rough_[i] = static_cast<double>(x[i]);
   }
-  /// Returns a value with the exact sign; its magnitude is rounded.
+  /// Returns normal·x − offset for one row. The sign is exact; the magnitude is rounded.
   ///
   /// Rounding in double: each coordinate is off by at most 2u of itself, each product by 1u more,
-  /// and each of the M sums by 1u of all terms: (M + 3)u of the sum of magnitudes. Underflow adds
-  /// at most 2^-1022 times the largest entry, or 1, for each coordinate and product.
+  /// and each of the M sums by 1u of all terms: (M + 3)u of the sum of magnitudes. For each
+  /// coordinate and each product, underflow adds at most 2^-1022 times the larger of 1 and the
+  /// largest entry.
   double operator()(const Row<M>& row) const {
     double sum = -row.offset, size = std::abs(row.offset), largest = 1;
     for (std::size_t i = 0; i < M; ++i) {
@@ -146,10 +147,10 @@ template <std::size_t M>
 struct Optimum {
   Point<Rational, M> x;
   Rational value;  ///< goal·x
-  /// The rows whose normals, with these weights, sum up to the goal; weights above 0. Bounds are
-  /// not listed.
+  /// The rows that prove the optimum, with their weights, which are above 0. The weighted sum of
+  /// their normals is the goal. Bounds may also be part of this sum, but are not listed.
   std::vector<std::pair<std::uint32_t, Rational>> weights;
-  bool atBounds = false;  ///< a bound also has a weight above 0
+  bool atBounds = false;  ///< a bound is part of the sum, with a weight above 0
 };
 
 /// Solves A w = r for an invertible M × M matrix A. `a` holds the columns of A.
@@ -175,7 +176,7 @@ Point<Rational, M> weightsOf(std::array<Point<Rational, M>, M> a, Point<Rational
 
 /// Solves a linear program exactly. Begins with the rows that are tight at a candidate, and adds
 /// the row that the result violates most, until the result violates no row.
-/// @pre a point of all rows and bounds exists.
+/// @pre some point satisfies all rows and bounds.
 template <std::size_t M, class Rows>
 Optimum<M> exactOptimum(std::size_t count, const Rows& row, const Point<Rational, M>& goal,
                         const Rational& reach, const Tight<M>& start) {

@@ -24,13 +24,13 @@ struct Answer {
   bool overlap = false;           ///< the cores overlap by more than rounding can cause
   bool accepted = false;          ///< `accept` returned true and ended the search
   double upper = 0;               ///< upper bound: the distance of two points, one of each core
-  double lower = -HUGE_VAL;       ///< lower bound: the widest gap found along any direction
+  double lower = -HUGE_VAL;       ///< lower bound: the widest gap found along a direction
   Vec3 direction = Vec3::Zero();  ///< the direction of that gap, from a to b: unit, rounded
   int rounds = 0;
 };
 
-/// A corner of the GJK simplex: a point of core a and a point of core b. It also holds the data
-/// from which both points can be computed again with more digits.
+/// A corner of the GJK simplex: a point of core a and a point of core b. A corner also holds the
+/// data from which both points can be computed again with more digits.
 template <class Real>
 struct Corner {
   Vector<Real> a, w;  ///< the point of core a; the vector from it to the point of core b
@@ -38,8 +38,9 @@ struct Corner {
   Vec3 n = Vec3::Zero();  ///< direction from a to b along which the two points are the extreme ones
 };
 
-/// The simplex whose closest points give `Answer::upper`. It has up to three corners, four corners
-/// if the cores overlap, and none if the search found contact before its first corner.
+/// The simplex whose closest points give `Answer::upper`. It has four corners if the cores overlap,
+/// none if the search found contact before its first corner, and one to three corners in all other
+/// cases.
 template <class Real>
 struct Simplex {  // NOLINT(bugprone-reserved-identifier): the implicit copy has a variable `__i0`
   Corner<Real> corner[4];
@@ -90,7 +91,7 @@ class Search {
     Vector<Real> last;
     for (; answer.rounds < Effort<Real>::rounds; ++answer.rounds) {
       const Real norm = length(face.v);
-      if (!(norm > Real(0))) return answer;  // contact at this precision; or NaN
+      if (!(norm > Real(0))) return answer;  // contact up to rounding, or NaN
       Vector<Real> n = face.v * (Real(1) / norm);
       const bool stepped = curved_ && answer.rounds % 2 == 1 && newton(n, face, answer);
       const auto [pa, numberA] = a_(n);

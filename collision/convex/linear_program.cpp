@@ -11,16 +11,16 @@
 #include "collision/core/rounding.h"
 
 /// Up to three linear programs answer whether a linear program is infeasible, unbounded or neither.
-/// The first two are over cones. Each of these two contains the origin and has the bounds |y_i|, s
-/// ≤ 1, and so has an optimum.
-/// * Feasible: maximise s subject to normal·y − offset·s ≤ 0 for all half-spaces. If s > 0, y/s is
-///   a point of all half-spaces. If s = 0, duality gives weights of half-spaces that sum up to
-///   (0, …, 0, 1), which is Farkas' lemma.
-/// * Unbounded: maximise goal·y subject to normal·y ≤ 0. If the maximum is above 0, y is a ray. If
-///   the maximum is 0, duality gives weights of normals that sum up to the goal.
-/// * Otherwise there is an optimum. It is found within bounds, which are enlarged until no bound
-///   has a weight in the proof. The weights then prove that the point is optimal without bounds,
-///   too.
+/// The first two are over cones. Each of these two programs allows the origin, and has the bounds
+/// |y_i| ≤ 1 and s ≤ 1. So each has an optimum.
+/// * Is there a point of all half-spaces? Maximise s subject to normal·y − offset·s ≤ 0 for all
+///   half-spaces. If s > 0, y/s is a point of all half-spaces. If s = 0, duality gives weights of
+///   half-spaces that sum up to (0, …, 0, 1), which is Farkas' lemma.
+/// * Is the goal unbounded? Maximise goal·y subject to normal·y ≤ 0. If the maximum is above 0, y
+///   is a ray. If the maximum is 0, duality gives weights of normals that sum up to the goal.
+/// * If there is a point and no ray, there is an optimum. It is found within bounds, which are
+///   enlarged until no bound has a weight in the proof. The weights then prove that the point is
+///   optimal without bounds, too.
 namespace corridor {
 namespace {
 
@@ -102,8 +102,8 @@ class Program {
   }
 
   /// Sets `answer_.x` to a point inside all half-spaces: the middle between the candidate, which is
-  /// on the planes of the tight rows, and the point that is farthest from these planes. Returns
-  /// false if this middle point is not proved to be inside.
+  /// on the planes of the tight rows, and the point for which the sum of the distances from these
+  /// planes is largest. Returns false if this middle point is not proved to be inside.
   bool isInside(const seidel::Candidate<kM>& first) {
     Point<double, kM> away{};
     for (std::size_t i = 0; i < first.tight.count; ++i) {
@@ -120,7 +120,7 @@ class Program {
     if (!x.allFinite()) return false;
     for (const HalfSpace<D>& each : list_) {
       // D products and D sums, each rounded: (D + 1)u of the sum of magnitudes. Underflow adds at
-      // most 2^-1022 times the largest factor, or 1, for each.
+      // most 2^-1022 times the larger of 1 and the largest factor, for each of these operations.
       const double size = each.normal.cwiseAbs().dot(x.cwiseAbs()) + std::abs(each.offset);
       const double tiny =
           0x1p-1018 * std::max({1.0, x.cwiseAbs().maxCoeff(), each.normal.cwiseAbs().maxCoeff()});
@@ -156,7 +156,8 @@ class Program {
     return goal;
   }
 
-  /// Finds a ray along which the goal grows without bound.
+  /// Looks for a ray along which the goal grows without bound. If there is one, stores it and
+  /// returns true.
   bool findRay() {
     const auto rows = [this](std::uint32_t i) { return plain(i, false); };
     const auto first = seidel::candidate<kD>(list_.size(), rows, goal(), 1, seed_);
@@ -171,10 +172,12 @@ class Program {
   /// @pre there is an optimum, and `answer_.x` is near a point of all half-spaces.
   void findOptimum() {
     const auto rows = [this](std::uint32_t i) { return plain(i, true); };
-    // The known point may be outside by its rounding, so the bounds are more than twice its largest
-    // coordinate. Each round squares the bounds: the optimum has rational coordinates of some
-    // length. The coordinates of a point that overflows in double are quotients of determinants of
-    // at most four rows (Cramer's rule), so they are below 2^65536 by far.
+    // `answer_.x` is rounded, so it may be outside of some half-spaces. A point of all half-spaces
+    // is near it. To include this point, the bounds are more than twice the largest coordinate of
+    // `answer_.x`. If a bound is in the proof, the next round squares twice the bounds, so that few
+    // rounds are needed. If `answer_.x` overflows in double, other bounds are used. The coordinates
+    // of the point are quotients of determinants of at most four rows (Cramer's rule), so they are
+    // below 2^65536 by far.
     const double size = answer_.x.cwiseAbs().maxCoeff();
     Rational reach = std::isfinite(size) ? 2 * seidel::rational(size) + 1
                                          : Rational(boost::multiprecision::cpp_int(1) << 65536);

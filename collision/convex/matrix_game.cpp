@@ -15,7 +15,8 @@ void MatrixGame::solve() {
   // The tableau has a row for each basic variable and a column for each other variable. Its last
   // row has the costs, its last column the values of the basic variables.
   std::array<std::array<double, kMost + 1>, kMost + 1> t;
-  std::array<std::size_t, kMost> basic, other;  // indices: below `columns` of z, else of slacks
+  // Indices of variables: below `columns` the z_j, from `columns` on the slack variables.
+  std::array<std::size_t, kMost> basic, other;
   for (std::size_t i = 0; i < rows; ++i) {
     for (std::size_t j = 0; j < columns; ++j) t[i][j] = 2 + scale * entry[i][j];
     t[i][columns] = 1;

@@ -11,10 +11,10 @@ namespace corridor {
 /// of the game is min over λ of max over rows of Σ_j a_ij λ_j = max over μ of min over columns of
 /// Σ_i μ_i a_ij.
 ///
-/// If a_ij is how far point j is outside half-space i, then λ gives the point of the hull of all
-/// points that is deepest inside the half-spaces. The half-spaces, weighted by μ, add up to a
-/// half-space that contains their intersection and is farthest from the points. The results are
-/// rounded, so they are candidates, not proofs.
+/// Example: a_ij is the distance by which point j is outside half-space i. Then λ gives the point
+/// of the hull of all points that is deepest inside the half-spaces. The half-spaces, weighted by
+/// μ, add up to a half-space that contains their intersection and is farthest from the points. The
+/// results are rounded, so they are candidates, not proofs.
 struct MatrixGame {
   static constexpr std::size_t kMost = 10;  ///< the largest number of rows, and of columns
 

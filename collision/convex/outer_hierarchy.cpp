@@ -56,7 +56,8 @@ OuterHierarchy::OuterHierarchy(const DobkinKirkpatrick& inner) : inner_(&inner) 
                &c = points[faceVertex_[first + size * 2 / 3]];
     const Vec3 normal = (b - a).cross(c - a);
     const Vec3 y = normal / normal.dot(a - center_);
-    // The test fails if, by rounding, the center is on the plane or outside.
+    // This test fails if the center is on the plane or outside of it, which only rounding can
+    // cause. Then there is no polar polytope.
     if (!(y.allFinite() && normal.dot(a - center_) > 0)) return;
     polar.push_back(y);
   }
@@ -71,8 +72,8 @@ void OuterHierarchy::findFaces() {
   const std::span<const Vec3> points = inner_->polytope().vertices();
   const auto across = trianglesAcross(triangles);
   std::vector<bool> taken(triangles.size(), false);
-  // Returns whether edge k of triangle t is inside a face: the triangles on both sides are
-  // coplanar.
+  // Returns whether edge k of triangle t is inside a face, which means that the triangles on both
+  // sides of the edge are coplanar.
   const auto isInside = [&](std::uint32_t t, int k) {
     const std::uint32_t beyond = across[t][k];
     const std::uint32_t from = triangles[t][k], to = triangles[t][(k + 1) % 3];
@@ -130,7 +131,7 @@ void OuterHierarchy::findCenter() {
   std::sort(core_.begin(), core_.end());
   core_.erase(std::unique(core_.begin(), core_.end()), core_.end());
   const std::span<const Vec3> points = inner_->polytope().vertices();
-  // Divided first, so that the sum does not overflow.
+  // Each vertex is divided first, so that the sum does not overflow.
   for (const std::uint32_t v : core_) center_ += points[v] / static_cast<double>(core_.size());
 }
 

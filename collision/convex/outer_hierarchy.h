@@ -19,10 +19,11 @@ namespace corridor {
 ///
 /// The vertices of Q_j are not representable as doubles, so Q_j is stored as half-spaces. The outer
 /// hierarchy is the hierarchy of Dobkin and Kirkpatrick of the polar polytope. The polar polytope
-/// has a vertex y for each half-space y·(x − o) ≤ 1 of Q, about a center o inside Q. |y| is the
-/// reciprocal of the distance of the half-space's plane from o. Each y is rounded, and is off by a
-/// few units in the last place of |y|. Coplanar triangles of Q give one half-space. Because of the
-/// rounding, the hierarchy only guides searches; their answers need a proof by the vertices of Q.
+/// has a vertex y for each half-space y·(x − o) ≤ 1 of Q, where o is a point inside Q, called the
+/// center. |y| is the reciprocal of the distance of the half-space's plane from o. Each y is
+/// rounded, and is off by a few units in the last place of |y|. Coplanar triangles of Q give one
+/// half-space. Because of this rounding, the hierarchy only guides searches. The answers of these
+/// searches must be proved with the vertices of Q.
 ///
 /// Building: the hierarchy takes O(n), but the hull of the rounded points is computed anew, in
 /// O(n log n) on usual polytopes.
@@ -53,8 +54,8 @@ class OuterHierarchy {
   std::size_t bytes() const;
 
   /// Checks the hierarchy of the polar polytope, and that the faces are those of Q: the vertices of
-  /// each face are on one plane, no vertex of Q is above this plane, and the number of triangles of
-  /// all faces is that of Q. Returns what is wrong, or nothing. Exact, O(n²).
+  /// each face are on one plane, no vertex of Q is above this plane, and all faces together have as
+  /// many triangles as Q. Returns what is wrong, or nothing. Exact, O(n²).
   std::optional<std::string> check() const;
 
  private:

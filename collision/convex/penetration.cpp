@@ -18,13 +18,15 @@
 #include "collision/core/rounding.h"
 
 /// Rounding. All points of the inner polytope are computed in double, in a unit of length near the
-/// size of the sets, and are then used as they are. Each differs from a point of A − B by at most
-/// twice the errors of the sets' projections (`PosedSet`). So the polytope is inside A − B grown by
-/// this error, and `lower` subtracts this error. `upper` uses certified projections.
+/// size of the sets, and are then used as they are. Each of these points differs from a point of A
+/// − B by at most twice the errors of the projections of both sets (`PosedSet`). So the polytope is
+/// inside A − B grown by this error, and `lower` subtracts this error. `upper` uses certified
+/// projections.
 ///
 /// The plane of a face is computed in double-double. With edges p and q its normal p × q is off by
 /// some 10·2^-98·|p||q|, so its direction is off by 2^-90·|p||q|/|p × q|. The distance of the plane
-/// from the origin is off by this angle times the distance of the corner.
+/// from the origin is off by this angle times the distance of the corner o from the origin, where p
+/// and q begin at o.
 namespace corridor {
 namespace {
 
@@ -54,7 +56,8 @@ class Expansion {
 
   Penetration run(double accuracy) {
     Penetration result;
-    // The direction of the ray, and the directions to the faces, edges and corners of a cube.
+    // The initial points are extreme along these directions: that of the ray, and those from the
+    // centre of a cube to its faces, edges and corners.
     std::vector<Vec3> directions;
     if (along_) directions.push_back(*along_);
     for (int x = -1; x <= 1; ++x)
@@ -86,16 +89,17 @@ class Expansion {
  private:
   struct Plane {
     Vec3 normal = Vec3::Zero();  ///< unit, outward
-    std::uint32_t stamp = 0;     ///< distinguishes faces that use the same index one after another
+    std::uint32_t stamp = 0;  ///< distinguishes faces that have the same index at different times
   };
   struct Entry {
-    double distance;  ///< of the plane, or along the ray: a lower bound, in units
+    double distance;  ///< lower bound of the distance of the plane from the origin, or along the
+                      ///< ray; in units
     std::uint32_t face, stamp;
     bool operator<(const Entry& other) const { return distance > other.distance; }
   };
 
-  /// Adds points beyond the closest face until that face is on the boundary of A − B, up to the
-  /// allowed error. Returns this face.
+  /// Adds points beyond the closest face until the closest face is on the boundary of A − B, up to
+  /// the allowed error, or until the limit of rounds is reached. Returns the closest face.
   /// @param untilInside  true: also ends as soon as the origin is inside the polytope.
   Entry expand(Penetration& result, double accuracy, bool untilInside) {
     for (;;) {
@@ -141,7 +145,7 @@ class Expansion {
   /// Returns an upper bound of the depth from the supporting planes with this normal; metres.
   double upperAlong(const Vec3& n) const {
     const double sum = a_.highest(n) + b_.highest(-n) + error_;
-    if (std::isnan(sum)) return HUGE_VAL;  // no direction, or an overflow
+    if (std::isnan(sum)) return HUGE_VAL;  // n is not a direction, or a projection overflows
     const double width = std::max(0.0, sum);
     if (!along_) return roundedUp(width * (1 + 8 * kUnit));  // |n| ≥ 1 − 3u
     const double rate = n.dot(*along_) - 8 * kUnit;
@@ -176,8 +180,8 @@ class Expansion {
     const double turned = 0x1p-90 * edges / static_cast<double>(size);
     distance -= turned * points_[corner[0]].norm() + 4 * kUnit * std::abs(distance);
     if (along_) {
-      // All lengths are below 8 units. For a plane that is nearly parallel to the ray, a larger
-      // angle is used, which makes the bound smaller.
+      // All lengths are below 8 units. If the plane is nearly parallel to the ray, the code uses a
+      // larger angle between them, which makes the lower bound smaller.
       const double rate = plane.normal.dot(*along_);
       if (rate < -0x1p-40) return;  // the ray does not leave through this face
       distance = (distance - 8 * (turned + 8 * kUnit)) / std::max(rate, 0x1p-40);
@@ -192,7 +196,8 @@ class Expansion {
     result.upper = best_;
     result.lower = std::min(result.lower, result.upper);
     result.direction_W = along_ ? *along_ : bestNormal_;
-    // x is the point of the face's plane on the ray, or the point closest to the origin.
+    // x is a point of the plane of the face: the point on the ray if there is a ray, or else the
+    // point closest to the origin.
     const Plane& plane = planes_[f];
     const double depth = plane.normal.dot(points_[surface_.faces()[f].corner[0]]);
     const Vec3 x =
@@ -236,8 +241,8 @@ class Expansion {
     result.direction_W = along_ ? *along_ : n;
     result.upper = upperAlong(n);
     result.lower = std::min(least_, result.upper);
-    // The sets without their spheres have a common point. From there, each sphere reaches along the
-    // normal.
+    // The sets without their spheres have a common point. From this point, each sphere reaches
+    // along the normal as far as its radius.
     ConvexSet coreA = a_.set(), coreB = b_.set();
     if (radii_ > 0) coreA.ball = coreB.ball = 0;
     const ConvexDistance common = convexDistance({coreA, a_.pose()}, {coreB, b_.pose()});
@@ -268,8 +273,8 @@ class Expansion {
   ConvexSurface surface_;
   std::vector<Plane> planes_;
   std::priority_queue<Entry> queue_;
-  double least_;            ///< a lower bound that is known from the beginning, metres
-  double best_ = HUGE_VAL;  ///< the least upper bound
+  double least_;            ///< a lower bound of the depth that is known from the beginning, metres
+  double best_ = HUGE_VAL;  ///< the smallest of the upper bounds found so far, metres
   Vec3 bestNormal_ = Vec3::Zero();
 };
 

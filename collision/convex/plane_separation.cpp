@@ -17,8 +17,8 @@ struct Height {
 };
 
 /// Returns normal·x − offset. The rounding of three products and three sums is at most 4u of the
-/// sum of magnitudes, which is itself off by as much. Underflow adds at most 2^-1022 times the
-/// largest factor, or 1, for each operation.
+/// sum of magnitudes. The computed sum of magnitudes is itself off by at most 4u. Underflow adds at
+/// most 2^-1022 times the larger of 1 and the largest factor, for each operation.
 Height height(const HalfSpace<3>& half, const Vec3& x) {
   const double size = half.normal.cwiseAbs().dot(x.cwiseAbs()) + std::abs(half.offset);
   const double tiny =
@@ -74,7 +74,7 @@ PlaneSeparation planeSeparation(const DobkinKirkpatrick& polytope, const HalfSpa
   };
   const double low = std::max(least(in.value, in.error), least(-out.value, out.error)),
                high = std::max(-least(-in.value, in.error), -least(out.value, out.error));
-  // The length is off by 3u, and the quotients and the sums above by 1u each.
+  // The length is off by a relative error of 3u, and each of the quotients and sums above by 1u.
   const double length = scaled.normal.norm();
   const auto down = [](double x) { return x > 0 ? roundedDown(x) : -roundedUp(-x); };
   found.lower = down(low / length);

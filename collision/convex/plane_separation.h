@@ -16,14 +16,14 @@ struct PlaneSeparation {
   /// The vertices that are farthest inside and farthest outside the half-space. Exact.
   std::uint32_t innermost = 0, outermost = 0;
   /// The witness, which is `innermost` or `outermost`. If `side` is not 0, it is the vertex closest
-  /// to the plane, exactly. Otherwise it is the vertex that ends on the plane, up to rounding, when
-  /// the shortest translation moves the polytope off the plane.
+  /// to the plane, exactly. If `side` is 0, the shortest translation that moves the polytope off
+  /// the plane moves the witness onto the plane, up to rounding.
   std::uint32_t witness = 0;
   /// Bounds of the separation, which include all rounding. If `side` is not 0, the separation is
-  /// the distance from the plane, and lower ≥ 0. Otherwise it is minus the least depth, and upper ≤
-  /// 0. The depth is the length by which the polytope must move along the normal, or against it,
-  /// until it only touches the plane. A bound is infinite if the computed heights of vertices
-  /// overflow.
+  /// the distance from the plane, and lower ≥ 0. If `side` is 0, the separation is minus the least
+  /// depth, and upper ≤ 0. The depth is the length by which the polytope must move along the
+  /// normal, or against it, until the polytope only touches the plane. A bound is infinite if the
+  /// computed heights of vertices overflow.
   double lower = 0, upper = 0;
 };
 
@@ -39,9 +39,9 @@ struct PlaneSeparation {
 /// @throws std::invalid_argument if the normal is 0, or a number is not finite.
 PlaneSeparation planeSeparation(const DobkinKirkpatrick& polytope, const HalfSpace<3>& halfSpace);
 
-/// Returns `side` of `planeSeparation` only: exact. The search goes from the coarsest polytope of
-/// the hierarchy to finer ones. It ends at the first polytope that has vertices on both sides of
-/// the plane: that polytope is inside the given one, so the given one meets the plane.
+/// Returns only `PlaneSeparation::side`, exactly. The search goes from the coarsest polytope of the
+/// hierarchy to finer ones. It ends at the first of these polytopes that has vertices on both sides
+/// of the plane. This polytope is inside the given one, so the given polytope meets the plane.
 /// @throws std::invalid_argument  as `planeSeparation`.
 int sideOfPlane(const DobkinKirkpatrick& polytope, const HalfSpace<3>& halfSpace);
 

@@ -82,8 +82,8 @@ class PolygonSearch {
     return common.empty() ? pruneP() : pruneQ(common);
   }
 
-  /// T_P and T_Q share the polygon `common`: looks for the chain of Q whose chord has all of
-  /// `common` beyond it.
+  /// For the case that T_P and T_Q share the polygon `common`: keeps the chain of Q whose chord has
+  /// all of `common` beyond it. Returns `meets` if there is no such chain.
   Step pruneQ(const std::vector<Vec2>& common) {
     for (std::size_t k = 0; k < edges_.size(); ++k) {
       const bool last = k + 1 == edges_.size();
@@ -102,7 +102,8 @@ class PolygonSearch {
     return Step::meets;
   }
 
-  /// T_P and T_Q are apart: keeps the chain of P that is beyond the line that separates them.
+  /// For the case that T_P and T_Q are apart: finds a line that separates them, and keeps the chain
+  /// of P that reaches beyond the line. Returns `apart` if there is no such chain.
   Step pruneP() {
     // Tries the line along each edge of T_Q. If all of T_P is beyond the line, the line is moved to
     // the closest vertex of T_P.
@@ -119,7 +120,8 @@ class PolygonSearch {
       direction_ = {-d.y(), d.x()};  // towards Q
       return keepBeyond(closest);
     }
-    // Tries the line along each edge of T_P, and uses it if all of T_Q is beyond it.
+    // Tries the line along each edge of T_P, and uses the first such line that has all of T_Q
+    // beyond it.
     for (std::size_t k = 0; k < triangle_.size(); ++k) {
       const Vec2 &v = p_[triangle_[k]], &w = p_[triangle_[(k + 1) % triangle_.size()]];
       const Vec2 out(w.y() - v.y(), v.x() - w.x());
@@ -155,8 +157,8 @@ class PolygonSearch {
     return out.x() * x[0] + out.y() * x[1] > 0;
   }
 
-  /// Keeps the chain next to vertex k of T_P that goes beyond the line through this vertex, if
-  /// there is one.
+  /// Keeps the chain next to vertex k of T_P that goes beyond the line through this vertex. Returns
+  /// `apart` if no chain does.
   Step keepBeyond(std::size_t k) {
     const std::size_t v = triangle_[k], n = triangle_.size();
     const auto rises = [&](std::size_t w) { return direction_.dot(p_[w] - p_[v]) > 0; };
@@ -166,7 +168,8 @@ class PolygonSearch {
     return Step::apart;
   }
 
-  /// Keeps the chain from vertex k of T_P to the next vertex of T_P.
+  /// Keeps the chain from vertex k of T_P to the next vertex of T_P. Returns `apart` if this chain
+  /// has no vertices left to examine.
   Step keepBetween(std::size_t k) {
     const std::size_t n = triangle_.size();
     if (!wholeP_ && k + 1 == n) return Step::apart;  // the chord: no vertices are left beyond it
@@ -192,10 +195,10 @@ class PolygonSearch {
     return alongSign({direction_.x(), direction_.y(), 0}, {p.x(), p.y(), 0}, {q.x(), q.y(), 0}) > 0;
   }
 
-  /// Proves with the vertices used that the polygons share a point. (If points of P were beyond a
-  /// chain of Q, one of the triangles used contains such a point. The segment from this point to a
-  /// common point of T_P and T_Q enters Q through the chord of the chain, whose ends are vertices
-  /// used.)
+  /// Proves with the vertices used that the polygons share a point. (If a step has found that some
+  /// points of P are beyond a chain of Q, one of the triangles used contains such a point. The
+  /// segment from this point to a common point of T_P and T_Q enters Q through the chord of the
+  /// chain, whose ends are vertices used.)
   bool provedMeeting(PolygonIntersection& result) {
     const auto unique = [](std::vector<std::size_t>& list) {
       std::sort(list.begin(), list.end());

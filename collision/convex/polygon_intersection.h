@@ -42,17 +42,19 @@ struct PolygonPruning {
 /// (SODA 2015), section 3. P is represented by T_P, a triangle of three vertices of P, which is
 /// inside P. Q is represented by its *edge hull* T_Q: the half-planes of some of its edges, which
 /// contain Q.
-/// * If T_P and T_Q are apart, a line separates them, and touches T_P at a vertex. Only one chain
-///   of P, next to this vertex, reaches beyond the line. The other vertices are pruned.
+/// * If T_P and T_Q are apart, a line separates them, and touches T_P at a vertex. At most one of
+///   the two chains of P next to this vertex reaches beyond the line. All vertices outside of this
+///   chain are pruned.
 /// * If T_P and T_Q share points, there are two cases. Either some of these points are in Q, or all
 ///   of them are beyond one chain of edges of Q, between two edges of T_Q. In the second case P
-///   meets Q if and only if P meets the intersection of the half-planes of this chain. The other
-///   edges are pruned.
+///   meets Q if and only if P meets the intersection of the half-planes of this chain. All edges
+///   outside of this chain are pruned.
 ///
 /// Each step prunes half of a chain, so P or Q loses half of what is left. The steps are done in
-/// double. The answer is then proved exactly, by its witness: by the extreme vertices along the
-/// separating direction, or by linear programming with the vertices that the algorithm has used. If
-/// this proof fails, separatingPlane (separating_plane.h) decides, in O(n).
+/// double. The answer is then proved exactly, by its witness. "Disjoint" is proved by the extreme
+/// vertices along the separating direction, "intersects" by linear programming with the vertices
+/// that the algorithm has used. If this proof fails, separatingPlane (separating_plane.h) decides,
+/// in O(n).
 /// @param trace  if not null, receives the remaining parts after each step.
 PolygonIntersection intersection(const ConvexPolygon& p, const ConvexPolygon& q,
                                  std::vector<PolygonPruning>* trace = nullptr);

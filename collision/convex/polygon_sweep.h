@@ -12,9 +12,9 @@
 namespace corridor {
 
 /// The points of a polygon in the order of a sweep from left to right, and the order of its edges
-/// along the sweep line. Points of equal x are ordered from below to above, which is the order of x
-/// + εy for an ε > 0 that is small enough. So the sweep reaches no two points at once, and no edge
-/// is parallel to the sweep line.
+/// along the sweep line. Points of equal x are ordered by increasing y. This is the order of x + εy
+/// for a sufficiently small ε > 0. So the sweep reaches no two points at once, and no edge is
+/// parallel to the sweep line.
 ///
 /// Edge i goes from point i to point i + 1.
 class PolygonSweep {
@@ -45,11 +45,11 @@ class PolygonSweep {
   std::uint32_t right(std::uint32_t edge) const {
     return isBefore(edge, next(edge)) ? next(edge) : edge;
   }
-  /// Returns the side of the line from point i to point j on which point k is: `lineSide`.
+  /// Returns the side of the line from point i to point j on which point k is, as `lineSide` does.
   int side(std::uint32_t i, std::uint32_t j, std::uint32_t k) const {
     return lineSide(points_[i], points_[j], points_[k]);
   }
-  /// 1 if point k is above the line of the edge, −1 if it is below, 0 if it is on the line.
+  /// Returns 1 if point k is above the line of the edge, −1 if it is below, 0 if it is on the line.
   int above(std::uint32_t edge, std::uint32_t k) const { return side(left(edge), right(edge), k); }
 
   /// The order, from below to above, of edges that one sweep line meets. Two edges are compared at

@@ -104,8 +104,8 @@ Polytope::Polytope(std::span<const Vec3> points) {
   if (faces.empty())
     throw std::invalid_argument("the points of a polytope must not all be on one plane");
   const auto takeVertices = [&] {
-    // Stores the extreme vertices of the faces in `source_`. Returns how many vertices of faces are
-    // not extreme.
+    // Stores in `source_` the indices of the extreme points among the vertices of the faces.
+    // Returns the number of vertices of faces that are not extreme.
     const Rings rings(points.size(), faces);
     std::size_t dropped = 0;
     source_.clear();
@@ -183,8 +183,8 @@ std::optional<std::string> checkConvexBoundary(std::span<const Vec3> points,
     ++used;
     if (!isExtreme(points, rings, v)) return "vertex " + std::to_string(v) + " is not extreme";
     for (std::size_t i = 0, n = ring.size(); i < n; ++i) {
-      // Tests the edge from v to the middle one of three neighbours that follow each other
-      // counterclockwise.
+      // Takes three neighbours of v that follow each other counterclockwise, and tests the edge
+      // from v to the middle one.
       if (planeSide(points[v], points[ring[i]], points[ring[(i + 1) % n]],
                     points[ring[(i + 2) % n]]) > 0)
         return "an edge at vertex " + std::to_string(v) + " is not convex";

@@ -45,19 +45,20 @@ class Polytope {
   double reachSquared() const { return reachSquared_; }
 
   /// Returns a vertex that is farthest along a direction, by hill climbing: goes from a vertex to a
-  /// neighbour as long as a neighbour is farther (S. Cameron, Enhancing GJK, 1997). Exact, in real
-  /// arithmetic on the given doubles, from any start, because a local maximum is the global one. A
-  /// start near the answer saves most of the time. O(√n) steps on usual polytopes, O(n) at worst.
+  /// neighbour as long as a neighbour is farther (S. Cameron, Enhancing GJK, 1997). The result is
+  /// exact, in real arithmetic on the given doubles. It does not depend on the start, because a
+  /// local maximum is the global one; a start near the answer saves most of the time. O(√n) steps
+  /// on usual polytopes, O(n) at worst.
   /// @param steps  if not null, is increased by the number of steps.
   /// @pre the direction is finite.
   std::uint32_t climb(std::uint32_t start, const Vec3& direction,
                       std::size_t* steps = nullptr) const;
-  /// Does the same in at most `most` steps. Returns nothing if more steps are needed.
+  /// Climbs like the other overload, but takes at most `most` steps. Returns nothing if more steps
+  /// are needed.
   std::optional<std::uint32_t> climb(std::uint32_t start, const Vec3& direction, int most) const;
 
-  /// Checks that the boundary is closed and topologically a sphere, that it is locally convex at
-  /// each edge (and therefore convex), and that each vertex is extreme. Returns what is wrong, or
-  /// nothing. Exact.
+  /// Checks that each vertex has a face, and makes the checks of `checkConvexBoundary`. Returns
+  /// what is wrong, or nothing. Exact.
   std::optional<std::string> check() const;
 
  private:
@@ -74,8 +75,8 @@ class Polytope {
 
 /// Checks that faces are the boundary of a convex polytope: that the boundary is closed and has the
 /// Euler characteristic of a sphere, that it is convex at each edge and at each vertex (and
-/// therefore as a whole), and that each vertex of a face is an extreme point. Points that no face
-/// uses are ignored. Returns what is wrong, or nothing. Exact.
+/// therefore as a whole), that each vertex of a face is an extreme point, and that no face is
+/// degenerate. Points that no face uses are ignored. Returns what is wrong, or nothing. Exact.
 std::optional<std::string> checkConvexBoundary(std::span<const Vec3> points,
                                                std::span<const Polytope::Face> faces);
 

@@ -55,7 +55,8 @@ class PolytopeFeatures {
   /// Returns the vertices of a feature: one, two or three. The result may refer to `memory`.
   std::span<const std::uint32_t> corners(const Feature& feature,
                                          std::array<std::uint32_t, 3>& memory) const;
-  /// Returns the feature with these vertices; if there is none, the first vertex.
+  /// Returns the feature that has exactly these vertices. If there is none, returns the first of
+  /// the vertices as a feature.
   Feature withCorners(std::span<const std::uint32_t> vertices) const;
 
  private:

@@ -18,14 +18,15 @@
 namespace corridor {
 namespace {
 
-/// The plane n·x = c, as the function n·x − c, which is above 0 beyond the plane.
+/// The plane n·x = c. The call operator returns n·x − c, which is above 0 beyond the plane.
 struct Plane {
   Vec3 n = Vec3::Zero();
   double c = 0;
   double operator()(const Vec3& x) const { return n.dot(x) - c; }
 };
 
-/// The frame of the search is Q's, with the center of its polar as the origin.
+/// The search. Its frame has the axes of Q's frame, and its origin is the center of Q
+/// (`OuterHierarchy::center`).
 class PolytopeSearch {
  public:
   PolytopeSearch(const DobkinKirkpatrick& p, const Transform& X_WP, const OuterHierarchy& q,
@@ -60,7 +61,8 @@ class PolytopeSearch {
  private:
   enum class Step { refined, decided, stuck };
 
-  /// Finds the map from P's frame to that of the search.
+  /// Computes the map from P's frame to the frame of the search. Returns false if this map is not
+  /// finite.
   bool placeP() {
     const Mat3 inverse = X_WQ_.m.inverse();
     X_QP_.m = inverse * X_WP_.m;
@@ -101,8 +103,8 @@ class PolytopeSearch {
       for (std::size_t j = 0; j < points_.size(); ++j) game_.entry[i][j] = planes_[i](points_[j]);
   }
 
-  /// Sets g_ to the plane in the middle between T_P (g_ > 0) and T_Q (g_ < 0), and returns true.
-  /// Returns false if no plane separates them.
+  /// If a plane separates T_P from T_Q, sets g_ to the plane in the middle between them and returns
+  /// true. g_ is above 0 on T_P, and below 0 on T_Q. If no plane separates them, returns false.
   bool findSeparation() {
     g_ = {};
     for (std::size_t i = 0; i < planes_.size(); ++i) {
@@ -115,8 +117,8 @@ class PolytopeSearch {
     return least > 0;
   }
 
-  /// T_P and T_Q are apart: moves the plane h, and goes down to the first polytope of P that has a
-  /// vertex beyond h.
+  /// For the case that T_P and T_Q are apart: moves the plane h, and goes down to the first
+  /// polytope of P that has a vertex beyond h.
   Step refineP() {
     Plane next{-g_.n, -g_.c};
     if (v_) {
@@ -139,8 +141,8 @@ class PolytopeSearch {
     return beyond ? Step::refined : Step::decided;
   }
 
-  /// T_P and T_Q share a point: moves x, and goes down to the first polyhedron of Q that excludes
-  /// x.
+  /// For the case that T_P and T_Q share a point: moves x, and goes down to the first polyhedron of
+  /// Q that excludes x.
   Step refineQ() {
     Vec3 next = Vec3::Zero();
     for (std::size_t j = 0; j < points_.size(); ++j) {
@@ -170,7 +172,8 @@ class PolytopeSearch {
     return outside ? Step::refined : Step::decided;
   }
 
-  /// Returns a direction, scaled by a power of two, for a walk.
+  /// Returns d, scaled by a power of two, as the direction of a walk. Returns nullopt if d is too
+  /// small, too large or not finite.
   static std::optional<Vec3> scaled(const Vec3& d) {
     const double largest = d.cwiseAbs().maxCoeff();
     if (!(largest > 0x1p-900 && largest < 0x1p900)) return std::nullopt;
@@ -213,8 +216,8 @@ class PolytopeSearch {
     return result_.intersects;
   }
 
-  /// Returns the first vertex of a face and two other vertices of it, such that the ray from the
-  /// center through x meets the triangle of these three.
+  /// Returns the first vertex of a face and two other vertices of the face, such that the ray from
+  /// the center through x meets the triangle of these three vertices.
   std::array<std::uint32_t, 3> cornersAt(std::span<const std::uint32_t> face) const {
     const auto at = [&](std::size_t i) {
       return Vec3(q_.inner().polytope().vertices()[face[i]] - q_.center());
@@ -241,7 +244,7 @@ class PolytopeSearch {
   const OuterHierarchy& q_;
   Transform X_WP_, X_WQ_, X_QP_;
   std::vector<PolytopePruning>* trace_;
-  std::size_t levelP_, levelQ_;     ///< of v_ and half_
+  std::size_t levelP_, levelQ_;     ///< levels of `v_` and of `half_`
   std::optional<std::uint32_t> v_;  ///< vertex of P beyond h; none: T_P is the simplex
   /// Half-space of Q that excludes x; none: T_Q is the coarsest Q_j.
   std::optional<std::uint32_t> half_;
@@ -249,7 +252,7 @@ class PolytopeSearch {
   Vec3 x_ = Vec3::Zero();  ///< the common point; valid if `half_` has a value
   std::vector<std::uint32_t> namesP_;
   std::vector<Vec3> points_;   ///< T_P
-  std::vector<Plane> planes_;  ///< T_Q: each ≤ 0 inside
+  std::vector<Plane> planes_;  ///< T_Q: each function is ≤ 0 inside T_Q
   Plane g_;
   MatrixGame game_;
   PolytopeIntersection result_;

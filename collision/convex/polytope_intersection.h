@@ -13,8 +13,9 @@ namespace corridor {
 /// Whether two convex polytopes share a point, with the witness that proves the answer.
 struct PolytopeIntersection {
   bool intersects = false;
-  /// Set if both `intersects` and `exact` are false: a unit direction in the world, rounded. The
-  /// projection of P onto it ends before that of Q begins, in real arithmetic.
+  /// Set if both `intersects` and `exact` are false: a unit direction in the world, rounded. In
+  /// real arithmetic, the projection of P onto this direction ends before the projection of Q
+  /// begins.
   Vec3 direction_W = Vec3::Zero();
   /// Set if `intersects` is true and `exact` is false: O(log n) vertices of P and of Q whose hulls
   /// already share a point.
@@ -25,8 +26,9 @@ struct PolytopeIntersection {
 
 /// The invariant that holds after a step of the algorithm, in Q's frame.
 struct PolytopePruning {
-  std::size_t levelP, levelQ;  ///< i and j of P_i (inner hierarchy) and Q_j (outer hierarchy)
-  bool apart;                  ///< true: the invariant "separation" holds; false: "intersection"
+  std::size_t levelP,
+      levelQ;  ///< i of P_i (inner hierarchy of P) and j of Q_j (outer hierarchy of Q)
+  bool apart;  ///< true: the invariant "separation" holds; false: "intersection"
   /// Set if `apart`: normal_Q·x ≤ offset on P_i, and normal_Q·x ≥ offset on Q_j. The vertices of P
   /// that must still be examined are beyond this plane.
   Vec3 normal_Q;
@@ -45,9 +47,9 @@ struct PolytopePruning {
 /// of constant time is derived here. P_i is the inner hierarchy of P, Q_j the outer one of Q, and i
 /// and j only decrease. One of two invariants holds:
 /// * Separation: a plane h separates P_i from Q_j. At most one vertex v of P_{i−1} is beyond h,
-///   because no two of the vertices that P_{i−1} has and P_i lacks are neighbours. The part of
-///   P_{i−1} beyond h is in the hull of v and its neighbours. If no vertex is beyond h down to P_0,
-///   the polytopes are disjoint.
+///   because the vertices that P_{i−1} has and P_i lacks are not neighbours of one another. The
+///   part of P_{i−1} beyond h is in the hull of v and its neighbours. If no vertex is beyond h down
+///   to P_0, the polytopes are disjoint.
 /// * Intersection, which is separation in the polar space: a point x is in P_i and Q_j. At most one
 ///   half-space H of Q_{j−1} excludes x. If no half-space excludes x down to Q_0, x is in both
 ///   polytopes.

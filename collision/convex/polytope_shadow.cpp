@@ -16,8 +16,8 @@ using seidel::Rational;
 using seidel::rational;
 
 /// Returns a second direction e for the shadow along d. Any direction that is not parallel to d is
-/// legal. The numbers make it unlikely that the shadow of an edge is a single point, for polytopes
-/// with edges along the axes, too.
+/// legal. The two factors make it unlikely that the shadow of an edge is a single point, even for
+/// polytopes with edges along the coordinate axes.
 Vec3 across(const Vec3& d) {
   const Vec3 u = d.unitOrthogonal();
   return 0.7548776662466927 * u + 0.5698402909980532 * d.cross(u);

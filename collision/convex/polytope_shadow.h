@@ -9,7 +9,7 @@
 
 namespace corridor {
 
-/// The walk down a hierarchy with the farthest vertex along a direction d: the *hierarchy of
+/// A walk down a hierarchy that keeps the farthest vertex along a direction d: the *hierarchy of
 /// projections* of Dobkin and Kirkpatrick (1990), which has one dimension less than the polytope.
 ///
 /// The shadow is the projection of P_i onto a plane that contains d: the polygon of the points
@@ -48,7 +48,8 @@ class PolytopeShadow {
  private:
   static constexpr std::uint32_t kNone = DobkinKirkpatrick::kNone;
 
-  /// An edge of the shadow at the topmost vertex: its other end, and the two faces at the edge.
+  /// An edge of the shadow at the topmost vertex. It is given by its other end, and by the two
+  /// faces of the polytope at the edge.
   struct Edge {
     std::uint32_t to = kNone;
     std::array<std::uint32_t, 2> faces{};

@@ -4,7 +4,7 @@
 /// the lengths b_k. R has the cosines of the angles between edges of a and edges of b. T has the
 /// coordinates along a's edges of `between`, the vector from the centre of a to the centre of b. τ
 /// is the largest cosine of two edges of one box. S = `size` of both sets; every length here is
-/// below S, and |T| + Σa + Σb < 4S.
+/// below S, and |T| + Σ_k a_k + Σ_k b_k < 4S.
 ///
 /// * Directions of edges have length 1 up to 8u, if the squares of lengths are far above underflow,
 ///   which `Edges::usable` tests. (With flush-to-zero a square may lose all components below
@@ -25,13 +25,14 @@
 namespace corridor {
 namespace {
 
-/// The half edges of a box in the world, with their lengths.
+/// The unit directions of the edges of a box in the world, half the lengths of the edges, and τ
+/// (`tilt`).
 struct Edges {
   explicit Edges(const QuickSet& set) {
     for (std::size_t k = 0; k < 3; ++k) {
       unit[k] = set.M * set.edge[k];
       const double square = unit[k].squaredNorm(), length = std::sqrt(square);
-      usable = usable && square > 0x1p-900;  // also false for NaN
+      usable = usable && square > 0x1p-900;  // NaN makes `usable` false
       half[k] = 0.5 * length;
       unit[k] *= 1 / length;
     }
@@ -43,7 +44,8 @@ struct Edges {
   bool usable = true;
 };
 
-/// Returns whether n proves that the boxes are apart, by more than `slack` if |n| = 1.
+/// Returns whether the vector n between the centres of the boxes proves that they are apart: the
+/// gap along n/|n| must exceed `slack`.
 bool centresApart(const QuickSet& a, const QuickSet& b, const Vec3& n, double slack) {
   const Vec3 m = a.local(n), k = b.local(n);
   const double square = n.squaredNorm();

@@ -22,11 +22,11 @@
 /// A box adds `boxError`, and a disc 35uSN (`QuickSet::radial`). `slack` is 40uS, or 80uS with a
 /// disc, which also covers the rounding of `slack` itself.
 ///
-/// Contact of the cores. The origin is inside four corners w_i if the four determinants of three
-/// corners, with their signs, are all positive. A corner is off by e: 4.1u(Fρ + |t|) for each
-/// point, 12uF·disc for a point on a disc (axis 6u, projections and a norm 6u), and u|w|. Hence e <
-/// 16uS. With |w| ≤ S a determinant is off by at most (18e + 40uS)S² < 328uS³
-/// (predicates/orientation.cpp); `inside` is 512uS³.
+/// Contact of the cores. The origin is inside the tetrahedron of four corners w_i if the four
+/// determinants of three corners each, with their signs, are all positive. A corner is off by e:
+/// 4.1u(Fρ + |t|) for each point, 12uF·disc for a point on a disc (axis 6u, projections and a norm
+/// 6u), and u|w|. Together e < 16uS. With |w| ≤ S a determinant is off by at most (18e + 40uS)S² <
+/// 328uS³ (predicates/orientation.cpp); `inside` is 512uS³.
 ///
 /// Contact within the band. Let c be the largest coordinate involved. `near` decides only if both
 /// maps are nearly rigid, F ≈ √3 (otherwise S could be far above c). Then |p| ≤ √3·c, S < 17c and
@@ -97,7 +97,7 @@ class Query {
   }
 
   std::optional<bool> decide() {
-    if (!(size_ > 0x1p-100 && size_ < 0x1p100)) return std::nullopt;  // also NaN
+    if (!(size_ > 0x1p-100 && size_ < 0x1p100)) return std::nullopt;  // also for NaN
     if (a_.count == 1 && b_.count == 1)
       return verdict(b_.image(b_.points[0]) - a_.image(a_.points[0]));
     if (a_.box && b_.box) return quickBoxes(a_, b_);
@@ -179,7 +179,7 @@ class Query {
     return solid.image(solid.points[0] + d * within(d.dot(q) / d.squaredNorm()) + out) - p;
   }
 
-  /// GJK, with the corner `w_` of the first direction as its first simplex.
+  /// Runs GJK. Its first simplex is the corner `w_`, which was found along the first direction.
   std::optional<bool> search() {
     Face face = corner(w_);
     for (int round = 0; round < kRounds; ++round) {
@@ -212,7 +212,8 @@ class Query {
   Inside tetrahedron(Face& face) const {
     const Vec3 &a = w_, b = face.w[0], c = face.w[1], d = face.w[2];
     const Vec3 cd = c.cross(d);
-    // Weights of the corners: the origin is their sum over all corners, up to a factor.
+    // The weights of the corners, up to a common factor: the weighted sum of the corners is the
+    // origin.
     double inA = b.dot(cd), inB = -a.dot(cd), inC = -a.dot(d.cross(b)), inD = -a.dot(b.cross(c));
     const double sum = inA + inB + inC + inD, inside = 512 * kUnit * size_ * size_ * size_;
     if (sum < 0) inA = -inA, inB = -inB, inC = -inC, inD = -inD;

@@ -13,8 +13,8 @@ namespace corridor {
 ///
 /// Method: the closest points of two segments, and of a point and a box, in closed form; two boxes
 /// by separating axes (Gottschalk, Lin, Manocha 1996); GJK for all other sets. To prove separation,
-/// each method only finds a direction; the projections of both sets onto this direction prove the
-/// gap. If a set is a `Polytope` or a `DobkinKirkpatrick`, the function returns nullopt.
+/// each method finds a direction, and the projections of both sets onto this direction then prove
+/// the gap. If a set is a `Polytope` or a `DobkinKirkpatrick`, the function returns nullopt.
 std::optional<bool> quickContact(const PosedSet& a, const PosedSet& b);
 
 }  // namespace corridor

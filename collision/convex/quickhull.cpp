@@ -51,7 +51,8 @@ class Hull {
     }
   }
 
-  /// Adds a point to the list of the first new face that sees the point, if any does.
+  /// Adds a point to the list of the first new face that sees the point. If no new face sees it,
+  /// does nothing.
   void give(std::uint32_t p) {
     for (const std::uint32_t f : surface_.added()) {
       const ConvexSurface::Face& face = surface_.faces()[f];
@@ -76,13 +77,14 @@ class Hull {
   void add(std::uint32_t f) {
     const std::uint32_t p = outside_[f].farthest;
     surface_.add(points_, f, p);
-    // The lists of removed faces are taken before `prepare`, which may use their memory again.
+    // The heads of the lists of removed faces are copied before the call of `prepare`, which may
+    // overwrite them.
     lists_.clear();
     for (const std::uint32_t gone : surface_.removed()) lists_.push_back(outside_[gone].first);
     prepare();
-    // If a point outside the new hull was seen by a removed face, a new face sees it: at some edge
-    // of the horizon, the point is above the removed face and the remaining face, and so above the
-    // new face between them.
+    // If a point outside the new hull was seen by a removed face, a new face sees the point. The
+    // reason is that at some edge of the horizon, the point is above the removed face and the
+    // remaining face, and so above the new face between them.
     for (std::uint32_t q : lists_)
       while (q != kNone) {
         const std::uint32_t after = next_[q];
@@ -95,7 +97,7 @@ class Hull {
   std::span<const Vec3> points_;
   ConvexSurface surface_;
   std::vector<Outside> outside_;     ///< of each face
-  std::vector<std::uint32_t> next_;  ///< the next point in the same list
+  std::vector<std::uint32_t> next_;  ///< for each point: the next point in the same list
   std::vector<std::uint32_t> open_, lists_;
 };
 

@@ -7,11 +7,12 @@
 #include <span>
 #include <vector>
 
-/// R. Seidel, Small-dimensional linear programming and convex hulls made easy, Discrete &
-/// Computational Geometry 6 (1991). Half-spaces are added one by one. If the best point so far is
-/// outside the new half-space, the next best point is on the plane of that half-space. That point
-/// is found by the same algorithm with one variable less. In random order, n half-spaces in D
-/// variables take O(D!·n) operations in the mean.
+/// Linear programming in few variables, by the algorithm of R. Seidel, Small-dimensional linear
+/// programming and convex hulls made easy, Discrete & Computational Geometry 6 (1991). Half-spaces
+/// are added one by one. If the best point so far is outside the added half-space, the new best
+/// point is on the plane of that half-space. The new best point is found by the same algorithm with
+/// one variable less. In random order, n half-spaces in D variables take O(D!·n) operations in the
+/// mean.
 ///
 /// The result is computed in the arithmetic of `Real`, without any error bound. With rationals it
 /// is exact. With doubles it is a candidate: the caller must prove the answer.
@@ -38,7 +39,8 @@ struct Bounds {
 /// The names of the half-spaces and bounds that determine an answer.
 /// * If there is a best point, they are D names. The best point is the only point on all of the D
 ///   planes, and the goal is a sum of their normals with weights ≥ 0.
-/// * Otherwise they are at most D + 1 names, and these half-spaces and bounds have no common point.
+/// * Otherwise they are at most D + 1 names, and the half-spaces and bounds that they name have no
+///   common point.
 template <std::size_t D>
 struct Tight {
   std::array<std::uint32_t, D + 1> name;
@@ -125,8 +127,8 @@ bool solve(const Bounds<Real, D>& bounds, std::span<const HalfSpace<Real, D>> li
   for (std::size_t i = 0; i < list.size(); ++i) {
     const HalfSpace<Real, D>& plane = list[i];
     if (!(dot(plane.normal, x) > plane.offset)) continue;
-    // On the plane, x_k = share − Σ slope_j x_j, where k is the index of the normal's largest
-    // entry.
+    // On the plane, x_k = share − Σ slope_j x_j over all j other than k, where k is the index of
+    // the normal's largest entry.
     using std::abs;
     std::size_t k = 0;
     for (std::size_t j = 1; j < D; ++j)

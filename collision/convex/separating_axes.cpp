@@ -12,10 +12,11 @@
 #include "collision/predicates/orientation.h"
 
 /// Signs of determinants of three vectors u, v, w, each a difference of two mapped points. Let the
-/// entries of u, before and after rounding, be below D_u, and let their errors be at most e_u; D_v,
-/// e_v, D_w and e_w are the bounds for v and w. A determinant has six terms of three factors. So
-/// rounding of the entries changes it by at most 6(e_u D_v D_w + D_u e_v D_w + D_u D_v e_w), and
-/// its evaluation adds less than 40u D_u D_v D_w (as in predicates/orientation.cpp).
+/// entries of u be below D_u in magnitude, before and after rounding, and let their errors be at
+/// most e_u. D_v, e_v, D_w and e_w are the corresponding bounds for v and w. A determinant has six
+/// terms of three factors. So rounding of the entries changes it by at most 6(e_u D_v D_w + D_u e_v
+/// D_w + D_u D_v e_w), and its evaluation adds less than 40u D_u D_v D_w (as in
+/// predicates/orientation.cpp).
 ///
 /// The Gauss map. Let l and r be the outward normals of the faces on the left and on the right of a
 /// half-edge u. Then l × r is a positive multiple of u. Take the arc (l, r) of an edge u of a, and
@@ -143,8 +144,9 @@ class Axes {
     return false;
   }
 
-  /// Tests whether all of y is beyond the plane of a face of x, beginning with the vertex that was
-  /// not beyond the previous plane. If so, stores this axis in the answer.
+  /// Tests whether all of y is beyond the plane of a face of x. Begins with the vertex that was not
+  /// beyond the previous plane. If all of y is beyond the plane, stores this axis in the answer and
+  /// returns true.
   bool testFace(const MappedPolytope& x, const MappedPolytope& y, std::uint32_t f, bool ofA) {
     ++answer_.faces;
     const EdgePlane plane = x.plane(f);

@@ -18,7 +18,8 @@
 /// linearly independent rows (p, −1) and (−q, 1). On the cone of all (n, c) that satisfy all rows,
 /// the sum of the rows in R is at most 0. It is 0 only where all rows of R are 0, which is at the
 /// origin only. So a plane exists if and only if the least sum of R over the cone is below 0. If
-/// the rank of all rows is lower, all points are on one plane.
+/// there are no D + 1 independent rows, all points are on one plane, which counts as having one
+/// hull on each side.
 namespace corridor {
 namespace {
 
@@ -104,7 +105,7 @@ class Hulls {
     }
     // Each projection has D roundings of products and D − 1 of sums, together at most D·u of the
     // sum of magnitudes. The computed `size` has as many roundings. Underflow adds at most 2^-1022
-    // times the largest factor, or 1, for each operation; |n_i| ≤ 1.
+    // times the larger of 1 and the largest factor, for each operation; |n_i| ≤ 1.
     const double error = 2 * 4 * kUnit * size + 0x1p-1016 * std::max(1.0, largest);
     if (!(above - below > 2 * error)) return false;  // also if a number is not finite
     answer_.relation = HullRelation::disjoint;
@@ -168,11 +169,11 @@ class Hulls {
       answer_.point[k] = static_cast<double>(Rational(point[k] / sum));
   }
 
-  /// If a plane has the first hull on one side and the second hull on the other, stores it in the
-  /// answer and returns true.
+  /// If there is a plane with the first hull on one side and the second hull on the other, stores
+  /// this plane in the answer and returns true.
   /// @pre the hulls share a point.
   bool findTouchingPlane() {
-    // Takes the first D + 1 independent rows. The goal is minus their sum.
+    // Takes the first D + 1 independent rows. The objective is minus their sum.
     seidel::Echelon<kPlane> independent;
     Point<Rational, kPlane> goal{};
     for (std::uint32_t i = 0; i < count_ && independent.rank() < kPlane; ++i) {

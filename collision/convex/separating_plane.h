@@ -33,8 +33,8 @@ struct SeparatingPlane {
   double offset = 0;
   /// `touching` and `overlapping`: a common point.
   Eigen::Matrix<double, D, 1> point = Eigen::Matrix<double, D, 1>::Zero();
-  /// The indices of the points that determine the answer, at most D + 2 in all. `touching` and
-  /// `overlapping`: the hulls of these points already share the common point.
+  /// The indices of the points that determine the answer, at most D + 2 in both lists together.
+  /// `touching` and `overlapping`: the hulls of these points already share the common point.
   std::vector<std::size_t> first, second;
   bool exact = false;  ///< the relation was decided in rational arithmetic
 };
@@ -46,7 +46,7 @@ struct SeparatingPlane {
 /// Method: Seidel's algorithm in double gives a candidate (seidel-inl.h). A plane is proved by the
 /// two extreme points along its normal. Overlap is proved by Radon's theorem: D + 2 points have one
 /// partition into two sets whose hulls meet. The signs of D + 2 orientations give this partition.
-/// If this partition is that into the first and the second set, and no sign is 0, the hulls
+/// If its two sets are the points of the first and of the second set, and no sign is 0, the hulls
 /// overlap. What these tests do not decide is decided in rationals, on the few points that
 /// determine the answer. Cost: O(n) in the mean for n points, with a constant of (D + 2)!. GJK
 /// (convex_distance.h) is faster.

@@ -20,8 +20,8 @@ struct SignedDistance {
 };
 
 /// Computes the signed distance, by `convexDistance` and, for sets in contact, by `penetration`.
-/// The guarantees are those of these two functions. For sets that merely touch, the normal may be
-/// zero.
+/// The guarantees are those of these two functions. For sets that touch without overlap, the normal
+/// may be zero.
 /// @param accuracy  the relative accuracy of the depth, ≥ 0.
 SignedDistance signedDistance(const PosedSet& a, const PosedSet& b, double accuracy = 1e-9);
 

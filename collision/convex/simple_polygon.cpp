@@ -20,7 +20,7 @@ bool meet(const PolygonSweep& sweep, std::uint32_t a, std::uint32_t b) {
   if (afterB == a) return overlapFrom(a, b, afterA);
   const int b0 = sweep.side(a, afterA, b), b1 = sweep.side(a, afterA, afterB);
   if (b0 * b1 > 0) return false;
-  if (b0 == 0 && b1 == 0)  // on one line
+  if (b0 == 0 && b1 == 0)  // both edges are on one line
     return !sweep.isBefore(sweep.right(a), sweep.left(b)) &&
            !sweep.isBefore(sweep.right(b), sweep.left(a));
   return sweep.side(b, afterB, a) * sweep.side(b, afterB, afterA) <= 0;
@@ -30,8 +30,8 @@ using Status = std::set<std::uint32_t, PolygonSweep::Below>;
 
 /// Returns two edges that meet, or nothing. Until the sweep line reaches the first point that edges
 /// wrongly share, the order of edges along the line does not change. Just before that point, two
-/// edges that share it are neighbours along the line, since each point of the polygon ends or
-/// begins two edges only.
+/// edges that share it are neighbours along the line, because only two edges end or begin at each
+/// point of the polygon.
 std::optional<std::pair<std::uint32_t, std::uint32_t>> findMeeting(const PolygonSweep& sweep) {
   Status status{PolygonSweep::Below{&sweep}};
   std::vector<Status::iterator> place(sweep.size(), status.end());

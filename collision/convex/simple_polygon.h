@@ -25,11 +25,11 @@ struct PolygonFault {
   std::size_t first = 0, second = 0;  ///< first < second, if both are used
 };
 
-/// Reports what is wrong with the points as the boundary of a simple polygon, or nothing. In a
-/// simple polygon, two edges share a point only if they follow each other, and then they share only
-/// their common end. Points on the straight line between their neighbours are legal. Exact, in real
-/// arithmetic on the given doubles. (Under flush-to-zero, subnormal coordinates count as 0.) O(n
-/// log n).
+/// Returns why a list of points is not the boundary of a simple polygon, or nothing if it is such a
+/// boundary. In a simple polygon, two edges share a point only if one follows the other, and then
+/// they share only their common end. Points on the straight line between their neighbours are
+/// legal. Exact, in real arithmetic on the given doubles. (Under flush-to-zero, subnormal
+/// coordinates count as 0.) O(n log n).
 ///
 /// Method: M. I. Shamos, D. Hoey, Geometric intersection problems (FOCS 1976).
 std::optional<PolygonFault> checkSimple(std::span<const Vec2> points);
@@ -45,7 +45,7 @@ std::optional<PolygonFault> checkSimple(std::span<const Vec2> points);
 /// Tarjan, Triangulating a simple polygon, 1978), their triangles, and the removal of each diagonal
 /// without which all corners stay convex (S. Hertel, K. Mehlhorn, Fast triangulation of simple
 /// polygons, 1983).
-/// @pre `checkSimple` reports nothing.
+/// @pre `checkSimple` returns nothing for these points.
 std::vector<std::vector<std::uint32_t>> convexPieces(std::span<const Vec2> points);
 
 }  // namespace corridor

@@ -42,7 +42,7 @@ Real length(const Vector<Real>& v) {
   return sqrt(dot(v, v));
 }
 
-/// The smallest face of a simplex that contains its point closest to the origin.
+/// The smallest face of a simplex that contains the simplex's point closest to the origin.
 template <class Real>
 struct Nearest {
   Vector<Real> v;          ///< the closest point; its direction is more accurate than its length

@@ -45,7 +45,7 @@ class Support {
  public:
   struct Point {
     Vector<Real> x;
-    std::uint32_t number;  ///< index of the point of the set that `x` belongs to
+    std::uint32_t number;  ///< index of the set's point to which `x` belongs
   };
 
   /// @param scale  a power of two that all returned points are multiplied by.
@@ -117,8 +117,8 @@ class Support {
 
  private:
   /// Returns the index of the set's point farthest along m. Points that doubles cannot distinguish
-  /// from the farthest are compared in `Real`: in double, three products and two sums are off by
-  /// less than 4u·|m|₁·max|p|.
+  /// from the farthest point are compared in `Real`. (In double, three products and two sums are
+  /// off by less than 4u·|m|₁·max|p|.)
   std::uint32_t farthest(const Vector<Real>& m) const {
     const auto points = set_.set().points;
     const Vec3 rough(static_cast<double>(m.x), static_cast<double>(m.y), static_cast<double>(m.z));
@@ -141,7 +141,8 @@ class Support {
     return best;
   }
 
-  /// Goes from a vertex to its neighbours as long as one is farther along m, in `Real`.
+  /// Goes from vertex to vertex along edges, as long as a neighbour is farther along m. Computed in
+  /// `Real`.
   std::uint32_t climb(const Polytope& polytope, std::uint32_t from, const Vector<Real>& m) const {
     std::uint32_t best = from;
     Real most = dot(m, Vector<Real>(polytope.vertices()[best]));
@@ -186,7 +187,7 @@ class Support {
 
   const PosedSet& set_;
   mutable std::uint32_t last_ =
-      ConvexSet::kCold;  // the last vertex found: where the next hill climbing begins
+      ConvexSet::kCold;  // the most recent vertex; the next hill climbing begins there
   double scale_;
   Vector<Real> row_[3], t_, axis_;
   double disc_, ball_;

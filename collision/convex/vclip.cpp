@@ -12,7 +12,7 @@
 #include "collision/convex/simplex.h"
 
 /// Terms are those of the paper (vclip.h), sections 3 and 4. A plane of a Voronoi region separates
-/// the regions of two neighbouring features: of a vertex and an edge, or of an edge and a face.
+/// the regions of two neighbouring features, which are a vertex and an edge, or an edge and a face.
 /// Every test of a plane uses the same formula, so two neighbouring regions never both exclude a
 /// point.
 namespace corridor {
@@ -44,13 +44,13 @@ struct Body {
     const Vec3& v = shape.vertex(shape.tail(h));
     return shape.normal(shape.leftFace(h)).cross(shape.vertex(shape.head(h)) - v).dot(p - v);
   }
-  /// The height of p over the plane of a face.
+  /// Returns the height of p over the plane of a face.
   double height(std::uint32_t f, const Vec3& p) const {
     return shape.normal(f).dot(p - shape.vertex(shape.polytope().faces()[f][0]));
   }
 };
 
-/// The part of a segment that is within some planes of a Voronoi region.
+/// The part of a segment that is on the inner side of some planes of a Voronoi region.
 class Clip {
  public:
   /// Keeps the part of the segment on which a linear function is at least 0. Returns false if
@@ -79,8 +79,9 @@ class Clip {
   bool excluded = false;  ///< the whole segment is beyond the plane of `beyondLow`
 };
 
-/// `trapped`: the polytopes overlap at these features, or a feature is on the far side of the other
-/// polytope, at a local minimum that is not the global one.
+/// The result of a step. `trapped`: the polytopes overlap at these features, or the pair is a local
+/// minimum of the distance that is not the global one, with a feature on the far side of the other
+/// polytope.
 enum class Step { moved, closest, trapped };
 
 class Walk {
@@ -97,8 +98,8 @@ class Walk {
   }
 
  private:
-  /// For a start with two faces, which V-Clip does not have as a state: replaces the first face by
-  /// one of its corners.
+  /// Replaces the first face by one of its corners if the walk starts with two faces. V-Clip does
+  /// not have such a state.
   static Step lowered(Body& x) {
     x.goToVertex(x.shape.polytope().faces()[x.at.index][0]);
     return Step::moved;
@@ -319,7 +320,7 @@ ConvexCache simplexOf(const Body& a, const Body& b) {
     return cache;
   }
   // The other pairs are a vertex and another feature, or an edge that passes through a face. For an
-  // edge and a face, any corners will do.
+  // edge and a face, any corners are a legal start.
   for (std::size_t i = 0; i < std::max(p.size(), q.size()); ++i)
     add(p[std::min(i, p.size() - 1)], q[std::min(i, q.size() - 1)]);
   return cache;
@@ -356,10 +357,10 @@ void goTo(const ConvexCache& simplex, Body& a, Body& b) {
 }
 
 /// Walks until a pair is closest or trapped, a pair occurs again, or the walk has taken as many
-/// steps as the polytopes have half-edges. The next pair depends only on the present pair, so a
-/// walk that comes back to a pair would never end. R. Brent's method (1980) notices such a cycle:
-/// it stores the pair after 1, 2, 4, 8, … steps, and compares each pair with the pair stored most
-/// recently.
+/// steps as both polytopes together have half-edges. The next pair depends only on the present
+/// pair, so a walk that comes back to a pair would never end. R. Brent's method (1980) notices such
+/// a cycle: it stores the pair after 1, 2, 4, 8, … steps, and compares each pair with the pair
+/// stored most recently.
 Step walkFrom(Body& a, Body& b, int& steps) {
   Walk walk(a, b);
   const std::size_t most = a.shape.halfEdges() + b.shape.halfEdges();
@@ -402,8 +403,8 @@ ClosestFeatures closestFeatures(const PolytopeFeatures& a, const Transform& X_WA
   const auto walk = [&] { return rigid && walkFrom(bodyA, bodyB, result.steps) == Step::closest; };
   // A walk among degenerate features may end at a pair that is not the closest. So the distance of
   // the pair is compared with the proved distance. `size` is below 9.5 times the largest
-  // coordinate, so 2^-44·size is below 2^-40 of that coordinate. Outside of 2^±440 m, squares of
-  // distances vanish or overflow, and the comparison means nothing.
+  // coordinate, so 2^-44·size is below 2^-40 of that coordinate. If coordinates are outside of
+  // 2^±440 m, squares of distances vanish or overflow, and the comparison has no meaning.
   const auto isClosest = [&](const ConvexCache& simplex) {
     const double size = setA.reach() + X_WA.t.norm() + setB.reach() + X_WB.t.norm();
     return distanceOf(simplex, setA, setB) <=

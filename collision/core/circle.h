@@ -7,8 +7,8 @@
 
 namespace corridor {
 
-/// Two angles whose difference is within this value of half a turn have no defined shorter rotation
-/// between them (PROMISES.md, "What an edge is"); radians.
+/// If the difference of two angles differs from half a turn by at most this value, no rotation
+/// between them counts as the shorter one (PROMISES.md, "What an edge is"). Radians.
 inline constexpr double kHalfTurnBand = 1e-9;
 
 /// The shorter rotation from one angle to another, and a bound on its rounding error; radians.
@@ -16,20 +16,20 @@ struct CircleTurn {
   double angle = 0;  ///< in [−π, π]
   double error = 0;
 
-  /// True if the size of the rotation may exceed π − `kHalfTurnBand`, given the bound on its
-  /// rounding error; also true if a number is NaN.
+  /// True if the magnitude of the rotation may exceed π − `kHalfTurnBand`, given the bound on its
+  /// rounding error. Also true if `angle` or `error` is NaN.
   bool ambiguous() const { return !(std::abs(angle) + error <= std::numbers::pi - kHalfTurnBand); }
 };
 
 /// Returns the shorter rotation from one angle to another; radians. The angles may be of any size.
 ///
 /// Error, with S = |from| + |to|:
-/// * S < 64, or a difference of at most π: the difference `to` − `from` is rounded once, by at most
-///   2^-53·S. If the difference exceeds π, then at most S/2π + 1/2 ≤ S/π whole turns are
-///   subtracted. Each turn is off by at most 2.5e-16, because 2π is rounded to a double. The sum of
-///   these errors is below 2^-52·S; `error` is 2^-51·S.
-/// * All other pairs of angles: the rotation is computed from sines and cosines in long double. The
-///   C library reduces their arguments with as many digits of π as necessary. Sines and cosines
+/// * If S < 64, or if the difference `to` − `from` is at most π in magnitude: the difference is
+///   rounded once, by at most 2^-53·S. If the difference exceeds π, then at most S/2π + 1/2 ≤ S/π
+///   whole turns are subtracted. Each turn is off by at most 2.5e-16, because 2π is rounded to a
+///   double. The sum of these errors is below 2^-52·S. The returned `error` is 2^-51·S.
+/// * For all other pairs of angles, the rotation is computed from sines and cosines in long double.
+///   The C library reduces their arguments with as many digits of π as necessary. Sines and cosines
 ///   then cause an error of at most 2^-58, and rounding the result to double at most 2^-52.
 inline CircleTurn circleTurn(double from, double to) {
   if (from == to) return {};

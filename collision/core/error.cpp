@@ -5,9 +5,9 @@
 namespace corridor {
 namespace {
 
-/// Replaces control characters by '?'. They may come from a damaged file, also in the name of
-/// another file. Then each fault is one line, and no text of a file can send commands to the
-/// terminal.
+/// Replaces control characters in file names and texts by '?'. They may come from a damaged file,
+/// which may also name another file. After the replacement each fault is one line, and no text from
+/// a file can send commands to the terminal.
 std::vector<Fault> printableFaults(std::vector<Fault> faults) {
   for (Fault& fault : faults)
     for (std::string* text : {&fault.file, &fault.text})

@@ -21,9 +21,9 @@ class FaultList {
   void add(std::string file, int line, std::string text);
   void add(const std::vector<Fault>& faults);
   void add(const InputError& error) { add(error.faults()); }
-  /// Calls `step`. If `step` throws an InputError, adds the error's faults to the list. If the list
-  /// is full, the error came from `add`, and its faults are already in the list: then rethrows the
-  /// error.
+  /// Calls `step`. If `step` throws an InputError, adds the error's faults to the list. The
+  /// exception is a full list: then the error came from `add`, its faults are already in the list,
+  /// and `collect` rethrows the error.
   template <class Step>
   void collect(const Step& step) {
     try {

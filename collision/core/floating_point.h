@@ -3,8 +3,8 @@
 /// The floating-point arithmetic that every proof assumes, and tests of it.
 ///
 /// Assumption: double and long double round to nearest, and long double keeps all of its 64 bits.
-/// (A program can set the x87 unit to 53 bits.) Every error bound relies on this assumption;
-/// without it, a proof may be wrong.
+/// (A program can violate the assumption, for example by setting the x87 unit to 53 bits.) Every
+/// error bound relies on this assumption; without it, a proof may be wrong.
 /// * Motion queries, the planner's checker and the verifier test the assumption once per call. If
 ///   it does not hold, they answer `undecided`. `checkCertificate` reports a fault instead.
 /// * Constructors of trees and bodies throw if the assumption does not hold.
@@ -33,7 +33,7 @@ enum class FloatingPoint {
 /// Tests the assumption in the calling thread. Returns `standard` if it holds, and otherwise which
 /// part of it fails. Costs a dozen additions, which raise the floating-point flag "inexact".
 inline FloatingPoint floatingPoint() {
-#ifdef CORRIDOR_UNDER_VALGRIND  // CMakeLists.txt: for counting instructions; no proof holds
+#ifdef CORRIDOR_UNDER_VALGRIND  // set to count instructions; then no proof holds
   return FloatingPoint::standard;
 #endif
   // `volatile`: otherwise the compiler would compute the sums at compile time, rounding to nearest.

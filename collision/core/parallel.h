@@ -14,7 +14,8 @@ namespace corridor {
 
 /// Runs `work()` on `threads` threads and returns when all calls have returned. The calling thread
 /// is one of these threads, and the only one if `threads` is 0 or 1. If the system cannot start
-/// that many threads, fewer run. After all calls have ended, rethrows the first exception.
+/// that many threads, fewer run. If calls throw, rethrows the first exception after all calls have
+/// ended.
 template <class Work>
 void onThreads(unsigned threads, const Work& work) {
   std::exception_ptr error;
@@ -61,10 +62,10 @@ void inParts(unsigned threads, std::size_t n, const Work& work) {
   });
 }
 
-/// Runs the task `first` and all tasks that tasks create, on `threads` threads, in any order. Each
-/// thread calls `makeWorker()` once. It runs each of its tasks by calling the returned function
-/// object, `worker(task, more)`, which appends new tasks to `more`. If a worker throws, no further
-/// task is started, and the first exception is rethrown.
+/// Runs the task `first`, and all tasks that running tasks create, on `threads` threads, in any
+/// order. Each thread calls `makeWorker()` once, which returns a function object `worker`. The
+/// thread runs each of its tasks by the call `worker(task, more)`. The worker appends new tasks to
+/// `more`. If a worker throws, no further task is started, and the first exception is rethrown.
 template <class Task, class MakeWorker>
 void runTasks(unsigned threads, Task first, const MakeWorker& makeWorker) {
   std::mutex mutex;

@@ -13,8 +13,8 @@ namespace corridor {
 struct QueryContext {
   Counters counters;  ///< the work of all queries since the counters were last cleared
   /// The pairs of triangles that queries of scenes and motions may test first. Entry k belongs to
-  /// pair k of the query's bodies. Queries enlarge the list as needed. The entries may change the
-  /// counters. They may also change which of several closest or touching triangles is reported.
+  /// pair k of the query's bodies. Queries enlarge the list as needed. The entries may influence
+  /// the counters, and which of several closest or touching triangles is reported.
   std::vector<LastPair> lastPairs;
   Scratch scratch;
 

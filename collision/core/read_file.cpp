@@ -98,8 +98,8 @@ class OrdinaryFile : public OpenFile {
     return file;
   }
 
-  /// Returns whether the file is a Git LFS pointer: repositories are often cloned without their
-  /// large files.
+  /// Returns whether the file is a Git LFS pointer. Such pointers are common, because repositories
+  /// are often cloned without their large files.
   bool isLfsPointer() const {
     constexpr std::string_view begin = "version https://git-lfs.github.com/spec/";
     std::array<char, begin.size()> bytes{};
@@ -120,7 +120,7 @@ void requireText(const std::string& text, std::size_t from, const std::string& n
   fail(name, "is not text: it has a byte 0; UTF-8 is needed", static_cast<int>(1 + lines));
 }
 
-/// Returns the text; throws if it is blank.
+/// Returns the text. Throws if the text consists of blanks only.
 std::string notBlank(std::string text, const std::string& name, const std::string& what) {
   if (text.find_first_not_of(" \t\r\n") == text.npos)
     fail(name, "is empty; " + what + " is needed");

@@ -7,7 +7,8 @@
 /// Functions that read input files. No other code opens input files, except the helper program that
 /// uses assimp. The functions open only ordinary files, never wait for a device or a pipe, and test
 /// the size of a file before they allocate memory for its contents. The exception is
-/// `readTextStream`, which also reads pipes: it is for inputs that are documented to accept a pipe.
+/// `readTextStream`, which also reads pipes. It is used only for inputs that are documented to
+/// accept a pipe.
 namespace corridor {
 
 /// The maximum number of bytes of any input: 4 GiB.
@@ -17,7 +18,7 @@ constexpr std::uint64_t kMostFileBytes = std::uint64_t{1} << 32;
 constexpr std::uint64_t kMostDocumentBytes = std::uint64_t{1} << 28;
 
 /// Returns why a path is not an ordinary file ("no such file", …), or "" if it is an ordinary file.
-/// Opens nothing.
+/// Does not open the file.
 std::string whyNotOrdinaryFile(const std::filesystem::path& file);
 
 /// Checks that `file` is a readable, non-empty, ordinary file of at most `most` bytes.

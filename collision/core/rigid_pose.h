@@ -15,10 +15,10 @@ struct RigidPose {
 };
 
 /// Returns the rotation matrix of a quaternion, rounded. It is exact for the 24 rotations that map
-/// coordinate axes to coordinate axes, such as quarter turns, if the stored coefficients are 0
-/// where the real ones are 0, and otherwise have the same magnitude. (Other formulas, with entries
-/// such as 1 − 2(y² + z²), have a rounding error of 2^-53 where these rotations have a 0, so that
-/// surfaces in contact would come apart.)
+/// coordinate axes to coordinate axes, such as quarter turns, under one condition: the stored
+/// coefficients are 0 where the real ones are 0, and all others have the same magnitude. (Other
+/// formulas, with entries such as 1 − 2(y² + z²), have a rounding error of 2^-53 where these
+/// rotations have a 0, so that surfaces in contact would come apart.)
 /// @pre the norm of q is from 2^-200 to 2^200. It need not be 1.
 template <class Real>
 Eigen::Matrix<Real, 3, 3> rotationMatrix(const Eigen::Quaternion<Real>& q) {

@@ -27,9 +27,9 @@ inline double roundedDown(double bound) {
   return bound * (1 - 0x1p-48) - kTiny;
 }
 
-/// Returns the square root of a computed sum of squares. The result is a lower bound of the real
-/// root, except for relative rounding errors. Returns 0 if the sum is at most 2^-960, since
-/// rounding to subnormals may have made so small a sum too large.
+/// Returns the square root of a computed sum of squares. Except for relative rounding errors, the
+/// result is a lower bound of the root of the real sum. To this end, returns 0 if the sum is at
+/// most 2^-960: rounding to subnormals may have made so small a sum too large.
 inline double rootOrZero(double square) {
   return square > 0x1p-960 ? std::sqrt(square) : 0;
 }

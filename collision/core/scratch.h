@@ -6,10 +6,10 @@
 
 namespace corridor {
 
-/// Memory that queries keep, so that later queries need not allocate it again: one object of each
-/// requested type. A query must not rely on the contents that an object has when the query begins.
-/// While a function uses an object, it must not call a function that uses an object of the same
-/// type.
+/// Memory that queries keep, so that later queries need not allocate it again. It consists of one
+/// object of each requested type. A query must not rely on the contents that an object has when the
+/// query begins. While a function uses an object, it must not call a function that uses an object
+/// of the same type.
 class Scratch {
  public:
   Scratch() = default;

@@ -3,7 +3,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "collision/core/simd_target.cpp"
 #include "hwy/foreach_target.h"
-// Highway requires this order: after foreach_target.h.
+// Highway requires that highway.h is included after foreach_target.h.
 #include "hwy/highway.h"
 
 HWY_BEFORE_NAMESPACE();

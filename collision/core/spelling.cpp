@@ -12,7 +12,8 @@ std::string lowered(std::string_view word) {
 }
 
 std::size_t editDistance(std::string_view a, std::string_view b) {
-  // Rows i − 2, i − 1 and i of the table of distances between prefixes.
+  // `before`, `last` and `row` are the rows i − 2, i − 1 and i of the table of distances between
+  // prefixes.
   std::vector<std::size_t> before, last(b.size() + 1), row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
   for (std::size_t i = 1; i <= a.size(); ++i) {

@@ -14,10 +14,10 @@ std::string lowered(std::string_view word);
 /// byte, or swaps two neighbouring bytes (optimal string alignment).
 std::size_t editDistance(std::string_view a, std::string_view b);
 
-/// Returns the candidate that a user may have meant: the first with the least edit distance,
-/// ignoring case. The distance must be less than the length of `word`, and at most max(1, n/3),
-/// where n is the length of the longer of the two words. Returns nullopt if no candidate qualifies,
-/// or if `word` has more than 100 bytes.
+/// Returns the candidate that a user may have meant: the first candidate with the least edit
+/// distance from `word`. Upper and lower case count as equal. The distance must be less than the
+/// length of `word`, and at most max(1, n/3), where n is the length of the longer of `word` and the
+/// candidate. Returns nullopt if no candidate qualifies, or if `word` has more than 100 bytes.
 std::optional<std::string> mostSimilar(std::string_view word,
                                        const std::vector<std::string>& candidates);
 

@@ -5,10 +5,10 @@
 namespace corridor {
 
 /// A bounding sphere of a body at the middle of a time interval, with a bound on the motion of the
-/// sphere's centre in the interval. Sphere and bound are in the frame from which the motion is seen
-/// (the world, or body a). Rotation of the body about the centre does not move the sphere. Queries
-/// use the sphere to prove that distant bodies are separated, before any tree is built
-/// (motion/may_meet.h).
+/// sphere's centre in the interval. Sphere and bound are in the frame from which the motion is
+/// seen: the world, or the frame of body a. Rotation of the body about the centre does not move the
+/// sphere. Queries use the sphere to prove that distant bodies are separated, before any tree is
+/// built (motion/may_meet.h).
 struct SweptSphere {
   Vec3 center = Vec3::Zero();
   double radius = 0;     ///< includes the motion's tube and rounding; rounded up; metres

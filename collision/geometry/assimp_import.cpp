@@ -75,10 +75,11 @@ double shortestDecimal(float value) {
 }
 
 /// Checks the transform of the root node of a Collada scene. assimp puts Collada's unit and up-axis
-/// there. A unit that is 0, or too small for assimp's floats, would shrink the mesh to a point, and
-/// a negative unit would mirror it. Under `OmplApp` a mirrored mesh is accepted, because the
+/// there. A unit that is 0, or too small for assimp's floats, would shrink the mesh to a point. A
+/// negative unit would mirror the mesh. Under `OmplApp` a mirrored mesh is accepted, because the
 /// mirroring may come from a node of the file that OMPL.app's import steps have merged into the
-/// root. @throws std::runtime_error if the unit is not above 0.
+/// root. @throws std::runtime_error if the transform shrinks the mesh to a point; under `Stored`,
+/// also if it mirrors the mesh.
 void checkColladaRoot(const aiScene& scene, AssimpRules rules) {
   const double volume = inDoubles(scene.mRootNode->mTransformation).linear().determinant();
   if (!(volume > 0 || (volume < 0 && rules == AssimpRules::OmplApp)))
@@ -114,8 +115,8 @@ std::string oneLine(std::string text) {
   return text;
 }
 
-/// Opens ordinary files only, and reports all others as missing. This also holds for files to which
-/// the mesh file refers, such as the buffers of a glTF file.
+/// Opens ordinary files only, and reports all others as missing. This rule also applies to files to
+/// which the mesh file refers, such as the buffers of a glTF file.
 class OrdinaryFiles : public Assimp::DefaultIOSystem {
  public:
   bool Exists(const char* file) const override {  // assimp's own version would open the file

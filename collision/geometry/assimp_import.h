@@ -12,8 +12,8 @@ namespace corridor {
 
 enum class AssimpRules {
   /// Coordinates as stored, under the transforms of the nodes. Collada's up-axis is not applied.
-  /// Collada's unit is not applied either if assimp's root node holds nothing else: then `fileUnit`
-  /// is the unit. Otherwise the unit is applied, and `fileUnit` is 1.
+  /// Collada's unit is not applied either if the transform of assimp's root node is nothing but the
+  /// unit; then `fileUnit` is the unit. Otherwise the unit is applied, and `fileUnit` is 1.
   Stored,
   /// The import steps of OMPL.app. Collada's up-axis and unit are applied, as assimp applies them.
   OmplApp,
@@ -41,8 +41,8 @@ struct AssimpImport {
 /// unlimited time and memory. Throws nothing. Defined in the helper program only.
 AssimpImport importByAssimp(const std::string& file, AssimpRules rules);
 
-/// The helper program's exit status when it reaches its memory limit. (An exception instead would
-/// reach assimp, and assimp would report a damaged file.)
+/// The helper program's exit status when it reaches its memory limit. (An exception would not do:
+/// assimp would catch it, and report a damaged file.)
 constexpr int kOutOfMemoryStatus = 9;
 
 /// Returns the bytes that the helper program writes to its standard output. The format is not

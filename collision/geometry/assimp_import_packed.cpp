@@ -56,7 +56,8 @@ bool unpack(std::string_view bytes, AssimpImport& import) {
   Head head;
   if (bytes.size() < sizeof head) return false;
   take(bytes, &head, 1);
-  // The counts are compared with the size first, so that their products cannot overflow.
+  // The counts and lengths are compared with the size first, so that the products below cannot
+  // overflow.
   if (head.magic != kMagic || head.vertices > bytes.size() || head.triangles > bytes.size() ||
       head.format > bytes.size() || head.error > bytes.size() ||
       bytes.size() != head.vertices * sizeof(Vec3) + head.triangles * sizeof(Indices) +

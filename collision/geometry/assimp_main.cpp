@@ -32,5 +32,5 @@ int main(int count, char** words) {
     if (n < 0) ::_exit(1);
     done += static_cast<std::size_t>(n);
   }
-  ::_exit(0);  // skips assimp's clean-up, which the end of the process makes needless
+  ::_exit(0);  // skips assimp's clean-up, which is needless because the process ends
 }

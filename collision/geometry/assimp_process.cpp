@@ -77,8 +77,8 @@ class Helper {
   Helper(const Helper&) = delete;
   Helper& operator=(const Helper&) = delete;
 
-  /// Reads all that the process writes until it ends. @returns false if it takes longer than
-  /// `seconds`.
+  /// Appends to `bytes` all that the process writes until it closes its output, which it does at
+  /// the latest when it ends. @returns false if this takes longer than `seconds`.
   bool readAll(double seconds, std::string& bytes) {
     const auto end = Clock::now() + std::chrono::duration<double>(seconds);
     std::vector<char> part(std::size_t{1} << 18);

@@ -7,7 +7,8 @@
 namespace corridor {
 namespace {
 
-/// Replaces each part of the text from `open` up to the next `close` by blanks. Keeps line ends.
+/// Replaces each part of the text from `open` up to the next `close`, or up to the end of the text,
+/// by blanks. Line ends stay.
 void blank(std::string& text, std::string_view open, std::string_view close) {
   for (auto from = text.find(open); from != text.npos; from = text.find(open, from)) {
     const auto end = text.find(close, from);

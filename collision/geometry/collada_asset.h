@@ -7,7 +7,7 @@
 namespace corridor {
 
 /// Checks the `<unit meter="…">` and the `<up_axis>` of a Collada file. assimp checks neither: it
-/// takes an unknown unit for 1 m and an unknown axis for y, scales the mesh to a point if the unit
+/// replaces an unknown unit by 1 m and an unknown axis by y, scales the mesh to a point if the unit
 /// is 0, and mirrors the mesh if the unit is negative. Both elements are optional. Elements in
 /// comments and CDATA do not count.
 /// @returns the up-axis, 'x', 'y' or 'z'. Without `<up_axis>` it is y, by Collada's specification.

@@ -38,8 +38,8 @@ std::string nameOf(const Primitive& primitive);
 /// A convex part: a convex solid in the frame of its body. Queries treat the stored doubles as
 /// exact; curved surfaces are not tessellated.
 /// * Without `flatEnds`: the hull of `points` swept by a sphere of `radius`. A sphere has one
-///   point, and a capsule has two. A box has eight points and radius 0. A `Convex` has its own
-///   points and radius 0.
+///   point, and a capsule has two. A box has eight points and radius 0. A `Convex` has the points
+///   that the user gave, and radius 0.
 /// * With `flatEnds`: a cylinder. It is the segment between two points, swept by a disc of `radius`
 ///   that is orthogonal to the segment.
 struct ConvexPart {
@@ -48,9 +48,9 @@ struct ConvexPart {
   bool flatEnds = false;
 };
 
-/// Returns the primitive in the frame of a body. This function applies the pose once, and queries
-/// use its rounded result. Points are mapped; radii stay the same, even under a pose that is not
-/// rigid.
+/// Returns the primitive in the frame of a body. This function applies the pose once. Queries use
+/// the rounded coordinates that result. Points are mapped; radii stay the same, even under a pose
+/// that is not rigid.
 /// @pre `checkPrimitive` reports nothing; `placed` does not call it.
 ConvexPart placed(const Primitive& primitive, const Transform& X_BodyPrimitive);
 

@@ -6,8 +6,8 @@
 
 namespace corridor {
 
-/// Maps the coordinates of a file to metres, and rotates the up-axis to z if the options name one
-/// (`MeshFileOptions`).
+/// Maps the coordinates of a file to metres. If the options name an up-axis (`MeshFileOptions`),
+/// also rotates this axis to z.
 class FileFrame {
  public:
   /// @param metresPerUnit the unit to use if the options do not state a unit.

@@ -14,7 +14,7 @@ constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
 /// One triangle's use of an edge.
 struct Use {
-  std::uint64_t edge;  ///< the same for both directions
+  std::uint64_t edge;  ///< identifies the edge; the same number for both directions
   bool forward;
   std::uint32_t triangle;
 };

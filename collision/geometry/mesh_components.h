@@ -16,7 +16,7 @@ struct MeshComponents {
     Vec3 lower = Vec3::Zero(), upper = Vec3::Zero();  ///< bounds of the component
     /// True if the component has edges, and each edge is used by exactly two triangles, in opposite
     /// directions. Triangles with two equal corners do not count. A watertight component has an
-    /// inside, whether its triangles face outwards or inwards.
+    /// inside, no matter whether its triangles face outwards or inwards.
     bool watertight = false;
   };
   std::vector<Component> components;

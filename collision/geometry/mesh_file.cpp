@@ -47,7 +47,8 @@ StoredMesh readOwn(const std::filesystem::path& file, Reader reader, MeshFaults&
   return stored;
 }
 
-/// Merges equal vertices and drops unused ones. assimp repeats a vertex for each of its normals.
+/// Returns the mesh with equal vertices merged, and without unused vertices. (assimp repeats a
+/// vertex for each of its normals.)
 TriangleMesh welded(const TriangleMesh& mesh) {
   VertexWelder welder(mesh.vertices.size());
   TriangleMesh result;
@@ -91,7 +92,8 @@ std::string notRead(const std::string& extension) {
 /// 4 GiB of memory.
 constexpr std::uint64_t kMostAssimpBytes = std::uint64_t{1} << 30;
 
-/// Checks that need no assimp: size, kind of file, and Collada's unit and up-axis.
+/// Checks a file before assimp reads it: its size, whether it is an ordinary file, and Collada's
+/// unit and up-axis. @throws InputError if a check fails.
 /// @returns Collada's up-axis; nullopt for other formats.
 std::optional<char> requireForAssimp(const std::filesystem::path& file,
                                      const std::string& extension, MeshFaults& faults) {

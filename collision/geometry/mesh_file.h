@@ -13,8 +13,9 @@ struct MeshFileOptions {
   /// Metres per unit of the file. Unset: the file's own unit if the format has one, else 1.
   /// Required for 3MF and AMF, because assimp does not report their unit.
   std::optional<double> metresPerUnit = {};
-  /// The file's up-axis ('x', 'y' or 'z'), which is rotated to z: 'y' maps (x, y, z) to (x, -z, y),
-  /// 'x' maps it to (-y, -z, x), as Collada's axes do. Unset: coordinates as stored.
+  /// The file's up-axis ('x', 'y' or 'z'), which is rotated to z. 'y' maps (x, y, z) to (x, -z, y),
+  /// and 'x' maps (x, y, z) to (-y, -z, x), as Collada's axes do. Unset: coordinates are not
+  /// rotated.
   std::optional<char> up = {};
 };
 
@@ -34,8 +35,8 @@ struct MeshFile {
 
 /// Reads a mesh file. The extension decides which reader is used. Corridor's own readers read OBJ,
 /// STL, PLY and OFF in double. assimp reads Collada, glTF, FBX, 3DS, X3D, 3MF and AMF, in a process
-/// of its own with limits of time and memory. This function applies scale and rotation once, and
-/// queries use its rounded result.
+/// of its own with limits of time and memory. This function applies scale and rotation once.
+/// Queries use the rounded coordinates that result.
 /// @throws InputError that names the file and the line, face or byte: unreadable, no faces, not
 /// finite, index out of range, truncated, too large, unknown extension, …
 MeshFile readMeshFile(const std::filesystem::path& file, const MeshFileOptions& options = {});

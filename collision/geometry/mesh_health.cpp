@@ -13,8 +13,8 @@ namespace {
 
 using Indices = std::array<std::uint32_t, 3>;
 
-/// The bounds of the corners of triangles. Lengths are taken relative to the bounds' diagonal, so
-/// that the size of a mesh never causes an overflow or underflow of their squares.
+/// The bounds of the corners of triangles. Lengths are measured in units of the diagonal of the
+/// bounds. So their squares neither overflow nor underflow because of the size of a mesh.
 struct Bounds {
   Vec3 min, max;
   /// 1/4 if the diagonal overflows; else 1, because subnormals times 1/4 would lose bits.
@@ -53,7 +53,8 @@ Indices sorted(Indices t) {
   return t;
 }
 
-/// Returns an edge as one number, the same for both directions.
+/// Returns a number that identifies the edge between two vertices. Both directions of the edge give
+/// the same number.
 std::uint64_t undirected(std::uint32_t a, std::uint32_t b) {
   return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
 }
@@ -177,10 +178,11 @@ MeshHealth inspectMesh(const TriangleMesh& mesh) {
   }
   const std::vector<Vec3> points = welder.takePoints();
   const Bounds bounds(mesh);
-  health.min = bounds.min + Vec3::Zero();  // no -0
+  health.min = bounds.min + Vec3::Zero();  // adding 0 turns -0 into 0
   health.max = bounds.max + Vec3::Zero();
 
-  std::vector<Indices> all, fair;  // with sorted corners; repeated ones are removed below
+  std::vector<Indices> all,
+      fair;  // triangles with sorted corners; `makeDistinct` removes repeated ones
   for (const Indices& t : triangles) {
     const auto quality = qualityOf(points[t[0]], points[t[1]], points[t[2]], bounds);
     health.degenerateTriangles += quality == TriangleQuality::degenerate;

@@ -21,8 +21,9 @@ struct MeshHealth {
   std::size_t sliverTriangles = 0;
   std::size_t boundaryEdges = 0;  ///< edges of exactly one distinct triangle that is not degenerate
   std::size_t nonManifoldEdges = 0;  ///< edges of three or more such triangles
-  /// Edges of exactly two triangles that use the edge in the same direction: one of the two
-  /// triangles faces outwards, the other inwards. Triangles with two equal corners do not count.
+  /// Edges of exactly two triangles that use the edge in the same direction: so one of the two
+  /// triangles faces outwards, and the other faces inwards. Triangles with two equal corners do not
+  /// count.
   std::size_t misorientedEdges = 0;
   /// Sets of triangles connected through shared corners. (`findComponents` requires shared edges.)
   std::size_t components = 0;

@@ -44,8 +44,8 @@ std::optional<std::string> parseCoordinate(std::string_view word, double& value,
     return complaint(" is not a number; write decimal numbers such as -1.25e-3");
   }
   if (error == std::errc::result_out_of_range) {
-    // The number is too large or too small. from_chars does not report which of the two; a stream
-    // does, for any exponent.
+    // The number is too large or too small. from_chars does not report which of these two cases it
+    // is. Reading from a stream shows it, for any exponent.
     std::istringstream stream(std::string(begin, end));
     stream.imbue(std::locale::classic());
     if (!(stream >> value)) return complaint(" is too large for a double");

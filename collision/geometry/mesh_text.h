@@ -20,8 +20,8 @@ std::string printable(std::string_view word);
 /// Returns `printable(word)` in double quotes.
 std::string inQuotes(std::string_view word);
 
-/// Collects the faults of one file (a mesh, a point cloud or a map). Throws at the tenth fault,
-/// since further faults rarely add information.
+/// Collects the faults of one file (a mesh, a point cloud or a map). `add` throws all faults at the
+/// tenth fault, since further faults rarely add information.
 class MeshFaults {
  public:
   explicit MeshFaults(std::string file) : file_(std::move(file)), faults_(file_, 10) {}
@@ -30,8 +30,8 @@ class MeshFaults {
   /// Adds a fault after which the reader cannot go on, and throws all faults.
   [[noreturn]] void fail(int line, std::string text);
   void throwIfAny() const { faults_.throwIfAny(); }
-  /// Fails if `count`, the number of `what` ("vertices", "faces" or "triangles"), exceeds
-  /// `kMaxMeshElements`.
+  /// Calls `fail` if `count` exceeds `kMaxMeshElements`. @param what the things that were counted:
+  /// "vertices", "faces" or "triangles".
   void requireFew(std::uint64_t count, std::string_view what, int line) {
     if (count > kMaxMeshElements) failCount(count, what, line);
   }
@@ -64,15 +64,16 @@ inline bool isBlank(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
 }
 
-/// Walks through a text by words, counting lines from 1.
+/// Walks through a text word by word, and counts its lines, from 1 unless the constructor gets
+/// another number.
 class TextCursor {
  public:
   explicit TextCursor(std::string_view text, int line = 1) : rest_(text), line_(line) {}
 
   /// Returns the next word of this line; empty at the end of the line.
   std::string_view wordInLine();
-  /// Returns the next word of this or a later line; empty at the end of the text. Then `line()` is
-  /// the word's line.
+  /// Returns the next word of this or a later line; empty at the end of the text. After the call,
+  /// `line()` is the line of that word.
   std::string_view word();
   /// Goes to the start of the next line. @returns false at the end of the text.
   bool nextLine();

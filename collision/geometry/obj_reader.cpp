@@ -36,8 +36,8 @@ class ObjReader {
 
   std::int64_t count() const { return static_cast<std::int64_t>(mesh_.vertices.size()); }
 
-  /// Returns the next word of the logical line. A backslash at the end of a line continues the
-  /// logical line on the next one; '#' ends it.
+  /// Returns the next word of the logical line; empty at the end of this line, and at a word that
+  /// begins with '#'. A backslash at the end of a line continues the logical line on the next line.
   std::string_view nextWord() {
     std::string_view word = cursor_.wordInLine();
     while (word == "\\" || (word.empty() && continued_)) {
@@ -50,7 +50,7 @@ class ObjReader {
     return word.substr(0, word.starts_with('#') ? 0 : word.npos);
   }
 
-  void readVertex() {  // keeps a faulty vertex, too, so that the others keep their numbers
+  void readVertex() {  // also keeps a faulty vertex, so that later vertices keep their numbers
     mesh_.vertices.push_back(parseVertex([&] { return nextWord(); }, cursor_, faults_));
   }
 

@@ -79,7 +79,7 @@ class MapReader {
     return std::move(map_);
   }
 
-  /// Returns the word for what contains the map, "file" or "message", for error messages.
+  /// Returns what contains the map, "file" or "message", for error messages.
   std::string container() const { return promised_ ? "file" : "message"; }
 
   /// Checks the type of the tree and the resolution.
@@ -131,7 +131,7 @@ class MapReader {
     promised_ = size;
     setTree(id);
     at_ = bytes_.size() - cursor_.bytesLeft();
-    // The line ends with its line feed; everything after it is data.
+    // The line `data` ends with a line feed. All bytes after this line feed are data.
     const std::size_t feed = bytes_.find('\n', at_);
     at_ = feed == bytes_.npos ? bytes_.size() : feed + 1;
   }
@@ -160,7 +160,7 @@ class MapReader {
   }
 
   /// Reads an inner node of a .bt file: two bits for each child, and then the inner children.
-  /// @returns whether the whole cube is occupied; it is then stored as one cube.
+  /// @returns whether the whole cube is occupied. If it is, `map_.cubes` has it as one cube.
   bool readChildren(const Cube& cube, int depth) {
     requireDepth(depth);
     const auto bits = take<std::uint16_t>();
@@ -199,7 +199,7 @@ class MapReader {
 
   /// Reads a node of a .ot file: its log-odds, its colour in a ColorOcTree, a bit for each child,
   /// and then the children.
-  /// @returns whether the whole cube is occupied; it is then stored as one cube.
+  /// @returns whether the whole cube is occupied. If it is, `map_.cubes` has it as one cube.
   bool readNode(const Cube& cube, int depth) {
     const auto logOdds = take<float>();
     if (color_)
@@ -269,7 +269,8 @@ class MapReader {
     }
   }
 
-  /// Adds the parts of the unknown cubes that are inside the bounding box of all measured cells.
+  /// Adds to `map_.cubes` all unknown space that is inside the bounding box of the measured cells.
+  /// Unknown cubes that cross the boundary of this box are divided.
   void addUnknown() {
     std::vector<Cube> open = std::move(missing_);
     while (!open.empty()) {
@@ -298,7 +299,7 @@ class MapReader {
   std::array<std::int32_t, 3> low_{INT32_MAX, INT32_MAX, INT32_MAX},
       high_{INT32_MIN, INT32_MIN, INT32_MIN};
   std::size_t at_ = 0;
-  // The number of nodes that the header states. Not set for a message, which does not state it.
+  // The number of nodes that the header states. Not set for a message, which has no header.
   std::optional<std::int64_t> promised_;
   std::int64_t nodes_ = 0;
   bool binary_ = false, color_ = false;

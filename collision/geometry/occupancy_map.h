@@ -13,8 +13,8 @@ namespace corridor {
 
 /// Rules that decide which cells of a map are obstacles.
 struct OccupancyRules {
-  /// If true, cells without a measurement count as obstacles, too, if they are in the bounding box
-  /// of the measured cells.
+  /// True: a cell without a measurement also counts as an obstacle if it is in the bounding box of
+  /// the measured cells.
   bool unknownIsOccupied = false;
   /// A cell is occupied if its probability is at least `threshold`, which must be in (0, 1).
   /// Probability and threshold are compared as log-odds in float, as OctoMap compares them. A .bt
@@ -35,7 +35,7 @@ struct OccupancyMap {
   /// The occupied cubes, and also the unknown cubes if `OccupancyRules::unknownIsOccupied` is true.
   /// Eight occupied children of one octree node are joined into one cube.
   std::vector<Cube> cubes;
-  std::size_t free = 0;           ///< number of leaves of the octree that are free
+  std::size_t free = 0;           ///< number of free leaves of the octree
   bool hasProbabilities = false;  ///< false if the data are as in .bt
   std::string format;             ///< "OctoMap (.bt)", "OctoMap (.ot)", "octomap_msgs/Octomap"
 

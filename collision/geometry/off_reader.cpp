@@ -9,8 +9,9 @@
 namespace corridor {
 namespace {
 
-/// A reader of OFF as text. The file has the word "OFF" (or a variant with more numbers per
-/// vertex), the counts, then one vertex or face per line. Only coordinates and corners are read.
+/// A reader of OFF as text. The file begins with the word "OFF", or with a variant such as "COFF"
+/// if its vertices have more than three numbers. The counts follow, then one vertex or face per
+/// line. Only coordinates and corners are read.
 class OffReader {
  public:
   OffReader(std::string_view text, MeshFaults& faults) : cursor_(text), faults_(faults) {}
@@ -18,8 +19,8 @@ class OffReader {
   ReadMesh read() {
     readKeyword();
     const std::int64_t vertices = count("vertices"), faces = count("faces");
-    // The count of edges must end this line. Otherwise the first vertex would be read as that
-    // count, or be skipped.
+    // The count of edges must end this line. If the count were missing, the first vertex would be
+    // read as the count, or be skipped.
     if (wordInLine().empty())
       faults_.fail(cursor_.line(),
                    "the number of edges is missing; add a third number to the line, for example 0");

@@ -16,8 +16,8 @@ static_assert(std::endian::native == std::endian::little, "PCD stores little-end
 
 struct Field {
   std::string name;
-  std::uint64_t size = 4, count = 1;  ///< bytes of a number; numbers per point
-  char type = 'F';                    ///< F, I (signed), U
+  std::uint64_t size = 4, count = 1;  ///< bytes of one number; how many numbers a point has
+  char type = 'F';                    ///< F (floating point), I (signed), U (unsigned)
   std::uint64_t offset = 0;           ///< bytes before the field in a point
   std::uint64_t bytes() const { return size * count; }
 };
@@ -182,7 +182,7 @@ double valueAt(const char* from, const Field& field) {
   }
 }
 
-/// Fails unless `available` bytes hold all points.
+/// Adds a fault and throws if `available` bytes are too few for all points.
 void requireBytes(const Header& header, std::uint64_t available, MeshFaults& faults) {
   if (header.pointBytes > 0 && header.points <= available / header.pointBytes) return;
   faults.fail(0, "the header promises " + std::to_string(header.points) + " points of " +
@@ -231,7 +231,7 @@ std::vector<Vec3> readAscii(std::string_view body, const Header& header, MeshFau
   return points;
 }
 
-/// Reads binary data: the points one after another, each with all of its fields.
+/// Reads binary data, which are the points one after another, each with all of its fields.
 std::vector<Vec3> readBinary(std::string_view body, const Header& header, MeshFaults& faults) {
   requireBytes(header, body.size(), faults);
   const std::string_view rest = body.substr(header.points * header.pointBytes);
@@ -252,7 +252,8 @@ std::vector<Vec3> readBinary(std::string_view body, const Header& header, MeshFa
 /// Expands LZF (liblzf's format). A control byte c below 32 is followed by c + 1 literal bytes. Any
 /// other c stands for a copy of (c >> 5) + 2 bytes of the output written so far. The copy starts (d
 /// + 1) bytes before the output's end, where the low 5 bits of c and the next byte give d. If c >>
-/// 5 is 7, one more byte comes before the byte of d, and its value is added to the length.
+/// 5 is 7, one more byte comes before the byte of d. The value of this additional byte is added to
+/// the length of the copy.
 /// @returns nullopt if the data are damaged, or do not expand to `size` bytes.
 std::optional<std::string> expanded(std::string_view in, std::uint64_t size) {
   std::string out;
@@ -280,9 +281,9 @@ std::optional<std::string> expanded(std::string_view in, std::uint64_t size) {
   return out.size() == size ? std::optional(std::move(out)) : std::nullopt;
 }
 
-/// Reads compressed data: the compressed and the expanded size in bytes, then the compressed
-/// values. Expanded, these are all values of the first field, then all values of the second field,
-/// ….
+/// Reads compressed data. They begin with the compressed and the expanded size in bytes; the
+/// compressed values follow. The expanded data are all values of the first field, then all values
+/// of the second field, and so on.
 std::vector<Vec3> readCompressed(std::string_view body, const Header& header, MeshFaults& faults) {
   if (body.size() < 8) faults.fail(0, "the file ends before its data: it is cut short");
   std::uint32_t packed = 0, size = 0;

@@ -131,7 +131,7 @@ class HeaderReader {
     properties.push_back(std::move(property));
   }
 
-  /// Returns the element of that name; fails if it is missing.
+  /// Returns the element of that name. Throws if the header does not have it.
   const PlyElement& find(std::string_view name) {
     const auto found =
         std::find_if(header_.elements.begin(), header_.elements.end(),
@@ -161,8 +161,8 @@ class HeaderReader {
     }
   }
 
-  // Limits for damaged headers. The time is quadratic in the number of elements, because each
-  // element's name is compared with all others.
+  // Limits for damaged headers. The time to read a header is quadratic in its number of elements,
+  // because the name of each element is compared with all others.
   static constexpr std::size_t mostElements = 1000, mostProperties = 1000;
 
   TextCursor cursor_;

@@ -39,8 +39,8 @@ struct PlyHeader {
   int lines = 0;         ///< lines of the header
 };
 
-/// Reads the header. Checks that vertices have scalar properties x, y, z. For a mesh, also checks
-/// that there are faces, with a list of integer indices.
+/// Reads the header of a PLY file. Throws if vertices do not have the scalar properties x, y and z.
+/// If `isMesh` is true, also throws if there is no element `face` with a list of integer indices.
 PlyHeader readPlyHeader(std::string_view bytes, bool isMesh, MeshFaults& faults);
 
 /// Returns whether the property has one of the two common names of the list of a face's corners.

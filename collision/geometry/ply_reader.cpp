@@ -11,7 +11,7 @@
 namespace corridor {
 namespace {
 
-/// Which entry of which element is being read, for messages.
+/// The element that is being read, and the index of its entry, for messages.
 struct Place {
   const PlyElement* element = nullptr;
   std::uint64_t index = 0;
@@ -30,7 +30,8 @@ class AsciiBody {
 
   /// Returns the least number of bytes that a value takes: two, for a digit and a blank.
   static std::uint64_t leastSize(PlyType) { return 2; }
-  /// Returns the number of bytes left, plus one, because the last word needs no blank after it.
+  /// Returns the number of bytes left, plus one: the last word of a file needs no blank after it,
+  /// so it may be one byte shorter than `leastSize`.
   std::uint64_t bytesLeft() const { return cursor_.bytesLeft() + 1; }
 
   double coordinate(PlyType) {

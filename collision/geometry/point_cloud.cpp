@@ -41,7 +41,8 @@ PointCloud readPointCloud(const std::filesystem::path& file, const MeshFileOptio
                                                  : inQuotes(file.extension().string())));
   const std::string bytes = readFile(file, "a point cloud");
   std::string_view content = bytes;
-  if (content.starts_with("\xEF\xBB\xBF")) content.remove_prefix(3);  // a mark of UTF-8
+  if (content.starts_with("\xEF\xBB\xBF"))
+    content.remove_prefix(3);  // the byte-order mark of UTF-8
   PointCloud cloud = readerOf(content, extension)(content, faults);
   faults.throwIfAny();
   const std::size_t all = cloud.points.size();

@@ -7,10 +7,11 @@
 #include "collision/geometry/mesh_text.h"
 #include "collision/geometry/point_cloud.h"
 
-/// The readers of `readPointCloud`, one per format. Each takes the bytes of a file, and returns
-/// coordinates as stored, including points that are not finite. Readers add every fault to
-/// `faults`. They throw InputError at a fault after which they cannot go on, and at the tenth
-/// fault. After other faults they return, so the caller must call `faults.throwIfAny()`.
+/// The readers of `readPointCloud`, one per format. Each reader takes the bytes of a file, and
+/// returns its points with the coordinates as stored. Points that are not finite are included.
+/// Readers add every fault to `faults`. They throw InputError at a fault after which they cannot go
+/// on, and at the tenth fault. After other faults they return, so the caller must call
+/// `faults.throwIfAny()`.
 namespace corridor {
 
 /// The maximum number of points in a file.

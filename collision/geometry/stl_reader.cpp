@@ -142,7 +142,7 @@ class AsciiStl {
 }  // namespace
 
 ReadMesh readStl(std::string_view bytes, MeshFaults& faults) {
-  // The size decides first, because many binary files begin with "solid", too.
+  // The size of the file is tested first, because many binary files also begin with "solid".
   const bool hasHeader = bytes.size() >= headerSize;
   const std::uint64_t promised =
       hasHeader ? headerSize + std::uint64_t{facetSize} * littleEndian32(&bytes[80]) : 0;

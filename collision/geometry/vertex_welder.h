@@ -7,14 +7,14 @@
 
 namespace corridor {
 
-/// Numbers distinct points in order of first appearance. Points are equal if their coordinates are
-/// exactly equal; -0 equals 0, and is stored as 0.
+/// Gives distinct points indices from 0, in the order of their first appearance. Points are equal
+/// if their coordinates are exactly equal; -0 equals 0, and is stored as 0.
 class VertexWelder {
  public:
   explicit VertexWelder(std::size_t expectedPoints);
 
-  /// Returns the number of a point, from 0. Adds the point if no equal point was added before. @pre
-  /// the point is finite.
+  /// Returns the index of a point in `points()`. Adds the point if no equal point was added before.
+  /// @pre the point is finite.
   std::uint32_t addOrFind(const Vec3& point);
 
   const std::vector<Vec3>& points() const { return points_; }

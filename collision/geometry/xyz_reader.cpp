@@ -23,14 +23,15 @@ std::string_view nextWord(std::string_view& line, std::string_view marks) {
 }
 
 /// Returns the characters that, besides blanks, separate the numbers of a line. In a line with
-/// semicolons, commas do not separate numbers: they are decimal marks, and reading such a number
-/// then reports a fault.
+/// semicolons, commas do not separate numbers, because they are decimal marks there. The reader
+/// refuses numbers with decimal commas.
 std::string_view marksOf(std::string_view line) {
   return line.find(';') != line.npos ? ";" : ",";
 }
 
-/// Returns whether a comma within a word may be a decimal mark, as in "1,5 2,5 3,5": some commas
-/// have no blank on either side, and some numbers are separated by blanks alone.
+/// Returns whether the commas of a line may be decimal marks, as in "1,5 2,5 3,5". This is assumed
+/// if at least one comma has no blank on either side, and at least two numbers are separated by
+/// blanks alone.
 bool mixesCommasAndBlanks(std::string_view line) {
   const auto isBlank = [](char c) { return kBlanks.find(c) != kBlanks.npos; };
   bool alone = false, tight = false;

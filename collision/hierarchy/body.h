@@ -63,7 +63,7 @@ class Body {
   /// The boxes of the parts, in the order of `parts()`; only for a body of parts. The tree of the
   /// boxes is built at the first call.
   const BoxTree& partBoxes() const;
-  bool treeBuilt() const;  ///< true if any tree has been built
+  bool treeBuilt() const;  ///< true if any tree except that of `partBoxes` has been built
   /// The largest distance of a point of the body from the frame's origin, metres, rounded up.
   double radius() const { return bounds_.radius; }
   /// A bounding sphere: its centre, and its radius, rounded up; metres.

@@ -58,9 +58,9 @@ struct Split {
 };
 
 /// Returns the split of the items between two bins of this axis that has the least cost. The cost
-/// is that of the surface-area heuristic: the expected number of boxes that a walk tests, if it
-/// meets a child with a probability in proportion to the child's surface. The cost is infinite if
-/// there is no split.
+/// is that of the surface-area heuristic. Up to a factor that is the same for all splits, it is the
+/// expected number of boxes that a walk tests if the probability of reaching a child is
+/// proportional to the child's surface. The cost is infinite if there is no split.
 Split bestSplit(std::span<const BoundingBox> boxes, std::span<const std::uint32_t> items,
                 const Bins& bins) {
   struct Bin {
@@ -160,9 +160,9 @@ std::uint32_t BoxTree::buildNode(std::span<const BoundingBox> boxes,
 std::size_t BoxTree::split(std::span<const BoundingBox> boxes, std::span<std::uint32_t> items,
                            const BoundingBox& all, const Vec3& low, const Vec3& high,
                            std::size_t depth) {
-  // Halving at the median takes at most as many levels as the items' number has bits. The heuristic
-  // may make unequal halves only while there are levels to spare. In a flat box the heuristic can't
-  // compare splits, because all surfaces may be 0.
+  // Halving at the median takes at most as many levels as the number of items has bits. The
+  // heuristic may make unequal halves only while there are levels to spare. In a flat box the
+  // heuristic can't compare splits, because all surfaces may be 0.
   if (area(all) > 0 && depth + std::bit_width(items.size()) < kMaxDepth) {
     Split best;
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
@@ -275,8 +275,8 @@ std::uint32_t BoxTree::siblingFor(const BoundingBox& box) const {
     const std::uint32_t left = nodes_[at].left, right = nodes_[at].right;
     const double costLeft = below(left), costRight = below(right);
     if (here < costLeft && here < costRight) break;
-    // If the costs are equal, or are not numbers because a box is infinite, the walk takes the
-    // shorter side.
+    // If the costs are equal, or are not numbers because a box is infinite, the search descends
+    // into the child of smaller height.
     const bool isShorter = links_[left].height <= links_[right].height;
     at = costLeft < costRight || (!(costRight < costLeft) && isShorter) ? left : right;
   }

@@ -22,8 +22,9 @@ struct BoundingBox {
 
 /// A binary tree of boxes, for the broad phase: it finds the boxes near a body without a test of
 /// each box. A leaf is one of the given boxes. Boxes are split by the surface-area heuristic
-/// (Goldsmith and Salmon 1987; in bins, as Wald 2007 does). A walk therefore excludes boxes that
-/// are far from all others early, at nodes near the root. The depth is at most `kMaxDepth`.
+/// (Goldsmith and Salmon 1987; in bins, as Wald 2007 does). Boxes that are far from all others are
+/// therefore split off at nodes near the root, where a walk can exclude them early. The depth is at
+/// most `kMaxDepth`.
 ///
 /// If a body moves, comes or goes, one call of `refit`, `insert` or `remove` adapts the tree. The
 /// time of a call is proportional to the tree's depth, except for rare insertions that build the

@@ -35,7 +35,7 @@ std::uint64_t spread(std::uint64_t x) {  // inserts two zeros between adjacent b
   return (x | x << 2) & 0x1249249249249249;
 }
 
-/// Returns the boxes in the order of their centres along a Morton curve.
+/// Returns the indices of the boxes, in the order of the boxes' centres along a Morton curve.
 std::vector<std::uint32_t> mortonOrder(std::span<const Obb> boxes, double unit, const Vec3& low) {
   std::vector<std::uint64_t> codes;
   for (const Obb& box : boxes) {

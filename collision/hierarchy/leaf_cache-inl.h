@@ -22,10 +22,10 @@
 HWY_BEFORE_NAMESPACE();
 namespace corridor::HWY_NAMESPACE {
 
-/// A cache of the corners of a tree's leaves, mapped by x ↦ matrix·(x − origin) + offset, for the
-/// nodes that were requested most recently. The corners of a node's leaves are floats relative to
-/// one of these corners. They are therefore rounded by 2^-24 of the node's size, not of the mesh's
-/// size.
+/// A direct-mapped cache of the corners of the leaves of up to 16 recently requested nodes. The
+/// corners are mapped by x ↦ matrix·(x − origin) + offset, where `origin` is that of the tree. The
+/// corners of a node's leaves are floats relative to one of these corners. They are therefore
+/// rounded by 2^-24 of the node's size, not of the mesh's size.
 class LeafCache {
  public:
   LeafCache(const Obb4Tree& tree, const Mat3& matrix, const Vec3& offset) : tree_(tree) {

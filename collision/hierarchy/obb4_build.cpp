@@ -30,7 +30,7 @@ constexpr float kFlat = 0.6F;
 /// enough for a core's caches.
 constexpr std::uint32_t kPiece = 1024;
 
-/// References [first, first + count) with their mean and axes.
+/// The primitive references [first, first + count), with their mean and axes.
 struct Cluster {
   std::uint32_t first = 0, count = 0;
   float mean[3] = {};

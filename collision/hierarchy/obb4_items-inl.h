@@ -280,9 +280,10 @@ class BuildItems {
 
   const TriangleMesh* mesh_ = nullptr;
   std::span<const ConvexPart> parts_;
-  std::vector<Vec3> own_;           // vertices, or centres of balls, in the tree's frame and unit
-  std::vector<double> radii_;       // of the balls, in the tree's unit
-  std::vector<std::size_t> first_;  // for each part, its first ball; last, the number of balls
+  std::vector<Vec3> own_;      // vertices, or centres of balls, in the tree's frame and unit
+  std::vector<double> radii_;  // of the balls, in the tree's unit
+  // The first ball of each part. The last entry is the number of balls.
+  std::vector<std::size_t> first_;
 };
 
 }  // namespace corridor::HWY_NAMESPACE

@@ -39,8 +39,8 @@ bool contains(const Volume& volume, const Triangle& triangle, const Own& own) {
 }
 
 /// Tests whether the volume contains a convex part: the spheres about its points, or the discs of a
-/// cylinder. If a volume is not proved to contain the discs directly, it must contain the part's
-/// own box, which contains the discs.
+/// cylinder. If the volume is not proved to contain the discs directly, it must contain a box that
+/// is proved to contain them: the part's own box (`enclosingObb`).
 template <class Own>
 bool contains(const Volume& volume, const ConvexPart& part, const Own& own,
               const exact::Rational& unit) {

@@ -127,9 +127,10 @@ void relate(const Obb4Tree& a, const Transform& X_WA, const Obb4Tree& b, const T
   const Columns A(X_WA.m), B(X_WB.m);
   const Vec3 &oA = a.origin(), &oB = b.origin();
   const Triple tA = Triple::load(X_WA.t.data()), tB = Triple::load(X_WB.t.data());
-  // With the trees' origins o_A and o_B, y = M_A⁻¹(M_B x + D) and D = M_B o_B + t_B − M_A o_A −
-  // t_A. The code uses M_Aᵀ instead of M_A⁻¹. The difference M_A⁻¹ − M_Aᵀ = (I − M_AᵀM_A) M_A⁻¹ has
-  // a norm ≤ ν_A/√(1 − ν_A), where ν_A is the ν of M_A (`defectOf`).
+  // Let o_A and o_B be the trees' origins. A point at x relative to o_B, in b's frame, is at y =
+  // M_A⁻¹(M_B x + D) relative to o_A, in a's frame, with D = M_B o_B + t_B − M_A o_A − t_A. The
+  // code uses M_Aᵀ instead of M_A⁻¹. The difference M_A⁻¹ − M_Aᵀ = (I − M_AᵀM_A) M_A⁻¹ has a norm ≤
+  // ν_A/√(1 − ν_A), where ν_A is the ν of M_A (`defectOf`).
   const Triple D = tB.plus(B.col[0], oB[0]).plus(B.col[1], oB[1]).plus(B.col[2], oB[2]) -
                    tA.plus(A.col[0], oA[0]).plus(A.col[1], oA[1]).plus(A.col[2], oA[2]);
   const double defectA = defectOf(X_WA.m, A), defectB = defectOf(X_WB.m, B);

@@ -124,7 +124,8 @@ class PrimitiveReferences {
   using Indices = decltype(hn::SetTableIndices(D(), static_cast<const std::int32_t*>(nullptr)));
   static constexpr D d_{};
   static constexpr std::size_t kLanes = hn::MaxLanes(D());
-  static constexpr std::size_t kBlock = 4096;  // records per sum in float; sums add up in double
+  // So many records are summed in float. The sums of such blocks are added in double.
+  static constexpr std::size_t kBlock = 4096;
   static constexpr bool kMasked = HWY_TARGET <= HWY_AVX2;  // the target has masked loads and stores
 
   /// Loads lanes of records from `at` on. `rest` is the number of records that are left. Lanes

@@ -88,9 +88,10 @@ void SweepAndPrune::move(std::size_t item, const BoundingBox& box) {
 }
 
 /// Moves an end to its new place. Two boxes begin to overlap along the axis if a lower end passes
-/// an upper end downwards, or an upper end passes a lower end upwards. They cease to overlap if the
-/// ends pass each other the other way round. `boxes_` already has the new boxes. A pair that
-/// overlaps along all axes is therefore found at the last axis along which it begins to overlap.
+/// an upper end downwards, or an upper end passes a lower end upwards. They cease to overlap if
+/// such ends pass each other in the opposite direction. `boxes_` already has the new boxes. A pair
+/// that overlaps along all axes is therefore found at the last axis along which it begins to
+/// overlap.
 void SweepAndPrune::moveEnd(std::size_t axis, std::uint32_t id, double value) {
   std::vector<End>& ends = ends_[axis];
   std::vector<std::uint32_t>& places = places_[axis];

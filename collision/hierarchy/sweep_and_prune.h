@@ -44,7 +44,7 @@ class SweepAndPrune {
     for (const std::uint64_t key : pairs_)
       visit(static_cast<std::uint32_t>(key >> 32), static_cast<std::uint32_t>(key));
   }
-  /// The number of times that an end has passed another one since construction.
+  /// The number of times that an end has passed another end since construction.
   std::uint64_t swaps() const { return swaps_; }
 
  private:

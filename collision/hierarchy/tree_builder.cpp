@@ -40,7 +40,7 @@ std::uint32_t splitAtMean(TreePrimitives& items, std::uint32_t first, std::uint3
 
 /// Reorders [first, first + count) so that the lower half of the leaf primitives, in the direction
 /// of `normal`, comes first. Returns the number of leaf primitives in this half, or 0 if all
-/// centroids have the same height.
+/// centroids have the same height along `normal`.
 std::uint32_t splitAtMedian(TreePrimitives& items, std::uint32_t first, std::uint32_t count,
                             const Vec3& mean, const Vec3& normal) {
   struct Side {

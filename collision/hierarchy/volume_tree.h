@@ -68,7 +68,8 @@ class VolumeTree {
   std::uint32_t meshTriangle(std::uint32_t i) const { return items_.numbers[i]; }
 
   /// Bounds that overlap tests need for their rounding errors, rounded up: the largest
-  /// orthonormality defect of the axes, and the largest |center|₂.
+  /// orthonormality defect of the axes, and the largest `centerReach()` of the volumes
+  /// (volumes/volume.h).
   double axisDefect() const { return bounds_.axisDefect; }
   double centerReach() const { return bounds_.centerReach; }
   /// Largest |x|₂ of all points, rounded up.

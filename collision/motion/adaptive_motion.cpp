@@ -19,8 +19,8 @@ constexpr double kLeastHalfWidth = 0x1p-48;
 struct QueuedInterval {
   double t0, t1;
   /// The distance, metres, that was missing for a proof of the interval that was halved into this
-  /// one. It is too large by the pair's margin, which matters little: it decides only the order.
-  /// Infinite for the whole motion.
+  /// one. The number is too large by the pair's margin. This matters little, because the number
+  /// decides only the order of the intervals. Infinite for the whole motion.
   double need;
   std::uint32_t pair;
 };
@@ -56,7 +56,7 @@ class Bisection {
  private:
   /// The order of the intervals. With `earliest` the earliest interval comes first: everything
   /// before it is then proved. Otherwise the interval whose parent lacked the most distance comes
-  /// first: there a contact, if there is one, is most likely. One contact suffices, and a free
+  /// first, because a contact is most likely in this interval. One contact suffices, and a free
   /// motion needs the same intervals in any order.
   struct Later {
     bool earliest;
@@ -101,7 +101,8 @@ class Bisection {
   }
 
   /// Returns the query's answer if the search ends at the block. @pre Everything up to t0 is
-  /// proved, and t0 is as close to the block as requested.
+  /// proved. Either t0 is as close to the block as requested, or the clearance between t0 and the
+  /// block is too small for a proof.
   MotionResult blocked(double t0) {
     const auto& [time, pair, measured] = *block_;
     return measured.contact ? steps_.contact(pair, t0, time, measured)

@@ -6,8 +6,8 @@ namespace corridor {
 
 /// Answers the query of `certifyMotion`, with the same promises, by adaptive bisection (Schwarzer,
 /// Saha, Latombe 2005). A time interval of one pair of bodies is proved if the distance at its
-/// middle exceeds the motion bound of b about the middle, in any direction. Otherwise it is halved.
-/// Pairs are bisected independently of each other.
+/// middle exceeds the sum of the margin and the isotropic motion bound of b about the middle.
+/// Otherwise the interval is halved. Pairs are bisected independently of each other.
 ///
 /// Cost: a body that slides along a wall at a distance d needs about length/d intervals. The
 /// default method has directional motion bounds and needs only some tens of intervals. Therefore a

@@ -14,8 +14,8 @@ namespace corridor {
 
 /// Finds the pairs of bodies that may come close to each other, without a test of each pair. If a
 /// moving body has many partners at rest in the world, a tree of the partners' boxes gives the
-/// pairs that its swept sphere may reach. Successive moving bodies with the same partners share one
-/// tree. Pairs that no tree covers are reported without a test.
+/// partners that the swept sphere of this body may reach. Successive moving bodies with the same
+/// partners share one tree. Pairs that no tree covers are reported without a test.
 ///
 /// The object does not change after construction, so threads may share it.
 class BroadPhase {

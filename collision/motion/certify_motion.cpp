@@ -78,8 +78,9 @@ class Certifier {
     Contact pair;
   };
 
-  /// Tests the first levels of halving, all intervals of a level before the next level. If this
-  /// does not give the answer, fills the stack with the intervals that are left.
+  /// Tests the first levels of halving, all intervals of a level before the next level. Returns the
+  /// answer if these levels give it. Otherwise fills the stack with the intervals that are left
+  /// (none: the motion is free), and returns nothing.
   std::optional<MotionResult> walkByLevels() {
     const auto findContactInMiddle = [&](const Interval& w) {
       return !source_.still() && findContactAt(w.middle(), w);
@@ -147,7 +148,7 @@ class Certifier {
   }
 
   /// Finds a pair of bodies in this range of groups that touches at the rounded pose at t. Keeps
-  /// the contact in `known_`, and returns whether there is one.
+  /// the contact in `known_`, and returns whether one was found. Gives up at the work limit.
   bool findContactAt(double t, const Interval& range) {
     motions_.select(t, 0);
     for (std::size_t g = range.begin; g < range.end && !outOfWork(); ++g) {
@@ -166,7 +167,7 @@ class Certifier {
   }
 
   /// Finds a contact of two bodies below these node pairs, at the pose X_AB at t. Keeps the contact
-  /// in `known_`, and returns whether there is one.
+  /// in `known_`, and returns whether one was found.
   bool findContact(std::uint32_t bodies, const Transform& X_AB, double t,
                    std::span<const NodePair4> start) {
     const auto hit = contactBelow(query_, bodies, X_AB, start);
@@ -179,7 +180,7 @@ class Certifier {
   /// Finds a contact of the pair of bodies that was not separated. The contact is at the interval's
   /// end, or at a later time that is at most the time tolerance after the interval's beginning. (An
   /// interval at whose end a contact begins can never be proved.) Keeps the contact in `known_`,
-  /// and returns whether there is one.
+  /// and returns whether one was found.
   bool findContactAfter(const Interval& w, std::uint32_t bodies) {
     for (double after = 0; !source_.still(); after = std::max(2 * after, 0x1p-40)) {
       const double t = std::min(w.t1 + after, 1.0);
@@ -210,8 +211,9 @@ class Certifier {
     return result;
   }
 
-  /// Returns the answer for an interval that could not be proved free. If a contact is known at the
-  /// interval's end, or close to its beginning, the interval is the bracket of that contact.
+  /// Returns the answer for an interval that could not be proved free; looks for a contact after
+  /// the interval if none is known. If a contact is known at the end of the interval, or soon after
+  /// its beginning, the answer is this contact, proved free until the interval's beginning.
   MotionResult stopped(const Interval& w, const IntervalAnswer& answer) {
     const auto& [found, bodies] = answer;
     if (found.kind == Descent::Kind::contact) {

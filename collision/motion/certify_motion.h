@@ -43,10 +43,10 @@ struct MotionResult {
   /// verdict, 0 if nothing was proved, or if the query did not set `MotionOptions::earliest`.
   double certifiedUntil = 1;
   /// `contact`: the time of the contact. `undecided`: a time in the interval that could not be
-  /// decided (its middle, if the method is the default). −1 if there is none.
+  /// decided (its middle, if the method is the default). −1 if there is no such time.
   double contactTime = -1;
-  /// `contact`: on all of [certifiedUntil, contactTime] the clearance is below the sum of twice the
-  /// tolerance, the rounding and the tube. Always false without `earliest`.
+  /// True only for `contact`. Then, on all of [certifiedUntil, contactTime], the clearance is below
+  /// the sum of twice the tolerance, the rounding and the tube. Always false without `earliest`.
   bool grazing = false;
   /// The pair in contact; `undecided`: the pair that could not be decided, if it is known.
   std::optional<Contact> pair;
@@ -93,8 +93,8 @@ struct MotionOptions {
   /// With `earliest`: the largest width of the bracket [certifiedUntil, contactTime], as a fraction
   /// of the motion. Choose it so that, during this fraction of the motion, the bodies approach each
   /// other by more than a few tolerances. Otherwise the beginning of the bracket is too close to
-  /// the contact to be proved free. A plain contact is then reported as `grazing` or as
-  /// `undecided`.
+  /// the contact to be proved free. A contact that would not graze with a larger `timeTolerance` is
+  /// then reported as `grazing`, or the motion as `undecided`.
   double timeTolerance = 1.0 / 1024;
   /// Number of box and triangle tests after which the answer is `undecided`. The default method
   /// stops at most one node pair later, which is at most 16 box tests and 256 triangle tests.
@@ -148,21 +148,22 @@ struct MotionPair {
   std::size_t motion = 0;
   std::size_t bodyA = 0, bodyB = 0;
   /// The numbers of the motions of a and of b as seen from the world, or `kNone`. With these
-  /// numbers, a query separates bodies that are far apart by one swept sphere per body instead of
-  /// one per pair.
+  /// numbers, a query needs only one swept sphere per body, not one per pair, to separate bodies
+  /// that are far apart.
   /// * If a is at rest in the world (`restBox`), `worldMotionA` is `kNone`.
   /// * If a's frame is the world, `worldMotionB` equals `motion`.
   /// * If the motions are not known, both are `kNone`.
-  /// * If they are known, a body has the same index and the same motion in all pairs of a query.
+  /// * If they are known, a body has the same index in all pairs of a query, and the same number
+  ///   for its motion as seen from the world.
   std::size_t worldMotionA = kNone, worldMotionB = kNone;
   /// A box around a in the world, if a is at rest there; else null. With the box and
   /// `worldMotionB`, a broad phase can find the pair.
   const BoundingBox* restBox = nullptr;
 };
 
-/// A proved statement: on all of [t0, t1], and for the whole tube around the motion, pair number
-/// `pair` of a query stays at least `clearance` metres apart. The clearance includes the margin and
-/// the clearance slack of the query, so it is at least their sum, rounded down.
+/// A proved statement: on all of [t0, t1], and for the whole tube around the motion, the two bodies
+/// of pair number `pair` of a query stay at least `clearance` metres apart. The clearance includes
+/// the margin and the clearance slack of the query, so it is at least their sum, rounded down.
 struct FreeInterval {
   std::size_t pair = 0;
   double t0 = 0, t1 = 0;
@@ -184,7 +185,7 @@ struct MotionCertificate {
 /// Decides whether a motion is free of contact: every pair keeps the margin for all t in [0, 1] and
 /// for every curve in the tube. Meshes are surfaces here: a body inside a mesh touches nothing
 /// (`Scene` tests solid meshes). Convex parts are solid. The query is fastest if pairs with the
-/// same motion are adjacent, and among these the pairs with the same b.
+/// same motion are adjacent and if, among them, pairs with the same b are adjacent.
 ///
 /// Method. A time interval is halved if some boxes, triangles or convex parts of a pair of bodies
 /// cannot be separated in it (`descend`: descend.h; for trees of any volume, descend_volumes.h).
@@ -192,9 +193,9 @@ struct MotionCertificate {
 /// bodies are separated, their trees are neither built nor walked.
 ///
 /// If only the verdict is requested, the pairs whose bounds are not separated are first tested for
-/// contact at the end of the motion, before any interval is walked. Node pairs that cannot be
-/// separated in the first intervals are tested for contact at the middles of these first intervals.
-/// These two tests decide most motions that have a contact.
+/// contact at the end of the motion, before any interval is walked. At the middles of the first
+/// intervals, the node pairs that are not separated yet are also tested for contact. These two
+/// tests decide most motions that have a contact.
 /// @param certificate if not null, receives the certificate, which `checkCertificate`
 /// (check_certificate.h) can prove again. Recording it never changes the verdict; the query then
 /// takes about 1.5 times as long.

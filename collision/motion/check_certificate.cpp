@@ -34,12 +34,12 @@ class CertificateCheck {
     workEnd_ = done + std::min(options.workLimit, std::numeric_limits<std::uint64_t>::max() - done);
   }
 
-  /// Proves that b keeps the distance margin + (clearance − margin)/2 on all of [t0, t1]. Returns a
-  /// fault if this fails.
+  /// Proves that b keeps from a the distance margin + (clearance − margin)/2 on all of [t0, t1].
+  /// Returns a fault if this fails.
   std::optional<CertificateFault> faultIn(const FreeInterval& i) {
     const MotionPair& pair = pairs_[i.pair];
     const double h = (i.t1 - i.t0) / 2, middle = i.t0 + h;
-    // Below a width of 2^-52 a middle may be rounded, and [middle − h, middle + h] is another
+    // Below a width of 2^-52 a middle may be rounded, and then [middle − h, middle + h] is another
     // interval.
     if (middle - i.t0 != h || i.t1 - middle != h)
       return CertificateFault{Kind::unproved, i.pair, i.t0};
@@ -79,8 +79,8 @@ class CertificateCheck {
   std::uint64_t workEnd_ = 0;
 };
 
-/// Reports whether the ends of the interval are on the grid of times, so that all middles are
-/// exact.
+/// Reports whether the ends of the interval are in [0, 1], in the right order, and on the grid of
+/// times, so that all middles are exact.
 bool isOnGrid(const FreeInterval& i) {
   const auto onGrid = [](double t) {
     return t >= 0 && t <= 1 && std::ldexp(t, 48) == std::floor(std::ldexp(t, 48));

@@ -14,8 +14,8 @@ struct CertificateFault {
     /// the query requested; `until` is not in [0, 1]; or the options are out of range.
     malformed,
     gap,  ///< the intervals of the pair do not cover `t`
-    /// At `t` the pair is closer than an interval claims there. Or one body is inside the other
-    /// one, and the other one is a solid mesh.
+    /// At `t` the two bodies are closer than an interval claims, or one body is inside the other,
+    /// which is a solid mesh.
     refuted,
     /// At `t` the edge itself keeps the margin and more than three quarters of the claim beyond it.
     /// But this method cannot prove the interval with tube and rounding included. The method bounds
@@ -31,12 +31,12 @@ struct CertificateFault {
   double t = 0;
 };
 
-/// Checks a certificate and returns its first fault, or nothing if it holds.
+/// Checks a certificate. Returns its first fault, or nothing if it has none.
 ///
 /// The check proves again that the intervals of every pair cover [0, until]. It also proves the
 /// clearances: throughout each interval, for the whole tube, the bodies stay farther apart than the
-/// margin plus half of the claim beyond the margin. Containment in solid meshes is tested once per
-/// pair, at the beginning of the motion.
+/// margin plus half of the claim beyond the margin. Containment in solid meshes is tested only in
+/// the first interval of each pair: containment cannot change while the surfaces do not touch.
 ///
 /// Guarantee: if no fault is found and until > 0, no pair comes as close as the margin on
 /// [0, until]. Nor is any body inside a solid mesh there (collision/PROMISES.md, promise 4).

@@ -150,7 +150,8 @@ class Moving {
         });
   }
 
-  /// Adds the result for two leaf primitives. Returns true if the walk has to end.
+  /// Adds the result for two leaf primitives to the result of the interval. Adds the bits `leaves`
+  /// of their leaf pair to `open` if the pair is deferred. Returns true if the walk has to end.
   bool take(const MovingPairAnswer& answer, std::uint32_t s, std::uint32_t t, unsigned leaves,
             unsigned& open) {
     const LeafOutcome pair =
@@ -176,7 +177,7 @@ Descent descendObb4(std::span<const NodePair4> start, const Obb4Tree& a, const O
                     const RelativeMotion& relative, const DescentOptions& options,
                     std::vector<NodePair4>& later, QueryContext& context) {
   // `Obb4TreePose` does not know the motion, so it must not separate the root boxes. The infinite
-  // pad prevents this.
+  // pad keeps it from doing so.
   const Obb4TreePose pose(a, {}, b, relative.X_AB, HUGE_VAL);
   Moving query(a, b, relative, pose, options, later, context.counters);
   const std::span<const NodePair4> left = walkObb4(

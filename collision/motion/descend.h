@@ -51,8 +51,8 @@ struct DescentOptions {
 /// reason in `Descent::kind`.
 enum class LeafOutcome { apart, deferred, last };
 
-/// Adds the result for two leaf primitives to the result of the interval. `s` and `t` are their
-/// numbers in their meshes.
+/// Adds the result for two leaf primitives to the result of the interval, and returns what becomes
+/// of the pair. `s` and `t` are the numbers of the two primitives in their meshes.
 inline LeafOutcome outcomeOf(const MovingPairAnswer& answer, std::uint32_t s, std::uint32_t t,
                              const DescentOptions& options, Descent& descent) {
   if (answer.separated) {

@@ -22,8 +22,8 @@ namespace {
 
 /// Time is split before space if b's volume moves farther than this fraction of the larger volume's
 /// radius. Soundness does not depend on the fraction. Measured on plans, with boxes and k-DOPs:
-/// compared with this fraction, 1 needs three times as many tests for arms, and 1.1 to 1.3 times as
-/// many for rigid bodies; 1/64 needs twice as many for rigid bodies.
+/// compared with this fraction, the fraction 1 needs three times as many tests for arms, and 1.1 to
+/// 1.3 times as many for rigid bodies; the fraction 1/64 needs twice as many for rigid bodies.
 constexpr double kTravelOfSize = 0.125;
 
 /// The query that `traverseFrom` runs for `descend`: two binary trees in one time interval.
@@ -95,8 +95,8 @@ class MovingVolumes {
     bool far = false;      ///< `isotropic` exceeds the tolerance: shorter intervals may help
   };
 
-  /// Returns the motion bound of the volume of node `number` of b. Keeps the last result, because
-  /// several nodes of a are tested against one node of b in succession.
+  /// Returns the motion bound of the volume of node `number` of b. Keeps the result of the last
+  /// call, because several nodes of a are tested against one node of b in succession.
   const Travel& motionBoundOfVolume(std::uint32_t number, const Node& nb) {
     if (number == travelNode_) return bound_;
     travelNode_ = number;

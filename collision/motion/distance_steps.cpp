@@ -9,11 +9,11 @@
 #include "collision/motion/motion_answer.h"
 #include "collision/queries/surface_distance.h"
 
-/// Derivation of the bound. Let X̂ be the rounded map at t, and D the distance under it in real
-/// arithmetic. Anywhere in [t − h, t + h] and in the tube, every point of the real b is within
-/// isotropic + pad of its place under X̂ (`MotionBound` of a sphere that contains b). Then b stays
-/// at least D − isotropic − pad away from a. `pad` includes the clearance slack, as an error of the
-/// motion.
+/// Derivation of the bound. Let X̂ be the rounded map at t, and D the distance of the bodies under
+/// X̂ in real arithmetic. Anywhere in [t − h, t + h] and in the tube, every point of the real b is
+/// within isotropic + pad of its place under X̂ (`MotionBound` of a sphere that contains b). Then b
+/// stays at least D − isotropic − pad away from a. `pad` includes the clearance slack, as an error
+/// of the motion.
 ///
 /// Let T = margin + pad + isotropic. A measurement with the relative error ρ = isotropic/(4T)
 /// proves more than T if the distance exceeds T(1 + ρ) = T + isotropic/4. An interval is therefore
@@ -44,7 +44,7 @@ bool DistanceSteps::outOfWork() const {
 
 RelativeMotion DistanceSteps::relativeMotion(std::uint32_t pair, double t, double h) {
   RelativeMotion w = motion_.relativeMotion(pairs_[pair].motion, t, h);
-  w.fixedError += options_.clearanceSlack;  // required for a proof, not for a contact
+  w.fixedError += options_.clearanceSlack;  // a proof requires the slack, a contact does not
   ++context_.counters.poses;
   return w;
 }

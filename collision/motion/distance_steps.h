@@ -26,9 +26,11 @@ class DistanceSteps {
   /// The measurement of a pair at t, for a time interval about t. Metres.
   struct Measurement {
     Bound bound;
-    bool contact = false;  ///< contact at the rounded pose at t: exact, or proved within the margin
-    double lower = 0;      ///< proved lower bound of the distance at the rounded pose at t
-    double gap = 0;        ///< distance at t beyond the margin, as measured
+    /// At the rounded pose at t the bodies touch (for meshes decided exactly), or are proved to be
+    /// within the margin.
+    bool contact = false;
+    double lower = 0;            ///< proved lower bound of the distance at the rounded pose at t
+    double gap = 0;              ///< distance at t beyond the margin, as measured
     bool hopeless = false;       ///< no interval about t, however short, can be proved
     std::uint32_t s = 0, t = 0;  ///< the closest leaf primitives, by their numbers in their meshes
 
@@ -57,8 +59,8 @@ class DistanceSteps {
 
   MotionResult contact(std::uint32_t pair, double t0, double t1, const Measurement& seen) const;
   MotionResult workLimit(double t0) const;
-  /// Returns the answer if no interval from t0 on can be proved: `contact` if a contact is found
-  /// soon after t0, otherwise `undecided`.
+  /// Returns the answer of the query if no interval that begins at t0 can be proved: `contact` if a
+  /// contact is found soon after t0, otherwise `undecided`.
   /// @param time the time to report with `undecided`; the gap is measured there.
   /// @param clearance an upper bound of the clearance beyond the margin at t0, metres.
   MotionResult answerWhereStuck(std::uint32_t pair, double t0, double time, double clearance);

@@ -8,7 +8,7 @@
 namespace corridor {
 
 /// The relative motions of a query's bodies in one time interval, and proved lower bounds of the
-/// distances of whole bodies. Each motion is computed when it is first needed.
+/// distances of whole bodies. A motion is computed when it is requested; only the last one is kept.
 class IntervalMotions {
  public:
   /// @param bodies one more than the largest index of a body in the query's pairs.

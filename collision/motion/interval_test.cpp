@@ -15,8 +15,8 @@ namespace {
 
 /// Records in the certificate that the whole group is separated in [t0, t1].
 /// @param clearance a lower bound of the clearance beyond margin, clearance slack and motion,
-/// metres, in addition to the bound `group.clearance`. Infinite if `group.clearance` already covers
-/// all node pairs.
+/// metres. The smaller one of this bound and `group.clearance` is recorded. Infinite if
+/// `group.clearance` already covers all node pairs.
 void record(const MotionQuery& query, double t0, double t1, const WorkList::Group& group,
             double clearance) {
   if (!query.certificate) return;
@@ -40,8 +40,9 @@ BodiesAnswer testBounds(const MotionQuery& query, double t0, double t1,
   return {true, false};
 }
 
-/// Walks the trees of a pair of bodies below the node pairs of its group. For a pose that
-/// overflows, returns `undecided` at once.
+/// Walks the trees of a pair of bodies below the node pairs of its group. Appends the node pairs
+/// that cannot be separated to `list.nodePairs`. For a pose that overflows, returns `undecided` at
+/// once.
 Descent walkTrees(const MotionQuery& query, const WorkList::Group& group,
                   const RelativeMotion& relative, const DescentOptions& asked, WorkList& list) {
   if (!relative.X_AB.isFinite()) return {.kind = Descent::Kind::undecided};
@@ -80,7 +81,8 @@ IntervalAnswer testInterval(const MotionQuery& query, const Interval& interval,
       continue;
     }
     RelativeMotion relative = motions.relative(motion);
-    relative.fixedError += query.options.clearanceSlack;  // required for a proof, not for a contact
+    // A proof requires the slack, a contact does not.
+    relative.fixedError += query.options.clearanceSlack;
     const std::size_t later = list.nodePairs.size();
     const DescentOptions asked = {query.options.marginOf(group.bodies),
                                   query.options.tolerance,
@@ -119,7 +121,7 @@ Interval testBodies(const MotionQuery& query, IntervalMotions& motions, WorkList
 
 std::optional<PrimitivePair> contactBelow(const MotionQuery& query, std::uint32_t bodies,
                                           const Transform& X_AB, std::span<const NodePair4> start) {
-  if (!X_AB.isFinite()) return std::nullopt;  // boxes would overlap, but no contact is proved
+  if (!X_AB.isFinite()) return std::nullopt;  // overlapping boxes would prove no contact
   const MotionPair& pair = query.pairs[bodies];
   return withTrees(
       query.options.trees, *pair.a, *pair.b, [&](auto overlap, const auto& a, const auto& b) {

@@ -16,8 +16,8 @@
 
 namespace corridor {
 
-/// A time interval with its work: a range of `WorkList::groups`. The parent interval could not
-/// separate these groups.
+/// A time interval with its work: a range of `WorkList::groups`. These are the groups that the
+/// parent interval did not separate; for the whole motion, all groups.
 struct Interval {
   double t0, t1;
   std::size_t begin, end;
@@ -28,7 +28,7 @@ struct Interval {
   double middle() const { return t0 + half(); }  // dyadic: exact
 };
 
-/// The parts of a motion query that do not change while it runs.
+/// The arguments of a motion query, and what is computed from them once.
 struct MotionQuery {
   std::span<const MotionPair> pairs;
   const MotionOptions& options;
@@ -63,7 +63,8 @@ IntervalAnswer testInterval(const MotionQuery& query, const Interval& interval,
 /// Tests only the bounds of whole bodies, for the whole motion. Appends to the list the groups that
 /// the bounds do not separate. Returns the whole motion as an interval with these groups as its
 /// work.
-/// @param far set to true if one of these bodies moves far (`IntervalMotions::Separation`).
+/// @param far set to true if body b of one of these groups moves far
+/// (`IntervalMotions::Separation`); otherwise not changed.
 Interval testBodies(const MotionQuery& query, IntervalMotions& motions, WorkList& list, bool& far);
 
 /// Returns two leaf primitives (triangles or convex parts) that touch at the pose X_AB, by their

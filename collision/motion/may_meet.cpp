@@ -37,8 +37,9 @@ SweptSphere sweptSphere(const Body& b, const RelativeMotion& relative) {
 namespace {
 
 /// Returns a lower bound of what remains of a gap of `gap` metres along n = apart/gap, after
-/// radius, rounding and motion are subtracted; at least 0. The motion is bounded by `isotropic`. If
-/// the result is then at most `enough`, it is bounded by the smaller of `isotropic` and `along(n)`.
+/// radius, rounding and motion are subtracted; at least 0. The bound of the motion is `isotropic`.
+/// If the result is then at most `enough`, the bound of the motion is the smaller of `isotropic`
+/// and `along(n)` instead.
 template <class Along>
 double remaining(const Vec3& apart, double gap, double radius, double isotropic, double rounding,
                  double enough, const Along& along) {
@@ -64,9 +65,9 @@ double clearanceBound(const BoundingBox& box, const SweptSphere& sphere, double 
   const Vec3& c = sphere.center;
   const Vec3 zero = Vec3::Zero();
   const Vec3 outside = (c - box.upper).cwiseMax(zero) - (box.lower - c).cwiseMax(zero);
-  // `rootOrZero` returns 0 if squares underflow; such a gap proves nothing. The differences are off
-  // by u of both terms per coordinate, and by √3 times as much as a length. Along n the centre is
-  // `gap` beyond the farthest point of the box.
+  // `rootOrZero` returns 0 if squares underflow; such a gap proves nothing. Each coordinate of the
+  // differences is off by u of both terms; as a length, the error is √3 times as large. Along n the
+  // centre is `gap` beyond the farthest point of the box.
   return remaining(outside, rootOrZero(outside.squaredNorm()), sphere.radius, sphere.isotropic,
                    4 * kUnit * (c.cwiseAbs().sum() + box.terms), enough,
                    [&](const Vec3& n) { return std::abs(n.dot(sphere.first)) + bent(sphere, n); });

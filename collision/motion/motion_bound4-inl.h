@@ -1,5 +1,5 @@
 // Motion bounds of the boxes of a 4-wide OBB tree in a time interval, for every SIMD target:
-// included once per target by foreach_target.h.
+// foreach_target.h includes this file once per target.
 
 // clang-format off
 #if defined(CORRIDOR_MOTION_BOUND4_INL_H_) == defined(HWY_TARGET_TOGGLE)  // Highway's include guard
@@ -41,13 +41,13 @@ struct NodeMotionBound : Obb4MotionBound {
 };
 
 /// Computes `motionBound` (derivation: relative_motion.cpp) for the bounding spheres of a node's
-/// four boxes at once. Caches the bounds of the nodes that were requested last. All lengths are in
-/// the unit of tree a.
+/// four boxes at once. Caches the bounds of up to 16 nodes. All lengths are in the unit of tree a.
 ///
 /// Rounding in addition to that of `motionBound`:
-/// * The lever of a centre, M(o + 2^unit·c), has terms up to |o| + |2^unit·c|, where |2^unit·c| ≤
-///   3·2^unit, at most 6 times the tree's radius. In |.|₁ these terms are below 11 times the tree's
-///   `reach()`.
+/// * The lever of a centre is M(o + 2^unit·c), where M is the matrix of the relative pose, o the
+///   origin of tree b, 2^unit metres its unit, and c the stored centre. It has terms up to |o| +
+///   |2^unit·c|, where |2^unit·c| ≤ 3·2^unit, at most 6 times the tree's radius. In |.|₁ these
+///   terms are below 11 times the tree's `reach()`.
 /// * A box extends at most |half|₂(1 + 2^-20) from its centre. The factor covers the defect of its
 ///   axes.
 class MotionBound4 {
@@ -195,7 +195,7 @@ class MotionBound4 {
                       hn::NegMulAdd(set(w.angular[1]), y[0], hn::Mul(set(w.angular[0]), y[1]))};
       V v[3];
       for (int k = 0; k < 3; ++k) v[k] = hn::Add(l[k], set(w.linear[k]));
-      // A bound of the error of v, which comes from its products and from the lever.
+      // A bound of the error of v. The error comes from the products in v, and from the lever.
       const V blur = hn::MulAdd(set(16 * kUnit), hn::MulAdd(set(w.angle), lever, set(w.speed)),
                                 set(w.angle * leverError_));
       const V first = hn::Add(hn::MulAdd(set(w.angle), grown, norm(v[0], v[1], v[2])),

@@ -14,8 +14,9 @@
 ///   g(s) = min over b of n·x(s) − max over a of n·x.
 /// b is a core swept by a sphere. The real motion is rigid, so the sphere reduces the gap by its
 /// radius at every s, and only the motion of the core matters. (The disc of a cylinder rotates with
-/// the body; its points are points of the core.) Let x = t + y and y = M p. By `RelativeMotion` and
-/// `MotionBound`,
+/// the body; its points are points of the core.) Let x = t + y be a point of b at the middle, with
+/// y = M p. Here p is the point in the frame of b, and M and t are the members of `X_AB`. By
+/// `RelativeMotion` and `MotionBound`,
 ///   n·x(s) ≥ n·x + s n·(linear + angular × y) − secondOrderAcross |n × angular| − secondOrder −
 ///   pad.
 /// Since n·(angular × y) = (n × angular)·y, the minimum of the first-order terms over *all* points
@@ -31,7 +32,7 @@
 /// * n·linear adds 4u of `speed`.
 /// * The sums add 3u of all terms.
 /// * n × angular in the remainder is off by 4uα.
-/// 32u covers each of these.
+/// The factor 32u covers all four together.
 namespace corridor {
 namespace {
 
@@ -105,7 +106,8 @@ class MovingPair {
 MovingPairAnswer decide(const ConvexSet& a, const ConvexSet& b, const RelativeMotion& relative,
                         double margin) {
   const MovingPair pair(a, b, relative);
-  // Since |n| ≤ 1 + 4u, gaps along n may be too large by this factor. The last term covers this.
+  // Since |n| ≤ 1 + 4u, gaps along n may be too large by this factor. The last term of the sum
+  // covers this.
   const double needed = margin + pair.slack() + 8 * kUnit * (margin + pair.radii());
   const double near = pair.radii() + 0x1p-49 * pair.size();  // within the band of `convexSetsTouch`
 

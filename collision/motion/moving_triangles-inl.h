@@ -29,17 +29,18 @@ struct MovingPairs {
   unsigned later = 0;
 };
 
-/// Decides sixteen pairs of triangles in a time interval, in float. Let n be the direction of the
-/// closest points at the middle (any direction is valid). Along n, corner k of b is at n·t_k at the
-/// middle. Until the time s of the interval, |s| ≤ 1, it moves by s·h_k and a remainder, where h_k
-/// = n·linear + (n × angular)·p_k. Here p_k is the corner relative to the point whose first-order
-/// displacement is `linear`. In any direction, corner k moves by at most `isotropic`.
+/// Tests sixteen pairs of triangles in a time interval, in float. Let t_k be the member `t[k]` of
+/// `TrianglePairs`, and n the direction of the closest points at the middle (any direction is
+/// valid). Along n, corner k of b is at n·t_k at the middle. Until the time s of the interval, |s|
+/// ≤ 1, it moves by s·h_k and a remainder, where h_k = n·linear + (n × angular)·p_k. Here p_k is
+/// the corner relative to the point whose first-order displacement is `linear`. In any direction,
+/// corner k moves by at most `isotropic`.
 ///
 /// Rounding, with u = 2^-24, ω = `angular`, and D and `away` the members `size` and `away` of
 /// `TrianglePairs`. The error of n·t_k is `off`, as in `triangleDistances`. p_k = t_k − away is off
-/// by 4u·D per coordinate, and is below 2D. n × angular is off by 2u|n||ω|. Therefore h_k is off by
-/// less than u|n|(6|linear|₁ + 32|ω|₁D). This includes the rounding of `linear` and `angular`
-/// themselves (u of each).
+/// by 4u·D per coordinate, and its magnitude is below 2D. n × angular is off by 2u|n||ω|. Therefore
+/// h_k is off by less than u|n|(6|linear|₁ + 32|ω|₁D). This includes the rounding of `linear` and
+/// `angular` themselves (u of each).
 ///
 /// @param clearances if not null, receives a proved clearance for each separated pair: its distance
 /// beyond `pad` throughout the interval, in a's unit.

@@ -15,12 +15,12 @@ namespace {
 
 /// The corners of b and the motion bound of each of them in the interval.
 struct MovingCorners {
-  Triangle posed, first;  ///< corners in a's frame; first-order displacements
+  Triangle posed, first;  ///< corners in a's frame at the middle; their first-order displacements
   MotionBound bound[3];
-  /// True if the motion's only second-order part is that of a single rotation: `secondOrderAcross`
-  /// of a corner is above 0. Then the remainder beyond first order is known in full. Along n it is
-  /// at most |n·second| + |n·third|, with second = ½ ω × (ω × d) and third = (α²/6) ω × d. Here ω
-  /// is `angular`, α its length, and d the lever from the axis.
+  /// True if the motion's only second-order part is that of a single rotation, that is, if
+  /// `secondOrderAcross` of a corner is above 0. Then the remainder beyond first order is known in
+  /// full. Along n it is at most |n·second| + |n·third|, with second = ½ ω × (ω × d) and third =
+  /// (α²/6) ω × d. Here ω is `angular`, α its length, and d the lever from the axis.
   bool turns = false;
   Triangle second, third;
   Vec3 loose;  ///< for each corner, a bound of the rounding of the terms above
@@ -155,7 +155,7 @@ MovingPairAnswer decideMovingTriangles(const Triangle& a, const Triangle& b,
   if (margin > 0 && distance + slack <= margin) {
     answer.contact = true;
   } else if (!(gaps.middle > slack)) {
-    // If gaps.middle > slack, n separates the triangles at the rounded pose, and this is not
+    // If gaps.middle > slack, n separates the triangles at the rounded pose, and this test is not
     // needed.
     const PredicateResult touch = trianglesTouch(a, {}, b, relative.X_AB);
     answer.contact = touch;

@@ -5,9 +5,10 @@
 
 namespace corridor {
 
-/// The result of one time interval for a triangle a at rest and a triangle b that moves.
+/// The result of one time interval for a triangle a at rest and a triangle b that moves. The
+/// results for convex parts have the same form (moving_parts.h).
 struct MovingPairAnswer {
-  bool separated = false;  ///< proved farther apart than the margin, throughout
+  bool separated = false;  ///< proved farther apart than the margin throughout the interval
   double clearance = 0;    ///< `separated`: proved distance beyond the margin, metres
   /// At the rounded pose at the middle the triangles touch (decided exactly), or are proved to be
   /// within the margin.
@@ -15,7 +16,7 @@ struct MovingPairAnswer {
   /// Neither separated nor in contact, and rounding and tube alone prevent a proof at the middle.
   /// Shorter intervals would not help.
   bool stuck = false;
-  double bound = 0;  ///< bound of the motion of b's corners from the middle, metres
+  double bound = 0;  ///< bound of the motion of b from the middle, metres; 0 if separated
   /// If neither separated nor in contact: distance at the middle beyond the margin, metres. It is
   /// rounded, and only used for reports.
   double gap = 0;

@@ -53,8 +53,8 @@
 ///   x(s, η) − x(s, 0) = Σ_j T_1(σ_1) … T_(j−1)(σ_(j−1)) [T_j(σ_j) − T_j(sδ_j)] z_(j+1),
 /// where the joints after j move uniformly. A bracket is at most |η_j| times the distance of
 /// z_(j+1) from axis j, at most ρ_j r̄_j (ρ_j for translations). The variable `deviated` is the sum
-/// of these terms. It adds to `secondOrder`, and not to `pad`, because it vanishes with the
-/// interval.
+/// of these terms. It adds to `secondOrder`, and not to `pad`, because it vanishes as the interval
+/// gets shorter.
 ///
 /// Tube. With σ as above, a tube displaces the point further by
 ///   x(s, η + ε) − x(s, η) = Σ_j T_1(σ_1 + ε_1) … [T_j(σ_j + ε_j) − T_j(σ_j)] z_(j+1),

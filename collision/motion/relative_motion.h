@@ -45,9 +45,10 @@ struct ScrewMotion {
 /// The motion is that of the kinematic chain from a to b. At time t + s·h, |s| ≤ 1, its exact map
 /// is
 ///   X_AB(s) = T_1(s·δ_1 + η_1(s) + ε_1) … T_k(s·δ_k + η_k(s) + ε_k),
-///   |δ_j| = screws[j].amount, η_j(0) = 0, |η_j| ≤ screws[j].deviation, |ε_j| ≤ screws[j].tube.
-/// Each T_j is a rotation about an axis, or a translation along an axis. The axis of joint j is
-/// moved by the joints before j.
+///   |δ_j| ≤ screws[j].amount, η_j(0) = 0, |η_j| ≤ screws[j].deviation, |ε_j| ≤ screws[j].tube.
+/// Each T_j is a rotation about an axis, or a translation along an axis. (For a pivot rotation, T_j
+/// is a rotation by at most `tube` about any axis through its point.) The axis of joint j is moved
+/// by the joints before j.
 ///
 /// To first order a point x of b moves by s·(linear + angular × y). Its lever y = x − X_AB.t is the
 /// vector from b's origin to x. `motionBound` bounds the remainder.
@@ -97,7 +98,7 @@ inline double lengthFromAbove(const Vec3& v) {
 
 /// Returns an upper bound of 2 sin(min(δ, π)/2), the chord of a rotation by δ ≥ 0 at radius 1. The
 /// bound exceeds the chord by at most 0.5 %. It is Taylor's polynomial of degree 5, which is above
-/// the sine and increases up to δ = 3, where its value is 2.002. From there on the bound is 2.
+/// 2 sin(δ/2) and increases up to δ = 3, where its value is 2.002. From there on the bound is 2.
 inline double chord(double amount) {
   if (!(amount < 3)) return 2;
   const double square = amount * amount;

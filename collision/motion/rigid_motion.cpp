@@ -90,11 +90,11 @@ RigidMotion RigidMotion::translation(const Transform& from, const Vec3& delta) {
   m.direction_ = delta.stableNormalized();
   m.unsound_ = m.unsound_ || !delta.allFinite() || !(from.t + delta).allFinite();
   m.setRotation(from.m, Vec3::Zero(), 0, 0);
-  // The error of the computed position is below 7uP, where P is the sum below: t·δ and the sum are
-  // at most P, and each is rounded once. Another 16uP are for a caller that has rounded `from.t`
-  // from a sum of terms below P (world/body_depth.cpp). The matrix itself has no error along the
-  // path. But the bounds of the bodies assume a rotation. A matrix that does not mirror differs
-  // from a rotation by at most 3·defect.
+  // The error of the computed position is below 7uP, with P as defined below: t·δ and from.t + t·δ
+  // are at most P, and each is rounded once. Another 16uP are for a caller that has rounded
+  // `from.t` from a sum of terms below P (world/body_depth.cpp). The matrix itself has no error
+  // along the path. But the bounds of the bodies assume a rotation. A matrix that does not mirror
+  // differs from a rotation by at most 3·defect.
   const double P = from.t.cwiseAbs().maxCoeff() + delta.cwiseAbs().maxCoeff();
   m.fixedError_ = roundedUp(32 * kUnit * P + kLeastError);
   m.reachError_ = roundedUp(3 * orthonormalityDefect(from.m));

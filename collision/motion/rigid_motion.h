@@ -38,8 +38,8 @@ class RigidMotion {
 
   /// Returns the motion of the body as seen from the world in the time interval [t − h, t + h]: a
   /// translation, then a rotation about the reference point. The errors of the result include the
-  /// tube. The result refers to `screws`, which must outlive it. @pre 0 ≤ t ≤ 1, h ≤ 1/2, t − h and
-  /// t + h exact.
+  /// tube. The result refers to `screws`, which must outlive it. @pre 0 ≤ t ≤ 1, h ≤ 1/2; t − h and
+  /// t + h are exact.
   RelativeMotion relativeMotion(double t, double h, std::span<ScrewMotion, 2> screws) const;
   /// Returns a tolerance in metres that is large enough for rounding: no edge whose clearance
   /// exceeds twice this tolerance is undecided because of rounding.
@@ -63,13 +63,14 @@ class RigidMotion {
   void setRotation(const Mat3& R0, const Vec3& axis, double angle, double angleError);
 
   Vec3 from_ = Vec3::Zero(), delta_ = Vec3::Zero();
-  // Rodrigues' formula: R(t) = R0 + sin φ·K R0 + (1 − cos φ)·K² R0.
+  // Rodrigues' formula: R(t) = R0 + sin φ·K R0 + (1 − cos φ)·K² R0, with φ = t·angle_ and K x =
+  // axis_ × x.
   Mat3 R0_ = Mat3::Identity(), KR0_ = Mat3::Zero(), KKR0_ = Mat3::Zero();
   Vec3 axis_ = Vec3::Zero();       // in the world
   Vec3 direction_ = Vec3::Zero();  // direction of delta_, unit length
   double angle_ = 0;
   double fixedError_ = 0, reachError_ = 0;
-  double fixedTube_ = 0, reachTube_ = 0;  // the tube's share in these errors
+  double fixedTube_ = 0, reachTube_ = 0;  // the parts of these errors that the tube causes
   bool ambiguous_ = false, unsound_ = false;
 };
 

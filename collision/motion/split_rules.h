@@ -12,7 +12,8 @@ struct SplitThresholds {
   unsigned boxPairsLeft;
   /// The other pairs of bodies are left untested once two things hold. At least this many pairs of
   /// bodies are left to the halves, whole or in part. And these are more than three quarters of the
-  /// pairs of bodies counted so far. Pairs that their bounds separate are neither counted nor left.
+  /// pairs of bodies counted so far. Pairs of bodies whose bounds are separated are neither counted
+  /// nor left.
   std::size_t bodyPairsLeft;
 };
 
@@ -31,15 +32,16 @@ struct SplitRules {
   static constexpr double kFar = 2;
   /// The least half width at which a pair is left untested to the halves of the interval because
   /// its body b moves far (`IntervalMotions::Separation`). In shorter intervals this reason does
-  /// not apply. The limit is necessary because pairs that are left untested count no work. A joint
-  /// may make any number of turns, so without the limit the query might never reach its work limit.
+  /// not apply. The constant is necessary because pairs that are left untested count no work. A
+  /// joint may make any number of turns, so without this least half width the query might never
+  /// reach its work limit.
   static constexpr double kLeastHalfWidthFar = 0x1p-8;
   /// If only the verdict is requested, this many levels of halving are walked level by level. A
   /// contact anywhere is then found early.
   static constexpr int kFirstLevels = 4;
   /// On this many levels below the whole motion, the remaining pairs are tested for contact at the
-  /// middles of the intervals. Measured on the edges that plans test: one more level costs more
-  /// time than it saves.
+  /// middles of the intervals. On the edges that planners test, one more level costs more time than
+  /// it saves (measured).
   static constexpr int kSampledLevels = 2;
   /// Intervals with this half width are not halved. The middles of much shorter intervals would not
   /// be exact.

@@ -15,8 +15,7 @@ class SweptSpheres {
   void makeRoom(std::size_t bodies) {
     if (spheres_.size() < bodies) spheres_.resize(bodies);
   }
-  /// Discards all spheres. Must be called before the first time interval, and before each other
-  /// one.
+  /// Discards all spheres. Must be called before each time interval, also before the first.
   void forget() { ++stamp_; }
   /// Returns the body's swept sphere. Calls `make` to compute it if there is none yet.
   /// @pre `makeRoom` included the body, and `make` calls no member of this class.

@@ -32,8 +32,8 @@ struct WorkList {
   std::vector<NodePair4> nodePairs;
   std::vector<Group> groups;
 
-  /// Fills the list with the roots of both trees, for each of these pairs of bodies. Group k is
-  /// pair number pairs[k].
+  /// Replaces the content of the list by one group for each of these pairs of bodies: the pair of
+  /// the roots of both trees. Group k is for the pair of bodies number pairs[k].
   void begin(std::span<const std::uint32_t> pairs) {
     nodePairs.assign(pairs.size(), kWholeTrees[0]);
     groups.clear();

@@ -16,8 +16,8 @@
 #include "collision/predicates/triangle.h"
 
 /// Points under affine maps as integers on a common power-of-two grid. The integers are exact, and
-/// so are the signs of polynomials in these integers. The integers do not include the scale of the
-/// grid, which does not change signs.
+/// so are the signs of polynomials in these integers. The integers are in units of the grid. The
+/// unit is a factor above 0, so it changes no sign.
 namespace corridor::exact {
 
 /// Signed integers of a fixed width, on the stack. Results of more than `Bits` bits would wrap;

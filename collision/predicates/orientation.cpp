@@ -42,8 +42,8 @@ int orientationSign(const MappedPoint& p, const MappedPoint& q, const MappedPoin
                              X.t.cwiseAbs().maxCoeff()));
   }
   const Vec3 a = mapped[1] - mapped[0], b = mapped[2] - mapped[0], c = mapped[3] - mapped[0];
-  // The bound is that of the filter in triangle_contact.cpp: entries of the determinant are below
-  // D, each off by at most e.
+  // The bound is that of the filter in triangle_contact.cpp. The entries of the determinant are
+  // below D, and each is off by at most e.
   const double d =
       std::max({a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff(), c.cwiseAbs().maxCoeff()});
   const double e = 2 * roundedUp(error) + kUnit * d, D = d + e;

@@ -11,9 +11,9 @@ struct MappedPoint {
   Vec3 p;
 };
 
-/// Returns the sign of det(q − p, r − p, s − p): the side of the plane through p, q, r that s is
-/// on. Exact, in real arithmetic on the given doubles: a filter in double decides most cases, and
-/// integers decide the others.
+/// Returns the sign of det(q − p, r − p, s − p), which is the side of the plane through p, q and r
+/// on which s lies. Exact, in real arithmetic on the given doubles: a filter in double decides most
+/// cases, and integers decide the others.
 /// @pre all numbers are finite.
 int orientationSign(const MappedPoint& p, const MappedPoint& q, const MappedPoint& r,
                     const MappedPoint& s);

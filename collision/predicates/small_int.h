@@ -32,7 +32,7 @@ class Int53 {
   double value_ = 0;
 };
 
-/// Values of degree three: h·2^64 + l.
+/// Values of degree three, stored as `high_`·2^64 + `low_`.
 class Int192 {
  public:
   Int192() = default;
@@ -86,7 +86,7 @@ class Int64 {
     value_ += other.value_;
     return *this;
   }
-  Int64& operator<<=(unsigned bits) {  // C++20 defines it for negative values, too
+  Int64& operator<<=(unsigned bits) {  // C++20 defines this shift for negative values, too
     value_ <<= bits;
     return *this;
   }

@@ -8,15 +8,15 @@
 namespace corridor {
 namespace {
 
-/// The corners of both triangles in the world frame, rounded, with one error bound for every
-/// orientation determinant of four of them.
+/// The corners of both triangles in the world frame, rounded. `bound` is one error bound that holds
+/// for the orientation determinant of any four of these corners.
 struct Filter {
   Triangle a, b;
   double bound;  ///< NaN or infinite if the filter must not decide
 
   Filter(const Triangle& a0, const Transform& X_WA, const Triangle& b0, const Transform& X_WB) {
     const double errorA = apply(a0, X_WA, a), errorB = apply(b0, X_WB, b);
-    // d: the largest difference of the same coordinate of two corners.
+    // d: the largest difference of two corners in one coordinate.
     Vec3 low = a[0], high = a[0];
     for (const Triangle* t : {&a, &b})
       for (const Vec3& p : *t) {
@@ -36,9 +36,10 @@ struct Filter {
     bound = usable ? roundedUp((18 * e + 40 * kUnit * D) * D * D) : HUGE_VAL;
   }
 
-  /// Maps the corners and returns an error bound for each coordinate. A sum of three products and a
-  /// translation has four roundings on its longest path: γ4·(Σ|m||v| + |t|) < 4.1·u·(Σ|m||v| +
-  /// |t|).
+  /// Stores the mapped corners in `to`. Returns a bound of the error of each of their coordinates.
+  /// Coordinate i is Σ_k m_ik v_k + t_i. A sum of three products and a translation has four
+  /// roundings on its longest path, so the error is at most γ4·s < 4.1·u·s, where s = Σ_k
+  /// |m_ik||v_k| + |t_i| and γ4 = 4u/(1 − 4u).
   static double apply(const Triangle& from, const Transform& X, Triangle& to) {
     double reach = 0;
     for (int i = 0; i < 3; ++i) {
@@ -63,7 +64,7 @@ struct Filter {
 
   /// Returns 1 for contact, 0 for no contact, −1 if undecided.
   int decide() const {
-    int sideB[3], sideA[3];  // sides of b's corners with respect to a's plane, and vice versa
+    int sideB[3], sideA[3];  // b's corners relative to a's plane; a's corners relative to b's
     for (int i = 0; i < 3; ++i) sideB[i] = orientation(a[0], a[1], a[2], b[i]);
     if (sideB[0] != 0 && sideB[0] == sideB[1] && sideB[0] == sideB[2]) return 0;
     for (int i = 0; i < 3; ++i) sideA[i] = orientation(b[0], b[1], b[2], a[i]);

@@ -73,8 +73,8 @@ bool segmentTouchesTriangle(const Vector<Int>& p, const Vector<Int>& q,
       if (orientation2(t[i], t[(i + 1) % 3], p, drop) * turn < 0) return false;
     return true;
   }
-  // The segment crosses the plane in one point. That point is in the triangle unless the segment
-  // passes left of one edge and right of another.
+  // The segment crosses the plane in one point. That point is in the triangle, unless the segment
+  // passes one edge on the left and another edge on the right.
   bool positive = false, negative = false;
   const Vector<Int> d = q - p;
   for (int i = 0; i < 3; ++i) {
@@ -93,9 +93,9 @@ bool strictlyOneSide(const TriangleCorners<Int>& plane, const Vector<Product>& n
          s == sign(dot(n, points[2] - plane[0]));
 }
 
-/// Returns whether two triangles share a point. They do if and only if an edge of one meets the
-/// other: an extreme point of their intersection lies on the boundary of one of them. (A degenerate
-/// triangle consists of its boundary only.)
+/// Returns whether two triangles share a point. They do if and only if an edge of one triangle
+/// meets the other triangle, because an extreme point of their intersection lies on the boundary of
+/// one of them. (A degenerate triangle consists of its boundary only.)
 template <class Int>
 bool touch(const TriangleCorners<Int>& a, const TriangleCorners<Int>& b) {
   const auto nA = cross(a[1] - a[0], a[2] - a[0]), nB = cross(b[1] - b[0], b[2] - b[0]);
@@ -122,8 +122,8 @@ bool equalUpToSigns(const Array& x, const Array& y) {
   return different << 1 == 0;
 }
 
-/// Returns whether two triangles share a point, computed in doubles. Returns nullopt if doubles may
-/// not be exact. They are exact if the entries of both maps' matrices are 0 or ±1, as for quarter
+/// Computes in doubles whether two triangles share a point. Returns nullopt if this computation may
+/// not be exact. It is exact if the entries of both maps' matrices are 0 or ±1, as for quarter
 /// turns, and all coordinates are on a coarse grid. Most triangles that touch by construction are
 /// of this kind.
 std::optional<bool> touchInDoubles(const Triangle& a, const Transform& X_WA, const Triangle& b,
@@ -137,8 +137,8 @@ std::optional<bool> touchInDoubles(const Triangle& a, const Transform& X_WA, con
     for (const Vec3& p : *t) size = std::max(size, p.cwiseAbs().maxCoeff());
   // Entries of m are 0 or ±1. Let corners and translations be whole multiples, below 2^13, of a
   // power of two. In this unit mapped corners are below 2^15, differences below 2^16, and
-  // orientations below 6·2^48 < 2^51. All of them are exact, with every partial sum, and nothing
-  // underflows.
+  // orientations below 6·2^48 < 2^51. All of these numbers and all partial sums are exact, and
+  // nothing underflows.
   if (!(size > 0x1p-250 && size < 0x1p250)) return std::nullopt;
   // Adding and subtracting 3·2^51 units rounds to whole units.
   const double rounder = std::ldexp(3.0, std::ilogb(size) - 12 + 51);

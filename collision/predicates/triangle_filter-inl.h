@@ -28,8 +28,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// @param pad a clearance to prove in addition. Both `error` and `pad` are in the unit of the
 /// corners.
 ///
-/// Method: separating axes, namely the normals of both triangles and the nine cross products of an
-/// edge of a and an edge of b.
+/// Method: separating axes. The axes are the normals of both triangles, and the nine cross products
+/// of an edge of a and an edge of b.
 ///
 /// Rounding, with u = 2^-24 and D the `size` of a pair (`TrianglePairs`): corners are off by 3u·D
 /// per coordinate. A vector L of any direction separates the triangles if their projections onto it
@@ -76,7 +76,7 @@ HWY_INLINE unsigned touchingTriangles(const TriangleCorners& a, const TriangleCo
     const V per = hn::IfThenElse(hn::Lt(D, hn::Set(d, 0x1p30F)),
                                  hn::MulAdd(hn::Set(d, 40 * 0x1p-24F), D, hn::Set(d, error)),
                                  hn::Set(d, HUGE_VALF));
-    const V tiny = hn::Set(d, 0x1p-90F);  // underflow
+    const V tiny = hn::Set(d, 0x1p-90F);  // covers underflow
     // The plane of a.
     const Vec na = cross(e1, e2);
     const V s0 = dot(na, p0), s1 = dot(na, p1), s2 = dot(na, p2);

@@ -80,7 +80,7 @@ struct TriangleNumbers {
 
 /// The corners of the pairs `at`, `at` + 1, …, one pair per lane. s_k are the corners of a's
 /// triangle, and t_k those of b's. All corners are relative to the first corner of a's triangle, so
-/// s_0 is 0.
+/// s_0 is 0 and is not stored.
 ///
 /// Rounding, u = 2^-24. Let o be the first corner of a's triangle relative to a's `center`, and ΔC
 /// the difference of the two `center`s (b's minus a's). The corners of b's triangle are t = b.x +

@@ -45,7 +45,8 @@ class BoxesWithin {
         counters_(counters),
         limit_(pose.inUnitsOfA(limit)) {}
 
-  /// Returns whether the square of a distance, in a's unit, exceeds the square of the limit.
+  /// Returns whether `square`, the square of a distance in a's unit, exceeds the square of the
+  /// limit. Returns false for 0, because such a pair may touch.
   bool isBeyond(float square) const {
     return square > 0 && square > limit_ * limit_ * (1 + 0x1p-20F);
   }

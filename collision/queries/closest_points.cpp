@@ -55,10 +55,10 @@ void offerEdges(Best& best, const Point& p, const Point& p1, const Point& q, con
   for (const Point& end : {q, q1}) best.offer(p + d * nearest(p, d, end), end);
 }
 
-/// Computes the foot of p in the plane of t, which is the orthogonal projection of p onto this
-/// plane. Returns whether the foot lies inside t. Uses cross products, as `offerEdges` does, and
-/// repeats the step once from the point found. Therefore the error for a sliver is relative to the
-/// sliver's height, not to the coordinates.
+/// Computes the foot of p: its orthogonal projection onto the plane of t. Returns whether the foot
+/// lies inside t. Uses cross products, as `offerEdges` does, and repeats the step once from the
+/// point found. Therefore the error for a sliver is relative to the sliver's height, not to the
+/// coordinates.
 bool foot(const Point& p, const ScaledCorners& t, Point& found) {
   const Point u = t[1] - t[0], v = t[2] - t[0], n = cross(u, v);
   const Real square = dot(n, n);
@@ -74,8 +74,8 @@ bool foot(const Point& p, const ScaledCorners& t, Point& found) {
   return !(x < Real(0)) && !(y < Real(0)) && !(x + y > Real(1));
 }
 
-/// Offers q and its foot in t as a candidate if the foot lies inside t. `swapped`: q belongs to the
-/// second triangle.
+/// Offers q and its foot in t as a candidate if the foot lies inside t. `swapped` is true if q
+/// belongs to the second triangle.
 void offerFoot(Best& best, const Point& q, const ScaledCorners& t, bool swapped) {
   Point found;
   if (!foot(q, t, found)) return;
@@ -83,7 +83,8 @@ void offerFoot(Best& best, const Point& q, const ScaledCorners& t, bool swapped)
 }
 
 /// Offers as candidates the points where edges of p pass through the face of t. If two triangles
-/// cross, at least one of them has an edge that passes through the other's face.
+/// cross, at least one of them has an edge that passes through the other's face. `swapped` is true
+/// if p is the second triangle.
 void offerCrossings(Best& best, const ScaledCorners& p, const ScaledCorners& t, bool swapped) {
   const Point n = cross(t[1] - t[0], t[2] - t[0]);
   Real height[3];
@@ -184,10 +185,10 @@ WitnessPoints witnessPoints(const Triangle& a, const Transform& X_WA, const Tria
           roundedUp(2 * kZeroDistance * unit + 2 * kUnit * distance)};
 }
 
-// A mapped corner takes at most 7 roundings, the division by `unit` included, of terms below S =
-// ‖M‖_F·reach + |t|. It is off by 8u·√3·S < 14u·S. The difference of two corners is off by 14u(S_A
-// + S_B). A projection onto n of a vector shorter than S_A + S_B, the error 4u of n itself, and the
-// quotient add 10u·(S_A + S_B). The same bound holds for a distance.
+// Derivation of `error_`. A mapped corner takes at most 7 roundings, the division by `unit`
+// included, of terms below S = ‖M‖_F·reach + |t|. It is off by 8u·√3·S < 14u·S. The difference of
+// two corners is off by 14u(S_A + S_B). A projection onto n of a vector shorter than S_A + S_B, the
+// error 4u of n itself, and the quotient add 10u·(S_A + S_B). The same bound holds for a distance.
 TriangleDistances::TriangleDistances(const Transform& X_WA, double reachA, const Transform& X_WB,
                                      double reachB)
     : X_WA_(X_WA), X_WB_(X_WB) {

@@ -19,8 +19,8 @@ namespace {
 using Component = MeshComponents::Component;
 
 /// A ray that meets an edge or lies in a triangle's plane is cast again in another direction. The
-/// directions are spread over the sphere (a spiral by the golden angle) and are not special to any
-/// mesh.
+/// directions are spread over the sphere: from one direction to the next, the angle about the z
+/// axis grows by the golden angle. They are not special to any mesh.
 constexpr int kCasts = 64;
 Vec3 direction(int cast) {
   const double z = std::remainder(0.1234567 + 0.7548776662 * cast, 1.0) * 2,

@@ -50,8 +50,9 @@ Distance distance(const Posed<VolumeTree<Volume>>& a, const Posed<VolumeTree<Vol
 /// Tests whether the bodies are at most `d` metres apart (the tolerance query).
 ///
 /// `false` is a proof that they are farther apart than d. `true` may be wrong only in two cases:
-/// the distance exceeds d by less than 1e-12·d + 4·2^-53·S + 2^-998 m, or convex parts are within
-/// the band of `convexSetsTouch`. For d = 0 the answer is that of `interference`.
+/// the distance exceeds d by less than 1e-12·d + 4·2^-53·S + 2^-998 m, or the gap of convex parts
+/// is within the band of `convexSetsTouch` (glossary in collision/README.md). For d = 0 the answer
+/// is that of `interference`.
 /// @pre The maps are finite, and d ≥ 0.
 template <BoundingVolume Volume>
 bool closerThan(const Posed<VolumeTree<Volume>>& a, const Posed<VolumeTree<Volume>>& b, double d,

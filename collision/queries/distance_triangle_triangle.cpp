@@ -8,8 +8,8 @@ namespace {
 
 void offer(ClosestPoints& best, const Vec3& a, const Vec3& b, int feature) {
   const double d = (b - a).squaredNorm();
-  if (d < best.squaredDistance)
-    best = {a, b, d, feature};  // not done for NaN: a degenerate feature offers nothing
+  // A degenerate feature may give a NaN, for which the condition is false.
+  if (d < best.squaredDistance) best = {a, b, d, feature};
 }
 
 double clamped(double x) {
@@ -23,7 +23,7 @@ void offerEdges(ClosestPoints& best, const Vec3& p1, const Vec3& q1, const Vec3&
                b = d1.dot(d2);
   const double denominator = a * e - b * b;
   // For parallel edges, s = 0 is only a start: if t is clamped below, s is computed again. If the
-  // second edge is a point, s is the parameter closest to that point.
+  // second edge is a point, s belongs to the point of the first edge that is closest to it.
   double s = denominator > 0     ? clamped((b * f - c * e) / denominator)
              : !(e > 0) && a > 0 ? clamped(-c / a)
                                  : 0;
@@ -35,8 +35,8 @@ void offerEdges(ClosestPoints& best, const Vec3& p1, const Vec3& q1, const Vec3&
   offer(best, p1 + s * d1, p2 + t * d2, feature);
 }
 
-/// Computes the foot of p in the plane of t, which is the orthogonal projection of p onto this
-/// plane. Returns whether the foot lies inside t. `offerEdges` covers the edges and corners of t.
+/// Computes the foot of p: its orthogonal projection onto the plane of t. Returns whether the foot
+/// lies inside t. `offerEdges` covers the edges and corners of t.
 bool footInside(const Vec3& p, const Triangle& t, Vec3& foot) {
   const Vec3 u = t[1] - t[0], v = t[2] - t[0], w = p - t[0];
   const double uu = u.squaredNorm(), uv = u.dot(v), vv = v.squaredNorm(), wu = w.dot(u),

@@ -13,9 +13,9 @@
 namespace corridor {
 namespace {
 
-/// Returns an upper bound of how far a point within `reach` of the origin moves from one map to
-/// another: |(M' − M)x + t' − t|. Differences, products, sums and roots are off by less than 16u,
-/// relatively. Squares below 2^-1022 vanish, and so do lengths below 2^-511.
+/// Returns an upper bound of the distance between the images, under two maps, of a point x within
+/// `reach` of the origin: |(M' − M)x + t' − t|. Differences, products, sums and roots are off by
+/// less than 16u, relatively. Squares below 2^-1022 vanish, and so do lengths below 2^-511.
 double displacementBound(const Transform& from, const Transform& to, double reach) {
   const double turn = (to.m - from.m).norm() + 0x1p-500, shift = (to.t - from.t).norm() + 0x1p-500;
   return roundedUp((1 + 32 * kUnit) * (turn * reach + shift));

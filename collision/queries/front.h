@@ -35,7 +35,7 @@ class Front {
   template <BoundingVolume Volume>
   friend class FrontQuery;
 
-  std::vector<Pair> pairs_;         ///< a heap: the pair that is due first is at the front
+  std::vector<Pair> pairs_;         ///< a heap: its first element is the pair that is due first
   std::optional<Transform> X_AB_;   ///< the map of the last query; empty if there was no query
   double moved_ = 0;                ///< metres: sum of the bounds of all motions; rounded up
   std::size_t sizeAfterStart_ = 0;  ///< number of pairs after the last start from the roots

@@ -19,16 +19,18 @@ constexpr std::size_t kMostPieces = 1'000'000;
 constexpr int kMostDepth = 1000;
 constexpr std::uint32_t kNoTriangle = ~std::uint32_t{0};
 
-/// Returns the distance of p from a point of the segment that is closest to p, up to rounding.
+/// Returns the distance of p from a point of the segment. Up to rounding, this is the point closest
+/// to p.
 double toSegment(const Vec3& p, const Vec3& a, const Vec3& b) {
   const Vec3 ab = b - a;
   const double t = ab.dot(p - a) / ab.squaredNorm();
   return (p - (a + (t > 0 ? std::min(t, 1.0) : 0.0) * ab)).norm();  // also if t is not a number
 }
 
-/// Returns the distance of p from a point of the triangle that is closest to p, up to rounding.
-/// Even if the search for this point is inaccurate, the point found is in the triangle. The result
-/// is therefore less than the true distance by at most the rounding of the coordinates.
+/// Returns the distance of p from a point of the triangle. Up to rounding, this is the point
+/// closest to p. Even if the search for this point is inaccurate, the point found is in the
+/// triangle. The result is therefore less than the true distance by at most the rounding of the
+/// coordinates.
 double toTriangle(const Vec3& p, const Triangle& t) {
   double least =
       std::min({toSegment(p, t[0], t[1]), toSegment(p, t[1], t[2]), toSegment(p, t[2], t[0])});
@@ -49,7 +51,7 @@ double toBox(const Vec3& p, const BoundingBox& box) {
 struct Piece {
   Triangle corners;
   std::uint32_t guess = kNoTriangle;
-  int depth = 0;  ///< the number of cuts
+  int depth = 0;  ///< the number of cuts that led from the face to this piece
 };
 
 /// The triangles of a mesh in a tree of their boxes, to find the triangle nearest to some points.
@@ -129,10 +131,10 @@ std::array<Piece, 2> halves(const Piece& piece) {
   return {Piece{{a, middle, c}, piece.guess, depth}, Piece{{middle, b, c}, piece.guess, depth}};
 }
 
-/// Cuts a piece along the line of an edge of a triangle, in the plane of the piece. Chooses the
-/// edge for which the smaller of the two sides reaches farthest from the line. Returns false if no
-/// edge leaves corners farther than `least` from its line on both sides. The parts cover the piece
-/// up to the rounding of their corners, wherever the line is.
+/// Cuts a piece along a line: the orthogonal projection, onto the plane of the piece, of the line
+/// through an edge of `t`. Chooses the edge for which the smaller of the two sides reaches farthest
+/// from the line. Returns false if no edge leaves corners farther than `least` from its line on
+/// both sides. The parts cover the piece up to the rounding of their corners, wherever the line is.
 bool cutAlongEdge(const Piece& piece, const Triangle& t, double least, std::vector<Piece>& parts) {
   const auto& c = piece.corners;
   const Vec3 normal = (c[1] - c[0]).cross(c[2] - c[0]);
@@ -190,7 +192,8 @@ HullDeviation hullDeviation(const Polytope& hull, const TriangleMesh& mesh, doub
       }
     }
     if (result.found > limit || piece.depth == kMostDepth || count == kMostPieces) return result;
-    // A cut that leaves less than half of the limit on one side makes no progress.
+    // A cut makes too little progress if on one side the piece reaches at most half of the limit
+    // from the line.
     if (piece.guess != kNoTriangle &&
         cutAlongEdge(piece, search.triangle(piece.guess), limit / 2, open))
       continue;

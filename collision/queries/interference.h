@@ -21,7 +21,8 @@ namespace corridor {
 /// For triangles the verdict is exact for the two maps with precisely the stored numbers, for any
 /// finite maps (collision/PROMISES.md, promise 1). Queries are fast only if the maps are nearly
 /// rigid: otherwise the boxes separate nothing. With a convex part, nullopt is always a proof;
-/// contact may be reported for gaps within the band of `convexSetsTouch`.
+/// contact may be reported for gaps within the band of `convexSetsTouch` (glossary in
+/// collision/README.md).
 /// @pre The maps are finite (`Scene` throws on others).
 /// @param last  if not null, the pair of triangles that the last query of these trees found. If the
 /// pair is likely to touch again (`LastPair::trusted`), it is tested first. The pair that this

@@ -32,7 +32,7 @@ class NearestParts : public NearestPairs {
       : NearestPairs(options, context),
         X_WA_(X_WA),
         X_WB_(X_WB),
-        // At least twice the band of `convexSetsTouch`.
+        // At least twice the band of `convexSetsTouch`, metres.
         band_(0x1p-42 *
               (X_WA.m.norm() * reachA + X_WA.t.norm() + X_WB.m.norm() * reachB + X_WB.t.norm())),
         context_(context) {}

@@ -80,6 +80,7 @@ class NodeLeafPairs {
   unsigned sizeOf(unsigned pair) const {
     return Obb4Tree::leafCount(na_.child[pair / 4]) * Obb4Tree::leafCount(nb_.child[pair % 4]);
   }
+  /// Adds all pairs of triangles of the leaf pair `pair`, numbered as for `sizeOf`.
   void add(unsigned pair) {
     const unsigned i = pair / 4, j = pair % 4;
     const std::uint32_t countB = Obb4Tree::leafCount(nb_.child[j]);
@@ -90,8 +91,8 @@ class NodeLeafPairs {
     lanesA_ |= 1U << i;
     lanesB_ |= 1U << j;
   }
-  /// Must be called after the last `add`. Entries that are read beyond the last pair are valid only
-  /// after this call.
+  /// Must be called after the last `add`. It fills the entries beyond the last pair, which `from`
+  /// may read.
   void finish() {
     std::fill_n(a_ + count_, 16, a_[0]);
     std::fill_n(b_ + count_, 16, b_[0]);

@@ -10,7 +10,8 @@ namespace corridor {
 double relativePoseError(const Transform& X_WA, const Transform& X_AB, const Transform& X_WB,
                          double reach) {
   const Transform back = X_WA * X_AB;
-  // Each entry of `back` has at most 4 roundings of terms whose sizes sum up to `size`.
+  // Each entry of `back` has at most 4 roundings of its terms. The magnitudes of all terms sum up
+  // to `size` for `back.m`, and to at most `sizeT` for `back.t`.
   const double size = (X_WA.m.cwiseAbs() * X_AB.m.cwiseAbs()).sum();
   const double sizeT =
       (X_WA.m.cwiseAbs() * X_AB.t.cwiseAbs() + X_WA.t.cwiseAbs() + X_WB.t.cwiseAbs()).sum();

@@ -14,8 +14,8 @@ namespace corridor {
 /// a triangle without being one of its corners counts as an intersection.
 ///
 /// Two kinds are skipped: triangles whose corners lie on a line, and pairs with the same three
-/// corners. `inspectMesh` counts the former as degenerate and the latter as repeated. Cost: about a
-/// microsecond for each of the roughly twelve neighbours of a triangle.
+/// corners. `inspectMesh` counts such triangles as degenerate, and such pairs as repeated. Cost:
+/// about a microsecond for each of the roughly twelve neighbours of a triangle.
 /// @pre `checkMesh` finds no fault.
 std::vector<PrimitivePair> selfIntersections(const TriangleMesh& mesh, QueryContext& context);
 

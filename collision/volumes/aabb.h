@@ -15,7 +15,8 @@ struct Aabb {
 
   static constexpr bool kOriented = false;
   static Aabb around(const Obb& box, const Content&) { return {box.center, box.half}; }
-  /// Returns a box around both boxes, as tight as a new fit, up to rounding.
+  /// Returns a box around both boxes. Up to rounding, it is as tight as a box fitted to the
+  /// contents of both.
   static Aabb merged(const Aabb& a, const Aabb& b) {
     const Vec3 low = (a.center - a.half).cwiseMin(b.center - b.half),
                high = (a.center + a.half).cwiseMax(b.center + b.half);

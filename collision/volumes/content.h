@@ -16,7 +16,8 @@ struct Ball {
 };
 
 /// The set that a volume must contain: each of some triangles, or the convex hull of solid spheres
-/// (`Ball`). Never empty. A non-owning view: the triangles or spheres must outlive it.
+/// (`Ball`). Never empty. The object does not own the triangles or spheres, so these must outlive
+/// it.
 struct Content {
   std::span<const Triangle> triangles;
   std::span<const Ball> balls;

@@ -24,11 +24,11 @@ struct AlongDirection {
 /// Searches for a direction along which two sets are separated, by the simplices of Gilbert,
 /// Johnson, Keerthi (1988). `along(n)` returns an `AlongDirection` for a vector n of length 1, up
 /// to 4u. Each call proves the gap along its n, so rounding in the search does no harm. Returns the
-/// widest gap that was proved, or 0. Ends at a gap above `enough`, or if two points of the hulls of
-/// the sets are found that are at most `near` apart. It also ends if no progress is possible, and
-/// after 24 rounds.
+/// widest gap that was proved, or 0. The search ends at a gap above `enough`, or when it finds a
+/// point of each set's hull such that both points are at most `near` apart. It also ends if no
+/// progress is possible, and after 24 rounds.
 /// @param direction  the first direction to test, from a to b, metres. Its length does not matter.
-/// @param size  metres: about the largest coordinate of a corner.
+/// @param size  metres: about the largest coordinate of an `AlongDirection::corner`.
 /// @param near, enough  metres.
 /// @param agreed  the search ends if a gap and the distance of two points, one of each hull, differ
 /// by less than `agreed` times that distance.
@@ -55,7 +55,8 @@ double widestGap(Vec3 direction, double size, double near, double enough, double
     const gjk::Vector<double>* const c = face.corner;
     bool known = false;
     for (int i = 0; i < face.count; ++i) known = known || w == c[i];
-    // No corner is closer to the origin.
+    // If `known`, no corner of b − a is closer to the origin than `face`. Else n·corner, a lower
+    // bound of the distance from the origin, is within the fraction `agreed` of `length`.
     if (known || (face.count > 0 && n.dot(found.corner * scale) > (1 - agreed) * length)) break;
     switch (face.count) {
       case 0:

@@ -12,12 +12,12 @@ struct Ellipsoid {
   double size = 0;  ///< radius of the swept sphere
 
   static constexpr bool kOriented = true;
-  /// Returns an ellipsoid with the axes of the box, near the one of least volume. Each point gets a
-  /// weight. Each step multiplies the weight by a measure of the point's distance from the centre
-  /// of the present ellipsoid (Silvey, Titterington, Torsney, "An algorithm for optimal designs on
-  /// a finite design space", 1978). The weighted mean and variances give the centre and the
-  /// semi-axes. The optimum is that of Khachiyan's method (Math. of Operations Research 21(2),
-  /// 1996) for ellipsoids with given axes.
+  /// Returns an ellipsoid with the axes of the box. It is near the ellipsoid of least volume among
+  /// those with these axes. Each point gets a weight. Each step multiplies the weight by a measure
+  /// of the point's distance from the centre of the present ellipsoid (Silvey, Titterington,
+  /// Torsney, "An algorithm for optimal designs on a finite design space", 1978). The weighted mean
+  /// and variances give the centre and the semi-axes. The optimum is that of Khachiyan's method
+  /// (Math. of Operations Research 21(2), 1996) for ellipsoids with given axes.
   static Ellipsoid around(const Obb& box, const Content& content);
   const Mat3& frameAxes() const { return core.axes; }
   double axisDefect() const { return core.axisDefect(); }

@@ -18,7 +18,7 @@ struct Hull {
 
   static constexpr bool kOriented = false;
   static Hull around(const Obb& box, const Content& content);
-  /// Returns the hull of both, as tight as a new fit.
+  /// Returns a hull around both hulls, as tight as one fitted to the contents of both.
   static Hull merged(const Hull& a, const Hull& b);
   Mat3 frameAxes() const { return Mat3::Identity(); }
   double axisDefect() const { return 0; }

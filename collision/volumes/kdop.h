@@ -27,7 +27,7 @@ struct Kdop {
 
   static constexpr bool kOriented = false;
   static Kdop around(const Obb& box, const Content& content);
-  /// Returns a k-DOP around both k-DOPs, as tight as a new fit.
+  /// Returns a k-DOP around both k-DOPs, as tight as one fitted to the contents of both.
   static Kdop merged(const Kdop& a, const Kdop& b) {
     Kdop both;
     for (std::size_t i = 0; i < kSlabs; ++i) {

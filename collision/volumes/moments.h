@@ -22,7 +22,7 @@ Moments vertexMoments(std::span<const Triangle> triangles);
 /// Returns the area-weighted moments of the triangles' surface. Let A_i be the areas, c_i the
 /// centroids, p, q, r the corners of triangle i about a local origin, and A = ΣA_i. Then the mean μ
 /// and the covariance C are
-///   μ = ΣA_i c_i/A,  C = (1/12A) Σ A_i (9 c_i c_iᵀ + ppᵀ + qqᵀ + rrᵀ) − μμᵀ.
+///   μ = ΣA_i c_i/A,  C = 1/(12A) Σ A_i (9 c_i c_iᵀ + ppᵀ + qqᵀ + rrᵀ) − μμᵀ.
 /// The weight is 0 if all areas are 0.
 Moments surfaceMoments(std::span<const Triangle> triangles);
 

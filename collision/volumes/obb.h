@@ -10,9 +10,9 @@
 namespace corridor {
 
 /// An oriented box: the set {center + axes·x : |x_i| ≤ half_i}, in real arithmetic on the doubles
-/// stored. `axes` is orthonormal up to 2^-40, and mostly to a few ulp. Two things cover the defect
-/// of `axes`: `half`, so that the box contains its content, and the margins of `obbsSeparated`.
-/// Metres.
+/// stored. `axes` is orthonormal up to 2^-40, and mostly to a few ulp. The defect of `axes` is
+/// accounted for in two places: `half` is so large that the box contains its content, and the
+/// margins of `obbsSeparated` include the defect. Metres.
 struct Obb {
   Vec3 center = Vec3::Zero();
   Mat3 axes = Mat3::Identity();

@@ -51,7 +51,7 @@ inline Obb1 boxOf(const Obb4& four, std::uint32_t lane) {
   return box;
 }
 
-/// The pose of b's frame in a's, with the margins of the overlap test.
+/// The pose of b's frame in a's frame, with the margins of the overlap test.
 struct alignas(16) Obb4Pose {
   float turn[3][4];      ///< [j][k]: component k of column j of M; k = 3 is unused
   float offset[4];       ///< t, in a's unit; the last entry is unused
@@ -60,23 +60,23 @@ struct alignas(16) Obb4Pose {
   float absoluteMargin;  ///< margin as the radius of a sphere, in a's unit
 };
 
-/// Motion bounds of four boxes of b in a time interval, relative to its middle (`RelativeMotion`
-/// defines the motion). A point x of box j moves to x + s·(linear_j + angular × (x − c_j)) +
-/// remainder, |s| ≤ 1. Along any vector n, |n·remainder| ≤ secondOrderAcross_j·|n × angular| +
-/// secondOrder_j·|n|, and no point moves farther than isotropic_j. pad_j is all other distance that
-/// the pair must keep, such as the radius of the tube and the margin. Values are in a's unit and
-/// frame. All bounds are rounded up, and are at least (1 + 2^-16) times the true bound in a's
-/// frame, which covers the defects of a's axes.
+/// Motion bounds of four boxes of b in a time interval, relative to the middle of the interval
+/// (`RelativeMotion` defines the motion). A point x of box j moves to x + s·(linear_j + angular ×
+/// (x − c_j)) + remainder, |s| ≤ 1. Along any vector n, |n·remainder| ≤ secondOrderAcross_j·|n ×
+/// angular| + secondOrder_j·|n|, and no point moves farther than isotropic_j. pad_j is all other
+/// distance that the pair must keep, such as the radius of the tube and the margin. Values are in
+/// a's unit and frame. All bounds are rounded up, and are at least (1 + 2^-16) times the true bound
+/// in a's frame, which covers the defects of a's axes.
 ///
 /// Derivation of the test. In the coordinates of a's box that are defined above, a point T + R y of
 /// box b moves by s·(V + W × R y) and a remainder, with V = Aᵀlinear and W = Aᵀangular, up to
 /// 3η|W||y| for A's defect. Along a unit vector n the first-order motion is at most |n·V| + Σ_k b_k
 /// |R_k·(n × W)|, and
-///   n = e_i:        R_k·(e_i × W) = R_(i+2)k W_(i+1) − R_(i+1)k W_(i+2), as written;
+///   n = e_i:        R_k·(e_i × W) = R_(i+2)k W_(i+1) − R_(i+1)k W_(i+2), exactly;
 ///   n = R_j:        R_k·(R_j × W) = ±W·R_l, l the third of j, k, l, up to 3η_R|W|;
 ///   n = e_i × R_j:  R_k·(n × W) = W_i (R_j·R_k) − R_ik (W·R_j), where R_j·R_k = δ_jk up to η_R.
-/// Coordinates of V and W round like those of T: each is off by less than 6u of its vector, and R
-/// by ε_R. Each of the sums above is therefore off by less than
+/// Coordinates of V and W round like those of T: each is off by less than 6u times the length of
+/// its vector, and each entry of R by ε_R. Each of the sums above is therefore off by less than
 ///   (3η_R + 3η + 2·√3·ε_R + 20u)·|W|(Σb + secondOrderAcross) + 40u·(|V| + secondOrder + pad).
 /// The first factor is at most 209u + 10η_M. The code uses twice `relative` instead, and `relative`
 /// is 180u + 10η_M. If V is small relative to the terms of which it is the sum, the rounding of

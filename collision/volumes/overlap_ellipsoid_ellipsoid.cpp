@@ -15,8 +15,8 @@ namespace {
 /// gaps of 1e-9 of the size need up to eight.
 constexpr int kOverlapSteps = 12;
 /// If the radii of the swept spheres plus the distance to be proved exceed this fraction of the sum
-/// of the semi-axes, ellipsoids with longer semi-axes are a bad approximation. Then a second
-/// search, by simplices, follows.
+/// of the semi-axes, ellipsoids with longer semi-axes are a bad approximation of the swept
+/// ellipsoids. Then a second search, by simplices, follows.
 constexpr double kRound = 0x1p-6;
 /// An upper bound of what underflow takes from both norms of a gap. Gaps below this bound are not
 /// proved.
@@ -148,7 +148,7 @@ double PairTest<Ellipsoid>::distanceBound(const Ellipsoid& a, const Ellipsoid& b
   if (!pair.usable()) return 0;
   pair.alongCenters();
   // For ellipsoids that are close, the best direction is the normal at the point where they would
-  // touch if they grew. For others it is the line between their closest points.
+  // touch if they grew. For other ellipsoids it is the line between their closest points.
   if (!pair.isRound(pair.best())) pair.search(0.5 * (pair.radii() + pair.best()), HUGE_VAL);
   pair.searchBySimplices(pair.best(), HUGE_VAL, internal::kBound);
   return pair.best();

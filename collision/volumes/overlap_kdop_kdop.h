@@ -25,7 +25,7 @@ namespace internal {
 struct SlabSum {
   std::array<std::size_t, 3> slab;
   std::array<double, 3> weight;
-  double error;  ///< upper bound of |n − Σ|
+  double error;  ///< upper bound of the length of (n − that sum)
 
   template <class Dop>
   double highest(const Dop& dop) const {
@@ -44,7 +44,7 @@ struct SlabSum {
   double size() const { return std::abs(weight[0]) + std::abs(weight[1]) + std::abs(weight[2]); }
 };
 
-/// Returns n as a sum of three slab directions, those whose cone contains n.
+/// Returns n as a weighted sum of the three slab directions whose cone contains n.
 template <int K>
 SlabSum slabSum(const Vec3& n);
 
@@ -94,11 +94,11 @@ class PairTest<Kdop<K>> {
   static bool apart(double gap, double pad) { return gap > pad && gap < HUGE_VAL; }
 
   /// Returns axis L with the slack that every axis needs, for the caller's error and for rounding.
-  /// L is a slab direction of a, or M times a slab direction of b; then |L|₁ ≤ 3F and F ≥ |L|/√3,
-  /// with F = ‖M‖_F. So the weights of either body sum up to at most 9(1 + F)². Slab ends are below
-  /// 4·reach: |n_i| ≤ √3, and the slabs of a convex part that is a cylinder are around the corners
-  /// of its box. A gap takes ten sums and products. L·t takes 4u, and so does the rounding of MᵀL,
-  /// from which `SlabSum::error` was computed.
+  /// L is a slab direction of a, or M times a slab direction of b. In both cases |L|₁ ≤ 3F and F ≥
+  /// |L|/√3, with F = ‖M‖_F. So the weights of either body sum up to at most 9(1 + F)². Slab ends
+  /// are below 4·reach: |n_i| ≤ √3, and the slabs of a convex part that is a cylinder are around
+  /// the corners of its box. A gap takes ten sums and products. L·t takes 4u, and so does the
+  /// rounding of MᵀL, from which `SlabSum::error` was computed.
   static Axis axis(const Vec3& L, const Transform& X_AB, const VolumeBounds& a,
                    const VolumeBounds& b, double error) {
     Axis made;

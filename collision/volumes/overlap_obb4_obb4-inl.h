@@ -99,8 +99,8 @@ struct BoxPairs {
     slack = hn::MulAdd(set(pose.relative), sizes, set(pose.absoluteMargin));
   }
 
-  /// These three functions return gaps, in a's unit, before `slack` is subtracted: along axis i of
-  /// a, along axis j of b, and along the cross product of both axes. The cross product is not a
+  /// The next three functions return gaps, in a's unit, before `slack` is subtracted: along axis i
+  /// of a, along axis j of b, and along the cross product of both axes. The cross product is not a
   /// unit vector.
   V faceOfA(int i) const {
     return hn::Sub(hn::Abs(T[i]), dotAnd(a[i], b[0], b[1], b[2], Q[i][0], Q[i][1], Q[i][2]));
@@ -176,11 +176,11 @@ HWY_INLINE unsigned overlappingBoxes(const Obb4& a, const Obb4& b, const Obb4Pos
 /// proves that the boxes are farther apart. `squares` receives for each pair a proved lower bound
 /// of the squared distance, in the square of a's unit.
 ///
-/// Gaps along three orthogonal axes u_i bound the distance by √Σ gap_i²: for any vector d,
-/// Σ(u_i·d)² ≤ (1 + 3η)|d|². For a's axes, and for b's (R̂) if the map is rigid, η < 2^-17. The
-/// factor 1 − 2^-14 covers that and the rounding of the sum. For a less rigid map, `relative` has
-/// reduced each gap by 10η·(|T|₁ + Σa + Σb) ≥ 9η·|u_i·d|, and (1 − 9η)²(1 + 3η) < 1. The same holds
-/// for the gap along the line between the centres.
+/// The gaps along three orthogonal axes u_i give the lower bound √Σ gap_i² of the distance: for any
+/// vector d, Σ(u_i·d)² ≤ (1 + 3η)|d|². For a's axes, and for b's (R̂) if the map is rigid, η <
+/// 2^-17. The factor 1 − 2^-14 covers that and the rounding of the sum. For a less rigid map,
+/// `relative` has reduced each gap by 10η·(|T|₁ + Σa + Σb) ≥ 9η·|u_i·d|, and (1 − 9η)²(1 + 3η) < 1.
+/// The same holds for the gap along the line between the centres.
 ///
 /// `kFar` adds the line between the centres as an axis. This axis is the best one for boxes that
 /// are far apart relative to their sizes. With this axis, the test takes a fifth longer.

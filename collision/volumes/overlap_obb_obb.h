@@ -8,9 +8,9 @@
 #include "collision/volumes/volume.h"
 
 /// Box against box by the separating-axis theorem, 15 axes (Gottschalk, Lin, Manocha 1996, section
-/// 5). `true` is a proof that the boxes, as the sets that `Obb` defines in real arithmetic, are
-/// apart by more than the requested margin. `false` proves nothing. Every rounding error is inside
-/// the margins.
+/// 5). The result `true` is a proof that the boxes, as the sets that `Obb` defines in real
+/// arithmetic, are apart by more than the requested margin. The result `false` proves nothing.
+/// Every rounding error is inside the margins.
 ///
 /// Derivation. Let A be the frame of box a, and x ↦ M x + t the map from b's frame (doubles, taken
 /// as exact). In coordinates y = U_Aᵀ(x − c_A), box a is {U_AᵀU_A x}, which is inside the

@@ -42,7 +42,8 @@ struct DirectedBoxes : BoxPair {
     const Vec3 L = direction / direction.cwiseAbs().maxCoeff();
     return apartAlong(L, R.transpose() * L);
   }
-  /// Tests all 15 axes, for the few pairs for which rounding made a search fail.
+  /// Returns true if `apartAlong` proves separation along one of the 15 axes. Used for the few
+  /// pairs for which rounding made a search fail.
   bool apartAlongAny() const {
     for (int i = 0; i < 3; ++i)
       if (apartAlong(Vec3::Unit(i)) || apartAlong(R.col(i))) return true;

@@ -3,9 +3,9 @@
 #include "collision/volumes/overlap_obb_obb.h"
 
 /// For comparison: older overlap tests of boxes, which the separating-axis theorem replaced
-/// (Gottschalk, Lin, Manocha 1996, section 5). Each is as conservative as `obbsSeparated`: `true`
-/// is a proof that the boxes, as sets in real arithmetic, are apart by more than the requested
-/// margin. `false` proves nothing.
+/// (Gottschalk, Lin, Manocha 1996, section 5). Each is as conservative as `obbsSeparated`: the
+/// result `true` is a proof that the boxes, as sets in real arithmetic, are apart by more than the
+/// requested margin. The result `false` proves nothing.
 ///
 /// In tests of millions of pairs, every test reported "separated" for all pairs that are farther
 /// apart than 4·(margins.absolute + pad) + 32·margins.relative·L, where L is the sum of all half

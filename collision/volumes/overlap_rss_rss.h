@@ -50,8 +50,8 @@ class PairTest<Rss> {
   static constexpr int kSteps = 8;
 
   /// Returns the largest gap proved along the directions that the alternating projections produce,
-  /// or 0; metres. Stops at a gap above `enough`, or when two points of the rectangles are found
-  /// that are at most radii + pad apart.
+  /// or 0; metres. Stops at a gap above `enough`, when a point of each rectangle is found such that
+  /// both points are at most radii + pad apart, or after `kSteps` projections.
   double alongClosest(const internal::BoxPair& pair, const Vec3& a, const Vec3& b, double radii,
                       double pad, double enough) const {
     const double slack = margins_.relative * (pair.T.cwiseAbs().sum() + a.sum() + b.sum() + radii) +

@@ -47,7 +47,7 @@ class PairTest<Shell> {
   double distanceBound(const Shell& a, const Shell& b) const;
 
  private:
-  struct Placed;  // a pair of shells
+  struct Placed;  // a pair of shells, with T and the margins
   double byDistances(const Placed& pair) const;
   double byDirections(const Placed& pair, double pad, double enough, double agreed) const;
 

@@ -48,9 +48,9 @@ Rss Rss::around(const Obb& box, const Content& content) {
   // First the rectangle gets the interval that it needs along each axis, regardless of the other
   // axis. Then the corners move out where necessary.
   Side x, y;
-  // A sphere of the content, of radius r, has its centre at height z above the rectangle's plane.
-  // Returns the square of the largest distance, in this plane, from the centre to a point of the
-  // rectangle about which the RSS's own sphere covers the content's sphere.
+  // For a sphere of the content, of radius r and with its centre at height z above the rectangle's
+  // plane: returns the square of the largest distance, measured in this plane, from that centre to
+  // a point of the rectangle about which the RSS's own sphere covers the content's sphere.
   const auto squareAt = [&](double z, double r) {
     const double left = std::max(0.0, radius - r);
     return std::max(0.0, left * left - z * z);

@@ -25,7 +25,7 @@ struct Shell {
   Vec3 axis = Vec3::UnitZ();   ///< of the cone: unit, rounded. Only its direction matters.
   double slope = kNoCone;      ///< tangent of the cone's half angle, which is below 90°
   double inner = 0, outer = 0;
-  double size = 0;  ///< radius of the swept sphere: the largest of the content
+  double size = 0;  ///< radius of the swept sphere: the largest radius of a sphere of the content
   /// A sphere that contains the volume: its centre, and its radius rounded up.
   Vec3 boundingCenter = Vec3::Zero();
   double boundingRadius = 0;

@@ -6,8 +6,8 @@
 
 namespace corridor {
 
-/// The requirements that a `VolumeTree` has of a volume. A volume is a closed set, which its
-/// doubles define in real arithmetic. It contains each triangle of its content, or the hull of the
+/// What `VolumeTree` requires of a bounding volume. A volume is a closed set, which its doubles
+/// define in real arithmetic. It contains each triangle of its content, or the hull of the
 /// content's spheres. All volumes except `Shell` are convex, and so contain the hull of the
 /// triangles, too. Trees and queries do not rely on this.
 ///
@@ -24,8 +24,9 @@ concept BoundingVolume = requires(const V v, const Obb& box, const Content& cont
   { V::around(box, content) } -> std::same_as<V>;
   /// The axes of the frame in which the volume is fitted again.
   { v.frameAxes() } -> std::convertible_to<Mat3>;
-  /// Terms in the margins of the volume's tests: the `orthonormalityDefect` of the axes, and
-  /// |center|₂; rounded up.
+  /// Terms in the margins of the volume's tests, rounded up: the `orthonormalityDefect` of the
+  /// axes, and a bound of |center|₂. For a k-DOP or a hull, the second term bounds |x|₂ of all its
+  /// vertices.
   { v.axisDefect() } -> std::same_as<double>;
   { v.centerReach() } -> std::same_as<double>;
   /// Radius, rounded up, of a sphere about `ballCenter()`; the sphere contains the volume.

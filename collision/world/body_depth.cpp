@@ -28,7 +28,7 @@ Deepest deepestPair(const Posed<Body>& a, const Posed<Body>& b, QueryContext& co
   const auto test = pairTestOf<Obb>(posedA, posedB);
   Deepest deepest;
   const auto found = [&](std::uint32_t s, std::uint32_t t) {
-    // The lower bound is proved for every accuracy.
+    // The lower bound is proved for every accuracy, so a coarse accuracy is enough.
     const Penetration depth =
         penetration({convexSetOf(treeA, s), a.X_W}, {convexSetOf(treeB, t), b.X_W}, 0x1p-20);
     if (!deepest.pair || depth.lower > deepest.depth.lower)
@@ -40,7 +40,8 @@ Deepest deepestPair(const Posed<Body>& a, const Posed<Body>& b, QueryContext& co
   return deepest;
 }
 
-/// Returns an upper bound of the depth along a direction. b approaches from `far` metres away.
+/// Returns an upper bound of the depth along a direction: b approaches a from `far` metres away.
+/// Returns infinity if nothing is proved.
 double depthAlong(const Body& a, const Body& b, const Transform& X_AB, const Vec3& direction,
                   double far, double accuracy, QueryContext& context) {
   const Vec3 start = far * direction;
@@ -54,8 +55,8 @@ double depthAlong(const Body& a, const Body& b, const Transform& X_AB, const Vec
   const double size = a.radius() + b.radius() + X_AB.t.stableNorm() + far;
   options.tolerance = std::max(accuracy * far / 4, RigidMotion::roundingTolerance(size));
   const MotionResult result = certifyMotion(approach, {&pair, 1}, options, context);
-  // If nothing is proved, not even at the start, the bodies are too small or too large for the
-  // bounds.
+  // If not even the start of the approach is proved free, the bodies are too small or too large for
+  // the bounds.
   if (!(result.certifiedUntil > 0)) return HUGE_VAL;
   // All of [0, certifiedUntil] is free. The last term covers the rounding of `start` and of `X_AB.t
   // + start` along the direction. `RigidMotion::translation` covers the rounding orthogonal to the
@@ -105,7 +106,8 @@ DepthBounds depthBounds(const Body& a, const Body& b, const Transform& X_AB,
   if (!(far < 0x1p1000)) return bounds;  // doubles could not hold a position so far away
   for (const Vec3& d : directions) {
     const Vec3 direction = d.stableNormalized();
-    if (!(direction.squaredNorm() > 0.5)) continue;  // a candidate of length 0
+    if (!(direction.squaredNorm() > 0.5))
+      continue;  // the vector has length 0, so it is no direction
     const double upper = depthAlong(a, b, X_AB, direction, far, options.accuracy, context);
     if (upper < bounds.upper) bounds.upper = upper, bounds.direction_A = direction;
   }

@@ -15,12 +15,14 @@ struct DepthOptions {
   /// b, and the positive and negative axes of both frames.
   std::vector<Vec3> directions;
   /// Let L be the sum of the radii of both bounding spheres and the distance of their centres. The
-  /// error of the depth along a direction is usually at most `accuracy`·L. From 2^-40 to 1/4.
+  /// error of the depth along a direction is usually at most `accuracy`·L. `accuracy` must be from
+  /// 2^-40 to 1/4.
   double accuracy = 0x1p-20;
 };
 
-/// Bounds of the penetration depth of two bodies that touch: the length of the shortest translation
-/// of b that separates the bodies. Metres. If the bodies are apart, both bounds are 0.
+/// Bounds of the penetration depth of two bodies that touch. The depth is the length of the
+/// shortest translation of b that separates the bodies. Metres. If the bodies are apart, both
+/// bounds are 0.
 struct DepthBounds {
   /// No translation by less than `lower` separates the bodies. Each pair of primitives (triangles
   /// or convex parts) that touch has a depth; `lower` is a lower bound of the largest of these
@@ -40,10 +42,10 @@ struct DepthBounds {
 /// 2^-440 to 2^440 m, because `penetration` requires this.
 ///
 /// The exact depth of bodies that are not convex is costly: it is a distance on the Minkowski sum,
-/// which may have n⁶ faces. The lower bound takes a pair of primitives at a time (`penetration` in
-/// convex/penetration.h). The upper bound is the first contact of b as it approaches from far away
-/// along a direction (`certifyMotion`). Therefore b may be deeper in a than `lower`, and may leave
-/// a by a translation that is shorter than `upper`.
+/// which may have n⁶ faces. The lower bound comes from one pair of primitives at a time
+/// (`penetration` in convex/penetration.h). The upper bound comes from the first contact of b when
+/// b approaches a from far away along a direction (`certifyMotion`). Therefore b may be deeper in a
+/// than `lower`, and may leave a by a translation that is shorter than `upper`.
 /// @param X_AB  the map from b's frame to a's.
 /// @throws std::invalid_argument for a map that is not finite, or not within 2^-20 of a rotation;
 /// for a direction that is 0 or not finite; and for an accuracy outside its limits.

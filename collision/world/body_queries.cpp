@@ -22,7 +22,8 @@ void require(double x, const char* what) {
     throw std::invalid_argument(std::string(what) + " must be finite and not negative");
 }
 
-/// Returns a point of the component or convex part of `inner` that `findEnclosed` found.
+/// Returns a point of `inner`, under its map. `findEnclosed` gave `number`: a triangle of the
+/// enclosed component, or the index of the enclosed convex part.
 Vec3 pointOf(const Posed<Body>& inner, std::uint32_t number) {
   const Body& body = inner.shape;
   return inner.X_W *

@@ -21,10 +21,11 @@ namespace corridor {
 /// 0. Beyond that range the queries may report bodies as closer than they are, or in contact, but
 /// never as farther apart than they are.
 ///
-/// The queries build the trees that they need, of the kind `trees`. Containment in a solid mesh
-/// always uses the binary tree of boxes. Queries throw std::invalid_argument for maps that are not
-/// finite, and for numbers that are not finite or are negative. (Only `DistanceOptions::upTo` may
-/// be infinite.) Threads may call them in parallel, with one context per thread.
+/// The queries build the trees that they need, of the kind `trees`. Tests of containment in a solid
+/// mesh always use the binary tree of boxes. Queries throw std::invalid_argument for maps that are
+/// not finite, and for distances and errors that are negative or not finite. (Only
+/// `DistanceOptions::upTo` may be infinite.) Threads may call them in parallel, with one context
+/// per thread.
 ///
 /// `last`, if not null, is a guess: the pair that the previous query of the same two bodies with
 /// the same kind of trees found. Queries may test this pair first (core/last_pair.h), and store the
@@ -48,7 +49,8 @@ std::vector<TriangleContact> contacts(const Posed<Body>& a, const Posed<Body>& b
 
 /// Returns the distance with a pair of witness points. Errors are those of `distance` in
 /// queries/distance.h. The distance is 0 if and only if `interference` reports contact. If one body
-/// is inside a solid mesh, both witness points are the same point of the inner body.
+/// is inside a solid mesh and touches none of its triangles, both witness points are the same point
+/// of the inner body.
 Distance distance(const Posed<Body>& a, const Posed<Body>& b, const DistanceOptions& options,
                   QueryContext& context, TreeKind trees = TreeKind::obb4, LastPair* last = nullptr);
 

@@ -36,10 +36,11 @@ class RigidScene {
   MotionResult certifyEdge(const RigidPose& from, const RigidPose& to, const MotionOptions& options,
                            QueryContext& context, const Tube& tube = {}) const;
   /// Decides whether a motion in the plane z = 0 is free. Poses are (x, y, yaw), in metres and
-  /// radians; the yaw takes the shorter of the two rotations.
+  /// radians. The body rotates from the first yaw to the second in the direction of the smaller
+  /// angle.
   MotionResult certifyEdgePlanar(const Vec3& from, const Vec3& to, const MotionOptions& options,
                                  QueryContext& context, const Tube& tube = {}) const;
-  /// Decides whether a state is free, as an edge of zero length.
+  /// Decides whether a state is free. The state is treated as an edge of zero length.
   MotionResult certifyState(const RigidPose& pose, const MotionOptions& options,
                             QueryContext& context, const Tube& tube = {}) const;
   MotionResult certifyStatePlanar(const Vec3& xyYaw, const MotionOptions& options,

@@ -44,10 +44,10 @@ RelativeMotion atRest(const Transform& X_WA, const Transform& X_WB) {
   const double defectA = orthonormalityDefect(X_WA.m), defectB = orthonormalityDefect(X_WB.m);
   RelativeMotion still;
   still.X_AB = rigidInverse(X_WA) * X_WB;
-  // X_AB approximates the map x ↦ M_A⁻¹(X_WB x − t_A). To bound its error, write M_A⁻¹ = M_Aᵀ + (1
-  // − M_AᵀM_A)M_A⁻¹: the second term is below 3η_A(1 + 4η_A) < 4η_A. Rounding adds less than 32u
-  // times the sum of the magnitudes of all terms. The sphere's radius grows by 3η_B and by the
-  // defect of M_A.
+  // X_AB approximates the map x ↦ M_A⁻¹(X_WB x − t_A). To bound the error of this approximation,
+  // write M_A⁻¹ = M_Aᵀ + (1 − M_AᵀM_A)M_A⁻¹. The norm of the second term is below 3η_A(1 + 4η_A) <
+  // 4η_A. Rounding adds less than 32u times the sum of the magnitudes of all terms. The sphere's
+  // radius grows by 3η_B and by the defect of M_A.
   still.reachError = 5 * (defectA + defectB) + 32 * kUnit;
   still.fixedError =
       (4 * defectA + 32 * kUnit) * (X_WA.t.cwiseAbs().sum() + X_WB.t.cwiseAbs().sum());
@@ -68,7 +68,8 @@ BoundingBox boxUnder(const Body& body, const Transform& X) {
     for (const Vec3& point : part.points) add(point, part.radius);
   // Let η be the defect of the map (`orthonormalityDefect`). The norm of its matrix is at most √(1
   // + 3η) ≤ 1 + 2η, so the image of a ball extends beyond the ball's radius by at most 2η times the
-  // radius. Each coordinate of the product is off by at most 4u(√3(1 + 2η)r + |t|), and u = 2^-53.
+  // radius. Each coordinate of a mapped point is off by at most 4u(√3(1 + 2η)r + |t|), where u =
+  // 2^-53, r is the radius of the body and t the translation of the map.
   const double error = roundedUp((2 * orthonormalityDefect(X.m) + 0x1p-45) * body.radius() +
                                  0x1p-45 * X.t.stableNorm());
   box.lower.array() -= error;
@@ -194,7 +195,8 @@ double Scene::defaultTolerance(double farthest) const {
         std::max(size, farthest + bounds.lower.cwiseAbs().cwiseMax(bounds.upper.cwiseAbs()).norm());
   }
   if (boundsOfFrames.empty()) radius = 1;  // without pairs, no query uses the tolerance
-  // A single point has no radius; any positive number will do.
+  // If the bodies of a frame are a single point, the radius is 0. Then any positive tolerance is
+  // suitable.
   return std::max(1e-7 * std::max(radius, std::numeric_limits<double>::min() * 1e8),
                   RigidMotion::roundingTolerance(size));
 }
@@ -314,7 +316,8 @@ bool provesNothingFree(const MotionResult& result) {
   return result.verdict != MotionVerdict::free && !(result.certifiedUntil > 0);
 }
 
-/// Scratch memory: numbers of the pairs of bodies that may come near each other in an interval.
+/// Scratch memory: the indices in `motionPairs_` of the pairs of bodies that may come near each
+/// other in an interval.
 struct NearPairs {
   std::vector<std::uint32_t> pairs;
 };
@@ -343,7 +346,8 @@ MotionResult Scene::withContainment(MotionResult result, std::span<const std::ui
   if (provesNothingFree(result)) return result;
   const double until = result.verdict == MotionVerdict::free ? 1 : result.certifiedUntil;
   // The surfaces do not meet on [0, until], so one pose decides containment for this whole
-  // interval. The rounding of that pose must be too small to move a point through a surface.
+  // interval. The rounding of the pose must be too small to move a point through a surface
+  // (`poseApart`).
   for (const std::uint32_t k : pairs) {
     const MotionPair& pair = motionPairs_[k];
     // No test is needed for a convex part: it is solid, so the motion query finds bodies inside it.
@@ -396,7 +400,7 @@ std::vector<MotionResult> Scene::certifyEachPair(MotionSource& motion, const Mot
   MotionResult counted;  // counts as one query, which is undecided if any pair is
   std::vector<std::uint32_t>& near = context.scratch.of<NearPairs>().pairs;
   const bool isCurve = standardFloatingPoint() && !motion.ambiguous();
-  if (isCurve) {  // pairs that are not found are free
+  if (isCurve) {  // pairs that `find` leaves out are free
     IntervalMotions motions(motion, broadPhase_->bodies(), context);
     motions.select(0.5, 0.5);
     broadPhase_->find(motions, roundedUp(options.largestMargin() + options.clearanceSlack), near);
@@ -404,7 +408,7 @@ std::vector<MotionResult> Scene::certifyEachPair(MotionSource& motion, const Mot
     near.resize(pairs_.size());
     std::iota(near.begin(), near.end(), std::uint32_t{0});
   }
-  const std::vector<std::uint32_t> tested = near;  // queries below use the scratch memory
+  const std::vector<std::uint32_t> tested = near;  // a copy: the queries below overwrite `near`
   for (const std::uint32_t i : tested) {
     MotionResult& result = results[order_[i]];
     MotionOptions own = options;

@@ -27,19 +27,19 @@ class Scene {
   struct Placed {
     Body body;
     std::size_t frame = 0;
-    /// Set only if the frame is at rest in the world: the pose of the frame. If it is set, the
-    /// broad phase finds the body as it finds bodies on frame 0. Queries of states use this pose,
-    /// and ignore the transform that the caller passes for the frame. In queries of motions, the
-    /// pose of the frame in the `MotionSource` may differ from this pose a little: each point of
-    /// the body must be within 2^-46·(r + |t|) metres of where this pose places it. Here r is the
-    /// body's radius, and t is the translation of this pose.
+    /// The pose of the frame in the world. Set only if the frame is at rest in the world. If it is
+    /// set, the broad phase finds the body as it finds bodies on frame 0. Queries of states use
+    /// this pose, and ignore the transform that the caller passes for the frame. In queries of
+    /// motions, the pose of the frame in the `MotionSource` may differ from this pose a little:
+    /// each point of the body must be within 2^-46·(r + |t|) metres of where this pose places it.
+    /// Here r is the body's radius, and t is the translation of this pose.
     std::optional<Transform> restX_WF = std::nullopt;
   };
   struct Pair {
     std::size_t a = 0, b = 0;  ///< bodies, by index
   };
-  /// A pair of frames, which stands for a motion: that of frame b as seen from frame a. The number
-  /// of the motion is the index of the pair in `framePairs()`.
+  /// A pair of frames. It identifies one motion: the motion of frame b as seen from frame a. The
+  /// number of this motion is the index of the pair in `framePairs()`.
   struct FramePair {
     std::size_t a = 0, b = 0;
   };
@@ -79,9 +79,9 @@ class Scene {
   std::optional<Contact> interference(std::span<const Transform> X_WF, QueryContext& context,
                                       TreeKind trees = TreeKind::obb4) const;
 
-  /// Returns the least distance over all pairs, metres. It is 0 if and only if `interference`
-  /// reports contact; otherwise its errors are those of `distance` in queries/distance.h. It is
-  /// infinite if the scene has no pairs.
+  /// Returns the least distance over all pairs, metres. The result is 0 if and only if
+  /// `interference` reports contact. Otherwise the errors of the result are those of `distance` in
+  /// queries/distance.h. The result is infinite if the scene has no pairs.
   double clearance(std::span<const Transform> X_WF, QueryContext& context,
                    TreeKind trees = TreeKind::obb4) const;
 
@@ -99,8 +99,9 @@ class Scene {
                                     TreeKind trees = TreeKind::obb4) const;
 
   /// Decides whether the motion is free, by the given method (`certifyMotion` describes the
-  /// answers). If the surfaces are proved apart at first, but a body is inside a solid one, the
-  /// answer is a contact at t = 0. Motion number i of `motion` is that of `framePairs()[i]`.
+  /// answers). If the surfaces are proved apart at first, but a body is inside a solid body, the
+  /// answer is a contact at t = 0. Motion number i of `motion` is the motion of frame pair
+  /// `framePairs()[i]`.
   MotionResult certify(MotionSource& motion, const MotionOptions& options, QueryContext& context,
                        EdgeMethod method = EdgeMethod::directional) const;
   /// Decides whether the motion is free, by the method `EdgeMethod::directional`, and writes a

@@ -142,7 +142,8 @@ Campaign campaignOf(const BenchmarkArguments& a) {
   return campaign;
 }
 
-/// Returns the settings of all cells, by which ranks test that they have the same campaign.
+/// Returns the settings of all cells. Ranks compare this text, to test that all of them have the
+/// same campaign.
 std::string specsOf(const Campaign& campaign) {
   std::string all;
   for (const CampaignCell& cell : cellsOf(campaign)) all += specOf(campaign, cell) + '\n';
@@ -167,7 +168,7 @@ int benchmarkCommand(const BenchmarkArguments& a) {
   if (a.resume && !a.output) refuse("--resume", "needs -o with the folder of the campaign");
   if (a.shard && !a.output) refuse("--shard", "needs -o with a folder for this shard of the runs");
   Campaign campaign = campaignOf(a);
-  for (std::size_t i = campaign.problems.size(); i-- > 0;)  // put these notes before all others
+  for (std::size_t i = campaign.problems.size(); i-- > 0;)  // these notes come before all others
     if (nothingIsTested(campaign.problems[i]))
       campaign.notes.insert(campaign.notes.begin(),
                             campaign.problemNames[i] + ": " + kNothingTested);
@@ -198,7 +199,8 @@ int benchmarkCommand(const BenchmarkArguments& a) {
     };
   const bool show = ::isatty(STDERR_FILENO) != 0;
   if (show) options.progress = [&](const CampaignProgress& p) { showProgress(campaign, p); };
-  // Removes a database without runs, and the folder if this command made it.
+  // Removes the database if it has no runs, and the folder if this command made it. With --resume,
+  // nothing is removed.
   const auto removeEmpty = [&] {
     std::error_code ignored;
     if (a.resume || !database || !database->sessions().empty()) return;

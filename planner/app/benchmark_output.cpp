@@ -141,14 +141,16 @@ void printJson(const Campaign& campaign, const CampaignResult& result, const Run
       lines.insert(at + 1, indent);
     return lines;
   };
-  /// Prints an object, with one more key at its end.
+  /// Prints an object except its closing brace, and one more key, so that the caller can print the
+  /// value of this key.
   const auto openObject = [&](const ordered_json& of, int depth, const char* key) {
     std::string lines = text(of, depth);
     lines.erase(lines.rfind('\n'));
     out << lines << ",\n"
         << std::string(static_cast<std::size_t>(2 * depth) + 2, ' ') << '"' << key << "\": ";
   };
-  /// Prints a list of what `each` passes to its argument.
+  /// Prints a list. Calls `each(add)`, which must call `add(print)` for each item of the list;
+  /// `print()` prints the item.
   const auto list = [&](int depth, const auto& each) {
     const std::string indent(static_cast<std::size_t>(2 * depth), ' ');
     bool any = false;

@@ -8,10 +8,11 @@
 #include "planner/benchmark/campaign_database.h"
 #include "planner/benchmark/run_campaign.h"
 
-/// The output of `corridor benchmark` besides its table.
+/// The output of `corridor benchmark` except its tables: the progress line, notes, the list of
+/// failures, and the JSON.
 namespace corridor::app {
 
-/// Prints a line on stderr that replaces the line before:
+/// Prints a progress line on stderr, over the previous progress line:
 /// "[####······] 41 of 240, 2:10 left: piano, certified, RRT, seed 2".
 void showProgress(const Campaign& campaign, const CampaignProgress& progress);
 
@@ -24,8 +25,8 @@ std::vector<std::string> notesOf(const Campaign& campaign, const std::vector<Cam
 /// failed: out of memory". `runs.csv` has the reason of each run.
 std::vector<std::string> failuresOf(const std::vector<CampaignCell>& cells);
 
-/// Prints the object of --json. @param runs the source of all data of the runs in the result's
-/// cells.
+/// Prints the JSON object of the option --json. @param runs the source of the complete data of all
+/// runs in the result's cells.
 void printJson(const Campaign& campaign, const CampaignResult& result, const RunSource& runs,
                std::ostream& out);
 

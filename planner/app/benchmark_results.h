@@ -11,8 +11,8 @@ namespace corridor::app {
 /// Where the results of `corridor benchmark` go.
 struct BenchmarkTarget {
   std::optional<std::filesystem::path> folder;  ///< unset: only stdout
-  const CampaignDatabase* database = nullptr;   ///< in the folder; null without one
-  bool json = false;                            ///< on stdout, in place of the tables
+  const CampaignDatabase* database = nullptr;   ///< in this folder; null without a folder
+  bool json = false;                            ///< print JSON on stdout, not the tables
 };
 
 /// Warns of what readers of the results must know, writes the reports into the folder, and prints

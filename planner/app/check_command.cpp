@@ -40,8 +40,9 @@ struct CheckedState {
   bool valid = false;
   std::vector<std::string> pairs;        ///< pairs that are not free: "hand~table"
   std::vector<std::string> outOfBounds;  ///< names of coordinates
-  /// Set if a pair is undecided because the rounding of a large value may exceed the clearance: the
-  /// name of the largest angle, or "" if no angle is large, so that the large value is in metres.
+  /// Set if a pair is undecided because a large value of the state has a rounding error that may
+  /// exceed the clearance. Contains the name of the largest angle, or "" if no angle is beyond 2π;
+  /// then the large value is in metres.
   std::optional<std::string> tooLarge;
 };
 

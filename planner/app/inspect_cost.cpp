@@ -30,8 +30,8 @@ constexpr int kPasses = 5;
 /// One line of the table: the cost of queries with one bounding volume. The model is T = N_v·C_v +
 /// N_p·C_p (cost_model.h): N_v tests of volumes and N_p tests of triangle pairs, at C_v and C_p
 /// nanoseconds per test. Poses at which the root boxes are separate are left out. N_v and N_p are
-/// means over the other poses. T is the mean time over one half of these poses; it is predicted
-/// with the costs that were fitted to the other half.
+/// means over the other poses. T is the mean time over one half of these poses. The predicted T
+/// uses the costs that were measured and fitted at the other half.
 struct CostRow {
   std::string volume;
   double boxTests = 0, triangleTests = 0;  ///< N_v, N_p
@@ -117,7 +117,8 @@ std::vector<Transform> withFarPoses(std::vector<Transform> poses, const Triangle
   return poses;
 }
 
-/// Returns the poses to which costs are fitted, in random order.
+/// Returns every second index of `kept`, in random order: the poses at which costs are measured and
+/// fitted.
 std::vector<std::size_t> measuredPoses(const std::vector<std::size_t>& kept) {
   std::vector<std::size_t> poses;
   for (std::size_t i = 0; i < kept.size(); i += 2) poses.push_back(kept[i]);
@@ -179,9 +180,9 @@ int inspectCost(const InspectArguments& a) {
     return runPoses({meshA.mesh, meshB.mesh, asked, QueryKind::interference,
                      treesNamed({volume.name, "", ""}), 0, passes, measured});
   };
-  // If the first test decides a query, the query's time is the cost of a call, not of tests. So its
-  // pose is left out. All volumes are compared at the same poses: those at which the root boxes of
-  // the binary OBB trees overlap.
+  // If the first test decides a query, the query's time is the cost of the call, not of the tests.
+  // So the pose of such a query is left out. All volumes are compared at the same poses: those at
+  // which the root boxes of the binary OBB trees overlap.
   const auto& volumes = volumeKinds();
   const auto reference = std::ranges::find(volumes, "obb-binary", &VolumeKind::name);
   const std::vector<Answer> answers = run(*reference, 1, {}).answers;

@@ -132,8 +132,9 @@ ordered_json shapeJson(const PlacedShape& shape) {
   return j;
 }
 
-/// Reports a group or state if it can't be used. @param why the reason; "": it can be used.
-/// @returns whether it was reported.
+/// Prints that a group or state can't be used, and adds this to the JSON. Does nothing if it can be
+/// used. @param why the reason; "": it can be used.
+/// @returns whether it can't be used.
 bool reportUnusable(const char* kind, const std::string& name, const std::string& why,
                     const ResultPrinter& out, ordered_json& json) {
   if (why.empty()) return false;

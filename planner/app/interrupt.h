@@ -6,8 +6,9 @@ namespace corridor::app {
 
 /// What a second signal does, if it comes more than half a second after the first.
 enum class SecondInterrupt {
-  ends,      ///< it ends the program at once, except for SIGUSR1, which job scripts repeat
-  isIgnored  ///< nothing: for work that must remove files, and ends soon after the first signal
+  ends,      ///< it ends the program at once, unless it is SIGUSR1, which job scripts send again
+  isIgnored  ///< nothing; for work that must remove files, and that ends soon after the first
+             ///< signal
 };
 
 /// Installs signal handlers and returns the flag that the first signal among `kUserSignals` sets.

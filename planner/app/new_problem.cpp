@@ -39,9 +39,9 @@ struct Alone {
   double size = 1;  ///< metres
 };
 
-/// Returns the largest absolute coordinate of any point of the robot's shapes, each in the frame of
-/// its link, rounded up; 1 if there are no shapes. It is used only as a scale for the lengths in
-/// the new file.
+/// Returns the largest absolute value of a coordinate of the points of the robot's shapes, rounded
+/// up to two digits; 1 if there are no shapes. The coordinates of each shape are those in the frame
+/// of its link. It is used only as a scale for the lengths in the new file.
 double sizeOf(const RobotModel& description) {
   double size = 0;
   for (const LinkModel& link : description.links)

@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Half the edge of the box in which random states place a planar or floating joint, metres. Any
-/// length will do: if such a joint moves one body of a pair but not the other, contacts of this
+/// length will do: if such a joint moves only one of the two bodies of a pair, contacts of this
 /// pair are not used.
 constexpr double kAnywhere = 1;
 
@@ -96,8 +96,8 @@ std::string jointText(const RobotModel& model, const JointModel& joint) {
   return text;
 }
 
-/// Returns the joints, groups and states as comments. If there is only one group, it is written as
-/// a key, not as a comment.
+/// Returns the joints, the states, and the groups that can be used and have a moving joint, all as
+/// comments. If there is only one such group, it is written as a key, not as a comment.
 std::string jointsText(const RobotModel& model, bool hasSrdf) {
   std::string text = "\n" + comment("Joints:");
   for (const JointModel& joint : model.joints)
@@ -198,7 +198,8 @@ int newRobot(const NewRobotArguments& a) {
   }
   const Model model = modelOf(std::move(files.model), a.urdf);
   const Checker checker(model);
-  // Until here the default action of a signal ends the program: nothing is written yet.
+  // Before this line, a signal ends the program by its default action, because nothing has been
+  // written yet.
   const std::atomic<bool>& interrupted = listenForInterrupts();
   const SortedPairs pairs = sortedPairs(checker, files.allowed, a, interrupted);
   if (interrupted) {

@@ -37,10 +37,11 @@ CLI::Validator isOneOf(std::vector<std::string> words);
 CLI::Validator isSeconds();  ///< a number above 0
 CLI::Validator isMetres();   ///< a number of 0 or more
 CLI::Validator isSeed();     ///< a whole number of 64 bits
-/// The range of `checker: {resolution: …}` in problem files, with the same message.
+/// Accepts the numbers that `checker: {resolution: …}` in problem files accepts. The error has the
+/// same message.
 CLI::Validator isResolution();
 
-/// The heading in the help under which CLI11 lists options that have no other.
+/// The heading under which CLI11's help lists the options that have no heading of their own.
 inline constexpr const char* kOptions = "Options";
 
 void addJson(CLI::App& command, bool& json, const char* heading = kOptions);

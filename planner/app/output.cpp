@@ -34,7 +34,7 @@ const char* nameOf(MotionVerdict verdict) {
 
 void ResultPrinter::line(std::string_view key, const std::string& value, Tone tone) const {
   if (quiet_) return;
-  // mpirun gives the ranks a terminal, whatever its own output is.
+  // The stdout of a rank is a terminal even if the stdout of `mpirun` is a file.
   static const bool colour = ::isatty(STDOUT_FILENO) != 0 && !startedByMpirun();
   const char* on = !colour              ? ""
                    : tone == Tone::good ? "\033[32m"
@@ -198,7 +198,7 @@ std::vector<std::string> condensed(const std::vector<std::string>& notes, const 
   std::vector<std::string> lines;
   for (const std::string& note : notes) {
     std::size_t& count = counts[kindOf(note)];
-    if (count == 0) continue;  // counted with an earlier one
+    if (count == 0) continue;  // counted with an earlier note of this kind
     const std::size_t others = count - 1;
     lines.push_back(note);
     if (others > 0)

@@ -40,8 +40,9 @@ inline void addFirst(const std::vector<Note>& notes, std::vector<Note>& to) {
 }
 
 /// Returns the notes for people to read. Among notes that differ only in quoted names and in
-/// numbers, only the first is returned, with the number of the others.
-/// @param rest ends the remark on the others, which is appended to the first: how to list them all.
+/// numbers, only the first is returned. A remark such as "(and 3 similar notes…)" is appended to
+/// this first note.
+/// @param rest the end of this remark: how the user can list all notes.
 std::vector<std::string> condensed(const std::vector<std::string>& notes,
                                    const std::string& rest = "; inspect --json lists all");
 
@@ -100,7 +101,8 @@ std::string tubeText(const ConfigurationSpace& space, const Configuration& tube)
 nlohmann::ordered_json tubeJson(const ConfigurationSpace& space, const Configuration& tube);
 /// Returns a configuration as "x = 1, y = 2, yaw = 0.5".
 std::string stateText(const ConfigurationSpace& space, const Configuration& q);
-nlohmann::ordered_json numbersJson(const Configuration& q);  ///< a Vec3 converts to Configuration
+/// Returns a list of numbers. `q` may also be a Vec3, which is converted to a Configuration.
+nlohmann::ordered_json numbersJson(const Configuration& q);
 /// Returns null for an infinity and for NaN, which JSON cannot represent.
 nlohmann::ordered_json numberJson(double value);
 

@@ -40,9 +40,9 @@ struct Batch {
   std::optional<TreeChoice> trees = TreeChoice{};  ///< unset: octrees, for interference only
   double tolerance = 0;                            ///< metres, for `QueryKind::tolerance` only
   int repeat = 1;                                  ///< passes over all poses
-  /// Indices of the poses at which each single test of volumes or triangles is measured, too. Used
-  /// for interference only; not for obb, whose kernel tests many pairs at once, and not for
-  /// octrees.
+  /// Indices of the poses at which the cost of a single test of volumes and of triangles is
+  /// measured, too. This is done for interference queries only. It is not done for the volume obb,
+  /// whose kernel tests many pairs at once, nor for octrees.
   std::vector<std::size_t> measured = {};
 };
 
@@ -80,7 +80,7 @@ BatchResult runPoses(const Batch& batch);
 
 /// The answers for one shape of a mesh that deforms.
 struct FrameResult {
-  BatchResult result;  ///< in that of the first frame, also the trees' build times and sizes
+  BatchResult result;  ///< only the first frame's has the trees' build times and sizes
   double refitMs = 0;  ///< 0 for the first frame, whose tree is built
 };
 /// Returns the next shape of a, or nullopt if there is none.

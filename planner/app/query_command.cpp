@@ -47,7 +47,7 @@ struct QueryArguments {
 constexpr std::uint64_t kMostQueries = 1'000'000'000;
 
 /// Returns the query of this name, or the first if no name is given.
-/// @throws InputError for an unknown name; it lists the names.
+/// @throws InputError for an unknown name. The message lists the names.
 const NamedQuery& queryNamed(const std::optional<std::string>& name) {
   if (!name) return namedQueries().front();
   std::vector<std::string> names;
@@ -77,8 +77,8 @@ std::vector<Transform> posesOf(const QueryArguments& a, const TriangleMesh& mesh
   return gridPoses(grid, meshA, meshB);
 }
 
-/// Checks that the options can be combined, as far as CLI11 can't check it. @throws InputError if
-/// not.
+/// Tests those rules for combining options that CLI11 can't test. @throws InputError if the options
+/// violate one of them.
 void checkOptions(const QueryArguments& a) {
   if (a.motions) {
     const auto ofPoses = [&](const char* option, bool given) {

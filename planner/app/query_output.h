@@ -6,7 +6,7 @@
 #include "planner/app/query_batch.h"
 
 /// The output of `corridor query`: CSV on stdout, and a summary on stderr. The CSV is printed in a
-/// single write. This is quick for millions of lines, and keeps stdout and stderr apart.
+/// single write. This is quick for millions of lines, and no line of stderr gets between them.
 /// @throws InputError if it can't be printed.
 namespace corridor::app {
 
@@ -16,8 +16,9 @@ void printCsv(const NamedQuery& query, const BatchResult& result);
 void printFrames(const NamedQuery& query, const std::vector<FrameResult>& frames);
 void printMotions(const BatchResult& result);
 
-/// Prints the summary, one entry `key=value` per line: first `words`, whose entries describe the
-/// query and count its answers; then times, mean counts, and the trees' build times and sizes.
+/// Prints the summary, one entry `key=value` per line: first `words`, the entries that describe the
+/// query and count its answers; then the times of the queries, mean counts of tests, and the trees'
+/// build times and sizes.
 void printSummary(const BatchResult& result, const std::vector<std::string>& words);
 
 }  // namespace corridor::app

@@ -25,8 +25,8 @@
 namespace corridor::app {
 namespace {
 
-/// The maximum number of faulty lines that are reported, besides the last one: a file in another
-/// format has a fault in every line.
+/// At most this many faulty lines are reported one by one, because a file in another format has a
+/// fault in every line. If there are more, the last faulty line is reported, too.
 constexpr int kFaultsListed = 10;
 
 /// Returns why R is not a rotation, or "" if it is.

@@ -23,10 +23,11 @@ namespace corridor::app {
 /// @throws InputError with all faults; a file without poses is a fault.
 std::vector<Transform> readPoses(const std::filesystem::path& file);
 
-/// A motion of B: its first and its last pose. `readMotions` reads such motions, 24 numbers per
-/// line; otherwise its format is that of `readPoses`. Each matrix M is replaced by the nearest
-/// rotation R, as a unit quaternion; `defect` bounds |M − R|. If the motion's tube is `defect`,
-/// then `free` holds for the matrices in the file, too.
+/// A motion of B: its first and its last pose. `readMotions` reads such motions: each line has the
+/// 12 numbers of both poses. In all else, the format is that of `readPoses`. Each matrix M is
+/// replaced by the nearest rotation R, as a unit quaternion; `defect` bounds |M − R|. If the
+/// rotation of the motion's tube has the half width `defect`, then the verdict `free` holds for the
+/// matrices in the file, too.
 struct PoseMotion {
   RigidPose from, to;
   double defect = 0;  ///< the larger |M − R| of the two, rounded up; metres per metre of lever
@@ -51,11 +52,13 @@ struct PoseGrid {
 /// The maximum number of poses that a grid may have: together they take 960 MB.
 inline constexpr std::size_t kMostPoses = 10'000'000;
 
-/// Returns the poses of a grid. They put the centre of B's bounds on every point of the lattice
-/// from `lower` to `upper` in A's frame, x changing first. An axis with one point takes the middle.
-/// The lattice is repeated for each rotation of B about that centre: first the identity, then
-/// uniformly random rotations from the seed. By default `lower` and `upper` are A's bounds, grown
-/// by half the diagonal of B's bounds: beyond these nothing can touch.
+/// Returns the poses of a grid. They put the centre of B's bounding box on every point of the
+/// lattice from `lower` to `upper` in A's frame; x changes fastest. If the lattice has only one
+/// point along an axis, this point is halfway between `lower` and `upper`. The lattice is repeated
+/// for each rotation of B about that centre: first the identity, then uniformly random rotations
+/// from the seed. By default `lower` and `upper` are the corners of A's bounding box, enlarged on
+/// each side by half the diagonal of B's bounding box. With the centre of B outside of this
+/// enlarged box, the meshes can't touch.
 /// @throws InputError if `lower` is above `upper`, or for more than `kMostPoses` poses.
 std::vector<Transform> gridPoses(const PoseGrid& grid, const TriangleMesh& a,
                                  const TriangleMesh& b);

@@ -37,9 +37,9 @@ class RankJob {
   std::optional<RankExecutor> executor_;  // ends before `ranks_`
 };
 
-/// Returns at once on rank 0, and in a process that is alone; on any other rank, waits up to 30 s.
-/// Under `mpirun`, all ranks find the same faults in the command line. Rank 0 reports them and
-/// ends. While the other ranks wait here, `mpirun` ends them.
+/// On rank 0, and in a process that is alone, returns at once. On any other rank, waits for 30 s,
+/// or until `mpirun` ends this process. Under `mpirun`, all ranks find the same faults in the
+/// command line. Rank 0 reports them and ends. While the other ranks wait here, `mpirun` ends them.
 void letRank0Report();
 
 }  // namespace corridor::app

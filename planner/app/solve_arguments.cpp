@@ -65,7 +65,7 @@ std::map<std::string, std::string> applyArguments(const SolveArguments& a, Probl
               "can't be combined with --smooth " + *a.smooth + "; leave one of them out"});
   if (a.smooth) {
     trajectory.smooth = choiceNamed<Smoothing>(*a.smooth).value();
-    trajectory.cornerDeviation.reset();  // of the problem's file: it rounds corners only
+    trajectory.cornerDeviation.reset();  // the file's value would replace `smooth`: corners only
   }
   if (a.deviation) trajectory.deviation = *a.deviation;
   if (a.cornerDeviation) trajectory.cornerDeviation = a.cornerDeviation;

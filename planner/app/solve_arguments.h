@@ -20,7 +20,7 @@ struct SolveArguments {
   std::optional<std::string> output, picture, from, trajectory;
   std::optional<double> rate, deviation, cornerDeviation;
   std::uint64_t jobs = 1, tries = 1;
-  std::string keep = "shortest";  ///< which try is kept: shortest or clearest
+  std::string keep = "shortest";  ///< keep the try whose path is shortest or clearest
   bool json = false, jsonLines = false, quiet = false, noSimplify = false;
 };
 

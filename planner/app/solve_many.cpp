@@ -195,7 +195,7 @@ void printTable(const std::vector<ordered_json>& reports, const ResultPrinter& o
     if (solved.empty()) continue;
     std::string times;
     for (const auto& [key, name] : kSolvePhases) {
-      if (key == std::string_view("trajectory_s")) continue;  // not made for several problems
+      if (key == std::string_view("trajectory_s")) continue;  // --trajectory is for one problem
       std::vector<double> seconds;
       for (const ordered_json* report : solved) seconds.push_back((*report)["phases"][key]);
       times +=
@@ -227,7 +227,7 @@ int solveMany(const std::vector<ListedProblem>& problems, const SolveArguments& 
   const bool show = !a.quiet && ::isatty(STDERR_FILENO) != 0;
   int status = kDone;
   std::size_t done = 0;
-  std::vector<ordered_json> reports(problems.size());  // null: not finished
+  std::vector<ordered_json> reports(problems.size());  // a null report: the problem is not done
   solveAll(problems.size(), executor, interrupted, [&](std::size_t i, const ChildEnd& end) {
     const ordered_json& report = reports[i] = reportOf(problems[i], end);
     ++done;

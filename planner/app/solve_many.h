@@ -15,11 +15,11 @@ namespace corridor::app {
 /// @pre `problems` and `a` outlive the result.
 TaskStarter solveStarter(const std::vector<ListedProblem>& problems, const SolveArguments& a);
 
-/// Solves several problems, each in a process of its own: a crash costs only its own problem.
-/// Prints one line for each problem when it is done, and a table at the end. With `json`, prints
-/// one JSON object at the end instead; with `jsonLines`, a line of JSON for each problem; with
-/// `quiet`, nothing. The arguments `output` and `picture`, if given, name folders; missing folders
-/// are created.
+/// Solves several problems, each in a process of its own, so that a crash loses the result of one
+/// problem only. Prints one line for each problem when it is done, and a table at the end. If
+/// `a.json` is set, prints one JSON object at the end instead; if `a.jsonLines` is set, prints a
+/// line of JSON for each problem instead; if `a.quiet` is set, prints nothing. `a.output` and
+/// `a.picture`, if set, name folders; missing folders are created.
 /// @param executor starts tasks by `solveStarter`.
 /// @returns the largest exit status of all problems, or `interruptedStatus()` after an interrupt.
 /// @throws InputError if a folder can't be used, or if a file that is not a solution would be

@@ -34,8 +34,10 @@ bool isBetter(const ConfigurationSpace& space, const SolveReport& a, const Solve
 
 /// Solves the problem as often as the arguments say, each time with another seed. Returns the
 /// report with the best solution. If there is no solution, returns the report on the first try, or
-/// on the try that was interrupted. An interrupt ends the tries.
-/// @param tries gets the number of tries that ended.
+/// on the try that was interrupted. An interrupt ends the tries. Sets the problem's seed to that of
+/// the returned report.
+/// @param tries gets the number of tries. An interrupted try is not counted, unless it is the
+/// first.
 SolveReport bestOf(const SolveArguments& a, Problem& problem, const SolveOptions& options,
                    std::uint64_t& tries) {
   if (a.keep == "clearest" && preferredClearance(problem) == 0)

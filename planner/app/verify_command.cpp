@@ -33,7 +33,8 @@ struct VerifyArguments {
 
 using nlohmann::ordered_json;
 
-/// Returns "shelf" (triangle 3), or "cloud" (part 7), or the name alone for a single convex part.
+/// Returns a body's name with the index of its triangle or part: "shelf" (triangle 3), or "cloud"
+/// (part 7). Returns the name alone for a body of a single convex part.
 std::string sideText(const std::string& name, std::uint32_t triangle, const Problem& problem) {
   std::string kind;
   for (const ModelBody& body : problem.model.bodies) {
@@ -62,7 +63,7 @@ std::string secondsText(double seconds) {
 constexpr std::size_t kMostLines = 20;
 
 /// Returns "edge 3 at t = 0.3, free until 0.25" or, with times, "edge 3 at 1.2 s, free until 1.1
-/// s". Leaves "free until" out if nothing of the edge is proved before the finding.
+/// s". Leaves out "free until" if no part of the edge before the finding is proved.
 std::string whenText(const PathFinding& f, const VerifyReport& report) {
   const auto textAt = [&](double t) {
     return report.times.empty() ? rounded(t) : secondsText(timeAt(report, f.edge, t)) + " s";

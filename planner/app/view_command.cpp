@@ -39,8 +39,8 @@ struct ViewArguments {
   bool quiet = false;
 };
 
-/// Returns a file name for the page, such as "bookshelf_1.html". Other characters of the problem's
-/// name than letters, digits, "-", "_" and "." are replaced by "_".
+/// Returns a file name for the page, such as "bookshelf_1.html". In the problem's name, every
+/// character except letters, digits, "-", "_" and "." is replaced by "_".
 std::string pageName(const Problem& problem) {
   std::string name = problem.source.name;
   for (char& c : name)

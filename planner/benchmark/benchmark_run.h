@@ -59,8 +59,8 @@ struct BenchmarkRun {
   double time = 0, processorTime = 0;
   double searchProcessorTime = 0;  ///< the part of processorTime in planner and simplifier
   double setUpTime = 0, plannerTime = 0, simplificationTime = 0, certificationTime = 0;
-  /// The part of `time` spent in OMPL's tests of states and motions, and in the final
-  /// certification. The tests of start and goals during the set-up are not included.
+  /// The part of `time` that the planner's and the simplifier's tests of states and motions take,
+  /// and the final certification. The tests of start and goals during the set-up are not included.
   double checkingTime = 0;
   double verificationTime = 0;
   /// Numbers of states and of edges that planner and simplifier have tested. `states` includes the
@@ -120,8 +120,8 @@ void verifyRun(const Problem& problem, const Path& path, BenchmarkRun& run);
 void runTrajectories(const Problem& problem, const RunTrajectories& trajectories, const Path& path,
                      BenchmarkRun& run, const std::function<void()>& done);
 
-/// Starts to make and verify a run in a process of its own: a crash, an endless loop or a lack of
-/// memory is then a failure of this run only. The process is killed if it has no result of the
+/// Starts to make and verify a run in a process of its own, so that a crash, an endless loop or a
+/// lack of memory is a failure of this run only. The process is killed if it has no result of the
 /// planner after twice planner.time plus a minute, or if the verification or one trajectory takes
 /// longer than `limits.patience`.
 /// @param problem the problem as its file has it, for verifying the path; null: the path is not
@@ -130,8 +130,8 @@ void runTrajectories(const Problem& problem, const RunTrajectories& trajectories
 ChildProcess startRun(const Problem* problem, const Problem& planned, const std::string& digest,
                       const std::optional<BenchmarkCompetitor>& competitor,
                       const BenchmarkLimits& limits, const RunTrajectories& trajectories = {});
-/// Returns the run that `startRun` started. @param end how the run's process ended. The function
-/// reads `end.failure`, the number of messages, and the text of the last message only.
+/// Returns the run that `startRun` started. @param end how the run's process ended. Only
+/// `end.failure`, the number of messages, and the text of the last message are used.
 BenchmarkRun runOf(const ChildEnd& end, std::uint64_t seed,
                    const RunTrajectories& trajectories = {});
 

@@ -143,7 +143,8 @@ Problem problemOfRun(const Campaign& campaign, const CampaignCell& cell, std::ui
   problem.settings.simplify =
       cell.planner.simplify.value_or(campaign.simplify.value_or(problem.settings.simplify));
   problem.settings.seed = seed;
-  // The path of each variant is as short as its simplifier makes it: competitors keep no clearance.
+  // A preferred clearance would make paths longer, and competitors can't keep one. So no variant
+  // prefers a clearance.
   problem.settings.prefer.clearance = 0;
   return problem;
 }

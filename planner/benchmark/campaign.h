@@ -66,9 +66,9 @@ struct CampaignCell {
 /// Returns all cells, without runs, in order of problem, then planner, then variant.
 std::vector<CampaignCell> cellsOf(const Campaign& campaign);
 
-/// Returns whether the campaign has a run of this cell and seed, and this run belongs to the
-/// campaign's shard. @param cell the index of a cell in `cellsOf`. @param cells the number of all
-/// cells.
+/// Returns whether the run of this cell and seed is one of those that the campaign makes: the
+/// campaign has the seed, and the run belongs to the campaign's shard (if it has a shard).
+/// @param cell the index of a cell in `cellsOf`. @param cells the number of all cells.
 bool hasRun(const Campaign& campaign, std::size_t cell, std::size_t cells, std::uint64_t seed);
 
 /// A function that calls `visit` for each run of the cell with index `cell`, in order of seed. The
@@ -93,9 +93,9 @@ Problem problemOfRun(const Campaign& campaign, const CampaignCell& cell, std::ui
 /// Returns the trajectories that are made along the path of each run of a cell.
 RunTrajectories trajectoriesOf(const Campaign& campaign, const CampaignCell& cell);
 
-/// Checks the whole campaign before the first run: names, parameters, and whether starts and goals
-/// are free for every variant. @throws InputError with all faults. Parameters, starts and goals are
-/// checked only if there is no other fault.
+/// Checks the whole campaign before the first run: names and parameters are valid, and starts and
+/// goals are free for every variant. @throws InputError with all faults. Parameters, starts and
+/// goals are checked only if there is no other fault.
 /// @pre the process has only one thread, since this function forks.
 void checkCampaign(const Campaign& campaign);
 

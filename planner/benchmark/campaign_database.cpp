@@ -161,7 +161,7 @@ class CampaignDatabase::Tables {
       together_ = false;
     });
   }
-  /// Makes SQLite write runs to a log beside the file first. If the process is killed, no run is
+  /// Makes SQLite write runs first to a log beside the file. If the process is killed, no run is
   /// lost; if the machine loses power, the last runs may be. The file is consistent in both cases,
   /// and a run does not wait for the disk (https://sqlite.org/pragma.html#pragma_synchronous).
   /// SQLite needs no shared memory for the log, since no other process has the file open. If the
@@ -399,7 +399,7 @@ class CampaignDatabase::Tables {
 
   void addProgress(const BenchmarkRun& run, std::int64_t runId) {
     std::set<std::string>
-        times;  // of samples with the same time, the first is kept, as OMPL's script does
+        times;  // if samples have the same time, only the first is stored, as by OMPL's script
     for (const auto& sample : run.ompl->progress)
       if (const auto time = sample.find("time REAL");
           time == sample.end() || times.insert(time->second).second)

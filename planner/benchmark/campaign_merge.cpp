@@ -314,8 +314,9 @@ struct SeedRange {
   std::uint64_t first, end;
 };
 
-/// Returns the smallest range that contains all of the ranges. @throws InputError if none of the
-/// ranges has some seed in between, because the seeds of a campaign have no gap.
+/// Returns the smallest range that contains all of the ranges. @pre there is at least one range.
+/// @throws InputError if the returned range would contain a seed that none of the ranges has,
+/// because the seeds of a campaign have no gap.
 SeedRange joinedSeeds(std::vector<SeedRange> ranges, const fs::path& file) {
   std::sort(ranges.begin(), ranges.end(),
             [](const SeedRange& a, const SeedRange& b) { return a.first < b.first; });

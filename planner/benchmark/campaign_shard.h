@@ -7,9 +7,8 @@
 
 namespace corridor {
 
-/// A shard: a part of a campaign's runs, for machines that exchange no messages. A campaign is
-/// dealt out to `count` shards, which are numbered from 1; this is the shard with the number
-/// `index`.
+/// A shard: a part of a campaign's runs, for machines that exchange no messages. The runs of a
+/// campaign are dealt out to `count` shards, numbered from 1. This object is the shard `index`.
 ///
 /// The runs are dealt out in groups. A group has the runs of all variants for one problem, planner
 /// and seed, so that the runs that are compared with each other are made on one machine. Groups are

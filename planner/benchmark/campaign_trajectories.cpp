@@ -64,7 +64,9 @@ void replace(const Model& model, const ModelRobot& robot, const JointLimits& by,
   std::copy_if(by.links.begin(), by.links.end(), std::back_inserter(all.links), ofRobot);
 }
 
-/// Adds the notes `of` on a set of limits, such as notes on assumed accelerations.
+/// Adds the notes in `of`, which are on the limits of a set, such as notes on assumed
+/// accelerations. Each added note begins with "trajectories", and the name of the set if it has
+/// one.
 void addNotes(const std::string& set, const std::set<std::string>& of,
               std::vector<std::string>& notes) {
   for (const std::string& note : of)

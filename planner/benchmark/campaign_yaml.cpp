@@ -72,9 +72,9 @@ bool isName(const std::string& text) {
 }
 
 /// Returns a text of the keys of a checker that have an effect, with their values. A resolution has
-/// no effect on edges that are proved; a tolerance has no effect on sampled edges. Keys on trees
-/// have no effect on a competitor. Without the key `edges` the problem's method applies, so both
-/// resolution and tolerance count.
+/// no effect on edges that are proved; a tolerance has no effect on sampled edges. Keys that choose
+/// trees have no effect on a competitor. Without the key `edges` the problem's method applies, so
+/// both resolution and tolerance count.
 std::string effectOf(const YamlValue& checker) {
   std::map<std::string, std::string> keys;
   for (const YamlValue::Entry& entry : checker.entries) keys[entry.key] = entry.value.text;

@@ -116,7 +116,8 @@ void ChildProcess::stop(const std::string& reason) {
 }
 
 /// Takes one line from the text that was read, and returns true; returns false if there is no
-/// complete line. After the last message, or a line that reports a failure, the child is ended.
+/// complete line. After the last message, the child is killed. After a line that reports a failure,
+/// this function waits for the end of the child.
 bool ChildProcess::takeLine() {
   const auto at = text_.find('\n');
   if (at == std::string::npos) return false;

@@ -18,12 +18,13 @@ struct VariantScore {
   std::size_t variant = 0;  ///< index
   std::size_t runs = 0, failed = 0, solved = 0;
   std::size_t certified = 0, proved = 0, refuted = 0, undecided = 0;  ///< counts of solved runs
-  Interval solvedShare;   ///< the share of runs that are solved
-  Interval refutedShare;  ///< the share of verified paths that are refuted
-  /// Processor time as a multiple of the reference variant's processor time: the median and its
-  /// confidence interval. They are over `pairs` pairs of runs, one of each variant, of the same
-  /// problem, planner and seed, both solved. Without pairs the median is NaN; with fewer than six
-  /// pairs the interval is infinite.
+  Interval solvedShare;   ///< of the share of runs that are solved
+  Interval refutedShare;  ///< of the share of verified paths that are refuted
+  /// Processor time as a multiple of the reference variant's processor time. A pair is a run of
+  /// this variant and the run of the reference variant for the same problem, planner and seed, if
+  /// both are solved. `pairs` is the number of pairs. `timeRatio` is the median over all pairs,
+  /// with its confidence interval. Without pairs the median is NaN; with fewer than six pairs the
+  /// interval is infinite.
   std::size_t pairs = 0;
   double timeRatio = 0;
   Interval timeRatioInterval;

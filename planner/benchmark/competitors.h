@@ -34,8 +34,8 @@ const char* corridorFclVersion();  ///< "FCL 0.7.0"
 
 /// Returns the names of all competitors, available or not.
 const std::vector<std::string>& competitorNames();
-/// Returns why a competitor is not available here; "" if it is. @pre the name is one of
-/// `competitorNames`.
+/// Returns why a competitor is not available here, or "" if it is available. @pre the name is one
+/// of `competitorNames`.
 std::string whyUnavailable(const std::string& name);
 /// Returns a competitor by its name. The only one is `fcl`: FCL tests the states (fcl_scene.h:
 /// meshes as surfaces, no margin), and edges are sampled by OMPL's rule. @pre the competitor is

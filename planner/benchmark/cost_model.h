@@ -45,8 +45,8 @@ inline double traversalShare(const std::vector<QueryCost>& queries, const CostMo
 /// Returns the costs ≥ 0 that fit the queries best: by least squares of the errors, each divided by
 /// √T, because the error of a sum of many tests grows like √T. (Without weights, the few longest
 /// queries would decide the fit; with errors divided by T, the shortest queries.) If N_v and N_p
-/// are proportional, box tests get the whole cost, and neither cost is known. If one of the counts
-/// is 0 in all queries, the cost of the other is known.
+/// are proportional, box tests get the whole cost, and neither cost is known. If one of N_v and N_p
+/// is 0 in all queries, the cost of the other kind of test is known.
 /// @param call  nanoseconds that each query takes besides its tests. @pre queries not empty.
 inline CostModel fittedCosts(const std::vector<QueryCost>& queries, double call = 0) {
   // Normal equations of Σ (N_v·C_v + N_p·C_p + call − T)²/T.
@@ -77,8 +77,8 @@ inline CostModel fittedCosts(const std::vector<QueryCost>& queries, double call 
       return both;
     }
   }
-  // One of the two costs would be negative, or the two can't be separated: use the single cost that
-  // fits better. A single cost lowers the sum of squares by v²/vv (C_v) or p²/pp (C_p).
+  // One of the two costs would be negative, or the two can't be separated. So use the single cost
+  // that fits better. A single cost lowers the sum of squares by v²/vv (C_v) or p²/pp (C_p).
   const CostModel boxes{vv > 0 ? std::max(v / vv, 0.0) : 0, 0, vv > 0 && pp == 0, false};
   const CostModel triangles{0, pp > 0 ? std::max(p / pp, 0.0) : 0, false, pp > 0 && vv == 0};
   // If the counts are proportional, both fit equally well up to the rounding of the sums; prefer

@@ -19,8 +19,9 @@ constexpr int kCampaignApplication = 0x636f7272, kCampaignVersion = 3, kFirstCam
 
 [[noreturn]] void refuseFile(const std::filesystem::path& file, const std::string& why);
 
-/// Does a step, and turns the exceptions of SQLite, and those of damaged JSON in the file, into
-/// InputError. Users can remove their causes, such as a full disk or a file of another program.
+/// Does a step, and turns exceptions of SQLite and exceptions on damaged JSON in the file into
+/// InputError, because users can remove the causes, such as a full disk or a file of another
+/// program.
 /// @param kept what the message says about the stored data if the file can't be written.
 void withFileInErrors(const std::filesystem::path& file, const std::function<void()>& step,
                       const std::string& kept = "finished runs are kept; continue with --resume");

@@ -17,8 +17,8 @@ struct TaskEnd {
   ChildEnd end;
 };
 
-/// Does tasks, several at a time, each in a process of its own: on this machine, or on many
-/// (rank_executor.h).
+/// Does tasks, several at a time, each in a process of its own. The processes are on this machine,
+/// or on several machines (rank_executor.h).
 class Executor {
  public:
   virtual ~Executor() = default;  ///< kills the tasks that are under way
@@ -37,8 +37,9 @@ class Executor {
   virtual std::vector<TaskEnd> wait(int milliseconds) = 0;
   /// Kills the tasks that may be killed (`Killable`); `wait` does not return these tasks. All other
   /// tasks continue to their normal end.
-  /// @returns the tasks that have been killed when this function returns: with LocalExecutor all of
-  /// them, with RankExecutor none, because it does not wait for the other ranks.
+  /// @returns the tasks that are known to have been killed when this function returns.
+  /// LocalExecutor returns all killed tasks. RankExecutor returns none, because it does not wait
+  /// for the other ranks.
   virtual std::vector<std::uint64_t> stop() = 0;
 };
 

@@ -12,7 +12,7 @@ OpenModule openModule(const std::string& name, const std::string& buildFolder) {
   for (const std::string& file : {(program.parent_path() / name).string(),
                                   (std::filesystem::path(buildFolder) / name).string(), name}) {
     if (void* const handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL)) return {handle, ""};
-    // If one of the files exists, its reason is the one to report.
+    // If one of the files exists, report why this file can't be opened.
     const char* const reason = dlerror();
     if (why.empty() || std::filesystem::exists(file, error)) why = reason ? reason : "unknown";
   }

@@ -37,7 +37,7 @@ class MpiRanks final : public corridor::Ranks {
     auto status = world_.iprobe(mpi::any_source, kTag);
     // A call of iprobe first searches Open MPI's queue, and only then fetches new messages into
     // this queue. So only a second call finds a message that has just arrived. With a single call,
-    // each message would wait during one more pause of the caller.
+    // each message would be found only after one more pause of the caller.
     if (!status) status = world_.iprobe(mpi::any_source, kTag);
     if (!status) return std::nullopt;
     corridor::RankMessage message{status->source(), std::string(bytesOf(*status), '\0')};

@@ -202,14 +202,14 @@ void writeOmplLog(const Campaign& campaign, const CampaignResult& result, const 
     planners.push_back(std::move(planner));
   }
   experiment.planners.resize(
-      planners.size());  // empty: OMPL's writer is used for the head only, which has their number
+      planners.size());  // empty: OMPL writes only the head of the log, with the number of planners
   std::ostringstream head;
   log.saveResultsToStream(head);
   std::string text = head.str();
   const std::string last = "\n" + std::to_string(planners.size()) + " planners\n";
   text.erase(text.rfind(last) + last.size());
-  // Debian's OMPL 1.5.2 has an empty OMPL_VERSION; OMPL's readers would then read "version" as the
-  // number.
+  // Debian's OMPL 1.5.2 has an empty OMPL_VERSION, so OMPL's readers would take the word "version"
+  // as the version number.
   const std::string unversioned = "OMPL version \n";
   if (text.rfind(unversioned, 0) == 0)
     text.replace(0, unversioned.size(), "OMPL version " + versionOfOmpl() + "\n");

@@ -12,10 +12,10 @@ namespace corridor {
 
 /// Writes a log as OMPL's own Benchmark (OMPL 1.5) writes it, for the runs of a problem with a
 /// variant and all planners. `ompl_benchmark_statistics` and Planner Arena can read it. A run has
-/// OMPL's properties, every count, measure and yes or no of `runRow` under the same name, and the
-/// verdicts as 0 or 1. A failed run has the status "Crash". @param runs the runs of the result's
-/// cells, with all of their data. Each run is read twice, or three times if its planner reports
-/// progress.
+/// OMPL's properties, and every number and every yes or no of `runRow` under the same name. Its
+/// verdict becomes three properties, `proved`, `refuted` and `undecided`, each 0 or 1. A failed run
+/// has the status "Crash". @param runs the runs of the result's cells, with all of their data. Each
+/// run is read twice, or three times if its planner reports progress.
 void writeOmplLog(const Campaign& campaign, const CampaignResult& result, const RunSource& runs,
                   std::size_t problem, std::size_t variant, std::ostream& out);
 std::string omplLog(const Campaign& campaign, const CampaignResult& result, std::size_t problem,
@@ -39,7 +39,8 @@ std::string omplPlannerName(const CampaignCell& cell, const OmplRecord& record);
 /// Splits a run's setup text into its part on the problem (first) and its part on the planner
 /// (second, may be empty).
 std::pair<std::string, std::string> omplSetup(const std::string& setup);
-/// Returns OMPL's names of how a run can end; a run's `status` is an index into them.
+/// Returns OMPL's names of the ways in which a run can end. A run's property `status` is an index
+/// into this list.
 std::vector<std::string> omplStatusNames();
 /// "1.5.2"
 std::string versionOfOmpl();

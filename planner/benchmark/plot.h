@@ -35,9 +35,9 @@ struct Plot {
       {};  ///< the meanings of the points' shapes; empty: all points are round
 };
 
-/// Returns the colour with a number, such as "#0072b2". A number has the same colour in plots and
-/// tables. The first six are distinct for readers with red-green colour blindness (Okabe, Ito
-/// 2008). After `kPlotColors` colours, they repeat.
+/// Returns the colour with a number, such as "#0072b2". Plots and tables use the same colour for
+/// the same number. The first six are distinct for readers with red-green colour blindness (Okabe,
+/// Ito 2008). After `kPlotColors` colours, they repeat.
 std::string plotColor(std::size_t number);
 constexpr std::size_t kPlotColors = 18;
 /// The number of different shapes of points. Further indices repeat them.

@@ -150,7 +150,8 @@ class Report {
   }
 
   /// Returns `html`, which shows all problems one by one. If there are more than kMostAtOnce
-  /// problems, the returned HTML shows only a line, which unfolds `html`.
+  /// problems, returns `html` folded: the page shows one line, and a click on this line unfolds
+  /// `html`.
   std::string ofEach(const std::string& what, const std::string& html) const {
     const std::size_t count = campaign_.problems.size();
     if (count <= kMostAtOnce) return html;
@@ -203,8 +204,8 @@ class Report {
     files_.push_back(base.string() + ".svg");
     svg.erase(0, svg.find("<svg"));
     std::string head = "<figure data-plot=\"" + escapedHtml(plot.name) + "\"";
-    // report.js draws this plot. No name in the text can end the script: `svgOf` replaces their
-    // "<".
+    // report.js draws this plot. No name in the text can end the script, because `svgOf` replaces
+    // each "<" in names.
     if (isFolded || svg.size() > kLargePlot) {
       head += " style=\"aspect-ratio: " + std::to_string(kPlotWidth) + " / " +
               std::to_string(heightOf(plot)) + "\"";

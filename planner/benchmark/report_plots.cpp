@@ -11,8 +11,8 @@
 namespace corridor {
 namespace {
 
-/// The range of axes of shares: slightly more than [0, 1], so that points at the ends are drawn
-/// whole.
+/// The range of axes that show shares: slightly more than [0, 1], so that points at 0 and 1 are not
+/// cut off.
 constexpr std::pair kShares{-0.03, 1.03};
 /// Seconds. Smaller times count as this time, so that ratios are finite.
 constexpr double kClockTick = 1e-9;
@@ -30,17 +30,17 @@ void forCells(const std::vector<CampaignCell>& cells, std::size_t problem, std::
     if (cell.problem == problem && cell.variant == variant) f(cell);
 }
 
-/// The largest number of steps of a curve. With n > kMostSteps values it has kMostSteps of the n
-/// steps, the first and the last among them. Each drawn step rises to the
-/// right height, so the curve is never too high. Between two successive drawn steps, fewer than
-/// (n − 1)/(kMostSteps − 1) steps are missing, so it is too low by less than 1/499. gnuplot draws a
-/// share of 1 at a height of 195 units (`heightOf` in report.cpp), and the page scales plots by at
-/// most 1.32 (a single plot has 738 pixels for 560 units). So the error is at most 0.52 pixels.
+/// The largest number of steps of a curve. A curve of n > kMostSteps values has kMostSteps of its n
+/// steps, the first and the last among them. Each drawn step rises to the right height, so the
+/// curve is never too high. Between two successive drawn steps, fewer than (n − 1)/(kMostSteps − 1)
+/// steps are missing, so the curve is too low by less than 1/499. gnuplot draws a share of 1 at a
+/// height of 195 units (`heightOf` in report.cpp), and the page scales plots by at most 1.32 (a
+/// single plot has 738 pixels for 560 units). So the error is at most 0.52 pixels.
 constexpr std::size_t kMostSteps = 500;
 
 /// Returns a step function on [first, last] that rises by 1/`of` at each value, starting from 0.
 /// Values below `first` count as `first`. With more than kMostSteps values, only some of the steps
-/// are drawn; each rises to the height that all values up to it give.
+/// are drawn. Each drawn step rises to the height that counts all values up to this step.
 std::vector<PlotPoint> steps(std::vector<double> values, std::size_t of, double first,
                              double last) {
   std::sort(values.begin(), values.end());

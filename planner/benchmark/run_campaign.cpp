@@ -56,8 +56,9 @@ class Durations {
     all_.seconds += seconds, ++all_.runs;
   }
   /// Returns an estimate of the seconds that all waiting runs take if they are made one after the
-  /// other. For each run, it is the mean of the finished runs of its cell, or of all finished runs
-  /// if its cell has none. Returns a negative number if no run is finished.
+  /// other. For each waiting run, the estimate is the mean duration of the finished runs of its
+  /// cell, or of all finished runs if no run of its cell is finished. Returns a negative number if
+  /// no run is finished.
   double ofWaiting() const {
     if (all_.runs == 0) return -1;
     double sum = 0;
@@ -107,7 +108,7 @@ CampaignResult runCampaign(const Campaign& campaign, const CampaignOptions& opti
   for (const CampaignCell& cell : cells) done += cell.runs.size();
   const std::uint64_t total = done + tasks.size();
   Durations durations(cells.size(), tasks);
-  if (!campaign.shard)  // otherwise the vectors would need twice the memory while they grow
+  if (!campaign.shard)  // a vector that grows may need twice the memory
     for (CampaignCell& cell : cells) cell.runs.reserve(campaign.runs);
   std::map<std::uint64_t, Clock::time_point> since;  // of the tasks under way
   LocalExecutor local(options.jobs, runStarter(campaign));

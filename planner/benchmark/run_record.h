@@ -25,7 +25,7 @@ RunRecord recordOf(const BenchmarkRun& run);
 /// Reads `RunRecord::setup`.
 OmplRecord readSetup(const std::string& setup);
 /// Reads a run. @param figures,ompl the texts of RunRecord. `figures` may also be a line that
-/// `text` has written; then the other parameters are not used. @param setup the result of
+/// `text` has written; then `ompl` and `setup` are not used. @param setup the result of
 /// `readSetup`.
 BenchmarkRun readRecord(const std::string& figures, const std::string& ompl,
                         const OmplRecord& setup);

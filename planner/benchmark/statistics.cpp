@@ -14,8 +14,8 @@ Interval medianInterval(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const std::size_t n = values.size();
   if (n == 0) return {-infinity, infinity};
-  // The number of values below the median has a binomial distribution. k is the largest rank for
-  // which fewer than k values are below the median with a probability of at most (1 −
+  // The number of values below the median has a binomial distribution. k is the largest rank with
+  // this property: the probability that fewer than k values are below the median is at most (1 −
   // kConfidence)/2. The interval is from the k-th smallest value to the k-th largest.
   const boost::math::binomial_distribution<double> below(static_cast<double>(n), 0.5);
   std::size_t k = 0,

@@ -15,7 +15,7 @@
 
 /// The costs of single tests: C_v and C_p of T = N_v·C_v + N_p·C_p (Gottschalk, Lin, Manocha 1996,
 /// eq. 1), without the traversal. The tests of whole queries are recorded, and then run again in
-/// the same order. So the contents of the processor's caches are much the same as in the queries.
+/// the same order. So the processor's caches contain much the same data as during the queries.
 namespace corridor {
 
 /// Nanoseconds of one test of each kind, the mean over the recorded tests. A cost is empty if the
@@ -94,7 +94,7 @@ RecordedTests recordedTests(const VolumeTree<Volume>& a, const VolumeTree<Volume
 /// Measures the tests of interference queries without the traversal: runs all recorded box tests
 /// in a row, then all leaf tests.
 /// @param poses the poses of b; a is at the identity. The poses should be in random order, because
-/// only about the first `most` tests are run.
+/// only the first `most` tests of the queries are run.
 /// @returns the medians over `rounds` rounds.
 template <class Overlap, BoundingVolume Volume>
 TestCosts testCosts(const VolumeTree<Volume>& a, const VolumeTree<Volume>& b,

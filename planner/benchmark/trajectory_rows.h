@@ -27,8 +27,9 @@ struct TrajectoryScore {
   double overOptimum = 0;
   /// The share of the cost of stopping that a trajectory saves: (stop − T) / (stop − optimum). T is
   /// the duration of the trajectory, `stop` is the duration of the trajectory by the maker `stop`,
-  /// and the optimum is `optimumAlong`. This is the median over the paths on which stopping costs
-  /// more than a thousandth of the optimum. NaN without the maker `stop`.
+  /// and the optimum is `optimumAlong`. The value is the median over the paths for which the cost
+  /// of stopping, stop − optimum, exceeds a thousandth of the optimum. NaN without the maker
+  /// `stop`.
   double saved = 0;
   /// The largest share of each kind of limit that any of the trajectories uses. NaN: there is no
   /// such limit.

@@ -16,8 +16,8 @@
 namespace corridor {
 namespace {
 
-/// Radians. The time law stops at corners whose angle is larger than this. No angle is larger than
-/// π, so it never stops.
+/// Radians. The time law stops at corners whose angle is larger than this value. No angle is larger
+/// than π, so the time law never stops.
 constexpr double kEveryCorner = 4;
 
 MadeTrajectory noTrajectory(std::string why) {

@@ -29,8 +29,8 @@ struct BenchmarkCompetitor {
   std::string name;
   Make<ompl::base::StateValidityChecker> states;  ///< null: Corridor's test of states for `edges`
   Make<ompl::base::MotionValidator> motions = nullptr;  ///< null: Corridor's test for `edges`
-  /// The value of checker.edges that the competitor replaces. With "discrete", edges are sampled by
-  /// OMPL's rule, and `states` tests the samples.
+  /// The value of `checker: {edges: …}` with which the competitor runs. With "discrete", edges are
+  /// sampled by OMPL's rule, and `states` tests the samples.
   std::string edges = "discrete";
   /// Makes a whole run in place of runUnderOmpl, in a process of its own. Null: runUnderOmpl makes
   /// the run. If the function throws, the run fails with the exception's text.

@@ -8,10 +8,10 @@
 
 namespace corridor {
 
-/// Creates the folder for results; its parent must exist. Checks that files can be written to it
-/// and to its folder `plots`, and that no folder has the name of a file that `writeReports` or
-/// `writeReport` (report.h) will write. In `plots`, no folder's name may end in .csv or .svg.
-/// Existing files stay as they are.
+/// Creates the folder for results; its parent must exist. Checks that files can be written to this
+/// folder and to its subfolder `plots`, and that no folder has the name of a file that
+/// `writeReports` or `writeReport` (report.h) will write. In `plots`, no folder's name may end in
+/// .csv or .svg. Existing files stay as they are.
 /// @returns whether the folder was created; false if it existed before. @throws InputError with
 /// everything that prevents writing the results.
 bool makeReportFolder(const std::filesystem::path& folder, const Campaign& campaign);

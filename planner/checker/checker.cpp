@@ -93,7 +93,7 @@ CheckerOptions checkerOptions(const Task& task, const CheckerSettings& settings)
           treesNamed(settings.trees)};
 }
 
-/// The memory that one thread's queries write to.
+/// The memory that the queries of one thread write to.
 struct Checker::Workspace {
   explicit Workspace(const Checker& checker)
       : motion(checker.model_.tree, checker.model_.space, checker.scene_.framePairs(),
@@ -104,7 +104,7 @@ struct Checker::Workspace {
   EdgeMotion motion;
   FramePoses poses;
   std::thread::id thread = std::this_thread::get_id();
-  Workspace* next = nullptr;  // the workspace that was added before; not owned
+  Workspace* next = nullptr;  // the workspace that was added just before this one; not owned
 };
 
 /// One workspace per thread, created by the thread's first query. Later queries find it without a
@@ -132,8 +132,8 @@ class Checker::Pool {
 
  private:
   mutable std::mutex mutex_;          // held while a workspace is added
-  std::deque<Workspace> workspaces_;  // they never move
-  std::atomic<Workspace*> head_{};    // the last one added; not owned
+  std::deque<Workspace> workspaces_;  // a deque, so that workspaces never move
+  std::atomic<Workspace*> head_{};    // the workspace that was added last; not owned
 };
 
 Checker::Checker(const Model& model, const CheckerOptions& options)

@@ -15,8 +15,9 @@ namespace corridor {
 
 struct Problem;
 
-/// Returns the scene of a model. It has one body for each shape of each model body, in the model's
-/// order, and all pairs that the model's filter does not exclude. Builds no tree.
+/// Returns the scene of a model. The scene has one body for each shape of each model body, in the
+/// model's order. Its pairs are the pairs of shapes of all pairs of model bodies that the model's
+/// filter does not exclude. Builds no tree.
 /// @param params how the trees of meshes are built, when queries need them.
 Scene makeScene(const Model& model, const TreeParams& params = {});
 
@@ -68,7 +69,8 @@ class Checker {
   /// advantages: no returned path depends on the last digits of a clearance, and the work to prove
   /// a path again is at most proportional to the path's length divided by the tolerance.
   const MotionOptions& options() const { return options_; }
-  /// Returns the distance that two bodies of the model must keep, metres: margin and padding.
+  /// Returns the distance that two bodies of the model must keep, metres: margin plus padding,
+  /// rounded up.
   double marginOf(std::size_t a, std::size_t b) const;
   /// Returns the index of the model's body to which a body of the scene (one shape) belongs.
   std::size_t bodyOf(std::size_t shape) const { return bodyOf_[shape]; }
@@ -92,10 +94,10 @@ class Checker {
   /// finite, and no quaternion is zero.
   MotionResult certifyEdge(const Configuration& from, const Configuration& to, bool earliest,
                            MotionCertificate& certificate) const;
-  /// Checks a certificate of an edge, by a method that is independent of the one that made it
-  /// (collision/motion/check_certificate.h).
-  /// Returns the first fault of the certificate, or nullopt if it has none. @pre Both states are
-  /// finite, and no quaternion is zero.
+  /// Checks a certificate of an edge, by a method that is independent of the method that made the
+  /// certificate (collision/motion/check_certificate.h). Returns the first fault of the
+  /// certificate, or nullopt if it has none. @pre Both states are finite, and no quaternion is
+  /// zero.
   /// @param until `certifiedUntil` of the result that came with the certificate.
   std::optional<CertificateFault> faultOf(const MotionCertificate& certificate,
                                           const Configuration& from, const Configuration& to,
@@ -116,9 +118,9 @@ class Checker {
   /// numbers, a degree that is not from 1 to 9, or an `error` that is negative, not finite, or of
   /// another size.
   MotionResult certifyCurve(const CurvePiece& piece, bool earliest = false) const;
-  /// Tests whether a tested pair is in contact at the rounded poses of the frames; exact for
-  /// meshes, as `Scene::interference` states. Margin, padding, tolerance and tube are ignored. @pre
-  /// `q` is finite, and no quaternion is zero.
+  /// Returns a contact of a tested pair at the rounded poses of the frames, or nullopt if no pair
+  /// is in contact. The test is exact for meshes, as `Scene::interference` states. Margin, padding,
+  /// tolerance and tube are ignored. @pre `q` is finite, and no quaternion is zero.
   /// @throws std::runtime_error if the processor's floating-point mode makes the bounds invalid
   /// (collision/core/floating_point.h). `clearance`, `pairsWithin` and `pairsNotFree` throw it,
   /// too.
@@ -130,13 +132,16 @@ class Checker {
   /// tested, the result is infinite. @pre `q` is finite, and no quaternion is zero.
   double clearance(const Configuration& q) const;
   /// Returns the pairs of shapes whose distance is at most the pair's length in `within`
-  /// (`Scene::pairsWithin`). The distances may exceed the true ones by a thousandth of themselves.
+  /// (`Scene::pairsWithin`). The returned distances may exceed the true distances by a thousandth
+  /// of their value.
   /// @pre `q` is finite, and no quaternion is zero.
   std::vector<Scene::NearPair> pairsWithin(const Configuration& q, const PairMargins& within) const;
   /// Two bodies of the model, by index, for which a state is not free.
   struct PairNotFree {
     std::size_t a = 0, b = 0;
-    bool tooLarge = false;  ///< undecided, because the rounding of a large value may exceed the gap
+    /// True if the verdict is `undecided` because the rounding of large coordinates may exceed the
+    /// gap between the two bodies.
+    bool tooLarge = false;
   };
   /// Returns all pairs of bodies because of which `certifyState` does not return `free`, each pair
   /// once. @pre `q` is finite, and no quaternion is zero.

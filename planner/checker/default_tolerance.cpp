@@ -11,25 +11,25 @@
 /// bodies.
 ///
 /// `EdgeMotion` bounds the errors of rotation and position. Each bound is at most u·S times a sum
-/// over the joints of both chains:
+/// over the joints of both chains. The summands are:
 ///   revolute: 103 + 12·V_j  (sine and matrix 40, fixed pose 2, value 12·V_j, product 10 + 11;
 ///     an axis 40)
 ///   prismatic, translation: 57  (value and sum 24 + 12, product 10 + 11 of S). The error of the
-///     constant poses before a prismatic joint is part of their own shares.
+///     constant poses before a prismatic joint is part of their own summands.
 ///   rotation: 575  (2^-44 = 512u, and the products)
 ///
 /// A relative pose has the errors of both bodies' poses, transformed into one body's frame: twice
-/// that sum. The same holds for the points and axes of joints. Together this is four times the sum.
-/// The constants w_j (`kTurn` + `kPerRadian`·V_j, `kSlide`, `kRotation`) contain a factor 2, and E
-/// contains the other factor 2.
+/// that sum. The points and axes of joints have errors up to twice the sum, too. Together these
+/// errors are four times the sum. The constants w_j (`kTurn` + `kPerRadian`·V_j, `kSlide`,
+/// `kRotation`) contain a factor 2, and E contains the other factor 2.
 ///
 /// Leaf triangles and parts are compared with an error of 64u·(2|t| + L) ≤ 192u·S; the 300 in E
 /// (`kLeaves`) covers it.
 ///
 /// With E = u·S·(300 + 2·Σ w_j), a clearance of 2τ is proved in a time interval whose motion bound
 /// is below τ. The direction between the closest points may be off, which loses at most a quarter
-/// of the gap. So 0.75·2τ > τ + 2E is needed, that is, τ > 4E. E is larger than the error, because
-/// 300 > 192. So τ = 4E is enough.
+/// of the gap. So 0.75·2τ > τ + 2E is needed, that is, τ > 4E. With τ = 4E the two sides are equal.
+/// This is enough, because E is larger than the error (300 > 192).
 namespace corridor {
 namespace {
 
@@ -46,7 +46,7 @@ double largestOf(const ConfigurationSpace& space, std::size_t number) {
   return 0;
 }
 
-/// The share of a frame in the length and in the roundings of its chain.
+/// The contribution of a frame to the length and to the roundings of its chain.
 struct Share {
   double length = 0, roundings = 0;
 };

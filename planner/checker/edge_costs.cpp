@@ -53,7 +53,7 @@ EdgeCosts sampleEdgeCosts(const Checker& checker, std::size_t edges, double seco
   double all = 0;
   std::vector<std::pair<Configuration, Configuration>> ways;
   const auto start = std::chrono::steady_clock::now();
-  // Returns whether more than this share of `seconds` has passed.
+  // Returns whether more than the fraction `share` of `seconds` has passed.
   const auto past = [&](double share) {
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
     return took.count() > share * seconds;

@@ -65,9 +65,10 @@ std::optional<CountingMotionValidator::FreePart> CertifiedMotionValidator::lastF
   if (result.verdict == MotionVerdict::free) return std::nullopt;
   // The edge is proved free on [0, certifiedUntil]. The loop tries to prove the state at the end of
   // this interval, and the shorter edge to this state. The tube covers the rounding of the state,
-  // so the first try nearly always succeeds. It fails if the clearance is too small for a second
-  // proof: the method `advancement` goes as close to contact as it can. Then the loop goes back
-  // from certifiedUntil by a small step, and doubles the step after each failure.
+  // so the first try nearly always succeeds. The first try fails if the clearance is too small for
+  // a second proof, which can happen because the method `advancement` goes as close to contact as
+  // it can. Then the loop goes back from certifiedUntil by a small step, and doubles the step after
+  // each failure.
   const double least = checker_.options().timeTolerance;
   for (double back = 0; result.certifiedUntil - back >= least; back = back > 0 ? 2 * back : least) {
     const double t = result.certifiedUntil - back;
@@ -78,7 +79,8 @@ std::optional<CountingMotionValidator::FreePart> CertifiedMotionValidator::lastF
 }
 
 bool DiscreteMotionValidator::isValid(const Configuration& state) const {
-  // Uses OMPL's state validity checker, so that states and samples of edges obey the same rule.
+  // This uses OMPL's state validity checker, so that single states and the samples of edges obey
+  // the same rule.
   ob::ScopedState<> scoped(si_->getStateSpace());
   write(state, scoped.get());
   return si_->isValid(scoped.get());

@@ -12,8 +12,8 @@ namespace corridor {
 /// Base of the motion validators: counts motions and writes `lastValid`. It guarantees OMPL's
 /// contract of `lastValid`, parts of which OMPL's own classes break:
 /// - On success neither member of `lastValid` is written.
-/// - On failure lastValid.second = t0, the time up to which this validator finds the edge free. If
-///   lastValid.first is given, a state is written to it, such that this validator finds the edge
+/// - On failure, lastValid.second is set to the t0 up to which this validator finds the edge free.
+///   If lastValid.first is given, a state is written to it, such that this validator finds the edge
 ///   from s1 to this state valid. For t0 = 0 the state is s1 itself, bit for bit.
 /// - lastValid.first may be s1 or s2: both are read before anything is written.
 /// As everywhere in OMPL, s1 is assumed to be valid. Several threads may use one validator at once.
@@ -27,21 +27,21 @@ class CountingMotionValidator : public ompl::base::MotionValidator {
   bool checkMotion(const ompl::base::State* s1, const ompl::base::State* s2) const final;
   bool checkMotion(const ompl::base::State* s1, const ompl::base::State* s2,
                    std::pair<ompl::base::State*, double>& lastValid) const final;
-  /// Returns the number of valid and invalid motions so far. Unlike OMPL's getCheckedMotionCount(),
-  /// it may be called while motions are checked.
+  /// Returns the number of motions that were checked so far, valid or not. Unlike OMPL's
+  /// getCheckedMotionCount(), it may be called while motions are checked.
   std::uint64_t checkedMotions() const;
 
  protected:
   CountingMotionValidator(const ompl::base::SpaceInformationPtr& si, const Checker& checker);
 
-  /// A part [0, t] of an invalid motion that this validator finds free.
+  /// The part [0, t] of an invalid motion. This validator finds the part free.
   struct FreePart {
     double t = 0;
     Configuration state;  ///< the state at t; set only if t > 0
   };
   virtual bool isFree(const Configuration& from, const Configuration& to) const = 0;
-  /// Returns nullopt if the whole motion is free. Otherwise returns a part that is free, from t = 0
-  /// on.
+  /// Returns nullopt if the whole motion is free. Otherwise returns a part that is free; t = 0 if
+  /// no part was found free.
   virtual std::optional<FreePart> lastFree(const Configuration& from,
                                            const Configuration& to) const = 0;
 
@@ -53,7 +53,7 @@ class CountingMotionValidator : public ompl::base::MotionValidator {
   bool count(bool valid) const;
 };
 
-/// A motion is valid if the whole continuous edge is certified free.
+/// A motion is valid if s2 is in bounds and the whole continuous edge is certified free.
 class CertifiedMotionValidator final : public CountingMotionValidator {
  public:
   CertifiedMotionValidator(const ompl::base::SpaceInformationPtr& si, const Checker& checker)

@@ -69,8 +69,9 @@ std::optional<ChainBetween> framesBetween(const Model& model, std::size_t a, std
   const std::vector<Frame>& frames = model.tree.frames;
   const std::size_t top = model.tree.commonAncestor(a, b);
   const std::vector<std::size_t> toA = upTo(model.tree, a, top), toB = upTo(model.tree, b, top);
-  std::vector<std::size_t> given;  // for each variable of the chain, that of the model
-  // Adds the frames of a path, which is given upwards. Returns the index of the lowest frame.
+  std::vector<std::size_t> given;  // for each variable of the chain: the same variable in the model
+  // Adds the frames of a path, which is given from its lowest frame upwards. Returns the new index
+  // of the lowest frame.
   const auto add = [&](const std::vector<std::size_t>& path) {
     std::size_t last = 0;
     for (auto f = path.rbegin(); f != path.rend(); ++f) {
@@ -103,7 +104,8 @@ std::optional<ChainBetween> framesBetween(const Model& model, std::size_t a, std
     between.box.push_back(*range);
     between.space.add({Coordinate::Kind::line, "", 0, range->lower, range->upper, false, 1});
   }
-  // A frame's children come after it: the path from a upwards is the first branch in reverse.
+  // In the new tree, the frames of the first branch are in order from the root to a. So the path
+  // from a upwards is this branch in reverse.
   for (std::size_t f = branch; f-- > 1;)
     if (between.tree.frames[f].moves())
       between.variables.push_back(between.tree.frames[f].variable);
@@ -117,7 +119,7 @@ std::optional<ChainBetween> framesBetween(const Model& model, std::size_t a, std
 struct Box {
   std::vector<VariableRange> ranges;
   std::vector<MotionPair> open;  // the pairs of shapes that are not separated yet
-  double share = 1;              // its share in the box of all joint values
+  double share = 1;              // volume, as a fraction of the box of all joint values
 };
 
 /// Tries to prove that pairs of shapes keep the margin for all joint values, by halving boxes of
@@ -190,8 +192,8 @@ class Subdivision {
   }
 
   /// Removes from `box.open` the pairs that are separated throughout the box. Sets `tooClose_` if a
-  /// pair that is left is not farther apart than the margin at the middle of the box: then the pair
-  /// can't be proved.
+  /// pair that is left is not farther apart than the margin at the middle of the box, since such a
+  /// pair can't be proved.
   /// @returns the variable along which the box should be halved, if pairs are left; else 0.
   std::size_t test(Box& box) {
     const auto count = static_cast<Eigen::Index>(box.ranges.size());
@@ -226,8 +228,8 @@ class Subdivision {
   void addDisplacements(const RelativeMotion& relative, const Body& b,
                         std::vector<double>& displacements) const {
     const Vec3 center = relative.X_AB.m * b.sphereCenter() + relative.X_AB.t;
-    // `screws[i]` belongs to `variables[i]` if the half width of each moving frame is positive. (It
-    // is 0 for a mimic of multiplier 0. Then a poor variable may be chosen.)
+    // `screws[i]` belongs to `variables[i]` if the half width of each moving frame is positive.
+    // (For a mimic of multiplier 0, the half width is 0. Then a poor variable may be chosen.)
     for (std::size_t i = 0; i < std::min(relative.screws.size(), between_.variables.size()); ++i) {
       const ScrewMotion& screw = relative.screws[i];
       const bool turns = screw.kind == ScrewMotion::Kind::revolute;

@@ -20,8 +20,8 @@ struct NeverInContactOptions {
   double beyondLimits = 0;
   /// Work limit: at most this many boxes of joint values are tested.
   std::uint64_t boxes = 20000;
-  /// A second work limit, so that a pair of detailed meshes does not take a thousand times as long
-  /// as a pair of boxes: at most about this many tests of volumes and triangles.
+  /// A second work limit: at most about this many tests of volumes and triangles. Without it, a
+  /// pair of detailed meshes could take a thousand times as long as a pair of boxes.
   std::uint64_t tests = 20'000'000;
   /// If this flag becomes true, the proof ends before the next box, with `workLimit`. May be null.
   const std::atomic<bool>* interrupted = nullptr;
@@ -41,13 +41,13 @@ struct NeverInContactResult {
   Verdict verdict = Verdict::notTried;
   std::uint64_t boxes = 0;  ///< number of boxes of joint values that were tested
   std::uint64_t tests = 0;  ///< number of tests of volumes and triangles
-  /// The share of the box of all joint values in which the pair is proved, from 0 to 1. If a work
-  /// limit was reached, this share shows how far the proof got. Only the verdict `proved` is a
-  /// proof.
+  /// The fraction, from 0 to 1, of the box of all joint values in which the pair is proved. If a
+  /// work limit was reached, this fraction shows how far the proof got. Only the verdict `proved`
+  /// is a proof.
   double provedShare = 0;
-  /// True if the proof ended with `workLimit` for another reason than `boxes`, `tests` or an
-  /// interrupt: the boxes that are not proved yet hold too many pairs of shapes for the memory, or
-  /// a box is too small to be halved. Larger limits don't help then.
+  /// True if the proof ended with `workLimit` for another reason than the options `boxes`, `tests`
+  /// and `interrupted`. The reason is that the boxes that are not proved yet hold too many pairs of
+  /// shapes for the memory, or a box is too small to be halved. Larger limits don't help then.
   bool exhausted = false;
 };
 
@@ -57,14 +57,15 @@ struct NeverInContactResult {
 /// `proved` is never wrong: for all joint values within the limits, or beyond them by at most
 /// `beyondLimits`, in real arithmetic, the two bodies keep more than the margin. This holds for the
 /// shapes of the links as the model stores them. It does not depend on the pose of the robot's
-/// base. A joint with a range of a full turn or more is proved for all angles. The other verdicts
-/// prove nothing.
+/// base. If the range of a joint is a full turn or more, the proof is for all angles of the joint.
+/// (This holds if the joint is revolute or continuous, and every joint between the bodies that
+/// mimics it is revolute, with a whole multiplier.) The other verdicts prove nothing.
 ///
 /// Only the joints between the two bodies count: those on the path between the bodies' frames in
 /// the tree of frames. The ranges of these joints form a box of joint values. A box is proved by
-/// motion queries in which nothing moves, one for each pair of shapes. They are made at the middle
-/// of the box, with the half widths of the box as the tube (collision/PROMISES.md, promise 2:
-/// `free` holds for every configuration within the tube, with all rounding). A box that is not
+/// motion queries in which nothing moves, one for each pair of shapes. The queries are made at the
+/// middle of the box, with the half widths of the box as the tube (collision/PROMISES.md, promise
+/// 2: `free` holds for every configuration within the tube, with all rounding). A box that is not
 /// proved is halved along the joint that can displace the second body the most. Only the pairs of
 /// shapes that were not separated are tested in the halves. The boxes are tested breadth first, so
 /// that a contact is soon found at the middle of a box.

@@ -16,7 +16,8 @@ using Verdict = NeverInContactResult::Verdict;
 
 /// The first attempt to prove a pair gets at most `kFirstBoxes` boxes, and each further attempt
 /// `kMoreBoxes` times as many as the one before, up to `kMostBoxes`. All attempts at a pair
-/// together take at most 4/3 of the boxes of the last attempt, unless the work limit shortens it.
+/// together take at most 4/3 of the boxes of the last attempt, unless the work limit shortens that
+/// last attempt.
 constexpr std::uint64_t kFirstBoxes = 80, kMoreBoxes = 4, kMostBoxes = 20480;
 /// This many tests of volumes and triangles count as one box. The test of a box also has a cost
 /// that is not counted, such as making the motion of the box. This cost is about that of

@@ -55,17 +55,19 @@ Configuration randomConfiguration(const ConfigurationSpace& space,
                                   const std::function<std::uint64_t()>& next);
 
 /// Tests all pairs that the model's filter does not exclude, and returns them in ascending order.
-/// All pairs are tested at random states. For pairs that were free in all these states, a proof is
-/// tried. Unless the survey is interrupted, the result depends on the model and the options only.
+/// All pairs are tested at random states. A proof is tried for each pair that was free in all these
+/// states and between whose bodies no planar or floating joint lies, if `wantsProof` returns true.
+/// Unless the survey is interrupted, the result depends on the model and the options only.
 ///
 /// The proofs share the work limit. First, each pair gets an attempt of a few boxes. An attempt
 /// that does not decide its pair is repeated with four times the boxes, up to 20,480. The next
-/// attempt is always the one with the smallest product of its boxes and the share of joint values
-/// that the previous attempt at the same pair left unproved. So pairs that are nearly proved come
-/// first. The last attempt before the work limit gets at most the boxes that are left.
+/// attempt is always the one with the smallest product of two factors: the number of its boxes, and
+/// the fraction of joint values that the previous attempt at the same pair left unproved. So pairs
+/// that are nearly proved come first. The last attempt before the work limit gets at most the boxes
+/// that are left.
 /// @param checker its margin must be 0: then a pair that is not free is in contact, or closer than
 /// twice the tolerance. Its model must have bounds for all positions.
-/// @param wantsProof decides for which pairs a proof is tried.
+/// @param wantsProof returns whether a proof is wanted for a pair.
 /// @throws std::invalid_argument as NeverInContact::prove does.
 std::vector<SurveyedPair> surveyPairs(
     const Checker& checker, const PairSurveyOptions& options,

@@ -116,7 +116,8 @@ ProblemStateSpace::ProblemStateSpace(const ConfigurationSpace& space) : space_(s
   if (alone && space.groups()[0].kind == Group::floating) type_ = ob::STATE_SPACE_SE3;
   lock();
   // The memory of a state has three parts: the compound state, the pointers to the states of its
-  // subspaces, and these states, each followed by its numbers. All have the alignment of a pointer.
+  // subspaces, and these states, each followed by its numbers. All three have the alignment of a
+  // pointer.
   bytes_ = sizeof(StateType) + parts_.size() * sizeof(ob::State*);
   for (Part& part : parts_) {
     part.offset = bytes_;
@@ -157,8 +158,8 @@ void ProblemStateSpace::read(const ob::State* state, double* q) const {
     double* numbers = q + part.first;
     if (part.kind == Kind::line) {
       const double* values = compound->as<Lines>(i)->values;
-      // Most often there are two or three numbers. For three numbers, assignments cost less than
-      // the call of a copy function.
+      // Most parts have two or three numbers. For three numbers, assignments cost less than the
+      // call of a copy function.
       if (part.count == 3) {
         numbers[0] = values[0], numbers[1] = values[1], numbers[2] = values[2];
       } else {

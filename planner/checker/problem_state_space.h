@@ -41,16 +41,16 @@ class ProblemStateSpace : public ompl::base::CompoundStateSpace {
   bool equalStates(const ompl::base::State* a, const ompl::base::State* b) const override;
   /// Returns the largest possible value of `distance`.
   double getMaximumExtent() const override;
-  /// Registers the default projection: the position of the first planar or floating joint. In a
-  /// space without such a joint, the projection consists of the values of the first joints, at most
-  /// three, because these joints move the robot the most.
+  /// Registers the default projection: the position of the first rigid robot, or planar or floating
+  /// joint. In a space without any of these, the projection consists of the values of the first
+  /// joints, at most three, because these joints move the robot the most.
   void registerProjections() override;
 
  private:
   /// The numbers of one subspace.
   struct Part {
     Coordinate::Kind kind;
-    std::size_t first, count;  ///< its first number in a Configuration, and how many it has
+    std::size_t first, count;  ///< the index of its first number in a Configuration, its length
     std::size_t offset = 0;    ///< bytes, from the beginning of the compound state
   };
 

@@ -36,8 +36,8 @@ class CertifiedStateValidityChecker : public ClearanceChecker {
 
 /// The test of states for the discrete baseline. If the checker's margin and all its paddings are
 /// 0, a state is valid if it is in bounds and an exact test of the rounded poses finds no tested
-/// pair in contact. This test ignores the tube. Otherwise, a state is valid if it is in bounds and
-/// certified free.
+/// pair in contact. This test ignores the tube. If the margin or a padding is above 0, a state is
+/// valid if it is in bounds and certified free.
 class ExactStateValidityChecker : public ClearanceChecker {
  public:
   ExactStateValidityChecker(const ompl::base::SpaceInformationPtr& si, const Checker& checker)

@@ -47,7 +47,7 @@ class StillTest {
   std::optional<StillPair> operator()(std::size_t a, std::size_t b) {
     const double margin = checker_.marginOf(a, b);
     const BoundingBox &boxA = boxAround(a), &boxB = boxAround(b);
-    // 2^-40 of the coordinates covers the rounding of the boxes.
+    // The addition of 2^-40 times the coordinates covers the rounding of the boxes.
     const double size =
                      boxA.lower.norm() + boxA.upper.norm() + boxB.lower.norm() + boxB.upper.norm(),
                  within = margin + 0x1p-40 * size;

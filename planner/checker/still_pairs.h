@@ -10,25 +10,26 @@ namespace corridor {
 /// Two bodies that never move against each other, by their indices in the model.
 struct StillPair {
   std::size_t a = 0, b = 0;
-  bool touches = false;  ///< false: the bodies are apart, but not farther than margin and padding
+  bool touches = false;  ///< false: the bodies are apart, but by at most margin plus padding
 };
 
 /// Returns whether the model has a pair of bodies that is not tested only because the two never
 /// move against each other.
 bool hasStillPairs(const Model& model);
 
-/// Returns the pairs of bodies that are not tested, because they never move against each other, and
-/// that touch or are not farther apart than margin and padding, in every state. Such a pair may
-/// result from a wrong pose of a base or an obstacle, or from a wrong value of a held joint. Pairs
-/// of one robot whose links are joined by fixed joints only are left out: their overlap is part of
-/// the robot.
+/// Returns pairs of bodies that are not tested, because the two bodies never move against each
+/// other. The returned pairs touch, or are not farther apart than margin plus padding, in every
+/// state. Such a pair may result from a wrong pose of a base or an obstacle, or from a wrong value
+/// of a held joint. Pairs of one robot whose links are joined by fixed joints only are left out:
+/// their overlap is part of the robot.
 ///
 /// The bodies are tested at their rounded poses for `q`. @pre `q` is finite.
 /// @throws std::runtime_error as `Checker::interference` does; std::invalid_argument if a pose is
 /// not finite.
 std::vector<StillPair> closeStillPairs(const Checker& checker, const Configuration& q);
 
-/// Returns notes that name the pairs of `closeStillPairs`.
+/// Returns notes on the pairs of `closeStillPairs`: one on the pairs that touch, and one on the
+/// others. Each note names at most six pairs, and counts the rest.
 std::vector<Note> notesOnStillPairs(const Checker& checker, const Configuration& q);
 
 }  // namespace corridor

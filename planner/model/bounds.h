@@ -20,8 +20,8 @@ std::size_t dimensionsOf(const CoordinateGroup& group);
 Corners boundsOf(const ConfigurationSpace& space, const CoordinateGroup& group);
 void setBounds(ConfigurationSpace& space, const CoordinateGroup& group, const Corners& corners);
 
-/// Returns what is wrong with the bounds (a lower bound is not below the upper bound, or a range is
-/// infinite), or "".
+/// Returns what is wrong with the bounds, or "". Bounds are wrong if a lower bound is not below its
+/// upper bound, or if their difference is not a finite double.
 std::string whyBadBounds(const Corners& corners, std::size_t dimensions);
 
 /// Returns the bounding box of a shape, metres. It is not rounded outwards, so no proof may use it.

@@ -19,8 +19,8 @@ struct LinkSpeed {
   std::size_t frame = 0;  ///< in Model::tree
   double speed = 0;       ///< m/s, for each of `points`
   /// The frame's origin, and the corners of a box around the link's shapes, in the frame's
-  /// coordinates, m. No point of a convex hull is faster than the hull's fastest corner. So a limit
-  /// for these points holds for every point of the link.
+  /// coordinates, m. No point of a convex hull is faster than the hull's fastest corner. So if all
+  /// `points` keep the limit, every point of the link's shapes keeps it.
   std::vector<Eigen::Vector3d> points;
 };
 
@@ -42,7 +42,7 @@ struct JointLimits {
   std::vector<std::string> notes;
 };
 
-/// Limits that a user gives. A member is unset if the user gives no such limit.
+/// Limits that a user gives. If the user does not give a limit, its member is unset.
 struct LimitValues {
   std::optional<double> velocity, acceleration, jerk;
 };
@@ -50,7 +50,8 @@ struct LimitValues {
 /// All limits that a user gives for a problem, before they are applied to its model.
 struct LimitSpec {
   LimitValues joints;    ///< for each single joint without an entry in `named`
-  LimitValues slides;    ///< for prismatic joints, in place of `joints`; m/s, m/s², m/s³
+  LimitValues slides;    ///< for prismatic joints; a member that is set replaces that of
+                         ///< `joints`; m/s, m/s², m/s³
   LimitValues position;  ///< for the position of each planar and floating joint; m/s, m/s², m/s³
   LimitValues rotation;  ///< for the rotation of planar and floating joints; rad/s, rad/s², rad/s³
   /// For single joints, by name ("elbow", "left/elbow"). They replace the URDF's velocity and the
@@ -65,13 +66,15 @@ struct LimitSpec {
 /// be meaningless.
 inline constexpr double kAssumedAcceleration = 1;
 
-/// Applies limits to a model. A limit in `named` comes first. Otherwise, let d be the limit in
-/// `joints`, or in `slides` for a prismatic joint: the velocity is the smaller one of d and the
-/// URDF's; acceleration and jerk are d. If nothing gives the acceleration, the limit is
-/// kAssumedAcceleration, and a note says so. If a mimicking joint is in `named` with a limit L, its
-/// leader gets the limit L/|multiplier|, unless the leader's own limit is lower. A mimicking joint
-/// that is not in `named` limits nothing. Finally, velocities and accelerations are multiplied by
-/// the scales of `spec`, except link speeds.
+/// Applies limits to a model. The limits of a single joint are those in `named`. For a limit that
+/// is not there, let d be the limit in `joints`, or, for a prismatic joint, in `slides` if it is
+/// set there: the limit of velocity is the smaller one of d and the URDF's velocity, and the limit
+/// of acceleration or jerk is d. Positions and rotations have the limits in `position` and
+/// `rotation`. If nothing gives the acceleration, its limit is kAssumedAcceleration, and a note
+/// says so. A note also says if a velocity in `named` is above the URDF's. If `named` has a limit L
+/// for a mimicking joint, the joint's leader gets the limit L/|multiplier|, unless the leader's own
+/// limit is lower. A mimicking joint that is not in `named` limits nothing. Finally, velocities and
+/// accelerations are multiplied by the scales of `spec`, except link speeds.
 /// @pre All names in `spec` are names of the model's joints (`jointsWithLimits`) and links.
 JointLimits limitsOf(const Model& model, const LimitSpec& spec = {});
 
@@ -85,7 +88,8 @@ struct LimitedJoint {
   bool isPrismatic = false;
   double velocity = 0;  ///< the URDF's limit, rad/s or m/s; infinite if the URDF gives none
 };
-/// Returns the single joints that move with a planned coordinate, including those that mimic one.
+/// Returns the single joints that move with a planned coordinate: the planned joints, and the
+/// joints that mimic them with a multiplier other than 0.
 std::vector<LimitedJoint> jointsWithLimits(const Model& model);
 
 }  // namespace corridor

@@ -55,8 +55,8 @@ struct ModelRobot {
 /// A link or an obstacle: all shapes that are tested under one name.
 struct ModelBody {
   std::string name;  ///< "hand", "left/hand", "table"; for a rigid robot, the robot's name
-  /// Index of the body's frame in Model::tree. For an obstacle it is 0 (the world), or a frame of
-  /// the obstacle's own, which is fixed to the world.
+  /// Index of the body's frame in Model::tree. For an obstacle, the frame is 0 (the world), or the
+  /// obstacle's own frame, which is fixed to the world.
   std::size_t frame = 0;
   std::optional<std::size_t> robot;  ///< index in Model::robots; empty for an obstacle
   std::vector<PlacedShape> shapes;   ///< at least one, in the coordinates of `frame`

@@ -21,8 +21,8 @@ constexpr const char* kPlace = "ModelBuilder";
 /// - One is above the other in the tree.
 /// - No link between them has shapes.
 /// - At most one joint between them is not fixed, and this joint is neither planar nor floating.
-/// Links with two moving joints between them, or with a planar or floating joint, can meet
-/// anywhere.
+/// Links with two moving joints between them, or with a planar or floating joint, can meet in many
+/// configurations, so these pairs are tested.
 void skipLinks(Model& model, std::size_t robot) {
   const RobotModel& description = model.robots[robot].description;
   // A frame of the robot has at most one body.
@@ -40,7 +40,8 @@ void skipLinks(Model& model, std::size_t robot) {
   std::map<std::string, std::size_t> linkNamed;
   for (std::size_t link = 0; link < description.links.size(); ++link)
     linkNamed[description.links[link].name] = link;
-  // Excludes the allowed pairs that have a proof (true) or have none (false).
+  // Excludes the allowed pairs that have a proof (if `proved` is true), or those that have none (if
+  // it is false).
   const auto skipAllowed = [&](bool proved) {
     for (const AllowedPair& pair : description.allowed) {
       const auto a = linkNamed.find(pair.a), b = linkNamed.find(pair.b);

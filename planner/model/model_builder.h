@@ -21,9 +21,9 @@ struct UrdfOptions {
   RigidPose base = {};              ///< X_WB
   std::filesystem::path srdf = {};  ///< gives pairs of links that may touch; empty: no SRDF
   UrdfRules rules = {};             ///< how the URDF is read
-  /// The joints that are planned for; empty: all joints that can move and mimic no other. The
-  /// others are held at the value nearest to 0 within their limits, planar and floating joints at
-  /// the identity.
+  /// The joints that are planned for; empty: all joints that can move and mimic no other. All other
+  /// joints are held: single joints at the value nearest to 0 within their limits, planar and
+  /// floating joints at the identity.
   std::vector<std::string> joints = {};
 };
 
@@ -42,15 +42,16 @@ class ModelBuilder {
   /// "Set by ModelBuilder".
   ModelBuilder& addRobot(ModelRobot robot);
   /// Adds a rigid body that moves in the plane (`planar`) or in space (`floating`). Its coordinates
-  /// have the names "NAME/x", "NAME/y", … `shapeOf` makes shapes.
+  /// have the names "NAME/x", "NAME/y", … The function `shapeOf` makes shapes.
   /// @param bounds the bounds of the body's position.
   ModelBuilder& addRigidBody(const std::string& name, JointType type,
                              std::vector<PlacedShape> shapes, const Corners& bounds);
-  /// Adds an obstacle. Its shapes (`shapeOf`) are in world coordinates. Without shapes, adds
-  /// nothing. If a link or a rigid body has the name NAME, too, the obstacle's name becomes
-  /// "world/NAME".
-  /// @param X_WO if given, the shapes are in the coordinates of a frame of the obstacle's own, at
-  /// this pose. Obstacles can then share one mesh, and its trees, at different poses.
+  /// Adds an obstacle. The obstacle's shapes (`shapeOf`) are in world coordinates. If `shapes` is
+  /// empty, adds nothing. If a link or a rigid body has the name NAME, too, the obstacle's name
+  /// becomes "world/NAME".
+  /// @param X_WO if given, the obstacle has its own frame at this pose, and the shapes are in the
+  /// coordinates of that frame. Obstacles can then share one mesh, and its trees, at different
+  /// poses.
   ModelBuilder& addObstacle(std::string name, std::vector<PlacedShape> shapes,
                             const std::optional<RigidPose>& X_WO = std::nullopt);
   ModelBuilder& addObstacle(const std::string& name, const Primitive& primitive,
@@ -72,7 +73,7 @@ class ModelBuilder {
   Model build();
   /// Returns the model for readers, which set bounds and allowed pairs afterwards. This function
   /// ignores the calls of `bound` and `allow`: all bounds of positions are NaN. The number of pairs
-  /// is not limited.
+  /// is not limited. @throws InputError with the faults that were found before this call.
   Model buildForReader();
 
  private:
@@ -96,10 +97,10 @@ class ModelBuilder {
 /// Makes the description of a rigid robot. @param type planar or floating.
 RobotModel rigidModel(const std::string& name, JointType type, std::vector<PlacedShape> shapes);
 
-/// Make a shape. A primitive must be legal (`checkPrimitive`). With `solid`, everything inside the
-/// mesh belongs to the shape; the mesh must then be watertight, or else the constructor of
-/// `Checker` throws. Without `solid` the mesh is a surface. Vertices are in the coordinates of the
-/// link, or of the world for an obstacle.
+/// Make a shape. A primitive must be legal (`checkPrimitive`). If `solid` is true, everything
+/// inside the mesh belongs to the shape; the mesh must then be watertight, or else the constructor
+/// of `Checker` throws. If it is false, the mesh is a surface. Vertices are in the coordinates of
+/// the link; for an obstacle, in those of the world or of the obstacle's own frame.
 PlacedShape shapeOf(std::string name, const Primitive& primitive, const RigidPose& at = {});
 PlacedShape shapeOf(std::string name, TriangleMesh mesh, bool solid = false);
 

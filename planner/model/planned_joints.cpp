@@ -25,8 +25,8 @@ std::vector<std::size_t> allMoving(const ModelRobot& robot) {
 std::string whyNoneMoves(const ModelRobot& robot) {
   const std::string none = "has no joint that can be planned for";
   std::vector<std::string> still;  // joints whose limits are equal
-  double limit = 0;                // limit of the first of these joints
-  bool isEqual = true;             // whether all of these joints have that limit
+  double limit = 0;                // limit of the first joint in `still`
+  bool isEqual = true;             // whether all joints in `still` have that limit
   bool isHeld = false;
   const std::vector<JointModel>& joints = robot.description.joints;
   for (std::size_t j = 0; j < joints.size(); ++j) {

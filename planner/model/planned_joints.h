@@ -8,8 +8,8 @@
 /// Functions that choose the joints of a robot that are planned for.
 namespace corridor {
 
-/// Returns whether a joint can be planned for: it is neither fixed nor a mimic, and its lower limit
-/// differs from its upper limit.
+/// Returns whether a joint can be planned for, that is, whether it is neither fixed nor a mimic,
+/// and its lower limit differs from its upper limit.
 bool canMove(const JointModel& joint);
 
 /// Returns all joints that can move, except those that are held already.

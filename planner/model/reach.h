@@ -16,8 +16,8 @@ struct ReachBox {
 /// in the world. The boxes are rough and not proved: they are for display only, never for verdicts.
 std::vector<ReachBox> reachOf(const Model& model);
 
-/// Returns whether two bodies in these boxes are always farther apart than the sum of the margin,
-/// the padding, and the displacement that the tube allows.
+/// Returns whether, according to these boxes, two bodies are always farther apart than the sum of
+/// the margin, the largest padding, and the displacement that the tube allows.
 bool outOfReach(const Task& task, const ReachBox& a, const ReachBox& b);
 
 }  // namespace corridor

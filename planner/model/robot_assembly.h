@@ -7,8 +7,9 @@
 namespace corridor {
 
 /// Moves a robot into the model: adds its frames, its coordinates and its bodies. The shapes of the
-/// robot's links are moved into the bodies. Planar and floating joints get groups of coordinates.
-/// Their positions get the bounds NaN, which mean "not set yet".
+/// robot's links are moved into the bodies. Planar and floating joints, and a rigid robot, get
+/// groups of coordinates. The coordinates of their positions get the bounds NaN, which mean "not
+/// set yet".
 /// @returns the coordinates of the robot's single joints, which are in no group yet.
 std::vector<std::size_t> assembleRobot(ModelRobot robot, Model& model);
 

@@ -13,7 +13,7 @@
 namespace corridor {
 
 /// How edges are checked: by a method that proves them, or by samples, as a baseline. The
-/// enumerators before `discrete` stand for those of `EdgeMethod`, in the same order.
+/// enumerators before `discrete` stand for the enumerators of `EdgeMethod`, in the same order.
 enum class EdgeCheck { certified, adaptive, advancement, discrete };
 /// OMPL's samplers of valid states, which are the classes …ValidStateSampler.
 enum class ValidSampler { uniform, gaussian, obstacleBased, bridgeTest, maxClearance };
@@ -94,14 +94,14 @@ struct CheckerSettings {
   TreeNames trees = {"obb", "", "", ""};
 };
 
-/// The preferences for paths: followed where possible, in addition to margin, padding and tube,
-/// which every path must keep.
+/// Preferences for paths. A path follows them where possible, but must always keep margin, padding
+/// and tube.
 struct PreferSettings {
   /// Metres that the two bodies of each tested pair should keep apart (solve/clearance_targets.h);
   /// 0: as close as the shortest path gets. Unset: see `preferredClearance`.
   std::optional<double> clearance;
-  /// By how much the path may be longer than the shortest path that was found, as a share of the
-  /// shortest path's length.
+  /// The largest extra length of the path, as a fraction of the length of the shortest path that
+  /// was found.
   double detour = 0.1;
 };
 
@@ -119,11 +119,12 @@ struct TrajectorySettings {
   static constexpr ClosedRange kDeviations{1e-9, 1}, kCornerDeviations{1e-6, 10}, kRates{1, 10000};
 
   Smoothing smooth = Smoothing::time;
-  /// The largest distance of the file's curve from the smoothed path, in each number; rad or m.
+  /// The largest distance of the written trajectory from the smoothed path, in each number of a
+  /// configuration; rad or m.
   double deviation = 1e-4;
-  /// The largest distance of the smoothed path from the path, in each number; rad or m. If unset,
-  /// the smoothed path may be as far from the path as proofs allow. If set, only corners are
-  /// rounded.
+  /// The largest distance of the smoothed path from the path, in each number of a configuration;
+  /// rad or m. If unset, the smoothed path may be as far from the path as proofs allow. If set,
+  /// only corners are rounded.
   std::optional<double> cornerDeviation;
   std::optional<double> rate;  ///< rows per second; unset: rows where they are needed
 };
@@ -143,8 +144,8 @@ struct Settings {
   std::uint64_t seed = 1;
 };
 
-/// Returns why a path can't be moved away from obstacles, in words for a message about the
-/// clearance that is preferred; nullopt if it can be.
+/// Returns the reason why a path can't be moved away from obstacles, in words for a message about
+/// the preferred clearance; nullopt if the path can be moved.
 std::optional<std::string> whyNoClearance(double margin, const Settings& settings);
 
 /// Returns the first word of `checker.trees` that is unknown or does not belong to the volume, or

@@ -23,16 +23,17 @@ struct GoalRegion {
 /// indices in the model. Metres, 0 or more.
 struct Padding {
   /// For single bodies: the distance that the body keeps from all bodies, except those of the same
-  /// robot.
+  /// robot. The paddings of the two bodies of a pair add up.
   std::map<std::size_t, double> bodies;
-  /// For pairs, with the lower index first: the distance that replaces the paddings of both bodies.
+  /// For pairs, with the lower index first: the distance that replaces the sum of the paddings of
+  /// the two bodies.
   std::map<std::pair<std::size_t, std::size_t>, double> pairs;
 
   bool empty() const { return bodies.empty() && pairs.empty(); }
   /// Returns the padding of two bodies, rounded up.
   /// @param sameRobot whether both bodies belong to the same robot.
   double of(std::size_t a, std::size_t b, bool sameRobot) const;
-  /// Returns a padding that no pair exceeds.
+  /// Returns an upper bound of the paddings of all pairs.
   double largest() const;
 };
 
@@ -66,7 +67,7 @@ struct Task {
 struct TubeSpec {
   std::optional<double> joints;    ///< for each single joint: rad, or m if it is prismatic
   std::optional<double> slides;    ///< for each prismatic joint, m; replaces `joints`
-  std::optional<double> position;  ///< for each coordinate of planar and floating joints, m
+  std::optional<double> position;  ///< for each x, y and z of planar and floating joints, m
   std::optional<double> rotation;  ///< for the rotation of planar and floating joints, rad
   /// For single joints, by the names of their coordinates ("left/elbow"): rad, or m if prismatic.
   /// For the named joints, these values replace `joints` and `slides`.
@@ -75,7 +76,7 @@ struct TubeSpec {
 
 /// Returns the half width of the tube that a proof covers, for each number of a configuration (m,
 /// rad). Each half width is the one in `asked`, but at least 2^-40 times a range, for rounding. For
-/// a single joint, this range is the coordinate's own range. For the position of a planar or
+/// a single joint with limits, this range is upper − lower. For the position of a planar or
 /// floating joint, it is the longest range of the joint's position coordinates. For circles and
 /// rotations, it is 2π. A rotation has its half width at the first of its four numbers.
 /// @pre the bounds of all positions are set.

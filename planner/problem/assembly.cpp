@@ -36,9 +36,9 @@ double largestTube(const ModelRobot& robot, const Problem& problem) {
   return largest;
 }
 
-/// Includes pairs in the tests although they were proved never in contact: those whose proof covers
-/// less than the problem's margin plus the pair's padding, or less than the problem's tube. Adds a
-/// note if there are such pairs.
+/// Includes in the tests those pairs of `never_in_contact` whose proof does not cover the problem,
+/// because it is for less than the problem's margin plus the pair's padding, or for less than the
+/// problem's tube. Adds a note if there are such pairs.
 void testBeyondProofs(Problem& problem) {
   std::size_t tested = 0;
   AllowedPair::Proof covered;
@@ -58,7 +58,7 @@ void testBeyondProofs(Problem& problem) {
       const auto i = static_cast<std::size_t>(a - problem.model.bodies.begin()),
                  k = static_cast<std::size_t>(b - problem.model.bodies.begin());
       const double padding = problem.task.padding.of(i, k, true);
-      // Rounded up: the proof must cover the whole sum.
+      // The sum is rounded up, because the proof must cover the exact sum.
       const double margin =
           padding > 0 ? roundedUp(problem.task.margin + padding) : problem.task.margin;
       if (margin <= pair.proof->margin && tube <= pair.proof->beyondLimits) continue;

@@ -20,8 +20,9 @@ void addRobots(std::vector<RobotSetup> robots, ModelBuilder& builder, Source& so
 using AllowedBodies = std::vector<std::array<std::size_t, 2>>;
 
 /// Completes a problem: excludes the allowed pairs from the tests, sets the tube, and sets the
-/// default limits over time if there are none. Adds notes: if no pair is tested, and for each
-/// obstacle that is far larger than the robots, or far away.
+/// default limits over time if there are none. Adds notes: a first one if no pair is tested, those
+/// of `notesOnReach`, those of the shapes, and one if pairs that were proved never in contact are
+/// tested.
 /// @pre All other members of the problem are set.
 /// @throws InputError if the problem has more than 10^7 pairs, or a coordinate above 1e100 m.
 void finishProblem(const AllowedBodies& allowed, const TubeSpec& tube, Problem& problem);

@@ -7,8 +7,8 @@
 
 namespace corridor {
 
-/// Enlarges the bounds of a group's position so that they contain start and goals. Returns whether
-/// this changed the bounds.
+/// Enlarges the bounds of a group's position so that they contain the problem's start and goals.
+/// Returns whether this changed the bounds.
 bool enlargeBounds(Problem& problem, const CoordinateGroup& group);
 
 /// If the group's position in `q` is outside of the group's bounds, returns the reason, such as

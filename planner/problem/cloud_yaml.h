@@ -12,7 +12,7 @@ namespace corridor {
 /// @param keys     the legal keys of the map that is the value of this key
 /// @param options  unit and up-axis; used only for points
 /// @param X        the pose of the cloud or map in the frame of its body
-/// @returns false if a fault was added.
+/// @returns true, or false if a fault was added.
 bool readCloud(const YamlMap& map, const std::string& kind, const MapKeys& keys,
                const std::filesystem::path& folder, const MeshFileOptions& options,
                const Transform& X, PlacedShape& shape, std::vector<std::filesystem::path>& files);

@@ -10,8 +10,9 @@ namespace corridor {
 /// its files (32 bytes each, one after the other). In a shell: sha256sum FILES | cut -c-64 | xxd -r
 /// -p | sha256sum.
 ///
-/// In place of a xacro file, the texts count that xacro made of it when the problem was read. These
-/// texts contain the files that the xacro file includes, and depend on the arguments of xacro.
+/// For a xacro file, the digests are those of the texts that xacro made of the file when the
+/// problem was read. There is one text for each different set of arguments. These texts contain the
+/// files that the xacro file includes, and depend on the arguments of xacro.
 ///
 /// The function reads all other files again. If no file has changed since `readProblem`, the digest
 /// is that of the problem that was read. Callers should therefore compute the digest directly after

@@ -26,9 +26,9 @@ std::optional<std::string> readHold(const YamlMap& file, RobotSetup& setup);
 void holdState(const std::string& state, const std::vector<std::size_t>& planned,
                const YamlPlace& place, RobotSetup& setup);
 
-/// For each robot whose start is a named state, holds the joints at their values in this state.
-/// Exceptions are joints that are planned for, and joints to which the robot's `hold` gives a
-/// value.
+/// For each robot whose start is a named state, or is based on one (`from`), holds the joints at
+/// their values in this state. Joints that are planned for, and joints to which the robot's `hold`
+/// gives a value, are left as they are.
 void holdAsStart(const YamlMap& problem, std::vector<RobotSetup>& robots);
 
 /// Returns the state with this name. If there is no such state, or if it can't be used, adds a

@@ -12,19 +12,19 @@
 namespace corridor {
 namespace {
 
-/// The default of `deviation`, as a share of the longest side of the mesh's box. A mesh that is
+/// The default of `deviation`, as a fraction of the longest side of the mesh's box. A mesh that is
 /// convex except for the rounding of its coordinates (to floats, for example) is within this
 /// deviation. A mesh with a visible hollow is not.
 constexpr double kDefaultDeviation = 1e-4;
 
-/// A `deviation` below this share of the largest coordinate may be impossible to prove.
-/// `hullDeviation` adds 2^-38 of this coordinate to each distance, for the rounding of the
-/// distance; 2^-35 leaves room for the distances themselves.
+/// A `deviation` below this fraction of the largest coordinate may be impossible to prove.
+/// `hullDeviation` adds 2^-38 times this coordinate to each distance, for the rounding of the
+/// distance. The larger factor 2^-35 leaves room for the distances.
 constexpr double kProvableShare = 0x1p-35;
 
-/// Returns the length in metres with three significant digits, rounded up or down. A length that
-/// equals a decimal of three digits, up to 1e-12 of it, is not rounded down further. If the result
-/// is rounded up, it is an upper bound in spite of the rounding in this function.
+/// Returns the length in metres with three significant digits, rounded up or down. A length that is
+/// below a decimal of three digits by at most 1e-12 of the length counts as that decimal. If `up`
+/// is true, the result is an upper bound in spite of the rounding in this function.
 std::string metres(double length, bool up) {
   if (!(length >= 1e-300)) return up && length > 0 ? "1e-300 m" : "0 m";
   const double unit = std::pow(10.0, std::floor(std::log10(length)) - 2);

@@ -14,8 +14,8 @@ enum class HullKey {
   faulty,  ///< neither `true` nor `false`; a fault was added
 };
 
-/// Reads `convex` in a map that also has `mesh`. Adds a fault for each other key that does not fit
-/// these two.
+/// Reads the key `convex` if the map also has the key `mesh`. Adds a fault for the key `solid`
+/// beside `convex: true`, and for the key `deviation` without `convex: true`.
 HullKey readHullKey(const YamlMap& map);
 
 /// Returns whether a value is `true` or `false`, written without quotes.
@@ -23,8 +23,9 @@ bool isBoolean(const YamlValue& value);
 
 /// Replaces the shape's mesh by the mesh's convex hull, as one convex part. Adds a note on the
 /// largest distance of the hull's surface from the mesh. The hull's corners are in their final
-/// place, so the shape's `at` becomes the identity. Returns false if a fault was added, for example
-/// because the hull is not proved to be as near to the mesh as `deviation` requires.
+/// place, so the shape's `at` becomes the identity. Returns false, and does not change the shape,
+/// if a fault was added, for example because the hull is not proved to be as near to the mesh as
+/// `deviation` requires.
 /// @pre The mesh's placement has been applied to its vertices.
 bool replaceByHull(const YamlMap& map, PlacedShape& shape);
 

@@ -17,8 +17,8 @@ std::string noSuchJoint(const std::string& name, const RobotModel& model);
 /// Returns why a joint has no value of its own ("is fixed", "follows pan (mimic)"), or "" if it has
 /// one.
 std::string whyNotActive(const RobotModel& model, std::size_t joint);
-/// Returns the message that a value is outside of its limits: "60 is outside of its limits, [-2,
-/// 2]".
+/// Returns the message for a value that is outside of its limits: "60 is outside of its limits,
+/// [-2, 2]".
 /// @param angle the joint's name if the value is an angle in radians, else "". With a name,
 /// `degreesHint` is appended to the message.
 std::string outsideLimits(double value, double lower, double upper, const std::string& angle = "");

@@ -13,7 +13,7 @@ namespace corridor {
 namespace {
 
 /// Reads {velocity: …, acceleration: …, jerk: …}.
-/// @param isLength whether the limits are those of a length, which can't be in degrees.
+/// @param isLength whether the limits are in metres, so that degrees are not legal.
 /// @param owner what the limits apply to, for messages: "elbow", "limits.position".
 LimitValues readValues(const YamlMap& map, bool isLength, const std::string& owner) {
   LimitValues values;

@@ -11,8 +11,8 @@ namespace corridor {
 /// Reads one problem of a MotionBenchMaker set (format mbm-scene-1, JSON). URDF and SRDF are
 /// searched for in the folders above the file, the nearest first.
 /// @param index a value of `problems[].index` in the set. If `index` is empty, the function throws
-/// a fault that lists the indices of the set.
-/// @throws InputError.
+/// an InputError whose fault lists the indices of the set.
+/// @throws InputError with the faults of the set, the URDF and the SRDF.
 Problem readMbmProblem(const std::filesystem::path& file, const std::string& index);
 
 /// Returns the values of `problems[].index` in a set, in the order of the set. @throws InputError

@@ -18,14 +18,16 @@ const MapKeys kJoint{
      "max_position", "has_effort_limits", "max_effort", "angle_wraparound"},
     {}};
 
-/// Returns `max_WHAT` if `has_WHAT_limits` is true. Decelerations may be negative, as Pilz's
-/// planner of MoveIt requires; the absolute value is returned.
+/// Returns `max_WHAT` if `has_WHAT_limits` is true; otherwise, or if a fault was added, returns
+/// nullopt. A deceleration may be negative, as Pilz's planner of MoveIt requires; its absolute
+/// value is returned.
 std::optional<double> readLimit(const YamlMap& joint, const std::string& what) {
   const std::string flag = "has_" + what + "_limits", key = "max_" + what;
   const auto has = joint.boolean(flag);
   if (!joint.find(flag)) {
     if (joint.find(key))
-      joint.fault(key, "MoveIt ignores it without " + flag + "; add " + flag + ": true (or false)");
+      joint.fault(
+          key, "MoveIt ignores this limit without " + flag + "; add " + flag + ": true (or false)");
     return std::nullopt;
   }
   // If has_… is false, MoveIt's files often have max_…: 0.

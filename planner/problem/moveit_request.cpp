@@ -14,7 +14,8 @@
 namespace corridor {
 namespace {
 
-// The fields of the messages. Unknown keys are faults, because a misspelt key may change the plan.
+// The fields of the messages. Unknown keys are faults, because a misspelt key may change the
+// problem.
 const MapKeys kRequest{
     {"workspace_parameters", "start_state", "goal_constraints", "path_constraints",
      "trajectory_constraints", "reference_trajectories", "pipeline_id", "planner_id", "group_name",

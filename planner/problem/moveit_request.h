@@ -14,10 +14,10 @@ namespace corridor {
 /// and add faults to the problem's list.
 ///
 /// The members read the group, the start state, and goals that are joint values. Some content is a
-/// fault, because the plan would be wrong if this content were ignored: attached objects, poses of
-/// joints with several variables, goals that are positions or orientations of links, goals that
-/// move a held joint, constraints of the path, and unknown keys. All other fields, and the
-/// tolerances of goals, are ignored.
+/// fault, because the resulting path would be wrong if this content were ignored: attached objects,
+/// poses of joints with several variables that are not the identity, goals that are positions or
+/// orientations of links, goals that move a held joint, constraints of the path, and unknown keys.
+/// All other fields, and the tolerances of goals, are ignored.
 class MoveitRequest {
  public:
   /// @throws InputError if the file is not YAML.
@@ -26,7 +26,8 @@ class MoveitRequest {
   /// Returns the name of the request's group, or "".
   std::string group();
   /// For each joint of the robot that is not planned for: holds the joint at its value in the start
-  /// state. Skips joints without a value there, and joints whose value is in the robot's `hold`.
+  /// state. Skips joints without a value in the start state, and joints whose value is in the
+  /// robot's `hold`.
   void hold(RobotSetup& setup);
   /// Reads the start, or the goals, of the only robot into the problem.
   void readStart(Problem& problem);

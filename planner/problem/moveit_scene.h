@@ -14,10 +14,10 @@ namespace corridor {
 /// add faults to the problem's list.
 ///
 /// The members read the collision objects (primitives and meshes), the octomap, the allowed
-/// collision matrix and the paddings of links. Some content is a fault, because the plan would be
-/// wrong if this content were ignored: attached objects, planes, scaled links, objects in a frame
-/// other than the world's or that of the robot's root link, and unknown keys. All other fields are
-/// ignored.
+/// collision matrix and the paddings of links. Some content is a fault, because the resulting path
+/// would be wrong if this content were ignored: attached objects, planes, scaled links, objects in
+/// a frame other than the world's or that of the robot's root link, and unknown keys. All other
+/// fields are ignored.
 class MoveitScene {
  public:
   /// @throws InputError if the file is not YAML.
@@ -35,7 +35,8 @@ class MoveitScene {
   /// obstacle.
   /// @pre `addWorld` was called.
   Padding paddingOf(const Model& model) const;
-  /// Returns notes if the scene seems to be made for another robot.
+  /// Returns notes if the scene names another robot, or if its paddings or its matrix name links or
+  /// bodies that the model does not have.
   std::vector<Note> notesOn(const Model& model);
 
  private:

@@ -4,9 +4,9 @@
 
 namespace corridor {
 
-/// Returns true if no pair of bodies of the problem is tested. Then every state and edge counts as
-/// free, and every path counts as proved. So a missing obstacle or a wrong `allow` would look like
-/// success.
+/// Returns whether no pair of bodies of the problem is tested. If so, every state and edge counts
+/// as free, and every path counts as proved. A missing obstacle or a wrong `allow` would then look
+/// like success.
 bool nothingIsTested(const Problem& problem);
 
 /// The note for a problem without tested pairs. This note is the first of Source::notes, and

@@ -29,8 +29,8 @@ const Keys spatialOnlyKeys{"start.z", "start.axis.x", "start.axis.y", "start.axi
 /// OMPL.app's default of `threshold`: a distance in the state space.
 constexpr double kThreshold = 1e-6;
 
-/// Returns those of `keys` that are present in the section `problem`. If `present` is false,
-/// returns those that are absent.
+/// Returns the keys in `keys` that the section `problem` has, or, if `present` is false, those that
+/// it lacks.
 Keys select(const IniFile& ini, const Keys& keys, bool present) {
   Keys result;
   for (const std::string& key : keys)
@@ -161,9 +161,8 @@ std::optional<CfgMesh> readMesh(const IniFile& ini, const std::string& key, Prob
   }
 }
 
-/// Makes a robot of one mesh. The robot's reference point is the average of the mesh's vertices.
-/// `mesh` may be empty, because its file could not be read: the poses of the robot can still be
-/// checked then.
+/// Makes a robot of one mesh. The robot's reference point is the average of the mesh's vertices. If
+/// the mesh's file could not be read, `mesh` is empty; the poses of the robot can still be checked.
 RobotSetup robotOf(CfgMesh mesh, JointType type) {
   Vec3 centre = mesh.read.vertexAverage;
   if (type == JointType::planar) centre.z() = 0;
@@ -254,7 +253,8 @@ void readSettings(const IniFile& ini, Problem& problem) {
         entry->value != "0" && entry->value != "false" ? Simplifier::corridor : Simplifier::none;
 }
 
-/// Reads the file. `problem` has its notes even if an exception is thrown.
+/// Reads the file into `problem`. Even if an exception is thrown, `problem` has the notes that were
+/// made before.
 void readCfg(const std::filesystem::path& file, Problem& problem) {
   FaultList faults(file.string());
   const IniFile ini(file.string(),

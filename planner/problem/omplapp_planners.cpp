@@ -46,7 +46,8 @@ struct Instance {
   std::string name;  ///< the planner's name in OMPL.app
   int line = 0;
   std::map<std::string, const IniFile::Entry*> params;  ///< the planner's parameters
-  /// Values for keys of [problem] that the planner's part of the file replaces.
+  /// Entries of the planner's part of the file that replace keys of the section `problem`, by those
+  /// keys.
   std::map<std::string, const IniFile::Entry*> problem;
 };
 

@@ -21,8 +21,8 @@ struct Orientation {
 Orientation fromRpyDegrees(const Vec3& degrees);
 Orientation fromRpy(const Vec3& radians);
 
-/// Returns the quaternion, normalised if its norm is outside of [0.5, 2]. (Otherwise the squares of
-/// very large or very small components would overflow or underflow.) @pre `q` is not zero.
+/// Returns the quaternion, normalised if its norm is not between 0.5 and 2. (Otherwise the squares
+/// of very large or very small components would overflow or underflow.) @pre `q` is not zero.
 Eigen::Quaterniond ofOrdinarySize(const Eigen::Quaterniond& q);
 
 /// Returns the angle minus whole turns, a double in [−π, π] (collision/core/circle.h).
@@ -61,8 +61,7 @@ struct PoseForm {
   const MapKeys* keys = nullptr;  ///< the legal keys
 };
 /// Reads a pose. Returns nullopt if a fault was added. If the pose is planar but `form` is spatial,
-/// or the other way round, the only fault is the one about the wrong kind, such as "goal of the
-/// wrong kind: …".
+/// or the other way round, only one fault is added, such as "goal of the wrong kind: …".
 /// @param path the path of the value in its file: "start", "goal[0].left".
 /// @param notes gets a note if whole turns were subtracted from a yaw.
 std::optional<PlanarOrSpatialPose> readPose(const YamlValue& value, const std::string& path,

@@ -13,7 +13,8 @@ namespace corridor {
 bool readPolygon(const YamlMap& map, const Transform& X, PlacedShape& shape);
 
 /// Translates a polygon. The moved corners are rounded to doubles, so the convex parts are made
-/// again. Returns "", or the reason why the polygon can't be moved.
+/// again. Returns "", or the reason why the polygon can't be moved; its corners may then be moved
+/// already.
 std::string shiftPolygon(PlacedShape& shape, const Vec3& by);
 
 }  // namespace corridor

@@ -20,7 +20,7 @@ struct Source {
   std::filesystem::path file;
   std::string name;
   /// The problem file and all files that it names, directly or through other files. Each file is
-  /// listed once, at its first place in the order described in README.md (The digest).
+  /// listed once, where it first occurs in the order that README.md gives (section The digest).
   std::vector<std::filesystem::path> files;
   /// Decisions of the reader that a user may want to know: units, wrapped angles, held joints, …
   std::vector<Note> notes;

@@ -178,8 +178,8 @@ std::pair<std::optional<MoveitScene>, std::optional<MoveitRequest>> readMoveit(
   return found;
 }
 
-/// Reads the problem's file, and the files that it names. The notes are in `problem` even if an
-/// exception is thrown.
+/// Reads the problem's file, and the files that it names, into `problem`. Even if an exception is
+/// thrown, `problem` has the notes that were made before.
 void readYaml(const std::filesystem::path& file, Problem& problem) {
   const YamlValue document =
       parseYaml(file.string(), readTextFile(file, "a problem (format: corridor-problem-1)"));

@@ -60,14 +60,15 @@ std::string metres(double length) {
   return shortest(std::round(length * 1000) / 1000) + " m";
 }
 
-/// Adds a note for each obstacle that is far larger than the robots, or far away from them: its
-/// lengths are probably in millimetres. A floor may be large in two directions. So an obstacle
-/// counts as large only if all its three sides are long, or if it is read from a file and one side
-/// is very long.
+/// Adds a note for each obstacle (at most 100) that is far larger than the robots, or far away from
+/// them, because its lengths are probably in millimetres. A floor may be large in two directions.
+/// So an obstacle counts as large only if all its three sides are long, or if it is read from a
+/// file and one side is very long.
 void addNotesOnSizes(const Problem& problem, const std::vector<ReachBox>& reach,
                      std::vector<Note>& notes) {
   // An arm reaches 0.3 m to 3 m. A floor of 100 m gets no note. A file in millimetres gets a note
-  // if it contains a shelf that is 0.4 m long, or a mesh whose three sides are all above 0.09 m.
+  // if, for example, it contains a shelf that is really 0.4 m long, or a mesh whose three sides are
+  // all really above 0.09 m.
   constexpr double longestPerReach = 100, leastLongest = 200, thickPerReach = 30;
   constexpr int mostNotes = 100;
   const Model& model = problem.model;

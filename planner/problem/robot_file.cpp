@@ -22,7 +22,7 @@ Vec3 centroid(const std::vector<PlacedShape>& shapes) {
   const auto add = [&](const Vec3& p) { points.push_back({p.x(), p.y(), p.z()}); };
   for (const PlacedShape& shape : shapes) {
     for (const Vec2& p : shape.polygon) add({p.x(), p.y(), 0});
-    // The parts of a polygon have only corners of the polygon.
+    // All points of a polygon's parts are corners of the polygon.
     for (const ConvexPart& part : shape.parts)
       std::for_each(part.points.begin(), part.points.end(), add);
     if (!shape.mesh) continue;

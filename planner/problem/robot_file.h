@@ -24,9 +24,10 @@ enum class RobotUse {
 };
 
 /// Reads a file of the format corridor-robot-1, or a bare URDF. The faults of this file, and of the
-/// files that it names, are added to `faults`. Returns nullopt if, because of faults, it is unknown
-/// which joints the robot has, or in which space (SE2 or SE3) a rigid robot moves. A rigid robot is
-/// returned even if shapes have faults; these shapes are left out.
+/// files that it names, are added to `faults`. Returns nullopt in these cases: the file can't be
+/// read as YAML or has another format; it has neither or both of `rigid` and `urdf`; a rigid robot
+/// has no legal value of `rigid`; `readUrdfRobot` or `readBareUrdf` returns nullopt. A rigid robot
+/// is returned even if shapes have faults; these shapes are left out.
 /// @param group the group that is planned for if the file has an SRDF, but neither `group` nor
 /// `joints`. Empty: no group.
 /// @param notesOfFaulty gets the notes if the result is nullopt; otherwise the notes are in

@@ -45,11 +45,11 @@ struct ShapeFiles {
   ShapeMeshes meshes = {};
 };
 
-/// Reads a mesh or a primitive, and applies unit, up-axis and placement. Returns nullopt if a fault
-/// was added.
+/// Reads a shape of any kind (mesh, primitive, polygon, cloud or map), and applies unit, up-axis
+/// and placement. Returns nullopt if a fault was added.
 /// @param files gets the shape's file, if it has one.
-/// @param notApplied if not null, and the shape is a mesh, the placement is stored here instead of
-/// being applied to the vertices.
+/// @param notApplied if not null, and the shape is a mesh (not its hull), the placement is stored
+/// here instead of being applied to the vertices.
 std::optional<PlacedShape> readShape(const YamlMap& map, const ShapePlace& place, ShapeFiles& files,
                                      Placement* notApplied = nullptr);
 
@@ -64,7 +64,8 @@ bool applyPlacement(const YamlMap& map, const Placement& placement, PlacedShape&
 std::vector<PlacedShape> readShapes(const YamlMap& map, const MapKeys& keys,
                                     const ShapePlace& place, ShapeFiles& files);
 
-/// Translates a shape. Returns "", or the reason why the shape can't be moved.
+/// Translates a shape. Returns "", or the reason why the shape can't be moved; parts of it may then
+/// be moved already.
 std::string shift(PlacedShape& shape, const Vec3& by);
 
 /// Adds a file to the list, unless the list already has it.

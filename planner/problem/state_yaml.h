@@ -38,8 +38,8 @@ class StateReader {
   bool fromNamed(std::size_t robot, const std::string& name, int line, const std::string& path,
                  Given& given);
   /// Compares a named state with the values of held joints. Adds a note for each joint whose values
-  /// differ. Exception: for a goal, the difference is a fault instead if the held value comes from
-  /// the start, not from the robot's `hold`.
+  /// differ. There is one exception: for a goal, the difference is a fault unless the robot's
+  /// `hold` gives the held value.
   bool checkHeld(std::size_t robot, const NamedState& state, const std::string& name, int line,
                  const std::string& path);
   bool readJoints(std::size_t robot, const YamlMap& map, Given& given,

@@ -6,8 +6,8 @@
 namespace corridor {
 
 /// Reads the key `tube` of a problem.
-/// @param isComplete whether `space` has the joints of all robots. False: robots have faults, and
-/// keys that depend on the robots are not checked.
+/// @param isComplete whether `space` has the joints of all robots. It is false if robots have
+/// faults; keys that depend on the robots are then not checked.
 TubeSpec readTube(const YamlMap& file, const ConfigurationSpace& space, bool isComplete);
 
 }  // namespace corridor

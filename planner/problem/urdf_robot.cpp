@@ -86,8 +86,8 @@ std::optional<RobotModel> readModel(const std::filesystem::path& urdf, const Urd
 
 using JointList = std::vector<std::size_t>;
 
-/// Adds the states of the group under their names without the group's name: if the group is "arm",
-/// the name "home" then also means "arm/home".
+/// Adds the states of the group a second time, under their names without the group's name. For
+/// example, if the group is "arm", the name "home" then also means "arm/home".
 void addStatesOf(const std::string& group, RobotModel& model) {
   const std::string prefix = group + "/";
   std::map<std::string, NamedState> added;

@@ -9,7 +9,9 @@
 namespace corridor {
 
 /// Reads a robot with joints: the keys of its robot.yaml, and the URDF and SRDF that it names.
-/// Returns nullopt if one of these files has a fault.
+/// Returns nullopt if the URDF or SRDF has a fault, or if a key that concerns the joints has one
+/// (`states`, `hold`, `allow`, `never_in_contact`, `weights`, `group`, `joints`). Faults of other
+/// keys are only added to the map's source.
 /// @param group see readRobotFile.
 /// @param notesOfFaulty see readRobotFile.
 /// @param setup has only `files` set, with the robot.yaml. The other members are set in the result.
@@ -19,7 +21,8 @@ std::optional<RobotSetup> readUrdfRobot(const YamlMap& map, const std::string& n
                                         RobotSetup setup, std::vector<Note>& notesOfFaulty);
 
 /// Reads a URDF without a robot.yaml: all its moving joints are planned for. Returns nullopt if the
-/// URDF has a fault. @param notesOfFaulty see readRobotFile.
+/// URDF has a fault, or if `use` is `plan` and no joint can move. @param notesOfFaulty see
+/// readRobotFile.
 std::optional<RobotSetup> readBareUrdf(const std::filesystem::path& file, RobotUse use,
                                        FaultList& faults, std::vector<Note>& notesOfFaulty);
 

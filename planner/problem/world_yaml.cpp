@@ -25,8 +25,8 @@ std::vector<PlacedShape> readGroup(const YamlMap& map, ShapePlace place, ShapeFi
 /// Obstacles share a mesh if it has at least `kLeastShared` triangles, and if sharing saves at
 /// least `kLeastSaved` triangles. Sharing has a cost: among 20 obstacles that share a mesh, testing
 /// an edge of an arm takes 6.9 µs instead of 5.5 µs, since each obstacle has its own relative
-/// motion. Its gain: a saved copy would take 0.1 kB and 0.23 µs for each triangle. So saving 50,000
-/// triangles is worth the extra time of 10^4 edges (equal_meshes_benchmark).
+/// motion. The gain is that a copy is saved, which would take 0.1 kB and 0.23 µs for each triangle.
+/// So saving 50,000 triangles is worth the extra time of 10^4 edges (equal_meshes_benchmark).
 constexpr std::size_t kLeastShared = 1'000, kLeastSaved = 50'000;
 
 /// Counts the obstacles that have the same mesh: those with equal values of `mesh`, `unit`, `up`
@@ -49,9 +49,9 @@ class MeshUses {
   std::map<std::array<std::string, 4>, std::size_t> uses_;
 };
 
-/// Returns whether obstacles with the same mesh should share it. Then each obstacle has its own
-/// frame. Otherwise each obstacle has its own copy of the mesh, moved to its place. @param uses the
-/// number of these obstacles.
+/// Returns whether obstacles with the same mesh should share the mesh. If they share it, each
+/// obstacle has its own frame; if not, each obstacle has its own copy of the mesh, moved to its
+/// place. @param uses the number of these obstacles.
 bool sharingPays(std::size_t uses, std::size_t triangles) {
   return uses > 1 && (uses - 1) * triangles >= kLeastSaved && triangles >= kLeastShared;
 }
@@ -76,7 +76,7 @@ std::vector<std::size_t> bodiesCalled(const std::string& name, const Model& mode
 }
 
 /// Returns whether this is the name of a link. A link without shapes is no body. A pair with such a
-/// link needs no `allow`, but `allow` may list it.
+/// link needs no `allow`, but `allow` may list the pair.
 bool isLinkName(const std::string& name, const Model& model) {
   for (const ModelRobot& robot : model.robots)
     for (const LinkModel& link : robot.description.links)

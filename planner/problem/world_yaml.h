@@ -11,8 +11,8 @@ namespace corridor {
 void readWorld(const YamlMap& file, bool needed, bool isPlanar, ModelBuilder& builder,
                Source& source);
 
-/// Reads `allow`, a list of pairs of names of bodies. A pair with a link that has no shapes is left
-/// out. @pre The model has all its bodies.
+/// Reads `allow`, a list of pairs of bodies, which are given by their names. A pair with a link
+/// that has no shapes is left out. @pre The model has all its bodies.
 AllowedBodies readAllow(const YamlMap& file, const Model& model);
 
 /// Reads `padding`. Links without shapes are left out. @pre The model has all its bodies.

@@ -119,13 +119,14 @@ class YamlMap {
 std::optional<double> readNumber(const YamlValue& value, Range range, const std::string& path,
                                  const YamlSource& source);
 
-/// Returns a list of words, or nullopt if a fault was added.
+/// Returns the words of a list, or nullopt if a fault was added.
 /// @param form an example for the message: "such as [arm, hand]".
 std::optional<std::vector<std::string>> readWords(const YamlValue& value, const std::string& form,
                                                   const std::string& path,
                                                   const YamlSource& source);
 
-/// Returns a list of `count` numbers, or nullopt if a fault was added. @param path for messages.
+/// Returns the `count` numbers of a list, or nullopt if a fault was added. @param path for
+/// messages.
 std::optional<std::vector<double>> readNumbers(const YamlValue& value, std::size_t count,
                                                const std::string& path, const YamlSource& source);
 

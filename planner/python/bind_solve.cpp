@@ -79,7 +79,7 @@ py::dict solve(const NativeProblem& native, const std::optional<std::string>& tr
   if (trajectory)
     options.trajectory =
         *trajectory == "csv" ? TrajectoryFileKind::csv : TrajectoryFileKind::message;
-  std::string digest;  // computed before planning, because the files may change while it runs
+  std::string digest;  // computed first: the files may change during planning
   try {
     if (!problem.source.files.empty()) digest = digestOf(problem);
   } catch (const InputError&) {  // a file is missing: no digest, so no solution file

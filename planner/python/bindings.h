@@ -16,7 +16,7 @@ void bindSolve(py::module_& module);
 void bindBodies(py::module_& module);
 
 /// Runs Python's handlers of the signals that have arrived, such as the signal of Ctrl-C. Returns
-/// whether a handler raised an exception: the caller must then throw py::error_already_set. @pre
+/// whether a handler raised an exception. If so, the caller must throw py::error_already_set. @pre
 /// the calling thread does not hold Python's lock.
 inline bool runSignalHandlers() {
   const py::gil_scoped_acquire lock;

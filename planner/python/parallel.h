@@ -16,8 +16,9 @@ namespace corridor::python {
 
 /// Calls work(i) for each i below `count`, on several threads.
 /// @param threads 0: as many as the machine has.
-/// @param stop is called every 50 ms by the calling thread, which does no other work; if it returns
-/// true, the function ends soon. With 16 items or fewer on one thread, `stop` is not called.
+/// @param stop is called every 50 ms by the calling thread, which does no other work; if `stop`
+/// returns true, the function ends soon. With 16 items or fewer, the calling thread does the work,
+/// and `stop` is not called.
 /// @returns false if `stop` ended the work early. @throws the first exception that `work` throws.
 template <class Work, class Stop>
 bool forEachInParallel(std::size_t count, std::size_t threads, const Work& work, const Stop& stop) {

@@ -9,7 +9,7 @@ namespace corridor::python {
 
 namespace py = pybind11;
 
-/// Adds a robot: a URDF, links and joints, or a rigid body.
+/// Adds a robot that is described by a URDF, by links and joints, or as a rigid body.
 /// @throws InputError with all faults in the numbers of links and joints. `ModelBuilder::build`
 /// finds all other faults later.
 void addRobot(ModelBuilder& builder, const py::dict& robot);

@@ -10,15 +10,15 @@
 
 namespace corridor {
 
-/// Returns whether an angle that is given in radians is probably meant in degrees: its magnitude is
-/// a multiple of 15 and larger than 2π, as for 90 or -180.
+/// Returns whether an angle that is given in radians is probably meant in degrees. This is assumed
+/// if the magnitude of the angle is a multiple of 15 and larger than 2π, as for 90 or -180.
 inline bool seemsDegrees(double radians) {
   return std::abs(radians) > 2 * std::numbers::pi && std::remainder(radians, 15) == 0;
 }
 
 /// Returns whether a value in radians that is outside of [lower, upper] is obviously meant in
-/// degrees: its magnitude is more than a full turn, and the value is within the limits if it is
-/// read as degrees.
+/// degrees. This is assumed if the magnitude of the value is more than 2π, and the value is within
+/// the limits if it is read as degrees.
 inline bool fitsAsDegrees(double value, double lower, double upper) {
   const double radians = value * (std::numbers::pi / 180);
   return std::abs(value) > 2 * std::numbers::pi && lower <= radians && radians <= upper;
@@ -42,9 +42,9 @@ inline Eigen::Quaterniond unitQuaternion(const Eigen::Quaterniond& q) {
 ///
 /// Planners spend half of their own time in this function, so it is fast. The length of the
 /// relative quaternion's vector part is the sine of the angle, and the magnitude of the scalar part
-/// is the cosine. If the sine is the smaller of the two, the function takes its arc sine, otherwise
-/// the arc cosine of the cosine. Both are well conditioned there, and cost half as much as an arc
-/// tangent.
+/// is the cosine. The function takes the arc sine of the sine if the sine is smaller than the
+/// cosine, and otherwise the arc cosine of the cosine. Each of the two functions is well
+/// conditioned where it is used, and costs half as much as an arc tangent.
 inline double quaternionAngle(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) {
   const double squares = a.squaredNorm() * b.squaredNorm();
   const bool plain = squares > 1e-200 && squares < 1e200;

@@ -27,7 +27,8 @@ Quaterniond nearer(const Quaterniond& a, const Quaterniond& b) {
 Quaterniond slerp(const Quaterniond& from, const Quaterniond& to, double t) {
   const Quaterniond a = unitQuaternion(from), b = nearer(a, unitQuaternion(to));
   const double angle = quaternionAngle(a, b);
-  // sin(tθ)/sin θ = t(1 + θ²(1 − t²)/6 + …): for θ < 2^-27 the quotient is t to half an ulp.
+  // sin(tθ)/sin θ = t(1 + θ²(1 − t²)/6 + …): for θ < 2^-27, the quotient differs from t by at most
+  // half an ulp.
   const bool tiny = angle < 0x1p-27;
   const double wa = tiny ? 1 - t : std::sin((1 - t) * angle) / std::sin(angle);
   const double wb = tiny ? t : std::sin(t * angle) / std::sin(angle);
@@ -157,10 +158,10 @@ double ConfigurationSpace::distance(const double* a, const double* b) const {
 bool ConfigurationSpace::equal(const Configuration& a, const Configuration& b) const {
   return std::all_of(coordinates_.begin(), coordinates_.end(), [&](const Coordinate& c) {
     // OMPL normalises quaternions and wraps angles in passing (enforceBounds), and treats the
-    // result as the same state. So rotations may differ by 64u, u = 2^-53. The norm of a quaternion
-    // (sum of squares, root) and the quotient are off by at most 5u. So the angle between two
-    // normalised quaternions is off by at most 12u, and its computation adds 8u. An angle brought
-    // into [−π, π] is off by its ulp, 2u·π.
+    // result as the same state. So quaternion angles and circles may differ by 32u, with u = 2^-53.
+    // The reasons are these. The norm of a quaternion (sum of squares, root) and the quotient are
+    // off by at most 5u. So the angle between two normalised quaternions is off by at most 12u, and
+    // its computation adds 8u. An angle that is brought into [−π, π] is off by its ulp, 2u·π.
     const double off = differenceOf(c, a, b);
     return off <= (c.kind == Coordinate::Kind::line ? 0 : 32 * kUnit);
   });

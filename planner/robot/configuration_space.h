@@ -8,8 +8,9 @@
 
 namespace corridor {
 
-/// A state of all robots of a problem: the numbers of a ConfigurationSpace, in the order of its
-/// coordinates. Metres, radians; quaternions as (x, y, z, w).
+/// A state of all robots of a problem: one number for each line or circle coordinate of a
+/// ConfigurationSpace and four for each rotation, in the order of the coordinates. Metres, radians;
+/// quaternions as (x, y, z, w).
 using Configuration = Eigen::VectorXd;
 
 /// One coordinate of a configuration: a number, or the four numbers of a quaternion.
@@ -40,16 +41,18 @@ struct CoordinateGroup {
   std::vector<std::size_t> coordinates;
 };
 
-/// The space of all configurations, and the definition of an edge in it. Along an edge, with t in
-/// [0, 1]:
+/// The space of all configurations, and the definition of an edge in it. Along an edge, for t in
+/// [0, 1], the coordinates move as follows:
 /// - a line is linear in t;
 /// - a circle goes the shorter way round, linear in t;
 /// - a rotation is the slerp of the two quaternions, normalised in real arithmetic, along the
 ///   shorter arc.
-/// An edge defines no curve if the shorter way is not unique within 1e-9 rad; see ambiguous().
+/// If a circle or rotation turns by a half turn, to within 1e-9 rad, neither way is shorter, and
+/// the edge defines no curve; see ambiguous().
 class ConfigurationSpace {
  public:
-  /// Adds a coordinate and sets its `first`. Each coordinate must be in one group; see addGroup().
+  /// Adds a coordinate and sets its `first`. Each coordinate must be in exactly one group; see
+  /// addGroup().
   /// @returns the index of the coordinate.
   std::size_t add(Coordinate coordinate);
   void addGroup(CoordinateGroup group);
@@ -67,23 +70,24 @@ class ConfigurationSpace {
   /// Brings the angles of circles into [−π, π] and quaternions to norm 1.
   void normalise(Configuration& q) const;
 
-  /// Returns the configuration on the edge at t in [0, 1]. The rounding error is a few ulp for
-  /// every angle between `from` and `to`, except for half turns. The result is `from` at t = 0 and
-  /// `to` at t = 1 bit for bit, except that a circle's angle is brought into [−π, π]. Lines never
-  /// leave [from, to].
+  /// Returns the configuration on the edge at t in [0, 1]. The rounding error is a few ulp, however
+  /// far a circle or rotation turns between `from` and `to`, except for half turns. At t = 0 the
+  /// result is `from`, and at t = 1 it is `to`, bit for bit, except that the angles of circles are
+  /// brought into [−π, π]. The value of a line is always between its values in `from` and `to`.
   Configuration interpolate(const Configuration& from, const Configuration& to, double t) const;
   /// Returns the sum of the groups' distances. The distance of the single joints is the square root
-  /// of Σ (weight·difference)². The distance of a planar or floating joint is weight·|Δp| +
-  /// weight·angle, with the weights of its coordinates. The angle of a `rotation` is its quaternion
-  /// angle, half of the rotation angle. The distance is 0 only for equal configurations.
+  /// of Σ (weight·difference)². The distance of a planar or floating joint is w_p·|Δp| + w_r·angle,
+  /// where w_p is the weight of the position coordinates and w_r the weight of the yaw or rotation.
+  /// The angle of a `rotation` is its quaternion angle, half of the rotation angle. The distance is
+  /// 0 only for equal configurations.
   double distance(const Configuration& a, const Configuration& b) const {
     return distance(a.data(), b.data());
   }
   /// Returns the distance of two configurations given by pointers to `size()` numbers each.
   double distance(const double* a, const double* b) const;
-  /// Returns whether two configurations are the same up to the rounding of `normalise`: lines are
-  /// equal, circles differ by at most 32u rad, and the quaternion angle between rotations is at
-  /// most 64u rad, with u = 2^-53.
+  /// Returns whether two configurations are the same up to the rounding of `normalise`: the values
+  /// of lines are equal, the angles of circles differ by at most 32u rad, and the quaternion angle
+  /// between rotations is at most 32u rad (a rotation angle of 64u), with u = 2^-53.
   bool equal(const Configuration& a, const Configuration& b) const;
   /// Returns whether some circle or rotation turns by a half turn from a to b, to within 1e-9 rad.
   /// Then the edge from a to b defines no curve.

@@ -9,16 +9,17 @@
 
 namespace corridor {
 
-/// A piece of a curve in a configuration space, for a parameter τ in [0, 1]. It is meant in real
-/// arithmetic on the stored doubles:
-/// - A line or a circle is the polynomial Σ_i B_i(τ)·coefficients(row, i), where B_i are the
-///   Bernstein polynomials of the piece's degree. The values of a circle are taken literally: the
-///   curve never goes "the shorter way", and angles may leave [−π, π].
-/// - A rotation is the slerp from the quaternion in the first column to that in the last column,
-///   normalised in real arithmetic, along the shorter arc and at a constant rate. The columns
-///   between these two are not used.
-/// A joint that mimics another joint has the value multiplier·q + offset for the literal q, so it
-/// never jumps.
+/// A piece of a curve in a configuration space, for a parameter τ in [0, 1]. The curve is defined
+/// in real arithmetic on the stored doubles:
+/// - A coordinate of kind `line` or `circle` is the polynomial Σ_i B_i(τ)·coefficients(row, i),
+///   where B_i are the Bernstein polynomials of the piece's degree. The coefficients of a circle
+///   are taken literally: the angle is this polynomial even where another way round would be
+///   shorter, and it may leave [−π, π].
+/// - A coordinate of kind `rotation` is the slerp from the quaternion in the first column to that
+///   in the last column, normalised in real arithmetic, along the shorter arc and at a constant
+///   rate. The columns between these two are not used.
+/// A joint that mimics another joint has the value multiplier·q + offset, where q is the literal
+/// value of the other joint. So the mimicking joint never jumps.
 ///
 /// The struct is plain data. The checker and the independent verifier both read it.
 struct CurvePiece {
@@ -37,7 +38,8 @@ struct CurvePiece {
   int degree() const { return static_cast<int>(coefficients.cols()) - 1; }
 };
 
-/// Returns the configuration at τ in [0, 1], computed in double. Circles are not reduced.
+/// Returns the configuration at τ in [0, 1], computed in double. The angles of circles are not
+/// brought into [−π, π].
 Configuration configurationAt(const ConfigurationSpace& space, const CurvePiece& piece, double tau);
 
 /// A curve over time: pieces[k] covers the times [knots[k], knots[k + 1]], with

@@ -18,16 +18,16 @@ namespace {
 /// errors by underflow.
 constexpr double kLeastError = 0x1p-400;
 
-constexpr std::size_t kItself = SIZE_MAX;  // instead of a view: the frame is the ancestor itself
+constexpr std::size_t kItself = SIZE_MAX;  // in place of a view: the frame is the ancestor
 
 }  // namespace
 
 /// Poses are cached in *views*. A view is the pose of a frame in the coordinates of one of its
-/// ancestors. A view is computed once per t, by one product of poses from the view of the parent
-/// frame. All pairs of frames whose lowest common ancestor is this ancestor share the view. So for
-/// these pairs the joints between the world and the ancestor are not evaluated, and their rounding
-/// is not counted. If one frame of a pair is the ancestor itself, the view of the other frame is
-/// the relative pose.
+/// ancestors. A view is computed once per t, as the product of the view of the parent frame and one
+/// pose. All pairs of frames with this ancestor as their lowest common ancestor share the view. So
+/// for these pairs the joints between the world and the ancestor are not evaluated, and their
+/// rounding is not counted. If one frame of a pair is the ancestor itself, the view of the other
+/// frame is the relative pose.
 struct EdgeMotion::Impl {
   struct LeverError {  // metres, for a point at lever y from frame b's origin: fixed + reach·|y|
     double fixed = 0, reach = 0;
@@ -38,27 +38,27 @@ struct EdgeMotion::Impl {
     std::uint64_t stamp = 0;  // identifies the t that X was computed for
   };
   struct View {
-    std::size_t parent = kItself;  // the parent's view; kItself: the parent is the ancestor
+    std::size_t parent = kItself;  // the parent frame's view; kItself: that frame is the ancestor
     std::size_t place = 0;
     Transform X;
     Vec3 axis = Vec3::UnitX();  // axis of the frame's joint, in the ancestor's coordinates
     std::uint64_t stamp = 0;
-    // Valid for the edge numbered `edge`: bounds on the errors of X.m (operator norm) and of X.t
-    // (metres).
+    // The following members are valid for the edge numbered `edge`: bounds on the errors of X.m
+    // (operator norm) and of X.t (metres).
     std::uint64_t edge = 0;
     double rotationError = 0, shiftError = 0, reach = 0;  // reach: upper bound of |X.t|
   };
   struct Step {
     std::size_t view;
-    bool up;  // whether the step leads towards the ancestor: its joint is then inverted
+    bool up;  // whether the step leads towards the ancestor; the joint is then inverted
   };
   struct Path {
-    std::size_t a = kItself, b = kItself;  // views, from the lowest common ancestor
-    std::vector<Step> steps;               // from frame a to frame b
+    std::size_t a = kItself, b = kItself;  // views of frames A and B from their common ancestor
+    std::vector<Step> steps;               // from frame A to frame B
     std::vector<ScrewMotion> screws;
-    // Valid for the edge numbered `edge`, and computed when the motion is first queried.
-    // `poseError`: the error of the pose and of the axes. `twistError`: the error of the twist per
-    // unit of h.
+    // The following members are valid for the edge numbered `edge`, and are computed when the
+    // motion is first queried. `poseError`: the error of the pose and of the axes. `twistError`:
+    // the error of the twist per unit of h.
     std::uint64_t edge = 0;
     LeverError poseError, twistError;
   };
@@ -212,24 +212,25 @@ const EdgeMotion::Impl::View& EdgeMotion::Impl::viewWithErrors(std::size_t index
 /// Computes the error bounds of a path, which leads from one frame of a pair to the other, for the
 /// current edge. Notation: u is the unit roundoff, ρ the error of a rotation (operator norm), τ the
 /// error of a position. Every computed matrix is within 2^-20 of norm 1. Products of errors are
-/// left out here; `relativeMotion` adds them.
+/// left out here; `relativeMotion` covers them by a factor.
 ///
 /// Poses. Each entry of a product is a sum of three products.
 /// - A view X·Y: ρ_X + ρ_Y + 3u·√3·√3, and τ_X + τ_Y + ρ_X·|Y.t| + 4u(√3|Y.t| + |X.t + …|).
 /// - The relative pose X_CA⁻¹·X_CB of frames A and B on two branches from their common ancestor C,
 ///   with |t| < T, the length of the path: ρ_A + ρ_B + 9u, and τ_A + τ_B + ρ_A·T + 7uT.
 ///
-/// Screws. An axis is off by ρ, by its own 32u, and by 6u for the product; the point on the axis is
-/// off by τ. With two branches, axis and point are also transformed into A's frame. Consider a
-/// point at lever y from b's origin, and an axis at distance L from that origin. The point is off
-/// by pose(y), the error of the pose. Its lever from the axis is off by e(y) = pose(y) + τ + axis
-/// error·(|y| + L). The bound e(y) also holds for the distance of the point from the axis, which
-/// `motionBound` uses.
+/// Screws. An axis is off by ρ, by the joint's own 32u, and by 6u for the product. The point on the
+/// axis is off by τ. If A and B are on two branches, axis and point are also transformed into A's
+/// frame. Consider a point at lever y from the origin of frame B, and an axis at distance L from
+/// that origin. The point is off by pose(y), the error of the pose. Its lever from the axis is off
+/// by e(y) = pose(y) + τ + axis error·(|y| + L). The bound e(y) also holds for the distance of the
+/// point from the axis, which `motionBound` uses.
 ///
 /// Twist. From the middle of the interval, a joint turns or slides by at most w = h·rate. So the
 /// displacement of the point by the joints is off by Σ w·e(y), by the errors of the rates, and, for
-/// the arithmetic, by about (16 + steps)·u·Σ w(|y| + L). `relativeMotion` returns the largest e(y)
-/// plus the error of the twist.
+/// the arithmetic, by about (16 + steps)·u·Σ w(|y| + L). The sums run over the joints of the path,
+/// and `steps` is their number. `relativeMotion` returns the largest e(y) plus the error of the
+/// twist.
 void EdgeMotion::Impl::setErrors(Path& path) {
   if (path.edge == edge) return;
   path.edge = edge;

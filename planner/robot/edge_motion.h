@@ -15,8 +15,8 @@ namespace corridor {
 /// on the joints between its two frames. All rounding (interpolation, sine, kinematics) is
 /// included: each frame has an error bound, accumulated along the chain.
 ///
-/// Poses are computed on demand, at most once per time interval. Use one object per thread. Call
-/// `set` for every edge; after the first edge, `set` allocates no memory.
+/// Poses are computed on demand, at most once for each t. Use one object per thread. Call `set` for
+/// every edge; after the first edge, `set` allocates no memory.
 class EdgeMotion final : public MotionSource {
  public:
   /// `tree` and `space` must outlive the object.
@@ -35,8 +35,8 @@ class EdgeMotion final : public MotionSource {
   /// quaternion is zero.
   void set(const Configuration& from, const Configuration& to);
   /// Sets a piece of a curve, whose parameter τ takes the place of t. The piece's `error` is added
-  /// to the tube. Intervals must be within [0, 1], so the method of a query must be
-  /// `EdgeMethod::directional`. @pre Coefficients and errors are finite, with one row or entry for
+  /// to the tube. Time intervals must be within [0, 1]. Queries must use `EdgeMethod::directional`,
+  /// which keeps to this rule. @pre Coefficients and errors are finite, with one row or entry for
   /// each number of a configuration. No first or last quaternion is zero.
   void set(const CurvePiece& piece);
 

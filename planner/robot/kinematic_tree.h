@@ -12,7 +12,7 @@
 namespace corridor {
 
 /// A frame of a kinematic tree. Its pose in the parent's frame is a fixed pose followed by one
-/// elementary joint: X_PF(q) = fixed · joint(q). This definition is meant in real arithmetic on the
+/// elementary joint: X_PF(q) = fixed · joint(q). The definition holds in real arithmetic on the
 /// stored doubles. Quaternions and axes are normalised in real arithmetic, too.
 ///
 /// A joint with several degrees of freedom is a chain of frames. Planar: `translation`, then
@@ -27,8 +27,9 @@ struct Frame {
   };
   static constexpr std::size_t noVariable = SIZE_MAX;
 
-  /// The name of the link, such as "left/hand", or of the obstacle. A planar or floating joint has
-  /// two frames; the first one has the joint's name, or "position" for a rigid robot.
+  /// The name of the link, such as "left/hand", or of the obstacle. A planar or floating joint, or
+  /// a rigid robot, has two frames. The first of them has the joint's name, or the name "position"
+  /// for a rigid robot; the second has the name of the link or robot.
   std::string name;
   std::size_t parent = 0;
   RigidPose fixed;  ///< X_P0: pose in the parent's frame

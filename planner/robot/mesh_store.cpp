@@ -26,9 +26,10 @@ std::vector<std::filesystem::path> foldersIn(const char* variable) {
   return folders;
 }
 
-/// Returns the folders of a package by AMENT_PREFIX_PATH (PREFIX/share/PACKAGE) and
-/// ROS_PACKAGE_PATH (the folder itself, or PACKAGE up to three levels below it, since a workspace
-/// contains repositories, which contain packages).
+/// Returns the existing folders of a package that AMENT_PREFIX_PATH and ROS_PACKAGE_PATH lead to.
+/// For each PREFIX in the former, this is PREFIX/share/PACKAGE. For each folder in the latter, it
+/// is the folder, if its name is PACKAGE, and each folder PACKAGE up to three levels below: a
+/// workspace contains repositories, which contain packages.
 std::vector<std::filesystem::path> foldersOfPackage(const std::string& package) {
   std::vector<std::filesystem::path> found;
   const auto look = [&](const std::filesystem::path& folder) {
@@ -58,8 +59,8 @@ std::vector<std::filesystem::path> foldersOfPackage(const std::string& package) 
   return found;
 }
 
-/// Returns the name of the package whose root is this folder: by its package.xml, or else the
-/// folder's name.
+/// Returns the name of the package whose root is this folder: the name in the folder's package.xml,
+/// or the name of the folder if no name can be read there.
 std::string packageNameOf(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / "package.xml";
   if (!whyNotOrdinaryFile(file).empty()) return folder.filename().string();
@@ -132,7 +133,8 @@ MeshStore::FoundMesh MeshStore::inPackage(const std::string& name) {
 
   const std::filesystem::path beside = (folder_ / package / rest).lexically_normal();
   if (whyNotOrdinaryFile(beside).empty()) return {beside, ""};
-  // The usual layout of a package is PACKAGE/urdf/robot.urdf. Other packages are beside it.
+  // The usual layout of a package is PACKAGE/urdf/robot.urdf. The folders of other packages are
+  // beside the folder PACKAGE.
   const std::vector<Folder>& above = foldersAbove();
   const auto found = [&](const std::filesystem::path& folder) -> FoundMesh {
     foundByName_.insert(folder);

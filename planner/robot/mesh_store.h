@@ -29,14 +29,15 @@ class MeshStore {
   /// Finds and reads the mesh that the URDF calls `name`. Reads each file only once. Adds the file
   /// to the list `files` of the constructor.
   FoundMesh add(const std::string& name);
-  /// Returns the names of the Collada files whose up-axis is not z, and was not applied.
+  /// Returns the names of the Collada files whose up-axis is not z, if the rules say that up-axes
+  /// are not applied; otherwise returns an empty list.
   std::vector<std::string> ignoredUpAxes() const;
   /// Returns the packages that were not found by their names, but whose meshes were found in a
   /// folder of another name above the URDF. Each package is mapped to that folder.
   const std::map<std::string, std::filesystem::path>& guessedPackages() const { return guessed_; }
-  /// Returns whether the folder of a guessed package is also the folder of another package. The
-  /// meshes may then belong to the other package, if both have files of the same names. @pre
-  /// `guessedPackages` has the package.
+  /// Returns whether the folder that was guessed for a package is also the folder in which files of
+  /// another package were found. If both packages have files of the same names, the meshes may then
+  /// belong to the other package. @pre `guessedPackages` has the package.
   bool isDoubtful(const std::string& package) const;
   /// Returns the note on names that begin with package:///, or "". Other readers, such as
   /// Pinocchio, accept such names, too.

@@ -29,8 +29,8 @@ struct LongPose {
 /// The pose X(t) = fixed · joint(t) of a frame along an edge or a piece of a curve, relative to an
 /// ancestor of the frame: the nearest one that EdgeMotion keeps. `fixed` includes the constant
 /// poses of all frames between the two. Everything that is constant on the edge is computed once
-/// per edge. One rounding bound holds for the whole edge. Below, "edge" also stands for a piece of
-/// a curve.
+/// per edge. Each bound on rounding holds for the whole edge. Below, "edge" also stands for a piece
+/// of a curve.
 class MovingJoint {
  public:
   /// Makes the pose `fixed`, followed by the joint of `frame`. `fixed` includes the frame's own
@@ -58,11 +58,11 @@ class MovingJoint {
   /// direction, or a joint that mimics a circle would jump at ±π.
   bool ambiguous() const { return ambiguous_; }
   bool still() const { return largestRate_ == 0; }
-  const Vec3& axis() const { return axis_; }  ///< unit vector, in the frame itself
+  const Vec3& axis() const { return axis_; }  ///< unit vector, in the frame's coordinates
   /// Signed speed of the joint per unit of t, about or along the axis; rad or m. On a piece of a
   /// curve, the speed at the t of the last call of `at`.
   double rate() const { return rate_; }
-  /// Upper bound of |rate| + rateError on the whole edge.
+  /// Returns an upper bound of |rate| + rateError on the whole edge.
   double largestRate() const { return largestRate_; }
   /// Returns an upper bound of the joint's deviation from the uniform motion with `rate`; rad or m.
   /// The bound holds in [t − h, t + h], for the t of the last call of `at`. It is 0 on an edge from
@@ -87,7 +87,8 @@ class MovingJoint {
   void evaluateCurve(double t);
   double curveDeviation(double h) const;
 
-  // Constant. The matrix of a revolute joint is fixed·(1 + sin φ·K + (1 − cos φ)·K²), K = axis×.
+  // The following members are constant. The matrix of a revolute joint is fixed·(1 + sin φ·K + (1 −
+  // cos φ)·K²), K = axis×.
   Frame::Joint joint_ = Frame::Joint::none;
   Coordinate::Kind kind_ = Coordinate::Kind::line;
   Eigen::Index variable_ = 0, count_ = 1;
@@ -98,7 +99,8 @@ class MovingJoint {
   double fixedError_ = 0, fixedShiftError_ = 0, fixedLength_ = 0;
   Vec3 slideAxis_ = Vec3::Zero();  // fixed·axis
 
-  // Set for each edge. `matrixAtZero_` is the matrix of `at` for the angle φ = 0.
+  // The following members are set for each edge. `matrixAtZero_` is the matrix of `at` for the
+  // angle φ = 0.
   Mat3 matrixAtZero_, sine_ = Mat3::Zero(), versine_ = Mat3::Zero();
   double angle_ = 0;  // at t = 0
   Vec3 from_, delta_ = Vec3::Zero();
@@ -107,15 +109,15 @@ class MovingJoint {
   double rotationError_ = 0, shiftError_ = 0, length_ = 0;
   bool ambiguous_ = false;
 
-  // Set for each piece of a curve, except for rotations. Bernstein coefficients of the joint's
-  // value (revolute, prismatic: first row only) or of its vector (translation). Empty: the current
-  // motion is an edge between two states.
+  // The members from here on are set for each piece of a curve, except for rotations. `curve_` has
+  // the Bernstein coefficients of the joint's value (revolute, prismatic: first row only) or of its
+  // vector (translation). It is empty if the current motion is an edge between two states.
   Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, CurvePiece::kLargestDegree + 1>
       curve_;
   double curveError_ = 0;                        // the piece's `error` of this joint, rad or m
   double largestSecond_ = 0, largestThird_ = 0;  // upper bounds of |q''| and |q'''|
-  double second_ = 0;                            // upper bound of |q''| at the last t
-  double evaluatedAt_ = 0;                       // the last t
+  double second_ = 0;                            // upper bound of |q''| at evaluatedAt_
+  double evaluatedAt_ = 0;                       // the t of the last call of evaluateCurve
 };
 
 }  // namespace corridor

@@ -7,7 +7,7 @@
 
 namespace corridor {
 
-/// The importance of a note; the most important value comes first.
+/// The importance of a note. The enumerators begin with the most important one.
 enum class NoteWeight {
   coverage,  ///< a proof may cover less, or something else, than the user expects
   motion,    ///< values, limits or joints differ from those in a file
@@ -20,7 +20,8 @@ struct Note {
   NoteWeight weight = NoteWeight::detail;
 };
 
-/// Returns the texts of the notes, the most important first. Notes of one weight keep their order.
+/// Returns the texts of the notes, the most important first. Notes of the same weight keep their
+/// order.
 std::vector<std::string> textsOf(const std::vector<Note>& notes);
 
 /// Appends the notes in `from` to `to`.

@@ -19,8 +19,8 @@ namespace corridor {
 /// point are already applied to its vertices or points.
 struct PlacedShape {
   std::string name;  ///< "table"; if a link has several shapes, "hand/2"
-  /// The mesh, with the facts about how its file was read; null for a shape of parts. Shapes may
-  /// share a mesh: their bodies then share its trees.
+  /// The mesh, with the facts about how its file was read; null for a shape of parts. Several
+  /// shapes may share a mesh; their bodies then share the mesh's trees.
   std::shared_ptr<const MeshFile> mesh;
   std::vector<ConvexPart> parts;  ///< one for a primitive; many for a cloud, an octree, a polygon
   std::filesystem::path file;     ///< the file that was read for this shape, if any

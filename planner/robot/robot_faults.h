@@ -19,18 +19,19 @@ class RobotFaults {
   /// @param line the fault's line, counted from 1; 0 if the fault concerns the robot as a whole, or
   /// if there is no file.
   void fault(int line, std::string text);
-  /// Formats "label:line: text", for notes.
+  /// Returns the text of a note: "label:line: text", or "label: text" if the line is 0.
   std::string at(int line, const std::string& text) const;
   /// Returns whether no fault was reported since the last call of `takeFaults`.
   bool sound() const { return faultCount_ == 0; }
   /// Returns the number of all faults, including those that are not kept because the list is
   /// limited.
   std::size_t faultCount() const { return faultCount_; }
-  /// Returns whether to search for similar names, which messages suggest. The search is skipped
-  /// after 100 faults, because its time grows with the number of names.
+  /// Returns whether messages should suggest similar names. After 100 faults they should not,
+  /// because the time to search for similar names grows with the number of names.
   bool hints() const { return faultCount_ < 100; }
   /// Returns the faults that were kept, sorted by line, and removes all faults. If more faults were
-  /// reported than kept, an additional last entry gives the number of the others.
+  /// reported than were kept, an additional last entry gives the number of faults that were not
+  /// kept.
   std::vector<Fault> takeFaults();
 
  protected:
@@ -50,7 +51,7 @@ std::string owned(const std::string& kind, std::string_view name);
 /// Returns `robot "arm"`, or "robot" for "": a robot that has no name because it is the only one.
 std::string robotLabel(std::string_view name);
 
-/// Returns " on line N" for messages, or "" for 0: no file.
+/// Returns " on line N" for messages, or "" for line 0, which means that there is no line.
 std::string onLine(int line);
 
 }  // namespace corridor

@@ -16,7 +16,7 @@ namespace corridor {
 enum class JointType { fixed, revolute, continuous, prismatic, planar, floating };
 
 /// The rule of a joint that mimics another one: value = multiplier·(value of `joint`) + offset. The
-/// reader resolves chains of mimics, so `joint` itself is not a mimic.
+/// reader resolves chains of mimics, so `joint` is never a mimic.
 struct Mimic {
   std::size_t joint = 0;
   double multiplier = 1, offset = 0;
@@ -49,15 +49,17 @@ struct LinkModel {
 /// A pair of links that is not tested, and the reason: "adjacent", "SRDF: Never", "robot.yaml:
 /// allow". Pairs with a `proof` are tested in some problems.
 struct AllowedPair {
-  /// The range that a proof covers: within it, the pair is never in contact.
+  /// The margin and the range of joint values that a proof covers: for them, the pair is never in
+  /// contact.
   struct Proof {
     double margin = 0;        ///< metres that the links keep apart
     double beyondLimits = 0;  ///< rad or m by which joint values may be beyond their limits
   };
 
   std::string a, b, reason;
-  /// If set, the pair is tested in those problems whose margin or tube is larger than that of the
-  /// proof.
+  /// If set, the pair is tested in the problems that the proof does not cover: those whose margin
+  /// plus the pair's padding is above `margin`, or whose tube of a single joint is above
+  /// `beyondLimits`.
   std::optional<Proof> proof = {};
 };
 /// The `reason` of pairs that have a `proof`.

@@ -93,14 +93,15 @@ class PartsCheck {
     if (joint.velocity && !(*joint.velocity > 0 && std::isfinite(*joint.velocity)))
       faults_.fault(0, owner + ": its velocity must be a finite number above 0");
     result.mimic = mimicOf(joint, owner);
-    // A fault of the mimic was reported. So no second fault reports that the joint lacks limits.
+    // A fault of the mimic was reported. These limits prevent a second fault, that the joint has
+    // none.
     if (joint.mimic && !result.mimic && isRanged(joint.type) && !result.limit)
       result.limit = UrdfLimit{0.0, 0.0, {}, 0};
     return result;
   }
 
   std::optional<UrdfLimit> limitOf(const PartsJoint& joint, const std::string& owner) {
-    UrdfLimit limit{0.0, 0.0, {}, 0};  // the result after a fault: no other fault is then reported
+    UrdfLimit limit{0.0, 0.0, {}, 0};  // the result after a fault; it causes no further fault
     if (!isRanged(joint.type)) {
       if (joint.lower || joint.upper)
         faults_.fault(0, owner + " is " + nameOf(joint.type) +

@@ -11,7 +11,8 @@ namespace corridor {
 
 /// A robot that a program describes by links and joints, in place of a URDF. Metres and radians.
 struct RobotParts {
-  /// The joint mimics another joint: its value is multiplier·(value of `joint`) + offset.
+  /// The rule of a joint that mimics another one: its value is multiplier·(value of `joint`) +
+  /// offset.
   struct Mimicry {
     std::string joint;
     double multiplier = 1, offset = 0;
@@ -34,8 +35,8 @@ struct RobotParts {
   std::vector<std::array<std::string, 2>> allow = {};  ///< pairs of links that are never tested
 };
 
-/// Makes the description that `readUrdf` makes of a URDF with these links and joints. From equal
-/// numbers, both functions make descriptions that are equal to the last bit. All faults are
+/// Makes the description that `readUrdf` makes of a URDF with these links and joints. If the
+/// numbers are equal, the descriptions of both functions are equal to the last bit. All faults are
 /// appended to `faults`. If there is a fault, the result is nullopt. Faults are: names that are
 /// missing, unknown or not unique; links that are not a tree with one root; numbers that are not
 /// finite; illegal primitives; an axis of length 0; limits that are missing, in the wrong order, or

@@ -21,7 +21,8 @@ SineCosine ofEighths(int eighths) {
 SineCosine ofRadians(double radians, int divisor) {
   const long double quarter = std::numbers::pi_v<long double> / 2;
   const long double quarters = std::nearbyint(radians / quarter);
-  // Recognises multiples of 90 degrees up to 1024 turns. Files hardly contain larger angles.
+  // This test recognises multiples of 90 degrees up to 1024 turns. Files hardly ever contain larger
+  // angles.
   if (std::abs(quarters) <= 4096 && static_cast<double>(quarters * quarter) == radians)
     return ofEighths(static_cast<int>(quarters) * 2 / divisor);
   const long double part = static_cast<long double>(radians) / divisor;

@@ -54,9 +54,9 @@ bool isTooLarge(XmlFile& file, std::size_t links) {
   return file.faultCount() != before;
 }
 
-/// Reads the pairs of links that are not tested. Every pair that the file wants to be tested must
-/// be tested, even if an element can't be read. So the elements <disable_default_collisions> are
-/// used only if all <enable_collisions> can be read.
+/// Reads the pairs of links that are not tested. Every pair that <enable_collisions> names must be
+/// tested, even if an element can't be read. So the elements <disable_default_collisions> are used
+/// only if all <enable_collisions> can be read.
 class PairReader {
  public:
   PairReader(XmlFile& file, SrdfNames& names, RobotModel& model)

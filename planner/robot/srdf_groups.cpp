@@ -44,7 +44,7 @@ class GroupReader {
     model_.notes.push_back({file_.at(element.GetLineNum(), text)});
   }
   /// Turns the faults that were reported since the last call into notes. Returns the text of the
-  /// first fault, or "".
+  /// first of these faults, or "".
   std::string noteFaults() {
     const std::vector<Fault> faults = file_.takeFaults();
     for (const Fault& fault : faults) model_.notes.push_back({fault.str()});
@@ -116,7 +116,8 @@ class GroupReader {
     return above;
   }
 
-  /// Adds the joints between two links, which are the joints above exactly one of the two.
+  /// Adds the joints between two links to the group. These are the joints that are above exactly
+  /// one of the two links.
   void addChain(Element& element, const std::string& owner, Group& group) {
     const auto base = names_.findLink(element, "base_link", owner, group.missing);
     const auto tip = names_.findLink(element, "tip_link", owner, group.missing);

@@ -53,8 +53,7 @@ class UnknownNames {
   const XmlFile::Element* last_ = nullptr;
 };
 
-/// Finds the links and joints of a robot by the names in an SRDF, and keeps account of unknown
-/// names.
+/// Finds the links and joints of a robot by the names in an SRDF, and counts unknown names.
 class SrdfNames {
  public:
   SrdfNames(XmlFile& file, const RobotModel& model);

@@ -137,7 +137,7 @@ class UrdfBuilder {
   }
 
   /// Adds a note if a mesh is longer than 20 m. The coordinates of such a mesh are probably in
-  /// millimetres: its link is then longer than 20 mm.
+  /// millimetres; the link would then be longer than 20 mm.
   void noteLargeMesh(const MeshFile& file, const std::string& shape, int line) {
     Vec3 lower = file.mesh.vertices.front(), upper = lower;
     for (const Vec3& vertex : file.mesh.vertices) {

@@ -14,10 +14,10 @@ namespace corridor {
 /// Folders by package name, for names such as `package://NAME/…` in a URDF. If a package is not
 /// listed, the reader searches for the file in these folders, in this order:
 /// - the folder NAME beside the URDF;
-/// - the folders that contain the URDF and are the root of package NAME, by their package.xml, or
-///   by their own name if they have none;
-/// - the package's folders by the environment variables AMENT_PREFIX_PATH and ROS_PACKAGE_PATH; if
-///   there are such folders, the search ends with them;
+/// - the folders that contain the URDF and are the root of package NAME. The package's name is
+///   taken from the package.xml of the folder, or is the folder's name if there is no package.xml;
+/// - the package's folders to which the environment variables AMENT_PREFIX_PATH and
+///   ROS_PACKAGE_PATH lead; if there are such folders, the search ends with them;
 /// - a folder NAME in a folder that contains the URDF;
 /// - a folder without package.xml that contains the URDF (`MeshStore::guessedPackages`).
 using PackageMap = std::map<std::string, std::filesystem::path>;

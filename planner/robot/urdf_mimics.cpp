@@ -75,7 +75,7 @@ class Mimics {
 
   /// Handles a joint whose <mimic> names an unusable joint: a joint that is not in the robot, or
   /// that is not of one variable. The mimicking joint is then used as a joint of its own, within
-  /// its own limits. Reports a fault if it needs limits and has none.
+  /// its own limits. Reports a fault if the mimicking joint needs limits and has none.
   void addLost(const UrdfJoint& joint, const std::string& why, const std::string& hint) {
     const std::string text = owned("joint", joint.name) + " mimics " +
                              quotedWord(joint.mimic->joint) + ", which is " + why;
@@ -232,9 +232,9 @@ class Mimics {
   std::unordered_map<std::string, std::size_t> indices_;
   std::vector<std::string> names_;
   std::vector<std::size_t> leader_;  // for each joint: the joint that it mimics
-  std::vector<std::size_t> walk_;    // for each joint: the joint where the walk that met it began
+  std::vector<std::size_t> walk_;  // for each joint: the start of the walk in `resolve` that met it
   std::vector<std::optional<Mimic>> rules_;
-  int hints_ = 10;  // how many more searches for similar names are allowed; each visits all names
+  int hints_ = 10;  // number of searches for similar names still allowed; each visits all names
 };
 
 }  // namespace

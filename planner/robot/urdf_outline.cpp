@@ -213,7 +213,7 @@ std::optional<UrdfMimic> readMimic(XmlFile& file, Element& joint, const std::str
 }
 
 /// Reads the soft limits of <safety_controller>, and narrows the joint's limits by them if `apply`
-/// is true. @returns whether the soft limits are narrower, and were not applied.
+/// is true. @returns whether the soft limits are narrower and were not applied.
 bool narrow(XmlFile& file, Element& element, bool apply, const std::string& owner,
             UrdfJoint& joint) {
   Element* const safety = element.FirstChildElement("safety_controller");
@@ -254,8 +254,8 @@ UrdfJoint readJoint(XmlFile& file, Element& element, const UrdfRules& rules,
   return joint;
 }
 
-/// Returns whether this is a xacro file that was not expanded, and reports it. Its macros would
-/// otherwise be ignored as unknown elements.
+/// Returns whether this is a xacro file that was not expanded; if so, reports a fault. Without the
+/// fault, the macros would be ignored as unknown elements.
 bool isXacro(XmlFile& file, const Element& element) {
   for (const Element* child = element.FirstChildElement(); child;
        child = child->NextSiblingElement()) {
@@ -270,7 +270,7 @@ bool isXacro(XmlFile& file, const Element& element) {
   return false;
 }
 
-/// Returns whether this is an SRDF instead of a URDF, and reports it.
+/// Returns whether this is an SRDF instead of a URDF; if so, reports a fault.
 bool isSrdf(XmlFile& file, const Element& root) {
   if (root.FirstChildElement("link")) return false;
   for (const char* const kind : {"group", "group_state", "virtual_joint", "disable_collisions"})
@@ -283,7 +283,8 @@ bool isSrdf(XmlFile& file, const Element& root) {
 
 using Lines = std::unordered_map<std::string, int>;
 
-/// Appends `named` to `all`, unless its name is missing or already taken; a taken name is a fault.
+/// Appends `named` to `all`, unless the name of `named` is missing or already taken. Reports a
+/// fault for a name that is taken.
 /// @param lines the line of each name so far.
 /// @returns whether `named` was appended.
 template <class Named>

@@ -47,13 +47,13 @@ struct UrdfJoint {
   std::optional<UrdfMimic> mimic;
 };
 
-/// The links and joints in the order of the file. Links and joints without a unique name are left
-/// out.
+/// The links and joints in the order of the file. A link or joint is left out if it has no name, or
+/// the name of an earlier link or joint, respectively.
 struct UrdfOutline {
   std::string name;
   std::vector<UrdfLink> links;
   std::vector<UrdfJoint> joints;
-  bool complete = true;  ///< false: a link or joint without a unique name was left out
+  bool complete = true;  ///< false: a link or joint was left out
 };
 
 /// Reads the elements, and the mesh files that they name. Also changes the XML for urdfdom: numbers
@@ -84,7 +84,8 @@ void finishRobot(const std::vector<std::size_t>& order,
                  const std::vector<std::optional<Mimic>>& mimics, RobotModel& model);
 
 /// Returns the axis scaled by a power of two, so that its largest component is in [1, 2). Then the
-/// squares of its components do not overflow, nor does their sum underflow; the scaling is exact.
+/// squares of the components do not overflow, and the sum of the squares does not underflow. The
+/// scaling is exact.
 /// @pre `axis` is finite and not 0.
 Vec3 scaledAxis(const Vec3& axis);
 

@@ -24,8 +24,8 @@ class Tree {
   std::vector<std::size_t> check() {
     bool joined = outline_.complete;
     for (std::size_t j = 0; j < joints_.size(); ++j) joined &= join(j);
-    // If a joint has a misspelt link, or was left out, its child has no parent. The child would
-    // then also be reported as a second root.
+    // If a joint names a misspelt link, or was left out, its child has no parent. `checkShape`
+    // would then also report the child as a second root.
     if (joined) checkShape();
     return faults_.sound() ? order() : std::vector<std::size_t>();
   }

@@ -58,9 +58,9 @@ bool holdsCollision(const XmlFile::Element& element) {
   return false;
 }
 
-/// Returns why TinyXML2 would need gigabytes (too many elements and attributes) or quadratic time
-/// (too many attributes of one element), or an empty string. Entities need no limit: TinyXML2
-/// expands only the five entities that XML itself defines.
+/// Returns the reason why TinyXML2 would need gigabytes (too many elements and attributes) or
+/// quadratic time (too many attributes of one element). If there is no such reason, returns "".
+/// Entities need no limit: TinyXML2 expands only the five entities that XML itself defines.
 std::string whyTooMuch(std::string_view text) {
   constexpr std::size_t mostMarks = 10'000'000, mostInTag = 100;
   std::size_t marks = 0, inTag = 0;

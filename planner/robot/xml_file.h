@@ -49,9 +49,9 @@ class XmlFile : public RobotFaults {
   /// further child of that name.
   Element* child(Element& parent, const char* name, const std::string& owner);
   /// Checks for children whose names are in neither list. Such a child is a fault if its name is
-  /// similar to one in `read`, or if it has collision geometry: ignoring the child may lose data.
-  /// For the other children, one note is added per name, for at most 100 names. Elements of other
-  /// formats ("drake:joint") are ignored.
+  /// similar to one in `read`, or if it has collision geometry, because ignoring such a child may
+  /// lose data. For the other children, one note is added per name, for at most 100 names. Elements
+  /// of other formats ("drake:joint") are ignored.
   void checkChildren(Element& parent, const std::vector<std::string>& read,
                      const std::vector<std::string>& ignored, const std::string& owner,
                      std::vector<Note>& notes);

@@ -38,8 +38,8 @@ constexpr double kLongestStep = 0.5;
 /// kLeastSamples and at most kMostSamples.
 constexpr double kSampleLength = 0.05;
 constexpr int kLeastSamples = 4, kMostSamples = 32;
-/// The share of a pair whose target is not proved, although the pair's distance at no sample is
-/// below the target.
+/// The share that is returned for an edge if a target could not be proved, although no sampled
+/// distance is below its target.
 constexpr double kJustMissed = 0.99;
 /// The number of times that the step between samples is halved, in the search for the time with the
 /// smallest share.
@@ -194,8 +194,8 @@ double ClearanceTargets::least() const {
   return all.empty() ? clearance_ : *std::min_element(all.begin(), all.end());
 }
 
-/// Returns the gradients of the distances of pairs, per number of a step. The closest points stay
-/// fixed to their frames: to first order, this does not change the distances.
+/// Returns, for each pair, the gradient of its distance: one entry for each number of a step. The
+/// closest points are kept fixed in their frames, which changes the distances only to second order.
 std::vector<TangentStep> ClearanceTargets::gradientsOf(const std::vector<Scene::NearPair>& near,
                                                        const Configuration& q) const {
   // The rounding of positions (some 1e-15 m) causes an error of the quotient of 1e-15 m /

@@ -20,7 +20,7 @@ struct MeasuredPiece {
   /// x = (ds/dt)²: ds/dt grows by at most gains − slopes·x, and shrinks by at most gains +
   /// slopes·x.
   Eigen::MatrixXd gains, slopes;
-  Eigen::VectorXd lengths;  ///< of the part around each point, s; 0: unused point
+  Eigen::VectorXd lengths;  ///< of the part around each point, seconds; 0: not used
   Eigen::VectorXd fastest;  ///< largest (ds/dt)² that the limits allow at a constant speed
   double time = 0;          ///< least time if the speed may change in jumps, seconds
   double length = 0;        ///< seconds
@@ -59,8 +59,8 @@ class CurveRuler {
 
   /// Measures a curve of pieces, in this order. A forward and a backward pass over the points give
   /// the time. In these passes, the acceleration along the curve is limited by the part of the
-  /// limits that the curvature does not use. This estimates the law of time_law.h, without its
-  /// backtracking.
+  /// limits that the curvature does not use. The result is an estimate of the time of the law of
+  /// time_law.h, without that law's controllable sets.
   /// @param angles between each piece and the next, radians (angleBetween()). Where an angle is not
   /// 0, the robot stops. `bend` is computed as if the robot turned there on an arc of 10^-3 of the
   /// curve's length.
@@ -78,7 +78,7 @@ class CurveRuler {
   Configuration weight_;      // 1/scale; 0 for rotations
   Configuration seconds_;     // scale/acceleration; 0 for rotations
   Configuration fastest_;     // (largest velocity / scale)²; infinity: no limit of velocity
-  std::vector<Basis> bases_;  // by degree
+  std::vector<Basis> bases_;  // one for each degree
 };
 
 }  // namespace corridor

@@ -177,8 +177,8 @@ MadeTrajectory provedAlong(const Problem& problem, const Checker& checker, Lawfu
   return made;
 }
 
-/// Returns a lower bound of the time along lines with a stop at each corner: the law without limits
-/// of jerk and of links, which has a closed form.
+/// Returns a lower bound of the time along lines with a stop at each corner: the duration of the
+/// law without limits of jerk and link speed. On lines, this law has a closed form.
 double leastTimeWithStops(const Problem& problem, const std::vector<CurvePiece>& lines) {
   JointLimits limits = problem.task.limits;
   limits.jerk.setConstant(HUGE_VAL);

@@ -50,8 +50,10 @@ inline constexpr int kTrajectoryAttempts = 4;
 
 /// Makes a trajectory along a path, by the problem's TrajectorySettings, in these steps:
 /// 1. Corners are rounded by curves that the checker proves (smooth_path.h). Then parts of the
-///    curve are replaced by better ones that the checker proves (shorten_curve.h). If the goal of
-///    smoothing is time, and the law along the result is not faster, the replacements are dropped.
+///    curve are replaced by better ones that the checker proves (shorten_curve.h). They are not
+///    replaced for `Smoothing::none` and `Smoothing::corners`, nor if the distance of rounded
+///    corners from the path is limited. If smoothing shall reduce the time (`Smoothing::time`), and
+///    the law along the result is not faster, the replacements are dropped.
 /// 2. A time law passes along the curve in the shortest time that the problem's limits allow
 ///    (time_law.h). If a limit of jerk is given, the law keeps this limit, too.
 /// 3. Rows are computed from the law (emit.h), and written as text.

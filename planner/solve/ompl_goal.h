@@ -32,9 +32,9 @@ class OmplGoal : public ompl::base::GoalSampleableRegion {
 };
 
 /// Returns valid goal states: all goals of the problem that are valid; and, if the problem has a
-/// goal region, random states in this region, until there are `count` states. The random states
-/// depend on the problem's seed, and are drawn around each goal in turn. Empty if no valid state
-/// was found.
+/// goal region, random states in this region, until there are `count` states, or until 20·`count`
+/// random states were tried. The random states depend on the problem's seed, and are drawn around
+/// each goal in turn. Empty if no valid state was found.
 /// @param whyNot receives a line for each goal that is not valid.
 std::vector<Configuration> sampleGoals(const Problem& problem, const Checker& checker,
                                        std::size_t count, std::vector<std::string>& whyNot);

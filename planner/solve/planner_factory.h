@@ -40,7 +40,8 @@ struct PlannerParameter {
   int line = 0;
 };
 
-/// Creates a planner and sets its parameters.
+/// Creates a planner and sets its parameters. A parameter that the planner does not have, but `si`
+/// has, is set in `si`.
 /// @param nameAt the place where the name was written, for messages; its key and value are ignored.
 /// @throws InputError if the planner's name is unknown. If it is known, but parameters have faults
 /// (unknown names, values of the wrong type or range), throws InputError with all of these faults;

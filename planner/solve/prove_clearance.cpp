@@ -19,8 +19,9 @@ constexpr double kFirstTry = 0.9;
 constexpr double kNextTry = 0.8;
 constexpr int kMostTries = 10;
 
-/// Tries a few clearances from `most` downwards. Returns the first that every edge of a path is
-/// proved to keep, or 0 if none above `least` is.
+/// Tries a few clearances from `most` downwards. Returns the first of them that every edge of a
+/// path is proved to keep. Returns 0 if the proof fails for all clearances that are tried: at most
+/// kMostTries, all above `least`.
 double provedClearance(const Checker& checker, const Path& path, double most, double least) {
   double tried = roundedDownTo2Digits(most);
   // All edges before this one are proved to keep the clearance that is tried. A path of one state
@@ -38,7 +39,7 @@ double provedClearance(const Checker& checker, const Path& path, double most, do
   return 0;
 }
 
-/// Returns a lower bound of the share of an edge on which the targets are kept.
+/// Returns a lower bound of the fraction of an edge on which the targets are kept.
 double keptShare(const Checker& checker, const ClearanceTargets& targets, const Configuration& from,
                  const Configuration& to, EdgeMemory& onTarget) {
   if (onTarget.isFree(from, to)) return 1;

@@ -26,8 +26,8 @@ struct PathClearance {
   /// The smallest distance at the start and at the goal, metres; infinite if no pair is closer than
   /// the preferred clearance there.
   double smallestAtEnds = 0;
-  /// A lower bound of the share of the path's length, in the space's distance, on which every pair
-  /// is proved to keep its target (`ClearanceTargets`). 1: on the whole path.
+  /// A lower bound of the fraction of the path's length, in the space's distance, on which every
+  /// pair is proved to keep its target (`ClearanceTargets`). 1: on the whole path.
   double shareOnTarget = 0;
 };
 

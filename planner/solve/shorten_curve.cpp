@@ -103,7 +103,8 @@ class Shortener {
     }
   }
 
-  /// Returns the place at which a share of the section's estimated time has passed.
+  /// Returns the place at which the fraction `share` of the section's estimated time has passed. If
+  /// this place is near an end of its piece, returns the end instead (kLeastShare).
   CurvePlace placeAt(double share) const {
     double rest = 0;
     for (std::size_t k = begin_; k < end_; ++k) rest += share * measured_[k].time;
@@ -199,7 +200,7 @@ class Shortener {
     if (to.tau > 0 && !freeEnd) after.push_back(splitAt(pieces()[last], to.tau).second);
 
     // `section` describes the section as it would be with one new piece instead of the part.
-    std::vector<MeasuredPiece> own;  // of `before`, the new piece and `after`
+    std::vector<MeasuredPiece> own;  // the measures of `before`, the new piece and `after`
     for (const CurvePiece& piece : before) own.push_back(ruler_.of(piece));
     const std::size_t place = own.size();
     own.emplace_back();
@@ -265,10 +266,10 @@ class Shortener {
   Smoothing goal_;
   CurveRuler ruler_;
   std::vector<MeasuredPiece> measured_;
-  std::vector<double> angles_;  // at the end of each piece; 0: the tangent is continuous
+  std::vector<double> angles_;  // from each piece to the next; 0: the tangent is continuous
   std::vector<int> madeIn_;     // the pass in which each piece was made
   int pass_ = 0;
-  double value_ = 0;  // the measure of the section that is reduced
+  double value_ = 0;  // the measure that is reduced, of the section
   ShortCurve result_;
   std::size_t begin_ = 0, end_ = 0;  // pieces of the section, in which no rotation moves
 };

@@ -25,7 +25,7 @@ constexpr double kLeastGainOfRound = 5e-3;
 constexpr int kRounds = 3;
 /// Shortcuts over parts of the path have at least 2^-kLevels of its length.
 constexpr int kLevels = 4;
-/// The maximum number of times that a shortcut across a corner is halved.
+/// The maximum number of times that the distance of a shortcut's ends from the corner is halved.
 constexpr int kHalvingsOfCut = 5;
 /// A place on an edge counts as the edge's end if it is nearer to this end than this share of the
 /// edge. Any small value works: it only prevents edges of nearly no length.
@@ -53,7 +53,7 @@ class PathShortener {
   EdgeMemory& edges_;
   const std::function<bool()>& stop_;
   Path path_;
-  std::vector<double> lengthTo_;  // of the path from its first state to each state
+  std::vector<double> lengthTo_;  // length of the path from its first state to each state
 };
 
 /// The corners of a path, for shortcuts across single corners. The states are a linked list.
@@ -191,7 +191,8 @@ bool PathShortener::testEdge(const Configuration& from, const Configuration& to)
   return stop_() ? edges_.knowsFree(from, to) : edges_.isFree(from, to);
 }
 
-/// Sets the path and the lengths along it. Leaves out a state that is equal to the state before.
+/// Sets the path and the lengths along it. Leaves out states at distance 0 from the state before.
+/// The first and the last state stay.
 void PathShortener::setPath(Path path) {
   path_.clear();
   lengthTo_.clear();
@@ -206,7 +207,8 @@ void PathShortener::setPath(Path path) {
   }
 }
 
-/// Appends the states after `first`, up to `last`, to `result`: as few as free edges allow.
+/// Appends states after `first`, up to `last`, to `result`. If the edge from `first` to `last` is
+/// free, appends only `last`. Otherwise does the same for both halves of this part of the path.
 void PathShortener::bridge(std::size_t first, std::size_t last, Path& result) {
   if (last == first + 1 || testEdge(path_[first], path_[last])) {
     result.push_back(path_[last]);

@@ -15,11 +15,12 @@ namespace corridor {
 /// 1. From the whole path downwards, a part of the path is replaced by one edge if this edge is
 ///    free. Otherwise both halves of the part are tried.
 /// 2. Up to three rounds try shortcuts over halves, quarters, … of the path, and then shortcuts
-///    across its corners. The corner with the largest gain is always next. At first, a shortcut
-///    across a corner begins and ends on the two edges at a distance from the corner that is the
-///    length of the shorter edge. Each time the shortcut is not free, this distance is halved, up
-///    to five times. A shortcut that gains less than a thousandth of the length is not tried.
-/// 3. States are removed where the edge between their neighbours is free.
+///    across its corners. The corner with the largest gain is always next. At first, both ends of a
+///    shortcut across a corner are as far from the corner as the nearer of its two neighbours. Each
+///    time the shortcut is not free, this distance is halved, up to five times. A shortcut that
+///    gains less than a thousandth of the length is not tried.
+/// 3. States are removed where the edge between their neighbours is free. (This is also done after
+///    step 1.)
 ///
 /// Returns the versions of the path, from the path itself to the shortest, so that an earlier
 /// version can be used if a later one can't be certified. The first and the last state stay. The

@@ -11,8 +11,8 @@
 namespace corridor {
 namespace {
 
-/// A try that fails is halved at most this often. So the smallest curve of a corner takes 1/64 of
-/// the edge.
+/// After a try that fails, the next try is half as large, at most this often. So the smallest curve
+/// of a corner takes 1/64 of the shorter edge.
 constexpr int kCurveHalvings = 5;
 /// A curve takes at most this share of an edge at the beginning or end of the path, because a robot
 /// that starts from rest needs a part of the edge to gain speed.
@@ -174,7 +174,7 @@ class Smoother {
     if (a.last != b.first || deviation_ < HUGE_VAL) return false;
     const auto [from, unused] = freeRange(a.first, &a);
     const double to = freeRange(b.last, &b).second;
-    for (const double share : {1.0, 0.5, 0.0}) {  // of what curves leave of the outer edges
+    for (const double share : {1.0, 0.5, 0.0}) {  // share of the outer edges' free ranges
       const double begin = a.from + share * (from - a.from), end = b.to + share * (to - b.to);
       const double gap = ruler_.timeOf(at(b.last, end) - at(a.first, begin));
       const Blend whole = blendOf(a.first, begin, b.last, end, gap / 5);

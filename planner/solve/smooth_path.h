@@ -20,7 +20,7 @@ struct SmoothOptions {
   /// For each number, its largest velocity and acceleration: the scales of lengths, and the limits
   /// with which times are estimated (curve_measure.h). Infinity: no limit. Empty: all are 1.
   Configuration velocity = {}, acceleration = {};
-  /// What smoothing reduces.
+  /// What smoothing reduces. `Smoothing::none`: no corner is rounded.
   Smoothing goal = Smoothing::time;
 };
 
@@ -41,11 +41,12 @@ struct SmoothPath {
 /// rounding; they are not tested here.
 ///
 /// 1. Each corner gets the largest curve that is proved. The first try takes half of the shorter
-///    edge (up to 90 % of an edge at an end of the path), or less if `deviation` requires it. A try
-///    that fails is halved.
-/// 2. Then each corner may also take what its neighbours left of the edges.
+///    edge (up to 90 % of an edge at an end of the path), or less if `deviation` requires it. If a
+///    try fails, the next try is half as large.
+/// 2. Then the curve of each corner may also take those parts of the edges that the curves of the
+///    neighbouring corners left.
 /// 3. Two adjacent curves, with the edge between them, are replaced by one curve if it is proved
-///    and the estimated time is shorter.
+///    and the estimated time is at least 1 % shorter. This is done only if `deviation` is infinite.
 ///
 /// A coordinate that is a rotation keeps its slerp on each edge. A corner where such a coordinate
 /// moves on either edge is not rounded: a robot stops there. The values of circles in the result

@@ -3,7 +3,7 @@
 #include "planner/robot/configuration_space.h"
 #include "planner/robot/curve.h"
 
-/// What the steps of smoothing share.
+/// Functions that several steps of smoothing use.
 namespace corridor {
 
 /// Returns whether a rotation differs between two configurations.

@@ -36,11 +36,11 @@ Solution makeSolution(const Problem& problem, const SolveReport& report, std::st
 /// written whole or not at all.
 /// @throws InputError if it can't be written.
 void writeSolution(const Solution& solution, const std::filesystem::path& file);
-/// Returns the text of a solution file that is in the current folder.
+/// Returns the text that a solution file in the current folder has.
 std::string solutionText(const Solution& solution);
 
-/// Returns whether a file begins like a solution file: the format is in its first 4 kB. Returns
-/// false for a file that can't be read.
+/// Returns whether a file begins like a solution file: its first 4 kB contain the line that names
+/// the format. Returns false for a file that can't be read.
 bool isSolutionFile(const std::filesystem::path& file);
 
 /// Reads a solution file, or an OMPL.app `.path` file, which has one state per line; "-" is the

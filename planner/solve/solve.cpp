@@ -40,9 +40,9 @@ constexpr std::size_t kGoalSamples = 32;
 /// The least share of planner.time that simplifying gets, even if the planner used all of it.
 constexpr double kSimplifyShare = 0.05;
 constexpr double kProgressPeriod = 0.1;  // s
-/// Metres: a clearance of up to kSmallClearance is aimed at directly. Measured on arms, it is
-/// reached nearly everywhere. A larger clearance is approached by doubling, from kSmallClearance or
-/// from the clearance divided by kClearanceDivisor, whichever is larger.
+/// Metres. A preferred clearance of up to kSmallClearance is the target from the beginning.
+/// Measured on arms, it is reached nearly everywhere. A larger clearance is approached by doubling,
+/// from kSmallClearance or from the clearance divided by kClearanceDivisor, whichever is larger.
 constexpr double kSmallClearance = 0.005, kClearanceDivisor = 8;
 /// Minimises the length of a path in the space's distance. OMPL's own class samples ellipses
 /// directly, and throws for spaces in which it can't. For such a space this class samples the whole
@@ -341,7 +341,8 @@ bool Solve::certified(const Path& path) {
   return holds;
 }
 
-/// Returns the versions of the path, from the planner's own to the shortest.
+/// Returns the versions of the path in the order in which they are made: the planner's own path,
+/// shorter ones, and a version with more clearance, if one is preferred and was found.
 std::vector<Path> Solve::simplified(og::PathGeometric& path) {
   std::vector<Path> versions{configurationsOf(path)};
   const Simplifier simplifier = problem_.settings.simplify;

@@ -99,7 +99,7 @@ std::vector<Row> readRows(const std::filesystem::path& file, const Configuration
     const std::vector<std::string> words = wordsOfLine(line);
     if (words.empty()) continue;
     // A name may look like a number (a joint "1"). So the first line is a header only if one of its
-    // words is not a number.
+    // words is not a number, and one of its words is a name.
     double number0 = 0;
     const bool isHeader =
         allowHeader &&

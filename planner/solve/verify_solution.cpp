@@ -298,7 +298,7 @@ VerifyReport verifySolution(const Problem& problem, const Solution& solution,
     report.verdict = report.pathReport.verdict = PathVerdict::undecided;
     report.pathReport.edges = static_cast<int>(solution.path.size()) - 1;
     std::vector<std::string> unused;
-    report.reachesGoal = checkEnds(problem, solution.path, unused);  // for pictures
+    report.reachesGoal = checkEnds(problem, solution.path, unused);  // pictures show this
     return report;
   }
   report.reachesGoal = checkEnds(problem, solution.path, report.violations);

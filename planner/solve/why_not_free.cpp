@@ -105,8 +105,8 @@ double tubeOf(const Checker& checker, const Configuration& q, const Contact& pai
 /// Returns directions in which to search for a free configuration, as steps of its numbers. For a
 /// pose the directions are evenly spread positions (a circle, or a Fibonacci spiral on the sphere)
 /// with the orientation kept. Otherwise a direction changes one coordinate alone, or is a random
-/// mixture of all coordinates; rotations (quaternions) are kept. In these directions the largest
-/// step of a number is 1.
+/// mixture of all coordinates; rotations (quaternions) are kept. In each direction of this second
+/// kind, the largest step of a number is 1.
 std::vector<Configuration> directions(const ConfigurationSpace& space) {
   constexpr int count = 64;
   const auto size = static_cast<Eigen::Index>(space.size());
@@ -143,7 +143,9 @@ std::vector<Configuration> directions(const ConfigurationSpace& space) {
 struct NearestFree {
   Configuration q;
   int digits = 17;  ///< if `q` is printed with so many digits and read back, it is still free
-  double away = 0;  ///< for a pose the distance of its position, metres; else the largest step
+  /// How far `q` is from the given configuration. For a pose: the distance of the positions,
+  /// metres. Otherwise: the largest difference of a number, rad or m.
+  double away = 0;
 };
 
 /// Rounds the numbers that the message prints to 4, 6, 9 or 12 digits: the fewest with which

@@ -13,7 +13,8 @@ namespace corridor {
 /// too close, it names the gap, and the setting to change.
 std::optional<std::string> whyNotFree(const Configuration& q, const Checker& checker);
 
-/// Returns one line: the numbers that are outside of their bounds, and the bounds.
+/// Returns one line: the numbers that are outside of their bounds, and the bounds. If the
+/// configuration is the pose of one body, the line has only its position.
 /// @pre `q` is out of bounds.
 std::string whyOutOfBounds(const Configuration& q, const ConfigurationSpace& space);
 

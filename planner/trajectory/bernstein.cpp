@@ -7,7 +7,8 @@ namespace {
 
 using Row = std::array<double, Polynomial::kLargestDegree + 1>;
 
-/// binomials[n][k]. All are below 2^53, so they are exact.
+/// The binomial coefficients: of[n][k] is the number of subsets of k elements of a set of n
+/// elements. All are below 2^53, so they are exact.
 struct Binomials {
   std::array<Row, Polynomial::kLargestDegree + 1> of{};
   constexpr Binomials() {
@@ -26,7 +27,7 @@ Polynomial restricted(Polynomial p, double from, double to) {
   if (to < 1)  // the part [0, to]
     for (int level = 1; level <= n; ++level)
       for (int i = n; i >= level; --i) p.c[i] = (1 - to) * p.c[i - 1] + to * p.c[i];
-  if (from > 0) {  // of [0, to], which is now p, keep the part from the parameter from/to on
+  if (from > 0) {  // p is now the part [0, to]; keep its part [from/to, 1]
     const double t = from / to;
     for (int level = 1; level <= n; ++level)
       for (int i = 0; i <= n - level; ++i) p.c[i] = (1 - t) * p.c[i] + t * p.c[i + 1];

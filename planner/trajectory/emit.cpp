@@ -16,8 +16,8 @@ namespace {
 
 /// In the first attempt, an interval between rows is halved if its curve exceeds a limit by more
 /// than this factor. If the law must be slowed down, it is made slower than needed by this factor.
-/// In later attempts, every interval that exceeds a limit is halved; because of the slower law, few
-/// do.
+/// In later attempts, an interval is halved if its curve exceeds a limit at all. Few curves do,
+/// because the law is then slower.
 constexpr double kMostExcess = 1.0005;
 /// The largest number of times that one segment of the law is halved.
 constexpr int kLevels = 10;
@@ -70,9 +70,9 @@ class Rows {
     std::stable_sort(all.begin(), all.end(), [&](const LawTime& a, const LawTime& b) {
       return clock_.timeOf(a) < clock_.timeOf(b);
     });
-    // Two rows that are at most `least` seconds apart become one row, such as a stop and a regular
-    // row that differ only by rounding. With a rate, rounding would spoil the derivatives at rows
-    // that are very close together.
+    // If two required times are at most `least` seconds apart, only one of them gets a row. For
+    // example, the times of a stop and of a regular row may differ only by rounding. With a rate,
+    // rounding would spoil the derivatives at rows that are very close together.
     const double least = std::max(1e-9 * end, options_.rate ? 1e-3 / *options_.rate : 0);
     for (const LawTime& t : all)
       if (required_.empty() || clock_.timeOf(t) > clock_.timeOf(required_.back()) + least)
@@ -239,11 +239,13 @@ Emission emitRows(const TimeLaw& given, const std::vector<CurvePiece>& path,
   }
   const bool atRest = given.options.startRate == 0 && given.options.endRate == 0;
   TimeLaw law = given;
+  double stretchOfLaw = 1;
   JointLimits smaller = limits;
   if (options.rate && atRest) alignRuns(law, 1 / *options.rate);
   if (options.rate && law.duration * *options.rate > static_cast<double>(kMostRows))
     return fail("more than 10^6 rows; use a smaller rate");
-  // Each attempt brings the largest share nearer to 1; two or three are needed.
+  // Each attempt brings the largest ratio of a value to its limit nearer to 1. Two or three
+  // attempts are usually enough.
   for (int attempt = 0; attempt < 8; ++attempt) {
     Rows rows(law.segments, law.stopTimes, view, limits, tree, options,
               attempt == 0 ? kMostExcess : 1);
@@ -255,6 +257,7 @@ Emission emitRows(const TimeLaw& given, const std::vector<CurvePiece>& path,
     result.rows = std::move(rows.rows);
     result.deviation = rows.deviation;
     result.extraRows = options.rate ? rows.extra : 0;
+    result.stretch = stretchOfLaw;
     // Times are rounded when they are multiplied, so the proof may need another multiplication.
     for (int round = 0; round < 4; ++round) {
       result.ratios = proveLimits(result.rows, options.degree, space, limits, tree);
@@ -271,13 +274,13 @@ Emission emitRows(const TimeLaw& given, const std::vector<CurvePiece>& path,
     }
     const double factor = neededFactor(result.ratios);
     if (!std::isfinite(factor)) break;
-    if (atRest) {  // with a rate: slow the law down, and choose rows again
+    if (atRest) {  // slow the law down, and choose rows again
       const double by = factor * kMostExcess;
       slowDown(law.segments, by);
       for (double& stop : law.stopTimes) stop *= by;
       law.duration *= by;
-      result.stretch *= by;
-      alignRuns(law, 1 / *options.rate);
+      stretchOfLaw *= by;
+      if (options.rate) alignRuns(law, 1 / *options.rate);
       continue;
     }
     smaller.velocity /= std::max(1.0, result.ratios.velocity.share) * kMostExcess;

@@ -21,8 +21,8 @@ struct EmitOptions {
   double deviation = 1e-4;
 };
 
-/// A trajectory: rows. The curve that interpolates the rows was proved to keep the limits, and to
-/// stay near the path up to rounding.
+/// A trajectory: rows. The curve that interpolates the rows is proved to keep the limits. Its
+/// distance from the path is bounded by `deviation`; this bound does not include rounding.
 struct Emission {
   std::vector<TimedRow> rows;  ///< ascending times, from 0
   double duration = 0;         ///< seconds
@@ -42,11 +42,11 @@ struct Emission {
 
 /// Makes rows of a time law.
 ///
-/// 1. Without a rate, a row is placed at each stop, at the start and at the end. Time intervals
-///    between rows are then halved until the curve is within `deviation` of the path, and exceeds
-///    no limit by much. With a rate, each motion between two stops is first slowed down so that it
-///    takes a whole number of periods; so every stop is at a regular row. Rows are then added
-///    between the regular rows by the same rule.
+/// 1. Without a rate, a row is placed at each stop, at the start, at the end and, if the space has
+///    rotations, at the ends of pieces. Time intervals between rows are then halved until the curve
+///    is within `deviation` of the path, and exceeds no limit by much. With a rate, each motion
+///    between two stops is first slowed down so that it takes a whole number of periods; so every
+///    stop is at a regular row. Rows are then added between the regular rows by the same rule.
 /// 2. Distance: the time between two rows is cut at the ends of the law's segments. On each part,
 ///    the rows' curve minus the path q(τ(t)) is a polynomial. The Bernstein coefficients of this
 ///    polynomial bound the distance.

@@ -24,10 +24,11 @@ constexpr double kExcess = 1.002;
 /// An interval is halved if y varies by more than this factor in it.
 constexpr double kMostVariation = 1.5;
 /// Two adjacent intervals are halved if the jerk jumps between them by more than this fraction of
-/// its limit.
+/// its limit, and if they take long enough (the parameter `shortest` of `refine`).
 constexpr double kJump = 0.5;
-/// An interval is halved if the jerk varies in it by more than this fraction of its limit.
-/// Otherwise the jerk could reach its limit only at one place of the interval.
+/// An interval is halved if the jerk varies in it by more than this fraction of its limit, and if
+/// it takes long enough. If such an interval were not halved, the jerk could reach its limit only
+/// at one place of it.
 constexpr double kJerkVariation = 0.15;
 
 /// A symmetric band matrix. Row i has the elements (i, i), (i, i + 1) and (i, i + 2); the other
@@ -90,7 +91,7 @@ void JerkSpline::set(const std::vector<PathState>& states) {
   }
   knots_.front() = 0;
   knots_.back() = map_.end();
-  y.front() = y[1];  // the ends are 0/0 in the loop above
+  y.front() = y[1];  // at both ends, the loop above computes 0/0
   y.back() = y[y.size() - 2];
   std::size_t part = 0;
   for (std::size_t i = 0; i + 1 < knots_.size(); ++i) {
@@ -342,7 +343,8 @@ JerkSpline::Local JerkSpline::barrierAt(std::size_t place, const Value& value) c
 bool JerkSpline::improve(double weight) {
   Band band(c_.size(), {0, 0, 0});
   std::vector<double> step(c_.size(), 0);
-  // Adds a gradient and a Hessian by (y, u, w) to those by the spline's coefficients. Each of y, u
+  // Converts a gradient and a Hessian from derivatives by (y, u, w) to derivatives by the spline's
+  // coefficients. Subtracts the gradient from `step`, and adds the Hessian to `band`. Each of y, u
   // and w is the product of a row of three factors with the three coefficients c[i], c[i + 1], c[i
   // + 2].
   const auto add = [&](std::size_t i, const std::array<Triple, 3>& rows, const Local& local) {
@@ -376,7 +378,7 @@ bool JerkSpline::improve(double weight) {
       add(i, rowsOf(kPlaces[p]), barrierAt(i * kPlaces.size() + p, valueAt(b, h, kPlaces[p])));
     for (const auto& [t, share] : kQuadrature) {
       const double y = valueAt(b, h, t).y, factor = weight * h * share / std::sqrt(y);
-      Local local;  // of 1/√y
+      Local local;  // the derivatives of weight·h·share/√y
       local.gradient[0] = -factor / (2 * y);
       local.hessian[0] = 0.75 * factor / (y * y);
       add(i, rowsOf(t), local);

@@ -76,8 +76,9 @@ class JerkSpline {
   static Value valueAt(const Triple& b, double width, double t);
   static double timeOf(const Triple& b, double width);
   double durationOf(const std::vector<double>& c) const;
-  /// Computes the rows at the place t of an interval, in [0, 1]: one row for each limited
-  /// component. @returns the largest y that the limits of velocity and link speed allow there.
+  /// Computes the rows at the place t of an interval, where t is in [0, 1]: one row for each
+  /// limited component. @returns the largest y that the limits of velocity and link speed allow
+  /// there.
   double rowsAt(std::size_t interval, double t, Row* rows) const;
   void setRows();
   /// Returns the factor by which times must be multiplied so that all limits hold at the place t of
@@ -104,11 +105,11 @@ class JerkSpline {
   std::vector<double> begins_;  // s at the start of each part, and at the end
   Onset map_;
   std::vector<double> knots_;                 // σ
-  std::vector<std::size_t> parts_;            // of each interval
-  std::vector<std::array<double, 2>> blend_;  // of each interval: see bernstein()
+  std::vector<std::size_t> parts_;            // for each interval: index into PathRun::parts
+  std::vector<std::array<double, 2>> blend_;  // two weights for each interval: see bernstein()
   std::vector<double> c_;                     // coefficients of the spline: intervals + 2
   std::vector<Row> rows_;     // rowCount_ rows for each of the three places of each interval
-  std::vector<double> maxY_;  // the largest y that velocities allow, at each place
+  std::vector<double> maxY_;  // the largest y that speed limits allow, at each place
 };
 
 }  // namespace corridor

@@ -33,7 +33,8 @@ struct Vectors {
     ++count;
   }
   /// Returns the length of coefficient vector i, rounded up. The factor 1 + 8u (u = 2^-53) covers
-  /// the roundings of at most 3 squares, 2 sums and a root. An absolute value does not round.
+  /// the roundings of at most 3 squares, 2 sums and a root. With one component, the length is an
+  /// absolute value, which is exact.
   double length(int i) const {
     double squares = 0;
     for (int k = 0; k < count; ++k) squares += c[i][k] * c[i][k];
@@ -48,7 +49,8 @@ struct Vectors {
   double attained() const { return std::max(length(0), length(degree)) - error; }
   /// Splits the polynomials at 1/2 by de Casteljau's algorithm. The object becomes the first half;
   /// the second half is returned. Each of the `degree` levels rounds each component once, by at
-  /// most 2^-53 of a length below the bound. For vectors of three components, twice that is enough.
+  /// most 2^-53 of bound(). The rounding error of a vector of three components is at most √3 times
+  /// as long, so 2^-52 for each level is enough.
   Vectors split() {
     Vectors second = *this;
     const double rounding = degree * 0x1p-52 * bound();
@@ -289,10 +291,10 @@ class Prover {
     const LinkSpeed& link = limits_.links[l];
     const double attained = linkSpeedShares(tree_, {link}, q, v).front();
     const double largestAngle = q.cwiseAbs().maxCoeff();
-    // From the middle of the part on, the speed changes by at most half of the part's duration
-    // times the acceleration. 2^-40 of the largest speed is far above the rounding of the
-    // kinematics, some u in each of up to 100 frames. Only large angles have a larger effect: an
-    // error of 2u times the angle rotates all points after the joint.
+    // Between the middle of the part and any other time in it, the speed changes by at most half of
+    // the part's duration, times the bound of the acceleration. 2^-40 of the largest speed is far
+    // above the rounding of the kinematics: some u for each of up to 100 frames. Only large angles
+    // have a larger effect: an error of 2u times the angle rotates all points after the joint.
     const double bound = attained + ((b - a) / 2 * duration * bounds.acceleration +
                                      (0x1p-40 + 0x1p-45 * largestAngle) * bounds.speed) /
                                         link.speed * (1 + 0x1p-40);
@@ -313,7 +315,7 @@ class Prover {
   const ConfigurationSpace& space_;
   const JointLimits& limits_;
   const KinematicTree& tree_;
-  std::vector<PositionGroup> positions_;  // single components, too, as groups of one
+  std::vector<PositionGroup> positions_;  // also single components, as groups of one
   std::vector<Eigen::Index> rotations_;
   LimitRatios ratios_;
 };

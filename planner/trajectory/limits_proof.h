@@ -38,9 +38,9 @@ struct LimitRatios {
 
 /// Returns, for each kind of limit, an upper bound of the ratio of value to limit over the whole
 /// curve of the rows. The curve between two rows, in real arithmetic on the stored doubles, is
-/// - degree 1: linear in time. Only position, velocity and link speed are bounded. At a row where
-///   the curve has a bend, the velocity jumps: if the bending component has a limit of
-///   acceleration, the ratio for accelerations is infinite;
+/// - degree 1: linear in time. Only position, velocity and link speed are bounded. If the velocity
+///   of a component jumps at a row, and this component has a limit of acceleration, the ratio for
+///   accelerations is infinite;
 /// - degree 3: the cubic Hermite polynomial of positions and velocities;
 /// - degree 5: the quintic Hermite polynomial of positions, velocities and accelerations.
 /// The derivatives of this curve are polynomials in Bernstein form, so their coefficients bound

@@ -89,9 +89,9 @@ PointBounds pointBounds(const KinematicTree& tree, const LinkSpeed& link,
                         const Configuration& acceleration) {
   // The loop goes from the link to the world. In each frame, a point has |r| ≤ L, |ṙ| ≤ V and |r̈|
   // ≤ A relative to the frame's origin. The frame rotates the point about this origin, with |ω| ≤ w
-  // and |ω̇| ≤ e, and translates it, with |d| ≤ l, |ḋ| ≤ v and |d̈| ≤ c. The new bounds of the
-  // point, from the sum and the products:
-  //   r ← R·r + d;  L + l;  V + w·L + v;  A + 2·w·V + e·L + w²·L + c.
+  // and |ω̇| ≤ e, and translates it, with |d| ≤ l, |ḋ| ≤ v and |d̈| ≤ c. In the parent frame, the
+  // point is at R·r + d. The bounds of its position, velocity and acceleration there are
+  //   L + l;  V + w·L + v;  A + 2·w·V + e·L + w²·L + c.
   double length = 0, speed = 0, result = 0;
   for (const Eigen::Vector3d& point : link.points) length = std::max(length, point.norm());
   for (std::size_t f = link.frame; f != 0; f = tree.frames[f].parent) {

@@ -26,7 +26,7 @@ std::vector<CurvePiece> naturalSpline(const std::vector<Configuration>& states);
 struct InsertedSpline {
   std::vector<CurvePiece> pieces;
   std::size_t inserted = 0;  ///< the number of inserted states
-  bool touches = false;      ///< whether a sample still touches after the last insertion
+  bool touches = false;      ///< whether a sample of `pieces` still touches something
 };
 
 /// Returns the natural spline after states were inserted by trial. While a sample of the spline

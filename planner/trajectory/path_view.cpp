@@ -20,7 +20,7 @@ Eigen::Quaterniond quaternionOf(const Eigen::Vector4d& numbers) {
 }  // namespace
 
 Eigen::Vector3d rotationVector(const Eigen::Vector4d& a, const Eigen::Vector4d& b) {
-  // R_b = exp(v)·R_a, where v has the coordinates of the outer frame.
+  // R_b = exp(v)·R_a, where v is in the coordinates of the frame in which a and b are given.
   Eigen::Quaterniond turn = quaternionOf(b) * quaternionOf(a).conjugate();
   if (turn.w() < 0) turn.coeffs() = -turn.coeffs();
   const double sine = turn.vec().stableNorm();

@@ -20,14 +20,14 @@ class PathView {
   Configuration value(std::size_t piece, double tau) const;
   /// Computes dq/dτ and d²q/dτ². For a rotation, the first three of its four components are its
   /// angular velocity by τ, in radians per unit of τ and in the coordinates of the frame before the
-  /// joint. In `first`, it is constant in a piece.
+  /// joint. The angular velocity in `first` is constant in a piece.
   void derivatives(std::size_t piece, double tau, Configuration& first,
                    Configuration& second) const;
   /// Returns d³q/dτ³.
   Configuration thirdDerivative(std::size_t piece, double tau) const;
   /// Returns a bound of the length of dq/dτ in a piece; 0 if the piece has no length.
   double speedBound(std::size_t piece) const;
-  /// Returns whether the piece is a straight line at a constant rate.
+  /// Returns whether the piece has degree 1: a straight line at a constant rate.
   bool isStraight(std::size_t piece) const;
   /// Returns, for each rotation, the index of its first component in a Configuration.
   const std::vector<Eigen::Index>& rotations() const { return rotations_; }

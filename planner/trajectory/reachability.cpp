@@ -38,10 +38,10 @@ class Cell {
   double cap() const { return cap_; }
   double width() const { return width_; }
 
-  /// Sets `low` to the largest lower bound of u at x, and `high` to the smallest upper bound. The
-  /// bounds include those by which the next x is in `next`.
+  /// Sets `low` to the largest lower bound of u at x, and `high` to the smallest upper bound. These
+  /// bounds also keep the x at the right end of the interval in `next`.
   void bounds(double x, const Interval& next, Line& low, Line& high) const {
-    const double half = 0.5 / width_;  // the next x: lower ≤ x + 2Δu ≤ upper
+    const double half = 0.5 / width_;  // x at the right end: lower ≤ x + 2Δu ≤ upper
     high = {next.upper * half, half};
     low = {next.lower * half, half};
     double most = high.at(x), least = low.at(x);
@@ -66,8 +66,9 @@ class Cell {
     double top = cap_;
     if (!std::isfinite(top)) {
       // For any line, u ≥ −value − slope·x and x + 2Δu ≤ upper give x·(1 − 2Δ·slope) ≤ upper +
-      // 2Δ·value. The smallest of these bounds of x is used: the line of a component that hardly
-      // moves has a very large value, and from its bound, rounding would hide the root.
+      // 2Δ·value. The smallest of these bounds of x is used. The line of a component that hardly
+      // moves has a very large value. If the search for the root began at the bound from such a
+      // line, rounding would hide the root.
       for (const Line& line : lines_)
         if (2 * width_ * std::abs(line.slope) <= 0.5)
           top = std::min(top, 2 * (next.upper + 2 * width_ * line.value));

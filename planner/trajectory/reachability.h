@@ -30,7 +30,8 @@ struct Profile {
   std::size_t node = 0;
 };
 
-/// Returns the profile with the largest x at every node (Pham and Pham 2018, algorithm 1).
+/// Returns the profile with the largest x at every node (Pham and Pham 2018, algorithm 1), or a
+/// failure.
 /// @param start, end x at the first and at the last node; infinity: any x.
 Profile fastestProfile(const LimitGrid& grid, double start, double end);
 

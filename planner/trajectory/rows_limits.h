@@ -5,7 +5,7 @@
 
 namespace corridor {
 
-/// Bounds the ratios of values to limits for the curve that the rows of a file mean, as
+/// Returns bounds of the ratios of values to limits for the curve that the rows of a file mean, as
 /// `proveLimits` does for the rows of a time law. Velocities, link speeds and positions are always
 /// tested. Accelerations are tested for cubic and quintic rows (the velocity of linear rows jumps
 /// at rows), and jerks only for quintic rows. If an acceleration or jerk has a limit but is not

@@ -8,7 +8,7 @@ namespace {
 
 /// An interval is halved if the law exceeds a limit in its middle by more than this fraction. If an
 /// acceleration exceeds its limit by 5e-4, emitRows makes all times longer by about half of this
-/// fraction, 0.025 %. The aim is at most 0.1 %.
+/// fraction, 0.025 %. The aim is to make them longer by at most 0.1 %.
 constexpr double kGridExcess = 5e-4;
 /// An interval is halved if a jump of u at one of its ends would change x within the interval by
 /// more than this fraction. Where intervals are no longer halved, the position of the switch is
@@ -50,7 +50,8 @@ class RunGrid {
       for (int i = 0; i <= n; ++i) {
         const double tau = static_cast<double>(i) / n;
         nodes_.push_back(nodeAt(p, tau));
-        // Near the ends of a run, where the robot is usually at rest, ṡ varies fast: more nodes.
+        // Near the ends of a run, the robot is usually at rest and ṡ varies fast. So the first and
+        // the last interval get more nodes.
         const bool first = p == 0 && i == 0, last = p + 1 == run_.parts.size() && i + 1 == n;
         for (int k = 1; k <= 5; ++k) {
           if (first) nodes_.push_back(nodeAt(p, std::ldexp(1.0 / n, k - 6)));
@@ -81,8 +82,8 @@ class RunGrid {
 
   Profile solve(double start, double end) const { return fastestProfile(grid_, start, end); }
 
-  /// Halves the intervals that need it (see the constants above). @returns whether any interval was
-  /// halved.
+  /// Halves the intervals for which a condition at the constants above holds. @returns whether any
+  /// interval was halved.
   bool refine(const Profile& profile) {
     // Whether interval i, from node i to node i + 1, is halved.
     std::vector<bool> marked(nodes_.size(), false);

@@ -14,7 +14,7 @@ struct RunLaw {
   std::vector<LawSegment> segments;  ///< times from 0
   Profile::Failure failure = Profile::Failure::none;
   double lower = 0, upper = 0;  ///< for a failure: ds/dt for `lower` and `upper` of Profile
-  std::size_t piece = 0;        ///< for a failure: its piece in the path
+  std::size_t piece = 0;        ///< for a failure: the piece of the path where it occurs
   double tau = 0;               ///< for a failure: τ on that piece
 };
 

@@ -233,7 +233,8 @@ double neededFactor(const PathView& view, const JointLimits& limits, const Kinem
              third * (rate * rate * rate) + second * (3 * rate * change) + first * segment.jerk,
              limits.jerk);
       }
-      // Not at the end of a segment (k = 2): it is the begin of the next segment, or at rest.
+      // Link speeds are not evaluated at the end of a segment (k = 2): this state is also the begin
+      // of the next segment, or is at rest.
       if (!limits.links.empty() && k < 2)
         for (const double share :
              linkSpeedShares(tree, limits.links, view.value(segment.piece, tau), first * rate))
@@ -273,8 +274,9 @@ std::vector<LawSegment> smoothLaw(const PathView& view, const PathRun& run,
     shortest = total;
   };
   for (const double share : kWindows) attempt(averaged(run, motion, share * duration));
-  double ramp = 0;  // the longest time that the largest jerk of a component takes to reach its
-                    // limit of acceleration
+  // The longest time that a component's largest jerk takes to reach the component's limit of
+  // acceleration.
+  double ramp = 0;
   for (const LimitedNumbers& n : limitedNumbers(view.space()))
     if (std::isfinite(limits.acceleration[n.first]))
       ramp = std::max(ramp, limits.acceleration[n.first] / limits.jerk[n.first]);

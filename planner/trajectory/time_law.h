@@ -56,8 +56,8 @@ struct TimeLaw {
   std::string fault;
 };
 
-/// Returns a law that passes through a path in the shortest time that the limits allow: of
-/// velocity, acceleration and link speed, and of jerk if `options.smooth` is set.
+/// Returns a law that passes through a path in the shortest time under the limits of velocity,
+/// acceleration and link speed. If `options.smooth` is set, the limits of jerk apply, too.
 ///
 /// Method: reachability analysis (Pham and Pham 2018, "A New Approach to Time-Optimal Path
 /// Parameterization Based on Reachability Analysis", IEEE Transactions on Robotics 34(3)). With the
@@ -70,7 +70,7 @@ struct TimeLaw {
 ///    reached; K_i is an interval (the first loop of their algorithm 1, TOPP-RA).
 /// 2. Forward pass: from x_0 on, each interval gets the largest u with which x_{i+1} is in K_{i+1}
 ///    (the second loop).
-/// The limits of an interval hold at both of its ends (their interpolation scheme).
+/// The limits of an interval hold at both of its ends (the interpolation scheme of Pham and Pham).
 /// Intervals are halved where u jumps, and where a parabola through the ends and the middle exceeds
 /// a limit by more than 0.05 %.
 ///

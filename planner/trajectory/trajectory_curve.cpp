@@ -21,8 +21,8 @@ using Real = long double;
 /// difference has one. So the duration is off by at most 7·2^-53 of the larger time.
 constexpr Real kTimeRounding = 0x1p-50L;
 
-/// Adds a fault for each circle coordinate that turns by more than half a turn between row − 1 and
-/// row.
+/// Adds a fault for each circle coordinate that turns by more than half a turn from the row before
+/// `row` to `row`. @pre row > 0
 void checkTurns(const TrajectoryRows& rows, std::size_t row, const ConfigurationSpace& space,
                 FaultList& faults) {
   for (const Coordinate& c : space.coordinates()) {

@@ -37,13 +37,13 @@ RowInterpolation interpolationOf(TrajectoryRows& rows, std::optional<RowInterpol
 Curve curveOf(const TrajectoryRows& rows, const ConfigurationSpace& space,
               RowInterpolation between);
 
-/// A place where a curve is outside of the bounds of a coordinate, or could not be proved to be
-/// within.
+/// A place where a curve is outside of the bounds of a coordinate, or where it could not be proved
+/// to be within them.
 struct OutsideBounds {
-  std::size_t coordinate = 0;  ///< in the space
+  std::size_t coordinate = 0;  ///< index into ConfigurationSpace::coordinates()
   std::size_t piece = 0;
   double t = 0;      ///< the parameter of the piece, in [0, 1]
-  double value = 0;  ///< of the coordinate at t, m or rad
+  double value = 0;  ///< the value of the coordinate at t, m or rad
 };
 
 /// Proves that the line coordinates (Coordinate::Kind::line) of a curve stay within their bounds

@@ -18,7 +18,7 @@ struct TrajectoryRow {
   /// quaternions as (x, y, z, w). The values are those in the file. Angles are literal: they are
   /// never reduced to one revolution.
   Configuration positions;
-  /// m/s and rad/s; m/s² and rad/s². Empty if the file has no velocities (accelerations). The
+  /// In m/s and rad/s, and in m/s² and rad/s². Each is empty if the file does not contain it. The
   /// components of a rotation are 0, because a file can't give them.
   Configuration velocities, accelerations;
 };
@@ -59,8 +59,8 @@ std::string readMotionText(const std::filesystem::path& file, const std::string&
 /// - A joint that is held must have the value at which it is held, up to `limitSlack`
 ///   (planner/problem/urdf_robot.h). Otherwise the file is refused: a proof would be about another
 ///   robot.
-/// - The values of a joint that mimics another joint are not used. A note says so, and by how much
-///   the values differ from the mimic rule.
+/// - The values of a joint that mimics another joint are not used, and a note says so. If a value
+///   differs from the mimic rule by more than `limitSlack`, another note says by how much.
 /// @param file the name for messages.
 /// @param text a text of the format `rows` or `message`.
 /// @throws InputError with all faults; from the rows, only the faults of the first faulty row.

@@ -11,6 +11,7 @@ namespace corridor {
 
 /// Returns a CSV text with a header line: `time` if the rows have times, then the names of the
 /// components (`numberNames`), then NAME_velocity and NAME_acceleration, if the rows have them.
+/// Components of rotations have no velocities and accelerations in the text.
 std::string csvText(const TrajectoryRows& rows, const ConfigurationSpace& space);
 
 /// Returns whether a space has a rotation coordinate (a quaternion). A JointTrajectory can't

@@ -9,9 +9,9 @@
 namespace corridor::verify {
 namespace {
 
-/// Pairs are pruned if their lower bound is at least this share of the smallest distance found. The
-/// share is below 1 so that ties are pruned: many triangles share the closest vertex or edge, and
-/// their bounds may round up or down.
+/// Pairs are pruned if their lower bound is at least this fraction of the smallest distance found
+/// so far. The fraction is below 1, so that ties are pruned: many triangles share the closest
+/// vertex or edge, and their bounds may round up or down.
 constexpr Real kSame = 1 - 0x1p-30L;
 
 void extend(BodyTree::Node& node, const LeafPrimitive& leaf) {

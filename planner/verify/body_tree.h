@@ -79,11 +79,11 @@ struct CentredBox {
 /// Boxes are compared in double, which takes a fraction of the time of long double. Let S be the
 /// sum of both radii and the distance of the two frames, and u = 2^-53. Every length that occurs is
 /// at most √3·S. A coordinate of a placed box is computed from the rounded placement by three
-/// products and three sums: it is off by less than 35u·S. The difference of two boxes along the
-/// axes of b is placed a second time in this way. So each coordinate of the difference is off by
-/// less than 90u·S, and its norm by less than 170u·S. Widths of slabs take fewer steps. `boxError_`
-/// is 512u·S. If a bound in double is within `boxError_` of the value with which it is compared, it
-/// is computed again in long double.
+/// products and three sums: it is off by less than 35u·S. For the comparison along the axes of b,
+/// the difference of two boxes is transformed a second time, with errors of the same size. So each
+/// coordinate of the difference is off by less than 90u·S, and its norm by less than 170u·S. Widths
+/// of slabs take fewer steps. `boxError_` is 512u·S. If a bound in double is within `boxError_` of
+/// the value with which it is compared, it is computed again in long double.
 class BodyDistance {
  public:
   /// Sets the bodies and their relative placement. Both trees must outlive all queries.

@@ -33,8 +33,8 @@ ConvexSet placed(const ConvexPart& part, const Placement& placement);
 /// Method (Gilbert, Johnson, Keerthi 1988): finds the point of least norm in the difference of the
 /// two sets without their swept spheres. Each step has at most four corners of this difference, and
 /// keeps the subset whose hull contains the point of least norm. It finds this subset by trying all
-/// subsets, which is the simplest way. The rounding errors are of the size that DistanceBounds
-/// states, and far below 2^-50 of the largest norm of a point.
+/// subsets that contain the newest corner, which is the simplest way. The rounding errors are of
+/// the size that DistanceBounds states, and far below 2^-50 of the largest norm of a point.
 /// @param guess the direction in which the search starts, from a to b, of any length. Zero: no
 /// guess.
 /// @param enough the search ends when `lower` reaches this value.

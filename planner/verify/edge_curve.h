@@ -123,10 +123,11 @@ struct Segment {
 /// - Normalised quaternions are off by ≤ 5u each, their slerp by < 128u, the rotation by < 256u.
 ///   (The angle Ω = 2 atan2(|q1 − q0|, |q1 + q0|) is off by ≤ 32u. The weights of the slerp are off
 ///   by ≤ 0.6 times this error plus 8u.)
-/// - A revolute joint's value m·q0 + o + t·m·Δ is off by ≤ 8u times `Number::terms` (products, sums
-///   and the rounding of Δ). Sine, cosine and Rodrigues' matrix are off by < 16u. The value of a
-///   polynomial with coefficients ≤ M is off by < 19u·M (Bernstein::at), and m·q + o by < 21u·|m|·M
-///   + u·|o|. So `terms` = 3M covers m·q + o. A prismatic joint is off by < 21u times its length.
+/// - A revolute joint with the multiplier m and the offset o has the value m·q0 + o + t·m·Δ. It is
+///   off by ≤ 8u times `Number::terms` (products, sums and the rounding of Δ). Sine, cosine and
+///   Rodrigues' matrix are off by < 16u. The value of a polynomial with coefficients ≤ M is off by
+///   < 19u·M (Bernstein::at), and m·q + o by < 21u·|m|·M + u·|o|. So `terms` = 3M covers m·q + o. A
+///   prismatic joint is off by < 21u times its length.
 /// - The derivative of a polynomial is off by < 21u times the V_j of the whole piece (rounding of
 ///   the differences, and of Bernstein::at). This displaces no point by more than 21u·speed.
 /// - Each frame multiplies two such matrices into the rotation, which adds 10u. In all, a frame
@@ -168,12 +169,12 @@ class EdgeCurve {
   struct Number {
     Real from = 0, way = 0;
     Real terms = 0;                    ///< 8u·terms bounds the rounding of the value
-    Bernstein polynomial, derivative;  ///< of a piece
+    Bernstein polynomial, derivative;  ///< for a piece: the value, and its derivative by t
   };
   /// Bounds of a number of the configuration, or of a joint's value, in one segment.
   struct Bounds {
-    Real value = 0, rate = 0, bend = 0;  ///< of the value, its 1st and its 2nd derivative
-    Real terms = 0;                      ///< as Number::terms
+    Real value = 0, rate = 0, bend = 0;  ///< of |value|, |1st derivative|, |2nd derivative|
+    Real terms = 0;                      ///< see Number::terms
   };
   struct Arc {
     Eigen::Matrix<Real, 4, 1> q0, q1;  // x, y, z, w

@@ -287,7 +287,7 @@ const char* PairProver::whyRefuted(std::size_t edge, std::size_t pair, const Mea
   return nullptr;
 }
 
-/// Returns why no shorter interval about this middle can be proved.
+/// Returns why an interval about this middle is not proved although it is short.
 const char* PairProver::whyStuck(const PairReach& reach, std::size_t pair,
                                  const Measured& m) const {
   const Real clear = m.gap.lower - pairs_[pair].margin;

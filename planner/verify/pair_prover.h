@@ -34,8 +34,8 @@ struct OpenPair {
 struct PairAnswer {
   /// - proved: `bound` exceeds the margin and padding.
   /// - refuted: `reason` says why.
-  /// - undecided: no shorter interval about the same middle can be proved, either; `reason` says
-  ///   why.
+  /// - undecided: the motion bound in the interval is at most the tolerance, or the poses may be
+  ///   far from the path. The interval is not halved again; `reason` says why it is not proved.
   /// - empty: halve the interval.
   std::optional<PathVerdict> verdict;
   /// In the whole interval, every curve in the tube keeps at least this distance.
@@ -76,7 +76,7 @@ class PairProver {
   PairAnswer decide(const TimeInterval& interval, const OpenPair& open, Real usefulBound);
 
   /// Refutes a pair if, at t = 0 of the first edge, a point of one body is inside the other body,
-  /// and this other body is a solid mesh. Returns nullopt otherwise. @pre the bodies do not touch
+  /// and the other body is a solid mesh. Returns nullopt otherwise. @pre the bodies do not touch
   /// there.
   std::optional<PairAnswer> insideAtStart(std::size_t pair);
 
@@ -94,7 +94,7 @@ class PairProver {
   };
   /// Motion bounds of both bodies along an edge, by their reach weights.
   struct PairReach {
-    Reach sum;          ///< of the whole edge
+    Reach sum;          ///< the sum for both bodies, for the whole edge
     Real rounding = 0;  ///< metres; bound for every computed distance and displacement
     bool sharp = true;  ///< the computed poses are so close to the path that a contact refutes it
     Real stray = 0;     ///< metres; the displacement by CurvePiece::error
@@ -149,7 +149,7 @@ class PairProver {
   std::vector<BodyTree> trees_;      // one per mesh; one per body of parts
   std::vector<std::size_t> treeOf_;  // for each body, its tree in `trees_`
   std::vector<KinematicChain> chains_;
-  std::map<std::pair<std::size_t, std::size_t>, std::size_t> chainIndex_;  // by base and frame
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> chainIndex_;  // key: (base, frame)
   std::vector<Pair> pairs_;
   std::vector<EdgeCurve> curves_;
   std::vector<Configuration> tubes_;  // one per edge: the problem's tube, and the piece's error

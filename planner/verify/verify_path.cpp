@@ -77,7 +77,8 @@ class Verifier {
 
  private:
   Interval intervalOf(const TimeInterval& time) const;
-  /// Tests the pair and records a finding. @returns whether the pair is still open.
+  /// Tests the pair. Records a finding if the pair is refuted or undecided. @returns whether the
+  /// pair is still open.
   bool test(const Interval& interval, OpenPair& open);
   /// Tests all pairs of the interval and keeps those that are still open.
   void testAll(Interval& interval);
@@ -109,9 +110,9 @@ class Verifier {
   const PathProblem& problem_;
   PairProver prover_;
   bool single_;                                                              // a path of one state
-  std::priority_queue<Interval, std::vector<Interval>, WorstOnTop> proved_;  // with one pair each
-  std::map<int, PathFinding> findings_;                                      // by edge
-  std::set<std::pair<std::size_t, std::size_t>> undecided_;                  // by edge and pair
+  std::priority_queue<Interval, std::vector<Interval>, WorstOnTop> proved_;  // each with one pair
+  std::map<int, PathFinding> findings_;                                      // key: edge
+  std::set<std::pair<std::size_t, std::size_t>> undecided_;                  // (edge, pair)
   Real smallest_ = kInfinity, leastAtStates_ = kInfinity;
   std::uint64_t queries_ = 0;
 };
@@ -231,9 +232,9 @@ void Verifier::refine() {
   }
 }
 
-/// Searches for the first refutation on the edge of a finding. It tests the intervals before the
-/// known refutation, the earliest first, and halves those that it cannot prove. The edge is always
-/// proved up to the interval on top of the stack.
+/// Searches for the first refutation on the edge of a finding. It tests the intervals that begin
+/// before the known refutation, the earliest first, and halves those that it cannot prove. It ends
+/// at an undecided pair. The edge is always proved up to the interval on top of the stack.
 void Verifier::findFirst(PathFinding& finding) {
   const std::uint64_t limit = 5 * queries_ + kRefinement;
   Real contact = finding.t;

@@ -84,16 +84,17 @@ enum class PathVerdict {
   /// Every curve in the tube keeps more than margin and padding everywhere. This verdict is never
   /// wrong.
   proved,
-  /// At least one finding is a refutation: a contact; a distance that margin or tube do not allow;
-  /// an ambiguous half turn; a joint that would jump; or a state that is not valid data. The pose
-  /// at which a contact or distance was found differs from the path's pose only by rounding: by at
-  /// most 2^-48 of the lengths involved, or by at most the tolerance.
+  /// At least one finding is a refutation: a contact; a distance that the margin, the padding or
+  /// the tube does not allow; an ambiguous half turn; a joint that would jump; or a state that is
+  /// not valid data. The pose at which a contact or distance was found differs from the path's pose
+  /// only by rounding: by at most 2^-48 of the lengths involved, or by at most the tolerance.
   refuted,
   /// The path is neither proved nor refuted, for one of these reasons:
   /// - Somewhere the clearance beyond the margin is below twice the tolerance.
   /// - Somewhere the clearance beyond the margin is below the displacement by the tube. MovedSlab
   ///   computes the first-order term of this displacement, and Reach the second-order term.
-  /// - The rounding of a large value may exceed the clearance.
+  /// - The rounding of a large value may exceed the clearance, or the processor's floating-point
+  ///   mode makes the bounds invalid.
   /// - The work limit was reached.
   undecided
 };
@@ -110,9 +111,9 @@ struct PathFinding {
   double t = 0;  ///< time on the edge, in [0, 1]
   /// On the first refuted edge, the edge is proved on [0, freeUntil] unless this is 0, and its
   /// first refutation is in [freeUntil, t]. This bracket is narrowed until the motion bound in it
-  /// is below the tolerance, or a limit of queries is reached. The value is set only on the first
-  /// refuted edge, and only for a fault of two bodies. On other edges, `t` need not be the time of
-  /// the first refutation.
+  /// is below the tolerance, its width is below 2^-30, or a limit of queries is reached. The value
+  /// is set only on the first refuted edge, and only for a fault of two bodies. On other edges, `t`
+  /// need not be the time of the first refutation.
   std::optional<double> freeUntil;
   /// The state at t. A contact is exact at a pose that differs from this state's by rounding only.
   Configuration configuration;

@@ -22,7 +22,7 @@ std::filesystem::path requireBrowser(const std::string& option);
 /// Writes a picture of a page of `viewPage` as a PNG, without the page's panel and controls. The
 /// file is written completely or not at all.
 /// @param interrupted when it becomes true, the browser is stopped. @returns false if the browser
-/// was stopped so, else true.
+/// was stopped for this reason, else true.
 /// @throws InputError if the browser can't draw the page, or the file can't be written.
 bool writePicture(const std::string& page, const std::filesystem::path& browser,
                   const PictureSize& size, const std::filesystem::path& file,

@@ -207,8 +207,8 @@ std::string caption(const Camera& camera, double seconds) {
   return text;
 }
 
-/// Returns whether the problem has only one planar body that is planned for; it is drawn as seen
-/// from above.
+/// Returns whether the problem plans only for the pose of one planar body. Such a problem is drawn
+/// as seen from above.
 bool isSeenFromAbove(const Problem& problem) {
   return problem.model.space.groups().size() == 1 &&
          problem.model.space.groups()[0].kind == CoordinateGroup::Kind::planar;

@@ -27,7 +27,7 @@ void add(const Obb4Tree& tree, const Obb1& box, bool leaf, const Vec3& origin, T
 
 TreeBoxes treeBoxes(const Obb4Tree& tree, const Vec3& origin, std::size_t most) {
   TreeBoxes boxes;
-  // The root's box is then the only leaf.
+  // If the shape is a single convex part, the root's box is the only leaf.
   const bool single = tree.hasParts() && tree.itemCount() == 1;
   add(tree, tree.root(), single, origin, boxes);
   boxes.counts.push_back(1);

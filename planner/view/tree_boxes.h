@@ -14,7 +14,7 @@ namespace corridor::view {
 /// only up to the rounding to float.
 struct TreeBoxes {
   std::vector<float> numbers;        ///< ten for each box, from level 0 (the root) on
-  std::vector<std::uint8_t> leaves;  ///< for each box: 1 if it contains primitives, 0: boxes
+  std::vector<std::uint8_t> leaves;  ///< for each box: 1: it contains primitives; 0: boxes
   /// The number of boxes of each level; a leaf counts only on its own level.
   std::vector<std::size_t> counts;
 };

@@ -31,7 +31,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr std::size_t kMostDistances = 500;  // evenly chosen samples with a closest pair, at most
+constexpr std::size_t kMostDistances = 500;  // evenly chosen samples with closest pairs, at most
 constexpr std::size_t kMostBoxes = 16'000;   // of all trees together; they take 640 KB
 constexpr std::size_t kMostGoals = 8;        // the largest number of goals that are shown
 

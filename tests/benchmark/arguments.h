@@ -66,7 +66,8 @@ class Arguments {
   int rounds(int fallback) const {
     return std::max(static_cast<int>(number("--rounds", fallback)), 1);
   }
-  /// Returns --data DIR, or the folder of shared test data; empty if there is neither.
+  /// Returns the folder that --data names; without --data, the folder of shared test data; an empty
+  /// path if there is neither.
   std::filesystem::path data() const {
     const auto shared = test::dataFolder();
     return text("--data", shared ? shared->string() : "");

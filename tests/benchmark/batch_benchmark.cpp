@@ -1,6 +1,6 @@
 // The C++ side of `python_cost`: decides states, and the edges between consecutive ones, on one
-// thread, and prints the seconds of each. batch_benchmark PROBLEM STATES STATES: a binary file of
-// doubles: for each state, the components of its configuration.
+// thread, and prints the seconds of each. Usage: `batch_benchmark PROBLEM STATES`. STATES is a
+// binary file of doubles, which has the components of the configuration of each state.
 #include <chrono>
 #include <cstdio>
 #include <fstream>

@@ -37,7 +37,7 @@ Motion passing(double gap, double step, std::size_t steps) {
   Motion motion;
   for (std::size_t i = 0; i < steps; ++i) {
     const double along = step * (static_cast<double>(i) - 0.5 * static_cast<double>(steps));
-    // On a circle around the other body, so that the gap stays the same.
+    // One polytope moves on a circle around the other, so that the gap stays the same.
     const double angle = along / (2 + gap);
     motion.poses.push_back({Eigen::AngleAxisd(along, Vec3(1, 2, 3).normalized()).toRotationMatrix(),
                             (2 + gap) * Vec3(std::cos(angle), std::sin(angle), 0)});
@@ -76,7 +76,8 @@ Mean meanOf(std::size_t count, bool warm, const Call& call) {
   return mean;
 }
 
-/// Larger polytopes are not tested by separating axes: a query takes O(n²).
+/// Polytopes of more vertices are not tested by separating axes, because such a query takes O(n²)
+/// time.
 constexpr std::size_t kMostForAxes = 100;
 
 void measure(std::size_t n, std::size_t steps) {

@@ -29,7 +29,7 @@ class Counted {
   friend Counted operator-(Counted x, Counted y) { return sum(x.value_ - y.value_); }
   friend Counted operator*(Counted x, Counted y) { return product(x.value_ * y.value_); }
   friend Counted operator/(Counted x, Counted y) { return product(x.value_ / y.value_); }
-  // Not counted: usually part of another instruction.
+  // The negation is not counted, because it is usually part of another instruction.
   Counted operator-() const { return {-value_}; }
   Counted& operator+=(Counted x) { return *this = *this + x; }
   Counted& operator-=(Counted x) { return *this = *this - x; }

@@ -28,7 +28,7 @@ struct EdgeCase {
   bool contact = false;
   double firstContact = -1;  ///< time t in [0, 1] of the first contact; −1 if it is not known, or
                              ///< if there is no contact
-  /// Constructs the motion. The time for this counts as part of the edge's cost.
+  /// Constructs and returns the motion. The time for this counts as part of the edge's cost.
   std::function<MotionSource&()> motion;
   /// Computes the poses of the scene's frames at t.
   std::function<void(double t, std::vector<Transform>& X_WF)> poses;
@@ -102,7 +102,7 @@ inline EdgeSet closedForms(int count, std::mt19937_64& random) {
     const bool contact = n / 3 % 2;
     if (n % 3 == 0) {
       // A rod from the origin along x rotates down by `angle` about y. The plate is at z = −sin(a),
-      // so the rod's far end meets the plate at the angle a.
+      // or at z = −1 if a > π/2, so the rod's far end meets the plate at the angle a, if at all.
       const double angle = real(0.3, 1.5), a = contact ? angle * real(0.01, 0.99) : angle + amount;
       const double depth = std::sin(std::min(a, std::numbers::pi / 2));
       addRigid(

@@ -114,8 +114,8 @@ class FclMoving {
   /// Returns whether, in all edges, all bodies are meshes and move as FCL's motions do.
   bool all() const { return all_; }
 
-  /// Returns the method that sets up the motions of FCL and calls `first` with models and motions,
-  /// which computes the time of first contact. Setting up the motions counts as run time.
+  /// Returns the method that sets up FCL's motions, and passes models and motions to `first`, which
+  /// computes the time of first contact. Setting up the motions counts as run time.
   template <class First>
   Method method(First first) const {
     return [this, first, from = std::make_shared<std::vector<Transform>>(),
@@ -272,7 +272,7 @@ void compare(const EdgeSet& set, int rounds, const std::string& folder) {
   if (moving.all()) {
     using Obbrss = fcl::OBBRSS<double>;
     using Rss = fcl::RSS<double>;
-    // The answers are those of "FCL discrete", but slower.
+    // The answers are the same as those of "FCL discrete", but they take longer.
     for (const int n : {10, 100, 1'000, 10'000})
       report.line("FCL naive", 1.0 / n,
                   fclContinuous<Obbrss>(moving, fcl::CCDC_NAIVE, static_cast<std::size_t>(n + 1)));

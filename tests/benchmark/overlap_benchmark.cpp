@@ -226,7 +226,7 @@ class Wide {
   std::vector<QueryCost> costs_;
 };
 
-/// Only the first step of all our tests.
+/// Posing alone, which is the first step of all our tests.
 struct Posing {
   static bool separated(const Obb& a, const Obb& b, const Transform& X_AB, const BoxPairMargins&,
                         double) {

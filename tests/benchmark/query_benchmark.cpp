@@ -127,7 +127,8 @@ double medianOver(const Record& r, const Take& take) {
   return ns.empty() ? 0 : medianOf(ns);
 }
 
-/// Returns the time of the quickest competitor of FCL, divided by ours, or 0 if there is none.
+/// Returns the time of FCL's quickest tree, divided by the time of our tree; 0 if FCL has no tree
+/// in the row, or if our tree has no time.
 double ratio(const std::vector<double>& values) {
   if (values.size() < 2 || values[0] <= 0) return 0;
   return *std::min_element(values.begin() + 1, values.end()) / values[0];

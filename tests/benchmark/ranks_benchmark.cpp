@@ -1,7 +1,7 @@
 // Measures how `mpirun` campaigns hand out runs: messages, time and processor time of rank 0 per
-// run, for runs that take no time. mpirun -n 64 --oversubscribe build/release/tests/ranks_benchmark
-// [RUNS [BYTES]] BYTES: length of each result. The default is 3000, the length for a run without
-// trajectories.
+// run, for runs that take no time. Usage: `mpirun -n 64 --oversubscribe
+// build/release/tests/ranks_benchmark [RUNS [BYTES]]`. BYTES is the length of each result. The
+// default is 3000, the length for a run without trajectories.
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>

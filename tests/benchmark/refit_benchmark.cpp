@@ -1,15 +1,14 @@
 /// Compares refitting with rebuilding while a mesh deforms: `refit_benchmark [--out FOLDER]
 /// [--triangles N] [--frames N]`.
-///
 /// A bumpy torus bends to a half circle, twists by a full rotation between its ends, or has a wave
-/// running through it. The deformation is an animation of N frames. In every frame there are two
-/// trees: one that was built in the first frame and has only been refitted since, and one that is
-/// built anew. The program measures the milliseconds for refitting and for building (least of
-/// three). With either tree it measures the cost of queries against a sphere, at poses where mesh
-/// and sphere are 0.02 apart and at poses where they just touch: means of N_v and N_p, and the
-/// median time. Prints CSV on stdout, with the means over the frames at the end; FOLDER gets plots
-/// of N_v. "obb (wide)" is the 4-wide OBB tree; its N_v counts tests of pairs of boxes, as those of
-/// the binary trees do.
+/// running through it. The deformation is an animation in N steps, with the frames 0 to N. In every
+/// frame there are two trees: one that was built in the first frame and has only been refitted
+/// since, and one that is built anew. The program measures the milliseconds for refitting and for
+/// building (least of three). With either tree it measures the cost of queries against a sphere, at
+/// poses where mesh and sphere are 0.02 apart and at poses where they just touch: means of N_v and
+/// N_p, and the median time. Prints CSV on stdout, with the means over the frames at the end;
+/// FOLDER gets plots of N_v. "obb (wide)" is the 4-wide OBB tree; its N_v counts tests of pairs of
+/// boxes, as those of the binary trees do.
 #include <functional>
 #include <iostream>
 #include <limits>
@@ -93,8 +92,8 @@ struct Sums {
   double rebuild = 0, refit = 0, boxes = 0, us = 0, frames = 0, lastBoxes = 0, lastUs = 0;
 };
 
-/// Measures all frames with one kind of tree. Prints the rows. Returns the ratio of N_v after
-/// refitting to N_v after rebuilding.
+/// Measures all frames with one kind of tree, prints the rows, and adds the costs to `sums`.
+/// Returns, for each frame, the ratio of N_v after refitting to N_v after rebuilding.
 template <class Tree>
 std::vector<PlotPoint> sequence(const std::string& deformation, const std::string& name,
                                 const std::vector<Frame>& frames, const TriangleMesh& sphere,

@@ -176,7 +176,7 @@ inline BenchmarkCompetitor transcriptPeer(Transcript& transcript) {
 /// goals) and the final certification in full; BenchmarkRun::searchProcessorTime excludes the
 /// set-up and this certification. OMPL's own tests of the path are replayed, too, outside of all
 /// measured times.
-/// @throws std::runtime_error for a planner that doesn't repeat, or if recording failed.
+/// @throws std::runtime_error for a planner whose runs don't repeat, or if recording failed.
 inline BenchmarkRun replayedRun(const Problem& planned, double memory, Path& path) {
   for (const PlannerInfo& info : knownPlanners())
     if (info.name == planned.settings.planner.name && !info.repeatable)

@@ -299,7 +299,7 @@ def picture_shows_the_verdict(browser, path):
     shown(browser, page, "desktop")
     assert not browser.js(ring), "a page draws the ring before a finding is selected"
     assert browser.js("document.querySelector('#legend .verdict')") is None, "the legend shows a verdict: pages have a panel for it"
-    # A path that ends outside of the goal, which is not a finding of the verifier; and very long names.
+    # The path ends outside of the goal, which the verifier does not report as a finding. The names are very long.
     long = "from_here_to_there_and_back_again_" * 5
     for file, text in {
             "robot.yaml": f"format: corridor-robot-1\nname: {long}\nrigid: SE2\nshapes: [{{box: [1, 1, 1]}}]\n",

@@ -1,8 +1,8 @@
-# Tests `cmake --install` and find_package(corridor). Installs into a prefix with a space in its name. Configures, builds
-# and runs three projects: the project in this folder, which uses collision/ alone, and those in ompl_program/ and
-# own_programs/, which use the planner. Compares the projects' files with the guides that show them. Runs the installed
-# program.
-# cmake -D BUILD=… -D WORK=… -D CONFIG=… -D GENERATOR=… -D COMPILER=… -D FLAGS=… -P test.cmake
+# Tests `cmake --install` and find_package(corridor). Installs into a prefix with a space in its name. Configures,
+# builds and runs three projects: the project in this folder, which uses collision/ alone, and those in ompl_program/
+# and own_programs/, which use the planner. Tests that the guides show the files of these projects unchanged. Runs the
+# installed program.
+# Usage: cmake -D BUILD=… -D WORK=… -D CONFIG=… -D GENERATOR=… -D COMPILER=… -D FLAGS=… -P test.cmake
 cmake_minimum_required(VERSION 3.25)
 set(prefix "${WORK}/a prefix")
 set(build "${WORK}/build")
@@ -60,7 +60,7 @@ foreach(option ${refused})
   endif()
 endforeach()
 
-# A unit cube as OBJ, which Corridor itself reads, and as Collada, which assimp reads in a separate process.
+# Write a unit cube as OBJ, which Corridor itself reads, and as Collada, which assimp reads in a separate process.
 set(corners "0 0 0" "1 0 0" "1 1 0" "0 1 0" "0 0 1" "1 0 1" "1 1 1" "0 1 1")
 set(quads "0 3 2 1" "4 5 6 7" "0 1 5 4" "1 2 6 5" "2 3 7 6" "3 0 4 7")
 set(obj "")
@@ -93,7 +93,7 @@ file(WRITE "${WORK}/cube.dae" "<?xml version=\"1.0\"?>
 <scene><instance_visual_scene url=\"#s\"/></scene></COLLADA>
 ")
 
-# An OMPL program with Corridor's checkers. Then the installed program inspects the Collada file.
+# Build and run an OMPL program with Corridor's checkers. Then let the installed program inspect the Collada file.
 set(source "${CMAKE_CURRENT_LIST_DIR}/../..")
 build_project("${CMAKE_CURRENT_LIST_DIR}/ompl_program" "${WORK}/ompl")
 run("${WORK}/ompl/plan" "${source}/robots/arm6/arm6.urdf")
@@ -106,8 +106,8 @@ if(NOT status EQUAL 2 OR NOT err MATCHES "none.urdf")
 endif()
 run("${prefix}/bin/corridor" inspect "${WORK}/cube.dae")
 
-# own_programs/: a rigid body in an OMPL program, and a program that checks trajectories made elsewhere. One of the
-# trajectories stays beside the post, and one goes through it.
+# Build and run own_programs/: a rigid body in an OMPL program, and a program that checks trajectories made elsewhere.
+# One trajectory stays beside the post, another goes through the post.
 build_project("${CMAKE_CURRENT_LIST_DIR}/own_programs" "${WORK}/own")
 run("${WORK}/own/rigid" "${WORK}/cube.obj")
 if(NOT out MATCHES "(^|\n)certified\n$")
@@ -126,7 +126,7 @@ if(NOT status EQUAL 1 OR NOT out MATCHES "^contact at [01]\\.[0-9]+\n$")
   message(FATAL_ERROR "the program with a trajectory through the post: ${status}\n${out}${err}")
 endif()
 
-# The Python package, if it was built, finds the installed helper program, too.
+# If the Python package was built, it must find the installed helper program, too.
 file(GLOB package "${prefix}/lib/python3*/dist-packages")
 if(package AND NOT FLAGS MATCHES "sanitize")
   file(WRITE "${WORK}/use.py" "import corridor
@@ -151,7 +151,8 @@ $")
   message(FATAL_ERROR "two_meshes printed:\n${out}")
 endif()
 
-# The installed helper program must be the one that reads Collada: if another program replaces it, reading must fail.
+# The two programs must read Collada by the installed helper program: if the helper is replaced by another program,
+# reading must fail.
 file(GLOB_RECURSE helper "${prefix}/lib/corridor_assimp")
 file(WRITE "${helper}" "#!/bin/sh\nexit 7\n")
 execute_process(COMMAND "${build}/two_meshes" "${WORK}/cube.obj" "${WORK}/cube.dae" RESULT_VARIABLE status
@@ -160,7 +161,7 @@ if(NOT status EQUAL 2 OR NOT err MATCHES "ended without an answer \\(exit status
   message(FATAL_ERROR "the installed helper is not the one that runs: ${status}\n${out}${err}")
 endif()
 
-# The guides must show exactly these files.
+# Tests that the guides show the files of the three projects exactly.
 function(expect_shown guide folder)
   file(READ "${source}/${guide}" text)
   foreach(file main.cpp CMakeLists.txt)

@@ -1,4 +1,4 @@
-"""Tests of certificates as data."""
+"""Tests of the certificates that the Python package returns as arrays, and of checking them."""
 
 import dataclasses
 import math
@@ -15,7 +15,7 @@ HAND, BALL, CENTRE = 0.08, 0.15, (0.9, 0.5, 0.0)
 
 
 def planar_arm(**edits):
-    """Two links of 0.6 m in a plane, a ball as hand, and a ball to avoid."""
+    """Returns a problem: an arm of two links of 0.6 m in a plane, with a ball as hand, and a ball to avoid."""
     arm = corridor.robot(
         {"base": None, "upper": None, "lower": None, "hand": shapes.sphere(HAND)},
         [
@@ -28,7 +28,7 @@ def planar_arm(**edits):
 
 
 def distance(q):
-    """Returns the distance of hand and ball at states (N, 2), by a formula that is independent of Corridor."""
+    """Returns the distances of hand and ball at N states, an array N×2, by a formula independent of Corridor."""
     a, b = q[:, 0], q[:, 0] + q[:, 1]
     x, y = 0.6 * np.cos(a) + 0.6 * np.cos(b), 0.6 * np.sin(a) + 0.6 * np.sin(b)
     return np.hypot(x - CENTRE[0], y - CENTRE[1]) - HAND - BALL
@@ -54,14 +54,16 @@ class Arm(unittest.TestCase):
                 self.assertGreaterEqual(clearance, 0.01)
                 t = np.linspace(t0, t1, 33)[:, None]
                 found = distance((1 - t) * q0 + t * q1)
-                # The rounding of the formula: fewer than 40 operations on numbers below 2, each off by at most 2^-52.
+                # The rounding error of the formula: fewer than 40 operations on numbers below 2, each with an error of
+                # at most 2^-52.
                 self.assertGreaterEqual(found.min(), clearance - 40 * 2**-51)
                 closest = min(closest, found.min() - clearance)
                 samples += len(found)
         self.assertGreater(free, 50)
         self.assertGreater(contact, 50)
         self.assertGreater(samples, 10_000)
-        # The claims are not empty: at some sample, the true distance exceeds the claimed one by less than 0.05 m.
+        # The claims are not far too small: at some sample, the true distance exceeds the claimed distance by less than
+        # 0.05 m.
         self.assertLess(closest, 0.05)
 
     def test_contacts_have_a_point(self):
@@ -70,14 +72,14 @@ class Arm(unittest.TestCase):
         self.assertEqual(proof.verdict, Verdict.CONTACT)
         q = (1 - proof.time) * proof.q0 + proof.time * proof.q1
         # The first contact is found within the time tolerance: the balls touch or overlap at `time`, and are apart at
-        # free_until.
+        # `free_until`.
         self.assertLessEqual(distance(q[None])[0], 0)
         self.assertLessEqual(proof.free_until, proof.time)
         self.assertGreater(distance(((1 - proof.free_until) * proof.q0 + proof.free_until * proof.q1)[None])[0], 0)
         a, b = proof.contact
         self.assertEqual({problem.bodies[a], problem.bodies[b]}, {"hand", "ball"})
         point = (problem.poses(q)[0, a] @ [*proof.point, 1])[:3]
-        # The point of contact is on both balls, up to their overlap at the time that was found.
+        # The point of contact is on both balls, up to the depth to which they overlap at the reported time.
         hand = problem.poses(q)[0, problem.bodies.index("hand"), :3, 3]
         overlap = -distance(q[None])[0] + 1e-9
         self.assertLessEqual(abs(np.linalg.norm(point - hand) - HAND), overlap)
@@ -90,7 +92,7 @@ class Arm(unittest.TestCase):
         self.assertEqual(proof.free_until, 1)
         self.assertIsNone(proof.check())
         self.assertEqual(repr(proof), f"<Certificate: free, 1 pairs, {len(proof.pair)} intervals>")
-        # Certificates with a gap, with a claim that is too large, and with nonsense.
+        # Certificates with a gap, with a claim that is too large, and with senseless values must be refused.
         claims = proof.clearance.copy()
         proof.clearance = claims + 10
         self.assertEqual(proof.check().kind, "refuted")
@@ -111,7 +113,7 @@ class Arm(unittest.TestCase):
             proof.check()
 
     def test_forged_certificates_are_refused(self):
-        """A certificate that is presented for another edge, which has a contact, is never accepted. Seed 3."""
+        """A certificate is never accepted for another edge if this edge has a contact. Seed 3."""
         problem = planar_arm()
         rng = np.random.default_rng(3)
         forged = 0
@@ -160,7 +162,7 @@ class ManyPairs(unittest.TestCase):
             accepted += fault is None
             self.assertNotEqual(fault and fault.kind, "refuted")
         self.assertGreaterEqual(accepted, 0.9 * len(free))
-        # Distances at the ends are at least what the intervals that contain the ends claim.
+        # At the ends of the edge, the distances are at least those that the intervals with these ends claim.
         for proof in free[:5]:
             least = proof.clearance[proof.t0 == 0].min()
             self.assertGreaterEqual(problem.clearance(proof.q0)[0], least * (1 - 2**-40) if least < 1 else 0)
@@ -180,7 +182,7 @@ class ManyPairs(unittest.TestCase):
 
 
 class Tampering(unittest.TestCase):
-    """A certificate that claims more than its intervals, or that has other pairs, is not accepted."""
+    """A certificate is not accepted if it claims more than its intervals do, or has other pairs than the problem."""
 
     def test_claims(self):
         problem = corridor.read_problem(pathlib.Path(os.environ["CORRIDOR_SOURCE_DIR"]) / "problems/arm_at_shelf")

@@ -15,7 +15,7 @@ PACKAGE = pathlib.Path(corridor.__file__).parent
 
 class Loading(unittest.TestCase):
     def imported(self, prepare):
-        """Imports a copy of the package, changed by `prepare`, in a process. Returns the last line of its stderr."""
+        """Imports a copy of the package, changed by `prepare`, in a new process. Returns its last line on stderr."""
         with tempfile.TemporaryDirectory() as folder:
             copy = pathlib.Path(folder, "corridor")
             copy.mkdir()

@@ -74,7 +74,7 @@ if __name__ == "__main__":
             for _ in range(interrupts):
                 os.killpg(process.pid, signal.SIGINT)
                 time.sleep(0.1)
-            _, err = process.communicate(timeout=300)  # the pipes end with the last process
+            _, err = process.communicate(timeout=300)  # waits for all processes: each holds the pipes open
             self.assertEqual(process.returncode, -signal.SIGINT, err)
             self.assertLessEqual(err.count("Traceback"), interrupts, err)  # none of the processes prints a traceback
 
@@ -83,7 +83,7 @@ if __name__ == "__main__":
         self.assertEqual(process.stdout.readline(), "begun\n")
         solving = self.workers_of(process)
         self.assertEqual(len(solving), 2)
-        for worker in solving:  # Ctrl-C must not reach them
+        for worker in solving:  # Ctrl-C must not reach the workers: they block SIGINT
             blocked = re.search(r"(?m)^SigBlk:\s*(\w+)", pathlib.Path(f"/proc/{worker}/status").read_text())
             self.assertTrue(int(blocked[1], 16) & 1 << signal.SIGINT - 1)
             os.kill(worker, signal.SIGKILL)
@@ -94,7 +94,7 @@ if __name__ == "__main__":
         process = self.script(self.MANY)
         self.assertEqual(process.stdout.readline(), "begun\n")
         process.kill()
-        process.communicate(timeout=300)  # the pipes end with the last process
+        process.communicate(timeout=300)  # waits for all processes: each holds the pipes open
 
     def test_bad_options_of_many(self):
         problem = cube_in_room()

@@ -18,7 +18,7 @@ CALLS = 1_000_000 if os.environ.get("CORRIDOR_STRESS") else 2_000 if SANITIZED e
 
 
 def resident():
-    """Returns the resident memory of this process, bytes."""
+    """Returns the resident memory of this process, in bytes."""
     pages = int(pathlib.Path("/proc/self/statm").read_text().split()[1])
     return pages * os.sysconf("SC_PAGE_SIZE")
 
@@ -51,10 +51,11 @@ class Growth(unittest.TestCase):
         If each call leaks an object, Python's blocks grow by at least `calls` in every round. If each call leaks a
         block of malloc, the bytes of malloc grow by at least 32·`calls` in every round: malloc's smallest block has 32
         bytes. Caches and lists of free blocks grow, too, but less and less. So there is no leak if the growth in some
-        round is less than half of both numbers. The pages of the process are measured, too. They may grow by as much,
-        and by 1 MiB for heaps of threads that the first round did not touch.
+        round is less than half of both numbers. The resident memory is measured, too. In all rounds together
+        it may grow by 16·`calls` bytes or 1 MiB, whichever is more: threads may use heaps that the first calls did not.
 
-        Under AddressSanitizer, which keeps freed memory for a while, the calls only show that they have no errors.
+        Under AddressSanitizer, which keeps freed memory for a while, growth is not tested; the calls must only cause no
+        error.
         """
         calls = max(calls, 10)
         for _ in range(max(20, calls // 10)):

@@ -1,4 +1,4 @@
-"""Tests of the Python package. The environment has PYTHONPATH and CORRIDOR_SOURCE_DIR."""
+"""Tests of the Python package. They need the environment variables PYTHONPATH and CORRIDOR_SOURCE_DIR."""
 
 import math
 import os
@@ -77,7 +77,7 @@ class Checks(unittest.TestCase):
         # An array of one row is used with all rows of the other array.
         fan = self.problem.certify(self.problem.start, q1)
         self.assertEqual(len(fan), 300)
-        # All states of an edge that is free are free.
+        # All states on a free edge are free.
         for i in np.flatnonzero(results.free)[:20]:
             t = np.linspace(0, 1, 50)[:, None]
             self.assertTrue(self.problem.check((1 - t) * q0[i] + t * q1[i]))
@@ -273,7 +273,7 @@ class Problems(unittest.TestCase):
         ):
             with self.assertRaisesRegex(corridor.InputError, "nonsense"):
                 corridor.solve(problem.edited(**edits))
-        # A new planner does not get the parameters of the old planner, neither here nor after pickling.
+        # If the planner is replaced, the parameters of the old planner are dropped, here and after pickling.
         other = problem.edited(planner="RRTConnect", params={"range": "0.5"}).edited(planner="PRM")
         self.assertIn("PRM", corridor.solve(pickle.loads(pickle.dumps(other)), time=0.2).figures["planner"])
 
@@ -286,7 +286,7 @@ class Problems(unittest.TestCase):
         np.testing.assert_array_equal(pickle.loads(pickle.dumps(problem)).clearance([-1, 1, 1, 0, 0, 0]), before)
 
     def test_a_wide_tube_tests_pairs_again(self):
-        # The file says that the pair is proved never in contact, up to 0.01 rad beyond the limits.
+        # robot.yaml says: block and arm are never in contact. This was proved up to 0.01 rad beyond the limits.
         with tempfile.TemporaryDirectory() as folder:
             folder = pathlib.Path(folder)
             (folder / "arm.urdf").write_text(
@@ -405,7 +405,7 @@ class Solve(unittest.TestCase):
 
     def test_path_that_touches_is_refuted(self):
         solution = corridor.solve(cube_in_room())
-        solution.path = np.array([solution.path[0], solution.path[-1]])  # through the wall
+        solution.path = np.array([solution.path[0], solution.path[-1]])  # a path through the wall
         report = solution.verify()
         self.assertEqual(report["verdict"], "refuted")
         self.assertEqual(set(report["findings"][0]["bodies"]), {"cube", "wall"})

@@ -55,7 +55,7 @@ def pixels(png):
 
 
 class Loads(html.parser.HTMLParser):
-    """Collects what a page would load: addresses of tags, of styles and of scripts."""
+    """Collects the addresses that a page would load: those in tags, in styles and in scripts."""
 
     def __init__(self, page):
         super().__init__()
@@ -86,7 +86,7 @@ class Loads(html.parser.HTMLParser):
         found = [each for each in self.found if not (each[2] or "").startswith(("data:", "#", "blob:"))]
         styles = [u for u in re.findall(r"url\(\s*['\"]?([^)'\"]*)", self.text["style"]) if not u.startswith(("data:", "#"))]
         styles += re.findall(r"@import[^;]*", self.text["style"])
-        # In scripts: imports, and calls that load from addresses of other machines.
+        # In scripts, addresses are loaded by imports, and by calls with addresses of other machines.
         script = self.text["script"]
         scripts = re.findall(r"(?:^|[;\s])import\s*(?:[\w{}*,\s]*from\s*)?['\"]https?:[^'\"]*", script)
         scripts += re.findall(r"(?:fetch|importScripts|Worker|EventSource|WebSocket)\(\s*['\"`][^)]{0,80}", script)

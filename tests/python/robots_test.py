@@ -50,7 +50,7 @@ def obstacles():
 
 
 class AsTheUrdf(unittest.TestCase):
-    """A robot of links and joints is the robot of the URDF with the same numbers, to the last bit."""
+    """A robot described by links and joints equals the robot of a URDF with the same numbers, to the last bit."""
 
     def assertSame(self, urdf, built, seed=3):
         self.assertEqual(urdf.numbers, built.numbers)
@@ -76,7 +76,7 @@ class AsTheUrdf(unittest.TestCase):
         paths = [corridor.solve(problem.edited(start=free[0], goals=free[1])).path for problem in problems]
         self.assertGreater(len(paths[0]), 1)
         np.testing.assert_array_equal(*paths)
-        # A pickled robot is the same robot.
+        # Pickling does not change a robot.
         copy = pickle.loads(pickle.dumps(problems[1]))
         np.testing.assert_array_equal(copy.clearance(free), problems[0].clearance(free))
 
@@ -90,7 +90,7 @@ class AsTheUrdf(unittest.TestCase):
                 for robot in (corridor.urdf(file, base=base), robot_of(file, base=base))
             ]
             self.assertSame(*problems)
-            # Two such robots, with names, and with fewer planned joints.
+            # Two such robots with names, of which only some joints are planned.
             two = [
                 corridor.Problem(
                     [make(file, base=Pose((0, y, 0)), name=name, **{key: ["turn", "lift"]}) for name, y in (("a", 0.7), ("b", -0.7))],
@@ -114,7 +114,7 @@ class AsTheUrdf(unittest.TestCase):
 
 class InPython(unittest.TestCase):
     def test_poses_against_numpy(self):
-        """The poses of links are the product of the joints' matrices, by NumPy."""
+        """The pose of each link equals the product of the joints' matrices, computed by NumPy."""
         rng = np.random.default_rng(11)
 
         def turn(axis, angle):
@@ -181,7 +181,7 @@ LINK = shapes.sphere(0.1)
 
 
 def faults_of(links=("a", "b", "c"), joints=(), obstacles=None, **options):
-    """Returns the texts of the faults of a robot."""
+    """Returns the texts of the faults for which a robot is refused."""
     named = links if isinstance(links, dict) else [(link, LINK) for link in links]
     try:
         corridor.Problem(corridor.robot(named, joints, **options), obstacles)
@@ -290,7 +290,7 @@ class BadRobots(unittest.TestCase):
                 make()
 
     def test_random_robots_are_refused_or_work(self):
-        """Chains with random values in random places are refused by InputError, or answer queries. Seed 1."""
+        """Chains with odd values at random positions either are refused by InputError, or answer queries. Seed 1."""
         rng = np.random.default_rng(1)
         names, types = ["a", "b", "c", ""], ["fixed", "revolute", "continuous", "prismatic", "planar", "floating", "x"]
         numbers = [0, 1, -1, 1e300, math.nan, math.inf, 1e-320]

@@ -19,7 +19,7 @@ PACKAGE = SOURCE / "planner/python/corridor"
 
 
 def signature(function):
-    """Returns a function's arguments, from the signature that pybind11 writes in the docstring's first line."""
+    """Returns a function's arguments, read from the signature that pybind11 writes into the docstring's first line."""
     line = function.__doc__.splitlines()[0]
     inner = line[line.index("(") + 1 : line.rindex(") ->")]
     depth, words, word = 0, [], ""

@@ -1,4 +1,4 @@
-"""Reads a URDF into corridor.robot, for tests: links, joints and shapes in Python, number for number."""
+"""For tests: makes a robot by corridor.robot from the links, joints and shapes of a URDF, with the same numbers."""
 
 import pathlib
 import xml.etree.ElementTree
@@ -48,7 +48,7 @@ def _joint(element):
 
 
 def robot_of(file, **options):
-    """Builds the robot of a URDF by corridor.robot, and returns it. options: those of corridor.robot."""
+    """Builds the robot of a URDF by corridor.robot, and returns the robot. `options` are those of corridor.robot."""
     file = pathlib.Path(file)
     root = xml.etree.ElementTree.parse(file).getroot()
     links = {

@@ -37,9 +37,10 @@ struct Soups {
 };
 
 /// Returns two meshes, made of pairs of triangles of the families (triangle_families.h) at random
-/// places. If both meshes have the same map, pairs that touch by construction still touch. In some
-/// meshes the triangles are dense, in others they are far apart. Some maps are rigid only up to
-/// rounding, with large translations.
+/// places. In half of the cases, mesh b is then shifted. In the other half, pairs that touch by
+/// construction still touch if both meshes have the same map. In some meshes the triangles are
+/// dense, in others they are far apart. Some maps are rigid only up to rounding, with large
+/// translations.
 Soups anySoups(Random& random, int count) {
   Soups s;
   const auto families = test::pairFamilies();

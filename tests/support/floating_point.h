@@ -14,7 +14,7 @@ namespace corridor::test {
 /// A floating-point mode of the processor.
 struct FloatingPointSetting {
   std::string name;
-  int rounding = FE_TONEAREST;  ///< rounding mode; of all operations unless `sseOnly` or `x87Only`
+  int rounding = FE_TONEAREST;  ///< of all operations, unless `sseOnly` or `x87Only` is set
   bool flushToZero = false;     ///< subnormal results and operands become zero
   bool sseOnly = false;         ///< `rounding` applies only to vectors and doubles
   bool x87Only = false;         ///< `rounding` applies only to long double

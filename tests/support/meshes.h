@@ -79,8 +79,9 @@ inline TriangleMesh box(const Vec3& low, const Vec3& high) {
   return mesh;
 }
 
-/// Returns S, the largest coordinate of |m||v| + |t| over the corners v, where X maps v to m·v + t.
-/// Bounds on rounding are multiples of S.
+/// Returns S, the largest coordinate of |m||v| + |t| over the corners v of the triangle, where X
+/// maps v to m·v + t, and |·| is the absolute value entry by entry. Bounds on rounding are
+/// multiples of S.
 inline double errorScale(const Triangle& t, const Transform& X) {
   double scale = 0;
   for (const Vec3& p : t)

@@ -32,8 +32,8 @@ constexpr int kCorners = 6;
 
 bool rationalContact(const Triangle& a, const Transform& X_WA, const Triangle& b,
                      const Transform& X_WB) {
-  // The system: Σ λ_i a_i − Σ μ_j b_j = 0, Σ λ = Σ μ = 1, λ, μ ≥ 0. Each coordinate is in units of
-  // its own power of two.
+  // The system for the corners a_i and b_j is Σ λ_i a_i − Σ μ_j b_j = 0, Σ λ_i = Σ μ_j = 1, with
+  // all λ_i ≥ 0 and all μ_j ≥ 0. Each coordinate is in units of its own power of two.
   IntegerSystem T(5, std::vector<Integer>(kCorners + 1));
   for (int k = 0; k < 3; ++k) {
     std::array<std::array<Term, 4>, kCorners> terms;

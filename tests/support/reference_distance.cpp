@@ -112,7 +112,8 @@ Quotient edges(const P& p, const P& p1, const P& q, const P& q1, const Quotient&
   const P d = minus(p1, p), e = minus(q1, q), r = minus(q, p), n = cross(d, e);
   const WholeNumber area = square(n);
   if (area == 0) return best;
-  // r + t e - s d along n: s = (r x e) n / n^2, t = (r x d) n / n^2.
+  // The closest points are p + s·d and q + t·e. Their difference r + t·e − s·d is parallel to n, so
+  // s = (r × e)·n / n² and t = (r × d)·n / n².
   const WholeNumber s = dot(cross(r, e), n), t = dot(cross(r, d), n);
   if (s < 0 || s > area || t < 0 || t > area) return best;
   const WholeNumber height = dot(r, n);

@@ -22,7 +22,7 @@ bool isStressRun();
 
 /// The factor by which this build is slower than a release build, roughly. Tests multiply time
 /// limits by it, and divide large numbers of cases by it.
-#ifndef __has_feature  // clang's; g++ 12 has the macros instead
+#ifndef __has_feature  // clang has it; g++ 12 defines __SANITIZE_ADDRESS__ instead
 #define __has_feature(name) 0
 #endif
 #if defined(__SANITIZE_ADDRESS__) || __has_feature(address_sanitizer)

@@ -66,7 +66,8 @@ void slivers(Random& random, Triangle& a, Triangle& b) {
   finish(random, a, b);
 }
 
-/// Triangles of zero area (points and segments), with each other and with ordinary triangles.
+/// Triangle b has zero area: it is a point or a segment. Triangle a is an ordinary triangle, a
+/// segment or a point.
 void zeroArea(Random& random, Triangle& a, Triangle& b) {
   const int size = anySize(random) / 2;
   const Vec3 p = grid(random, size), u = grid(random, size), v = grid(random, size);
@@ -182,9 +183,9 @@ PlacedPair byExactRotation(Random& random, const Triangle& a, const Triangle& b)
 }
 /// Rotates the pair by a rational (Pythagorean) rotation times its denominator. This map takes
 /// integers to integers. Without the denominator as a factor, doubles hold only 24 rotation
-/// matrices exactly, the signed permutations: a row of doubles is (x, y, z)/2^k with integers, and
-/// x² + y² + z² = 4^k. If k > 0, the sum of their squares is a multiple of 4, which requires that
-/// all three integers are even. So the fraction can be reduced until k = 0.
+/// matrices exactly, the signed permutations: a row of doubles is (x, y, z)/2^k with integers x, y
+/// and z, and x² + y² + z² = 4^k. If k > 0, the sum of their squares is a multiple of 4, which
+/// requires that all three integers are even. So the fraction can be reduced until k = 0.
 PlacedPair byRationalRotation(Random& random, const Triangle& a, const Triangle& b) {
   const double w = integer(random, -5, 5), x = integer(random, -5, 5), y = integer(random, -5, 5),
                z = integer(random, 1, 5);

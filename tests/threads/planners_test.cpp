@@ -122,7 +122,7 @@ class RecordedMotions final : public ob::MotionValidator {
 struct Case {
   std::string planner, problem;
   bool severalThreadsQuery = true;  ///< false: one thread makes queries, another only waits
-  bool finds = true;  ///< false: finding a path takes too long; some queries are enough
+  bool finds = true;  ///< if false, a path takes too long to find, so some queries are enough
 };
 std::ostream& operator<<(std::ostream& out, const Case& one) {
   return out << one.planner << " on " << one.problem;

@@ -1,6 +1,6 @@
 """Collision queries of two bodies. Poses are 4×4 matrices, or N×4×4 for N queries at once.
 
-A matrix may be any affine map, also one that scales, and is used as it is. Only the poses of `first_contact` must be
+A matrix may be any affine map, even a map that scales, and is used as it is. Only the poses of `first_contact` must be
 rigid. For their 3×3 part M, each element of MᵀM may differ from the identity by 1e-6; M then stands for the nearest
 rotation.
 """

@@ -58,7 +58,7 @@ class Certificate:
     t1: NDArray[np.float64]  #: K
     clearance: NDArray[np.float64]  #: K, m
     contact: tuple[int, int] | None  #: the two bodies in contact or undecided, indices into `problem.bodies`
-    time: float | None  #: time of the contact, or a time in the undecided part
+    time: float | None  #: time of the contact, or a time at which the edge is undecided
     point: NDArray[np.float64] | None  #: (3,), the point of contact, in the frame of the body `contact[0]`, m
     tolerance: float  #: the checker's tolerance, m: UNDECIDED is possible if the clearance is below twice this
 
@@ -68,7 +68,7 @@ class Certificate:
         return self.problem.tube
 
     def covered(self) -> NDArray[np.float64]:
-        """Returns for each pair, (P,), the end of the part [0, end] that the pair's intervals cover without a gap."""
+        """Returns (P,): for each pair, the time up to which the pair's intervals cover the edge from 0 without a gap."""
         ends = np.zeros(len(self.pairs))
         for k in np.lexsort((self.t0, self.pair)):
             p = self.pair[k]
@@ -94,8 +94,9 @@ class Certificate:
         """Proves the intervals again, by another method on other trees. Returns None, or the first fault.
 
         Proves that each pair stays farther apart than margin + (clearance − margin)/2 in its intervals, and that the
-        intervals cover [0, free_until]. If `free_until` is 0, nothing is proved. The fault "unproved" is no refutation.
-        With default options and without a tube, at most one of 100 certificates of random edges gets this fault.
+        intervals of each pair cover [0, free_until]. If `free_until` is 0, nothing is proved. The fault "unproved" is
+        no refutation. With default options and without a tube, at most one in 100 certificates of random edges gets
+        this fault.
         """
         if mismatch := self._mismatch():
             return mismatch

@@ -37,8 +37,8 @@ class Problem:
 
     It can be pickled. Unpickling reads its files again, and raises ValueError if they have changed.
 
-    A configuration is an array of J numbers, whose names are `numbers`: radians, metres, and quaternions
-    (qx, qy, qz, qw) of floating bodies.
+    A configuration is an array of J numbers: radians, metres, and quaternions (qx, qy, qz, qw) of floating bodies. The
+    property `numbers` is the list of their names.
     """
 
     _recipe: tuple[Any, ...]
@@ -143,7 +143,7 @@ class Problem:
 
     @property
     def start(self) -> NDArray[np.float64]:
-        """(J,): where paths begin. Raises ValueError if the problem was built without a start."""
+        """(J,): the configuration at which paths begin. Raises ValueError if the problem was built without a start."""
         self._require("start")
         return self._native.start
 
@@ -154,7 +154,7 @@ class Problem:
 
     @property
     def bounds(self) -> NDArray[np.float64]:
-        """2×J: the smallest and the largest value of each number."""
+        """2×J: the smallest and the largest value of each number of a configuration."""
         return self._native.bounds
 
     @property
@@ -164,7 +164,7 @@ class Problem:
 
     @property
     def tube(self) -> NDArray[np.float64]:
-        """(J,): for each number, the largest deviation from a path that proofs cover."""
+        """(J,): proofs cover deviations from a path by at most this much, in each number of a configuration."""
         return self._native.tube
 
     @property
@@ -191,9 +191,9 @@ class Problem:
         of shape (J,) is one row, which is used for all edges.
 
         Continuous joints and rotations go the shorter way. `time` is the time of a contact. With `earliest`, `time` is
-        that of the first contact: the edge before it is proved free, except for a last part of at most 1/1024 of the
-        edge, which is longer only if the contact is grazing. `certificate` returns the end of the part that is proved
-        free, as `free_until`.
+        that of the first contact: the edge is proved free from its beginning to a time shortly before the contact. The
+        unproved part between the two times is at most 1/1024 of the edge, or longer if the contact is grazing.
+        `certificate` returns the end of the part that is proved free, as `free_until`.
         """
         return Results(
             self.bodies,
@@ -205,9 +205,9 @@ class Problem:
     def certificate(self, q0: ArrayLike, q1: ArrayLike, earliest: bool = False) -> Certificate:
         """Decides one edge, from (J,) to (J,), and returns the proof as data.
 
-        With `earliest`, the part before a contact is proved, too. `certificate` takes longer than `certify`: it proves
-        every pair, also pairs that are far apart all the time. The method is always "certified", whatever
-        `edited(edges=...)` set.
+        With `earliest`, the part of the edge before a contact is proved, too. `certificate` takes longer than
+        `certify`, because it also proves pairs that are far apart all the time. The method is always "certified",
+        whatever `edited(edges=...)` set.
         """
         return certificate_of(self, _array("q0", q0), _array("q1", q1), _flag("earliest", earliest))
 
@@ -221,7 +221,7 @@ class Problem:
         return _native.poses(self._native, _array("states", states))
 
     def clearance(self, states: ArrayLike, threads: int = 0) -> NDArray[np.float64]:
-        """Returns the smallest distance of tested pairs at each state, minus the margin, (N,), m."""
+        """Returns, for each state, the smallest distance of a tested pair minus the margin: (N,), m."""
         return _native.clearance(self._native, _array("states", states), _whole("threads", threads, 0))
 
     def page(self) -> str:
@@ -266,7 +266,7 @@ class Solution:
     why: str  #: why the problem is not solved, one line; empty if solved
     path: NDArray[np.float64]  #: N×J states; empty unless solved
     certified: bool  #: every edge of `path` is proved
-    #: times, lengths and counts. `proved_clearance_m` is at most the preferred clearance; `verify` may find more
+    #: times, lengths and counts. `proved_clearance_m` is at most the preferred clearance; `verify` may prove more
     figures: dict[str, Any] = field(default_factory=dict)
     #: `text`, `duration`, `proved`, `keeps_limits`, `why_none`. Empty if `solve` was called without `trajectory`
     trajectory: dict[str, Any] = field(default_factory=dict)

@@ -21,7 +21,7 @@ class Results:
     """Answers for N states or edges, as arrays.
 
     verdict: N int8, values of Verdict.
-    time: N float, the time on the edge, in [0, 1], of the contact or of the undecided state; NaN if there is neither.
+    time: N float, the time on the edge, in [0, 1], at which there is a contact or the edge is undecided; else NaN.
     gap: N float, metres, the distance of an undecided pair beyond the margin.
     pairs: N×2 int64, indices into `bodies`; −1 if there is no pair.
     """

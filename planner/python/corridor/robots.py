@@ -20,9 +20,9 @@ class Joint:
 
     type: "fixed", "revolute", "continuous" (revolute without limits), "prismatic", "planar" or "floating".
     parent, child: names of links. origin: a `Pose` or 4×4, the joint in its parent link. axis: (3,), in the joint's
-    frame, of any length; fixed and floating joints have none. limits: (lower, upper), rad or m; revolute and prismatic
-    joints need them. velocity: the largest speed, rad/s or m/s, for trajectories. mimic: (joint, multiplier, offset);
-    the value is multiplier·(value of the other joint) + offset, and the joint's own limits have no effect.
+    frame, of any length except 0; fixed and floating joints have none. limits: (lower, upper), rad or m; revolute and
+    prismatic joints need them. velocity: the largest speed, rad/s or m/s, for trajectories. mimic: (joint, multiplier,
+    offset); the value is multiplier·(value of the other joint) + offset, and the joint's own limits have no effect.
     """
 
     name: str
@@ -44,12 +44,12 @@ def robot(
     """Describes a robot by links and joints, which form a tree with one root.
 
     links: the shapes of each link by its name, in the link's frame; None or () for a link without shapes.
-    joints: in any order. allow: pairs of links that may touch. As in a URDF, if a joint connects two links, these are
-    not tested against each other, unless the joint is planar or floating.
+    joints: in any order. allow: pairs of links that may touch. As for a robot from a URDF, two links that a joint
+    connects are not tested against each other, unless the joint is planar or floating.
     planned: the names of the joints that are planned for; default: all that can move. The other joints stay at the
     value within their limits that is nearest to 0. base: a `Pose` or 4×4, the pose of the root link. bounds: for each
-    planar and floating joint [[x, y, z], [x, y, z]], the corners of its position, m. name: needed if there are several
-    robots.
+    planar and floating joint, [[x, y, z], [x, y, z]], the lower and the upper corner of its position, m. name: needed
+    if there are several robots.
 
     `corridor.Problem` raises InputError with all faults. If all poses are given as `Pose`, the robot is the same, to
     the last bit, as the robot of a URDF with equal numbers.
@@ -73,8 +73,8 @@ def urdf(
     """Describes a robot by a URDF file.
 
     srdf: a file with pairs of links that may touch. joints: the names of the joints that are planned for; default: all
-    that can move. base: a `Pose` or 4×4, the pose of the root link. bounds: for each planar and floating joint
-    [[x, y, z], [x, y, z]], the corners of its position, m. name: needed if there are several robots.
+    that can move. base: a `Pose` or 4×4, the pose of the root link. bounds: for each planar and floating joint,
+    [[x, y, z], [x, y, z]], the lower and the upper corner of its position, m. name: needed if there are several robots.
     """
     if os.fspath(file).endswith((".yaml", ".yml")):
         raise ValueError(f"urdf: {file} is no URDF; a robot.yaml belongs to a problem's file, for read_problem")

@@ -36,7 +36,7 @@ class _Worker:
         finally:
             signal.pthread_sigmask(signal.SIG_SETMASK, before)
         other.close()
-        self.is_lost = False  # a call found that the process had ended
+        self.is_lost = False  # becomes True if a call finds that the process has ended
 
     def await_begin(self) -> None:
         """Waits until the process takes arguments. Raises RuntimeError if it ended instead."""
@@ -138,7 +138,7 @@ def in_order(function: Callable[[Any], Any], arguments: Sequence[Any], processes
 
     processes: the number of processes; None: the number of cores. If the function raises an exception for an argument,
     the iterator raises this exception instead of yielding a result. The processes go on while the caller works. When
-    the iterator ends, it kills the processes, also if it ends early, as by Ctrl-C.
+    the iterator ends, it kills the processes, even if it ends early (as by Ctrl-C).
     """
     if processes is None:
         processes = os.cpu_count() or 1
@@ -148,7 +148,7 @@ def in_order(function: Callable[[Any], Any], arguments: Sequence[Any], processes
         for _ in range(min(len(arguments), processes)):
             workers.append(_Worker(function))
             if len(workers) == 1:
-                workers[0].await_begin()  # if the first one can't begin, there are no others
+                workers[0].await_begin()  # if the first process can't begin, no other is started
         for worker in workers[1:]:
             worker.await_begin()
         for worker in workers:
@@ -156,7 +156,7 @@ def in_order(function: Callable[[Any], Any], arguments: Sequence[Any], processes
         for index in range(len(arguments)):
             yield answers.take(index)
     finally:
-        if os.getpid() == owner:  # a child that was forked has a copy of the iterator
+        if os.getpid() == owner:  # not in a forked child, which has a copy of the iterator
             for worker in workers:
                 worker.process.kill()
             for worker in workers:

@@ -49,7 +49,10 @@ class Obstacles {
     if (body.edges) body.edges.material.opacity = glass ? 0.42 : 0.55;
   }
 
-  /** Sets each body to solid or glass. @param mode 'auto', 'solid' or 'glass'. @returns whether anything changed. */
+  /**
+   * Sets each body to solid or glass. A floor stays solid in the mode 'glass'. @param mode 'auto', 'solid' or 'glass'.
+   * @returns whether anything changed.
+   */
   apply(mode, motion, stage) {
     this.mode = mode;
     if (mode === 'auto') this.look(motion, stage);
@@ -63,9 +66,9 @@ class Obstacles {
   }
 
   /**
-   * Measures the share of the robots' pixels that each body hides. Renders a small picture of the robots alone, then a
-   * picture with the obstacles. Obstacles that hide robots are then removed and the rest is rendered again, four
-   * pictures at most, to find obstacles behind them.
+   * Measures the fraction of the robots' pixels that each body hides. Renders a small picture of the robots alone, then
+   * a picture with the obstacles. The obstacles that hide robots are then removed, and a picture of the others is
+   * rendered, to find the obstacles behind. At most four pictures with obstacles are rendered.
    */
   look(motion, stage) {
     const width = 256, height = Math.max(16, Math.round(width / stage.aspect)), pixels = new Uint8Array(4 * width * height);

@@ -1,12 +1,12 @@
 'use strict';
 
 const kQuantities = ['position', 'velocity', 'acceleration'];
-const kPerSecond = ['', '/s', '/s²'];  // of position, velocity, acceleration: what follows the position's unit
-const kDrawnSpans = 600;               // the most spans of a curve; of each, the smallest and largest value are drawn
+const kPerSecond = ['', '/s', '/s²'];  // for position, velocity, acceleration: the text after the position's unit
+const kDrawnSpans = 600;               // the most spans of a curve; the smallest and largest value of each are drawn
 
 /**
- * The joints of a trajectory. `at` has the positions on the path of their values. If two values have one position, they
- * are those before and after a jump.
+ * The joints of a trajectory. `at` has, for each value, its position on the path. If two values have the same position,
+ * they are the values before and after a jump.
  */
 const joints = data.plots && data.plots.joints.map((joint, i, all) => ({...joint,
   values: joint.values.map((values) => data.array(values)),

@@ -108,7 +108,7 @@ function lines(shape, colour, opacity) {
  */
 const behind = (rank) => ({polygonOffsetFactor: 1 + 0.25 * rank, polygonOffsetUnits: 1 + 300 * rank});
 
-/** A copy of the robots that is drawn solid. Where other bodies hide it, it is dimly visible, except large meshes. */
+/** A copy of the robots that is drawn solid. Where other bodies hide it, it is dimly visible; large meshes are not. */
 class Robots extends RobotCopy {
   /**
    * @param hex the colour; unset: each robot has its own colour. @param rank see `behind`; above 0, frames that never

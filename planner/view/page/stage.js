@@ -13,7 +13,8 @@ const kFieldOfView = 30;  // degrees, vertical: a small angle, so that near and 
 class Stage {
   constructor(canvas, options) {
     this.canvas = canvas;
-    this.renderer = new THREE.WebGLRenderer({canvas, antialias: true, preserveDrawingBuffer: true});  // kept for printing
+    // With preserveDrawingBuffer, a printed page contains the scene.
+    this.renderer = new THREE.WebGLRenderer({canvas, antialias: true, preserveDrawingBuffer: true});
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
     this.renderer.setClearColor(palette.paper);
     this.renderer.gammaOutput = true;
@@ -21,8 +22,8 @@ class Stage {
     this.scene = new THREE.Scene();
     this.beforeDraw = [];
     this.onView = () => {};
-    this.below = 0;  // height of the legend at the bottom, pixels; used above the 5 % that `fit` always leaves free
-    this.moved = false;  // whether the user has moved the camera; then `frame` keeps it where it is
+    this.below = 0;  // height of the legend at the bottom, pixels; `fit` leaves it free, but 5 to 40 % of the picture
+    this.moved = false;  // whether the camera was moved; `fitToPage` then keeps it where it is
     this.top = options.top;
     this.perspective = new THREE.PerspectiveCamera(kFieldOfView, 1, 0.1, 10);
     this.perspective.up.set(0, 0, 1);

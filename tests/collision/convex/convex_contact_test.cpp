@@ -71,7 +71,8 @@ TEST(ConvexContact, RightOutsideTheBandNeverFalselyFree) {
 
 using test::Vec3L;
 
-/// Returns the distance of a point from a solid in its own frame, by closed forms; 0 inside.
+/// Returns the distance of the point q from a solid, both in the solid's frame, by closed forms; 0
+/// if q is inside.
 long double distanceFrom(const Primitive& primitive, const Vec3L& q) {
   const long double radial = std::hypot(q[0], q[1]), z = std::abs(q[2]);
   const auto beyond = [](long double x) { return std::max(0.0L, x); };

@@ -79,7 +79,7 @@ TEST(DobkinKirkpatrick, HierarchiesPassTheCheck) {
   for (std::size_t kind = 0; kind < 6; ++kind)
     for (const std::size_t count : {5u, 8u, 30u, 500u, 5000u / test::kSlowdown}) {
       std::vector<Vec3> points = random.points(kind, count);
-      points.push_back({0, 0, -2});  // not flat
+      points.push_back({0, 0, -2});  // so that the points of no kind are flat
       points.push_back({1, 0, -3});
       const DobkinKirkpatrick hierarchy{Polytope(points)};
       EXPECT_EQ(hierarchy.check(), std::nullopt) << "kind " << kind << ", " << count << " points";

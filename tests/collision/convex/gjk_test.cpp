@@ -15,8 +15,8 @@ using test::Shape;
 using test::ShapeFeature;
 using test::Touching;
 
-/// Prints the largest values of two figures, and tests that they are below limits: the number of
-/// iterations of a search, and the difference between its final upper and lower bounds of the
+/// Tests that two figures of a search are below limits, and prints their largest values. They are
+/// the number of iterations, and the difference between the final upper and lower bounds of the
 /// cores' distance, divided by the size.
 TEST(Gjk, WorstErrors) {
   Touching make(test::testSeed(24));

@@ -17,10 +17,11 @@ using Points = std::vector<Eigen::Matrix<double, D, 1>>;
 
 /// Returns the relation of two convex hulls, by the rational simplex method, which shares no code
 /// with Corridor.
-/// * The hulls share a point if Σ λ_i p_i = Σ μ_j q_j, Σ λ = Σ μ = 1 has a solution λ, μ ≥ 0.
-/// * No plane separates the hulls, not even one that touches them, if the rows (p, −1) and (−q, 1)
-///   span all of space with weights ≥ 0: that is, if the rows have full rank, and Σ w_i row_i = 0
-///   has a solution with all w_i ≥ 1.
+/// * The points are p_i in the first set and q_j in the second. The hulls share a point if Σ λ_i
+///   p_i = Σ μ_j q_j, Σ λ_i = Σ μ_j = 1 has a solution with all λ_i ≥ 0 and all μ_j ≥ 0.
+/// * No plane separates the hulls, not even one that touches them, if the rows (p_i, −1) and (−q_j,
+///   1) span all of space with weights ≥ 0: that is, if the rows have full rank, and Σ w_i row_i =
+///   0 has a solution with all w_i ≥ 1.
 template <int D>
 HullRelation hullRelation(const Points<D>& first, const Points<D>& second) {
   std::vector<std::vector<double>> meet, rows;
@@ -112,8 +113,8 @@ class HullPairs {
   Point gridPoint() {
     return Point::NullaryExpr([&] { return static_cast<double>(random_() % 5) - 2; });
   }
-  /// Returns a grid point on one side of the plane through the origin with this normal, or on the
-  /// plane.
+  /// Returns a grid point x with s·(normal·x) ≥ 0: a point on one side of the plane through the
+  /// origin with this normal, or on the plane. @pre s is 1 or −1.
   Point side(const Point& normal, double s) {
     const Point x = gridPoint();
     return s * normal.dot(x) < 0 ? Point(-x) : x;

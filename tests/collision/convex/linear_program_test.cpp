@@ -20,7 +20,8 @@ namespace {
 template <int D>
 using Vector = Eigen::Matrix<double, D, 1>;
 
-/// Returns the status of the program, by the rational simplex method and duality.
+/// Returns the status of the program, by the rational simplex method and duality. The sums run over
+/// all half-spaces i.
 /// * Infeasible: Σ w_i normal_i = 0, Σ w_i offset_i = −1 has a solution w ≥ 0.
 /// * Bounded: Σ w_i normal_i = goal has a solution w ≥ 0. (`goal` is the vector of the objective.)
 template <int D>

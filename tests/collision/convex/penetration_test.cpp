@@ -33,7 +33,8 @@ Transform moved(Transform X, const Vec3& direction, double length) {
 }
 
 /// Returns the depth by the explicit Minkowski difference: the least signed distance of the origin
-/// from the planes of the hull of all a − b. It is negative if the sets are apart.
+/// from the planes of the hull of all differences of a point of a and a point of b. It is negative
+/// if the sets are apart.
 double explicitDepth(const std::vector<Vec3>& a, const std::vector<Vec3>& b,
                      Vec3* along = nullptr) {
   std::vector<Vec3> all;
@@ -212,7 +213,7 @@ TEST(Penetration, WitnessesOfFlatCores) {
   }
 }
 
-/// Cores that are so small beside their spheres that the planes of the cores' faces cannot be
+/// Tests cores that are so small beside their spheres that the planes of the cores' faces cannot be
 /// computed.
 TEST(Penetration, TinyCores) {
   for (const double s : {1e-40, 1e-90, 1e-130}) {

@@ -60,7 +60,8 @@ TEST(PlaneSeparation, AgreesWithEveryVertexInRationals) {
     for (const Vec3& p : drawn.vertices()) points.push_back(p + away);
     const DobkinKirkpatrick polytope{Polytope(points)};
     HalfSpace<3> half = plane(random, polytope.polytope(), n % 6);
-    if (n % 6 == 5) {  // through the outermost vertex: doubles cannot decide the polytope's side
+    if (n % 6 == 5) {
+      // The plane is through the outermost vertex, up to rounding: doubles cannot decide the side.
       half.offset = 0;
       Rational most = height(half, points[0]);
       for (const Vec3& p : points) most = std::max(most, height(half, p));

@@ -125,7 +125,8 @@ TEST(PolygonIntersection, AgreesWithRationalSimplex) {
 /// half-planes of the remaining edges of q. @pre all coordinates are integers below 2^20, so that
 /// the half-planes are exact.
 bool partsMeet(const ConvexPolygon& p, const ConvexPolygon& q, const PolygonPruning& left) {
-  // Σ λ_i (n_k·p_i) + s_k = b_k, Σ λ = 1, λ, s ≥ 0.
+  // The point Σ λ_i p_i is in the half-plane n_k·x ≤ b_k of each edge k, with the slack s_k: Σ λ_i
+  // (n_k·p_i) + s_k = b_k, Σ λ_i = 1, and all λ_i ≥ 0 and s_k ≥ 0.
   const std::size_t edges = std::min(left.q[1] - left.q[0] + 1, q.size());
   std::vector<std::vector<double>> columns;
   std::vector<double> right;

@@ -62,7 +62,7 @@ TEST(Polytope, VerticesAreTheExtremePoints) {
     try {
       hull.emplace(all);
     } catch (const std::invalid_argument&) {
-      // All on one plane.
+      // The points must all lie in one plane.
       std::vector<std::vector<double>> rows;
       for (const Vec3& p : all) rows.push_back({p[0], p[1], p[2], 1});
       EXPECT_LT(test::rankOf(rows), 4u) << "set " << n;

@@ -123,8 +123,8 @@ inline long double betweenSegments(const Vec3L& a, const Vec3L& b, const Vec3L& 
   return best;
 }
 
-/// Returns the distance of two disjoint hulls of corners, of one to three points each: a vertex, an
-/// edge or a triangle.
+/// Returns the distance of two disjoint features. Each is given by its one to three corners: it is
+/// a vertex, an edge or a triangle.
 inline long double betweenFeatures(const std::vector<Vec3L>& p, const std::vector<Vec3L>& q) {
   long double best = HUGE_VALL;
   const auto toFeature = [](const Vec3L& x, const std::vector<Vec3L>& f) {

@@ -124,7 +124,8 @@ TEST(QuickContact, AgreesWithTheFullSearchUnderMapsThatAreNotRigid) {
   EXPECT_FALSE(convexSetsTouch({lowSet, larger}, {highSet, larger}));
 }
 
-/// The square of the plate's thickness underflows, so its direction cannot be normalised.
+/// If the plate is very thin, the square of its thickness underflows. Then a vector of this length,
+/// across the plate, cannot be normalised.
 TEST(QuickContact, PlatesOfAnyThicknessAreNotMissed) {
   const ConvexPart cube = placed(Box{{1, 1, 1}}, {});
   const Transform turned{Eigen::AngleAxisd(std::numbers::pi / 4, Vec3::UnitZ()).matrix(),
@@ -161,7 +162,8 @@ IntMat turned(Touching& make) {
 
 /// Compares boxes with integer corners under integer maps with the separating-axis theorem in
 /// integers. Many pairs touch exactly. The maps are rotations times 25, and every fourth pair has
-/// boxes whose edges are parallel. Sizes differ by up to a million, so that thin boxes occur.
+/// boxes whose edges are parallel. Edge lengths differ by a factor of up to 1000, so that thin
+/// boxes occur.
 TEST(QuickContact, BoxesAgainstIntegers) {
   Touching make(test::testSeed(33));
   int touching = 0, apart = 0, exactly = 0, decided = 0;

@@ -40,7 +40,7 @@ TEST(SignedDistance, Spheres) {
       const double expected = (X_WB.t - X_WA.t).norm() - ra - rb;
       const ConvexPart a{{Vec3::Zero()}, ra}, b{{Vec3::Zero()}, rb};
       const SignedDistance d = signedDistance({a, X_WA}, {b, X_WB});
-      // The bounds of a depth differ by up to 2^-42 of the largest coordinate, some 5 m.
+      // The bounds of a depth differ by up to 2^-42 of the largest coordinate, which is some 5 m.
       expectSigned(d, expected, 0x1p-39 + 1e-9 * std::abs(gap));
       EXPECT_NEAR((d.normal_W - normal).norm(), 0, 1e-6) << gap;
     }

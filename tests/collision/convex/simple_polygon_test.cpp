@@ -60,9 +60,9 @@ bool isStrictlyConvex(const std::vector<Point2>& p) {
   return p.size() >= 3;
 }
 
-/// Expects that the boundaries of the convex pieces add up to the boundary of the polygon. Then the
-/// number of pieces that contain a point, at any point off the boundaries, is the winding number of
-/// the polygon: 1 or 0.
+/// Expects that the boundaries of the convex pieces add up to the boundary of the polygon. Then,
+/// for any point off the boundaries, the number of pieces that contain the point is the winding
+/// number of the polygon around it: 1 or 0.
 void expectTiling(const PolygonPoints& points, const std::string& name) {
   const std::vector<Point2> corners = exactly(points);
   const Fraction area = test::twiceArea(corners);

@@ -82,7 +82,7 @@ class MeshFuzz : public MeshFileTest {
         ++refused;
       }
     }
-    EXPECT_GT(sound, mutations / 100);  // otherwise nearly all mutations are refused at once
+    EXPECT_GT(sound, mutations / 100);  // or nearly all mutations were refused at once
     EXPECT_GT(refused, mutations / 10);
   }
 };

@@ -48,7 +48,7 @@ std::vector<Row> rowsOf(const std::filesystem::path& guide) {
   return rows;
 }
 
-/// Expects the figures of a row of the table, which has five digits.
+/// Expects the figures of a row of the table. They have five digits.
 void expectRow(const MeshHealth& health, const Row& row) {
   SCOPED_TRACE(row.file);
   EXPECT_EQ(health.triangles, row.triangles);

@@ -87,8 +87,8 @@ BoundingBox cube(const Vec3& c, double half) {
   return {c - h, c + h, (c - h).cwiseAbs().sum() + (c + h).cwiseAbs().sum()};
 }
 
-/// A crowd of boxes far away must cost little: queries skip the crowd near the root. If the tree
-/// were split at the median, the few near boxes would be ten levels deep.
+/// A crowd of boxes far away must cost little: queries skip the whole crowd at a node near the
+/// root. If the tree were split at the median, the few near boxes would be ten levels deep.
 TEST(BoxTree, PassesOverAFarCrowdNearTheRoot) {
   std::vector<BoundingBox> near, all;
   for (int i = 0; i < 8; ++i) near.push_back(cube(Vec3(i % 2, i / 2 % 2, i / 4), 0.1));

@@ -74,7 +74,8 @@ TEST(Obb4Tree, ContainsItsConvexPartInRationals) {
       ASSERT_TRUE(tree.hasParts());
       const ConvexPart& part = tree.part(0);
       for (const Vec3& p : part.points) {
-        // A disc's rim is farther from the origin than its axis, but by less than its radius.
+        // The rim of a disc is farther from the origin than the end of the cylinder's axis, but by
+        // less than the radius. So the radius is left out for flat ends.
         const double ball = part.flatEnds ? 0 : part.radius;
         ASSERT_LE((p - tree.origin()).norm() + ball, tree.radius() * (1 + 1e-15));
         ASSERT_LE(p.norm() + ball, tree.reach() * (1 + 1e-15));

@@ -46,7 +46,7 @@ TEST_P(Fits, SharedMeshes) {
   }
 }
 
-/// Triangles of size 2^-i around a point make a tree about as deep as it has triangles.
+/// Triangles of size 2^-i around a point make a tree whose depth is about the number of triangles.
 TEST_P(Fits, DeepTreesNeedNoCallStack) {
   TriangleMesh mesh;
   for (int i = 0; i < 1'000; ++i) {

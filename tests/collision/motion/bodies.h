@@ -77,7 +77,8 @@ inline Vec3 randomInCube(std::mt19937_64& random) {
   return {x, y, z};
 }
 
-/// Returns triangles about random points in a cube, in which no coordinate is larger than `spread`.
+/// Returns triangles with one corner at a random point of the cube [−spread, spread]³. The
+/// coordinates of the other two corners differ from those of this point by at most `size`.
 inline TriangleMesh blob(std::mt19937_64& random, int count, double spread, double size) {
   TriangleMesh mesh;
   for (int i = 0; i < count; ++i) {

@@ -138,7 +138,8 @@ TEST_P(Certificate, TamperedWithItFails) {
   EXPECT_EQ(fault(), Kind::malformed) << "less than the required clearance";
 }
 
-/// If the distance is below the margin, even by little, no claim may be accepted.
+/// If the distance does not exceed the margin, no claim may be accepted, even if the distance is
+/// only a little smaller.
 TEST_P(Certificate, AMarginIsProvedInFull) {
   const Body wall = bodyOf(box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))),
              cube = bodyOf(box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5)));

@@ -41,9 +41,10 @@ TEST(CertifyMotion, BoxPastAWall) {
   }
 }
 
-/// A cube moves 10 m along a wall, at a distance of 1e-10 m or less. It moves in the direction of
-/// one of its edges, or diagonally. Each motion is also tested with both bodies and the motion
-/// rotated, so that coordinates are off by 1e-15 m. The cost is measured by counters, not by time.
+/// A cube moves 10 m along a wall, at a distance or depth of 1e-10 m or less. It moves in the
+/// direction of one of its edges, or diagonally. Each motion is also tested with both bodies and
+/// the motion rotated, so that coordinates are off by 1e-15 m. The cost is measured by counters,
+/// not by time.
 TEST(CertifyMotion, BoxPastAWallAlmostTouching) {
   const Mat3 turn = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
   for (const Mat3& R : {Mat3(Mat3::Identity()), turn}) {
@@ -68,8 +69,8 @@ TEST(CertifyMotion, BoxPastAWallAlmostTouching) {
   }
 }
 
-/// A needle moves through a hole. The motion is free if the needle's radius is below that of the
-/// hole.
+/// A needle moves through a hole. The motion is free if the needle's radius is below the inscribed
+/// radius of the hole.
 TEST(CertifyMotion, NeedleThroughAHole) {
   const double hole = 0.1, thick = 0.05;
   TriangleMesh plate;

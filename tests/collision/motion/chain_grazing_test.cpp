@@ -16,8 +16,9 @@ using test::ChainMotion;
 using Vec3L = ChainMotion::Vec3L;
 
 /// Two joints move body b: two revolute joints, or a revolute and a prismatic joint. At t = 1 the
-/// height of b above a plane is `gap`, at a point where body a touches the plane from below. Before
-/// t = 1, b is higher. Therefore the verdict is known without an oracle.
+/// height of b above a plane is `gap`, at a point where body a touches the plane from below. If
+/// `known` is true, no sampled time before t = 1 has b lower, so the verdict is known without an
+/// oracle.
 struct ChainGrazing {
   TriangleMesh a, b;
   std::vector<ChainMotion::Joint> joints;

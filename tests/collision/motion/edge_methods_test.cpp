@@ -77,8 +77,9 @@ TEST_P(EdgeMethods, DisplacementsThatOverflowAreUndecided) {
   }
 }
 
-/// In other rounding modes no bound holds. The query must report the rounding mode as the reason,
-/// and must not answer `free` or `contact`.
+/// In a mode that does not round to nearest, or that shortens the x87's numbers, no bound holds.
+/// The query must report the floating-point mode as the reason, and must not answer `free` or
+/// `contact`.
 TEST_P(EdgeMethods, OtherArithmeticIsRefused) {
   const Body wall = bodyOf(box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))),
              cube = bodyOf(box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5)));
@@ -302,8 +303,8 @@ TEST_P(EdgeMethods, PointThroughAPointEnds) {
   }
 }
 
-/// At t = 1/4 a tip of the obstacle is within the tube, and at t = 1/2 the body hits a wall.
-/// Between these times nothing grazes.
+/// At t = 1/4 the tip of a fixed body is within the tube, and at t = 0.49 the moving body hits a
+/// wall. Between these times nothing grazes.
 TEST_P(EdgeMethods, GrazingIsReportedOnlyForNarrowGaps) {
   TriangleMesh robot, tip, wall;
   add(robot, Vec3(-0.01, 0, 0), Vec3(0.01, 0, 0), Vec3(0, 0.01, 0));
@@ -438,9 +439,9 @@ TEST_P(EdgeMethods, RandomEdges) {
 TEST_P(EdgeMethods, BallAroundARod) {
   const Body ball("ball", placed(Sphere{0.2}, Transform{Mat3::Identity(), Vec3(1, 0, 0)})),
       rod("rod", placed(Cylinder{0.1, 4}, {}));
-  // The sphere's centre is at (gap − 0.7 + cos φ, sin φ), φ in [0, 0.5]. The sphere begins `gap`
-  // beside the rod, or in the rod if `gap` is negative, and moves away, since 1.49 − 1.4 cos φ
-  // increases.
+  // In the xy-plane, the sphere's centre is at (gap − 0.7 + cos φ, sin φ), φ in [0, 0.5]. The
+  // sphere begins `gap` beside the rod, or in the rod if `gap` is negative, and moves away, since
+  // 1.49 − 1.4 cos φ increases.
   const auto around = [&](double gap) {
     return RigidMotion::spatial(turned(Vec3(gap - 0.7, 0, 0), 0, Vec3::UnitZ()),
                                 turned(Vec3(gap - 0.7, 0, 0.5), 0.5, Vec3::UnitZ()), {});

@@ -10,9 +10,10 @@
 namespace corridor::test {
 
 /// A fixed mesh below a plane with normal n, and a moving mesh above this plane. The height of the
-/// moving mesh above the plane is `gap` at t = 1, or at all times if the mesh slides. The verdict
-/// is known by construction. If the gap is negative, two features (a corner and a face, or two
-/// edges) penetrate each other. Otherwise the gap is the distance of the meshes at t = 1.
+/// moving mesh's lowest corner above the plane is `gap` at t = 1, or at all times if the mesh
+/// slides. If `known` is true, the verdict follows from the construction. If the gap is negative,
+/// two features (a corner and a face, or two edges) penetrate each other. Otherwise the gap is the
+/// distance of the meshes at t = 1.
 struct Grazing {
   enum Feature { cornerOnFace, faceOnCorner, edgeOnEdge, features };
   TriangleMesh fixed, moving;

@@ -82,10 +82,10 @@ long double lowest(const ShapeFeature& b, const LineAndTurn& motion, long double
   return origin.dot(nL) + least - set.ball * m.norm() - set.disc * m.cross(axis).norm();
 }
 
-/// Bodies that graze by construction. Body a is below a plane, and touches the plane at one point.
-/// Body b is above the plane, and its lowest point is exactly above that point, at a distance
-/// `gap`. This holds at the end of the motion, and throughout the motion if b slides along the
-/// plane and rotates about its normal.
+/// Bodies that graze by construction. Body a is below a plane, and touches the plane at a known
+/// point. Body b is above the plane, and its lowest point is exactly above that point, at a
+/// distance `gap`. This holds at the end of the motion, and throughout the motion if b slides along
+/// the plane and rotates about its normal.
 TEST(MovingParts, GrazingByConstruction) {
   Touching make(test::testSeed(25));
   const int count = (test::isStressRun() ? 100'000 : 20'000) / test::kSlowdown;

@@ -76,8 +76,8 @@ TEST(PolygonBodies, ContactAgreesWithRationals) {
   EXPECT_GT(touching, 0);
 }
 
-/// Returns an L whose inner corner is the origin: its two arms are below y = 0 and to the left of x
-/// = 0.
+/// An L whose inner corner is the origin. The two arms of the L are below y = 0 and to the left of
+/// x = 0.
 const Points corner{{-1, -1}, {3, -1}, {3, 0}, {0, 0}, {0, 3}, {-1, 3}};
 
 /// Runs motions of random polygons past others, at known gaps of 10^-2 to 10^-8 of the size, half
@@ -97,7 +97,8 @@ void expectVerdictsAtKnownGaps(test::Polygons& random, const VerdictOf& verdictO
   EXPECT_GT(decided, 500 / test::kSlowdown);
 }
 
-/// The other polygon slides along the L's inner edge, at the height `gap` above it.
+/// The other polygon slides along the L's inner edge y = 0. Its height above this edge is `gap`
+/// times its size.
 TEST(PolygonBodies, MotionsThatSlideAtAKnownHeight) {
   test::Polygons random(test::testSeed(62));
   QueryContext context;
@@ -108,7 +109,7 @@ TEST(PolygonBodies, MotionsThatSlideAtAKnownHeight) {
       left = std::min(left, v.x());
       size = std::max(size, v.norm());
     }
-    // The pose has y = gap − lowest, with one rounding.
+    // The pose has y = gap·size − lowest, up to rounding.
     Points fixed = corner;
     for (Vec2& v : fixed) v = (v.array() > 1).select(10 * size, v);  // longer than the motion
     const double y = gap * size - lowest, from = 0.1 * size - left, to = from + 2 * size;

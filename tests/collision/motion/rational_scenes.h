@@ -13,8 +13,7 @@ namespace corridor::test {
 /// A moving triangle and a fixed triangle, whose coordinates are dyadic fractions of few bits. Some
 /// scenes are random near misses and hits. Others are first built so that two features meet exactly
 /// during the motion. Then the fixed triangle is displaced a little, towards the moving one or away
-/// from it. The oracle computes their
-/// first contact.
+/// from it. The oracle computes the first contact of the two triangles.
 struct RationalScene {
   enum Kind {
     nearby,    ///< the fixed triangle is near the path of the moving one

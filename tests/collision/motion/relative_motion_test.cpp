@@ -38,7 +38,7 @@ struct Trial {
     Vec3 about;            // pivot rotations: the axis of the perturbation
   };
   std::vector<Joint> joints;
-  Vec3 center, origin, offset, direction;  // offset: at most of unit length
+  Vec3 center, origin, offset, direction;  // offset: of unit length
   double radius, s;
 };
 

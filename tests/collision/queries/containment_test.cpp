@@ -195,8 +195,9 @@ TEST(Containment, RaysThroughEdgesAndVertices) {
   }
 }
 
-/// Points below the apex of a fan of thousands of needle-shaped triangles, where the first ray may
-/// meet edges. The answers are compared with the closed form, under two rotations and far away.
+/// Tests random points in and beside a double cone. Some are on its axis, below the apex of a fan
+/// of thousands of needle-shaped triangles, where the first ray may meet edges. The answers are
+/// compared with the closed form, under two rotations and far away.
 TEST(Containment, FineMeshesUnderTwoMaps) {
   std::mt19937_64 random(test::testSeed(31));
   const auto real = [&] { return std::uniform_real_distribution(-1.0, 1.0)(random); };

@@ -33,7 +33,8 @@ struct MeshAndTree {
 };
 
 /// Runs every query on two bodies twice, starting from the pair `last` and starting from no pair,
-/// and expects equal answers. Returns whether the bodies touch.
+/// and expects the same verdicts, and distances that agree within their errors. Returns whether the
+/// bodies touch.
 bool expectSame(const MeshAndTree& a, const Transform& X_WA, const MeshAndTree& b,
                 const Transform& X_WB, QueryContext& context, LastPair& last,
                 const std::string& where) {
@@ -111,8 +112,8 @@ TriangleMesh slats(int count) {
   return mesh;
 }
 
-/// A query first tests the pair that decided the previous query. So it tests no box, or far fewer
-/// boxes.
+/// If one pair has decided two queries, the next query tests this pair first. So that query tests
+/// no box, or far fewer boxes.
 TEST(Obb4LastPair, DecidesTheNextQuery) {
   std::mt19937_64 random(test::testSeed(42));
   const MeshAndTree a(slats(40)), b(soup(random, 100, 0.1));

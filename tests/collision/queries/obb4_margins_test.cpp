@@ -54,8 +54,8 @@ TEST_P(Obb4Margins, SmallTrianglesInARow) {
 }
 
 /// Two meshes of up to 2^1023 m. A triangle of one mesh touches one corner of a small triangle of
-/// the other. The relative pose has no rotation, a random rotation, or a rotation by at most 2^-23
-/// rad.
+/// the other, if rounding permits (`touch`). The relative pose has no rotation, a random rotation,
+/// or a rotation by at most 2^-23 rad.
 struct FarCorner {
   TriangleMesh a, b;
   Transform X;

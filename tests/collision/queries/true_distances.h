@@ -38,8 +38,8 @@ int expectTrueDistances(const Workload& w, const Tree& a, const Tree& b,
     EXPECT_LE(referenceDistance(d.p_WA, corners(w.a, d.a), {}), 4 * kUnit * size);
     EXPECT_LE(referenceDistance(d.p_WB, corners(w.b, d.b), X), 4 * kUnit * size);
     EXPECT_NEAR((d.p_WA - d.p_WB).norm(), d.distance, allowed + 4 * kUnit * size);
-    // Tests the tolerance query just above and just below the distance. For a tolerance of 0 it
-    // must equal `interference`.
+    // Tests the tolerance query just above and just below the distance. For a tolerance of 0 the
+    // answer must be that of `interference`.
     EXPECT_TRUE(closerThan(Posed(a), Posed(b, X), d.distance + allowed, context));
     if (d.distance > 4 * allowed) {
       EXPECT_FALSE(closerThan(Posed(a), Posed(b, X), d.distance - 4 * allowed, context));

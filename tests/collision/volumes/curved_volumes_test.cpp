@@ -34,8 +34,8 @@ Vec3 anyDirection(Random& random) {
   return test::anyPose(random, 1).m.col(0);
 }
 
-/// Returns points in one of several shapes: solid, flat, along a line, on a part of a sphere, all
-/// around a sphere, or at one place.
+/// Returns points in one of several shapes: solid, flat, nearly flat, nearly along a line, on a
+/// part of a sphere, all around a sphere, or at one place.
 std::vector<Vec3> cloud(Random& random, int family, std::size_t count) {
   const Mat3 turn = test::anyPose(random, 1).m;
   const double angle = std::pow(10.0, real(random, -3, 0)),
@@ -201,7 +201,7 @@ VolumeBounds boundsOf(const Volume& v) {
 }
 
 /// A linear program in rationals decides which hulls meet. Hulls that meet are never separated.
-/// Hulls whose gap is larger than rounding are always separated.
+/// Nearly all hulls whose gap is larger than rounding are separated.
 TEST(OverlapHulls, AgreeWithLinearPrograms) {
   Random random(test::testSeed(85));
   int separated = 0, missed = 0, meet = 0;

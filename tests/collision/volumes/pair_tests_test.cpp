@@ -35,9 +35,9 @@ Vec3 normalOf(std::mt19937_64& random, int n) {
   return v.norm() > 0 ? Vec3(v.normalized()) : Vec3::UnitX();
 }
 
-/// Returns two clouds that meet, or are `gap` apart. @param offset the distance of the clouds from
-/// the origin. @param defect the approximate difference of the map from a rotation; 0: only
-/// rounding.
+/// Returns two clouds that meet, or are `gap` apart. @param offset the scale of the distance of the
+/// clouds from the origin. @param defect the approximate difference of the map from a rotation; 0:
+/// only rounding.
 Meeting meeting(std::mt19937_64& random, int n, double gap, double offset, double defect = 0) {
   std::uniform_real_distribution<double> real(-1, 1);
   const Vec3 normal = normalOf(random, n);

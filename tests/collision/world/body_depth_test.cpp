@@ -92,7 +92,7 @@ TEST(BodyDepth, ConvexParts) {
   EXPECT_GE(d.upper, 0.2 * (1 - 1e-15));
 }
 
-/// A ball inside a solid cube, near its centre, touches no surface.
+/// A ball is inside a solid cube, and does not touch the cube's surface.
 TEST(BodyDepth, InsideASolidMesh) {
   QueryContext context;
   const Body a("a", test::box(Vec3::Constant(-1), Vec3::Constant(1)), true);

@@ -213,8 +213,8 @@ TEST(BroadPhase, TakesLogarithmicTime) {
 }
 
 /// Let d be the defect of a map, the largest entry of MᵀM − 1. Such a map can move a point by more
-/// than d times the point's distance from the origin. The robot is between the sphere of radius 1 +
-/// d and the surface of the image of a ball of radius 1.
+/// than d times the point's distance from the origin. The nearest point of the robot is between the
+/// sphere of radius 1 + d and the surface of the image of a ball of radius 1.
 TEST(BroadPhase, BodiesAtRestUnderMapsThatAreNotRigid) {
   for (const double d : {0x1p-11, 0.1, 0.9}) {
     const Mat3 square = Mat3::Identity() + Mat3::Constant(d);

@@ -64,7 +64,7 @@ TEST(PairMargins, AMotionIsFreeIfEachPairKeepsItsOwn) {
     std::vector<double> metres;
     for (std::size_t k = 0; k < row.size(); ++k)
       metres.push_back(share(random) * (row.gapOf(k) - margin));
-    // In every other case, one pair is too close.
+    // In half of the cases, one pair is too close.
     const std::size_t tooClose = n % 4 < 2 ? row.size() : random() % row.size();
     if (tooClose < row.size()) metres[tooClose] = 1.05 * row.gapOf(tooClose);
     const PairMargins margins(metres);
@@ -121,7 +121,7 @@ TEST(PairMargins, ACertificateProvesThem) {
   MotionCertificate modest = certificate;
   for (FreeInterval& i : modest.free) i.clearance = 0.01;
   EXPECT_TRUE(check(modest, margins));
-  // A claim that exceeds the true clearance a little is refuted, although the claim is far below
+  // A claim that exceeds the true clearance a little is refused, although most claims are far below
   // the largest margin.
   MotionCertificate bold = certificate;
   for (std::size_t k = 0; k < row.size(); ++k) metres[k] = 1.01 * row.gapOf(k);

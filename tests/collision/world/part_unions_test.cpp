@@ -17,7 +17,7 @@
 namespace corridor::test {
 namespace {
 
-/// Returns parts of all kinds in a cube of 2 m; some parts occur twice.
+/// Returns parts of all kinds near the origin; some parts occur twice.
 std::vector<ConvexPart> someParts(std::mt19937_64& random, int count) {
   std::vector<ConvexPart> all = parts(random, count, 0.2);
   for (int i = 0; i < count; i += 7) all.push_back(all[static_cast<std::size_t>(i)]);

@@ -140,7 +140,7 @@ TEST(EveryTreeKind, Edges) {
           ASSERT_TRUE(r.grazing || r.contactTime - r.certifiedUntil <= options.timeTolerance);
         }
       }
-      if (trees != TreeKind::obb4 && n % 5) continue;  // the other kinds take turns
+      if (trees != TreeKind::obb4 && n % 5) continue;  // others: in every fifth case
       for (int i = 0; i <= 20 && r.certifiedUntil > 0; ++i)
         ASSERT_FALSE(touches(r.certifiedUntil * i / 20)) << i;
     }
@@ -152,8 +152,8 @@ TEST(EveryTreeKind, Edges) {
   EXPECT_LE(verdicts[2], 1 + count / 1000);
 }
 
-/// For every kind of trees, queries test the bounds of bodies first, and build no tree for bodies
-/// that are far away.
+/// Queries on another kind of trees than the default, too, test the bounds of bodies first, and
+/// build no tree for bodies that are far away.
 TEST(EveryTreeKind, FarBodiesGetNoTree) {
   std::vector<Body> fixed, moving;
   fixed.push_back(test::bodyOf(test::box(Vec3(1, -1, -1), Vec3(2, 1, 1))));

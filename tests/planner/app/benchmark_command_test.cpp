@@ -29,7 +29,8 @@ class BenchmarkCommand : public corridor::test::ProgramTest {
     write("hall.yaml", problem("-2, 0"));
   }
 
-  /// A cube and a wall that is thinner than the steps of `discrete:0.1`, so sampling misses it.
+  /// Returns a problem: a cube, and a wall that is thinner than the steps of `discrete:0.1`, so
+  /// sampling misses the wall.
   static std::string problem(const std::string& start) {
     return "format: corridor-problem-1\nrobot: robot.yaml\nworld:\n  wall: {box: [0.01, 6, 1], at: "
            "[0, -1, 0]}\nstart: {at: [" +
@@ -162,7 +163,7 @@ TEST_F(BenchmarkCommand, RefusesFoldersThatCannotBeWritten) {
   refuse("robot.yaml", "robot.yaml: is a file; a folder is needed");
   refuse("robot.yaml/results", "robot.yaml/results: can't be created: Not a directory");
   refuse("none/results", "none/results: can't be created: No such file or directory");
-  // The rest of the line is the operating system's reason.
+  // After this beginning, the line has the operating system's reason.
   EXPECT_THAT(run("benchmark hall.yaml -o /proc").err, StartsWith("/proc: can't be written to: "));
 }
 
@@ -229,9 +230,9 @@ TEST_F(BenchmarkCommand, AnInterruptKeepsFinishedRuns) {
   EXPECT_EQ(OmplLogReader::read(read("results/hall.certified.log")).planners.size(), 1u);
 }
 
-/// Results of long runs must reach stdout even if the folder can't be written.
+/// Results of long runs must reach stdout even if the files can't be written.
 TEST_F(BenchmarkCommand, PrintsTheTableIfFilesCannotBeWritten) {
-  // A folder named like one of the files appears while the runs are under way.
+  // While the runs are under way, a folder is created that has the name of one of the output files.
   const Result result =
       run("benchmark hall.yaml --variants discrete:0.05 --runs 40 -o results",
           "{ (for i in $(seq 1000); do [ -e results/campaign.db ] && break; sleep 0.01; done; "
@@ -296,7 +297,7 @@ TEST_F(BenchmarkCommand, AnUnsolvedProblemIsNoError) {
   EXPECT_EQ(cell["solved"], 0);
   EXPECT_EQ(cell["failed"], 0);
   EXPECT_EQ(cell["time_s"], nullptr);
-  // RRTConnect may report its tree's end near the wall as an approximate solution.
+  // RRTConnect may return a path to a state near the wall as an approximate solution.
   EXPECT_THAT(cell["rows"][0]["result"].get<std::string>(),
               testing::AnyOf("approximate only", "not found"));
   EXPECT_EQ(cell["rows"][0]["verdict"], nullptr);

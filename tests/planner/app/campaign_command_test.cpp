@@ -1,5 +1,6 @@
 // Tests of the program `corridor benchmark CAMPAIGN`: after the program was killed at any moment,
-// `--resume` ends with the same rows. If a campaign can't be resumed, the program reports why.
+// `--resume` gives the same rows as a campaign that was not interrupted. If a campaign can't be
+// resumed, the program reports why.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <chrono>
 #include <csignal>
@@ -20,7 +21,7 @@ using testing::StartsWith;
 
 using CampaignCommand = corridor::test::CampaignTest;
 
-/// Sends SIGKILL ten times, at random moments, and resumes.
+/// Sends SIGKILL to the program ten times, at random moments, and resumes each time.
 TEST_F(CampaignCommand, ResumesAfterBeingKilled) {
   ASSERT_EQ(run("benchmark campaign.yaml -o whole").status, 0);
   const unsigned seed = std::random_device{}();
@@ -42,7 +43,7 @@ TEST_F(CampaignCommand, ResumesAfterBeingKilled) {
     ::kill(id, SIGKILL);
     ::waitpid(id, nullptr, 0);
     if (!std::filesystem::exists(folder_ / "killed/campaign.db")) continue;
-    // The database is consistent. (Opening it rolls back an unfinished transaction.)
+    // The database must be consistent. (Opening it rolls back an unfinished transaction.)
     SQLite::Database base((folder_ / "killed/campaign.db").string(), SQLite::OPEN_READWRITE);
     EXPECT_EQ(base.execAndGet("PRAGMA integrity_check").getString(), "ok");
     if (base.execAndGet("SELECT count(*) FROM sqlite_master").getInt() == 0) continue;
@@ -60,7 +61,8 @@ TEST_F(CampaignCommand, ResumesAfterBeingKilled) {
   ASSERT_EQ(result.status, 0) << result.err;
   EXPECT_EQ(repeatable("killed"), repeatable("whole"));
   EXPECT_EQ(repeatable("killed").size(), 1u + 2 * 3 * 12);
-  // At least one session must have added runs before it was killed. Otherwise nothing was tested.
+  // At least one session must have added runs before its process was killed; otherwise this test
+  // shows nothing.
   EXPECT_GT(grown, 0u);
   SQLite::Database base((folder_ / "killed/campaign.db").string());
   EXPECT_EQ(base.execAndGet("SELECT count(*) FROM runs").getInt(), 2 * 3 * 12);
@@ -102,7 +104,7 @@ TEST_F(CampaignCommand, ReportListsTheSessions) {
   EXPECT_THAT(page, HasSubstr("6 runs, 2 at a time"));
 }
 
-/// Names of variants may be long, and folders' names may hold bytes that are not UTF-8.
+/// Names of variants may be long, and names of folders may contain bytes that are not UTF-8.
 TEST_F(CampaignCommand, AcceptsAnyNames) {
   const std::string name = "a\xff b\x1b[31m " + std::string(200, 'n');
   std::filesystem::create_directory(folder_ / name);
@@ -122,7 +124,8 @@ TEST_F(CampaignCommand, AcceptsAnyNames) {
   EXPECT_EQ(read("problem/runs.csv").find('\x1b'), std::string::npos);
 }
 
-/// Trajectories have a table of their own, the columns of summary.csv and a list in the JSON.
+/// Figures of trajectories are printed as a second table, and are in columns of summary.csv and in
+/// a list of the JSON.
 TEST_F(CampaignCommand, TrajectoriesOfProblems) {
   const std::string options = "benchmark hall.yaml --variants certified --runs 1 ";
   const Result table = run(options + "--trajectories stop,spline -o results");
@@ -162,8 +165,8 @@ TEST_F(CampaignCommand, OptionsOverrideTheFile) {
   EXPECT_EQ(result.out, nlohmann::ordered_json::parse(result.out).dump(2) + "\n");
 }
 
-/// With -o, the rows come from the database. They equal the rows without -o, and the rows after
-/// --resume.
+/// With -o, the rows come from the database. They must equal the rows without -o, and the rows
+/// after --resume.
 TEST_F(CampaignCommand, StoredRowsAreTheSame) {
   const auto rows = [&](const std::string& options) {
     const Result result = run("benchmark campaign.yaml --runs 2 --json " + options);

@@ -1,5 +1,5 @@
-// Tests of `corridor benchmark` on several machines without MPI: --shard and --merge. Shares put
-// together have the rows of the whole campaign; databases that don't belong together are refused.
+// Tests of `corridor benchmark` on several machines without MPI: --shard and --merge. Merged shards
+// have the rows of the whole campaign. Databases that don't belong to one campaign are refused.
 #include <SQLiteCpp/SQLiteCpp.h>
 
 #include <gmock/gmock.h>
@@ -48,9 +48,9 @@ TEST_F(CampaignMerge, ThreeShardsHaveTheRowsOfTheWhole) {
   }
   EXPECT_EQ(rows, 24u);
   EXPECT_THAT(read("s2/report.html"), HasSubstr("this is shard 2/3"));
-  std::filesystem::remove(folder_ / "hall.yaml");  // the databases know all that is needed
+  std::filesystem::remove(folder_ / "hall.yaml");  // --merge must not need these files
   std::filesystem::remove(folder_ / "campaign.yaml");
-  {  // SQLite would apply a log that a database left behind to a new one of its name
+  {  // a log beside the new database's name, which SQLite would apply to the new database
     SQLite::Database other((folder_ / "other.db").string(),
                            SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
     other.exec("PRAGMA journal_mode = WAL");
@@ -109,7 +109,7 @@ TEST_F(CampaignMerge, RowsGetNewIdsTogether) {
   EXPECT_EQ(query("merged/campaign.db", rows), first + "\n" + second);
 }
 
-/// Two laboratories run one campaign with different seeds.
+/// Two laboratories run the same campaign with different seeds.
 TEST_F(CampaignMerge, OtherSeedsOfTheSameCampaign) {
   ASSERT_EQ(run("benchmark campaign.yaml --runs 5 -o whole").status, 0);
   ASSERT_EQ(run("benchmark campaign.yaml --runs 2 -o a").status, 0);
@@ -172,7 +172,7 @@ TEST_F(CampaignMerge, AShardResumes) {
   expectFault("benchmark campaign.yaml --runs 4 --resume --shard 2/3 -o whole",
               "whole/campaign.db: contains runs of the whole campaign, not of shard 2/3 only; "
               "leave out --shard, or name another folder");
-  // One planner fewer: the groups are dealt to other shards.
+  // The campaign now has one planner fewer, so the groups are dealt to other shards.
   write("campaign.yaml",
         "format: corridor-campaign-1\nproblems: [hall.yaml]\nplanners: [RRTConnect]\ncheckers:\n  "
         "certified: {edges: certified}\n  sampled: {edges: discrete, resolution: [0.2, 0.01]}\n");

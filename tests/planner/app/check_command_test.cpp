@@ -41,7 +41,8 @@ TEST_F(CheckCommand, CheckOfStatesTakesAnglesAsTheyAre) {
   urdf.replace(urdf.find(revolute), revolute.size(),
                "<joint name=\"shoulder\" type=\"continuous\">");
   write("arm.urdf", urdf);
-  // The post's centre is at 90 degrees; 1e6 rad point to 166.8 degrees, 1e15 rad to 143.9.
+  // The centre of the post is in the direction of 90 degrees. An angle of 1e6 rad points to 166.8
+  // degrees, an angle of 1e15 rad to 143.9 degrees.
   write("states.txt", "1.5707963 0\n0.3 0\n1000000 0\n1000000.45 0\n-999998.7 0\n1e15 0\n1e22 0\n");
   const auto json = nlohmann::json::parse(run("check arm.yaml --states states.txt --json").out);
   const auto& states = json["states"];
@@ -90,7 +91,7 @@ TEST_F(CheckCommand, CheckOfManyEdges) {
   const Result limit = run("check arm.yaml --edges limit.txt");
   EXPECT_THAT(limit.err, HasSubstr("limit.txt: in 1 edge, values that exceeded a limit"));
   EXPECT_THAT(limit.out, HasSubstr("0,contact,"));
-  write("first.txt", "1.5708 0 0 0\n");  // begins in contact
+  write("first.txt", "1.5708 0 0 0\n");  // the edge begins in contact
   EXPECT_EQ(run("check arm.yaml --edges first.txt").out,
             "edge,verdict,t0,t1,pair,reason\n0,contact,0,0,lower~post,\n");
 
@@ -151,7 +152,8 @@ TEST_F(CheckCommand, StatesMayHaveAHeader) {
   EXPECT_EQ(fault("shoulder elbow\n"), "states.csv: no states\n");
 }
 
-/// Notes that differ only in names are counted. --json lists all.
+/// If notes differ only in names, one of them is printed, with their number. --json lists all
+/// notes.
 TEST_F(CheckCommand, RepeatedNotesAreCounted) {
   std::string urdf = read("arm.urdf");
   for (const std::string effort : {" effort=\"1\"", " effort=\"1\""})
@@ -172,7 +174,7 @@ TEST_F(CheckCommand, RepeatedNotesAreCounted) {
   EXPECT_EQ(nlohmann::json::parse(run("check arm.yaml --json").out)["notes"].size(), 2u);
 }
 
-/// A note on what a proof covers comes before the others, and notes are printed also if there are
+/// Notes on what a proof covers come before other notes, and notes are printed even if there are
 /// faults.
 TEST_F(CheckCommand, NotesAreSortedAndPrintedWithFaults) {
   std::string urdf = read("arm.urdf");
@@ -200,7 +202,7 @@ TEST_F(CheckCommand, NotesAreSortedAndPrintedWithFaults) {
   EXPECT_EQ(lines(faulty.err).size(), 3u);
   EXPECT_EQ(run("solve faulty.yaml faulty.yaml").err, faulty.err + faulty.err);
 
-  // The notes of a robot that can't be used.
+  // A robot that can't be used: its notes are printed, too.
   write("robot.yaml", "format: corridor-robot-1\nurdf: arm.urdf\nhold: {nothing: 1}\n");
   write("arm.urdf", urdf);
   const Result robot = run("inspect robot.yaml");

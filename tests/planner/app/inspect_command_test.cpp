@@ -18,15 +18,18 @@ using InspectCommand = corridor::test::ProgramTest;
 using InspectProblem = corridor::test::ArmTest;
 using InspectCube = corridor::test::CubeTest;
 
-/// The range of a joint that mimics another follows from that joint, even beyond its own limits.
+/// The range of a joint that mimics another joint follows from the other joint's range, even if it
+/// exceeds the limits of the mimicking joint.
 TEST_F(InspectCommand, ReportsTheReachWithMimicJoints) {
   const auto joint = [](const std::string& name, const std::string& parent,
                         const std::string& more) {
     return "<link name='" + name + "'/><joint name='" + name + "' type='prismatic'><parent link='" +
            parent + "'/><child link='" + name + "'/><origin xyz='1 0 0'/>" + more + "</joint>\n";
   };
-  const std::string free = "<limit effort='1' velocity='1'/>";  // own range: 0 to 0
-  // `first` comes before `last`, which it mimics: its range is −2·[−0.5, 0.25] + 0.5.
+  const std::string free =
+      "<limit effort='1' velocity='1'/>";  // without limits, the joint's own range is 0 to 0
+  // `first` mimics `last`, which comes after it in the file. The range of `first` is −2·[−0.5,
+  // 0.25] + 0.5.
   write("slides.urdf",
         "<robot name='slides'><link name='base'/>\n" +
             joint("first", "base", free + "<mimic joint='last' multiplier='-2' offset='0.5'/>") +
@@ -44,7 +47,9 @@ TEST_F(InspectCommand, ReportsTheReachWithMimicJoints) {
   EXPECT_EQ(links[1]["reach_m"], 1 + 1.5);
   EXPECT_EQ(links[2]["reach_m"], 1 + 1.5 + 1 + 0.5);
   EXPECT_EQ(links[3]["reach_m"], 1 + 1.5 + 1 + 0.5 + 1 + 0.125);
-  EXPECT_EQ(links[4]["reach_m"], 1 + 1.5 + 1 + 0.5 + 1 + 0.125 + 1 + 2);  // 0 times no limit
+  EXPECT_EQ(links[4]["reach_m"],
+            1 + 1.5 + 1 + 0.5 + 1 + 0.125 + 1 +
+                2);  // the multiplier 0 counts as 0, although the leader has no limit
   EXPECT_EQ(links[5]["reach_m"], links[4]["reach_m"]);
 }
 

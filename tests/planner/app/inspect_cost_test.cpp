@@ -29,7 +29,7 @@ class InspectCost : public ProgramTest {
                std::to_string(0.3 - 0.03 * i) + "\n";
     write("poses.txt", poses + "1 0 0 0 1 0 0 0 1 9 9 9  # far\n");
   }
-  /// A wavy sheet of n × n squares.
+  /// Returns an OBJ file of a wavy sheet of n × n squares.
   static std::string bumps(int n) {
     std::ostringstream out;
     for (int i = 0; i <= n; ++i)
@@ -101,7 +101,7 @@ TEST_F(InspectCost, JsonHasTheCountsOfQueries) {
       EXPECT_GT(row[key].get<double>(), 0) << key << ", " << kVolumes[i];
     EXPECT_GE(row["call_ns"], 0);
     for (const char* key : {"bv_test_ns", "triangle_test_ns"}) {
-      if (kVolumes[i] == "obb") {  // its costs are fitted
+      if (kVolumes[i] == "obb") {  // the costs of `obb` are fitted, and may be unknown
         EXPECT_TRUE(row[key].is_null() || row[key].get<double>() > 0) << key;
       } else {
         EXPECT_GT(row[key].get<double>(), 0) << key << ", " << kVolumes[i];

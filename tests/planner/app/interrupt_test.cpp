@@ -14,8 +14,8 @@ namespace {
 
 constexpr int kWentOn = 7, kNotReported = 8;
 
-/// Sends a signal to a process, and the same signal again after some milliseconds. Returns how the
-/// process ends.
+/// A child process sends a signal to itself, and the same signal again after some milliseconds.
+/// Returns how the child process ends.
 int statusAfterTwo(SecondInterrupt second, int milliseconds, int signal = SIGINT) {
   const pid_t id = ::fork();
   if (id == 0) {
@@ -62,7 +62,8 @@ TEST(Interrupt, NohupKeepsSighupIgnored) {
   EXPECT_EQ(WEXITSTATUS(status), kWentOn);
 }
 
-/// timeout(1) sends its signal to the program, and then to its process group: both count as one.
+/// timeout(1) sends its signal to the program, and then to the program's process group. The two
+/// signals must count as one.
 TEST(Interrupt, TwoSignalsAtOnceCountAsOne) {
   const int status = statusAfterTwo(SecondInterrupt::ends, 0);
   EXPECT_TRUE(WIFEXITED(status));

@@ -1,5 +1,5 @@
 // Tests of the program under `mpirun`: campaigns and many problems have the same results as in one
-// process, whatever rank is killed or gets a signal. They are skipped without Open MPI.
+// process, whichever rank is killed or gets a signal. The tests are skipped without Open MPI.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <chrono>
 #include <csignal>
@@ -19,7 +19,7 @@ using testing::HasSubstr;
 using testing::Not;
 namespace fs = std::filesystem;
 
-/// Open MPI runs as root only with these variables.
+/// Open MPI refuses to run as root unless these environment variables are set.
 const char* const kAllowRoot =
     "export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 && ";
 
@@ -56,7 +56,7 @@ class MpiCommand : public corridor::test::CampaignTest {
     ::waitpid(id, &status, 0);
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   }
-  /// Returns the process ids of the ranks, by rank: children of mpirun.
+  /// Returns the process ids of the ranks, which are children of mpirun, in the order of ranks.
   static std::vector<pid_t> ranksOf(pid_t mpirun) {
     std::vector<std::pair<int, pid_t>> ranks;
     for (const auto& entry : fs::directory_iterator("/proc")) {
@@ -77,10 +77,11 @@ class MpiCommand : public corridor::test::CampaignTest {
     for (const auto& [rank, id] : ranks) ids.push_back(id);
     return ids;
   }
-  /// Returns the number of runs in a database; 0 while there is none.
+  /// Returns the number of runs in the database of a folder; 0 while there is no database.
   int runsIn(const std::string& folder) const {
     try {
-      // A killed rank may still hold the file: under load, it ends seconds after mpirun.
+      // A killed rank may still have the database open: under load, the rank ends seconds after
+      // mpirun.
       constexpr int kBusyMs = 30'000;
       SQLite::Database base((folder_ / folder / "campaign.db").string(), SQLite::OPEN_READWRITE,
                             kBusyMs);
@@ -91,8 +92,9 @@ class MpiCommand : public corridor::test::CampaignTest {
       return 0;
     }
   }
-  /// Waits until the database or its log was written several times, at most a minute: runs are
-  /// being stored. Sizes don't show it, because SQLite writes the log again from its beginning.
+  /// Waits, at most a minute, until the database or its log was written several times: then runs
+  /// are being stored. The size of the log does not show this, because SQLite overwrites the log
+  /// from its beginning.
   void awaitRuns(const std::string& folder) const {
     const fs::path file = folder_ / folder / "campaign.db";
     std::error_code none;
@@ -141,7 +143,8 @@ TEST_F(MpiCommand, CampaignsHaveTheRowsOfOneProcess) {
   EXPECT_EQ(repeatable("merged"), repeatable("whole"));
 }
 
-/// Kills ranks at random moments, and resumes: no run is lost, and none is made twice.
+/// Kills ranks at random moments, and resumes. No stored run may be lost, and none may be stored
+/// twice.
 TEST_F(MpiCommand, ResumesAfterRanksWereKilled) {
   const int kills = std::getenv("CORRIDOR_STRESS") ? 10 : 2, runsOfCell = 20 * kills;
   const std::string campaign = "benchmark campaign.yaml --runs " + std::to_string(runsOfCell);
@@ -164,7 +167,7 @@ TEST_F(MpiCommand, ResumesAfterRanksWereKilled) {
     std::printf("rank %d of %zu killed: mpirun returns %d, %d runs are stored\n", victim,
                 ranks.size(), status, runs);
     EXPECT_NE(status, 0);
-    EXPECT_GE(runs, last);  // more, unless the rank was killed before the first run ended
+    EXPECT_GE(runs, last);  // equal only if the rank was killed before the first run ended
     last = runs;
   }
   EXPECT_GT(last, 0);
@@ -215,8 +218,8 @@ TEST_F(MpiCommand, SignalsLeaveAResumableDatabase) {
   }
 }
 
-/// The job script gets SIGTERM from Slurm before the wall time, and hands it on as SIGUSR1.
-/// Submitted again, it continues.
+/// The job script gets SIGTERM from Slurm before the wall time, and sends SIGUSR1 to mpirun. If the
+/// script is submitted again, the campaign continues.
 TEST_F(MpiCommand, TheJobScriptEndsInTime) {
   fs::create_symlink(CORRIDOR_PROGRAM, folder_ / "corridor");
   std::string text = read("campaign.yaml");
@@ -310,7 +313,7 @@ TEST_F(MpiCommand, ManyProblemsHaveTheSameSolutions) {
 }
 
 TEST_F(MpiCommand, AnInterruptOfManyProblems) {
-  // No path: the wall closes the hall, so each problem takes its whole time.
+  // The wall closes the hall, so there is no path, and each problem takes all of its time.
   std::string wall = read("hall.yaml");
   wall.replace(wall.find("[0.01, 6, 1]"), 12, "[0.01, 60, 1]");
   write("closed.yaml", wall);
@@ -327,7 +330,7 @@ TEST_F(MpiCommand, AnInterruptOfManyProblems) {
   EXPECT_EQ(count(read("err.txt"), "interrupted: 3 of 4 problems were not solved"), 1u);
 }
 
-/// Without the module, one line says what to install.
+/// Without the module, one line reports what to install.
 TEST(MpiModule, IsNeededUnderMpirun) {
   if (fs::exists(fs::path(CORRIDOR_PROGRAM).parent_path() / "libcorridor_mpi.so"))
     GTEST_SKIP() << "the program was built with MPI; builds with a sanitizer test this";

@@ -56,7 +56,8 @@ class NewCommand : public corridor::test::ArmTest {
         "<disable_collisions link1=\"side\" link2=\"hand\" reason=\"Never\"/>\n</robot>\n");
   }
 
-  /// Returns the pairs that a robot's file allows, besides adjacent links, with the reasons.
+  /// Returns the pairs, except adjacent links, that a robot's file excludes from testing, each with
+  /// the reason.
   std::vector<std::string> allowedPairs(const std::string& robot) const {
     std::vector<std::string> pairs;
     const json report = json::parse(run("inspect " + robot + " --json").out);
@@ -89,7 +90,8 @@ TEST_F(NewCommand, WritesARobotWithItsPairs) {
   EXPECT_THAT(file, HasSubstr("# - shoulder: revolute, -0.4 to 0.4 rad\n"));
   EXPECT_THAT(file, HasSubstr("# Note: ")) << "the link with a <visual> only";
 
-  // The new file loads unchanged, and excludes the pair that was proved, and no other.
+  // The new file can be read without changes. It excludes the pair that was proved, and no other
+  // pair.
   EXPECT_EQ(allowedPairs("reach.yaml"),
             std::vector<std::string>({"far, hand: robot.yaml: never_in_contact"}));
 }
@@ -187,7 +189,8 @@ TEST_F(NewCommand, ProvesWithTheGivenMarginLimitsAndWork) {
   };
   run("--version");
   EXPECT_TRUE(proves("--margin 1 --beyond-limits 0.1"));
-  // The hand is 1.9 m from the shoulder, far is 3 m from it: at most 4.9 m are between centres.
+  // The hand is 1.9 m from the shoulder, and far is 3 m from the shoulder. So the centres of hand
+  // and far are at most 4.9 m apart.
   EXPECT_FALSE(proves("--margin 4.3"));
   EXPECT_FALSE(proves("--margin 1 --beyond-limits 4")) << "the arm turns right round";
   EXPECT_FALSE(proves("--work 0"));
@@ -216,14 +219,15 @@ TEST_F(NewCommand, NamesFilesFromTheNewFilesFolder) {
   EXPECT_EQ(run("inspect robots").status, 0);
   ASSERT_EQ(run("new problem robots -o problem2.yaml").status, 0);
   EXPECT_THAT(read("problem2.yaml"), HasSubstr("robot: robots/robot.yaml\n"));
-  // A link is replaced, so names are relative to the link's folder.
+  // A symbolic link is replaced by the new file, so names are relative to the folder of the
+  // symbolic link.
   std::filesystem::create_symlink("robots/robot.yaml", folder_ / "link.yaml");
   ASSERT_EQ(run("new robot reach.urdf --srdf reach.srdf -o link.yaml --force").status, 0);
   EXPECT_EQ(run("inspect link.yaml").status, 0);
 }
 
 TEST_F(NewCommand, WritesAProblemThatCanBeSolved) {
-  // Named states, which the problem names.
+  // The robot has named states, so the problem uses their names.
   write("arm-robot.yaml",
         "format: corridor-robot-1\nurdf: arm.urdf\nstates:\n  a: {shoulder: 0, elbow: 0}\n  b: "
         "{shoulder: 1, elbow: 1}\n");
@@ -234,7 +238,7 @@ TEST_F(NewCommand, WritesAProblemThatCanBeSolved) {
             "robot\n");
   EXPECT_THAT(read("named.yaml"), HasSubstr("\nstart: a\n"));
   EXPECT_THAT(read("named.yaml"), HasSubstr("\ngoal: b\n"));
-  // No named states.
+  // The robot has no named states.
   ASSERT_EQ(run("new problem reach.urdf -o x.yaml").status, 1);
   EXPECT_THAT(read("x.yaml"), HasSubstr("# NOT VALID: "));
   const std::string why =

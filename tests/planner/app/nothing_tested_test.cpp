@@ -1,5 +1,5 @@
-// Tests of problems in which no pair of bodies is tested. Proofs of such a problem would mislead,
-// so each command warns before any other output.
+// Tests of problems in which no pair of bodies is tested. A proof for such a problem would mislead,
+// so each command that reads a problem warns before any other output.
 #include <map>
 #include <string>
 

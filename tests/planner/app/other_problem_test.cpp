@@ -59,7 +59,8 @@ TEST_F(OtherProblem, IsNotProved) {
   EXPECT_EQ(ignoredReport["digest"], "differs");
 }
 
-/// The proof is of the problem's margin and tube, whatever the solution claims.
+/// The proof is for the margin and tube of the problem, whatever margin and tube the solution
+/// claims.
 TEST_F(OtherProblem, LargerClaimsOfTheSolutionAreNoted) {
   write("bold.yaml", solution("") + "margin: 0.5\ntube: {position: 0.5, rotation: 0.1}\n");
   const Result bold = run("verify hall.yaml bold.yaml");

@@ -42,8 +42,8 @@ TEST_P(OutputFaults, AFullDiskBehindStdout) {
   expectAll();
 }
 
-/// If stdout is closed, the next file that is opened would get the number of stdout, and the
-/// results would be written into it. openStandardStreams prevents this.
+/// If stdout is closed, the next file that the program opens would get the file descriptor of
+/// stdout, and the results would be written into this file. openStandardStreams prevents this.
 TEST_P(OutputFaults, AClosedStdout) {
   const End end = this->end(GetParam().arguments, [] { ::close(STDOUT_FILENO); });
   EXPECT_EQ(end.status, 2);

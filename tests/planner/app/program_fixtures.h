@@ -7,7 +7,7 @@
 /// Small problems that the tests of several commands use.
 namespace corridor::test {
 
-/// A cube that moves freely, and a wall beside its way.
+/// Writes a problem: a cube that moves freely, and a wall beside the cube's way.
 class CubeTest : public ProgramTest {
  protected:
   CubeTest() {
@@ -30,7 +30,7 @@ class CubeTest : public ProgramTest {
   }
 };
 
-/// An arm of two links with revolute joints about z, and a post beside it.
+/// Writes a problem: an arm of two links with revolute joints about z, and a post beside the arm.
 class ArmTest : public CubeTest {
  protected:
   ArmTest() {
@@ -56,7 +56,7 @@ class ArmTest : public CubeTest {
   }
 };
 
-/// A cube that moves in a plane, and a short wall.
+/// Writes a problem: a cube that moves in a plane, and a short wall.
 class HallTest : public ProgramTest {
  protected:
   HallTest() {

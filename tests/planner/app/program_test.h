@@ -14,7 +14,7 @@
 
 namespace corridor::test {
 
-/// Runs the program in a temporary folder of the test.
+/// A test that runs the program in a temporary folder, which the test creates and removes.
 class ProgramTest : public testing::Test {
  protected:
   struct Result {
@@ -42,7 +42,8 @@ class ProgramTest : public testing::Test {
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read("out.txt"), read("err.txt")};
   }
 
-  /// Expects that bad input gives one line on stderr, nothing on stdout, and exit status 2.
+  /// Runs the program with bad input. Expects exactly the line `message` on stderr, nothing on
+  /// stdout, and exit status 2.
   void expectFault(const std::string& arguments, const std::string& message) const {
     const Result result = run(arguments);
     EXPECT_EQ(result.status, 2) << arguments;

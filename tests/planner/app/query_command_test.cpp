@@ -21,7 +21,7 @@ using corridor::test::QueryCommand;
 using testing::Eq;
 using testing::HasSubstr;
 
-/// Two unit cubes, and every method.
+/// Tests the convex hulls of two unit cubes with every method.
 TEST_F(QueryCommand, Hulls) {
   std::string cube;
   for (int i = 0; i < 8; ++i)
@@ -63,7 +63,7 @@ TEST_F(QueryCommand, Hulls) {
   }
 }
 
-/// The depth of two unit cubes, which are meshes.
+/// Tests the penetration depth of two unit cubes that are given as meshes.
 TEST_F(QueryCommand, DepthOfMeshes) {
   std::string cube;
   for (int i = 0; i < 8; ++i)
@@ -96,8 +96,8 @@ TEST_F(QueryCommand, DepthOfMeshes) {
             "--volume: can't be used with --query depth, which chooses its trees\n");
 }
 
-/// A box of many faces that moves past another in small steps: with --coherent the answers are the
-/// same, and take fewer steps.
+/// A box of many faces moves past another box in small steps. With --coherent the answers must be
+/// the same, and take fewer steps.
 TEST_F(QueryCommand, CoherentHulls) {
   std::string rings, poses;
   for (int i = 0; i < 200; ++i) {
@@ -267,8 +267,8 @@ TEST_F(QueryCommand, GridsAreLatticesAndRepeat) {
   EXPECT_THAT(poses[7], testing::Not(HasSubstr(kStill)));
   EXPECT_EQ(query("--poses saved.txt").out, result.out);
   EXPECT_EQ(query(grid).out, result.out);
-  // By default the grid spans a's bounds, grown by half of b's diagonal, √8/2. So nothing touches
-  // at the grid's corners.
+  // By default the grid spans the bounds of a, enlarged on each side by half of the diagonal of b,
+  // √8/2. So nothing touches at the corners of the grid.
   EXPECT_EQ(query("--grid 2x2x2 --save-poses saved.txt").status, 0);
   EXPECT_THAT(lines(read("saved.txt"))[1], HasSubstr(kStill + "-3.41421356"));
   EXPECT_EQ(summary(query("--grid 2x2x2")).at("hits"), "0");
@@ -318,15 +318,15 @@ TEST_F(QueryCommand, BadPosesAreOneLineAndExit2) {
   fault("1 0.001 0 0 1 0 0 0 1 0 0 0",
         "the matrix is not a rotation: RᵀR differs from the identity by 0.001; at most 0.0002 "
         "counts as rounding");
-  // For a matrix with large or overflowing entries the fault must be that it is no rotation, not
-  // that it is singular.
+  // For a matrix with large or overflowing entries, the message must be that the matrix is no
+  // rotation, not that it is singular.
   fault("1e9 0 0 0 1 0 0 0 1 0 0 0",
         "the matrix is not a rotation: RᵀR differs from the identity by 1e+18; at most 0.0002 "
         "counts as rounding");
   fault("1e200 0 0 0 1e200 0 0 0 1e200 0 0 0",
         "the matrix is not a rotation: RᵀR differs from the identity by inf; at most 0.0002 "
         "counts as rounding");
-  // Four decimals are accurate enough.
+  // A matrix with four decimals is accurate enough to be accepted.
   write("fine.txt", "0.8660 -0.5 0 0.5 0.8660 0 0 0 1 0 0 0\n");
   EXPECT_EQ(query("--poses fine.txt").status, 0);
 }

@@ -19,8 +19,8 @@ class QueryCommand : public ProgramTest {
   QueryCommand() {
     write("a.obj", "v 0 0 0\nv 4 0 0\nv 0 4 0\nf 1 2 3\n");
     write("b.obj", "v 1 1 -1\nv 1 1 1\nv 3 1 1\nf 1 2 3\n");
-    // In this order: b crosses a's face; a corner of b is on the face; b is just above the face; b
-    // crosses a's edge.
+    // Four poses, in this order: b crosses a's face; a corner of b is on the face; b is just above
+    // the face; b crosses an edge of a.
     write("poses.txt", "# R t\n" + kStill +
                            "0 0 0\n1,0,0,0,1,0,0,0,1,0,0,1  # comma separated\n\n" + kStill +
                            "0 0 1.0000001\n" + kStill + "-1.5 0 0\n");
@@ -37,7 +37,7 @@ class QueryCommand : public ProgramTest {
     }
     return values;
   }
-  /// Returns the numbers of each line of the CSV after the first.
+  /// Runs the query, and returns the numbers in each line of the CSV, without the header.
   std::vector<std::vector<double>> rows(const std::string& options) const {
     const Result result = query(options);
     EXPECT_EQ(result.status, 0) << result.err;

@@ -60,7 +60,7 @@ std::vector<Row> rowsOf(const std::string& csv) {
 class QueryMotions : public ProgramTest {
  protected:
   QueryMotions() {
-    // a is a floor; b is a needle that points down at it, its tip at the origin.
+    // a is a floor; b is a needle that points down at the floor. The needle's tip is at b's origin.
     write("a.obj", "v 9 9 9\nv 9 9 8\nv 9 8 9\nv -4 -4 0\nv 4 -4 0\nv 0 4 0\nf 1 2 3\nf 4 5 6\n");
     write("b.obj", "v 0 0 0\nv 0.1 0 1\nv -0.1 0 1\nf 1 2 3\n");
   }
@@ -161,8 +161,8 @@ TEST_F(QueryMotions, EveryVolumeFindsTheFirstContact) {
   EXPECT_GT(tests.size(), 4u) << "the volumes must differ in their tests";
 }
 
-/// For a half turn, neither way round is shorter. So the verdict is undecided, without time, gap or
-/// triangles.
+/// For a half turn, both senses of rotation are equally short. So the verdict is undecided, and the
+/// row has no time, gap or triangles.
 TEST_F(QueryMotions, HalfTurnsAreUndecided) {
   for (const std::string edges : {"certified", "adaptive", "advancement"}) {
     const Result result =
@@ -188,7 +188,9 @@ TEST_F(QueryMotions, FreeHoldsForBothMapsOfTheFile) {
       return std::round(x * digits) / digits;
     };
     std::string line;
-    const int close = n / 2 % 3;  // which pose is close to the floor: first, last, neither
+    const int close =
+        n / 2 %
+        3;  // the pose that is close to the floor: the first (0), the last (1), or neither (2)
     const Mat3 turn = Eigen::AngleAxisd(3 * real(random), Vec3::UnitZ()).toRotationMatrix();
     for (int end = 0; end < 2; ++end) {
       Mat3 M = turn * Eigen::AngleAxisd(0.3 * real(random),

@@ -26,7 +26,7 @@ TEST_F(QueryTrees, OctreesHaveInterferenceOnly) {
                 figures["build"] + " " + figures["hits"],
             "octree plain sat top-down 3");
   // Meshes of many triangles, at poses with and without contact.
-  std::string ribbon[2];  // one below the other, crossing at right angles
+  std::string ribbon[2];  // one ribbon is below the other; they cross at right angles
   for (int k = 0; k < 2; ++k) {
     for (int i = 0; i <= 60; ++i) {
       const std::string along = std::to_string(i * 0.05 - 1.5);
@@ -77,7 +77,8 @@ TEST_F(QueryTrees, OctreesRefuseOtherQueries) {
   fault("--build bottom-up", "top-down");
 }
 
-/// The triangle A rises from frame to frame, and b crosses, touches or leaves it.
+/// The triangle A is higher in each successive shape of --deform, so that b crosses it, touches it,
+/// or is clear of it.
 TEST_F(QueryTrees, DeformRunsTheQueryForEachShape) {
   write("a1.obj", "v 0 0 1\nv 4 0 1\nv 0 4 1\nf 1 2 3\n");
   write("a2.obj", "v 0 0 1.5\nv 4 0 1.5\nv 0 4 1.5\nf 1 2 3\n");

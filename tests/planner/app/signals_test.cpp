@@ -50,10 +50,13 @@ TEST_P(Signals, EndTheProgramCleanly) {
   learnWhole(use);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP})
     for (const int delay : {5, 120}) {
-      const bool group = delay == 5;  // as a terminal does; otherwise to the program alone
+      const bool group =
+          delay ==
+          5;  // the signal goes to the group, as from a terminal; else to the program alone
       SCOPED_TRACE(std::string(::strsignal(signal)) + " after " + std::to_string(delay) + " ms");
       End end;
-      // A fast machine may finish before the signal: then the signal is sent earlier.
+      // On a fast machine the run may end before the signal. Then the run is repeated with an
+      // earlier signal.
       for (int ms = delay * kSlowdown; ms > 0 && end.status < 2; ms /= 2)
         end = endBy(signal, group, ms);
       EXPECT_EQ(end.status, 128 + signal) << end.err;

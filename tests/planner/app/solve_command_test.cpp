@@ -99,8 +99,8 @@ TEST_F(SolveArm, JsonHasThePathAndThePhases) {
                   "certification .* ms\n"));
 }
 
-/// The trajectory is written as it was proved: `verify` proves it, and its limits, from both kinds
-/// of file.
+/// The written trajectory is the one that was proved: `verify` proves it, and that it keeps its
+/// limits, from both kinds of files.
 TEST_F(SolveArm, WritesATrajectory) {
   for (const std::string file : {"t.csv", "t.yaml"}) {
     const Result solved = run("solve arm.yaml --trajectory " + file);
@@ -122,8 +122,8 @@ TEST_F(SolveArm, WritesATrajectory) {
   EXPECT_LE(report["acceleration_share"].get<double>(), 1);
 }
 
-/// The two rows are so close in time that velocities and accelerations exceed their limits. The
-/// verdict on the path stays "proved", but `--limits` gives the exit status 1.
+/// A trajectory has two rows so close in time that velocities and accelerations exceed their
+/// limits. The verdict on the path stays "proved", but `--limits` gives the exit status 1.
 TEST_F(SolveArm, ExceededLimitsOfATrajectory) {
   write("fast.csv",
         "time,shoulder,elbow,shoulder_velocity,elbow_velocity\n0,0,0,0,0\n0.1,0.5,0.1,0,0\n");
@@ -165,7 +165,7 @@ TEST_F(SolveArm, KeepsItsDistance) {
   const Result verified = run("verify arm.yaml s.yaml --json");
   EXPECT_EQ(verified.err, "");  // no warning: the clearance is proved
   EXPECT_GE(nlohmann::json::parse(verified.out)["proven_clearance_m"], proved);
-  // A larger claim is not proved.
+  // If the file claims a larger clearance, it is not proved.
   std::string text = read("s.yaml");
   text.replace(text.find("\nclearance: "), 12, "\nclearance: 9");
   write("bold.yaml", text);
@@ -245,7 +245,7 @@ TEST_F(SolveArm, AnArmOfJointsCalledXYAndYawIsNoRigidBody) {
       "format: corridor-problem-1\nrobot: arm.urdf\nworld: {post: {sphere: 0.1, at: [0, 1.5, 0]}}\n"
       "start: {x: 0, y: 0, yaw: 0}\ngoal: {x: 1, y: 0, yaw: 0}\n");
   EXPECT_EQ(nlohmann::json::parse(run("inspect arm.yaml --json").out)["space"], "joints");
-  // Three joints 0.5 m apart, and a sphere of radius 0.1 m.
+  // The robot has three joints 0.5 m apart, and a sphere of radius 0.1 m.
   EXPECT_THAT(run("inspect arm.urdf").out,
               HasSubstr("reach: at most 1.6 m from the origin of l0: link yaw\n"));
   EXPECT_EQ(run("solve arm.yaml -o s.yaml").status, 0);

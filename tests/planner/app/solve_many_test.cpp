@@ -20,7 +20,7 @@ using testing::StartsWith;
 
 class SolveMany : public corridor::test::ArmTest {
  protected:
-  /// Writes a set of MotionBenchMaker with these indices.
+  /// Writes a set of MotionBenchMaker that has problems with these indices.
   void writeSet(const std::string& name, const std::vector<int>& indices) {
     write("arm.srdf", "<robot name=\"arm\"/>\n");
     json set = {{"format", "mbm-scene-1"},
@@ -83,7 +83,8 @@ TEST_F(SolveMany, ARangeOfASet) {
   const json report = json::parse(result.out);
   EXPECT_EQ(report["format"], "corridor-solve-report-1");
   ASSERT_EQ(report["problems"].size(), 3u);
-  for (int i = 0; i < 3; ++i) {  // in their order, however they were done
+  for (int i = 0; i < 3;
+       ++i) {  // results are in the order of the problems, whichever was solved first
     EXPECT_EQ(report["problems"][i]["problem"], "set.json#" + std::to_string(i + 1));
     EXPECT_EQ(report["problems"][i]["result"], "solved");
   }
@@ -219,7 +220,7 @@ TEST_F(SolveMany, TriesKeepTheShortestOrTheClearest) {
   for (int seed = 4; seed < 8; ++seed) {
     const json one =
         json::parse(run("solve arm.yaml --json --seed " + std::to_string(seed)).out)["problems"][0];
-    double length = 0;  // in the space's distance
+    double length = 0;  // the length of the path, by the distance of the configuration space
     for (std::size_t i = 1; i < one["path"]["rows"].size(); ++i) {
       const auto &a = one["path"]["rows"][i - 1], &b = one["path"]["rows"][i];
       length += std::hypot(b[0].get<double>() - a[0].get<double>(),
@@ -242,7 +243,7 @@ TEST_F(SolveMany, TriesKeepTheShortestOrTheClearest) {
   }
   EXPECT_EQ(length, shortest);
   EXPECT_EQ(clear["clearance"]["proved_m"], clearest);
-  // The seed that is reported gives the path again.
+  // A new call with the reported seed must give the same path.
   const json again =
       json::parse(run("solve arm.yaml --json --seed " + std::to_string(best["seed"].get<int>()))
                       .out)["problems"][0];

@@ -13,7 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Returns a problem: a hall with a wall. If `open`, there is a way round the wall.
+/// Returns a problem: a hall with a wall. If `open` is true, there is a way around the wall; else
+/// there is none.
 std::string hall(bool open) {
   return std::string(
              "format: corridor-problem-1\nrobot: robot.yaml\nworld:\n  wall: {box: [0.1, ") +
@@ -237,7 +238,8 @@ pid_t UseTest::startBy(const std::vector<std::string>& wrapper, const std::strin
     ::execvp(all[0], all.data());
     ::_exit(99);
   }
-  ::setpgid(id, id);  // in both processes: the group exists before either goes on
+  ::setpgid(id,
+            id);  // both processes call this, so the group exists before either of them continues
   ::close(pipe[0]);
   return id;
 }

@@ -14,12 +14,14 @@ namespace corridor::test {
 /// and query must have a use (`Uses.HaveEveryCommand…` tests this). All files are written to the
 /// folder `out`.
 struct Use {
-  std::string name;       ///< part of its tests' names
+  std::string name;       ///< part of the names of the tests that run this use
   std::string arguments;  ///< arguments of the program, which must soon end without a signal
-  std::vector<std::string> files;  ///< files that it writes to `out`, with the same bytes each time
-  std::string longer = {};  ///< as `arguments`, but the run takes so long that a signal ends it
+  std::vector<std::string>
+      files;  ///< files that the program writes to `out`, with the same bytes each time
+  std::string longer = {};  ///< like `arguments`, but the run takes so long that a signal ends it
   std::string startedFile = {};  ///< a file that exists once `longer` is well under way
-  bool keeps = false;            ///< after a signal it writes complete files of the results so far
+  bool keeps =
+      false;  ///< after a signal, the program still writes its results so far, as complete files
 };
 
 const std::vector<Use>& uses();
@@ -41,7 +43,7 @@ class UseTest : public ProgramTest, public testing::WithParamInterface<Use> {
     std::string err;
     bool noChildLeft = true;
   };
-  /// Runs in the child before the program begins.
+  /// A function that the child process calls before it executes the program.
   using Setup = std::function<void()>;
 
   /// Starts the program in a process group of its own. Unless `setup` redirects them, stdin is a
@@ -57,9 +59,12 @@ class UseTest : public ProgramTest, public testing::WithParamInterface<Use> {
   }
   /// Returns the files in `out` and below.
   std::vector<std::string> written() const;
-  /// Expects that `out` holds only files of the use, each complete, and that TMPDIR is empty.
+  /// Expects that `out` holds only files that `whole_` has, with the same bytes, and that TMPDIR is
+  /// empty. For `benchmark`, whose files contain varying times, only temporary files are refused in
+  /// `out`.
   void expectWholeOrNothing(const Use& use) const;
-  /// Runs the use without faults, and stores the files that it writes in `whole_`.
+  /// Runs the use without faults, stores the contents of the written files in `whole_`, and empties
+  /// `out`.
   void learnWhole(const Use& use);
   /// Returns a command that runs a shell script with the right to mount file systems; empty if
   /// mounting is not allowed here. The caller appends the program and its arguments, which the
@@ -69,7 +74,7 @@ class UseTest : public ProgramTest, public testing::WithParamInterface<Use> {
   std::map<std::string, std::string> whole_;
 
  private:
-  int input_ = -1;  ///< the writing end of stdin's pipe; stays unused
+  int input_ = -1;  ///< the writing end of stdin's pipe; nothing is written to it
 };
 
 }  // namespace corridor::test

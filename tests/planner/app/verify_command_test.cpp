@@ -49,8 +49,9 @@ TEST_F(VerifyCommand, BadInputIsOneLineAndExit2) {
   expectFaultThatBegins("verify problem.yaml none.yaml", "none.yaml: ");
 }
 
-// The arm reaches 1.9 m if the elbow is at 0, and is 0.1 m wide. It then touches the post, of
-// radius 0.1 m at (0, 1.5), at a shoulder angle of π/2 − asin(0.15/1.5) = 1.4706.
+// With the elbow at 0, the arm reaches 1.9 m; it is 0.1 m wide. The post has the radius 0.1 m and
+// is at (0, 1.5). So the arm first touches the post at a shoulder angle of π/2 − asin(0.15/1.5) =
+// 1.4706.
 
 TEST_F(VerifyTrajectory, ProvesRowsAndNotesStartAndGoal) {
   write("t.csv", "time,shoulder,elbow\n0,0,0\n1.5,0.5,-0.5\n");
@@ -86,7 +87,8 @@ TEST_F(VerifyTrajectory, SaysWhenTheFirstContactIs) {
   EXPECT_NEAR(finding["time_s"].get<double>(), 10 + angle, 1e-9);
   EXPECT_NEAR(finding["free_until_s"].get<double>(), 10 + angle, 1e-6);
   EXPECT_THAT(run("verify arm.yaml line.csv").out, HasSubstr("finding: refuted: edge 1 at 11.4"));
-  // The straight way is free, but the velocity takes the arm to the post before it turns back.
+  // The straight edge is free, but the velocity in the first row takes the arm to the post before
+  // the arm turns back.
   write("cubic.yaml",
         "joint_names: [elbow, shoulder]\npoints:\n"
         "- {positions: [0, 0], velocities: [0, 8], time_from_start: {sec: 0, nanosec: 0}}\n"
@@ -102,7 +104,7 @@ TEST_F(VerifyTrajectory, SaysWhenTheFirstContactIs) {
 }
 
 TEST_F(VerifyTrajectory, BoundsAreProvedAlongTheWholeCurve) {
-  // The elbow is at its limit, 2, in the last row, and swings beyond it before.
+  // In the last row the elbow is at its limit, 2. Just before, it swings beyond this limit.
   write("t.csv", "time shoulder elbow shoulder_velocity elbow_velocity\n0 0 1.9 0 0\n1 0 2 0 -1\n");
   const Result refuted = run("verify arm.yaml t.csv");
   EXPECT_EQ(refuted.status, 1);

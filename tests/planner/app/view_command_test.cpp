@@ -71,7 +71,8 @@ TEST_F(ViewCommand, ReportsAPathOfChangedFilesOnThePage) {
   EXPECT_THAT(read("page.html"), HasSubstr("\"verdict\":\"refuted\""));
 }
 
-/// A file that `corridor verify` takes as a trajectory is played at its true speed.
+/// If `corridor verify` reads a file as a trajectory, the page plays this trajectory at its true
+/// speed.
 TEST_F(ViewCommand, PlaysATrajectory) {
   const std::string header = "time,x,y,z,qx,qy,qz,qw\n";
   write("through.csv", header + "0.5,-2.5,-2,0,0,0,0,1\n3,3,-2,0,0,0,0,1\n");

@@ -216,7 +216,7 @@ TEST(RunTrimmer, FreesTexts) {
   EXPECT_EQ(kept.fault, RunTrimmer::kFault);
 }
 
-/// A program of the version before stored each run as one text. Such files can be resumed.
+/// Version 2 of the program stored each run as one text. Its files can be resumed.
 TEST_F(Database, ContinuesFilesOfTheVersionBefore) {
   Campaign campaign = hallCampaign({"certified"});
   const CampaignResult result = runInto(campaign);
@@ -297,7 +297,8 @@ TEST_F(Database, AKilledProcessLosesNoStoredRun) {
   EXPECT_THAT(rowsOf(file_, "PRAGMA journal_mode"), ElementsAre("delete"));
 }
 
-/// The tables and rows must be equal, except for times and dates of whole experiments.
+/// The tables and rows must equal those that OMPL's script makes, except for times and dates of
+/// whole experiments.
 TEST_F(Database, EqualsTheDatabaseOfOmplsScript) {
   if (std::system("command -v ompl_benchmark_statistics >/dev/null 2>&1") != 0)
     GTEST_SKIP() << "ompl_benchmark_statistics is needed (Debian's ompl-demos)";
@@ -387,7 +388,7 @@ TEST_F(Database, RefusesExistingRunsAndOtherCampaigns) {
   EXPECT_THAT(complaint(Mode::resume, other),
               HasSubstr("contains a run of seed 2 of hall, discrete:0.2, RRTConnect, which the "
                         "campaign doesn't have"));
-  // None of the refusals has changed the database.
+  // The refusals above must not have changed the database.
   EXPECT_EQ(complaint(Mode::resume, campaign), "");
   EXPECT_THAT(rowsOf(file_, "SELECT count(*) FROM corridor_cells"), ElementsAre("1"));
 }

@@ -1,4 +1,5 @@
-// Tests of how the runs of a campaign are dealt out to shards: each run to one shard, fairly.
+// Tests of how the runs of a campaign are dealt out to shards: each run belongs to exactly one
+// shard, and all shards have equal parts.
 #include "planner/benchmark/campaign_shard.h"
 
 #include <algorithm>

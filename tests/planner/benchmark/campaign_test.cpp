@@ -1,6 +1,6 @@
-// Tests of whole campaigns: a run has the same figures as `solve`, seeds repeat, only the run that
-// crashes is lost, logs are readable by OMPL's rules, and the verifier refutes sampled paths
-// through the thin plate.
+// Tests of whole campaigns: a run has the same figures as `solve`, a seed gives the same run again,
+// a crash loses only one run, logs are readable by OMPL's rules, and the verifier refutes sampled
+// paths through the thin plate.
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
@@ -102,7 +102,8 @@ TEST(Campaign, OnlySampledPathsPassThroughTheThinPlate) {
   }
 }
 
-/// A run must equal `solve` with that seed, down to the number of box tests.
+/// A run must have the same figures as `solve` with the same seed, including the number of box
+/// tests.
 TEST(Campaign, ARunEqualsASolve) {
   Campaign campaign = campaignOf({"certified", "discrete:0.02"}, 2);
   campaign.planners = named({"RRTConnect", "KPIECE1"});
@@ -219,8 +220,8 @@ TEST(Campaign, ACrashLosesOnlyItsRun) {
   EXPECT_EQ(runs[1].result, "failed");
   EXPECT_EQ(runs[1].failure, "killed by signal 9 (Killed)");
   EXPECT_EQ(runs[2].failure, "out of memory");
-  // The competitor runs the same test as `discrete`. The crashes must not affect the runs of
-  // `discrete`.
+  // The competitor makes the same tests as `discrete`, but crashes in some runs. The crashes must
+  // not affect the runs of `discrete`.
   for (const BenchmarkRun& run : result.cells[1].runs) EXPECT_TRUE(run.solved) << run.failure;
   EXPECT_EQ(runs[3].states, result.cells[1].runs[3].states);
   EXPECT_EQ(runs[3].edges, result.cells[1].runs[3].edges);
@@ -386,7 +387,8 @@ TEST(Campaign, PlannersHaveLabelsAndParameters) {
   EXPECT_EQ(complaintOf(campaign), "--planners: \"short\" is named twice");
 }
 
-/// Several runs at a time must give the same rows in the same order.
+/// If several runs are made at a time, the rows and their order must be the same as with one run at
+/// a time.
 TEST(Campaign, ParallelJobsGiveTheSameRows) {
   Campaign campaign = campaignOf({"certified", "discrete:0.2"}, 5);
   campaign.time = 20.0 * test::kSlowdown;

@@ -1,5 +1,5 @@
-// The key `trajectories` of campaign files, and campaigns with trajectories: all figures, and
-// resuming.
+// Tests of the key `trajectories` of campaign files, and of campaigns with trajectories: all
+// figures, and resuming.
 #include "planner/benchmark/campaign_trajectories.h"
 
 #include <cmath>
@@ -36,7 +36,8 @@ class CampaignWithTrajectories : public testing::Test {
  protected:
   ~CampaignWithTrajectories() override { std::filesystem::remove_all(folder_); }
 
-  /// Returns a campaign of own problems, followed by `more`.
+  /// Returns the text of a campaign file: these problems of the folder problems/, then the lines
+  /// `more`.
   static std::string of(const std::vector<std::string>& problems, const std::string& more) {
     std::string list;
     for (const std::string& problem : problems)
@@ -64,7 +65,7 @@ class CampaignWithTrajectories : public testing::Test {
   std::vector<std::string> faultsOfTwoArms(const std::string& more) const {
     return faults(of({"two_arms"}, more));
   }
-  /// Returns the index of a number by its name.
+  /// Returns the index of the entry of a configuration that has this name.
   static Eigen::Index number(const Problem& problem, const std::string& name) {
     const auto names = problem.model.space.numberNames();
     const auto found = std::find(names.begin(), names.end(), name);
@@ -137,7 +138,7 @@ TEST_F(CampaignWithTrajectories, LimitsOfRobots) {
   EXPECT_EQ(gantry.acceleration[x], 4);
   EXPECT_EQ(gantry.velocity[turn], c.problems[1].task.limits.velocity[turn]);
   EXPECT_EQ(gantry.acceleration[turn], kAssumedAcceleration);
-  // No limits are given for the snake: it keeps its own.
+  // The set has no limits for the snake, so the snake keeps the limits of its problem.
   EXPECT_EQ(sets[1].ofProblem[2].acceleration, c.problems[2].task.limits.acceleration);
   EXPECT_THAT(c.notes, Contains(HasSubstr("trajectories, maker-2: limits: the velocity of "
                                           "left/elbow, 9, is above the URDF's 2")));
@@ -310,7 +311,8 @@ TEST_F(HallWithTrajectories, ResumesWithTheSameFigures) {
               HasSubstr("limits over time was "));
 }
 
-/// Without the key, rows, settings and stored runs are as they were before there were trajectories.
+/// Without the key, rows, settings and stored runs must be the same as in versions that had no
+/// trajectories.
 TEST_F(HallWithTrajectories, CampaignsWithoutTrajectoriesAreUnchanged) {
   const Campaign c = hall("");
   EXPECT_THAT(specOf(c, cellsOf(c)[0]), Not(HasSubstr("trajectories")));

@@ -1,4 +1,4 @@
-// Campaign files: all keys are read, and all faults are reported at once with their lines.
+// Tests of campaign files: all keys are read, and all faults are reported at once with their lines.
 #include "planner/benchmark/campaign_yaml.h"
 
 #include <filesystem>

@@ -13,8 +13,8 @@
 
 namespace corridor::test {
 
-/// A campaign of two problems, three variants, one planner and ten runs, with figures by formulas
-/// instead of real runs.
+/// A campaign of two problems, three variants, one planner and ten seeds. No run is made: formulas
+/// give the figures of the runs.
 class MadeCampaign : public testing::Test {
  protected:
   MadeCampaign() {
@@ -29,8 +29,9 @@ class MadeCampaign : public testing::Test {
   }
   ~MadeCampaign() override { std::filesystem::remove_all(folder_); }
 
-  /// discrete:0.1 is twice as fast as certified, and half of its paths are refuted; discrete:0.01
-  /// is ten times slower, and a tenth of its paths is refuted.
+  /// Returns a run of a cell. discrete:0.1 is twice as fast as certified, and half of the paths of
+  /// discrete:0.1 are refuted. discrete:0.01 is ten times slower than certified, and a tenth of the
+  /// paths of discrete:0.01 is refuted.
   static BenchmarkRun run(const CampaignCell& cell, std::uint64_t seed) {
     BenchmarkRun run;
     const double factor = cell.variant == 0 ? 1 : cell.variant == 1 ? 0.5 : 10;

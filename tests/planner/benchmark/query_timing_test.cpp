@@ -5,7 +5,7 @@
 namespace corridor {
 namespace {
 
-/// Runs `count` additions, each of which needs the result of the one before.
+/// Makes `count` additions, each of which needs the result of the previous addition.
 double work(int count) {
   volatile double x = 0;
   for (int i = 0; i < count; ++i) x = x + 1;

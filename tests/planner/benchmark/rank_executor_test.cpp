@@ -52,8 +52,9 @@ class ThreadRanks final : public Ranks {
   int rank_;
 };
 
-/// Tasks that end at once; a task from 1000 on never ends, and from 2000 on can't be killed. For a
-/// task from 3000 on there is never a process.
+/// An executor without processes. Tasks below 1000 end at once. Tasks from 1000 to 1999 end only
+/// when `stop` kills them. Tasks from 2000 to 2999 are not killed by `stop`, but end after it.
+/// Tasks from 3000 on can't be started (`start` returns false), and for task 13 `start` throws.
 class FakeExecutor final : public Executor {
  public:
   explicit FakeExecutor(std::size_t places) : places_(places) {}
@@ -93,7 +94,7 @@ class FakeExecutor final : public Executor {
   std::vector<std::uint64_t> tasks_;
 };
 
-/// Ranks 1, 2, … in threads, which end with rank 0's executor.
+/// Runs ranks 1, 2, … in threads. The threads end when rank 0's executor is destroyed.
 class RankTest : public testing::Test {
  protected:
   static constexpr int kRanks = 4;

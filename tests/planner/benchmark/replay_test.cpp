@@ -40,7 +40,7 @@ TEST(Replay, RepeatsTheRunWithoutItsTests) {
       EXPECT_EQ(replay.edges, real.edges);
       EXPECT_EQ(replay.pathStates, real.pathStates);
       EXPECT_EQ(replay.length.metres, real.length.metres);
-      // Only the tests of start, goals and the final certification are left.
+      // In a replay, the checker makes only the tests of start, goals and the final certification.
       EXPECT_LT(replay.counters.edges, real.counters.edges) << planner;
     }
   }

@@ -1,5 +1,5 @@
-// Tests of the report of many runs: curves with few steps and points that stand for several runs
-// are near the exact ones, and the page stays small.
+// Tests of the report of many runs: curves that are drawn with few steps, and points that stand for
+// several runs, are near the exact curves and points; and the page stays small.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -61,7 +61,8 @@ TEST_F(ManyRuns, CurvesOfManyRunsAreDrawnWithFewSteps) {
     EXPECT_EQ(points.back().y, 1);
     EXPECT_EQ(points[1].x, all.front());
     for (const PlotPoint& p : points) {
-      // The ranks at the ends of a step: values below x, and values up to x if p is its upper end.
+      // A step at x rises from `below`, the share of values below x, to exact(x), the share of
+      // values up to x.
       const double below =
           static_cast<double>(std::lower_bound(all.begin(), all.end(), p.x) - all.begin()) /
           static_cast<double>(runs);
@@ -71,8 +72,8 @@ TEST_F(ManyRuns, CurvesOfManyRunsAreDrawnWithFewSteps) {
   }
 }
 
-/// With many runs, each point of the plot of costs is a run, every run is near a point of its
-/// variant, and the texts count all runs.
+/// With many runs, each point of the plot of costs is at one of the runs, every run is near a point
+/// of its variant, and the numbers in the texts add up to all runs.
 TEST_F(ManyRuns, PointsStandForTheRunsNearThem) {
   const unsigned seed = std::random_device{}();
   SCOPED_TRACE("seed " + std::to_string(seed));

@@ -122,7 +122,8 @@ TEST_F(Report, PlotsHaveTheirData) {
   const Plot clear = clearances(campaign_, cells_, 0);
   ASSERT_EQ(clear.series.size(), 3u);
   EXPECT_DOUBLE_EQ(clear.rangeX->first, 0.01);
-  // Half of the paths have the distance 0, so the line begins at 0.5.
+  // Half of the paths have the distance 0. So at the left end of the axis, the line is at 0.5 or
+  // higher.
   double first = 0;
   for (const PlotPoint& p : clear.series[1].points)
     if (p.x <= clear.rangeX->first) first = p.y;
@@ -351,7 +352,7 @@ TEST_F(Report, NamesThatGiveTheSameFileName) {
   EXPECT_TRUE(in.good());
 }
 
-/// If gnuplot fails, only the pictures are missing.
+/// If gnuplot fails, the report is written without the pictures.
 TEST_F(Report, WithoutPictures) {
   if (!canPlot()) GTEST_SKIP() << "no gnuplot";
   writeReport(campaign_, cells_, folder_);

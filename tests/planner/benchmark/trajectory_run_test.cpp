@@ -1,4 +1,5 @@
-// Trajectories of benchmark runs: every maker along one path, and their figures as rows.
+// Tests of the trajectories of benchmark runs: all makers along one path, and the figures of
+// trajectories as rows.
 #include "planner/benchmark/trajectory_run.h"
 
 #include <cmath>
@@ -58,19 +59,20 @@ TEST_F(TrajectoryRuns, EveryMaker) {
   EXPECT_EQ(blends.verdict, "proved");
   EXPECT_EQ(stop.verdict, "proved");
   EXPECT_EQ(blends.finding, "");
-  // Each edge is 1 m long: with 1 m/s² from rest to rest, 2 s.
+  // Each edge is 1 m long. From rest to rest with 1 m/s², it takes 2 s.
   EXPECT_NEAR(stop.duration, 4, 1e-3);
   EXPECT_LT(blends.duration, 0.97 * stop.duration);
-  // Without the corner, the speed at it is √2 m/s; each edge takes √2 s.
+  // If the robot need not stop at the corner, its speed there is √2 m/s, and each edge takes √2 s.
   EXPECT_NEAR(optimumAlong(problem, corner()), 2 * std::sqrt(2), 0.01 * 2 * std::sqrt(2));
-  // The spline dips by more than 1 cm: from the definition, m = 6·(−1, 1)/4 at the corner, and
-  // y − 0.11 = −(h²/6)·m·(τ − τ³), at most 0.096 below.
+  // The spline dips by more than 1 cm. By its definition, the second derivative at the corner is m
+  // = 6·(−1, 1)/4. On the first edge, of length h, y − 0.11 = −(h²/6)·m_y·(τ − τ³), whose least
+  // value is −0.096.
   EXPECT_EQ(spline.verdict, "refuted");
   EXPECT_THAT(spline.finding, HasSubstr("contact"));
   EXPECT_THAT(spline.finding, HasSubstr("floor"));
   EXPECT_THAT(spline.finding, HasSubstr(" s: "));
-  // With states inserted, no sample touches; the verifier decides about the curve between the
-  // samples.
+  // After states were inserted, no sample touches. Only the verifier decides about the curve
+  // between the samples.
   const Checker checker(problem);
   const InsertedSpline states = insertedSpline(problem.model.space, corner(), [&](const auto& q) {
     return checker.interference(q).has_value();
@@ -225,8 +227,8 @@ TEST_F(TrajectoryFigures, SummaryAndTotals) {
               Not(HasSubstr("stop")));
 }
 
-/// Runs are stored as text. Runs without trajectories are stored as by versions that had no
-/// trajectories.
+/// Runs are stored as text. The text of a run without trajectories is the same as in versions that
+/// had no trajectories.
 TEST_F(TrajectoryFigures, RunsAreStoredAsText) {
   const BenchmarkRun read = readRun(text(cell_.runs[0]));
   EXPECT_EQ(text(read), text(cell_.runs[0]));

@@ -1,4 +1,4 @@
-// Tests the clearance for OMPL's samplers and objectives against closed forms and against the
+// Compares the clearance that OMPL's samplers and objectives use with closed forms, and with the
 // validity of states.
 #include <cmath>
 #include <limits>
@@ -45,8 +45,8 @@ TEST(Clearance, OfABarBesideAWall) {
 
 TEST(Clearance, OfAnArmOfPrimitivesIsThatOfItsClosestPair) {
   const Problem problem = armProblem();
-  // The lower arm lies along x from 1.1 to 1.9; the post's axis is at (1.2, 1.2). Both have radius
-  // 0.1.
+  // The lower arm lies along x from 1.1 to 1.9, and the post's axis is at (1.2, 1.2). Arm and post
+  // have the radius 0.1.
   EXPECT_NEAR(clearanceOf(problem, Configuration::Zero(3)), 1.0, 1e-12);
   // The arm points at the post and meets it.
   EXPECT_EQ(clearanceOf(problem, Configuration(Vec3(0.25 * std::numbers::pi, 0, 0))), 0);

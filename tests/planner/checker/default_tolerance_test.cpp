@@ -46,7 +46,7 @@ TEST(DefaultTolerance, RigidBodiesFarFromTheOrigin) {
   std::mt19937_64 random(test::testSeed(7));
   std::uniform_real_distribution<double> real(-1, 1);
   for (int n = 0; n < 2'000; ++n) {
-    // In the second half of the cases rounding takes more than 1e-7 of the body's size.
+    // In the second half of the cases the rounding exceeds 1e-7 of the body's size.
     const double far = std::pow(10.0, 1 + n % 3), size = far * (n < 1'000 ? 1e-6 : 1e-8);
     const Vec3 where(onGrid(far * real(random)), onGrid(far * real(random)),
                      onGrid(far * real(random)));
@@ -88,8 +88,8 @@ TEST(DefaultTolerance, ChainsFarFromTheOrigin) {
       c.upper = limit;
       return problem.model.space.coordinates()[problem.model.space.add(c)].first;
     };
-    // Prismatic joints along x, y and z, then revolute ones about z far out, in alternating
-    // directions.
+    // Prismatic joints along x, y and z are followed by revolute joints about z, far from each
+    // other in alternating directions.
     std::size_t parent = 0;
     for (int k = 0; k < 3; ++k) {
       Frame frame;
@@ -146,7 +146,7 @@ TEST(DefaultTolerance, ChainsFarFromTheOrigin) {
   EXPECT_GT(sharp, 300) << "too few cases in which rounding sets the tolerance";
 }
 
-/// Two branches of one tree: the rounding of both counts.
+/// Two branches of one tree: the rounding errors of both branches count.
 TEST(DefaultTolerance, BranchesFarFromTheOrigin) {
   std::mt19937_64 random(test::testSeed(9));
   std::uniform_real_distribution<double> real(-1, 1);
@@ -208,7 +208,7 @@ TEST(DefaultTolerance, BranchesFarFromTheOrigin) {
   }
 }
 
-/// A joint limit that is far larger than any robot must not cause a tolerance of metres.
+/// A joint limit that is far larger than any robot must not lead to a default tolerance of metres.
 TEST(DefaultTolerance, IsNeverMoreThanAThousandTimesTheUsualOne) {
   Problem problem;
   Coordinate c;

@@ -14,7 +14,7 @@
 
 namespace corridor::test {
 
-/// The surface of a box with these edge lengths, centred at `at`.
+/// Returns the surface of a box with the edge lengths `size`, centred at `at`.
 inline TriangleMesh boxMesh(const Vec3& size, const Vec3& at = Vec3::Zero()) {
   TriangleMesh mesh;
   for (int i = 0; i < 8; ++i)
@@ -34,8 +34,9 @@ inline PlacedShape partShape(const std::string& name, const Primitive& primitive
   return shapeOf(name, primitive, {at, Eigen::Quaterniond::Identity()});
 }
 
-/// Returns a tube of 2^-40 of each range. This equals the default tube if all coordinates of the
-/// kind `line` have the same range.
+/// Returns a tube whose half widths are 2^-40 of the range of each coordinate (for circles and
+/// rotations: of 2π). This equals the default tube if all coordinates of the kind `line` have the
+/// same range.
 inline Configuration roundingTube(const ConfigurationSpace& space) {
   Configuration tube = Configuration::Zero(static_cast<Eigen::Index>(space.size()));
   for (const Coordinate& c : space.coordinates())
@@ -46,7 +47,7 @@ inline Configuration roundingTube(const ConfigurationSpace& space) {
 
 enum class Rigid { SE2, SE3 };
 
-/// A problem of one rigid body in [−5, 5]² or [−5, 5]³, without shapes and obstacles.
+/// Returns a problem of one rigid body in [−5, 5]² or [−5, 5]³, without shapes and obstacles.
 inline Problem rigidProblem(Rigid kind, double rotationWeight = 1) {
   using Kind = Coordinate::Kind;
   Problem problem;
@@ -84,9 +85,9 @@ inline Configuration poseOf(Rigid kind, double x, double y, double yaw = 0) {
   return q;
 }
 
-/// A bar of 1 × 0.2 × 0.2 in a hall of [−5, 5]³. A wall of thickness 0.001 at x = 0 has a gap above
-/// y = 2. Start and goal are on different sides of the wall.
-/// @param edges,volume as in `checker: {edges: …, volume: …}`.
+/// Returns a problem: a bar of 1 × 0.2 × 0.2 in a hall of [−5, 5]³. A wall of thickness 0.001 at x
+/// = 0 has a gap above y = 2. Start and goal are on different sides of the wall. @param
+/// edges,volume the values of these keys in `checker: {edges: …, volume: …}`.
 inline Problem hallProblem(Rigid kind, const std::string& edges = "certified",
                            const std::string& volume = "obb") {
   Problem problem = rigidProblem(kind);
@@ -110,7 +111,7 @@ inline Problem hallProblem(Rigid kind, const std::string& edges = "certified",
   return problem;
 }
 
-/// The hall with its OMPL classes.
+/// The problem of the hall, with the OMPL objects for it.
 struct Hall {
   explicit Hall(Rigid rigid, const std::string& edges = "certified",
                 const std::string& volume = "obb")
@@ -134,9 +135,9 @@ struct Hall {
   ompl::base::SpaceInformationPtr si;
 };
 
-/// An arm in the plane z = 0 with three links of 1 m: two capsules, and a mesh as the last. Joints
-/// about z are at the origin and between the links. The obstacles are a post at (1.2, 1.2) and a
-/// slab.
+/// Returns a problem of an arm in the plane z = 0 with three links of 1 m. The shapes of the first
+/// two links are capsules, that of the third is a mesh. Joints about z are at the origin and
+/// between the links. The obstacles are a post at (1.2, 1.2) and a slab.
 inline Problem armProblem() {
   using Kind = Coordinate::Kind;
   Problem problem;

@@ -23,13 +23,13 @@ using test::Rigid;
 
 struct Kind {
   Rigid space;
-  std::string edges, volume;  ///< as in `checker: {edges: …, volume: …}`
+  std::string edges, volume;  ///< values of these keys in `checker: {…}`
 
   bool proves() const { return edges != "discrete"; }
 };
 
-/// All names that a problem may use: every method, in both spaces, and every volume, with
-/// alternating methods.
+/// Returns all kinds of validators that a problem may use: every method in both spaces, and every
+/// volume with one of the methods in turn.
 std::vector<Kind> kinds() {
   const auto& methods = problemChoices().at("checker.edges");
   const auto& volumes = problemChoices().at("checker.volume");

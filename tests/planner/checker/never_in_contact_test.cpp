@@ -61,9 +61,9 @@ NeverInContactResult prove(const Model& model, const std::string& a, const std::
       .prove(bodyNamed(model, a), bodyNamed(model, b), options, context);
 }
 
-/// Two links of length 1 that move in the plane, with a ball on the base and one on the hand. For
-/// an elbow at φ the centres are 2·cos(φ/2) apart, so they are nearest where the elbow is at a
-/// limit.
+/// Two links of length 1 that move in the plane, with a ball on the base and one on the hand. If
+/// the elbow is at φ, the centres of the balls are 2·cos(φ/2) apart. So the balls are nearest where
+/// the elbow is at a limit.
 Model planarArm(double elbowLimit, double radius, const std::string& shoulderType = "revolute") {
   return modelOf(ball("base", radius) + "<link name='upper'/>" + ball("hand", radius, 1) +
                  joint("shoulder", shoulderType, "base", "upper", "0 0 0",
@@ -73,7 +73,7 @@ Model planarArm(double elbowLimit, double radius, const std::string& shoulderTyp
 }
 
 constexpr double kElbow = 2.5, kGap = 0.02;
-/// The radius of the balls at which they touch at the elbow's limits.
+/// With this radius, the balls touch where the elbow is at a limit.
 const double kTouching = std::cos(kElbow / 2);
 
 TEST(NeverInContact, ProvesAnArmThatJustMissesItself) {
@@ -105,8 +105,8 @@ TEST(NeverInContact, KeepsTheMargin) {
 }
 
 TEST(NeverInContact, CoversValuesBeyondTheLimits) {
-  // Since d/dφ 2·cos(φ/2) = −sin(φ/2), 0.05 rad beyond the limit bring the centres nearer by at
-  // least 0.047 m.
+  // The gap at the limit is 0.04 m. Since d/dφ 2·cos(φ/2) = −sin(φ/2), the centres are nearer by at
+  // least 0.047 m if the elbow is 0.05 rad beyond the limit.
   const Model model = planarArm(kElbow, kTouching - 0.02);
   EXPECT_EQ(prove(model, "base", "hand", {.boxes = 20000}).verdict, Verdict::proved);
   EXPECT_NE(prove(model, "base", "hand", {.beyondLimits = 0.05, .boxes = 20000}).verdict,
@@ -116,7 +116,8 @@ TEST(NeverInContact, CoversValuesBeyondTheLimits) {
 TEST(NeverInContact, CoversTheWholeCircle) {
   const Model model = planarArm(kElbow, kTouching - 0.05, "continuous");
   EXPECT_EQ(prove(model, "base", "hand", {.boxes = 200000}).verdict, Verdict::proved);
-  // A ball beside the axis is met at half a turn, which no limit excludes.
+  // After half a turn the hand meets the post, a ball beside the axis. No limit excludes this
+  // angle.
   const Model met =
       modelOf("<link name='root'/>" + ball("post", 0.1, -1) + "<link name='turn'/>" +
               ball("hand", 0.1, 1) + joint("fix", "fixed", "root", "post", "0 0 0", "") +
@@ -281,7 +282,7 @@ TEST(NeverInContact, NoStateRefutesAProof) {
         }
       }
   }
-  // The test is worth nothing unless proved pairs, other pairs, and contacts are common.
+  // This test shows something only if proved pairs, other pairs, and contacts are common.
   EXPECT_GT(proved, 50u);
   EXPECT_GT(others, 50u);
   EXPECT_GT(met, 20u);

@@ -1,4 +1,5 @@
-// Padding: distances that single bodies and pairs keep. Two balls beside a way, at known distances.
+// Tests of padding, the distances that single bodies and pairs must keep, with two balls at known
+// distances from a path.
 #include <random>
 
 #include <gmock/gmock.h>
@@ -21,7 +22,8 @@ using test::poseOf;
 using test::Rigid;
 using testing::HasSubstr;
 
-/// A ball of radius 0.5 m moves along y = 0. "low" is 0.1 m from its way, "high" 0.2 m.
+/// Returns a problem: a ball of radius 0.5 m (body 0) moves along y = 0. The obstacle "low" (body
+/// 1) is 0.1 m from the moving ball where they are closest, "high" (body 2) is 0.2 m from it.
 Problem twoBalls() {
   Problem problem = test::rigidProblem(Rigid::SE2);
   problem.source.name = "balls";
@@ -50,17 +52,17 @@ TEST(Padding, IsAddedForEachPair) {
   for (const auto& [padding, margin, free] : std::vector<Case>{
            {{}, 0.1 - little, true},
            {{}, 0.1 + little, false},
-           {{{{0, 0.1 - little}}, {}}, 0, true},  // of the moving body
+           {{{{0, 0.1 - little}}, {}}, 0, true},  // padding of the moving body
            {{{{0, 0.1 + little}}, {}}, 0, false},
-           {{{{2, 0.2 - little}}, {}}, 0, true},  // of one obstacle
+           {{{{2, 0.2 - little}}, {}}, 0, true},  // padding of one obstacle
            {{{{2, 0.2 + little}}, {}}, 0, false},
-           {{{{0, 0.05}, {1, 0.05 - little}}, {}}, 0, true},  // of both
+           {{{{0, 0.05}, {1, 0.05 - little}}, {}}, 0, true},  // padding of both bodies
            {{{{0, 0.05}, {1, 0.05 + little}}, {}}, 0, false},
-           {{{{2, 0.15}}, {}}, 0.05 - little, true},  // and the margin
+           {{{{2, 0.15}}, {}}, 0.05 - little, true},  // padding and margin add up
            {{{{2, 0.15}}, {}}, 0.05 + little, false},
-           {{{}, {{{0, 2}, 0.2 - little}}}, 0, true},  // of a pair
+           {{{}, {{{0, 2}, 0.2 - little}}}, 0, true},  // padding of a pair
            {{{}, {{{0, 2}, 0.2 + little}}}, 0, false},
-           {{{{0, 0.15}}, {{{0, 1}, 0.01}}}, 0, true},  // of a pair, in place of the bodies'
+           {{{{0, 0.15}}, {{{0, 1}, 0.01}}}, 0, true},  // a pair's padding replaces the bodies'
            {{{{0, 0.25}}, {{{0, 1}, 0.01}}}, 0, false}}) {
     Problem problem = twoBalls();
     problem.task.padding = padding;
@@ -99,7 +101,7 @@ TEST(Padding, PathsKeepIt) {
   EXPECT_EQ(verifySolution(problem, makeSolution(problem, report)).verdict, PathVerdict::proved);
   problem.task.padding.bodies[0] = 0.4;
   EXPECT_EQ(verifyPath(plainProblem(problem), report.path).verdict, PathVerdict::refuted);
-  // A clearance is preferred on top of what the padding requires.
+  // A preferred clearance is added to the distances that the padding requires.
   problem.task.padding.bodies[0] = 0.12;
   problem.settings.prefer.clearance = 0.14;
   const SolveReport clear = solveProblem(problem);

@@ -35,10 +35,10 @@ std::string jointAt(const std::string& type, const std::string& parent, const st
          "</joint>";
 }
 
-/// Arms of two links of length 1 stand in a row, 10 m apart. At the base and the hand of each arm
-/// is a ball. For an elbow at φ their centres are 2·cos(φ/2) apart, and the elbow reaches 2.5 rad.
-/// @param gaps the smallest gap of each arm's two balls, metres; negative: they are in contact in
-/// some states.
+/// Arms of two links of length 1 stand in a row, 10 m apart. Each arm has one ball at its base and
+/// one at its hand. If the elbow is at φ, the centres of these balls are 2·cos(φ/2) apart; the
+/// elbow reaches 2.5 rad. @param gaps the smallest gap between the two balls of each arm, in
+/// metres. Negative: the balls are in contact in some states.
 Model armsWith(const std::vector<double>& gaps) {
   std::string text = "<link name='root'/>";
   for (std::size_t i = 0; i < gaps.size(); ++i) {
@@ -78,8 +78,8 @@ PairSurveyOptions optionsFor(std::uint64_t work) {
 }
 
 TEST(PairSurvey, CountsContactsAndProvesTheOthers) {
-  // At the elbow's limit the balls of arm 1 overlap by 0.6 m: this is common. All links of
-  // different arms are far from each other.
+  // At the elbow's limit the balls of arm 1 overlap by 0.6 m, so they are in contact in many
+  // states. Links of different arms are always far from each other.
   const Model model = armsWith({0.1, -0.6});
   const Checker checker(model);
   const std::vector<SurveyedPair> pairs = surveyPairs(checker, optionsFor(1'000'000), all);
@@ -111,7 +111,7 @@ TEST(PairSurvey, TriesOnlyTheWantedProofs) {
 
 /// The same options give the same result, and more work proves all that less work proves.
 TEST(PairSurvey, SharesTheWorkAmongThePairs) {
-  // Arm 0 is hopeless, but rarely in contact: its balls overlap by 0.01 mm.
+  // The pair of arm 0 can't be proved, but is rarely in contact: the balls overlap by 0.01 mm.
   const Model model = armsWith({-1e-5, 0.02, 0.05, 0.1});
   const Checker checker(model);
   std::set<std::string> last;
@@ -129,7 +129,7 @@ TEST(PairSurvey, SharesTheWorkAmongThePairs) {
     EXPECT_LE(boxes, work);
     EXPECT_GT(boxes, 0u);
     const std::set<std::string> proved = provedPairs(model, pairs);
-    if (work >= 3'000) {  // every pair's first attempt is the same
+    if (work >= 3'000) {  // from here on, the first attempt for every pair is the same
       EXPECT_TRUE(std::includes(proved.begin(), proved.end(), last.begin(), last.end()));
       last = proved;
     }
@@ -143,12 +143,12 @@ TEST(PairSurvey, SharesTheWorkAmongThePairs) {
       EXPECT_EQ(again[i].proof->tests, pairs[i].proof->tests);
     }
   }
-  // In the end, only the hopeless pair is not proved.
+  // With the most work, only the pair that can't be proved is left.
   EXPECT_EQ(last.count("base0 hand0"), 0u);
   for (const std::string n : {"1", "2", "3"}) EXPECT_EQ(last.count("base" + n + " hand" + n), 1u);
 }
 
-/// A hopeless pair that comes first does not take the work of the pairs after it.
+/// A pair that can't be proved, and comes first, must not use up the work for the pairs after it.
 TEST(PairSurvey, StartsWithASmallAttemptForEachPair) {
   const Model model = armsWith({-1e-5, 0.02, 0.6});
   const Checker checker(model);
@@ -173,7 +173,7 @@ TEST(PairSurvey, EndsIfInterrupted) {
     EXPECT_FALSE(pair.proof);
   }
   EXPECT_EQ(calls, 0u);
-  // Here the signal comes after the first attempt at a proof.
+  // This time the survey is interrupted after the first attempt at a proof.
   interrupted = false;
   options.progress = [&](const PairSurveyProgress& p) { interrupted = p.work > 0; };
   std::size_t tried = 0;

@@ -17,7 +17,7 @@ namespace {
 using Random = std::mt19937_64;
 constexpr int kSamples = 100;
 
-/// Any configuration within the bounds, or one near `q`.
+/// Returns a random configuration within the bounds.
 Configuration randomState(const Problem& problem, Random& random) {
   Configuration q(static_cast<Eigen::Index>(problem.model.space.size()));
   for (const Coordinate& c : problem.model.space.coordinates())

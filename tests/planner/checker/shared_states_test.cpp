@@ -1,5 +1,5 @@
-// States of the shared data's robots with known verdicts: contacts between their own links,
-// labelled states in scenes, and starts and goals of benchmark problems.
+// Tests of states with known verdicts, of the robots in the shared data: contacts between links of
+// a robot, labelled states in scenes, and starts and goals of benchmark problems.
 #include <fstream>
 #include <set>
 
@@ -52,7 +52,8 @@ TEST(SharedStates, LinksThatTouchEachOther) {
                           {.packages = {{"example-robot-data", robots / "example-robot-data"}}},
                           faults, files);
     ASSERT_TRUE(model) << InputError(faults).what();
-    // The reference excludes only the SRDF's pairs, so here adjacent links must be tested, too.
+    // The reference excludes only the pairs of the SRDF. So adjacent links must be tested here,
+    // too.
     model->allowed.clear();
     if (!srdf.empty()) readSrdf(robots / srdf, *model, faults);
     ASSERT_TRUE(faults.empty()) << InputError(faults).what();

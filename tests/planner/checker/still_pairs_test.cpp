@@ -98,8 +98,8 @@ TEST_F(StillPairs, OfHeldJointsOnAMovingLink) {
   EXPECT_THAT(pairsOf("margin: 0.001\n"), IsEmpty());
 }
 
-/// The bases of two robots; and two obstacles of one large mesh, which therefore have frames of
-/// their own.
+/// Tests the bases of two robots, and two obstacles with the same large mesh. Because of its size,
+/// the obstacles share the mesh and have frames of their own.
 TEST_F(StillPairs, OfTwoRobotsAndObstaclesOnFrames) {
   std::ofstream(folder_ / "robot.yaml")
       << "format: corridor-robot-1\nurdf: arm.urdf\njoints: [to_arm]\nhold: {to_finger: 0.3}\n";

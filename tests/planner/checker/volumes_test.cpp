@@ -15,7 +15,8 @@ namespace {
 
 using test::Rigid;
 
-/// Every volume with every overlap test, and with the last way of building.
+/// Returns every volume with each of its overlap tests; the fit and the way of building are the
+/// last of those that the volume has.
 std::vector<TreeNames> everyVolume() {
   std::vector<TreeNames> all;
   for (const VolumeKind& kind : volumeKinds())

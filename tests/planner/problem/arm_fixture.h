@@ -6,8 +6,8 @@ namespace corridor::test {
 
 /// Writes an arm into the folder. Its chain of links and joints: base (box), pan (continuous),
 /// upper (box), lift (revolute, limits ±3.14159), lower (cylinder), wrist (fixed), flange (no
-/// shape), slide (prismatic), finger (sphere). A second sphere, thumb, is on flange by the joint
-/// follow, which mimics slide.
+/// shape), slide (prismatic), finger (sphere). A second sphere, thumb, is attached to flange by the
+/// joint follow, which mimics slide.
 class ArmTest : public ProblemTest {
  protected:
   void SetUp() override {

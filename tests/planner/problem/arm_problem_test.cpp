@@ -410,7 +410,7 @@ TEST_F(ArmProblem, AnObstacleWithTheNameOfALink) {
               testing::Not(Contains(testing::HasSubstr("within reach"))));
 }
 
-/// Lengths in millimetres are noted, even if other obstacles are within reach.
+/// A note reports lengths that seem to be in millimetres, even if other obstacles are within reach.
 TEST_F(ArmProblem, ObstaclesThatAreFarTooLarge) {
   using testing::AllOf;
   using testing::EndsWith;

@@ -14,7 +14,8 @@ class Clouds : public ProblemTest {
     write("cloud.xyz", "1 0 0\n1 0 1\nnan 0 0\n1 1 1\n");
     write("map.bt", map(0x0002));
   }
-  /// A map of cells of 0.5 m whose only cells are next to the origin, in +x +y +z.
+  /// Returns an octree file with cells of 0.5 m, which are all in the octant +x +y +z next to the
+  /// origin. @param last the flags of the last node.
   static std::string map(std::uint16_t last) {
     int leaves = 0;
     for (int child = 0; child < 8; ++child) leaves += (last >> 2 * child & 3) != 0;

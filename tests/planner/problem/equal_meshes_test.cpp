@@ -1,4 +1,5 @@
-// Obstacles of one mesh file share the mesh and its trees, if that pays.
+// Tests that obstacles of one mesh file share the mesh and its trees, if this saves enough
+// triangles.
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -39,7 +40,7 @@ class EqualMeshes : public ProblemTest {
  protected:
   static constexpr int kAround = 60;  // a ball has 6960 triangles
 
-  /// Returns a problem with `count` balls at random places, of the file NAME.obj.
+  /// Returns a problem with `count` obstacles of the mesh file NAME.obj, at random places.
   std::string problemOf(const std::string& name, int count, const std::string& keys) const {
     std::mt19937_64 random(3);
     std::uniform_real_distribution<double> real(-4, 4);
@@ -168,7 +169,8 @@ TEST_F(EqualMeshes, ChangeNoVerdict) {
   EXPECT_GT(proved, 3);
 }
 
-/// Quarter turns are exact in both forms: what touches, touches.
+/// Quarter turns are exact for shared and for separate meshes, so bodies that just touch are in
+/// contact in both forms.
 TEST_F(EqualMeshes, TouchAfterQuarterTurns) {
   write("robot.yaml", "format: corridor-robot-1\nrigid: SE3\nshapes: [{mesh: cube.obj}]\n");
   std::string cube;  // with faces at a distance of 1

@@ -1,4 +1,4 @@
-// Meshes with `convex: true`, whose convex hull is the model.
+// Tests of meshes with `convex: true`, which are replaced by their convex hulls.
 #include <algorithm>
 #include <map>
 
@@ -42,9 +42,9 @@ TEST_F(Hulls, AreTheModel) {
             nullptr);
 }
 
-/// The distance of the face's middle, (4, 4, 4)/3, from the inner faces is 0.5345 m or a little
-/// less: the height of the pyramid is 1/√3, and the distance of its base's centre from the sides
-/// is h·r/√(h² + r²), r = 4/√6.
+/// The middle of the face, (4, 4, 4)/3, is 0.5345 m or a little less from the inner faces. The dent
+/// is a pyramid with the height h = 1/√3, and the centre of its base is h·r/√(h² + r²) from its
+/// other faces, with r = 4/√6.
 TEST_F(Hulls, FarFromTheMeshAreRefused) {
   const double h = 1 / std::sqrt(3.0), r = 4 / std::sqrt(6.0), truth = h * r / std::hypot(h, r);
   const std::string complaint = complaintOf(problem("{mesh: dent.obj, convex: true}"));
@@ -64,7 +64,8 @@ TEST_F(Hulls, FarFromTheMeshAreRefused) {
               testing::HasSubstr(" and 0.005 m is allowed;"));
 }
 
-/// A model without one of the shapes would make proofs about another world.
+/// A second shape beside `mesh` and `convex` must be refused, not ignored: without it, proofs would
+/// be about another world.
 TEST_F(Hulls, NoOtherKindIsIgnored) {
   for (const std::string value : {"true", "false"})
     for (const auto& [kind, shape] :

@@ -61,7 +61,7 @@ TEST_F(LimitsTest, NamedValuesReplaceOthers) {
   ASSERT_EQ(limits.velocity.size(), 3);
   EXPECT_EQ(limits.velocity[0], 2);
   EXPECT_EQ(limits.velocity[1], 0.4);
-  EXPECT_EQ(limits.velocity[2], 0.1);  // of follow, by |−1|
+  EXPECT_EQ(limits.velocity[2], 0.1);  // the limit of follow, divided by |−1|
   EXPECT_NEAR(limits.acceleration[0], 1.5707963267948966, 1e-15);
   EXPECT_NEAR(limits.acceleration[1], 1.5707963267948966, 1e-15);
   EXPECT_EQ(limits.acceleration[2], 0.25);
@@ -199,7 +199,7 @@ TEST_F(LimitsTest, Faults) {
   EXPECT_THAT(complaintOfLimits("  file: missing.yaml\n"),
               testing::HasSubstr("problem.yaml:2: limits.file: missing.yaml: "));
   EXPECT_EQ(complaintOfFile("joint_limits: {pan: {max_velocity: 2}}\n"),
-            "joint_limits.yaml:1: joint_limits.pan.max_velocity: MoveIt ignores it without "
+            "joint_limits.yaml:1: joint_limits.pan.max_velocity: MoveIt ignores this limit without "
             "has_velocity_limits; add has_velocity_limits: true (or false)");
   EXPECT_THAT(
       complaintOfFile("joint_limits: {pan: {has_velocity_limits: true}}\n"),

@@ -342,7 +342,7 @@ TEST_F(Moveit, FaultsOfTheRequest) {
             "problem.yaml:3: moveit: scene: FILE, request: FILE, or both are needed");
 }
 
-/// Objects on the robot's root move with its base.
+/// Objects that are attached to the robot's root link move with the robot's base.
 TEST_F(Moveit, ObjectsOnTheRoot) {
   const Problem p = read(head + std::string("base: {at: [0, 0, 5]}\n"));
   EXPECT_EQ(p.model.bodies.back().name, "wedge");

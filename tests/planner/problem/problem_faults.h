@@ -7,7 +7,7 @@ namespace corridor::test {
 /// Pins the complete text of every message. Users read these messages: change them with care.
 class ProblemFaults : public ProblemTest {
  protected:
-  /// Returns the complaint about a spatial problem with these lines added from line 8 on.
+  /// Returns the faults of a problem in space that has these lines from line 8 on.
   std::string with(const std::string& lines) const { return complaintOf(head + poses + lines); }
 };
 

@@ -171,7 +171,7 @@ TEST_F(ProblemFaults, WrongTypes) {
             "problem.yaml:6: goal.at: a number is needed, not \"x\"");
 }
 
-/// Each name is known, but the names can't be combined.
+/// Each of the values is known, but the values can't be combined.
 TEST_F(ProblemFaults, VolumesThatCannotBeCombined) {
   EXPECT_EQ(with("checker:\n  volume: sphere\n  overlap: gjk\n"),
             "problem.yaml:10: checker.overlap: \"gjk\" is for volumes obb-binary, hull; volume "

@@ -98,7 +98,7 @@ class ProblemTest : public testing::Test {
   std::filesystem::path folder_ = newFolder();
 };
 
-/// A rigid body in the plane: a square of 0.2 m, square.yaml.
+/// Writes square.yaml: a rigid body in the plane, a square with edges of 0.2 m.
 class SquareTest : public ProblemTest {
  protected:
   void SetUp() override {

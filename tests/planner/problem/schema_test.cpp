@@ -25,8 +25,8 @@ const Json& resolved(const Json& root, const Json& schema) {
   return schema;
 }
 
-/// Returns the schema of the map at `path`, as in the key lists: "", "world.*", "shapes[]",
-/// "goal.within".
+/// Returns the schema of the map at `path`, which has the form of the paths in problemKeys: "",
+/// "world.*", "shapes[]", "goal.within".
 const Json& schemaOf(const Json& root, const std::string& path) {
   const Json* at = &root;
   for (std::size_t begin = 0; begin < path.size();) {

@@ -19,7 +19,8 @@ using test::Real;
 using test::ReferenceKinematics;
 using test::Vec3L;
 
-/// Moves both ends of an edge such that the whole edge stays within the tube of the original one.
+/// Moves both ends of an edge such that the whole moved edge stays within the tube around the
+/// original edge.
 void stray(RandomTrees& random, const Configuration& tube, Configuration& from, Configuration& to) {
   for (const Coordinate& c : random.space.coordinates()) {
     const auto i = static_cast<Eigen::Index>(c.first);
@@ -99,7 +100,7 @@ struct Chain {
   const char* name;
   std::function<Scene::FramePair(KinematicTree&)> build;
   std::size_t variables;
-  double share;  ///< share of the bound that must be attained
+  double share;  ///< the part of the bound that must be attained, from 0 to 1
 };
 
 std::size_t addJoint(KinematicTree& tree, std::size_t parent, Frame::Joint joint, const Vec3& axis,
@@ -181,7 +182,8 @@ TEST(ChainBound, IsAttained) {
     for (std::size_t i = 0; i < chain.variables; ++i) space.add({});
     const auto count = static_cast<Eigen::Index>(chain.variables);
     EdgeMotion motion(tree, space, pair, Configuration::Zero(count));
-    // v has the configuration at the middle, the half steps (up to more than π), and the point.
+    // The entries of v are the configuration at the middle, then the half steps (up to more than
+    // π), then the point.
     const auto share = [&](const Eigen::VectorXd& v) {
       const Configuration from = v.head(count) - v.segment(count, count),
                           to = v.head(count) + v.segment(count, count);
@@ -206,7 +208,8 @@ TEST(ChainBound, IsAttained) {
         const double size = std::pow(10.0, random.real(-4, 0));
         for (double& number : next)
           if (random.oneIn(2)) number += size * random.real();
-        // Excludes tiny steps: these attain the bound trivially, by its first-order term.
+        // Excludes tiny steps: they attain the bound trivially, because its first-order term
+        // dominates.
         for (Eigen::Index k = 0; k < count; ++k) next[count + k] = std::max(0.3, next[count + k]);
         if (const double s = share(next); s > best) {
           best = s;

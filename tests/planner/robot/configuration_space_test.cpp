@@ -1,5 +1,5 @@
-// Tests of edges and distances: angles of every size, half turns, the seam of a circle, and ends
-// that are equal bit for bit.
+// Tests of edges and distances: angles of every size, half turns, angles across ±π, and edges whose
+// ends are equal bit for bit.
 #include "planner/robot/configuration_space.h"
 
 #include <cmath>
@@ -30,7 +30,7 @@ Coordinate coordinate(Kind kind, std::string name, double weight = 1, double low
   return c;
 }
 
-/// A space of one coordinate of the given kind.
+/// Returns a space of one coordinate of the given kind.
 ConfigurationSpace single(Kind kind) {
   ConfigurationSpace space;
   space.addGroup({CoordinateGroup::Kind::joints, "", {space.add(coordinate(kind, "q"))}});
@@ -103,7 +103,7 @@ TEST(ConfigurationSpace, HalfTurnsAreAmbiguousAndNearlyHalfTurnsAreNot) {
   EXPECT_TRUE(circle.ambiguous(values({-pi / 2}), values({pi / 2})));
   EXPECT_FALSE(circle.ambiguous(values({-pi / 2}), values({pi / 2 - 2e-9})));
   EXPECT_FALSE(single(Kind::line).ambiguous(values({-pi / 2}), values({pi / 2})));
-  // Close to a half turn, whether below or above it, the edge goes the shorter way.
+  // If the difference is a little below or above a half turn, the edge goes the shorter way.
   for (const double angle : {pi - 1e-8, pi + 1e-8}) {
     const Configuration middle = rotation.interpolate(turned(0), turned(angle), 0.5);
     const double expected = angle < pi ? angle / 2 : (angle - 2 * pi) / 2;
@@ -123,7 +123,8 @@ TEST(ConfigurationSpace, CirclesTakeTheShorterWayAcrossTheSeam) {
   EXPECT_EQ(space.distance(values({pi}), values({-pi})), 0);
   EXPECT_TRUE(space.equal(values({pi}), values({-pi})));
   EXPECT_NEAR(space.largestTurn(values({3}), values({-3})), 2 * pi - 6, 1e-15);
-  // A circle's angle outside of [−π, π] is brought into this interval.
+  // For a coordinate of the kind `circle`, an angle outside of [−π, π] is brought into this
+  // interval.
   EXPECT_NEAR(at(7, 7.5, 0), 7 - 2 * pi, 1e-15);
   EXPECT_NEAR(at(7, 7.5, 1), 7.5 - 2 * pi, 1e-15);
   EXPECT_NEAR(at(100, -100, 0.5), std::remainder(100 + std::remainder(-200, 2 * pi) / 2, 2 * pi),

@@ -1,4 +1,5 @@
-// Pieces of curves that graze an obstacle by construction, and random ones against samples.
+// Tests of pieces of curves that graze an obstacle by construction, and of random pieces against
+// samples.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,7 +24,8 @@ using test::RandomTrees;
 using test::Real;
 using test::ReferenceKinematics;
 
-/// A random piece for the tree. Each row is smooth enough that some pieces pass a place only once.
+/// Returns a random piece for the tree. The rows are so smooth that some pieces pass each place
+/// only once.
 CurvePiece smoothPiece(RandomTrees& random, int degree, double size) {
   random.makeEdge(size);
   CurvePiece piece;
@@ -43,8 +45,8 @@ CurvePiece smoothPiece(RandomTrees& random, int degree, double size) {
 }
 
 /// A piece on which a corner of b passes over a face of a, or a corner of a under a face of b. At
-/// the time t* they are `gap` apart along the face's normal, which is orthogonal to the velocity
-/// there. At all other times b is higher. So the verdict is known without an oracle.
+/// the time t*, corner and face are `gap` apart along the face's normal, which is orthogonal to the
+/// velocity at t*. At all other times b is higher. So the verdict is known without an oracle.
 struct CurveGrazing {
   CurvePiece piece;
   Scene::FramePair frames{0, 0};
@@ -140,8 +142,8 @@ TEST(CurveMotion, CurvesThatGrazeByConstruction) {
             << context.counters.boxTests / (apart + together) << " box tests per piece\n";
 }
 
-/// The halves of a piece, by de Casteljau's algorithm. Each of up to 9 levels rounds once, by 2^-53
-/// of the largest coefficient. The middle of a slerp is rounded by some 2^-52.
+/// Returns the halves of a piece, by de Casteljau's algorithm. Each of up to 9 levels rounds once,
+/// by 2^-53 of the largest coefficient. The middle of a slerp is rounded by some 2^-52.
 std::array<CurvePiece, 2> halvesOf(const ConfigurationSpace& space, const CurvePiece& piece) {
   CurvePiece first = piece, second = piece;
   const int n = piece.degree();
@@ -178,8 +180,8 @@ std::pair<Body, Body> randomSoups(RandomTrees& random, const Vec3& center, doubl
   return {Body("", meshA), Body("", meshB)};
 }
 
-/// A piece that is a line has the verdict of the edge. The circles of the edge go less than half a
-/// turn, and the piece goes the same way.
+/// A straight piece has the verdict of the edge between the same configurations. Coordinates of the
+/// kind `circle` turn by less than half a turn, so edge and piece turn in the same sense.
 TEST(CurveMotion, StraightPiecesHaveTheVerdictOfTheEdge) {
   RandomTrees random(test::testSeed(53));
   const int count = (test::isStressRun() ? 20'000 : 1'000) / test::kSlowdown;

@@ -1,4 +1,5 @@
-// Relative motions of frames along pieces of curves, against independent kinematics in long double.
+// Tests of the relative motions of frames along pieces of curves, against independent kinematics in
+// long double.
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -19,8 +20,8 @@ using test::RandomTrees;
 using test::Real;
 using test::ReferenceKinematics;
 
-/// A random piece. Some joints rest, some turn round at the middle, some are lines, and some have
-/// large coefficients that cancel.
+/// Returns a random piece. Some joints rest, some reverse their direction at the middle, some move
+/// linearly, and some have large coefficients that cancel.
 CurvePiece randomPiece(RandomTrees& random, int degree, double size) {
   random.makeEdge(size);
   CurvePiece piece;
@@ -55,8 +56,8 @@ std::pair<double, double> dyadicInterval(RandomTrees& random) {
   return {h + 2 * h * std::floor(random.real(0, 0.5 / h)), h};
 }
 
-/// The rounding error of the reference: some 100 roundings of 2^-64 of the values, which have up to
-/// 10^3 rad or m, times the lengths.
+/// Returns the rounding error of the reference: some 100 roundings, each of 2^-64 relative to
+/// values of up to 10^3 rad or m, times the lengths.
 double noise(const CurvePiece& piece, double reach) {
   const double largest =
       piece.coefficients.size() == 0 ? 0 : piece.coefficients.cwiseAbs().maxCoeff();
@@ -94,7 +95,7 @@ TEST(CurveMotion, PosesAndTwistsAreWithinTheirStatedError) {
   EXPECT_GT(worst, 1e-2);
 }
 
-/// No point of b leaves the motion bound, in the whole interval.
+/// In the whole interval, no point of b moves farther than the motion bound.
 TEST(CurveMotion, MotionBoundsHold) {
   RandomTrees random(test::testSeed(42));
   const int count = test::isStressRun() ? 300'000 : 30'000;
@@ -137,7 +138,8 @@ TEST(CurveMotion, MotionBoundsHold) {
   EXPECT_GT(worstBeyond, 0.9);
 }
 
-/// The piece's `error` widens the tube of the joints that it concerns, times the multiplier.
+/// The `error` of a piece widens the tube of each joint that depends on the coordinate with this
+/// error, by the error times the joint's multiplier.
 TEST(CurveMotion, TheErrorOfAPieceIsPartOfTheTube) {
   KinematicTree tree;
   ConfigurationSpace space;
@@ -156,12 +158,12 @@ TEST(CurveMotion, TheErrorOfAPieceIsPartOfTheTube) {
   EXPECT_EQ(w.screws[0].amount, 0);
   EXPECT_EQ(w.screws[0].deviation, 0);
   EXPECT_NEAR(w.screws[0].tube, 0.75, 1e-12);
-  // An edge afterwards does not keep it.
+  // If an edge is set afterwards, the error of the piece no longer counts.
   motion.set(Configuration::Zero(1), Configuration::Zero(1));
   EXPECT_NEAR(motion.relativeMotion(0, 0.5, 0.5).screws[0].tube, 0.5, 1e-12);
 }
 
-/// A joint that turns round at the middle has the rate 0 there, and moves all the same.
+/// A joint that reverses its direction at the middle has the rate 0 there, and yet it moves.
 TEST(CurveMotion, AJointThatTurnsRoundIsNotAtRest) {
   KinematicTree tree;
   ConfigurationSpace space;
@@ -180,7 +182,7 @@ TEST(CurveMotion, AJointThatTurnsRoundIsNotAtRest) {
   EXPECT_GE(motionBound(w, Vec3::Zero(), 0).isotropic, 0.25);
 }
 
-/// A straight piece is the edge: same poses and twists, no deviation.
+/// A straight piece has the same poses and twists as the edge, and no deviation from them.
 TEST(CurveMotion, StraightPiecesAreEdges) {
   RandomTrees random(test::testSeed(43));
   for (int n = 0; n < 5'000; ++n) {

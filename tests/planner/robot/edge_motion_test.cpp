@@ -1,4 +1,4 @@
-// Relative motions of frames are compared with independent kinematics in long double.
+// Tests that compare the relative motions of frames with independent kinematics in long double.
 #include "planner/robot/edge_motion.h"
 
 #include <algorithm>
@@ -24,7 +24,8 @@ using test::ReferenceKinematics;
 
 using std::numbers::pi;
 
-/// A random time interval with exact doubles, as `certifyMotion` uses them.
+/// Returns the middle and the half width of a random time interval; like those of `certifyMotion`,
+/// they are exact doubles.
 std::pair<double, double> interval(RandomTrees& random) {
   const double h = std::ldexp(0.5, -static_cast<int>(random.randomIndex(12)));
   return {h + 2 * h * std::floor(random.real(0, 0.5 / h)), h};
@@ -35,7 +36,8 @@ double noise(const MovingPose& real, double reach) {
   return 1e-17 * (1 + reach + static_cast<double>(real.t.norm()));
 }
 
-/// The error of the constant poses before a prismatic joint rotates its whole translation.
+/// The rotation error of the constant poses before a prismatic joint displaces everything after the
+/// joint, in proportion to the joint's translation.
 TEST(EdgeMotion, APrismaticJointInheritsTheErrorOfTheConstantPosesBeforeIt) {
   LongPose fixed;
   Frame frame;
@@ -51,11 +53,11 @@ TEST(EdgeMotion, APrismaticJointInheritsTheErrorOfTheConstantPosesBeforeIt) {
   EXPECT_GE(joint.shiftError(), 8 * fixed.error);
 }
 
-/// With a tube of zero, places and first-order displacements of all points are within fixedError +
-/// reachError·|y|, as the header promises.
+/// With a tube of zero, the errors of the positions and of the first-order displacements of all
+/// points y are at most fixedError + reachError·|y|, as the header promises.
 TEST(EdgeMotion, PosesAndTwistsAreWithinTheirStatedError) {
   RandomTrees random(test::testSeed(1));
-  double worst = 0, worstTwist = 0;  // largest error, as a share of its bound
+  double worst = 0, worstTwist = 0;  // the largest error divided by its bound
   std::vector<double> shares;
   const int count = test::isStressRun() ? 1'000'000 : 100'000;
   for (int n = 0; n < count; ++n) {
@@ -93,8 +95,8 @@ TEST(EdgeMotion, PosesAndTwistsAreWithinTheirStatedError) {
   EXPECT_GT(worst, 1e-2) << "a bound that no case comes near is not measured by this test";
 }
 
-/// A long chain: a hundred slides, each turned by the same angle about z, so that the rounding of
-/// their rotations adds up. Then come a joint, and a hand far from it.
+/// A long chain: a hundred slides, each rotated by the same angle about z, so that the rounding
+/// errors of the rotations add up. They are followed by a joint, and a hand far from this joint.
 struct LongChain {
   KinematicTree tree;
   ConfigurationSpace space;
@@ -201,8 +203,8 @@ TEST(EdgeMotion, ScrewsAreTheMotion) {
     const auto [t, h] = interval(random);
     const RelativeMotion w = motion.relativeMotion(0, t, h);
     const ReferenceKinematics reference(random.tree, random.space, random.from, random.to);
-    // Screws have no sign. One of the 2^k combinations of signs has the interval's twist. It must
-    // lead to the end.
+    // Screws have no sign. One of the 2^k combinations of signs has the interval's twist. This
+    // combination must lead to the end of the interval.
     const std::size_t k = w.screws.size();
     bool found = false;
     for (std::size_t signs = 0; signs < (std::size_t{1} << k) && !found; ++signs) {
@@ -295,7 +297,7 @@ TEST(EdgeMotion, CirclesTakeTheShorterWay) {
 }
 
 /// The amount of a screw is rounded up: it is never below the joint's real motion, whatever the
-/// angles of a circle.
+/// angles of a coordinate of the kind `circle`.
 TEST(EdgeMotion, AmountsAreNeverBelowTheRealMotion) {
   RandomTrees random(test::testSeed(6));
   const OneTurn circle(Coordinate::Kind::circle);
@@ -322,7 +324,7 @@ TEST(EdgeMotion, HalfTurnsAreAmbiguous) {
   EXPECT_FALSE(circle.motion(pi / 2, -pi / 2 + 1e-8)->ambiguous());
   EXPECT_FALSE(circle.motion(pi, -pi)->ambiguous());
   EXPECT_FALSE(line.motion(0, pi)->ambiguous());
-  // A joint that mimics a circle with the multiplier ½ would jump at the seam.
+  // A joint that mimics a coordinate of the kind `circle` with the multiplier ½ would jump at ±π.
   EXPECT_TRUE(OneTurn(Coordinate::Kind::circle, 0.5).motion(3, -3)->ambiguous());
   EXPECT_FALSE(OneTurn(Coordinate::Kind::circle, 0.5).motion(1, -1)->ambiguous());
   EXPECT_FALSE(OneTurn(Coordinate::Kind::circle, -2).motion(3, -3)->ambiguous());

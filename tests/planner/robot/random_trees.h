@@ -10,7 +10,7 @@
 namespace corridor::test {
 
 /// Random robots and edges with everything that a tree may contain: all kinds of joints, branches,
-/// fixed frames, held joints, joints that mimic another one (with negative multipliers, or on
+/// fixed frames, held joints, joints that mimic another joint (with negative multipliers, or on
 /// another branch), parallel and intersecting axes, and quaternions and axes of any length.
 class RandomTrees {
  public:
@@ -30,8 +30,9 @@ class RandomTrees {
   ConfigurationSpace space;
   Configuration from, to;
 
-  /// Makes a tree of `joints` joints: most have one or more degrees of freedom; some are held, or
-  /// mimic another. Each coordinate of its base, in the world, is between -far and far, metres.
+  /// Makes a tree of `joints` joints. Most joints have one or more degrees of freedom; some are
+  /// held, or mimic another joint. Each world coordinate of the tree's base is between -far and
+  /// far, metres.
   void makeTree(std::size_t joints, double far = 1) {
     tree = {};
     space = {};
@@ -51,7 +52,8 @@ class RandomTrees {
     }
   }
 
-  /// An edge between two random configurations. `size` scales the steps, rad or m.
+  /// Makes an edge between two random configurations. @param size scales the change of each
+  /// coordinate, rad or m. @param range the bound of the start's line coordinates.
   void makeEdge(double size, double range = 3) {
     from = Configuration(static_cast<Eigen::Index>(space.size()));
     to = from;
@@ -130,8 +132,8 @@ class RandomTrees {
     tree.add(frame);
   }
 
-  /// Returns, at random, the variable of an existing single joint that the new joint mimics, or
-  /// Frame::noVariable.
+  /// Returns the variable of a random revolute or prismatic joint, which the new joint shall mimic.
+  /// In most cases returns Frame::noVariable: the new joint mimics none.
   std::size_t followed() {
     if (!oneIn(4)) return Frame::noVariable;
     const Frame& other = tree.frames[randomIndex(tree.frames.size())];

@@ -39,7 +39,7 @@ inline Mat3L crossL(const Vec3L& a) {
   return K;
 }
 
-/// Maps a point by the stored doubles, in long double.
+/// Maps a point by the numbers that X stores, in long double.
 inline Vec3L exactly(const Transform& X, const Vec3& p) {
   return X.m.cast<Real>() * p.cast<Real>() + X.t.cast<Real>();
 }
@@ -65,8 +65,8 @@ class ReferenceKinematics {
     for (std::size_t f = 1; f < all.size(); ++f) all[f] = all[tree_.frames[f].parent] * place(f, t);
     return all;
   }
-  /// Returns the motion of frame b in frame a. The common part of the two kinematic chains is left
-  /// out, so it adds no rounding.
+  /// Returns the motion of frame b in frame a. Frames that both kinematic chains have in common are
+  /// left out, so they add no rounding.
   MovingPose relative(std::size_t a, std::size_t b, Real t) const {
     MovingPose ofA, ofB;
     while (a != b) {
@@ -91,7 +91,7 @@ class ReferenceKinematics {
       if (c.first == number) return c;
     throw std::logic_error("no such coordinate");
   }
-  /// Returns the value and the derivative of number i of the configuration.
+  /// Returns entry i of the configuration, and the derivative of this entry by t.
   std::pair<Real, Real> number(std::size_t i, Real t) const {
     const auto k = static_cast<Eigen::Index>(i);
     if (piece_) return {bernstein(k, piece_->degree(), 0, t), rateOf(k, t)};

@@ -15,7 +15,8 @@
 namespace corridor {
 namespace {
 
-/// A base, an arm on a revolute joint with a rotated origin, and a finger that mimics it.
+/// Returns a base, an arm on a revolute joint with a rotated origin, and a finger whose joint
+/// mimics this joint.
 RobotParts fingered() {
   RobotParts parts;
   parts.links = {{"base", {}}, {"arm", {shapeOf("arm", Sphere{0.1})}}, {"finger", {}}};

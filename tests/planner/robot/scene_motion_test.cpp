@@ -159,7 +159,7 @@ TEST(SceneMotion, CertificateHolds) {
     ASSERT_TRUE(!fault || fault->kind == CertificateFault::Kind::unproved)
         << n << ": " << static_cast<int>(fault->kind) << " of pair " << fault->pair << " at "
         << fault->t;
-    // A certificate with an interval missing must be refused.
+    // A certificate from which an interval was removed must be refused.
     if (until == 0 || certificate.free.empty()) continue;
     certificate.free.erase(
         certificate.free.begin() +
@@ -185,7 +185,8 @@ TEST(SceneMotion, StatesOfRandomTrees) {
     const Scene scene = randomScene(random);
     random.makeEdge(1);
     std::vector<Transform> X_WF = framePoses(random.tree, random.from);
-    // In some cases the maps are rigid to four digits only, or the world frame is shifted.
+    // In some cases the maps are rigid only to four digits, or all of them are given in a shifted
+    // world frame.
     if (n % 3 == 0)
       for (Transform& X : X_WF) X.m *= 1 + 1e-4 * random.real();
     if (n % 4 == 0)
@@ -220,7 +221,7 @@ TEST(SceneMotion, StatesOfRandomTrees) {
 struct Crowd {
   std::vector<RigidPose> poses;
   TriangleMesh mesh;
-  std::optional<ConvexPart> part;  // if set, in place of the mesh
+  std::optional<ConvexPart> part;  // if set, the obstacles have this shape instead of the mesh
   std::vector<TriangleMesh> links;
 };
 

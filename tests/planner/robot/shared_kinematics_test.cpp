@@ -1,4 +1,5 @@
-// Forward kinematics of the shared data's robots, from URDF to frames, agrees with the reference.
+// Tests that the forward kinematics of the robots in the shared data, from URDF to frames, agrees
+// with the reference.
 #include <fstream>
 
 #include <gtest/gtest.h>
@@ -14,7 +15,8 @@
 namespace corridor {
 namespace {
 
-/// For metres and for the numbers of quaternions; the reference has 12 digits.
+/// The tolerance for positions, in metres, and for the components of quaternions. The reference has
+/// 12 digits.
 constexpr double kTolerance = 1e-9;
 
 void expectPose(const Transform& X, const std::vector<double>& expected, const std::string& link) {

@@ -1,4 +1,4 @@
-// The robots of the shared data agree with the tables of its guide.
+// Tests that the robots in the shared data agree with the tables in the guide of these data.
 #include <algorithm>
 
 #include "collision/geometry/mesh_health.h"

@@ -134,7 +134,7 @@ TEST_F(SrdfFile, NestedGroupsTakeNoExponentialTime) {
   EXPECT_EQ(group("g0"), "left1 ");
 }
 
-/// As in other readers, a name that the URDF lacks is left out.
+/// Names that the URDF lacks are left out, as in other readers of SRDF.
 TEST_F(SrdfFile, UnknownNamesAreCountedInNotes) {
   EXPECT_EQ(
       notesOf(R"(<group name="a"><joint name="left1"/><joint name="left3"/><link name="l2"/></group>

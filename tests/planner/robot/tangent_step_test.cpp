@@ -12,7 +12,8 @@
 namespace corridor {
 namespace {
 
-/// A slide in [−1, 1], a revolute joint, a continuous joint, and a floating base.
+/// Returns a space of a slide in [−1, 1], a revolute joint, a continuous joint, and a floating
+/// base.
 ConfigurationSpace everyKind() {
   using Kind = Coordinate::Kind;
   ConfigurationSpace space;
@@ -60,7 +61,8 @@ TEST(TangentStep, RotatesInTheFrameBeforeTheRotation) {
   step.tail<3>() << 0, 0, std::numbers::pi / 2;
   const Configuration moved = displaced(space, q, step);
   const Eigen::Quaterniond rotation(moved.data() + 6);
-  // First 90° about x, then 90° about z of the frame before: y goes to z, and stays there.
+  // The step adds a rotation of 90° about the z axis of the reference frame after the rotation of
+  // 90° about x. The first rotation takes y to z; the second does not change z.
   EXPECT_LT((rotation * Eigen::Vector3d::UnitY() - Eigen::Vector3d::UnitZ()).norm(), 1e-15);
   EXPECT_LT((rotation * Eigen::Vector3d::UnitX() - Eigen::Vector3d::UnitY()).norm(), 1e-15);
 }
@@ -71,14 +73,14 @@ TEST(TangentStep, EndsAtBoundsAndWrapsAngles) {
   q[9] = 1;
   q[2] = 3;
   TangentStep step = TangentStep::Zero(9);
-  step[0] = 7;    // the slide ends at 1
-  step[1] = -7;   // the lift at -2
-  step[2] = 0.5;  // pan: 3.5 rad is 3.5 - 2π
+  step[0] = 7;    // the slide stops at its upper bound, 1
+  step[1] = -7;   // the lift stops at its lower bound, -2
+  step[2] = 0.5;  // pan would be at 3.5 rad, which becomes 3.5 - 2π
   const Configuration moved = displaced(space, q, step);
   EXPECT_EQ(moved[0], 1);
   EXPECT_EQ(moved[1], -2);
   EXPECT_NEAR(moved[2], 3.5 - 2 * std::numbers::pi, 1e-15);
-  // A value out of bounds does not jump into them.
+  // A value that is already out of its bounds is not moved into the bounds.
   q[0] = 1.5;
   step[0] = 0.25;
   EXPECT_EQ(displaced(space, q, step)[0], 1.5);

@@ -203,8 +203,8 @@ TEST_F(UrdfFaults, Mimics) {
             "r.urdf:7: the joints k, l, k mimic each other in a cycle");
 }
 
-/// The joint f follows c, which would follow a joint that the file lacks. So c is no mimic, and
-/// the rules for followers hold for f.
+/// The joint f mimics c, and c would mimic a joint that the file lacks. So c counts as a joint
+/// without mimic, and f must keep the rules for a joint that mimics c.
 TEST_F(UrdfFaults, MimicsBehindALostLeader) {
   const auto complaint = [&](const std::string& c, const std::string& f,
                              const std::string& multiplier) {

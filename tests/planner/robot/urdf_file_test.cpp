@@ -150,7 +150,8 @@ TEST_F(UrdfFile, AJointThatCannotLeadIsNoLeader) {
   }
 }
 
-/// urdfdom is given ? instead of %, so that both names below become one.
+/// The reader passes ? in place of % to urdfdom, so urdfdom sees the same name twice. The joint
+/// "j?", which the mimic names, does not exist.
 TEST_F(UrdfFile, LeadersAreFoundByTheirNamesInTheFile) {
   const RobotModel model = modelOf(
       link("a") + link("b") + joint("j%", "revolute", "a", "b", limit + "<mimic joint=\"j?\"/>"));
@@ -274,7 +275,7 @@ TEST_F(UrdfFile, PackagesBesideAFolderAboveOrOfAnotherName) {
                   "package \"arm\" was not found; its files are taken from " +
                   (folder_ / "src/clone").string() +
                   ", above the URDF (packages: {arm: FOLDER} in robot.yaml sets another folder)"));
-  // The folder belongs to another package, too: the mesh may be that package's own.
+  // The folder belongs to another package, too, so the mesh may be one of that package.
   EXPECT_FALSE(read("clone/meshes/b.obj", "arm/meshes/b.obj"));
   ASSERT_EQ(faults.size(), 1u);
   EXPECT_THAT(faults[0].str(), testing::HasSubstr("is the folder of another package"));
@@ -288,7 +289,7 @@ TEST_F(UrdfFile, PackagesBesideAFolderAboveOrOfAnotherName) {
   EXPECT_EQ(faults.size(), 1u);
 }
 
-/// Sets an environment variable during its lifetime. No other thread runs.
+/// Sets an environment variable during the lifetime of the object. @pre no other thread runs.
 class WithVariable {
  public:
   WithVariable(const char* name, const std::string& value) : name_(name) {

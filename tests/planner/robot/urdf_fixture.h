@@ -13,7 +13,7 @@
 
 namespace corridor::test {
 
-/// Fixture that writes small URDF and SRDF files, and a mesh, into a temporary folder.
+/// A fixture that writes small URDF and SRDF files, and a mesh, into a temporary folder.
 class UrdfTest : public testing::Test {
  protected:
   void SetUp() override {
@@ -67,7 +67,7 @@ class UrdfTest : public testing::Test {
   std::vector<std::filesystem::path> files_;
 };
 
-/// Return URDF elements, each on one line.
+/// These functions return a URDF element on one line.
 inline std::string link(const std::string& name, const std::string& content = "") {
   return "<link name=\"" + name + "\">" + content + "</link>\n";
 }

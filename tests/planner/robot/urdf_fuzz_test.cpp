@@ -102,7 +102,7 @@ class UrdfFuzz : public UrdfTest {
         for (const char c : fault.text) ASSERT_TRUE(c >= ' ' || c < 0) << fault.text;
       }
     }
-    EXPECT_GT(sound, mutations / 100);  // otherwise the mutations are too destructive to test much
+    EXPECT_GT(sound, mutations / 100);  // or the mutations were too destructive to test much
     EXPECT_GT(refused, mutations / 10);
   }
 };

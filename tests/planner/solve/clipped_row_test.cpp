@@ -1,6 +1,7 @@
-// Trajectory files of arms in which a single row is moved, so that the curve clips an obstacle by
-// 10^-6 m for about a millisecond. The verifier must refute them, at that time and for that pair of
-// bodies. It must prove the file in which the same row is moved so that 10^-6 m remain.
+// Tests with trajectory files of arms. A single row is moved so that the curve penetrates an
+// obstacle by 10^-6 m, for about a millisecond. The verifier must refute the file, at that time and
+// for that pair of bodies. If the same row is moved so that a distance of 10^-6 m remains, the
+// verifier must prove the file.
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -27,7 +28,7 @@ Configuration randomStep(const Configuration& from, double length, ClipRandom& r
   return from + direction.normalized() * length;
 }
 
-/// A trajectory file of a problem, and one of its rows.
+/// A trajectory file of a problem, and one row of this file, which can be moved.
 class ClippedRow {
  public:
   ClippedRow(const Problem& problem, const Checker& checker, TrajectoryRows rows, std::size_t row,
@@ -59,7 +60,8 @@ class ClippedRow {
     }
     return std::nullopt;
   }
-  /// Finds the least move that touches, up to 2.5 rad, by bisection.
+  /// Finds the smallest move of the row, up to 2.5 rad, with a contact beside the row, by
+  /// bisection. Returns false if there is none.
   bool findTouch() {
     double high = 0.05;
     while (high <= 2.5 && !touchOf(high)) high *= 1.4;
@@ -89,18 +91,20 @@ struct ClipCounts {
   double shortest = HUGE_VAL, longest = 0;  // seconds in contact
 };
 
-/// Tests the file whose row is moved until 10^-6 m remain, and the one that clips by 10^-6 m.
+/// Tests two files: in one, the row is moved until a distance of 10^-6 m remains; in the other,
+/// until the bodies overlap by 10^-6 m. Returns early if the case does not fit.
 void testClip(const Problem& problem, const Checker& checker, ClippedRow& clip,
               ClipCounts& counts) {
   const auto touch = clip.touchOf(clip.by());
   ASSERT_TRUE(touch);
   const ConfigurationSpace& space = problem.model.space;
-  // The distance at the place of the touch grows by `slope` per rad that the row is moved back.
+  // At the point of the curve where the bodies touch, the distance grows by `slope` metres per
+  // radian that the row is moved back.
   const double back = 1e-4;
   const Curve before = curveOf(clip.moved(clip.by() - back), space, RowInterpolation::cubic);
   const double slope =
       checker.clearance(configurationAt(space, before.pieces[touch->piece], touch->tau)) / back;
-  if (!(slope > 1e-2)) return;  // the row moves the bodies along each other
+  if (!(slope > 1e-2)) return;  // moving the row mostly slides one body along the other
 
   const TrajectoryRows apart = clip.moved(clip.by() - 1e-6 / slope);
   EXPECT_EQ(verifyTrajectory(problem, apart).pathReport.verdict, PathVerdict::proved);
@@ -120,15 +124,17 @@ void testClip(const Problem& problem, const Checker& checker, ClippedRow& clip,
   };
   const double middle = timeOf(touch->piece, touch->tau);
   const auto contact = contactAt(middle);
-  if (!contact) return;  // a row moved so far that the place of the touch moves quickly
-  // The ends of the time in contact, by bisection.
+  if (!contact)
+    return;  // the contact is not at `middle`: moving the row shifts it quickly along the curve
+  // Finds an end of the time in contact by bisection.
   const auto endOf = [&](double direction) {
     double in = middle, out = middle + direction * 0.05;
     for (int i = 0; i < 40; ++i) ((contactAt((in + out) / 2) ? in : out)) = (in + out) / 2;
     return in;
   };
   const double begin = endOf(-1), end = endOf(1);
-  // Longer or shorter clips are those of rows that turn at another speed.
+  // A much longer or shorter contact occurs if the robot passes the row at an unusual speed; leave
+  // such cases out.
   if (!(end - begin > 1e-4 && end - begin < 1e-2)) return;
 
   const VerifyReport report = verifyTrajectory(problem, rows);
@@ -137,9 +143,10 @@ void testClip(const Problem& problem, const Checker& checker, ClippedRow& clip,
   ASSERT_TRUE(finding.freeUntil);
   const auto edge = static_cast<std::size_t>(finding.edge);
   const double time = timeOf(edge, finding.t), freeUntil = timeOf(edge, *finding.freeUntil);
-  // The verifier's tolerance is 10^-8 m or less, a hundredth of the depth. Within it, the contact
-  // begins and ends by less than a hundredth of its duration sooner or later. The bracket of the
-  // first contact is as narrow as the way of the tolerance at the speed of the robot.
+  // The verifier's tolerance is 10^-8 m or less, a hundredth of the depth. An error of this size
+  // shifts the begin and the end of the contact by less than a hundredth of the contact's duration.
+  // The bracket of the first contact is as short as the time in which the robot moves by the
+  // tolerance.
   const double within = (end - begin) / 100;
   EXPECT_GE(time, begin - within);
   EXPECT_LE(time, end + within);
@@ -161,7 +168,7 @@ void testProblem(Problem problem, std::uint64_t seed, int wanted, ClipCounts& co
   problem.task.limits.velocity *= 0.1;  // so that the trajectory has some rows
   ClipRandom random(seed);
   CheckerOptions fine = checkerOptions(problem.task, problem.settings.checker);
-  fine.tolerance = 1e-9;  // the least move that touches is found as exactly as this
+  fine.tolerance = 1e-9;  // the accuracy, in metres, of the smallest move with a contact
   const Checker checker(problem.model, fine);
   problem.settings.trajectory.rate = 1;  // a row that is moved by 1 rad is passed at 6 rad/s²
   const int before = counts.cases;
@@ -173,7 +180,7 @@ void testProblem(Problem problem, std::uint64_t seed, int wanted, ClipCounts& co
     ASSERT_TRUE(made.proved()) << made.fault;
     const TrajectoryRows rows = readTrajectory("made.csv", made.text, problem.model);
     const std::size_t row = rows.rows.size() / 2;
-    // One of the four joints next to the base, in one of both directions.
+    // The row is moved along one of the four joints next to the base, in one of its two directions.
     Configuration direction = Configuration::Zero(from.size());
     direction[static_cast<Eigen::Index>(random() % 4)] = random() % 2 ? 1 : -1;
     ClippedRow clip(problem, checker, rows, row, direction);
@@ -202,7 +209,7 @@ TEST_P(ClippedRowOfArms, IsRefuted) {
   if (!data) GTEST_SKIP() << "set CORRIDOR_DATA to the folder of shared test data";
   ClipCounts counts;
   const std::uint64_t seed = test::testSeed(72);
-  // To verify a file of the ur5, with its large meshes, takes a second.
+  // (A file of the ur5, which has large meshes, takes a second to verify.)
   for (const char* scene : {"cage", "bookshelf_thin", "table_pick"}) {
     if (counts.cases > 0 && !test::isStressRun()) break;
     SCOPED_TRACE(scene);

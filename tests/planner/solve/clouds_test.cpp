@@ -1,4 +1,4 @@
-// Checker, verifier and view of problems with point clouds and octrees.
+// Tests of checker, verifier and view with problems that have point clouds and octrees.
 #include <fstream>
 #include <random>
 

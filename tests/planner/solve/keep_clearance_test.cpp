@@ -1,4 +1,5 @@
-// A disc-like body in the plane moves past posts. Its distance from each post has a closed form.
+// Tests of keeping clearance, with a ball that moves in a plane past posts. The distance of the
+// ball from each post has a closed form.
 #include "planner/solve/keep_clearance.h"
 
 #include <cmath>
@@ -23,7 +24,8 @@ bool never() {
   return false;
 }
 
-/// A ball that moves in the plane z = 0, among balls at these places.
+/// Returns a problem of a ball that moves in the plane z = 0, among balls (the posts) at these
+/// positions.
 Problem ballAmong(const std::vector<Vec3>& posts) {
   Problem problem = test::rigidProblem(Rigid::SE2);
   problem.source.name = "posts";
@@ -48,7 +50,7 @@ double clearanceAlong(const Path& path, const std::vector<Vec3>& posts) {
   return least;
 }
 
-/// A path that is moved, with the objects that moving it needs.
+/// A path, with the objects that are needed to move it away from posts.
 struct Mover {
   Problem problem;
   Checker checker;
@@ -97,8 +99,8 @@ TEST(ClearanceTargets, FindsTheWorstPlaceAndMovesAwayFromIt) {
   EXPECT_NEAR(worst->share, 0.1, 1e-2);
   const auto apart = targets.movedApart(poseOf(Rigid::SE2, 0.7, 0));
   ASSERT_TRUE(apart);
-  EXPECT_NEAR((*apart)[0], 0.7, 1e-3);   // the shortest step goes straight away
-  EXPECT_NEAR((*apart)[1], 0.14, 1e-3);  // to 1.5 times the target
+  EXPECT_NEAR((*apart)[0], 0.7, 1e-3);   // the step goes straight away from the post
+  EXPECT_NEAR((*apart)[1], 0.14, 1e-3);  // up to 1.5 times the target distance
   EXPECT_FALSE(targets.missedOn(from, poseOf(Rigid::SE2, -1, 0)));
   // Where nothing is near, there is no step.
   EXPECT_FALSE(targets.movedApart(from));
@@ -119,14 +121,14 @@ TEST(KeepClearance, RoundsAPostAtADistance) {
   EXPECT_EQ(proof.a, "");  // nothing is closer than 0.1 m
   // No detour is allowed, so the path stays.
   EXPECT_EQ(mover.moved(1e-6), mover.path);
-  // If time is out, the path stays.
+  // If the time has run out, the path stays.
   EXPECT_EQ(withClearance(mover.targets, mover.checker.space(), mover.path, 7, mover.edges,
                           mover.onTarget, [] { return true; }),
             mover.path);
 }
 
 TEST(KeepClearance, StaysInTheMiddleOfANarrowPassage) {
-  // Between the posts there is 0.03 m on both sides: less than the targets.
+  // Between the posts, the ball has 0.03 m on both sides: less than the targets.
   const std::vector<Vec3> posts{{0, -0.85, 0}, {0, 0.81, 0}};
   Mover mover(posts, {poseOf(Rigid::SE2, -3, 0), poseOf(Rigid::SE2, 3, 0)}, 0.1);
   const double before = clearanceAlong(mover.path, posts);
@@ -143,7 +145,7 @@ TEST(KeepClearance, StaysInTheMiddleOfANarrowPassage) {
   EXPECT_GT(proof.shareOnTarget, 0.8);
 }
 
-/// Random posts and paths: what is promised holds for each.
+/// The promises of the header hold for random posts and paths.
 TEST(KeepClearance, HoldsWhatItPromises) {
   std::mt19937_64 random(test::testSeed(2511));
   std::uniform_real_distribution<double> place(-3, 3);
@@ -169,7 +171,7 @@ TEST(KeepClearance, HoldsWhatItPromises) {
     EXPECT_GE(after, std::min(before, mover.targets.least()) * (1 - 1e-9)) << n;
     better += after > before;
     onTarget += proof.shareOnTarget == 1;
-    EXPECT_EQ(moved, Mover(posts, path, 0.2).moved(0.1));  // it repeats
+    EXPECT_EQ(moved, Mover(posts, path, 0.2).moved(0.1));  // the same input gives the same path
   }
   EXPECT_GE(tried, 20);
   EXPECT_GE(onTarget, tried / 2);
@@ -195,7 +197,8 @@ TEST(ProveClearance, OfAPathThatStands) {
   EXPECT_EQ(proof.shareOnTarget, 1);
   EXPECT_NEAR(proof.smallest, 0.03, 1e-4);
   EXPECT_GE(proof.proved, 0.02);
-  // The targets are not kept: a proof needs twice the tolerance, 0.3 of this distance is left.
+  // With this tolerance, the proof that the target is kept fails. The target is 70 % of the
+  // distance of 0.03 m, which leaves 0.009 m; the proof needs twice the tolerance, 0.028 m.
   Problem coarse = ballAmong(posts);
   coarse.settings.checker.tolerance = 0.014;
   const Checker checker(coarse);

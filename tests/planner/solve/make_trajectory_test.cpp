@@ -10,7 +10,8 @@
 namespace corridor {
 namespace {
 
-/// A square of 0.2 m in the plane, above a floor whose top is at y = 0, with a post to go around.
+/// A square with edges of 0.2 m moves in the plane, above a floor whose top is at y = 0, around a
+/// post.
 class MakeTrajectory : public test::SquareTest {
  protected:
   Problem problemWith(const std::string& more = "") const {
@@ -47,7 +48,8 @@ TEST_F(MakeTrajectory, IsProvedAsItIsWritten) {
   }
 }
 
-/// Stopping at every corner takes longer. Without any curve that is proved, the robot stops.
+/// Stopping at every corner takes longer than rounding the corners. If no curve at a corner is
+/// proved, the robot stops there.
 TEST_F(MakeTrajectory, StopsOnlyWhereNoCurveIsProved) {
   const Problem problem = problemWith();
   const MadeTrajectory made = makeTrajectory(problem, Checker(problem), overThePost());
@@ -63,7 +65,7 @@ TEST_F(MakeTrajectory, StopsOnlyWhereNoCurveIsProved) {
   EXPECT_GE(stopped.duration, slow.duration);
 }
 
-/// The times of a message are whole nanoseconds. Dense rows keep the limits all the same.
+/// The times in a message are whole nanoseconds. Even so, dense rows keep the limits.
 TEST_F(MakeTrajectory, MessagesAreAsGoodAsRows) {
   for (const char* limits :
        {"limits: {position: {velocity: 0.5, acceleration: 1, jerk: 40}}\n", ""})
@@ -80,8 +82,8 @@ TEST_F(MakeTrajectory, MessagesAreAsGoodAsRows) {
     }
 }
 
-/// Smoothing the whole curve for the time is not slower than rounding its corners, which is not
-/// slower than stopping at them.
+/// A trajectory whose whole curve is smoothed for time takes no longer than one with rounded
+/// corners. That one takes no longer than one that stops at the corners.
 TEST_F(MakeTrajectory, SmoothsAsTheProblemSays) {
   const auto made = [&](Smoothing smooth) {
     Problem problem = problemWith();
@@ -135,8 +137,8 @@ TEST_F(MakeTrajectory, KeepsJerkRateAndScale) {
   EXPECT_LE(made.ratios.velocity.share, 1);
 }
 
-/// Rows whose curve dips for less than a millisecond: by 10^-6 m into the floor, or to 10^-6 m
-/// above it. Exactly one row differs.
+/// The curve of the rows dips for less than a millisecond: by 10^-6 m into the floor, or to a
+/// height of 10^-6 m above the floor. The two files differ in exactly one row.
 TEST_F(MakeTrajectory, AClipOfAMicrometreIsFound) {
   const Problem problem = problemWith();
   const Checker checker(problem);

@@ -1,4 +1,4 @@
-// The problems in problems/ are solved, certified and verified with their own defaults.
+// Tests that the problems in problems/ are solved, certified and verified with their own settings.
 #include <algorithm>
 #include <filesystem>
 #include <random>
@@ -45,7 +45,8 @@ TEST(OwnProblems, AllAreListedHere) {
   EXPECT_EQ(folders, 13);
 }
 
-/// Slides and a moving base don't change the default range of an arm. Other robots have OMPL's.
+/// Prismatic joints and a moving base don't change the default range of an arm. Other robots have
+/// OMPL's default range.
 TEST(OwnProblems, DefaultRanges) {
   for (const auto& [name, isArm] :
        {std::pair("gantry_bins", true), {"rover_door", true}, {"cubicles", false}}) {
@@ -94,8 +95,8 @@ TEST(TwoArms, AreTestedAgainstEachOther) {
   EXPECT_GT(differ, 0);
 }
 
-/// A paper plane 1 mm thick and a plate 0.1 mm thick: steps of 1 % jump over the plate. Sampled
-/// edges give paths straight through the plate. Certified edges never do.
+/// The body is 1 mm thick, and the plate is 0.1 mm thick, so samples in steps of 1 % jump over the
+/// plate. Sampled edges give paths straight through the plate; certified edges never do.
 TEST(ThinPlate, DiscreteGoesThroughAndCertifiedNeverDoes) {
   Problem problem = ownProblem("thin_plate");
   const auto verdict = [&](std::uint64_t seed) {

@@ -4,10 +4,11 @@
 
 #include "planner/solve/smooth_path.h"
 
-/// Spaces of line coordinates, and curves in them, for tests without a robot.
+/// Spaces whose coordinates all have the kind `line`, and curves in these spaces, for tests without
+/// a robot.
 namespace corridor {
 
-/// Returns a space of `count` line coordinates within ±limit.
+/// Returns a space of `count` coordinates of the kind `line`, each within ±limit.
 inline ConfigurationSpace lines(int count, double limit = 100) {
   ConfigurationSpace space;
   CoordinateGroup group;
@@ -30,7 +31,8 @@ inline Configuration place(double x, double y) {
 
 inline const CurveTest kAllFree = [](const CurvePiece&) { return true; };
 
-/// Returns the derivative of this order by τ, at τ = tau, by de Casteljau's algorithm.
+/// Returns the derivative of a piece of the given order by τ, at τ = tau, by de Casteljau's
+/// algorithm.
 inline Configuration derivative(const CurvePiece& piece, int order, double tau) {
   Eigen::MatrixXd b = piece.coefficients;
   int n = piece.degree();

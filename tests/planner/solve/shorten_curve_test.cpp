@@ -56,7 +56,8 @@ TEST(CurveRuler, MeasuresAParabola) {
   EXPECT_NEAR(parabola.length, root + std::asinh(u) / 2, 0.01 * parabola.length);
 }
 
-/// From rest to rest along 8 m with a = 1 m/s²: 2·√8 s; with v = 1 m/s: 9 s. Over two pieces.
+/// From rest to rest along 8 m, in two pieces: with a = 1 m/s² it takes 2·√8 s, and with v = 1 m/s
+/// in addition, 9 s.
 TEST(CurveRuler, EstimatesTheTimeOfALine) {
   const ConfigurationSpace space = lines(1);
   const auto number = [](double x) { return Configuration(Configuration::Constant(1, x)); };
@@ -68,14 +69,14 @@ TEST(CurveRuler, EstimatesTheTimeOfALine) {
   };
   EXPECT_NEAR(timeOf(HUGE_VAL, 0), 2 * std::sqrt(8.0), 0.02 * 2 * std::sqrt(8.0));
   EXPECT_NEAR(timeOf(1, 0), 9, 0.02 * 9);
-  EXPECT_NEAR(timeOf(1, 1), 4 + 6, 0.02 * 10);  // with a stop
+  EXPECT_NEAR(timeOf(1, 1), 4 + 6, 0.02 * 10);  // with a stop between the pieces
 }
 
-/// On a circle of 1 m with a = 1 m/s² for x and y, the speed is at most 1 m/s.
+/// On a circle with the radius 1 m, and with a = 1 m/s² for x and y, the speed is at most 1 m/s.
 TEST(CurveRuler, EstimatesTheTimeOfACircle) {
   const ConfigurationSpace space = lines(2);
   const CurveRuler ruler(space, place(HUGE_VAL, HUGE_VAL), place(1, 1));
-  // Quarters as cubics, whose radius is off by 3·10^-4.
+  // The quarters of the circle are cubics, whose radius is off by up to 3·10^-4.
   const double k = 4.0 / 3 * (std::sqrt(2.0) - 1);
   std::vector<MeasuredPiece> pieces;
   for (int quarter = 0; quarter < 12; ++quarter) {
@@ -90,7 +91,7 @@ TEST(CurveRuler, EstimatesTheTimeOfACircle) {
   std::vector<const MeasuredPiece*> all;
   for (const MeasuredPiece& piece : pieces) all.push_back(&piece);
   const double time = ruler.along(all, std::vector<double>(11, 0)).time;
-  EXPECT_GT(time, 6 * M_PI);  // three turns at 1 m/s, and start and end take longer
+  EXPECT_GT(time, 6 * M_PI);  // three turns at 1 m/s; starting and stopping take additional time
   EXPECT_LT(time, 6 * M_PI + 2.5);
 }
 
@@ -140,8 +141,9 @@ double curvature(const CurvePiece& piece, double tau) {
   return (v[0] * a[1] - v[1] * a[0]) / std::pow(v.norm(), 3);
 }
 
-/// Random ways around discs. The curve stays free and between the same ends, has continuous
-/// tangents and curvatures, and its value is not above that of the curve with rounded corners.
+/// Random ways around discs. The shortened curve is free, has the same ends, and has continuous
+/// tangents and curvatures. Its objective is not above the objective of the curve with rounded
+/// corners.
 TEST(ShortenCurve, GoesAroundDiscs) {
   const ConfigurationSpace space = lines(2);
   std::mt19937_64 random(test::testSeed(87));
@@ -229,13 +231,13 @@ TEST(ShortenCurve, RemovesStops) {
               1e-9);
 }
 
-/// A corner that stays at an end of a part still counts. Its stop is not saved by a replacement
-/// beside it, so the value never grows.
+/// If a corner stays at an end of a part that is replaced, the stop at this corner is still counted
+/// in the objective. So a replacement never makes the objective larger.
 TEST(ShortenCurve, CountsCornersThatStay) {
   const ConfigurationSpace space = lines(2);
   const Path path = {place(0, 0), place(4, 0), place(4, 6), place(9, 6), place(9, 12)};
   for (const double width : {0.05, 0.2, 0.6}) {
-    // Within this distance of the path; the corner at (4, 0) can't be rounded.
+    // Curves are free only within a distance of the path; the corner at (4, 0) can't be rounded.
     const CurveTest isFree = [&](const CurvePiece& piece) {
       for (int i = 0; i <= 300; ++i) {
         const Configuration q = configurationAt(space, piece, i / 300.0);
@@ -283,7 +285,7 @@ TEST(ShortenCurve, EndsAtOnceIfStopped) {
   EXPECT_EQ(curve.pieces.size(), 2u);
 }
 
-/// A part with a rotation that moves is not replaced; the parts before and after it are.
+/// A part in which a rotation changes is not replaced; the parts before and after it are replaced.
 TEST(ShortenCurve, LeavesRotationsThatMove) {
   ConfigurationSpace space = lines(2);
   Coordinate rotation;

@@ -1,4 +1,4 @@
-// Tests of simplifying among discs in the plane, whose edge tests and shortest paths have closed
+// Tests of simplifying among discs in the plane, where edge tests and shortest paths have closed
 // forms.
 #include "planner/solve/simplify_path.h"
 
@@ -57,7 +57,8 @@ struct World {
   std::vector<Disc> discs;
   std::vector<std::pair<std::vector<double>, std::vector<double>>> tested;
 
-  /// @param slack by how much an edge may be inside a disc
+  /// Returns whether an edge is free. @param slack the depth to which a free edge may be inside a
+  /// disc.
   bool isFree(const Configuration& a, const Configuration& b, double slack = 0) const {
     return std::ranges::all_of(discs, [&](const Disc& disc) {
       return distanceFromSegment(disc.centre, a, b) > disc.radius - slack;
@@ -137,7 +138,7 @@ TEST(SimplifyPath, StopEndsTheTests) {
   EXPECT_DOUBLE_EQ(length(path), length(detour()));
 }
 
-/// Returns a path of random states whose edges are free, from (0, 0) to (10, 10): a random walk.
+/// Returns a path from (0, 0) to (10, 10): a random walk whose edges are all free.
 Path randomWalk(const World& world, std::mt19937_64& random) {
   std::uniform_real_distribution<double> place(0, 10);
   Path path{at(0, 0)};
@@ -176,7 +177,8 @@ TEST(SimplifyPath, KeepsItsPromisesAmongRandomDiscs) {
       // Rounding of the sums: fewer than 2^12 additions of 2^-53 each.
       EXPECT_LE(length(versions[v]), length(versions[v - 1]) * (1 + 1e-12));
       for (std::size_t s = 1; s < versions[v].size(); ++s)
-        // A part of a free edge starts at a rounded place on this edge.
+        // A part of a free edge may start at a rounded point of this edge, so a small slack is
+        // needed.
         EXPECT_TRUE(world.isFree(versions[v][s - 1], versions[v][s], 1e-12));
     }
     shorter += length(versions.back()) < length(path) * 0.9 ? 1 : 0;
@@ -240,7 +242,8 @@ TEST(SimplifyPath, KeepsItsPromisesOnCirclesAndRotations) {
       space.normalise(next);
       if (isFree(path.back(), next)) path.push_back(next);
     }
-    if (i % 5 == 0) path.push_back(path.front());  // a closed path, if its last edge is free
+    if (i % 5 == 0)
+      path.push_back(path.front());  // makes the path closed, unless its last edge is not free
     if (!isFree(path[path.size() - 2], path.back())) path.pop_back();
     const std::vector<Path> versions = simplifiedVersions(space, path, isFree, doNotStop);
     for (std::size_t v = 1; v < versions.size(); ++v) {

@@ -1,4 +1,4 @@
-// Tests of smoothing in the plane, whose curves have closed forms.
+// Tests of smoothing in the plane, where the curves have closed forms.
 #include "planner/solve/smooth_path.h"
 
 #include <algorithm>
@@ -14,8 +14,8 @@
 namespace corridor {
 namespace {
 
-/// Expects that pieces join: with the same position and direction, and with second derivatives of 0
-/// on both sides.
+/// Expects that successive pieces join with the same position and direction, and that the second
+/// derivatives are 0 on both sides of each joint.
 void expectSmooth(const std::vector<CurvePiece>& pieces) {
   for (std::size_t k = 0; k + 1 < pieces.size(); ++k) {
     const CurvePiece &a = pieces[k], &b = pieces[k + 1];
@@ -51,7 +51,7 @@ TEST(SmoothPath, KeepsTheDeviation) {
     for (const CurvePiece& piece : smooth.pieces)
       for (int i = 0; i <= 100; ++i) {
         const Configuration q = configurationAt(space, piece, i / 100.0);
-        double nearest = HUGE_VAL;  // largest coordinate of the difference from the path
+        double nearest = HUGE_VAL;  // the distance from the path, in the maximum norm
         for (std::size_t k = 0; k + 1 < path.size(); ++k)
           for (int j = 0; j <= 2000; ++j)
             nearest = std::min(

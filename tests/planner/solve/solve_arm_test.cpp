@@ -1,5 +1,5 @@
-// `solveProblem` for an arm: planners, the default range, restarts, several goals, and goal
-// regions.
+// Tests of `solveProblem` for an arm: planners, the default range, restarts, several goals, and
+// goal regions.
 #include <numbers>
 
 #include <gmock/gmock.h>
@@ -58,7 +58,8 @@ TEST(Arm, DefaultRangeIsAShareOfARevolution) {
   EXPECT_NE(own, path("0"));
 }
 
-/// A search that starts again often still finds a path, counts its restarts, and repeats.
+/// A search that starts again often still finds a path, counts its restarts, and gives the same
+/// path with the same seed.
 TEST(Arm, SearchesStartAgainAfterTooManyEdges) {
   Problem problem = armProblem();
   problem.settings.planner.name = "RRT";

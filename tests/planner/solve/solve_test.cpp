@@ -1,5 +1,5 @@
-// `solveProblem`: names and parameters, start and goals, goal regions, repeatability, certified
-// paths, and the refutation of wrong ones.
+// Tests of `solveProblem`: names and parameters, start and goals, goal regions, repeatability,
+// certified paths, and the refutation of wrong paths.
 #include "planner/solve/solve.h"
 
 #include <algorithm>
@@ -116,13 +116,13 @@ TEST_P(Spaces, GoalRegion) {
 TEST_P(Spaces, AGoalThresholdOfZeroCanBeReached) {
   Problem problem = hallProblem(GetParam());
   problem.task.goalThreshold = 0;
-  problem.settings.planner.name = "RRT";  // uses the goal's own test to end
+  problem.settings.planner.name = "RRT";  // this planner ends by the goal's own test
   const SolveReport report = solveProblem(problem);
   ASSERT_EQ(report.outcome, SolveOutcome::solved) << report.why;
   EXPECT_EQ(report.path.back().head(2), problem.task.goals[0].head(2));
 }
 
-/// OMPL's angles end below π, so it holds a half turn as −π.
+/// OMPL's angles end below π, so OMPL stores a half turn as −π.
 TEST(Solve, HalfTurnsAtStartAndGoal) {
   for (const char* planner : {"RRTConnect", "RRT", "PRM"})
     for (const double yaw : {std::numbers::pi, -std::numbers::pi}) {
@@ -147,7 +147,7 @@ TEST_P(Spaces, MutatedPathsAreRefuted) {
     mutate(mutated.path);
     return verifySolution(problem, mutated);
   };
-  // Straight through the wall.
+  // The path goes straight through the wall.
   EXPECT_EQ(verdict([](Path& p) {
               p = {p.front(), p.back()};
             }).pathReport.verdict,
@@ -187,8 +187,9 @@ TEST(Solve, EveryPlannerIsMadeAndHasParametersThatCanBeSet) {
 }
 
 /// Solves the problem. For those planners of OMPL 1.5.2 that leak memory, the leak sanitizer is
-/// off. Each of these, run alone, does not free states that it allocated or cloned: LazyPRM 944 in
-/// three seconds, SST 14,636. The other planners don't leak, and run under the sanitizer.
+/// off. When each of them was run alone, states that it had allocated or cloned were not freed: 944
+/// in three seconds with LazyPRM, 14,636 with SST. The other planners don't leak, and run under the
+/// sanitizer.
 SolveReport solveWithOmplsLeaks(const Problem& problem) {
 #ifdef __SANITIZE_ADDRESS__
   const std::string& name = problem.settings.planner.name;
@@ -326,7 +327,8 @@ TEST(Solve, StartInContactSaysWhichPairAndWhereItIsFree) {
   EXPECT_THAT(complaint, HasSubstr(" touch; the nearest free position found is 0.1"));
   problem.task.goals[0].head(3) = Vec3(0.3, -2, 0);
   EXPECT_THAT(complaintOf(problem),
-              HasSubstr("\nhall.yaml:5: goal: in contact"));  // both at once
+              HasSubstr("\nhall.yaml:5: goal: in contact"));  // the faults of start and goal are
+                                                              // reported together
 }
 
 /// The configuration in the message must be free with exactly the digits that are printed.

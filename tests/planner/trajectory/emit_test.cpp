@@ -158,7 +158,7 @@ TEST(EmitRows, ShortPiecesDoNotSlowDownTheRest) {
   const Emission emission = emitRows(law, path, jointSpace(2), limits, kNoTree);
   expectKept(emission, 3, limits);
   EXPECT_LE(emission.stretch, 1.005);
-  EXPECT_LE(emission.duration, 1.001 * 2 * 1.5);  // with a stop at the corner: 3 s
+  EXPECT_LE(emission.duration, 1.001 * 2 * 1.5);  // as long as with a stop at the corner, 3 s
 }
 
 TEST(EmitRows, RotationsKeepTheirRate) {
@@ -176,7 +176,8 @@ TEST(EmitRows, RotationsKeepTheirRate) {
   limits.velocity[3] = 0.25;
   const TimeLaw law = timeLaw(path, space, limits, kNoTree);
   ASSERT_EQ(law.fault, "");
-  // 1.2 rad at 0.25 rad/s; the length 5 m is limited to 2 m/s²: s̈ = 0.4, while 2/1.2 is more.
+  // The rotation by 1.2 rad is limited to 0.25 rad/s. The way of 5 m is limited to 2 m/s², so s̈ ≤
+  // 0.4; the limit by the rotation, 2/1.2, is larger.
   const double v = 0.25 / 1.2, a = 2 / 5.0;
   EXPECT_NEAR(law.duration, 1 / v + v / a, 1e-9);
   const Emission emission = emitRows(law, path, space, limits, kNoTree, {.deviation = 1e-3});

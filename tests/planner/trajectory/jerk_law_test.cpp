@@ -1,4 +1,4 @@
-#include "planner/trajectory/jerk_law.h"  // by timeLaw, with `smooth`
+#include "planner/trajectory/jerk_law.h"  // tested through timeLaw, with the option `smooth`
 
 #include <cmath>
 
@@ -14,10 +14,11 @@ const KinematicTree kNoLinks;
 
 /// Returns the shortest time along a length from rest to rest: the profile of seven constant jerks.
 double sevenSegments(double length, double v, double a, double j) {
-  const double rise = v * j < a * a ? 2 * std::sqrt(v / j) : v / a + a / j;  // to the velocity v
+  const double rise =
+      v * j < a * a ? 2 * std::sqrt(v / j) : v / a + a / j;  // seconds to reach the velocity v
   if (length >= v * rise) return length / v + rise;
   if (length <= 2 * a * a * a / (j * j)) return 4 * std::cbrt(length / (2 * j));
-  // The largest velocity p takes p·(p/a + a/j) = length.
+  // The largest velocity that is reached, p, satisfies p·(p/a + a/j) = length.
   const double p = a / 2 * (std::sqrt(a * a / (j * j) + 4 * length / a) - a / j);
   return 2 * (p / a + a / j);
 }
@@ -41,7 +42,7 @@ std::vector<CurvePiece> roundedCorner(double reach, double size) {
 
 TEST(JerkLaw, SevenSegmentsAreFound) {
   // Every case of the profile, for a straight line in three parametrisations. Only for the first
-  // one, of constant rate, the law is made by this formula.
+  // parametrisation, which has a constant rate, does the law use this formula.
   const struct {
     double length, velocity, acceleration, jerk;
   } cases[] = {{2, 1, 2, 8},  {2, 1, 2, 3},   {1, 9, 2, 9},
@@ -100,8 +101,9 @@ TEST(JerkLaw, LooseLimitsCostLittle) {
 }
 
 TEST(JerkLaw, ALinkSlowsOnlyTheJointsThatMoveIt) {
-  // The second joint is fast, the first one moves a link of 2 m that may move at 0.5 m/s. The first
-  // half of the way is along the second joint, with a rounded corner between.
+  // The first joint moves a link of 2 m, whose speed is limited to 0.5 m/s; the second joint is
+  // fast. On the first half of the path only the second joint moves, on the second half the first
+  // joint, with a rounded corner between the halves.
   KinematicTree tree;
   Frame frame;
   frame.joint = Frame::Joint::revolute;

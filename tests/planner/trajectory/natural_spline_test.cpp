@@ -1,4 +1,5 @@
-// Natural splines: closed forms, the conditions that define them, and states inserted by trial.
+// Tests of natural splines: closed forms, the conditions that define them, and states inserted by
+// trial.
 #include "planner/trajectory/natural_spline.h"
 
 #include <cmath>
@@ -51,7 +52,7 @@ TEST(NaturalSpline, MeetsTheConditionsThatDefineIt) {
     const auto pieces = naturalSpline(q);
     ASSERT_EQ(pieces.size(), q.size() - 1);
     std::vector<double> h;
-    double bend = 0;  // the scale of second derivatives
+    double bend = 0;  // the largest second derivative, as the scale of errors
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       h.push_back((q[i + 1] - q[i]).norm());
       bend = std::max(bend, derivative(pieces[i], h[i], 2, true).norm());

@@ -10,7 +10,8 @@ namespace {
 
 /// Returns the shortest time through one piece, from rest to rest, by dynamic programming in the
 /// phase plane: for each of `n` values of τ, `levels` values of x = ṡ² up to the limit of velocity.
-/// A step between two values is allowed if the accelerations in its middle are.
+/// A step between two values is allowed if the accelerations in the middle of the step are within
+/// their limits.
 double shortestTime(const CurvePiece& path, double velocity, double acceleration, int n,
                     int levels) {
   const double width = 1.0 / n, infinity = std::numeric_limits<double>::infinity();

@@ -28,7 +28,8 @@ inline JointLimits uniformLimits(std::size_t size, double velocity, double accel
   return limits;
 }
 
-/// Returns a piece with the given Bernstein coefficients, one list for each number.
+/// Returns a piece with the given Bernstein coefficients, one list for each entry of a
+/// configuration.
 inline CurvePiece piece(const std::vector<std::vector<double>>& rows) {
   CurvePiece result;
   result.coefficients.resize(static_cast<Eigen::Index>(rows.size()),
@@ -63,11 +64,12 @@ inline std::vector<CurvePiece> randomSpline(std::size_t joints, std::size_t piec
   return path;
 }
 
-/// Returns q, q̇ and q̈ of a law at a time, by the definitions in the headers: Horner's scheme on
-/// the power basis, and finite sums of the Bernstein basis.
+/// A configuration q, and its derivatives by time: v = q̇, a = q̈.
 struct Sample {
   Configuration q, v, a;
 };
+/// Returns q, q̇ and q̈ of a law at a time, by the definitions in the headers: τ as a polynomial of
+/// time in the power basis, and the path by de Casteljau's algorithm.
 inline Sample sampleAt(const TimeLaw& law, const std::vector<CurvePiece>& path, double time) {
   std::size_t k = 0;
   while (k + 1 < law.segments.size() && law.segments[k + 1].time <= time) ++k;

@@ -25,13 +25,13 @@ double durationOf(const std::vector<CurvePiece>& path, const JointLimits& limits
 }
 
 TEST(TimeLaw, TriangleOfOneJoint) {
-  // Half of the way at a, half at −a: 2·sqrt(length/a).
+  // Half of the length is passed with the acceleration a, half with −a: 2·sqrt(length/a).
   EXPECT_NEAR(durationOf({piece({{0, 2}})}, uniformLimits(1, 100, 3)), 2 * std::sqrt(2.0 / 3),
               1e-12);
 }
 
 TEST(TimeLaw, TrapezoidOfOneJoint) {
-  // It takes v/a to reach v. The whole duration is length/v + v/a.
+  // It takes the time v/a to reach the velocity v. The duration is length/v + v/a.
   EXPECT_NEAR(durationOf({piece({{1, -4}})}, uniformLimits(1, 2, 4)), 5 / 2.0 + 2 / 4.0, 1e-12);
 }
 
@@ -46,7 +46,8 @@ TEST(TimeLaw, StraightLineWaitsForTheSlowestJoint) {
 }
 
 TEST(TimeLaw, RatesAtTheEndsAreKept) {
-  // From 1 to 0.5 rad/s over 3 rad, a = 1, without a limit of v: up to v² = 3 + (1 + 0.25)/2.
+  // The joint starts at 1 rad/s and ends at 0.5 rad/s, after 3 rad, with a = 1. The limit of
+  // velocity is not reached: the largest velocity is v with v² = 3 + (1 + 0.25)/2.
   const double top = std::sqrt(3 + 0.625);
   TimeLawOptions options;
   options.startRate = 1.0 / 3;
@@ -64,7 +65,8 @@ TEST(TimeLaw, ReparametrisationHardlyMatters) {
               fast, 5e-3 * fast);
 }
 
-/// A straight piece of degree 5, without a limit of velocity, beside a number that hardly moves.
+/// A straight piece of degree 5, without a limit of velocity, in which another coordinate hardly
+/// moves.
 TEST(TimeLaw, StraightPiecesNeedNoLimitOfVelocity) {
   JointLimits limits = uniformLimits(2, HUGE_VAL, 1);
   EXPECT_NEAR(
@@ -146,7 +148,7 @@ TEST(TimeLaw, StopsAtCorners) {
 }
 
 TEST(TimeLaw, PassesThroughStraightJoins) {
-  // The same straight line in pieces of several lengths, with pieces without length between.
+  // The same straight line, in pieces of several lengths, with pieces of length 0 between them.
   const std::vector<CurvePiece> path{piece({{0, 0.25}}), piece({{0.25, 0.25}}),
                                      piece({{0.25, 1.5}}), piece({{1.5, 1.75, 2}})};
   EXPECT_NEAR(durationOf(path, uniformLimits(1, 100, 3)), 2 * std::sqrt(2.0 / 3), 1e-3);
@@ -161,7 +163,8 @@ TEST(TimeLaw, JointAtRestInTheMiddle) {
   // q = τ³ for τ in [−1, 1], as one piece: the tangent is 0 in its middle. The geometry is a
   // straight line of length 2.
   const double ideal = 2 * std::sqrt(2.0 / 3);
-  // The optimum has ṡ = ∞ there; linear x between nodes can't follow, and costs 43 %.
+  // The optimal law has ṡ = ∞ in the middle. A law whose x = ṡ² is linear between nodes can't
+  // follow this, and takes 43 % longer.
   const double slow = durationOf({piece({{-1, 1, -1, 1}})}, uniformLimits(1, 100, 3));
   EXPECT_GE(slow, ideal * (1 - 1e-3));
   EXPECT_LE(slow, 1.5 * ideal);
@@ -202,7 +205,7 @@ TEST(TimeLaw, Faults) {
   EXPECT_EQ(faultOf({piece({{0, INFINITY}})}, uniformLimits(1, 1, 1)),
             "time law: piece 0 has a number that is not finite");
   TimeLawOptions options;
-  options.startRate = 2;  // v² = 2·a·length = 2 is the most from which it can stop
+  options.startRate = 2;  // too fast to stop: v² may be at most 2·a·length = 2
   EXPECT_EQ(faultOf(line, uniformLimits(1, 9, 1), options),
             "time law: piece 0, τ = 0: no law starts with the rate 2 per second within the limits; "
             "at most " +

@@ -1,4 +1,5 @@
-// Tests of the curves that rows mean, of their bounds, and of the texts that are written.
+// Tests of the curves that rows define, of the bounds of these curves, and of the texts that are
+// written.
 #include "planner/trajectory/trajectory_curve.h"
 
 #include <random>
@@ -70,7 +71,7 @@ TEST_F(TrajectoryCurve, AnglesAreLiteral) {
             "t.csv:2: pan jumps from 3.1 to -3.1 rad, by more than half a turn: angles are used as "
             "they are written; add or subtract whole turns so that the angles continue, or add "
             "rows between");
-  // Degrees instead of radians.
+  // The file has degrees instead of radians.
   EXPECT_EQ(
       curveComplaint("0 0\n90 0\n180 0\n270 0\n"),
       "t.csv:2: pan jumps from 0 to 90 rad, by more than half a turn: angles are used as they "

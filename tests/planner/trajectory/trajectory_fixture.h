@@ -7,8 +7,8 @@
 
 namespace corridor::test {
 
-/// An arm that plans for pan (continuous) and lift (within ±2). Its slide is held at 0.02; follow
-/// mimics slide, and wag mimics lift.
+/// A problem of the arm of ArmTest, with the planned joints pan (continuous) and lift (within ±2).
+/// Its slide is held at 0.02; follow mimics slide, and wag mimics lift.
 class TrajectoryTest : public ArmTest {
  protected:
   void SetUp() override {

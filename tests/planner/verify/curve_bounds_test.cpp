@@ -1,4 +1,5 @@
-// Compares the curve of a piece and its bounds with an oracle of its own.
+// Compares the curve of a piece, and the bounds of this curve, with an independent oracle
+// (curve_oracle.h).
 #include <gtest/gtest.h>
 
 #include "planner/verify/edge_curve.h"
@@ -57,7 +58,7 @@ TEST(EdgeCurve, PiecesStayWithinTheirReach) {
   EXPECT_GT(fullestBend, 0.2);
 }
 
-/// One joint: the bounds of a segment are attained at its ends.
+/// For a single joint, the bounds of a segment are attained at the ends of the segment.
 TEST(EdgeCurve, TheBoundsOfAPieceAreAttained) {
   KinematicTree tree;
   ConfigurationSpace space;

@@ -60,7 +60,8 @@ class CurveOracle {
     return at;
   }
 
-  /// The distance of the segment pq, moving with a frame, to a point that moves with another frame.
+  /// Returns the distance, at t, of the segment pq, which moves with `frame`, from a point that
+  /// moves with the frame `other`.
   Real distance(std::size_t frame, const Vec3& p, const Vec3& q, std::size_t other,
                 const Vec3& point, Real t) const {
     const Pose at = pose(frame, t);
@@ -71,7 +72,7 @@ class CurveOracle {
     return (a + std::clamp<Real>(share, 0, 1) * along - x).norm();
   }
 
-  /// Returns the least value of a function on [0, 1], by samples and golden section.
+  /// Returns the least value of a function on [0, 1], found by samples and golden-section search.
   template <class Function>
   static Real least(const Function& f, int samples = 500) {
     std::vector<std::pair<Real, int>> found;
@@ -100,8 +101,8 @@ class CurveOracle {
   const CurvePiece& piece_;
 };
 
-/// A random piece of a curve of the arm. The coefficients are multiples of 2^-23 in [−1.5, 1.5], so
-/// halving up to degree 9 is exact in double.
+/// Returns a random piece of a curve of the arm. The coefficients are multiples of 2^-23 in [−1.5,
+/// 1.5], so halving a piece of degree up to 9 is exact in double.
 /// @param spread a power of two from 1/8 to 1: the size of the motion.
 inline CurvePiece randomPiece(const Arm& arm, int degree, std::mt19937_64& random,
                               double spread = 1) {

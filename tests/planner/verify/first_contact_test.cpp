@@ -20,7 +20,8 @@ PathReport verified(const TriangleMesh& body, const TriangleMesh& obstacle,
   return test::verifyRigid(world, path);
 }
 
-/// The first refuted edge is reported with its first contact, and is proved before it.
+/// The report has the first contact of the first refuted edge, and the edge is proved free before
+/// this contact.
 TEST(FirstContact, IsFoundAndProvedFreeBefore) {
   for (const double wall : {1.0, 1.0 + 1e-3, 2.2345678}) {
     // The cube goes through a thin wall to a large box, which bisection meets first.
@@ -46,7 +47,7 @@ TEST(FirstContact, IsFoundAndProvedFreeBefore) {
   }
 }
 
-/// A blade that rotates into a post: the time is that of the closed form.
+/// A blade rotates into a post. The time of the first contact has a closed form.
 TEST(FirstContact, OfARotation) {
   const PathReport report =
       verified(boxMesh({0, -0.01, -0.1}, {1, 0, 0.1}), boxMesh({-0.1, 0.5, -1}, {0, 0.6, 1}),

@@ -1,6 +1,6 @@
-// Tests of angles of any size on circles: the edge is the shorter way between the stored doubles in
-// real arithmetic. If rounding hides which way is shorter, the verdict must be undecided, never
-// wrongly proved or refuted.
+// Tests of coordinates of the kind `circle` with angles of any size: the edge is the shorter way
+// between the stored doubles, in real arithmetic. If rounding hides which way is shorter, the
+// verdict must be undecided, never wrongly proved or refuted.
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -20,7 +20,8 @@
 namespace corridor {
 namespace {
 
-/// Enough digits for 10^308 rad and the remaining part of a turn.
+/// A number type with enough digits for angles of 10^308 rad, including the part of a turn that is
+/// left after whole turns.
 using Many = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<400>>;
 
 const Many& pi() {
@@ -28,7 +29,7 @@ const Many& pi() {
   return value;
 }
 
-/// The angle less whole turns, in [−π, π].
+/// Returns an angle minus whole turns, in [−π, π].
 Many reduced(const Many& angle) {
   return angle - 2 * pi() * round(angle / (2 * pi()));
 }
@@ -36,25 +37,26 @@ Many trueWay(double from, double to) {
   return reduced(Many(to) - Many(from));
 }
 
-/// About ±10^k, with k = 4 … 25 in turn.
+/// Returns a number of size 10^k to 3·10^k and either sign, with k = 4, 5, …, 25 in turn.
 double large(std::mt19937_64& random, int n) {
   const double size = std::pow(10.0, 4 + n % 22);
   return (n % 2 ? -1 : 1) * size * std::uniform_real_distribution(1.0, 3.0)(random);
 }
 
-/// The ends of an edge: one of them or both are large.
+/// The ends of an edge. One of the two angles is large, or both are.
 struct Ends {
   double from, to;
   Ends(std::mt19937_64& random, int n) {
     std::uniform_real_distribution<double> small(-3, 3);
     from = n / 44 % 3 == 0 ? small(random) : large(random, n);
     to = n / 44 % 3 == 1 ? small(random) : large(random, n / 2);
-    if (n / 44 % 3 == 2 && n % 5 == 0) to = from + small(random);  // large, and near each other
+    if (n / 44 % 3 == 2 && n % 5 == 0)
+      to = from + small(random);  // both are large, and close to each other
   }
 };
 
-/// A rod on a circle about z (an arm's joint, or a planar body's yaw), and a post that the rod
-/// passes at one angle.
+/// A rod that rotates about z, by a coordinate of the kind `circle` (an arm's joint, or a planar
+/// body's yaw), and a post that the rod meets at one angle.
 struct Sweep {
   KinematicTree tree;
   ConfigurationSpace space;
@@ -158,8 +160,8 @@ TEST(LargeValues, TheErrorOfAWayIsAsStated) {
   EXPECT_GT(worst, 0.1) << "a bound that no case comes near is not measured by this test";
 }
 
-/// The rod meets a post in the middle of the true way, and does not meet one a half turn away from
-/// there.
+/// The rod meets a post in the middle of the true way, and does not meet a post that is a half turn
+/// away from the first one.
 TEST(LargeValues, OnlyThePostOnTheShorterWayIsMet) {
   std::mt19937_64 random(test::testSeed(4));
   int refuted = 0, proved = 0, contact = 0, free = 0;
@@ -228,7 +230,8 @@ TEST(LargeValues, StatesAreNotWrapped) {
   }
 }
 
-/// A joint that mimics a circle with a multiplier that is not whole would jump at ±180°.
+/// A joint that mimics a coordinate of the kind `circle`, with a multiplier that is not a whole
+/// number, would jump at ±180°.
 TEST(LargeValues, FractionsOfACircleDoNotPassItsSeam) {
   for (const double multiplier : {0.5, -1.5, 2.0}) {
     const Sweep sweep(pi() / 2, multiplier, false);
@@ -242,7 +245,7 @@ TEST(LargeValues, FractionsOfACircleDoNotPassItsSeam) {
     }
     EXPECT_EQ(sweep.checked(3, -3).verdict, whole ? MotionVerdict::free : MotionVerdict::undecided)
         << multiplier;
-    // Away from ±180° and from the post.
+    // This edge does not pass ±180° or the post.
     EXPECT_EQ(verifyPath(sweep.problem, {sweep.at(2), sweep.at(2.2)}).verdict, PathVerdict::proved);
     EXPECT_EQ(sweep.checked(2, 2.2).verdict, MotionVerdict::free) << multiplier;
   }

@@ -28,7 +28,8 @@ Real gapAlong(const ConvexSet& a, const ConvexSet& b, const RealVec& n) {
   return n.dot(b.farthest(-n)) - b.ball() - n.dot(a.farthest(n)) - a.ball();
 }
 
-/// Returns the largest distance of a point of the set from the origin, its sphere or disc included.
+/// Returns the largest distance from the origin of any point of the set, including the set's
+/// radius.
 Real radiusOf(const ConvexSet& set) {
   Real radius = 0;
   for (const RealVec& x : set.points) radius = std::max(radius, x.norm());
@@ -40,16 +41,16 @@ Real radiusOf(const ConvexSet& set) {
 struct Case {
   const Arm& arm;
   KinematicChain chainA, chainB;
-  ConvexSet a, b;  // in their frames
+  ConvexSet a, b;  // each in the frame of its own body
   Configuration from, to, tube;
   Real middle, half;
   std::optional<EdgeCurve> curve;
   PairMotion motion;
-  Placement atA;                   // at the middle
+  Placement atA;                   // placement of a at the middle
   RealVec n;                       // unit, in a's frame at the middle
   RealVec spin = RealVec::Zero();  // angular velocity of n
 
-  /// @param degree that of a polynomial piece; 0: an edge.
+  /// @param degree the degree of a polynomial piece; 0: the motion is an edge.
   Case(const Arm& onArm, bool fork, std::mt19937_64& random, double size, int kinds, int degree = 0)
       : arm(onArm),
         chainA(chainOf(arm.tree, fork ? 3 : 0, fork ? arm.side : 0)),
@@ -110,8 +111,8 @@ struct Case {
   Real still() const { return gapAlong(a, placedB(), n); }
 
   /// Returns the width along n, at the time middle + s, of a perturbed curve. `share`, in [−1, 1]
-  /// for each number, is the perturbation as a share of the tube. `turn` is a rotation that is
-  /// applied after the free rotation (in the base's coordinates; base 0 only).
+  /// for each component, is the perturbation divided by the tube's half width. `turn` is a rotation
+  /// that is applied after the free rotation (in the base's coordinates; base 0 only).
   Real widthAt(Real s, const Configuration& share, const RealVec& turn) const {
     Configuration q = curve->configuration(middle + s);
     const Eigen::Quaterniond rotation(q[6], q[3], q[4], q[5]);
@@ -212,7 +213,8 @@ TEST(MovedSlab, ABarThatTurnsAboutABall) {
             -kInfinity);
 }
 
-// If motion and tube are small, the first-order term dominates, and some curve attains the bound.
+// If motion and tube are small, the first-order term of the bound dominates, and some curve attains
+// the bound.
 TEST(MovedSlab, IsAttained) {
   std::mt19937_64 random(test::testSeed(9));
   Real worst = kInfinity, gained = 0;

@@ -63,7 +63,8 @@ TEST(ExactContact, DegenerateTriangles) {
   EXPECT_FALSE(touches(needle, away));  // collinear, apart
   EXPECT_FALSE(touches(point, away));
   EXPECT_TRUE(touches(needle, {Vec3(1, 1, 1), Vec3(1, 1, 3), Vec3(1, 1, 3)}));
-  // Segments that have only an end in common. No edge is a single point.
+  // The two degenerate triangles are segments that have only an end in common. None of their edges
+  // is a single point.
   const Corners first = {Vec3(0, 0, 0), Vec3(1, 1, 0), Vec3(2, 2, 0)};
   for (const Vec3& d : {Vec3(1, 0, 0), Vec3(1, 3, 2), Vec3(0, 0, 1)}) {
     const Vec3 end(2, 2, 0);
@@ -194,7 +195,8 @@ TEST(BodyDistance, EqualsTheDoubleLoop) {
       }
     const auto never = [](LeafPair) { return false; };
     const BodyGap found = distance.measure(guess, 0, infinity, never);
-    // A pair within 2^-30 of the closest may be returned in its place.
+    // Instead of the closest pair, the search may return a pair whose distance is larger by a
+    // factor of up to 1 + 2^-30.
     EXPECT_LE(std::abs(found.upper - upper), 0x1p-29L * upper);
     EXPECT_LE(std::abs(found.lower - lower), 0x1p-29L * upper);
     EXPECT_FALSE(found.touching);
@@ -226,7 +228,7 @@ TEST(BodyDistance, BoxesOfTwoPointsNeverClaimMore) {
     const ConvexPart partA{{scale * randomVec(random, 1)}, 0, false};
     const ConvexPart partB{{scale * randomVec(random, 1)}, 0, false};
     const BodyTree a(std::span(&partA, 1)), b(std::span(&partB, 1));
-    Placement X_AB;  // as of the verifier: a rotation up to the rounding of long double
+    Placement X_AB;  // like the verifier's placements: a rotation up to the rounding of long double
     X_AB.rotation = Eigen::Quaternion<Real>(randomPose(random, 1).q.cast<Real>())
                         .normalized()
                         .toRotationMatrix();
@@ -326,7 +328,9 @@ TEST(ConvexGap, BracketsTheDistanceOfAllKinds) {
     }
   }
   EXPECT_GT(apart, 5000);
-  EXPECT_LT(worst, 1e-9L);  // largest for cylinders; rounding for the others
+  EXPECT_LT(
+      worst,
+      1e-9L);  // the largest values are those of cylinders; for other sets they are rounding errors
 }
 
 TEST(ConvexGap, ClosedForms) {

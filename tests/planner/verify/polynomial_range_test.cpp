@@ -25,7 +25,7 @@ Rational binomial(int n, int k) {
   return product;
 }
 
-/// The coefficients of Σ B_i(t)·d_i as a power series.
+/// Returns the coefficients of the polynomial Σ B_i(t)·d_i in the power basis.
 std::vector<Rational> powerSeries(const std::vector<Rational>& d) {
   const int n = static_cast<int>(d.size()) - 1;
   std::vector<Rational> series;
@@ -38,7 +38,7 @@ std::vector<Rational> powerSeries(const std::vector<Rational>& d) {
   return series;
 }
 
-/// A multiple of the polynomial by a positive number, with integer coefficients.
+/// Returns the polynomial times a positive number that makes all coefficients integers.
 test::Polynomial inIntegers(const std::vector<Rational>& series) {
   boost::multiprecision::cpp_int common = 1;
   for (const Rational& each : series) common = lcm(common, denominator(each));
@@ -49,7 +49,7 @@ test::Polynomial inIntegers(const std::vector<Rational>& series) {
   return test::Polynomial(coefficients);
 }
 
-/// Returns the sign of the largest value on [0, 1].
+/// Returns the sign of the polynomial's largest value on [0, 1].
 int signOfLargest(const std::vector<Rational>& d) {
   const test::Polynomial p = inIntegers(powerSeries(d));
   if (p.isZero()) return 0;
@@ -67,8 +67,8 @@ Rational valueAt(const std::vector<Rational>& d, const Rational& t) {
   return value;
 }
 
-/// Compares the answer with the exact one. `d` are the real coefficients.
-/// @returns whether it is decided.
+/// Compares an answer with the exact one. @param d the exact coefficients. @returns whether the
+/// answer is a decision.
 bool check(const RangeAnswer& answer, const std::vector<Rational>& d, const Rational& lower,
            const Rational& upper) {
   std::vector<Rational> above = d, below = d;
@@ -90,7 +90,8 @@ std::vector<Rational> exact(const std::vector<double>& d) {
   return {d.begin(), d.end()};
 }
 
-/// Whole numbers make ties likely: the polynomial touches its limit, or starts or ends on it.
+/// With whole numbers as coefficients, ties are likely: the polynomial touches its limit, or starts
+/// or ends at the limit.
 TEST(PolynomialRange, AgreesWithSturmOnWholeNumbers) {
   std::mt19937_64 random(test::testSeed(20));
   int undecided = 0, within = 0, exceeded = 0;
@@ -116,7 +117,7 @@ TEST(PolynomialRange, DecidesAllButTheRounding) {
   std::uniform_real_distribution<double> uniform(-1, 1);
   for (int i = 0; i < 48; ++i) {
     const int degree = 2 + i % 8;
-    // Runge-like: large coefficients that cancel.
+    // In a third of the cases the coefficients are large and partly cancel.
     const double scale = i % 3 == 0 ? 1e6 : 1;
     std::vector<double> d;
     for (int k = 0; k <= degree; ++k)
@@ -150,14 +151,14 @@ TEST(PolynomialRange, LimitsAreInclusive) {
   EXPECT_NEAR(static_cast<double>(above.at), 0.5, 1e-7);
   EXPECT_EQ(rangeOf(hill, 0x1p-1074L, 1).verdict, Verdict::exceeded);
   EXPECT_EQ(rangeOf(hill, 0x1p-1074L, 1).at, 0);
-  // An end on a limit, with digits to the last bit.
+  // An end of the polynomial is at a limit whose double has no zeros at the end.
   const double limit = 2.8973;
   EXPECT_EQ(rangeOf(Bernstein(std::vector<double>{0.1, 1, limit, limit}), -limit, limit).verdict,
             Verdict::within);
   const double more = std::nextafter(limit, 9);
   EXPECT_EQ(rangeOf(Bernstein(std::vector<double>{0.1, 1, limit, more}), -limit, limit).verdict,
             Verdict::exceeded);
-  // Touched at τ = 1/3, which no halving meets: (1 − τ)²τ·27/4 is 1 there.
+  // The limit is touched at τ = 1/3, where (1 − τ)²τ·27/4 is 1. No bisection meets this τ.
   EXPECT_EQ(rangeOf(Bernstein(std::vector<double>{0, 2.25, 0, 0}), 0, 1).verdict,
             Verdict::undecided);
   EXPECT_EQ(rangeOf(Bernstein(std::vector<double>{0, 2.25, 0, 0}), 0, 1 + 0x1p-55L).verdict,
@@ -168,7 +169,8 @@ TEST(PolynomialRange, LimitsAreInclusive) {
   EXPECT_EQ(rangeOf(Bernstein(std::vector<double>{3}), 3, 3).verdict, Verdict::within);
 }
 
-/// An error of the coefficients widens the zone without a verdict, by as much on both sides.
+/// An error of the coefficients widens the range of limits for which there is no verdict, by the
+/// same amount at both ends.
 TEST(PolynomialRange, AnErrorCountsOnBothSides) {
   Bernstein hill(std::vector<double>{0, 2, 0});
   hill.error = 0x1p-10L;
@@ -178,7 +180,8 @@ TEST(PolynomialRange, AnErrorCountsOnBothSides) {
   EXPECT_EQ(rangeOf(hill, -1, 1 - 0x1.01p-10L).verdict, Verdict::exceeded);
 }
 
-/// Limits of speed: the derivative by time, with a duration that is no power of two and not exact.
+/// Limits of speed are limits of the derivative by time, for a duration that is not a power of two
+/// and is rounded.
 TEST(PolynomialRange, LimitsOfDerivatives) {
   std::mt19937_64 random(test::testSeed(22));
   std::uniform_real_distribution<double> uniform(-1, 1);

@@ -54,7 +54,8 @@ struct Arm {
   }
 };
 
-/// A sphere, a rod, a cylinder, a box or a triangle about `shift`.
+/// Returns a random convex set about `shift`: for the kinds 0 to 4 a sphere, a rod, a cylinder, a
+/// box or a triangle.
 inline verify::ConvexSet randomSet(std::mt19937_64& random, int kind, const Vec3& shift) {
   ConvexPart part;
   if (kind == 0) part = {{Vec3::Zero()}, 0.4, false};

@@ -10,7 +10,7 @@
 
 namespace corridor::test {
 
-/// The surface of the box from `lower` to `upper`.
+/// Returns the surface of the box from `lower` to `upper`.
 inline TriangleMesh boxMesh(const Vec3& lower, const Vec3& upper) {
   TriangleMesh mesh;
   for (int i = 0; i < 8; ++i) {
@@ -50,7 +50,7 @@ struct RigidWorld {
   double margin = 0, tolerance = 1e-7;
   Tube tube;
   std::uint64_t workLimit = 2'000'000;
-  bool obstaclesFirst = true;  ///< in each pair, the obstacle comes first
+  bool obstaclesFirst = true;  ///< whether the obstacle is the first body of each pair
 
   explicit RigidWorld(bool planar) {
     const std::vector<std::string> lines =
@@ -121,7 +121,7 @@ inline RigidPose poseIn(const Configuration& q) {
   return {q.head<3>(), Eigen::Quaterniond(q[6], q[3], q[4], q[5])};
 }
 
-/// Triangles with edges of about `edge`, scattered over a cube of half width `size`.
+/// Returns triangles with edges of about `edge`, scattered over a cube of half width `size`.
 inline TriangleMesh randomSoup(std::mt19937_64& random, int triangles, double size, double edge) {
   TriangleMesh mesh;
   for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(triangles); ++i) {

@@ -1,4 +1,5 @@
-// Paths of arms, primitives and solids: closed forms, and random paths against dense sampling.
+// Tests of paths of arms, with primitives and solids: closed forms, and random paths against dense
+// sampling.
 #include <utility>
 
 #include <gtest/gtest.h>
@@ -17,8 +18,8 @@ ConvexPart boxPart(const Vec3& lower, const Vec3& upper) {
   return {boxMesh(lower, upper).vertices, 0, false};
 }
 
-/// A chain of `joints` revolute joints about z, one per metre. Each is followed by a rod from 0.1
-/// to 0.9 m, with radius 0.05 m.
+/// A chain of `joints` revolute joints about z, 1 m apart. Each is followed by a rod from 0.1 to
+/// 0.9 m, with radius 0.05 m.
 struct Chain {
   KinematicTree tree;
   ConfigurationSpace space;
@@ -82,8 +83,8 @@ TEST(VerifyChain, StretchedArmPastAPoint) {
   }
 }
 
-// The first body of a pair may be the one that moves, and both bodies may move, on branches of
-// their own. In both cases the motion of the first body must count.
+// In a pair, the first body may be the only one that moves, or both bodies may move on different
+// branches. In both cases the motion of the first body must count.
 TEST(VerifyChain, EitherBodyOfAPairMayMove) {
   const ConvexPart post{{Vec3(0.7 * std::cos(0.4), 0.7 * std::sin(0.4), 0)}, 0.01, false};
   for (const bool movingFirst : {true, false}) {
@@ -103,8 +104,8 @@ TEST(VerifyChain, EitherBodyOfAPairMayMove) {
   }
 }
 
-// A thin disc turns about one of its diameters, and its rim meets a ball. All points of its core
-// are on the axis; only its radius reaches the ball.
+// A thin disc turns about one of its diameters, and its rim meets a ball. The points of its core
+// are on the axis of the disc; the disc reaches the ball only by its radius.
 TEST(VerifyChain, TheRimOfADiscMoves) {
   const ConvexPart disc{{Vec3(-0.01, 0, 0), Vec3(0.01, 0, 0)}, 1, true};
   for (const double angle : {0.2, 0.5, 1.1}) {

@@ -1,4 +1,5 @@
-// Tests of polynomial curves of arms, against a minimising oracle of its own.
+// Tests of polynomial curves of arms, against an independent oracle that minimises distances
+// (curve_oracle.h).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -13,16 +14,17 @@ using test::CurveOracle;
 using test::randomPiece;
 using Real = CurveOracle::Real;
 
-/// An arm with every kind of joint. A rod moves with its tip, and a ball with its side branch,
-/// whose joint mimics one of the arm's with a negative multiplier. A ball rests.
+/// An arm with every kind of joint. A rod is attached to the arm's tip, and a ball (`side`) to a
+/// side branch, whose joint mimics another joint with a negative multiplier. Another ball (`ball`)
+/// is at rest.
 struct Grazing {
   Arm arm;
   Vec3 p, q;  ///< ends of the rod
   ConvexPart rod, side, ball;
   PathProblem problem;
-  bool againstSide;  ///< the rod against the side branch; else against the ball at rest
+  bool againstSide;  ///< whether the rod is tested against `side`; else against `ball`
 
-  /// @param point the rod is a ball.
+  /// @param point whether the rod is only a ball.
   Grazing(std::mt19937_64& random, bool side_, bool point = false)
       : arm(random),
         p(test::randomVec(random, 0.2)),
@@ -41,7 +43,8 @@ struct Grazing {
     problem.pairs = {againstSide ? VerifyPair{0, 1} : VerifyPair{2, 0}};
   }
   Grazing(const Grazing&) = delete;
-  /// The least distance of the other body's centre from the rod's axis.
+  /// Returns the least distance, along a piece, of the centre of the tested ball from the rod's
+  /// axis.
   Real least(const CurvePiece& piece) const {
     const CurveOracle oracle(arm.tree, piece);
     return CurveOracle::least([&](Real t) {
@@ -49,8 +52,8 @@ struct Grazing {
                              (againstSide ? side : ball).points[0], t);
     });
   }
-  /// Sets the radius of the other body so that the bodies are `gap` apart where they are closest.
-  /// @returns the gap with the rounded radius.
+  /// Sets the radius of the tested ball so that ball and rod are `gap` apart where they are
+  /// closest. @returns the gap that results from the rounded radius.
   Real setGap(Real leastDistance, double gap) {
     ConvexPart& other = againstSide ? side : ball;
     other.radius = static_cast<double>(leastDistance - Real(rod.radius) - Real(gap));
@@ -65,7 +68,8 @@ CurvePiece reversed(const CurvePiece& piece) {
   return {piece.coefficients.rowwise().reverse(), piece.error};
 }
 
-/// The halves of a piece. Rotations are halved, too: the slerp's middle, rounded, with an error.
+/// Returns the halves of a piece. Rotations are halved, too, at the rounded middle of the slerp;
+/// `error` covers the rounding.
 std::vector<CurvePiece> halves(const Arm& arm, const CurvePiece& piece) {
   CurvePiece left = piece, right = piece;
   const int n = piece.degree();
@@ -87,7 +91,8 @@ std::vector<CurvePiece> halves(const Arm& arm, const CurvePiece& piece) {
   return {left, right};
 }
 
-/// The same curve with one degree more. The coefficients are rounded, which `error` covers.
+/// Returns the same curve with one degree more. The coefficients are rounded; `error` covers the
+/// rounding.
 CurvePiece elevated(const Arm& arm, const CurvePiece& piece) {
   const int n = piece.degree() + 1;
   CurvePiece up = piece;
@@ -168,7 +173,8 @@ TEST(VerifyCurve, AStraightPieceIsTheEdge) {
   for (int i = 0; i < 60; ++i) {
     Grazing world(random, i % 2 == 1);
     world.problem.tolerance = 1e-9;
-    const CurvePiece piece = randomPiece(world.arm, 1, random);  // circles: below half a turn
+    const CurvePiece piece = randomPiece(
+        world.arm, 1, random);  // coordinates of the kind `circle` turn by less than half a turn
     world.setGap(world.least(piece), std::pow(10.0, -1 - i % 6) * (i % 4 < 2 ? 1 : -1));
     if (world.ball.radius < 0 || world.side.radius < 0) continue;
     const PathReport curve = world.verify({piece}),
@@ -186,7 +192,7 @@ TEST(VerifyCurve, AStraightPieceIsTheEdge) {
   EXPECT_GT(refuted, 10);
 }
 
-/// The tube, the margin and the error of the piece each take their share of the clearance.
+/// The tube, the margin and the error of the piece each reduce the clearance.
 TEST(VerifyCurve, TubeMarginAndErrorCount) {
   std::mt19937_64 random(test::testSeed(33));
   for (int i = 0; i < 20; ++i) {
@@ -196,7 +202,7 @@ TEST(VerifyCurve, TubeMarginAndErrorCount) {
     const Real least = world.least(piece);
     if (least < 0.3L) continue;
     world.setGap(least, 0.2);
-    const double reach = 60;  // exceeds the sum of all R_j
+    const double reach = 60;  // larger than the sum of the reach weights R_j
     const auto all = [&](double share) { return Configuration::Constant(10, 0.2 * share / reach); };
     EXPECT_EQ(world.verify({piece}).verdict, PathVerdict::proved);
     for (const bool error : {false, true}) {

@@ -16,7 +16,7 @@ using test::poseOf;
 
 constexpr double kPi = std::numbers::pi;
 
-/// A body among obstacles; owns the meshes.
+/// A body among obstacles. This class owns their meshes.
 struct World {
   TriangleMesh body, obstacle;
   test::RigidWorld spatial{false}, planar{true};
@@ -290,9 +290,9 @@ TEST(VerifyPath, TubeLargerThanTheClearanceIsNotProved) {
   };
   // The tube displaces x, y and z, but only y counts.
   EXPECT_EQ(verdict(0.249, 0, 0), PathVerdict::proved);
-  for (const bool obstaclesFirst : {false, true}) {  // problem files have links first
+  for (const bool obstaclesFirst : {false, true}) {  // in problem files, links come first
     world.spatial.obstaclesFirst = obstaclesFirst;
-    EXPECT_EQ(verdict(0.25, 0, 0), PathVerdict::refuted);  // displaced by 0.25 it touches
+    EXPECT_EQ(verdict(0.25, 0, 0), PathVerdict::refuted);  // displaced by 0.25, the body touches
     EXPECT_EQ(world.verify(path).findings.at(0).reason,
               "a deviation within the tube comes too close");
   }
@@ -310,7 +310,8 @@ TEST(VerifyPath, TubeLargerThanTheClearanceIsNotProved) {
   EXPECT_GE(report.provenClearance, 0.07);
 }
 
-// A planar tube stays in the plane, so a body above a floor stays above it.
+// The tube of a planar body displaces the body only in the plane, so a body above a floor stays
+// above the floor.
 TEST(VerifyPath, PlanarTubesDoNotRefuteThroughTheFloor) {
   const TriangleMesh floor = boxMesh({-9, -9, -1}, {9, 9, 0}),
                      wall = boxMesh({-9, 0.501, 0.1}, {9, 1, 1});
@@ -435,8 +436,8 @@ TEST(VerifyPath, BadStatesAndProblems) {
   EXPECT_EQ(report.provenClearance, std::numeric_limits<double>::infinity());
 }
 
-/// Returns the smallest distance over `samples` + 1 evenly spaced poses, each verified as a single
-/// state.
+/// Returns the smallest distance over `samples` + 1 evenly spaced poses. The distance at each pose
+/// comes from verifying the pose as a single state.
 double sampledDistance(World& world, const RigidPose& from, const RigidPose& to, int samples) {
   double smallest = std::numeric_limits<double>::infinity();
   const Eigen::Quaterniond q0 = from.q.normalized(), q1 = to.q.normalized();

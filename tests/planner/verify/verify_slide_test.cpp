@@ -12,8 +12,8 @@ namespace {
 using test::CurveOracle;
 using Real = CurveOracle::Real;
 
-/// A ball of radius 0.1 on a slide along x, and a wall from x = 1 on. The ball's path is
-/// polynomial: all is known in closed form.
+/// A ball of radius 0.125 on a slide along x, and a wall that begins at x = 1. The ball's position
+/// is a polynomial, so distances are known in closed form.
 struct Slide {
   KinematicTree tree;
   ConfigurationSpace space;
@@ -84,10 +84,11 @@ TEST(VerifyCurve, LargeCoefficientsThatCancel) {
       const CurvePiece wild = Slide::piece(d);
       const CurveOracle oracle(slide.tree, wild);
       const Real most = -CurveOracle::least([&](Real t) { return -oracle.value(0, t); }, 2000);
-      // The gaps exceed the rounding, which is that of the large terms.
+      // The gaps exceed the rounding errors, which are those of the large terms.
       for (const double share : {1e-3, 1e-6, -1e-6, -1e-3}) {
         const double gap = share * std::max(1.0, 1e-4 * size);
-        // The offset of the joint puts the largest value at `gap` before the contact.
+        // With this offset of the joint, the ball is `gap` from the wall where the curve has its
+        // largest value.
         const Slide placed(Coordinate::Kind::line, 1, static_cast<double>(0.875L - gap - most));
         const PathVerdict verdict = placed.verify({wild}).verdict;
         EXPECT_EQ(verdict, gap > 0 ? PathVerdict::proved : PathVerdict::refuted)
@@ -106,7 +107,8 @@ TEST(VerifyCurve, AMimicWithANegativeMultiplier) {
     EXPECT_EQ(slide.verify({down(-0.1875)}).verdict, PathVerdict::refuted);
     EXPECT_EQ(slide.verify({down(-0.1875 - 1e-9)}).verdict, PathVerdict::refuted);
     EXPECT_EQ(slide.verify({down(5)}).verdict, PathVerdict::proved);
-    // A circle does not jump at half a turn: its value is literal.
+    // A coordinate of the kind `circle` does not jump at half a turn: its values along a piece are
+    // used literally.
     EXPECT_EQ(slide.verify({Slide::piece({0, 9, 9})}).verdict, PathVerdict::proved);
   }
 }
@@ -138,7 +140,7 @@ TEST(VerifyCurve, PiecesMustJoin) {
   const double next = std::nextafter(-1.0, 0);
   EXPECT_EQ(reason(slide, {Slide::piece({-2, -1}), Slide::piece({-1, -2})}), "");
   EXPECT_EQ(reason(slide, {Slide::piece({-2, -1}), Slide::piece({next, -2})}), "jump");
-  // The sum of the errors, exactly.
+  // Two pieces may be apart by the exact sum of their errors, but not by more.
   const double half = (next + 1) / 2;
   EXPECT_EQ(reason(slide, {Slide::piece({-2, -1}, half), Slide::piece({next, -2}, half)}), "");
   EXPECT_EQ(reason(slide, {Slide::piece({-2, -1}, half),
@@ -201,13 +203,14 @@ TEST(VerifyCurve, ABarThatTurnsAboutABall) {
       const PathReport report = verifyCurve(problem, {&piece, 1});
       EXPECT_EQ(report.verdict, PathVerdict::proved) << gap;
       EXPECT_LE(report.provenClearance, gap * (1 + 1e-9));
-      // About 4,000 refine the proved clearance.
+      // About 4,000 of these queries refine the proved clearance.
       EXPECT_LE(static_cast<double>(report.distanceQueries), 5000 + 10 / std::sqrt(gap)) << gap;
     }
   }
 }
 
-/// A circle turns literally: the curve from 3 to 3 + 2π/3 differs from that from 3 to 3 − 4π/3.
+/// The angle of a coordinate of the kind `circle` is used literally: the curve from 3 to 3 + 2π/3
+/// is not the curve from 3 to 3 − 4π/3.
 TEST(VerifyCurve, CirclesAreLiteral) {
   KinematicTree tree;
   ConfigurationSpace space;
@@ -232,10 +235,10 @@ TEST(VerifyCurve, CirclesAreLiteral) {
     return verifyCurve(problem, {&piece, 1}).verdict;
   };
   EXPECT_EQ(verdict({3, 5, 7}), PathVerdict::proved);
-  EXPECT_EQ(verdict({3, 5, 7.4}), PathVerdict::refuted);  // meets the post at 1 + 2π
+  EXPECT_EQ(verdict({3, 5, 7.4}), PathVerdict::refuted);  // the rod meets the post at 1 + 2π
   EXPECT_EQ(verdict({3, 2, 0.5}), PathVerdict::refuted);
-  EXPECT_EQ(verdict({3, 9.5, 7}), PathVerdict::refuted);       // past the post, and back
-  EXPECT_EQ(verdict({100, 100.5, 101}), PathVerdict::proved);  // 0.47 to 1.47 − 0.5…
+  EXPECT_EQ(verdict({3, 9.5, 7}), PathVerdict::refuted);  // the rod passes the post, and returns
+  EXPECT_EQ(verdict({100, 100.5, 101}), PathVerdict::proved);  // from −0.53 to 0.47, modulo 2π
 }
 
 TEST(VerifyCurve, BadPieces) {

@@ -10,7 +10,7 @@
 
 namespace corridor::test {
 
-/// Reads the data of a page, as a browser does.
+/// Reads the data in a page, in the way in which the page's script reads them in a browser.
 class PageReader {
  public:
   explicit PageReader(const std::string& page)
@@ -27,7 +27,7 @@ class PageReader {
     }
   }
 
-  /// Returns the array of an entry like ["f4", offset, count].
+  /// Returns the array to which an entry such as ["f4", offset, count] refers.
   template <class Number>
   std::vector<Number> array(const nlohmann::json& view) const {
     const std::string type = view.at(0);

@@ -25,9 +25,9 @@ class SvgPicture : public test::ArmTest {
   }
 };
 
-/// The arm's last frame is `thumb`. Its own joint stands still, because it mimics a held joint, but
-/// `thumb` moves with the joints before it. So it is the tip. If the file's last frame is a camera
-/// on the base, `thumb` is still the tip.
+/// The arm's last frame is `thumb`. The joint of `thumb` stands still, because it mimics a held
+/// joint, but `thumb` moves with the joints before it. So `thumb` is the tip. If the last frame of
+/// the file is a camera on the base, `thumb` is still the tip.
 TEST_F(SvgPicture, TheTipIsTheFrameWithMostMovingJointsBefore) {
   const Problem held = read(armHead + armStates);
   ASSERT_THAT(view::tipFrames(held.model), testing::SizeIs(1));

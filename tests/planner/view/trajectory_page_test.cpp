@@ -16,8 +16,8 @@ using test::PageReader;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// A cubic polynomial over a time, and its derivatives: c0 + c1·s + c2·s² + c3·s³, s from its
-/// begin.
+/// A cubic polynomial of time, c0 + c1·s + c2·s² + c3·s³, and its derivatives; s is the time since
+/// the beginning of the piece.
 struct Cubic {
   double c[4];
 
@@ -167,7 +167,8 @@ TEST_F(TrajectoryPage, RowsWithoutTimesPlayAsAPath) {
   EXPECT_EQ(reader.json["solution"]["rotation_rad"], path.json["solution"]["rotation_rad"]);
 }
 
-/// The lower arm is level, 0.7 m above the ground, and reaches 0.4 m. It swings through a post.
+/// The lower arm is horizontal, 0.7 m above the ground, and reaches 0.4 m. It swings through a
+/// post.
 TEST_F(TrajectoryPage, FindingsAreAtTheirTimes) {
   problem_ = read(
       "format: corridor-problem-1\nrobot: arm.yaml\nworld:\n  post: {box: [0.1, 0.1, 1], at: "
@@ -183,8 +184,8 @@ TEST_F(TrajectoryPage, FindingsAreAtTheirTimes) {
   EXPECT_EQ(at.at(reader.json["path"]["findings"][0].get<std::size_t>()), static_cast<float>(t));
 }
 
-/// The limit for a rigid body's position applies to the length of the vector. It is stored at x,
-/// and the limit at y is infinite; `limitOf` returns the limit at x for both.
+/// The limit for a rigid body's position applies to the length of the vector. The limit is stored
+/// in the entry of x, and the entry of y is infinite. `limitOf` returns the entry of x for both.
 TEST(LimitOf, NumbersOfAPositionShareTheirLimit) {
   const Problem problem = readProblem(CORRIDOR_SOURCE_DIR "/problems/hook_maze");
   const ConfigurationSpace& space = problem.model.space;

@@ -25,7 +25,7 @@ Problem ownProblem(const std::string& name) {
   return readProblem(std::string(CORRIDOR_SOURCE_DIR "/problems/") + name);
 }
 
-/// Returns a path of these states, verified.
+/// Returns a path and the verifier's report on it.
 ViewedPath viewed(const Problem& problem, const Path& path) {
   ViewedPath result;
   result.solution.path = path;
@@ -34,7 +34,7 @@ ViewedPath viewed(const Problem& problem, const Path& path) {
   return result;
 }
 
-/// Returns a straight path from start to goal with a state between.
+/// Returns a straight path from start to goal, with one more state on it.
 Path straight(const Problem& problem) {
   return {problem.task.start,
           problem.model.space.interpolate(problem.task.start, problem.task.goals.at(0), 0.4),

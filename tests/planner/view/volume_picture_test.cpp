@@ -1,4 +1,4 @@
-// Pictures of the volumes of a tree.
+// Tests of pictures of the volumes of a tree.
 #include "planner/view/volume_picture.h"
 
 #include <algorithm>
@@ -35,7 +35,8 @@ TEST(VolumeOutlines, AreThoseOfTheirVolumes) {
   std::normal_distribution<double> normal;
   const TriangleMesh mesh = test::soup(random, 60, 0.2);
   for (const std::string& name : volumeNames()) {
-    if (name == "obb") continue;  // its boxes are drawn as those of obb-binary
+    if (name == "obb")
+      continue;  // the boxes of `obb` are drawn in the same way as those of obb-binary
     withVolume(treesNamed({name, "", ""}).trees, [&]<class Volume, class Overlap>() {
       const VolumeTree<Volume> tree(mesh);
       const double inside = name == "ellipsoid" || name == "shell" ? 0.039 : 0;
@@ -84,7 +85,7 @@ TEST(VolumePictures, ShowALevel) {
   }
 }
 
-/// A flat mesh has volumes without inside, and a point has volumes of no extent.
+/// The volumes of a flat mesh have no interior, and those of a point have no extent.
 TEST(VolumePictures, OfFlatMeshes) {
   TriangleMesh flat, point;
   for (int i = 0; i < 9; ++i) test::add(flat, Vec3(i, 0, 0), Vec3(i + 1, 0, 0), Vec3(i, 1, 0));

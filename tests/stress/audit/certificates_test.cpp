@@ -23,8 +23,8 @@ constexpr EdgeMethod kEdgeMethods[] = {EdgeMethod::directional, EdgeMethod::adap
 
 /// If the bodies come closer than the margin, a certificate must be refused, whatever clearance it
 /// claims. A claim that is a little too large may be accepted: `checkCertificate` proves only the
-/// distance margin + (clearance − margin)/2. At least
-/// nine in ten certificates that the query returns for free edges must be accepted.
+/// distance margin + (clearance − margin)/2. At least nine in ten of the certificates that the
+/// query returns for free edges must be accepted.
 TEST(Certificates, AcceptedImpliesTheMarginIsKept) {
   const std::uint64_t seed = test::testSeed(5);
   const long count = countOf(500, 50'000);

@@ -87,7 +87,8 @@ class Decoder {
     const RigidPose rigid = pose();
     return {rigid.q.normalized().toRotationMatrix(), rigid.p};
   }
-  /// Returns a map that is not rigid: it scales, shears, mirrors or flattens, or is arbitrary.
+  /// Returns a map that is rarely rigid: it scales, shears, mirrors or flattens, differs from a
+  /// rigid map by some 1e-9, or is arbitrary.
   Transform anyMap() {
     Transform X = map();
     const double s = real();

@@ -1,8 +1,9 @@
 // The main program of a fuzz target that is built without libFuzzer. Runs the target on the given
-// files, on all files in the given folders, and then on N mutations of these files. fuzz_TARGET
-// [--mutations N] [--longest SECONDS] FILE|FOLDER… An input that takes longer than SECONDS (default
-// 10) is a finding. The same seed (CORRIDOR_SEED) makes the same mutations. Each input is written
-// to TMPDIR/input before it runs: if the program crashes, that file is the reproducer.
+// files, on all files in the given folders, and then on N mutations of these files. Usage:
+// `fuzz_TARGET [--mutations N] [--longest SECONDS] FILE|FOLDER…`. An input that takes longer than
+// SECONDS (default 10) is a finding. The same seed (CORRIDOR_SEED) makes the same mutations. Each
+// input is written to TMPDIR/input before it runs: if the program crashes, that file is the
+// reproducer.
 #include <algorithm>
 #include <chrono>
 #include <iostream>

@@ -6,7 +6,7 @@
 namespace corridor {
 namespace {
 
-/// A ball of radius 0.1 on a slide along x, and a post of radius 0.2 at the origin.
+/// A ball of radius 0.1 moves on a slide along x; a post of radius 0.2 is at the origin.
 TEST(VerifyAlone, ProvesAndRefutes) {
   ConfigurationSpace space;
   space.add({Coordinate::Kind::line, "slide", 0, -2, 2, false, 1});
