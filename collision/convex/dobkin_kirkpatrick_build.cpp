@@ -38,7 +38,8 @@ class DobkinKirkpatrickBuilder {
     return f;
   }
 
-  /// Finds the face across each edge of each face of P_0, and the degree of each vertex.
+  /// Finds the face across each edge of each face of the given polytope (P_0), and the degree of
+  /// each vertex.
   void connect() {
     struct Half {
       std::uint32_t low, high, face;
@@ -65,8 +66,8 @@ class DobkinKirkpatrickBuilder {
     return corner[0] == v ? 0 : corner[1] == v ? 1 : 2;
   }
 
-  /// Removes an independent set of vertices of at most `kMostNeighbours` neighbours, in the order
-  /// of their degrees.
+  /// Removes vertices that have at most `kMostNeighbours` neighbours each, and of which no two are
+  /// neighbours. Vertices of low degree are removed first.
   void removeSet() {
     const std::size_t level = to_.vertexCounts_.size();
     if (level >= std::numeric_limits<std::uint16_t>::max())
@@ -122,10 +123,11 @@ class DobkinKirkpatrickBuilder {
     return true;
   }
 
-  /// Fills the hole that v leaves by the faces of the hull of v's neighbours that v sees. The
-  /// boundary of these faces is the ring, because each face at v has all neighbours on or below its
-  /// plane. The faces are cut off the hole one by one, as ears. An ear is a face of the hull if no
-  /// neighbour of v is above the plane of the ear, and v is not below this plane.
+  /// The removal of v leaves a hole. Fills the hole with those faces of the hull of v's neighbours
+  /// that are visible from v. The boundary of these faces is the ring, because each face at v has
+  /// all neighbours on or below its plane. The faces are cut off the hole one by one, as ears. An
+  /// ear is a face of the hull if no neighbour of v is above the plane of the ear, and v is not
+  /// below this plane.
   void fill(std::uint32_t v, std::size_t level) {
     std::vector<Side>& hole = hole_;
     hole.clear();

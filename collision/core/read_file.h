@@ -4,11 +4,11 @@
 #include <filesystem>
 #include <string>
 
-/// Functions that read input files. No other code opens input files, except the helper program that
-/// uses assimp. The functions open only ordinary files, never wait for a device or a pipe, and test
-/// the size of a file before they allocate memory for its contents. The exception is
-/// `readTextStream`, which also reads pipes. It is used only for inputs that are documented to
-/// accept a pipe.
+/// Functions that read input files. No other code reads input files, except the helper program that
+/// uses assimp, and `isSolutionFile`, which reads the first bytes of a file that is there. The
+/// functions open only ordinary files, never wait for a device or a pipe, and test the size of a
+/// file before they allocate memory for its contents. The exception is `readTextStream`, which also
+/// reads pipes. It is used only for inputs that are documented to accept a pipe.
 namespace corridor {
 
 /// The maximum number of bytes of any input: 4 GiB.

@@ -25,9 +25,9 @@ constexpr std::uint32_t kWidth = Obb4Tree::kWidth;
 /// If a leaf has several triangles, its box must be flat: its thinnest side is below this fraction
 /// of the middle side. The value was chosen by measurements.
 constexpr float kFlat = 0.6F;
-/// A cluster of at most this many triangles is one piece: one thread builds all nodes below it,
-/// level by level. The number is large enough to find axes for eight clusters at a time, and small
-/// enough for a core's caches.
+/// A cluster of at most this many leaf primitives is one piece: one thread builds all nodes below
+/// it, level by level. The number is large enough to find axes for eight clusters at a time, and
+/// small enough for a core's caches.
 constexpr std::uint32_t kPiece = 1024;
 
 /// The primitive references [first, first + count), with their mean and axes.
@@ -140,7 +140,8 @@ class Worker {
 
  private:
   /// Divides each cluster of `wholes_` into at most four clusters and finds their axes. Each step
-  /// splits the largest of them that is too large for a leaf.
+  /// splits the largest cluster among those that are too large for a leaf. If there are none, it
+  /// splits the largest of all.
   void divide() {
     parts_.assign(wholes_.size(), {});
     for (std::size_t i = 0; i < wholes_.size(); ++i) parts_[i][0] = wholes_[i];

@@ -169,7 +169,8 @@ class BuildItems {
     });
     origin = 0.5 * lower + 0.5 * upper;
     double most = std::max((upper - origin).maxCoeff(), (origin - lower).maxCoeff());
-    // For balls, the sums with the radius and the differences round by 4u of the coordinates.
+    // For balls, p ± r and the two differences above have rounding errors of at most 4u times the
+    // largest coordinate.
     if (areParts()) most += 4 * kUnit * (upper.cwiseAbs() + lower.cwiseAbs()).maxCoeff();
     // Above 2^1000 m some points are outside [−1, 1], and boxes may be too small. No query uses
     // such boxes (`Obb4TreePose`).

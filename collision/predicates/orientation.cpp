@@ -59,8 +59,8 @@ int planeSide(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s) {
   // J. R. Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric
   // Predicates (1997): the rounded determinant is off by at most (7 + 56u)u times the sum of
   // magnitudes, computed as `size` below, if nothing underflows. Each underflow of a difference or
-  // a product adds at most 2^-1022 times two of the differences, which are below 2^120: together
-  // less than 2^-770.
+  // a product adds at most 2^-1022 times the product of two of the differences, which are below
+  // 2^120: together less than 2^-770.
   const Vec3 a = q - p, b = r - p, c = s - p;
   const double xy[] = {a[0] * b[1], a[1] * b[0]}, yz[] = {a[1] * b[2], a[2] * b[1]},
                zx[] = {a[2] * b[0], a[0] * b[2]};

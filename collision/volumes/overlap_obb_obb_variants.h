@@ -9,8 +9,8 @@
 ///
 /// In tests of millions of pairs, every test reported "separated" for all pairs that are farther
 /// apart than 4·(margins.absolute + pad) + 32·margins.relative·L, where L is the sum of all half
-/// extents and of the distances of both centres from the origin. This distance contains a factor of
-/// √3, because box a grows along its axes.
+/// extents and of the distances of both centres from the origin. The tests enlarge box a along
+/// its axes, so its corners move by up to √3 times the margin; the factors include this √3.
 namespace corridor {
 
 /// Closest features: the algorithm of Gilbert, Johnson, Keerthi (1988) searches for a direction

@@ -177,7 +177,8 @@ int inspectRobot(const InspectArguments& a) {
   }
   const auto farthest = std::max_element(reach.begin(), reach.end());
   if (!std::isfinite(*farthest))
-    out.line("reach", "no limit: the range of some joint is set by a problem's bounds");
+    out.line("reach",
+             "unlimited, because at least one joint has no limits; a problem must set its bounds");
   else if (!model.joints.empty())
     out.line("reach", "at most " + rounded(*farthest) + " m from the origin of " +
                           model.links[model.root].name + ": link " +

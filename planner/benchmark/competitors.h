@@ -9,7 +9,7 @@
 
 namespace corridor {
 
-/// A problem's scene in another library, a competitor.
+/// The scene of a problem, built in another library (a competitor).
 class CompetitorScene {
  public:
   virtual ~CompetitorScene() = default;

@@ -127,7 +127,8 @@ std::vector<Note> notesOnStillPairs(const Checker& checker, const Configuration&
                          : checker.options().pairMargins ? "are closer than margin and padding"
                                                          : "are closer than the margin") +
              ": " + joinedFirst(names, kShown) +
-             "; no proof covers these pairs, because their bodies never move against each other "
+             "; no proof covers these pairs, because their bodies never move relative to each "
+             "other "
              "(allow: [[" +
              model.bodies[first->a].name + ", " + model.bodies[first->b].name +
              "]] if this is intended)",

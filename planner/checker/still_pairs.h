@@ -7,14 +7,14 @@
 
 namespace corridor {
 
-/// Two bodies that never move against each other, by their indices in the model.
+/// Two bodies that never move relative to each other, by their indices in the model.
 struct StillPair {
   std::size_t a = 0, b = 0;
   bool touches = false;  ///< false: the bodies are apart, but by at most margin plus padding
 };
 
 /// Returns whether the model has a pair of bodies that is not tested only because the two never
-/// move against each other.
+/// move relative to each other.
 bool hasStillPairs(const Model& model);
 
 /// Returns pairs of bodies that are not tested, because the two bodies never move against each

@@ -35,7 +35,7 @@ struct ModelRobot {
   /// The joints that are planned for, as indices into `description.joints`. Their order is that of
   /// the coordinates. The keys of `held`, `heldPoses` and `heldFrom` are such indices, too.
   std::vector<std::size_t> planned;
-  std::map<std::size_t, double> held;          ///< values of the other single joints, rad or m
+  std::map<std::size_t, double> held;  ///< values of the other joints with one value, rad or m
   std::map<std::size_t, RigidPose> heldPoses;  ///< poses of the other planar and floating joints
   /// The source of each held value, for messages: "hold", "start: ready". Held joints without a
   /// source are at 0, or at the limit nearest to 0.
@@ -71,7 +71,7 @@ class PairFilter {
   void skip(std::size_t a, std::size_t b, std::string reason);
   /// Undoes `skip` for a pair. The pair is then tested, unless the two bodies have the same mover.
   void include(std::size_t a, std::size_t b) { reasons_.erase(std::minmax(a, b)); }
-  /// Excludes pairs of bodies that never move against each other.
+  /// Excludes pairs of bodies that never move relative to each other.
   /// @param movers for each body, the frame that moves it (moversOf). Two bodies with the same
   /// mover stand still relative to each other.
   void setMovers(std::vector<std::size_t> movers) { movers_ = std::move(movers); }
@@ -86,7 +86,7 @@ class PairFilter {
 };
 
 /// The reason of PairFilter for bodies with the same mover.
-inline constexpr std::string_view kNeverMove = "never move against each other";
+inline constexpr std::string_view kNeverMove = "never move relative to each other";
 
 /// The robots, the obstacles, and the pairs of bodies that are tested. Plain data, which a
 /// `ModelBuilder` makes. Lengths are in metres, angles in radians.
@@ -138,7 +138,7 @@ double pairCount(const Model& model);
 
 /// Returns the mover of each frame. The mover is the nearest frame whose joint has a variable,
 /// among the frame itself and its ancestors. If there is none, the mover is the world. Two frames
-/// with the same mover never move against each other.
+/// with the same mover never move relative to each other.
 std::vector<std::size_t> moversOf(const KinematicTree& tree);
 
 /// Returns a pose for each frame of the tree. Only the poses of frames that never move, such as all

@@ -284,7 +284,7 @@ void requireFewPairs(const Model& model, const std::string& place) {
     throw InputError(Fault{place, 0,
                            "has " + std::to_string(static_cast<std::uint64_t>(pairs)) +
                                " pairs of bodies, but at most 10000000 are supported; join "
-                               "shapes that do not move against each other into one body"});
+                               "shapes that do not move relative to each other into one body"});
 }
 
 }  // namespace corridor

@@ -46,8 +46,8 @@ struct Instance {
   std::string name;  ///< the planner's name in OMPL.app
   int line = 0;
   std::map<std::string, const IniFile::Entry*> params;  ///< the planner's parameters
-  /// Entries of the planner's part of the file that replace keys of the section `problem`, by those
-  /// keys.
+  /// Entries in the planner's part of the file that replace entries of the section `problem`. The
+  /// map's keys are the names of the replaced entries.
   std::map<std::string, const IniFile::Entry*> problem;
 };
 
@@ -90,8 +90,7 @@ void readOmplAppPlanners(const IniFile& ini, Problem& problem) {
     if (!param.empty() && param != "name") instance->params[param] = &entry;
   }
   if (!unknown.empty())
-    problem.source.notes.push_back(
-        {"planners that OMPL does not have are skipped: " + joined(unknown)});
+    problem.source.notes.push_back({"planners with unknown names are skipped: " + joined(unknown)});
   if (instances.size() > 1) {
     std::vector<std::string> names;
     for (const Instance& instance : instances) names.push_back(instance.name);

@@ -20,8 +20,8 @@ struct Poses {
   Poses(const Array& a, const Array& b)
       : X_WA(transformsOf(a, "pose_a")), X_WB(transformsOf(b, "pose_b")) {
     if (X_WA.size() != X_WB.size() && X_WA.size() != 1 && X_WB.size() != 1)
-      refuse("pose_b", "as many poses as in pose_a are needed, " + std::to_string(X_WA.size()) +
-                           ", not " + std::to_string(X_WB.size()));
+      refuse("pose_b", std::to_string(X_WA.size()) + " poses as in pose_a, or 1, are needed, not " +
+                           std::to_string(X_WB.size()));
     count = X_WA.empty() || X_WB.empty() ? 0 : std::max(X_WA.size(), X_WB.size());
   }
   const Transform& a(std::size_t i) const { return X_WA[X_WA.size() == 1 ? 0 : i]; }

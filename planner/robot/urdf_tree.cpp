@@ -54,7 +54,7 @@ class Tree {
       faults_.fault(joint.line, owner + ": its child " + quotedWord(joint.child) +
                                     " is already the child of joint " +
                                     quotedWord(joints_[first].name) + onLine(joints_[first].line) +
-                                    "; a link has one parent");
+                                    "; a link can have only one parent");
       return false;
     }
     parentJoint_[child] = j;
@@ -85,7 +85,8 @@ class Tree {
         faults_.fault(links_[link].line, owned("link", links_[link].name) +
                                              " is not a child of any joint, and neither is " +
                                              quotedWord(links_[root].name) +
-                                             onLine(links_[root].line) + "; a robot has one root");
+                                             onLine(links_[root].line) +
+                                             "; a robot can have only one root");
     }
     // Every link has at most one parent. So a link that is not below a root is in a cycle, or below
     // a cycle.

@@ -62,8 +62,8 @@ const char* nameOf(SolveOutcome outcome);
 struct SolveReport {
   SolveOutcome outcome = SolveOutcome::notFound;
   std::string why;              ///< why not solved, in one line; empty if solved
-  std::vector<Fault> warnings;  ///< why some goals are not used, if others are
-  std::vector<Note> notes;      ///< pairs, if `SolveOptions::noteStillPairs` is set
+  std::vector<Fault> warnings;  ///< if only some goals are used: why the others are not
+  std::vector<Note> notes;      ///< on still pairs, if `SolveOptions::noteStillPairs` is set
 
   Path path;  ///< empty unless solved; no rotation by more than 90° between two states
   bool certified = false;  ///< every edge of `path` was proved by the final certification

@@ -5,14 +5,16 @@
 
 namespace corridor {
 
-/// Returns bounds of the ratios of values to limits for the curve that the rows of a file mean, as
-/// `proveLimits` does for the rows of a time law. Velocities, link speeds and positions are always
-/// tested. Accelerations are tested for cubic and quintic rows (the velocity of linear rows jumps
-/// at rows), and jerks only for quintic rows. If an acceleration or jerk has a limit but is not
-/// tested, its `share` is 0 and `tested` is false. If the processor's floating-point mode makes the
-/// bounds invalid (collision/core/floating_point.h), each of the four shares (velocity,
-/// acceleration, jerk and link speed) that is above 0 becomes infinite.
-/// @pre The rows have times, and the velocities and accelerations that `between` needs.
+/// The rows of a file define a curve. For each limit, returns an upper bound of the ratio of the
+/// curve's largest value to the limit. `proveLimits` does the same for the rows of a time law.
+/// Velocities, link speeds and positions are always tested. Accelerations are tested for cubic and
+/// quintic rows (the velocity of linear rows jumps at rows), and jerks only for quintic rows. If an
+/// acceleration or jerk has a limit but is not tested, its `share` is 0 and `tested` is false. If
+/// the processor's floating-point mode makes the bounds invalid (collision/core/floating_point.h),
+/// each of the four shares (velocity, acceleration, jerk and link speed) that is above 0 becomes
+/// infinite.
+/// @pre The rows have times. They also have the velocities and accelerations that the polynomials
+/// of `between` are made of.
 LimitRatios limitsOfRows(const TrajectoryRows& rows, RowInterpolation between,
                          const ConfigurationSpace& space, const JointLimits& limits,
                          const KinematicTree& tree);

@@ -71,8 +71,9 @@ class MeshList {
   std::multimap<std::size_t, std::size_t> known_;
 };
 
-/// Returns whether every joint that moves rotates about a vertical axis or translates horizontally.
-/// Testing the start pose is enough: such joints keep all axes vertical or horizontal.
+/// Returns whether a joint moves, and all that move rotate about vertical axes or translate
+/// horizontally. Testing the start pose is enough: such joints keep all axes vertical or
+/// horizontal.
 bool isPlanar(const Problem& problem) {
   constexpr double kUpright = 1e-9;  // tolerance for components of unit vectors: above rounding,
                                      // and far below visible tilts

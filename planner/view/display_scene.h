@@ -40,8 +40,8 @@ struct DisplayScene {
   /// The frames to which bodies of robots are fixed, in ascending order.
   std::vector<std::size_t> frames;
   std::vector<std::size_t> tips;  ///< see `tipFrames`
-  /// True if every joint that moves rotates about a vertical axis or translates horizontally. Such
-  /// a scene is best seen from above.
+  /// True if at least one joint moves, and every joint that moves rotates about a vertical axis or
+  /// translates horizontally. Such a scene is best seen from above.
   bool planar = false;
 };
 

@@ -2,12 +2,13 @@
 /// `coherence_benchmark [--most N] [--steps N] [--cpu N]`.
 ///
 /// Two polytopes of n vertices, hulls of random points on a sphere, pass each other at a gap of 5 %
-/// of their size, or with an overlap of as much, and rotate. For each length of a step (as a
-/// fraction of the size), the program runs each query cold, and warm. A warm query begins with what
-/// the previous query has kept: the simplex of GJK (collision/convex/convex_cache.h), the features
-/// of V-Clip, or the last separating axis. Prints CSV: mean times in microseconds, each the least
-/// of three runs; their ratio; and mean numbers of steps. Steps are iterations of GJK, for V-Clip
-/// also pairs of features, and for separating axes the axes tested.
+/// of their size, or overlap by 5 % of their size, and rotate. For each length of a step (as a
+/// fraction of the size), the program runs each query cold, and warm. A cold query starts
+/// anew. A warm query begins with what the previous query has kept: the simplex of GJK
+/// (collision/convex/convex_cache.h), the features of V-Clip, or the last separating axis. Prints
+/// CSV: the mean time of a query in microseconds, the least of three runs; their ratio; and mean
+/// numbers of steps. Steps are iterations of GJK, for V-Clip also pairs of features, and for
+/// separating axes the axes tested.
 #include <algorithm>
 #include <chrono>
 #include <cmath>

@@ -481,7 +481,7 @@ class Queries(unittest.TestCase):
             corridor.touch(a, a, pose_b=np.eye(3))
         with self.assertRaisesRegex(ValueError, "pose_a: the last row of a 4×4 matrix must be 0, 0, 0, 1"):
             corridor.touch(a, a, np.ones((4, 4)))
-        with self.assertRaisesRegex(ValueError, "pose_b: as many poses as in pose_a are needed, 3, not 2"):
+        with self.assertRaisesRegex(ValueError, "pose_b: 3 poses as in pose_a, or 1, are needed, not 2"):
             corridor.touch(a, a, np.tile(np.eye(4), (3, 1, 1)), np.tile(np.eye(4), (2, 1, 1)))
         with self.assertRaisesRegex(ValueError, "distance: a finite number of 0 or more is needed"):
             corridor.closer_than(a, a, -1)

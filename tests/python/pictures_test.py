@@ -86,7 +86,7 @@ class Loads(html.parser.HTMLParser):
         found = [each for each in self.found if not (each[2] or "").startswith(("data:", "#", "blob:"))]
         styles = [u for u in re.findall(r"url\(\s*['\"]?([^)'\"]*)", self.text["style"]) if not u.startswith(("data:", "#"))]
         styles += re.findall(r"@import[^;]*", self.text["style"])
-        # In scripts, addresses are loaded by imports, and by calls with addresses of other machines.
+        # In scripts, these load addresses: imports of https addresses, and calls such as fetch with any address.
         script = self.text["script"]
         scripts = re.findall(r"(?:^|[;\s])import\s*(?:[\w{}*,\s]*from\s*)?['\"]https?:[^'\"]*", script)
         scripts += re.findall(r"(?:fetch|importScripts|Worker|EventSource|WebSocket)\(\s*['\"`][^)]{0,80}", script)
@@ -170,6 +170,6 @@ class Pictures(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    if not shutil.which("rsvg-convert"):  # in GoogleTest's form: ./corridor test lists the reasons
+    if not shutil.which("rsvg-convert"):  # in the form of GoogleTest, so that ./corridor test lists it
         print("python.pictures_test: Skipped\ntests of PNG need Debian's librsvg2-bin", flush=True)
     unittest.main()

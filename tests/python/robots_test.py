@@ -200,9 +200,9 @@ class BadRobots(unittest.TestCase):
         self.assertEqual(faults_of(joints=both), [])
         for joints, fault in (
             ([revolute(), revolute("k", "a", "b"), revolute("l", "a", "c")],
-             'joint "k": its child "b" is already the child of joint "j"; a link has one parent'),
+             'joint "k": its child "b" is already the child of joint "j"; a link can have only one parent'),
             ([*both, revolute("l", "c", "a")], "the links a, b, c, a form a cycle; a tree is needed"),
-            ([revolute()], 'link "c" is not a child of any joint, and neither is "a"; a robot has one root'),
+            ([revolute()], 'link "c" is not a child of any joint, and neither is "a"; a robot can have only one root'),
             ([revolute(parent="a", child="a"), both[1]], 'joint "j": its parent and its child are the same link "a"'),
             ([revolute(parent="bse"), both[1]], 'joint "j": its parent "bse" is not a link of this robot'),
             ([*both, revolute("j", "a", "c")], 'joint "j" is already defined; names must be unique'),

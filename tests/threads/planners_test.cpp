@@ -204,7 +204,8 @@ TEST_P(PlannersWithThreads, VerdictsAreThoseOfOneThread) {
   }
   const std::size_t asked = expectTheSameOfOneThread(problem, run->recorder);
   EXPECT_GT(asked, 20u);
-  EXPECT_EQ(run->motions->checkedMotions(), asked) << "motions that were counted";
+  EXPECT_EQ(run->motions->checkedMotions(), asked)
+      << "the validator counted another number of motions than were recorded";
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -36,7 +36,7 @@ TEST_F(Report, Ranking) {
   EXPECT_DOUBLE_EQ(scores[0].timeRatio, 1);
   EXPECT_DOUBLE_EQ(scores[1].timeRatio, 10);
   EXPECT_DOUBLE_EQ(scores[2].timeRatio, 0.5);
-  EXPECT_DOUBLE_EQ(scores[0].lengthShare, 0.75);
+  EXPECT_DOUBLE_EQ(scores[0].lengthRatio, 0.75);
   ASSERT_TRUE(scores[0].cost);
   EXPECT_NEAR(scores[0].cost->model.box, 100, 1e-6);
   EXPECT_NEAR(scores[0].cost->model.triangle, 1000, 1e-6);
@@ -369,7 +369,8 @@ TEST_F(Report, WithoutPictures) {
   EXPECT_THAT(text, HasSubstr("no plot: gnuplot: no &lt;terminal&gt;"));
   EXPECT_THAT(text, HasSubstr("60 runs: 60 returned a path"));
   EXPECT_TRUE(std::filesystem::exists(folder_ / "plots" / "cost.csv"));
-  EXPECT_FALSE(std::filesystem::exists(picture)) << "an earlier report's";
+  EXPECT_FALSE(std::filesystem::exists(picture))
+      << "the picture of an earlier report is still there";
   // TMPDIR may contain any characters.
   const auto temporary = folder_ / "it's here";
   std::filesystem::create_directory(temporary);

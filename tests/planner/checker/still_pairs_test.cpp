@@ -83,7 +83,7 @@ TEST_F(StillPairs, TouchOrAreWithinTheMargin) {
               ElementsAre("base ~ table: touch", "base ~ wall: close"));
   EXPECT_THAT(notes_,
               ElementsAre("in every state, these bodies touch: base ~ table; no proof covers these "
-                          "pairs, because their bodies never move against each other (allow: "
+                          "pairs, because their bodies never move relative to each other (allow: "
                           "[[base, table]] if this is intended)",
                           "in every state, these bodies are closer than the margin: base ~ wall; "
                           "no proof covers these pairs, because their bodies never move against "

@@ -38,8 +38,8 @@ TEST_F(ArmProblem, GroupStatesAndPairs) {
   EXPECT_EQ(skipped(p, "base", "upper"), "adjacent");
   EXPECT_EQ(skipped(p, "base", "lower"), "SRDF: Never");
   EXPECT_EQ(skipped(p, "lower", "finger"), "adjacent") << "through a link without shapes";
-  EXPECT_EQ(skipped(p, "finger", "thumb"), "never move against each other") << "slide is held";
-  EXPECT_EQ(skipped(p, "base", "post"), "never move against each other");
+  EXPECT_EQ(skipped(p, "finger", "thumb"), "never move relative to each other") << "slide is held";
+  EXPECT_EQ(skipped(p, "base", "post"), "never move relative to each other");
   EXPECT_EQ(skipped(p, "base", "finger"), "");
   EXPECT_EQ(skipped(p, "upper", "post"), "");
   EXPECT_THAT(textsOf(p.source.notes),
@@ -309,7 +309,7 @@ TEST_F(ArmProblem, TwoRobotsAndTheirPairs) {
   EXPECT_EQ(p.model.space.groups().size(), 2u) << "all joints, and the block";
   EXPECT_EQ(skipped(p, "left/upper", "right/upper"), "allow");
   EXPECT_EQ(skipped(p, "left/upper", "right/lower"), "");
-  EXPECT_EQ(skipped(p, "left/base", "right/base"), "never move against each other");
+  EXPECT_EQ(skipped(p, "left/base", "right/base"), "never move relative to each other");
   EXPECT_EQ(skipped(p, "left/base", "left/lower"), "SRDF: Never");
   EXPECT_EQ(skipped(p, "right/upper", "block"), "");
   EXPECT_EQ(p.task.goalRegion->position, 0.2);

@@ -127,7 +127,7 @@ TEST_F(DocumentLimits, PairsOfBodies) {
       complaintOf("format: corridor-problem-1\nrobot: many.urdf\nstart: {" + state + "}\ngoal: {" +
                   state + "}\n"),
       HasSubstr("problem.yaml: has 10577700 pairs of bodies, but at most 10000000 are "
-                "supported; join shapes that do not move against each other into one body"));
+                "supported; join shapes that do not move relative to each other into one body"));
 }
 
 }  // namespace

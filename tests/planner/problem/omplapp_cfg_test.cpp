@@ -70,7 +70,7 @@ TEST_F(OmplAppCfg, SpatialProblemWithEverything) {
               testing::IsSupersetOf(
                   {testing::Eq("bounds: enlarged to contain start and goal"),
                    testing::Eq("not used: problem.projection.cellsize_factor, benchmark.mem_limit"),
-                   testing::Eq("planners that OMPL does not have are skipped: aps")}));
+                   testing::Eq("planners with unknown names are skipped: aps")}));
 }
 
 TEST_F(OmplAppCfg, DefaultPlannerIfTheFileListsSeveral) {

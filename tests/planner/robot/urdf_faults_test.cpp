@@ -83,11 +83,11 @@ TEST_F(UrdfFaults, Trees) {
   EXPECT_EQ(complaintOfParts(link("a") + link("b") + link("c") + joint("j", "fixed", "a", "c") +
                              joint("k", "fixed", "b", "c")),
             "r.urdf:6: joint \"k\": its child \"c\" is already the child of joint \"j\" on line "
-            "5; a link has one parent");
+            "5; a link can have only one parent");
   EXPECT_EQ(
       complaintOfParts(link("a") + link("b") + link("c") + joint("j", "fixed", "a", "c")),
       "r.urdf:3: link \"b\" is not a child of any joint, and neither is \"a\" on line 2; a robot "
-      "has one root");
+      "can have only one root");
   // First a cycle of links beside the root, which urdfdom accepts; then a cycle without any root.
   EXPECT_EQ(complaintOfParts(link("a") + link("b") + link("c") + link("d") +
                              joint("i", "fixed", "c", "d") + joint("j", "fixed", "b", "c") +
@@ -368,7 +368,7 @@ TEST_F(UrdfFaults, MeshFiles) {
                              link("b")),
             of + "\"bad.obj\": bad.obj:2: coordinate \"nan\" is not finite\n"
                  "r.urdf:3: link \"b\" is not a child of any joint, and neither is \"a\" on line "
-                 "2; a robot has one root");
+                 "2; a robot can have only one root");
   write("worse.obj", "v 0 0 0\nv 1 0 nan\nv 1 0 inf\n");
   EXPECT_EQ(complaint("worse.obj"),
             of + "\"worse.obj\": worse.obj:2: coordinate \"nan\" is not finite (and 1 more)");

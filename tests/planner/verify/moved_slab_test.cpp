@@ -25,7 +25,7 @@ ConvexSet moved(const ConvexSet& set, const Placement& by) {
 }
 
 Real gapAlong(const ConvexSet& a, const ConvexSet& b, const RealVec& n) {
-  return n.dot(b.farthest(-n)) - b.ball() - n.dot(a.farthest(n)) - a.ball();
+  return n.dot(b.farthest(-n)) - b.sweptRadius() - n.dot(a.farthest(n)) - a.sweptRadius();
 }
 
 /// Returns the largest distance from the origin of any point of the set, including the set's

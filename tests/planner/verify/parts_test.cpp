@@ -322,7 +322,7 @@ TEST(ConvexGap, BracketsTheDistanceOfAllKinds) {
     for (int k = 0; k < 20; ++k) {
       const RealVec d(normal(random), normal(random), normal(random));
       const auto extreme = [&](const ConvexSet& set, const RealVec& n) {
-        return RealVec(set.farthest(n) + n.normalized() * set.ball());
+        return RealVec(set.farthest(n) + n.normalized() * set.sweptRadius());
       };
       EXPECT_GE((extreme(b, -d) - extreme(a, d)).norm(), gap.lower * (1 - 1e-15L));
     }

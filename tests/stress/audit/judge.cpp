@@ -232,8 +232,8 @@ std::string describe(const Case& c) {
     vec(frame.fixed.q.coeffs());
     text << ", " << joints[static_cast<std::size_t>(frame.joint)] << " about ";
     vec(frame.axis);
-    text << ", number " << static_cast<long>(frame.variable) << ", " << frame.count
-         << " of them, times " << frame.multiplier << " plus " << frame.offset << "\n";
+    text << ", first variable " << static_cast<long>(frame.variable) << ", " << frame.count
+         << " variables, multiplier " << frame.multiplier << ", offset " << frame.offset << "\n";
   }
   const char* kinds[] = {"line", "circle", "rotation"};
   for (const Coordinate& k : c.edge.space.coordinates())
@@ -288,8 +288,8 @@ void Table::count(const std::string& row, const Truth& truth, double keep, Colum
 }
 
 void Table::print(const std::string& title) const {
-  const char* heads[] = {"cases",   "truth free", "contact",    "free",
-                         "contact", "undecided",  "work limit", "false"};
+  const char* heads[] = {"cases",   "is free",   "touches",    "free",
+                         "contact", "undecided", "work limit", "false"};
   std::cout << std::left << std::setw(34) << title << std::right;
   for (const char* head : heads) std::cout << std::setw(11) << head;
   std::cout << "\n";
