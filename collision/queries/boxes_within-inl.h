@@ -52,7 +52,7 @@ class BoxesWithin {
   }
   /// Lowers the limit, given that the distance is at most `metres`. Pairs that can't improve this
   /// distance by more than the options allow are then skipped.
-  void lowerLimit(double metres, const DistanceOptions& options) {
+  void reduceLimit(double metres, const DistanceOptions& options) {
     const double most = (metres - options.absolute) / (1 + options.relative);
     limit_ = std::min(limit_, pose_.inUnitsOfA(std::max(0.0, most)));
   }

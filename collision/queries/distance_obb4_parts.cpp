@@ -47,7 +47,7 @@ class NearestWithParts : public BoxesWithin<true> {
     ++counters_.triangleTests;
     const Obb4LeafSet setA(a_, s), setB(b_, t);
     if (nearest_.testPair(s, setA.set(), t, setB.set(), counters_)) return true;
-    lowerLimit(nearest_.upper(), options_);
+    reduceLimit(nearest_.upper(), options_);
     return false;
   }
 
