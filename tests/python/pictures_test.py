@@ -139,7 +139,7 @@ class Pictures(unittest.TestCase):
         pictures = {self.solution.svg(seen_from=d) for d in ("top", "left", "-30,20", None)}
         self.assertEqual(len(pictures), 4)
         self.assertEqual(self.solution.svg("top"), self.solution.svg(seen_from="-90,90"))
-        with self.assertRaisesRegex(corridor.InputError, 'seen_from: .* is needed, not "topp"; did you mean "top"'):
+        with self.assertRaisesRegex(corridor.InputError, r'seen_from: .* is needed, not "topp" \(did you mean "top"\?\)'):
             self.solution.svg(seen_from="topp")
         with self.assertRaisesRegex(ValueError, "seen_from: a name is needed"):
             self.solution.png(seen_from=(0, 90))

@@ -86,8 +86,8 @@ TEST_F(StillPairs, TouchOrAreWithinTheMargin) {
                           "pairs, because their bodies never move relative to each other (allow: "
                           "[[base, table]] if this is intended)",
                           "in every state, these bodies are closer than the margin: base ~ wall; "
-                          "no proof covers these pairs, because their bodies never move against "
-                          "each other (allow: [[base, wall]] if this is intended)"));
+                          "no proof covers these pairs, because their bodies never move relative "
+                          "to each other (allow: [[base, wall]] if this is intended)"));
   EXPECT_THAT(pairsOf(world + "allow: [[base, table]]\n"), IsEmpty());
 }
 

@@ -126,7 +126,7 @@ TEST_F(Hulls, Faults) {
   const auto rock = [&](const std::string& entry) { return complaintOf(problem(entry)); };
   EXPECT_EQ(rock("{mesh: flat.obj, convex: true}"),
             "problem.yaml:4: world.rock.convex: needs a mesh whose vertices are not all in one "
-            "plane; leave it out");
+            "plane; leave out convex");
   EXPECT_EQ(
       rock("{mesh: wedge.obj, convex: true, solid: true}"),
       "problem.yaml:4: world.rock.solid: is for meshes without convex: true; a convex hull is "

@@ -185,8 +185,8 @@ TEST_F(LimitsTest, Faults) {
   EXPECT_THAT(complaintOfLimits("  joints: {lift: {velocity: 0}}\n"),
               testing::HasSubstr("problem.yaml:2: limits.joints.lift.velocity: "));
   EXPECT_THAT(complaintOfLimits("  joints: {lifd: {velocity: 1}}\n"),
-              testing::HasSubstr("limits.joints.lifd: there is no joint of that name that is "
-                                 "planned for (did you mean \"lift\"?)"));
+              testing::HasSubstr("limits.joints.lifd: no planned joint has this name (did "
+                                 "you mean \"lift\"?)"));
   EXPECT_EQ(complaintOfLimits("  joints: {slide: {velocity_deg: 1}}\n"),
             "problem.yaml:2: limits.joints.slide.velocity_deg: slide is a length; use velocity, in "
             "metres");
