@@ -43,8 +43,8 @@
 /// Queries of bodies throw std::invalid_argument for maps that are not finite. `a` and `b` refer to
 /// the bodies: never keep a `Posed` of a temporary body.
 ///
-/// 1. Do they touch? The answer is exact: the verdict is that of real arithmetic on the stored
-///    numbers, and touching is contact. With a convex part, a gap below 2^-44 of the largest
+/// 1. Do they touch? For meshes the answer is exact: the verdict is that of real arithmetic on the
+///    stored numbers, and touching is contact. With a convex part, a gap below 2^-44 of the largest
 ///    coordinate may be reported as contact. This is the cheapest question. It takes a few
 ///    microseconds for most pairs of meshes, and a hundred microseconds if two surfaces of 20,000
 ///    triangles run side by side.

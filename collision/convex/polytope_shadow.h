@@ -12,12 +12,13 @@ namespace corridor {
 /// A walk down a hierarchy that keeps the farthest vertex along a direction d: the *hierarchy of
 /// projections* of Dobkin and Kirkpatrick (1990), which has one dimension less than the polytope.
 ///
-/// The shadow is the projection of P_i onto a plane that contains d: the polygon of the points
+/// The hierarchy consists of the polytopes P_0, the given one, to the coarsest one, a simplex. The
+/// shadow is the projection of P_i onto a plane that contains d: the polygon of the points
 /// (e·x, d·x), with e any second direction. The walk keeps the topmost vertex v of this polygon and
-/// the polygon's two edges at v. A vertex of P_{i−1} that is higher than v, or beyond one of these
-/// edges, is opposite to one of the four faces at these edges. So a level takes constant time (J.
-/// O'Rourke, Computational Geometry in C, section 7.10). All of this is done in double; `isProved`
-/// then proves in exact arithmetic that v is topmost.
+/// the polygon's two edges at v. Each new vertex of P_{i−1} is above one face of P_i. Only a vertex
+/// above one of the four faces at these edges can be higher than v, or beyond one of the edges. So
+/// a level takes constant time (J. O'Rourke, Computational Geometry in C, section 7.10). All of
+/// this is done in double; `isProved` then proves in exact arithmetic that v is topmost.
 class PolytopeShadow {
  public:
   using Cost = DobkinKirkpatrick::Cost;
@@ -40,7 +41,8 @@ class PolytopeShadow {
   /// Reports whether an exact test proves that `top()` is a farthest vertex of the present
   /// polytope. The test has three conditions. The two edges are not above this vertex. The turn
   /// from the left to the right edge is above 0, and at most 180°. For each edge, the two faces at
-  /// the edge are on one side of it. Then each edge is on the boundary of the shadow. (The line
+  /// the edge are on one side of the edge's line. The third condition implies that each edge is on
+  /// the boundary of the shadow. (The line
   /// through such an edge supports the shadow locally, and so as a whole.) The shadow is then
   /// between the two edges.
   bool isProved() const;

@@ -8,8 +8,9 @@
 namespace corridor {
 
 /// A pair of nodes of two 4-wide trees. `pairs` selects the pairs of their boxes to test: bit 4·i +
-/// j stands for box i of a and box j of b. `key` is the least key of these pairs of boxes; a
-/// traversal prefers node pairs with lower keys. For binary trees only `a` and `b` are used.
+/// j stands for box i of a and box j of b. Each traversal gives a pair of boxes a key, such as
+/// a lower bound of the distance. `key` is the least key of these pairs; a traversal prefers node
+/// pairs with lower keys. For binary trees only `a` and `b` are used.
 struct NodePair4 {
   std::uint32_t a, b;
   float key;

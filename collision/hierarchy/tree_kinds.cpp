@@ -95,8 +95,8 @@ TreeChoice treesNamed(const TreeNames& words) {
   const VolumeKind& volume = *kindNamed(all.volume);
   const auto overlap = std::find(volume.overlaps.begin(), volume.overlaps.end(), all.overlap);
   const auto after = static_cast<int>(overlap - volume.overlaps.begin());
-  // A volume without axes of its own has one fit, "plain". This is no `ObbFit`, so the fit below is
-  // not used.
+  // A volume without axes of its own has one fit, "plain". This is no `ObbFit`. Such volumes ignore
+  // the fit, so `ObbFit::triangles` only fills the place.
   return {static_cast<TreeKind>(static_cast<int>(volume.trees) + after),
           {obbFitNamed(all.fit).value_or(ObbFit::triangles),
            all.build == "median" ? SplitRule::median : SplitRule::mean,

@@ -4,15 +4,16 @@
 
 namespace corridor {
 
-/// Limits on the work in one interval. An interval that is far too wide should be halved before all
-/// of its pairs are tested.
+/// Limits on the work in one interval. A pair that is not separated in an interval is *left* to the
+/// interval's two halves. An interval that is far too wide should be halved before all of its pairs
+/// are tested.
 struct SplitThresholds {
-  /// Once this many pairs of boxes of two bodies are left to the halves, all other pairs of boxes
-  /// of these bodies are left, too.
+  /// Once this many pairs of boxes of two bodies are left, all other pairs of boxes of these bodies
+  /// are left as well, without a test.
   unsigned boxPairsLeft;
-  /// The other pairs of bodies are left untested once two things hold. At least this many pairs of
-  /// bodies are left to the halves, whole or in part. And these are more than three quarters of the
-  /// pairs of bodies counted so far. Pairs of bodies whose bounds are separated are neither counted
+  /// Once at least this many pairs of bodies are left, as a whole or in part, and they are more
+  /// than three quarters of the pairs of bodies counted so far, all other pairs of bodies are left
+  /// untested. Pairs of bodies whose bounds are separated are neither counted
   /// nor left.
   std::size_t bodyPairsLeft;
 };
@@ -21,20 +22,20 @@ struct SplitThresholds {
 /// wrong. Other values change the cost of a query, and therefore which motions are undecided at the
 /// work limit. `kLeastHalfWidth` also limits which motions can be decided at all.
 struct SplitRules {
-  /// `kFirst` applies to the interval [0, 1] if b rotates, since that interval is usually too wide.
-  /// `kLater` applies in all other cases. A translation is described exactly to first order in any
-  /// interval.
+  /// `kFirst` applies to the interval [0, 1] if body b of the pair rotates, since that interval is
+  /// usually too wide. `kLater` applies in all other cases: for a translation the first-order term
+  /// is exact in any interval.
   static constexpr SplitThresholds kFirst = {1, 1}, kLater = {8, 4};
-  /// Half of an interval's angle, radians, above which b counts as rotating.
+  /// b counts as rotating if it turns by more than this angle, radians, from the middle of the
+  /// interval to its end.
   static constexpr double kTurns = 0.02;
   /// A body moves far if its bounding sphere's centre may move, from its place at the middle of the
   /// interval, by more than this multiple of the sphere's radius.
   static constexpr double kFar = 2;
-  /// The least half width at which a pair is left untested to the halves of the interval because
-  /// its body b moves far (`IntervalMotions::Separation`). In shorter intervals this reason does
-  /// not apply. The constant is necessary because pairs that are left untested count no work. A
-  /// joint may make any number of turns, so without this least half width the query might never
-  /// reach its work limit.
+  /// In intervals with a smaller half width, a pair is never left untested for the reason that its
+  /// body b moves far (`IntervalMotions::Separation`). The constant is necessary because pairs that
+  /// are left untested count no work. A joint may make any number of turns, so without this least
+  /// half width the query might never reach its work limit.
   static constexpr double kLeastHalfWidthFar = 0x1p-8;
   /// If only the verdict is requested, this many levels of halving are walked level by level. A
   /// contact anywhere is then found early.

@@ -123,8 +123,8 @@ struct Grid {
   int coordinateBits() const { return high <= low ? 3 : high + 2 - low; }
 };
 
-/// Calls `run.template operator()<Int>()` with the fastest integers that hold orientations of
-/// points of the grid, and returns its result.
+/// Calls `run.template operator()<Int>()` with the fastest integer type that is wide enough for
+/// the orientation (a determinant) of four points of the grid, and returns its result.
 ///
 /// Bits: with coordinates below 2^k, differences are below 2^(k+1), cross products below 2^(2k+3),
 /// and orientations below 3·2^(k+1)·2^(2k+3) < 2^(3k+6). So 3k + 6 bits hold every intermediate

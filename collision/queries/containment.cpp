@@ -20,7 +20,8 @@ using Component = MeshComponents::Component;
 
 /// A ray that meets an edge or lies in a triangle's plane is cast again in another direction. The
 /// directions are spread over the sphere: from one direction to the next, the angle about the z
-/// axis grows by the golden angle. They are not special to any mesh.
+/// axis grows by the golden angle. No mesh is likely to have an edge or a plane
+/// along one of them.
 constexpr int kCasts = 64;
 Vec3 direction(int cast) {
   const double z = std::remainder(0.1234567 + 0.7548776662 * cast, 1.0) * 2,
@@ -104,7 +105,8 @@ std::optional<std::uint32_t> containing(const Posed<MeshWithComponents>& posed, 
   assert(standardFloatingPoint());
   const Transform X_SP = rigidInverse(X_WS) * X_WP;
   const Vec3 q_S = X_SP * p;
-  // The second term covers the rounding of the product: 4.1u of its terms per coordinate, times √3.
+  // The second term covers the rounding of the product: per coordinate at most 4.1u times the sum
+  // of the magnitudes of its terms, and √3 times that for the vector.
   const double error = roundedUp(relativePoseError(X_WS, X_SP, X_WP, roundedUp(p.stableNorm())) +
                                  8 * kUnit * (X_SP.m.norm() * p.stableNorm() + X_SP.t.norm()));
   for (std::uint32_t k = 0; k < solid.components.components.size(); ++k) {

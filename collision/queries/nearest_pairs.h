@@ -27,8 +27,8 @@ class NearestPairs {
       : options_(options),
         relative_(options.relative + kTieShare),
         candidates_(context.scratch.of<Candidates>().pairs),
-        // A pair that the options allow as the answer for a distance of `upTo` must still improve
-        // the result; see `canImprove`.
+        // If the distance is `upTo`, the options allow a slightly larger answer. A pair with this
+        // larger distance must still pass `canImprove`, which applies `allowedFor` again.
         upper_((allowedFor(allowedFor(options.upTo))) * (1 + 0x1p-48)) {
     candidates_.clear();
   }
@@ -91,9 +91,9 @@ class NearestPairs {
   };
   /// A part of the error 1e-12·d that distance.h allows. If the distances of two pairs differ by
   /// less than this part, one of the two need not be measured. Pairs of triangles around one corner
-  /// are an example. The part may be used twice, because the pair that ruled out another pair may
-  /// itself be left unmeasured. If it is measured, the error 2^-41·d of `convexDistance` takes the
-  /// place of the second part. In both cases the sum is below 1e-12·d and leaves room for rounding.
+  /// are an example. Two such parts may add up: a pair that ruled out another pair may itself be
+  /// ruled out by a third. If it is measured instead, the error 2^-41·d of `convexDistance`
+  /// replaces the second part. In both cases the sum is below 1e-12·d and leaves room for rounding.
   static constexpr double kTieShare = 0.49e-12;
 
   const DistanceOptions& options_;

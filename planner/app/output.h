@@ -73,12 +73,12 @@ Verified verifyWithWarning(const Problem& problem, const Solution& solution,
 /// Tests that a file can be written: its name is not that of a folder, its folder exists, and files
 /// can be made in this folder. The last test is left out for a device or a pipe. Commands call this
 /// before they spend time on the file's contents. Does nothing if no file is given.
-/// @throws InputError that names the option, if it can't be written.
+/// @throws InputError, which names the option, if the file can't be written.
 void requireWritable(const std::optional<std::string>& file, const char* option);
 
 /// Tests that the file that will be written is none of the files `read`.
 /// @param what the owner of these files, for the message: "the problem".
-/// @throws InputError that names the option, if one of them would be overwritten.
+/// @throws InputError, which names the option, if one of these files would be overwritten.
 void requireNotAnInput(const std::optional<std::string>& file, const char* option,
                        const std::vector<std::filesystem::path>& read, const std::string& what);
 

@@ -118,8 +118,8 @@ void refuseMesh(const std::string& file) {
                            "bounding volumes of a mesh"});
 }
 
-/// Reads a solution or a trajectory, and verifies it as `corridor verify` does. Returns what the
-/// page shows of both.
+/// Reads a solution or a trajectory, and verifies it as `corridor verify` does. Returns the
+/// path or trajectory, and the report of the verifier, for the page.
 ViewedPath viewedPath(const Problem& problem, const ViewArguments& a) {
   const MotionFile motion = readMotion(problem, *a.trajectory, a.between);
   ViewedPath path;

@@ -42,8 +42,8 @@ class RankExecutor final : public Executor {
   std::size_t underWay() const override { return underWay_; }
   bool start(std::uint64_t task) override;
   /// If a signal arrived at another rank, this function raises the same signal in this process.
-  /// @throws InputError if a rank reports that it can't do its tasks, after the tasks that ended
-  /// before have been returned.
+  /// If a rank reports that it can't do its tasks, the tasks that have already ended are returned
+  /// first. @throws InputError in the next call.
   std::vector<TaskEnd> wait(int milliseconds) override;
   std::vector<std::uint64_t> stop() override;
   /// Number of messages sent and received so far.

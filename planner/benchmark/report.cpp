@@ -19,9 +19,9 @@ using view::escapedHtml;
 
 /// If a campaign has more problems than this, the plots and tables of single problems are folded.
 constexpr std::size_t kMostAtOnce = 8;
-/// Folded plots, and plots whose SVG has more bytes than this, are texts in the page until they
-/// come near the window. With 20,000 elements of SVG, a browser would need seconds to open the
-/// page.
+/// Folded plots, and plots whose SVG has more bytes than this, are stored in the page as text. The
+/// page draws such a plot when the reader scrolls near it. With 20,000 elements of SVG, a browser
+/// would need seconds to open the page.
 constexpr std::size_t kLargePlot = 200'000;
 
 /// Returns a number with a noun: "1 problem", "2 problems".

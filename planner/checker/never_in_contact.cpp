@@ -53,7 +53,8 @@ std::optional<VariableRange> rangeOf(const ConfigurationSpace& space, std::size_
 }
 
 /// The frames between two bodies, as a separate tree. Its root is the lowest common ancestor of the
-/// two bodies' frames. All its variables are lines, numbered in the order of their first use.
+/// two bodies' frames. All its coordinates have the kind `line`, and are numbered in the order
+/// of their first use.
 struct ChainBetween {
   KinematicTree tree;
   ConfigurationSpace space;

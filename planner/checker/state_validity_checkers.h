@@ -7,9 +7,9 @@
 namespace corridor {
 
 /// Base of the state validity checkers: provides `clearance` for OMPL's samplers and objectives.
-/// The value is `Checker::clearance`, metres. It is positive if all tested pairs are farther apart
-/// than the margin, 0 − margin if a pair touches (no depth is computed), and −∞ for a state that is
-/// not finite. Bounds are ignored.
+/// The value is `Checker::clearance`, the least distance of the tested pairs minus the margin,
+/// metres. If a pair touches, this is 0 − margin (no depth is computed). For a state that is not
+/// finite it is −∞. Bounds of coordinates are ignored.
 ///
 /// The state space of `si` must be a ProblemStateSpace, made of the space of the checker's model.
 /// The checker must outlive the object.

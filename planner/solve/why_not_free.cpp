@@ -64,9 +64,10 @@ std::string described(const Checker& checker, const Contact& pair) {
 }
 
 /// Returns an upper bound, metres, of how much the tube can reduce the gap between two shapes: each
-/// joint between the two shapes adds its tube times its lever. The lever of a rotation reaches from
-/// the joint to the farthest point of the shape. The lever of a translation is 1 for a prismatic
-/// joint, and √n for n coordinates of a planar or floating joint.
+/// joint between the two shapes adds its tube times its lever, and times the multiplier of a mimic.
+/// The lever of a rotation reaches from the joint to the farthest point of the shape. The lever of
+/// a translation is 1 for a prismatic joint, and √n for n coordinates of a planar or floating
+/// joint.
 double tubeOf(const Checker& checker, const Configuration& q, const Contact& pair) {
   const std::vector<Frame>& frames = checker.model().tree.frames;
   const std::vector<Transform> poses = framePoses(checker.model().tree, q);
@@ -105,8 +106,8 @@ double tubeOf(const Checker& checker, const Configuration& q, const Contact& pai
 /// Returns directions in which to search for a free configuration, as steps of its numbers. For a
 /// pose the directions are evenly spread positions (a circle, or a Fibonacci spiral on the sphere)
 /// with the orientation kept. Otherwise a direction changes one coordinate alone, or is a random
-/// mixture of all coordinates; rotations (quaternions) are kept. In each direction of this second
-/// kind, the largest step of a number is 1.
+/// mixture of all coordinates; rotations (quaternions) are kept. Directions of this second
+/// kind are scaled so that the largest change of a coordinate is 1 (rad or m).
 std::vector<Configuration> directions(const ConfigurationSpace& space) {
   constexpr int count = 64;
   const auto size = static_cast<Eigen::Index>(space.size());
@@ -193,8 +194,8 @@ std::optional<NearestFree> nearestFree(const Configuration& q, const Checker& ch
   return std::nullopt;
 }
 
-/// Describes the free configuration that was found, or says that none was. The text has all numbers
-/// of the configuration, so that a user can copy the numbers of an arm into the problem.
+/// Describes the free configuration that was found, or says that none was. The text has the
+/// values of all joints, so that a user can copy them into the problem, or the position of a pose.
 std::string describedFree(const std::optional<NearestFree>& free, const Configuration& q,
                           const ConfigurationSpace& space) {
   if (const CoordinateGroup* pose = onlyPose(space)) {

@@ -89,8 +89,8 @@ class Rows {
     const TimedRow first = rows.back(), last = clock_.row(to);
     const double distance = rowDeviation(segments_, view_, from, to, first, last, options_.degree);
     const bool isNear = distance <= options_.deviation;
-    // A law does not switch inside a segment. So after three halvings within one segment, only the
-    // deviation is a reason to halve again.
+    // The acceleration of a law does not jump inside a segment. So after three halvings within one
+    // segment, only the deviation is a reason to halve again.
     const bool oneSegment =
         to.segment == from.segment || (to.segment == from.segment + 1 && to.since == 0);
     const bool fine = isNear && (usesLittle(first, last) || (oneSegment && halvings < kLevels - 2));

@@ -43,12 +43,13 @@ struct LimitRatios {
 ///   accelerations is infinite;
 /// - degree 3: the cubic Hermite polynomial of positions and velocities;
 /// - degree 5: the quintic Hermite polynomial of positions, velocities and accelerations.
-/// The derivatives of this curve are polynomials in Bernstein form, so their coefficients bound
-/// them (for positions of planar and floating joints: the lengths of the coefficient vectors). An
-/// interval is halved, at most 24 times, until the bound is at most 1, is within 0.01 % of a value
-/// that is attained, or can no longer raise the result. All roundings of the coefficients are
-/// included (limits_proof.cpp). The jerk of the cubic is not bounded, because its acceleration
-/// jumps at rows.
+/// The derivatives of this curve are polynomials in Bernstein form, so the coefficients bound the
+/// derivatives. The position of a planar or floating joint has one limit for the length of its
+/// vector; there, the lengths of the coefficient vectors are the bound. An interval is halved, at
+/// most 24 times, until the bound is at most 1, is within 0.01 % of a value that is attained, or
+/// can no longer raise the result. All roundings of the coefficients are included
+/// (limits_proof.cpp). The jerk of the cubic is not bounded, because its acceleration jumps at
+/// rows.
 /// - Rotations are slerps of constant angular velocity between rows (curve.h), so this velocity
 ///   jumps at rows. Its length is bounded. In place of an angular acceleration, this quotient is
 ///   computed: the change of the angular velocity from one interval to the next, divided by the

@@ -107,7 +107,7 @@ MovedSlab::Support MovedSlab::supportOf(const Side& side, const CentredBox& box)
           side.forth.at(box.centre) + within(side.forth.slope) + perturbation};
 }
 
-/// @param radii the sum of the radii of both swept spheres.
+/// @param radii the sum of `sweptRadius()` of both sets.
 Real MovedSlab::widthOf(const Support& a, const Support& b, Real radii) const {
   const Real along = std::min(-a.back - b.back, -a.forth - b.forth) - lost_;
   return along - shorter_ * std::max<Real>(0, along + radii);

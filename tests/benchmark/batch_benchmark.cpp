@@ -1,6 +1,7 @@
 // The C++ side of `python_cost`: decides states, and the edges between consecutive ones, on one
-// thread, and prints the seconds of each. Usage: `batch_benchmark PROBLEM STATES`. STATES is a
-// binary file of doubles, which has the components of the configuration of each state.
+// thread, and prints seconds for all states, the number of free states, seconds for all edges, and
+// the number of free edges. Usage: `batch_benchmark PROBLEM STATES`. STATES is a binary file of
+// doubles, which has the components of the configuration of each state.
 #include <chrono>
 #include <cstdio>
 #include <fstream>

@@ -15,8 +15,8 @@ namespace {
 
 constexpr int kBracketBits = 60;
 
-/// Doubles as integers in units of one power of two, the largest in which all of them and 1 are
-/// integers.
+/// Doubles as integers, in units of a power of two. The unit is the largest one of which all these
+/// doubles, and 1, are whole multiples.
 class IntegerGrid {
  public:
   IntegerGrid(std::initializer_list<double> values) {
@@ -60,7 +60,8 @@ Vector cross(const Vector& a, const Vector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// Returns n·2^exponent. @throws std::invalid_argument  if it isn't a double.
+/// Returns n·2^exponent. @throws std::invalid_argument if n is not a double. @pre the result is in
+/// the range of doubles.
 double exactly(const Integer& n, int exponent) {
   const double x = n.convert_to<double>();
   if (Integer(x) != n) throw std::invalid_argument("not exact in doubles");

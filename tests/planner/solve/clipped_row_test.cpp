@@ -168,9 +168,10 @@ void testProblem(Problem problem, std::uint64_t seed, int wanted, ClipCounts& co
   problem.task.limits.velocity *= 0.1;  // so that the trajectory has some rows
   ClipRandom random(seed);
   CheckerOptions fine = checkerOptions(problem.task, problem.settings.checker);
-  fine.tolerance = 1e-9;  // the accuracy, in metres, of the smallest move with a contact
+  fine.tolerance = 1e-9;  // so that contacts are found to 1e-9 m
   const Checker checker(problem.model, fine);
-  problem.settings.trajectory.rate = 1;  // a row that is moved by 1 rad is passed at 6 rad/s²
+  problem.settings.trajectory.rate =
+      1;  // 1 row per second: a row that is moved by 1 rad needs only 6 rad/s²
   const int before = counts.cases;
   for (int attempt = 0; attempt < 100 && counts.cases < before + wanted; ++attempt) {
     const Configuration& from = problem.task.start;

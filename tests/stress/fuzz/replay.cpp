@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "tests/stress/fuzz/fuzz.h"
+#include "tests/support/support.h"
 
 namespace {
 
@@ -76,7 +77,7 @@ void run(const std::string& input, std::chrono::seconds longest,
 
 int main(int count, char** arguments) {
   std::size_t mutations = 0;
-  std::chrono::seconds longest{10};
+  std::chrono::seconds longest{10 * corridor::test::kSlowdown};
   std::vector<std::string> inputs;
   for (int i = 1; i < count; ++i) {
     const std::filesystem::path path = arguments[i];
