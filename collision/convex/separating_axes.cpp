@@ -48,8 +48,9 @@ class MappedPolytope {
  public:
   MappedPolytope(const PolytopeFeatures& polytope, const Transform& X) : shape(polytope), X_(X) {
     // The determinant is that of a matrix with norm 1, so no scale overflows or vanishes. A norm of
-    // 0 gives NaN, which is refused.
-    if (!X.t.allFinite() || !(Mat3(X.m / X.m.stableNorm()).determinant() > 0x1p-40))
+    // 0 gives NaN, which is refused. (Eigen 3.4.0 asserts wrongly in stableNorm of a matrix that is
+    // no vector.)
+    if (!X.t.allFinite() || !(Mat3(X.m / X.m.reshaped().stableNorm()).determinant() > 0x1p-40))
       throw std::invalid_argument(
           "a map is not finite, or it mirrors or nearly flattens; use convexHullsTouch");
     const auto vertices = shape.set().points;
