@@ -1,6 +1,5 @@
 // Tests of planar polygons as bodies: contact is compared with rationals, and certified motions
 // that graze have known verdicts.
-#include <algorithm>
 #include <cmath>
 #include <iostream>
 
@@ -44,7 +43,7 @@ std::vector<test::Point2> mapped(const Points& polygon, const Transform& X) {
 /// rotations.
 TEST(PolygonBodies, ContactAgreesWithRationals) {
   test::Polygons random(test::testSeed(61));
-  const int count = test::isStressRun() ? 50'000 : std::max(200, 600 / test::kSlowdown);
+  const int count = test::isStressRun() ? 50'000 : 600;
   QueryContext context;
   int meeting = 0, tested = 0, touching = 0;
   for (int n = 0; n < count; ++n) {
