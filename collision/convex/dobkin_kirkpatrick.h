@@ -49,8 +49,8 @@ class DobkinKirkpatrick {
   /// The work of one query.
   struct Cost {
     std::size_t products = 0;  ///< inner products of the direction with vertices
-    std::size_t climbs =
-        0;  ///< steps of hill climbing on P_0, if rounding misled or prevented the walk
+    /// Steps of hill climbing on P_0, if rounding misled or prevented the walk.
+    std::size_t climbs = 0;
   };
   /// Returns a vertex that is farthest along a direction: exact, in real arithmetic on the given
   /// doubles. O(log n).

@@ -187,8 +187,8 @@ class DobkinKirkpatrickBuilder {
 
   DobkinKirkpatrick& to_;
   std::span<const Vec3> points_;
-  std::vector<Polytope::Face>
-      across_;  ///< for each face: the faces beyond its edges from corner k to k + 1
+  /// For each face: the faces beyond its edges from corner k to k + 1.
+  std::vector<Polytope::Face> across_;
   std::vector<std::uint32_t> anyFace_;  ///< one face of each vertex
   std::vector<int> degree_;
   std::vector<std::uint32_t> alive_;

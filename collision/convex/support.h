@@ -186,8 +186,8 @@ class Support {
   }
 
   const PosedSet& set_;
-  mutable std::uint32_t last_ =
-      ConvexSet::kCold;  // the most recent vertex; the next hill climbing begins there
+  // The most recent vertex; the next hill climbing begins there.
+  mutable std::uint32_t last_ = ConvexSet::kCold;
   double scale_;
   Vector<Real> row_[3], t_, axis_;
   double disc_, ball_;

@@ -181,8 +181,8 @@ MeshHealth inspectMesh(const TriangleMesh& mesh) {
   health.min = bounds.min + Vec3::Zero();  // adding 0 turns -0 into 0
   health.max = bounds.max + Vec3::Zero();
 
-  std::vector<Indices> all,
-      fair;  // triangles with sorted corners; `makeDistinct` removes repeated ones
+  // Triangles with sorted corners; `makeDistinct` removes repeated ones.
+  std::vector<Indices> all, fair;
   for (const Indices& t : triangles) {
     const auto quality = qualityOf(points[t[0]], points[t[1]], points[t[2]], bounds);
     health.degenerateTriangles += quality == TriangleQuality::degenerate;

@@ -10,9 +10,9 @@ namespace corridor {
 /// A convex hull swept by a sphere: the points at most `size` from the hull of `vertices`. For
 /// triangles `size` is 0, and the set is exactly their hull. Metres.
 struct Hull {
-  std::vector<Vec3>
-      vertices;     ///< the content's extreme points, maybe also a few of its other points
-  double size = 0;  ///< the largest radius of the content's spheres
+  /// The content's extreme points, maybe also a few of its other points.
+  std::vector<Vec3> vertices;
+  double size = 0;                     ///< the largest radius of the content's spheres
   Vec3 boundingCenter = Vec3::Zero();  ///< centre of a sphere that contains the volume
   double boundingRadius = 0;           ///< its radius, rounded up
 

@@ -398,8 +398,8 @@ class CampaignDatabase::Tables {
   }
 
   void addProgress(const BenchmarkRun& run, std::int64_t runId) {
-    std::set<std::string>
-        times;  // if samples have the same time, only the first is stored, as by OMPL's script
+    // If samples have the same time, only the first is stored, as by OMPL's script.
+    std::set<std::string> times;
     for (const auto& sample : run.ompl->progress)
       if (const auto time = sample.find("time REAL");
           time == sample.end() || times.insert(time->second).second)

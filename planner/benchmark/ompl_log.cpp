@@ -40,8 +40,8 @@ struct LoggedPlanner {
   std::size_t cell = 0;  ///< index of the cell that has the planner's runs
   std::string name;
   std::map<std::string, std::string> settings;
-  std::set<std::string>
-      properties;  ///< the keys of omplProperties that any of the planner's runs has
+  /// The keys of omplProperties that any of the planner's runs has.
+  std::set<std::string> properties;
   std::vector<std::string> progressNames;
 };
 

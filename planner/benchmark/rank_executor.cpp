@@ -21,6 +21,8 @@ constexpr microseconds kLeastPause{50}, kLongestPause{2000};
 /// The longest time, in milliseconds, between two polls of a rank for messages while a task is
 /// under way.
 constexpr int kPollMs = 5;
+/// Milliseconds of one call of `wait` while the other ranks set up.
+constexpr int kSetUpPollMs = 100;
 /// The longest time, in seconds, that rank 0 waits for the other ranks at the end. Rank 0 waits so
 /// long only if a rank has died.
 constexpr double kFarewell = 30;
@@ -130,18 +132,7 @@ void RankExecutor::sendTo(int rank, std::string text) {
 
 void RankExecutor::begin(const std::string& setUp) {
   for (int rank = 1; rank < ranks_.size(); ++rank) sendTo(rank, kSetUp + setUp);
-  std::vector<TaskEnd> none;
-  Pause pause;
-  for (int waiting = ranks_.size() - 1; waiting > 0;) {
-    auto message = ranks_.receive();
-    if (!message)
-      pause();
-    else if (message->text[0] == kReady)
-      ++messages_, --waiting;
-    else
-      take(std::move(*message), none);
-    if (fault_) throw InputError(*fault_);
-  }
+  while (ready_ < ranks_.size() - 1) wait(kSetUpPollMs);
 }
 
 bool RankExecutor::start(std::uint64_t task) {
@@ -174,6 +165,9 @@ void RankExecutor::take(RankMessage message, std::vector<TaskEnd>& ends) {
     case kKilled:
       free_.push_back(message.from);
       --underWay_;
+      return;
+    case kReady:
+      ++ready_;
       return;
     case kSignal:
       std::raise(static_cast<int>(rankNumberIn(message.text)));

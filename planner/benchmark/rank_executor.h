@@ -55,6 +55,7 @@ class RankExecutor final : public Executor {
 
   Ranks& ranks_;
   std::size_t places_, underWay_ = 0;
+  int ready_ = 0;         ///< ranks that are set up
   std::deque<int> free_;  ///< a rank for each free place
   std::uint64_t messages_ = 0;
   std::optional<Fault> fault_;  ///< the first fault that a rank reported

@@ -18,8 +18,8 @@ BenchmarkRun readRun(const std::string& text);
 struct RunRecord {
   std::string figures;  ///< all of the run except `ompl`
   std::string ompl;     ///< OMPL's properties and progress of this run
-  std::string
-      setup;  ///< the other parts of OMPL's record, the same in all runs of a cell on a machine
+  /// The other parts of OMPL's record, the same in all runs of a cell on a machine.
+  std::string setup;
 };
 RunRecord recordOf(const BenchmarkRun& run);
 /// Reads `RunRecord::setup`.

@@ -128,8 +128,7 @@ std::vector<Note> notesOnStillPairs(const Checker& checker, const Configuration&
                                                          : "are closer than the margin") +
              ": " + joinedFirst(names, kShown) +
              "; no proof covers these pairs, because their bodies never move relative to each "
-             "other "
-             "(allow: [[" +
+             "other (allow: [[" +
              model.bodies[first->a].name + ", " + model.bodies[first->b].name +
              "]] if this is intended)",
          NoteWeight::coverage});

@@ -45,8 +45,8 @@ struct PairAnswer {
   Real upper = std::numeric_limits<Real>::infinity();  ///< ≥ the distance at the middle
   LeafPair closest;                 ///< the closest pair of leaf primitives at the middle
   RealVec point = RealVec::Zero();  ///< a contact, or the closest point of b; in a's frame
-  const char* reason =
-      nullptr;  ///< without a verdict: the reason to report if the interval can't be halved
+  /// Without a verdict: the reason to report if the interval can't be halved.
+  const char* reason = nullptr;
 };
 
 /// Decides one pair of bodies in one time interval of one edge. verifyPath() calls it for

@@ -15,8 +15,8 @@ constexpr double kTurn = std::numbers::pi / 90;
 // Largest step from sample to sample, as a fraction of the path's length.
 constexpr double kShare = 1.0 / 400;
 constexpr double kMostSamples = 1500;
-constexpr int kPiecesForEstimate =
-    8;  // the number of pieces of an edge, for an estimate of how far the bodies move on it
+// The number of pieces of an edge, for an estimate of how far the bodies move on it.
+constexpr int kPiecesForEstimate = 8;
 
 /// Measures how far the moving bodies move from one configuration to another.
 class Travel {

@@ -16,12 +16,12 @@ namespace corridor::test {
 struct Use {
   std::string name;       ///< part of the names of the tests that run this use
   std::string arguments;  ///< arguments of the program, which must soon end without a signal
-  std::vector<std::string>
-      files;  ///< files that the program writes to `out`, with the same bytes each time
+  /// Files that the program writes to `out`, with the same bytes each time.
+  std::vector<std::string> files;
   std::string longer = {};  ///< like `arguments`, but the run takes so long that a signal ends it
   std::string startedFile = {};  ///< a file that exists once `longer` is well under way
-  bool keeps =
-      false;  ///< after a signal, the program still writes its results so far, as complete files
+  /// After a signal, the program still writes its results so far, as complete files.
+  bool keeps = false;
 };
 
 const std::vector<Use>& uses();

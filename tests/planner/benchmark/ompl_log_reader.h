@@ -19,8 +19,8 @@ struct OmplLog {
     std::string name;
     std::map<std::string, std::string> settings;
     std::vector<std::pair<std::string, std::string>> properties;  ///< name, type
-    std::vector<std::map<std::string, std::string>>
-        runs;  ///< values by name; "": the run has no value
+    /// Values by name; "": the run has no value.
+    std::vector<std::map<std::string, std::string>> runs;
     std::vector<std::string> progressNames;
     std::vector<std::size_t> progressSamples;  ///< number of samples of each run
   };

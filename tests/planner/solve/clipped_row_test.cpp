@@ -124,8 +124,8 @@ void testClip(const Problem& problem, const Checker& checker, ClippedRow& clip,
   };
   const double middle = timeOf(touch->piece, touch->tau);
   const auto contact = contactAt(middle);
-  if (!contact)
-    return;  // the contact is not at `middle`: moving the row shifts it quickly along the curve
+  // Without one, the contact is not at `middle`: moving the row shifts it quickly along the curve.
+  if (!contact) return;
   // Finds an end of the time in contact by bisection.
   const auto endOf = [&](double direction) {
     double in = middle, out = middle + direction * 0.05;
@@ -170,8 +170,8 @@ void testProblem(Problem problem, std::uint64_t seed, int wanted, ClipCounts& co
   CheckerOptions fine = checkerOptions(problem.task, problem.settings.checker);
   fine.tolerance = 1e-9;  // so that contacts are found to 1e-9 m
   const Checker checker(problem.model, fine);
-  problem.settings.trajectory.rate =
-      1;  // 1 row per second: a row that is moved by 1 rad needs only 6 rad/s²
+  // 1 row per second: a row that is moved by 1 rad needs only 6 rad/s².
+  problem.settings.trajectory.rate = 1;
   const int before = counts.cases;
   for (int attempt = 0; attempt < 100 && counts.cases < before + wanted; ++attempt) {
     const Configuration& from = problem.task.start;

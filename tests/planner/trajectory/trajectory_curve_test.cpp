@@ -76,8 +76,7 @@ TEST_F(TrajectoryCurve, AnglesAreLiteral) {
       curveComplaint("0 0\n90 0\n180 0\n270 0\n"),
       "t.csv:2: pan jumps from 0 to 90 rad, by more than half a turn: angles are used as they "
       "are written; add or subtract whole turns so that the angles continue, or add rows between "
-      "(2 more rows have "
-      "faults)");
+      "(2 more rows have faults)");
   EXPECT_EQ(curveComplaint("3.1 0\n3.2 0\n6 0\n9 0\n"), "");
   EXPECT_EQ(
       curveComplaint("time pan lift pan_vel lift_vel\n0 0 0 0 0\n1 1 0 1e308 0\n1e9 1 0 1e308 "

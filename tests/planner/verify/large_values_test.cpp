@@ -50,8 +50,8 @@ struct Ends {
     std::uniform_real_distribution<double> small(-3, 3);
     from = n / 44 % 3 == 0 ? small(random) : large(random, n);
     to = n / 44 % 3 == 1 ? small(random) : large(random, n / 2);
-    if (n / 44 % 3 == 2 && n % 5 == 0)
-      to = from + small(random);  // both are large, and close to each other
+    // Sometimes both are large, and close to each other.
+    if (n / 44 % 3 == 2 && n % 5 == 0) to = from + small(random);
   }
 };
 

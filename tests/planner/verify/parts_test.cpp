@@ -328,9 +328,8 @@ TEST(ConvexGap, BracketsTheDistanceOfAllKinds) {
     }
   }
   EXPECT_GT(apart, 5000);
-  EXPECT_LT(
-      worst,
-      1e-9L);  // the largest values are those of cylinders; for other sets they are rounding errors
+  // The largest values are those of cylinders; for other sets they are rounding errors.
+  EXPECT_LT(worst, 1e-9L);
 }
 
 TEST(ConvexGap, ClosedForms) {
