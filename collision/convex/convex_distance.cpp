@@ -212,7 +212,7 @@ ConvexDistance convexDistance(const PosedSet& a, const PosedSet& b, double relat
   // Searches end when half of the allowed error is reached, because rounding may take the other
   // half. 1e-12 > 2^-40, so half of the promised relative error is above 2^-41. The promised
   // absolute error is 4·2^-53·S = 2^-51·S. Half of this is above 2^-55·`size`, because ‖M‖|p| + |t|
-  // is below 3 S, so `size`, the sum over both sets, is below 6 S.
+  // is below 3.5 S, so `size`, the sum over both sets, is below 7 S.
   const double share = relative / 2 + 0x1p-41, least = absolute / 2 + 0x1p-55 * pair.size();
   const auto never = [](const Vec3&, double, std::uint32_t, std::uint32_t) { return false; };
   const auto agreed = [&](double radii, double near, double finest) {

@@ -63,32 +63,38 @@ bool isExtreme(std::span<const Vec3> points, const Rings& rings, std::size_t v) 
 /// convex cone. Takes time linear in the number of neighbours. @pre the faces are convex at each
 /// edge at v, and in at least three planes.
 ///
-/// Let p be the first neighbour, and F the first face, which contains the edge from v to p. Suppose
-/// that no neighbour is above F, that p is above no face, and that faces in one plane with v and p
-/// look to the same side as the first or the last face. Then the faces, seen along the line from p
-/// to v, turn in one direction, and by at most half a turn. So they do not cross each other. Faces
-/// that do not cross each other and are convex at each edge bound a convex cone.
+/// Let p be a neighbour at whose edge two planes meet: those of the first and the last face.
+/// Suppose that no other neighbour is above either of these planes, or on both. Then all other
+/// neighbours, seen along the line from p to v, are in a wedge of an angle θ < 180°, and none is at
+/// its apex. Suppose that p is above no face. Then each step from a neighbour to the next one turns
+/// by at most 180° in one direction. A step back within the wedge would turn by 360° − θ or more.
+/// So the directions of the neighbours never go back on their way from 0 to θ. A face in one plane
+/// with v and p must be in the plane of the first or the last face, and look to the same side: the
+/// second and the last neighbour are strictly on opposite sides of each plane in between. So the
+/// faces do not cross each other. Faces that do not cross each other and are convex at each edge
+/// bound a convex cone.
 bool isConvexAround(std::span<const Vec3> points, std::span<const std::uint32_t> ring,
                     std::size_t v) {
   const std::size_t n = ring.size();
+  // Returns the side of neighbour k of a face. Both count from any neighbour, modulo n.
   const auto side = [&](std::size_t face, std::size_t k) {
-    return planeSide(points[v], points[ring[face]], points[ring[(face + 1) % n]], points[ring[k]]);
+    return planeSide(points[v], points[ring[face % n]], points[ring[(face + 1) % n]],
+                     points[ring[k % n]]);
   };
-  // Neighbours that are off the planes of the first and of the last face.
-  std::size_t offFirst = n, offLast = n;
-  for (std::size_t k = 0; k < n; ++k) {
-    const int first = side(0, k);
-    if (first > 0) return false;
-    if (first < 0 && offFirst == n) offFirst = k;
-    if (offLast == n && side(n - 1, k) != 0) offLast = k;
+  std::size_t p = 0;
+  while (p < n && side(p + n - 1, p + 1) == 0) ++p;
+  if (p == n) return false;
+  const std::size_t last = p + n - 1;
+  for (std::size_t k = p + 1; k <= last; ++k) {
+    const int ofFirst = side(p, k), ofLast = side(last, k);
+    if (ofFirst > 0 || ofLast > 0 || (ofFirst == 0 && ofLast == 0)) return false;
   }
-  if (offFirst == n || offLast == n) return false;
-  for (std::size_t face = 0; face < n; ++face) {
-    const int turn = side(face, 0);
+  for (std::size_t face = p; face <= last; ++face) {
+    const int turn = side(face, p);
     if (turn > 0) return false;
     if (turn < 0) continue;
-    const int first = side(face, offFirst), last = side(face, offLast);
-    if (first > 0 || last > 0 || (first == 0 && last == 0)) return false;
+    const int ofSecond = side(face, p + 1), ofLast = side(face, last);
+    if (ofSecond > 0 || ofLast > 0 || (ofSecond == 0 && ofLast == 0)) return false;
   }
   return true;
 }

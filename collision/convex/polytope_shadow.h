@@ -42,9 +42,8 @@ class PolytopeShadow {
   /// polytope. The test has three conditions. The two edges are not above this vertex. The turn
   /// from the left to the right edge is above 0, and at most 180°. For each edge, the two faces at
   /// the edge are on one side of the edge's line. The third condition implies that each edge is on
-  /// the boundary of the shadow. (The line
-  /// through such an edge supports the shadow locally, and so as a whole.) The shadow is then
-  /// between the two edges.
+  /// the boundary of the shadow: the line through such an edge supports the shadow locally, and so
+  /// as a whole. The shadow is then between the two edges.
   bool isProved() const;
 
  private:

@@ -210,7 +210,7 @@ int benchmarkCommand(const BenchmarkArguments& a) {
   };
   CampaignResult result;
   try {
-    if (job.executor()) job.executor()->begin(specsOf(campaign));
+    if (job.executor()) job.executor()->begin(specsOf(campaign), interrupted);
     result = runCampaign(campaign, options, std::move(cells));
   } catch (const InputError&) {  // such as the fault of a rank
     removeEmpty();

@@ -121,9 +121,10 @@ int solveCommand(const SolveArguments& a) {
   requireTrajectory(a, list.several);
   if (list.several) {
     LocalExecutor local(a.jobs, solveStarter(list.problems, a), Killable::untilItSends);
-    if (job.executor()) job.executor()->begin(namesOf(list));
+    const std::atomic<bool>& interrupted = job.listen();
+    if (job.executor()) job.executor()->begin(namesOf(list), interrupted);
     Executor& executor = job.executor() ? static_cast<Executor&>(*job.executor()) : local;
-    return solveMany(list.problems, a, executor, job.listen());
+    return solveMany(list.problems, a, executor, interrupted);
   }
   requireFiles(a);
   return solveSingle(list.problems.front().file, a, job.listen());

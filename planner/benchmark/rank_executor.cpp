@@ -130,9 +130,9 @@ void RankExecutor::sendTo(int rank, std::string text) {
   ranks_.send(rank, std::move(text));
 }
 
-void RankExecutor::begin(const std::string& setUp) {
+void RankExecutor::begin(const std::string& setUp, const std::atomic<bool>& interrupted) {
   for (int rank = 1; rank < ranks_.size(); ++rank) sendTo(rank, kSetUp + setUp);
-  while (ready_ < ranks_.size() - 1) wait(kSetUpPollMs);
+  while (ready_ < ranks_.size() - 1 && !interrupted) wait(kSetUpPollMs);
 }
 
 bool RankExecutor::start(std::uint64_t task) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <deque>
 #include <functional>
 #include <memory>
@@ -36,7 +37,9 @@ class RankExecutor final : public Executor {
   /// no task begins if a rank can't be set up. @param setUp the argument of these calls. @pre this
   /// function is called once, before the first task. @throws InputError with the first fault that a
   /// rank reports.
-  void begin(const std::string& setUp);
+  /// @param interrupted if it becomes true, the function returns at once. Then no task may be
+  /// started.
+  void begin(const std::string& setUp, const std::atomic<bool>& interrupted);
 
   std::size_t places() const override { return places_; }
   std::size_t underWay() const override { return underWay_; }

@@ -21,6 +21,11 @@ std::vector<std::string> wordsOfLine(std::string line) {
 std::string yamlText(const std::string& text) {
   std::string quoted = "\"";
   for (const char c : text) {
+    if ((c >= 0 && c < ' ') || c == 0x7f) {
+      constexpr const char* digits = "0123456789abcdef";
+      quoted += std::string("\\x") + digits[c / 16] + digits[c % 16];
+      continue;
+    }
     if (c == '"' || c == '\\') quoted += '\\';
     quoted += c;
   }

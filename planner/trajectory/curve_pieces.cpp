@@ -33,8 +33,8 @@ CurvePiece pieceOf(const RealMatrix& coefficients, const RealVector& error) {
 
 /// Sets the rows of `piece.coefficients` that belong to rotations, from the quaternions in `from`
 /// and `to`, without conversion. The error bound of a rotation is that of a controller's slerp in
-/// doubles: 2^-44 rad, which is more than 200 roundings of a half turn. (moving_joint.cpp counts
-/// the roundings of such a formula.)
+/// doubles: 2^-44 rad = 512u, which is more than 160 roundings of a half turn. (moving_joint.cpp
+/// counts the roundings of such a formula.)
 void setRotations(const ConfigurationSpace& space, const Configuration& from,
                   const Configuration& to, CurvePiece& piece) {
   for (const Coordinate& c : space.coordinates()) {

@@ -275,7 +275,8 @@ Emission emitRows(const TimeLaw& given, const std::vector<CurvePiece>& path,
     const double factor = neededFactor(result.ratios);
     if (!std::isfinite(factor)) break;
     if (atRest) {  // slow the law down, and choose rows again
-      const double by = factor * kMostExcess;
+      // Without a rate, the stretch of the rows has brought them near to the limits already.
+      const double by = (options.rate ? factor : result.stretch / stretchOfLaw) * kMostExcess;
       slowDown(law.segments, by);
       for (double& stop : law.stopTimes) stop *= by;
       law.duration *= by;

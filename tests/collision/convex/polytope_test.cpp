@@ -1,6 +1,7 @@
 #include "collision/convex/polytope.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iostream>
 #include <limits>
@@ -143,6 +144,35 @@ TEST(Polytope, WrongBoundariesAreFound) {
     faces.push_back({1, 2 + (i + 1) % 5, 2 + i});
   }
   EXPECT_NE(checkConvexBoundary(star, faces), std::nullopt) << "a pentagram";
+}
+
+/// Boundaries whose apexes have neighbours on one line with the apex: in both, every edge is
+/// convex, and the faces of the apexes go around them twice.
+TEST(Polytope, FacesThatGoAroundTwiceAreFound) {
+  const Vec3 a(8, 0, 0), b(-4, 8, 0), c(-4, -8, 0), v(0, 0, 8), w(0, 0, -8);
+  std::vector<Polytope::Face> faces;
+  const auto join = [&](const std::array<std::uint32_t, 6>& top,
+                        const std::array<std::uint32_t, 6>& bottom, std::uint32_t iv,
+                        std::uint32_t iw) {
+    faces.clear();
+    for (std::size_t i = 0; i < 6; ++i) {
+      faces.push_back({iv, top[i], top[(i + 1) % 6]});
+      faces.push_back({iw, bottom[(i + 1) % 6], bottom[i]});
+    }
+  };
+  // A bipyramid over a triangle that is passed twice.
+  join({0, 1, 2, 3, 4, 5}, {0, 1, 2, 3, 4, 5}, 6, 7);
+  EXPECT_NE(checkConvexBoundary(std::vector<Vec3>{a, b, c, a, b, c, v, w}, faces), std::nullopt);
+  // The second time, by the middles of the edges at the apexes.
+  const auto middle = [](const Vec3& p, const Vec3& q) { return Vec3(0.5 * (p + q)); };
+  const std::vector<Vec3> points{
+      a, b, c, middle(v, a), middle(v, b), middle(v, c), middle(w, a), middle(w, b), middle(w, c),
+      v, w};
+  join({0, 1, 2, 3, 4, 5}, {0, 1, 2, 6, 7, 8}, 9, 10);
+  for (const Polytope::Face& face :
+       {Polytope::Face{2, 6, 3}, {3, 6, 7}, {3, 7, 4}, {4, 7, 8}, {4, 8, 5}, {5, 8, 0}})
+    faces.push_back(face);
+  EXPECT_NE(checkConvexBoundary(points, faces), std::nullopt);
 }
 
 /// The bipyramid over a circle of many corners with a tiny loop inside it, near one corner: every

@@ -122,12 +122,13 @@ class RankTest : public testing::Test {
   Post post_{kRanks};
   ThreadRanks zero_{post_, 0};
   std::atomic<int> signal_ = 0;
+  std::atomic<bool> interrupted_ = false;
   std::optional<RankExecutor> executor_{std::in_place, zero_, 2};
   std::vector<std::thread> threads_;
 };
 
 TEST_F(RankTest, DoesEachTaskOnceByTwoMessages) {
-  executor_->begin("set up");
+  executor_->begin("set up", interrupted_);
   EXPECT_EQ(executor_->places(), 6u);
   std::map<std::uint64_t, TaskEnd> ends;
   const std::uint64_t before = executor_->messages();
@@ -146,7 +147,7 @@ TEST_F(RankTest, DoesEachTaskOnceByTwoMessages) {
 }
 
 TEST_F(RankTest, StopKillsWhatMayBeKilled) {
-  executor_->begin("set up");
+  executor_->begin("set up", interrupted_);
   for (const std::uint64_t task : {1000, 1001, 1002, 1003, 2000, 3000}) executor_->start(task);
   EXPECT_TRUE(executor_->wait(50).empty());
   executor_->stop();
@@ -163,7 +164,7 @@ TEST_F(RankTest, StopKillsWhatMayBeKilled) {
 volatile std::sig_atomic_t received = 0;
 
 TEST_F(RankTest, ASignalAtARankArrivesAtRank0) {
-  executor_->begin("set up");
+  executor_->begin("set up", interrupted_);
   const auto old = std::signal(SIGUSR2, [](int number) { received = number; });
   signal_ = SIGUSR2;
   for (int i = 0; i < 200 && received == 0; ++i) executor_->wait(50);
@@ -180,7 +181,7 @@ TEST_F(RankTest, FaultsOfRanksEndTheJob) {
     }
     return std::string();
   };
-  executor_->begin("set up");
+  executor_->begin("set up", interrupted_);
   executor_->start(13);
   const std::string fault = complaint();
   EXPECT_THAT(fault, StartsWith("rank 1: "));
@@ -190,7 +191,7 @@ TEST_F(RankTest, FaultsOfRanksEndTheJob) {
 /// The end of a task and a fault have both arrived when rank 0 looks for messages. The end of the
 /// task must not be lost.
 TEST_F(RankTest, TasksThatEndedBeforeAFaultAreReturned) {
-  executor_->begin("set up");
+  executor_->begin("set up", interrupted_);
   executor_->start(100);
   executor_->start(13);
   const auto arrived = [&] {
@@ -207,12 +208,19 @@ TEST_F(RankTest, TasksThatEndedBeforeAFaultAreReturned) {
 /// No task begins if a rank can't do its part, however long that rank takes to notice.
 TEST_F(RankTest, WaitsForTheSetUpOfAllRanks) {
   try {
-    executor_->begin("late fault");
+    executor_->begin("late fault", interrupted_);
     FAIL();
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), StartsWith("rank 3: "));
     EXPECT_THAT(error.what(), EndsWith(": other files"));
   }
+}
+
+/// A rank that takes long to set up does not keep an interrupt waiting.
+TEST_F(RankTest, AnInterruptEndsTheWaitForTheSetUp) {
+  interrupted_ = true;
+  executor_->begin("late fault", interrupted_);
+  EXPECT_EQ(executor_->underWay(), 0u);
 }
 
 /// If `begin` was not called, the other ranks end without work.
