@@ -1,8 +1,9 @@
 #include "collision/convex/dobkin_kirkpatrick.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <cstring>
+#include <cstdint>
 
 #include "collision/convex/polytope_shadow.h"
 #include "collision/core/rounding.h"
@@ -27,8 +28,10 @@ std::uint32_t DobkinKirkpatrick::extreme(const Vec3& direction, Cost* cost) cons
   // The directions are compared by their bits, because under denormals-are-zero a subnormal
   // component would count as 0.
   const Vec3 scaledBack = d * unit;
-  const bool sameDirection =
-      std::memcmp(scaledBack.data(), direction.data(), 3 * sizeof(double)) == 0;
+  bool sameDirection = true;
+  for (int k = 0; k < 3; ++k)
+    sameDirection &=
+        std::bit_cast<std::uint64_t>(scaledBack[k]) == std::bit_cast<std::uint64_t>(direction[k]);
   if (!sameDirection || !shadow.isProved()) v = polytope_.climb(v, direction, &all.climbs);
   if (cost) *cost = all;
   return v;

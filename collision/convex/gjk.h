@@ -289,7 +289,7 @@ Answer search(const PosedSet& a, const PosedSet& b, double size, double near, Ac
                std::max(0x1p-50 * size, Effort<Real>::agreed * static_cast<double>(lower));
   };
   Search<Real> search(a, b, size, ballsInCores);
-  const Answer answer = search.run(startOf<Real>(cache), enough, accept);
+  Answer answer = search.run(startOf<Real>(cache), enough, accept);
   keep(search.simplex, cache);
   if (cache) cache->rounds = answer.rounds + 1;
   return answer;

@@ -337,7 +337,7 @@ MotionResult Scene::certifyPairs(MotionSource& motion, const MotionOptions& opti
   motions.select(0, 0);
   std::vector<std::uint32_t>& near = context.scratch.of<NearPairs>().pairs;
   broadPhase_->find(motions, 0, near);
-  return withContainment(std::move(result), near, motion, context, certificate);
+  return withContainment(result, near, motion, context, certificate);
 }
 
 MotionResult Scene::withContainment(MotionResult result, std::span<const std::uint32_t> pairs,

@@ -172,7 +172,7 @@ void queryHulls(const HullInput& inputA, const HullInput& inputB,
         const ClosestFeatures found =
             closestFeatures(*a.features, {}, *b.features, poses[i], last.features);
         takeDistance(found.distance);
-        steps = static_cast<std::size_t>(found.steps + found.rounds);
+        steps = static_cast<std::size_t>(found.steps) + static_cast<std::size_t>(found.rounds);
         return;
       }
       const PosedSet placedA(setA, {}), placedB(setB, poses[i]);

@@ -33,7 +33,7 @@ std::string columnsOf(const NamedQuery& query, const BatchResult& result, std::s
     return text;
   }
   const Answer& answer = result.answers[pose];
-  const std::string hit = answer.hit ? "1" : "0";
+  std::string hit = answer.hit ? "1" : "0";
   if (query.kind == QueryKind::tolerance) return hit;
   return hit + ',' + std::to_string(answer.boxTests) + ',' + std::to_string(answer.triangleTests);
 }

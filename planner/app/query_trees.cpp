@@ -11,7 +11,7 @@ namespace {
 
 /// Returns the words for an octree. A cell is an AABB, which octrees fit and test in one way.
 TreeNames octreeWords(const TreeNames& words) {
-  const TreeNames own = {kOctree, "plain", "sat", "top-down"};
+  TreeNames own = {kOctree, "plain", "sat", "top-down"};
   const auto require = [](const char* option, const std::string& word, const std::string& only) {
     if (!word.empty() && word != only)
       throw InputError(

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 fs::path databaseIn(const fs::path& source) {
   std::error_code none;
-  const fs::path file = fs::is_directory(source, none) ? source / "campaign.db" : source;
+  fs::path file = fs::is_directory(source, none) ? source / "campaign.db" : source;
   if (!fs::exists(file, none))
     refuseFile(file,
                "there is no such database; a folder of results, or its campaign.db, is needed");

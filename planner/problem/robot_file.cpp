@@ -125,7 +125,8 @@ std::optional<RobotSetup> readRobotFile(const std::filesystem::path& file, Fault
   if (kind == "urdf")
     read =
         readUrdfRobot(map, name, group, file.parent_path(), use, std::move(setup), notesOfFaulty);
-  if (kind == "rigid") read = readRigid(map, name, file.parent_path(), std::move(setup));
+  else if (kind == "rigid")
+    read = readRigid(map, name, file.parent_path(), std::move(setup));
   addAll(source.notes, read ? read->robot.description.notes : notesOfFaulty);
   return read;
 }

@@ -131,7 +131,7 @@ BodyPointer bodyFrom(const py::tuple& shape) {
 }  // namespace
 
 void bindBodies(py::module_& module) {
-  py::class_<Body, BodyPointer>(module, "Body");
+  const py::class_<Body, BodyPointer> type(module, "Body");
   module.def("body", &bodyFrom, py::arg("shape"));
   module.def(
       "shape_fingerprint",

@@ -22,6 +22,7 @@ void raiseInputError(const corridor::InputError& error) {
 
 PYBIND11_MODULE(_native, module) {
   module.doc() = "The compiled part of the package corridor.";
+  // NOLINTNEXTLINE(performance-unnecessary-value-param): pybind11 prescribes the type
   py::register_exception_translator([](std::exception_ptr pointer) {
     try {
       if (pointer) std::rethrow_exception(pointer);

@@ -101,7 +101,7 @@ class GroupReader {
   /// Returns a suggestion for the name of a group: a similar name, or a longer name, such as lf_leg
   /// for lf.
   std::string similarGroup(const std::string& name) const {
-    const std::string hint = didYouMean(name, groupNames_.all());
+    std::string hint = didYouMean(name, groupNames_.all());
     if (!hint.empty()) return hint;
     for (const std::string& longer : groupNames_.all())
       if (longer.starts_with(name)) return " (did you mean " + quotedWord(longer) + "?)";

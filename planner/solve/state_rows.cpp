@@ -159,7 +159,7 @@ std::vector<EdgeRow> readEdgeRows(const std::filesystem::path& file,
       return "an edge has " + std::to_string(2 * size) + " numbers, those of its two states, not " +
              std::to_string(row.size());
     const auto middle = row.begin() + static_cast<std::ptrdiff_t>(size);
-    if (const auto wrong = rowFault({row.begin(), middle}, space)) return wrong;
+    if (auto wrong = rowFault({row.begin(), middle}, space)) return wrong;
     return rowFault({middle, row.end()}, space);
   };
   std::vector<EdgeRow> edges;
