@@ -63,6 +63,7 @@ std::string firstFinding(const VerifyReport& report);
 PathProblem plainProblem(const Model& model, const Task& task,
                          const std::optional<double>& tolerance = {});
 PathProblem plainProblem(const Problem& problem);
+PathProblem plainProblem(Problem&& problem) = delete;  ///< a temporary would not outlive the result
 
 /// Verifies that the path begins at the start, ends in the goal and stays in the bounds. Then
 /// planner/verify verifies that every curve in the problem's tube around the path keeps the

@@ -116,7 +116,8 @@ TEST(Padding, MessagesNameIt) {
   const Checker checker(problem);
   const auto why = whyNotFree(poseOf(Rigid::SE2, 0, 0), checker);
   ASSERT_TRUE(why);
-  EXPECT_THAT(*why, HasSubstr("are closer than the margin and padding of 0.3 m"));
+  EXPECT_THAT(*why,
+              HasSubstr(" are 0.1 m apart; more than the margin and padding of 0.3 m is needed"));
   const ExactStateValidityChecker exact(
       std::make_shared<ompl::base::SpaceInformation>(
           std::make_shared<ProblemStateSpace>(problem.model.space)),
@@ -155,7 +156,8 @@ TEST(Padding, RefusesWrongNumbers) {
     Problem problem = twoBalls();
     problem.task.padding.pairs[{0, 1}] = metres;
     EXPECT_THROW(Checker{problem}, std::invalid_argument);
-    PathProblem plain = plainProblem(twoBalls());
+    const Problem sound = twoBalls();
+    PathProblem plain = plainProblem(sound);
     plain.pairs[0].padding = metres;
     EXPECT_THROW(verifyPath(plain, {problem.task.start}), std::invalid_argument);
     plain.pairs[0].padding = 0;
