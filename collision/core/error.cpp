@@ -2,17 +2,14 @@
 
 #include <utility>
 
+#include "collision/core/spelling.h"
+
 namespace corridor {
 namespace {
 
-/// Replaces control characters in file names and texts by '?'. They may come from a damaged file,
-/// which may also name another file. After the replacement each fault is one line, and no text from
-/// a file can send commands to the terminal.
 std::vector<Fault> printableFaults(std::vector<Fault> faults) {
   for (Fault& fault : faults)
-    for (std::string* text : {&fault.file, &fault.text})
-      for (char& c : *text)
-        if ((c >= 0 && c < ' ') || c == 0x7f) c = '?';
+    for (std::string* text : {&fault.file, &fault.text}) *text = withoutControls(std::move(*text));
   return faults;
 }
 

@@ -75,15 +75,19 @@ std::string notOneOf(std::string_view word, const std::vector<std::string>& word
          didYouMean(word, words);
 }
 
+std::string withoutControls(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }, '?');
+  return text;
+}
+
 std::string quotedWord(std::string_view word) {
   constexpr std::size_t longest = 60;
   std::size_t end = std::min(word.size(), longest);
   while (end < word.size() && end > 0 && (word[end] & 0xC0) == 0x80)
     --end;  // never cut inside a UTF-8 character
-  std::string text = "\"";
-  for (const char c : word.substr(0, end))
-    text += static_cast<unsigned char>(c) < 32 || c == 127 ? '?' : c;
-  return text + (end < word.size() ? "…\"" : "\"");
+  return '"' + withoutControls(std::string(word.substr(0, end))) +
+         (end < word.size() ? "…\"" : "\"");
 }
 
 std::string quotedPath(std::string_view path) {

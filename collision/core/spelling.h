@@ -39,6 +39,10 @@ std::string joined(const std::vector<std::string>& words);
 /// `didYouMean`.
 std::string notOneOf(std::string_view word, const std::vector<std::string>& words);
 
+/// Returns the text with each control character of ASCII replaced by '?'. Names and texts in files
+/// may contain such characters, which would send commands to a terminal or break a line.
+std::string withoutControls(std::string text);
+
 /// Returns the word for a message: in double quotes, with control characters as '?'. A word of more
 /// than 60 bytes is cut after at most 60 bytes, and "…" marks the cut.
 std::string quotedWord(std::string_view word);

@@ -14,6 +14,7 @@
 
 #include "collision/core/error.h"
 #include "collision/core/shortest.h"
+#include "collision/core/spelling.h"
 #include "planner/benchmark/ranks.h"
 #include "planner/problem/nothing_tested.h"
 #include "planner/solve/finish_path.h"
@@ -40,7 +41,8 @@ void ResultPrinter::line(std::string_view key, const std::string& value, Tone to
                    : tone == Tone::good ? "\033[32m"
                    : tone == Tone::bad  ? "\033[31m"
                                         : "";
-  std::cout << key << ": " << on << value << (*on ? "\033[0m" : "") << '\n';
+  std::cout << withoutControls(std::string(key)) << ": " << on << withoutControls(value)
+            << (*on ? "\033[0m" : "") << '\n';
 }
 
 void ResultPrinter::blank() const {
@@ -48,7 +50,7 @@ void ResultPrinter::blank() const {
 }
 
 void warn(const std::string& text) {
-  std::cerr << "corridor: warning: " << text << '\n';
+  std::cerr << "corridor: warning: " << withoutControls(text) << '\n';
 }
 
 std::string rounded(double value) {

@@ -83,7 +83,12 @@ std::string text(const PathFinding& f, const VerifyReport& report, const Problem
   if (!f.a.empty()) {
     line +=
         ": " + sideText(f.a, f.triangleA, problem) + " and " + sideText(f.b, f.triangleB, problem);
-    if (f.gap > 0) line += ", " + rounded(f.gap) + " m apart";
+    if (f.gap > 0 && f.gap < f.required) {
+      const auto [gap, required] = orderedTexts(f.gap, f.required);
+      line += ", " + gap + " m apart, and more than " + required + " m is needed";
+    } else if (f.gap > 0) {
+      line += ", " + rounded(f.gap) + " m apart";
+    }
     line += ", near " + rounded(f.point);
   }
   return line + "; at " + stateText(problem.model.space, f.configuration);
@@ -106,7 +111,8 @@ ordered_json jsonOf(const PathFinding& f, const VerifyReport& report) {
           {"b", f.b},
           {"triangle_b", f.triangleB},
           {"point", numbersJson(f.point)},
-          {"gap_m", f.gap}};
+          {"gap_m", f.gap},
+          {"required_m", f.required}};
 }
 
 ordered_json jsonOf(const Verified& verified, const Problem& problem, const VerifyArguments& a) {

@@ -24,7 +24,7 @@ constexpr int kPollMs = 5;
 /// Milliseconds of one call of `wait` while the other ranks set up.
 constexpr int kSetUpPollMs = 100;
 /// The longest time, in seconds, that rank 0 waits for the other ranks at the end. Rank 0 waits so
-/// long only if a rank has died.
+/// long only if a rank has died, or is still setting up after an interrupt.
 constexpr double kFarewell = 30;
 
 // The first byte of each message from rank 0 to another rank:

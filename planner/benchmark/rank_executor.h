@@ -37,8 +37,8 @@ class RankExecutor final : public Executor {
   /// no task begins if a rank can't be set up. @param setUp the argument of these calls. @pre this
   /// function is called once, before the first task. @throws InputError with the first fault that a
   /// rank reports.
-  /// @param interrupted if it becomes true, the function returns at once. Then no task may be
-  /// started.
+  /// @param interrupted if it becomes true, the function returns within 0.1 s. Then no task may be
+  /// started. The destructor still waits for ranks that set up.
   void begin(const std::string& setUp, const std::atomic<bool>& interrupted);
 
   std::size_t places() const override { return places_; }

@@ -21,7 +21,9 @@ namespace {
 void Variant::apply(CheckerSettings& spec) const {
   FaultList faults;
   YamlSource source{"variant " + name, faults, {}};
-  readCheckerKeys(YamlMap(checker, "checker", &problemKeys().at("checker"), source), spec);
+  MapKeys keys = problemKeys().at("checker");
+  keys.elsewhere.clear();  // places in problem files
+  readCheckerKeys(YamlMap(checker, "checker", &keys, source), spec);
   faults.throwIfAny();
 }
 

@@ -14,8 +14,6 @@
 namespace corridor {
 namespace {
 
-constexpr const char* kPlace = "ModelBuilder";
-
 /// Excludes pairs of a robot's links from the tests: pairs that SRDF and robot.yaml allow, and
 /// adjacent links. Two links are adjacent if all of these conditions hold:
 /// - One is above the other in the tree.
@@ -73,7 +71,7 @@ void skipLinks(Model& model, std::size_t robot) {
 }  // namespace
 
 void ModelBuilder::fault(std::string text) {
-  faults_.push_back({kPlace, 0, std::move(text)});
+  faults_.push_back({kFaultFile, 0, std::move(text)});
 }
 
 ModelBuilder& ModelBuilder::addRobot(ModelRobot robot) {
@@ -245,7 +243,7 @@ Model ModelBuilder::buildForReader() {
 Model ModelBuilder::build() {
   applyBounds();
   const auto allowed = allowedBodies();
-  if (faults_.empty()) requireFewPairs(model_, kPlace);
+  if (faults_.empty()) requireFewPairs(model_, kFaultFile);
   Model model = buildForReader();
   for (const auto& [a, b] : allowed) model.filter.skip(a, b, "allow");
   return model;

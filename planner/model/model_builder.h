@@ -31,6 +31,9 @@ struct UrdfOptions {
 /// until `build`, which throws all of them at once.
 class ModelBuilder {
  public:
+  /// The `file` of faults that are not in a file.
+  static constexpr const char* kFaultFile = "ModelBuilder";
+
   /// Adds a robot with joints. Planar and floating joints need bounds (`bound`).
   ModelBuilder& addRobot(const std::filesystem::path& urdf, const UrdfOptions& options = {});
   /// Adds a robot that the program describes by links and joints. Planar and floating joints need

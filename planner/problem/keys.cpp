@@ -38,6 +38,58 @@ void addShape(KeysOfMaps& keys, const std::string& path, const Words& more) {
   keys[path + ".octomap"] = {{"file", "unknown", "threshold"}, {}};
 }
 
+/// Returns how a key is written in its maps: "planner: {params: {range: …}}" for the path
+/// "planner.params".
+std::string nested(std::string path, const std::string& key) {
+  std::string text = key + ": …";
+  while (!path.empty()) {
+    const std::size_t dot = path.rfind('.'), begin = dot == path.npos ? 0 : dot + 1;
+    text = path.substr(begin) + ": {" + text + "}";
+    path.resize(dot == path.npos ? 0 : dot);
+  }
+  return text;
+}
+
+/// Sets `elsewhere` of the problem's main maps, for keys that people write into the wrong one of
+/// them. The file as a whole also gets every key with the path of its map: "planner.time".
+void addElsewhere(KeysOfMaps& keys) {
+  const std::vector<std::pair<const char*, const char*>> homes{{"time", "planner"},
+                                                               {"stop", "planner"},
+                                                               {"restart", "planner"},
+                                                               {"params", "planner"},
+                                                               {"range", "planner.params"},
+                                                               {"goal_bias", "planner.params"},
+                                                               {"edges", "checker"},
+                                                               {"resolution", "checker"},
+                                                               {"tolerance", "checker"},
+                                                               {"volume", "checker"},
+                                                               {"detour", "prefer"},
+                                                               {"smooth", "trajectory"},
+                                                               {"corner_deviation", "trajectory"},
+                                                               {"rate", "trajectory"},
+                                                               {"velocity_scale", "limits"},
+                                                               {"acceleration_scale", "limits"},
+                                                               {"link_speed", "limits"},
+                                                               {"seed", ""},
+                                                               {"margin", ""},
+                                                               {"sampler", ""},
+                                                               {"simplify", ""}};
+  for (const char* path : {"", "planner", "checker", "prefer", "trajectory", "limits"}) {
+    MapKeys& map = keys.at(path);
+    for (const auto& [key, home] : homes)
+      if (std::find(map.legal.begin(), map.legal.end(), key) == map.legal.end())
+        map.elsewhere[key] = nested(home, key) + (*home ? "" : " at the top level");
+  }
+  for (const auto& [key, home] : homes)
+    if (*home) keys[""].elsewhere[home + std::string(".") + key] = nested(home, key);
+  for (const std::string& limit : angleLimitKeys)
+    keys["limits"].elsewhere[limit] = nested("limits.default", limit);
+  for (const auto& [path, map] : keys)
+    if (!path.empty() && path.find_first_of("*[") == path.npos)
+      for (const std::string& key : map.legal)
+        keys[""].elsewhere[path + "." + key] = nested(path, key);
+}
+
 KeysOfMaps makeProblemKeys() {
   KeysOfMaps keys{
       {"",
@@ -73,6 +125,7 @@ KeysOfMaps makeProblemKeys() {
   };
   addShape(keys, "world.*", {"shapes"});
   addShape(keys, "world.*.shapes[]", {"name"});
+  addElsewhere(keys);
   return keys;
 }
 

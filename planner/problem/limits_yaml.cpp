@@ -97,7 +97,11 @@ LimitSpec readLimits(const YamlMap& problem, const std::filesystem::path& folder
                      std::vector<std::filesystem::path>& files) {
   const YamlValue* value = problem.find("limits");
   if (!value) return {};
-  const YamlMap map(*value, "limits", &problemKeys().at("limits"), problem.source());
+  MapKeys keys = problemKeys().at("limits");
+  if (isComplete)
+    for (const LimitedJoint& joint : jointsWithLimits(model))
+      keys.elsewhere[joint.name] = "limits: {joints: {" + joint.name + ": …}}";
+  const YamlMap map(*value, "limits", &keys, problem.source());
   return readLimitMap(map, folder, model, isComplete, files);
 }
 

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <map>
 #include <numbers>
+#include <sstream>
 
 #include "planner/model/settings.h"
 
@@ -88,20 +89,42 @@ std::string parseNumber(std::string_view text, Range range, double& value) {
 
 namespace {
 
-/// Returns the legal key that a user probably meant by `key`: a similar key, or the key for which
-/// other programs use the name `key`.
-std::optional<std::string> meantBy(const std::string& key, const std::vector<std::string>& legal) {
+/// The key for which other programs use the name `key`, if it is legal.
+std::optional<std::string> usualName(const std::string& key,
+                                     const std::vector<std::string>& legal) {
   static const std::map<std::string, std::string> others{
       {"pos", "at"},           {"position", "at"},          {"xyz", "at"},
       {"origin", "at"},        {"translation", "at"},       {"pose", "at"},
       {"quat", "quat_xyzw"},   {"quaternion", "quat_xyzw"}, {"orientation", "quat_xyzw"},
       {"obstacles", "world"},  {"scene", "world"},          {"file", "mesh"},
       {"clearance", "margin"}, {"timeout", "time"}};
-  if (const auto near = mostSimilar(key, legal)) return near;
   const auto other = others.find(key);
   if (other == others.end() || std::find(legal.begin(), legal.end(), other->second) == legal.end())
     return std::nullopt;
   return other->second;
+}
+
+/// Returns an example of a map for messages: "such as {name: …}".
+std::string exampleOf(const MapKeys* keys) {
+  return keys && !keys->legal.empty() ? "such as {" + keys->legal.front() + ": …}" : "(key: value)";
+}
+
+/// Returns whether a text is a legal key and its value without the blank: "name:RRT".
+bool lacksBlank(std::string_view text, const MapKeys* keys) {
+  const std::size_t colon = text.find(':');
+  return keys && colon != text.npos &&
+         std::ranges::find(keys->legal, text.substr(0, colon)) != keys->legal.end();
+}
+
+/// Returns whether the value is a text of several numbers that are separated by blanks only.
+bool isRowOfNumbers(const YamlValue& value) {
+  if (value.kind != YamlValue::Kind::Scalar || value.text.find(' ') == value.text.npos)
+    return false;
+  std::istringstream words(value.text);
+  double number = 0;
+  for (std::string word; words >> word;)
+    if (!parseNumber(word, Range::Any, number).empty()) return false;
+  return true;
 }
 
 }  // namespace
@@ -109,8 +132,10 @@ std::optional<std::string> meantBy(const std::string& key, const std::vector<std
 YamlMap::YamlMap(const YamlValue& value, std::string path, const MapKeys* keys, YamlSource& source)
     : path_(std::move(path)), source_(&source), line_(value.line) {
   if (value.kind != YamlValue::Kind::Map) {
-    source.fault(line_, (path_.empty() ? "" : path_ + ": ") + "a map (key: value) is needed, not " +
-                            described(value));
+    source.fault(line_,
+                 (path_.empty() ? "" : path_ + ": ") + "a map " + exampleOf(keys) +
+                     " is needed, not " + described(value) +
+                     (lacksBlank(value.text, keys) ? "; write a blank after the colon" : ""));
     explainsMissing_ = true;
     return;
   }
@@ -131,10 +156,18 @@ YamlMap::YamlMap(const YamlValue& value, std::string path, const MapKeys* keys, 
         explainsMissing_ = true;
         continue;
       }
-      const auto near = meantBy(entry.key, keys->legal);
+      auto near = usualName(entry.key, keys->legal);
+      const auto place = keys->elsewhere.find(entry.key);
+      const bool isElsewhere = !near && place != keys->elsewhere.end();
+      if (!near && !isElsewhere) near = mostSimilar(entry.key, keys->legal);
       if (near) missed_.insert(*near);
+      if (isElsewhere) missed_.insert(place->second.substr(0, place->second.find(':')));
+      const std::string meant = near ? quotedWord(*near) : isElsewhere ? place->second : "";
+      const bool blank = lacksBlank(entry.key, keys);
       source.fault(entry.line, "unknown key " + quotedWord(entry.key) + in +
-                                   (near ? " (did you mean " + quotedWord(*near) + "?)" : "") +
+                                   (blank           ? "; write a blank after the colon"
+                                    : meant.empty() ? ""
+                                                    : " (did you mean " + meant + "?)") +
                                    " (known: " + joined(keys->legal) + ")");
       continue;
     }
@@ -269,12 +302,13 @@ std::optional<std::string> YamlMap::choice(std::string_view key,
 
 std::optional<std::vector<double>> readNumbers(const YamlValue& value, std::size_t count,
                                                const std::string& path, const YamlSource& source) {
-  if (value.kind != YamlValue::Kind::List || value.items.size() != count) {
+  const bool isList = value.kind == YamlValue::Kind::List;
+  const bool lacksCommas = std::ranges::any_of(value.items, isRowOfNumbers);
+  if (!isList || value.items.size() != count || lacksCommas) {
     source.fault(value.line, path + ": a list of " + std::to_string(count) +
                                  " numbers is needed, not " + described(value) +
-                                 (value.kind == YamlValue::Kind::List
-                                      ? " of " + std::to_string(value.items.size())
-                                      : ""));
+                                 (isList ? " of " + std::to_string(value.items.size()) : "") +
+                                 (lacksCommas ? "; write commas between the numbers" : ""));
     return std::nullopt;
   }
   std::vector<double> numbers(count);

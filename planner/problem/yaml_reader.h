@@ -27,10 +27,13 @@ struct UnsupportedKey {
 };
 
 /// The keys of a map: the legal ones, and unsupported ones. The fault of an unsupported key says
-/// what to do instead.
+/// what to do instead. The fault of a key that is legal elsewhere names the place.
 struct MapKeys {
   std::vector<std::string> legal;
   std::vector<UnsupportedKey> unsupported;
+  /// Keys that belong elsewhere in the file, and how they are written there: the key "time" has the
+  /// text "planner: {time: …}".
+  std::map<std::string, std::string> elsewhere = {};
 };
 
 /// A file while it is read: the list of its faults, and the lines of its keys.

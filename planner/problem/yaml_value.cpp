@@ -1,5 +1,7 @@
 #include "planner/problem/yaml_value.h"
 
+#include <algorithm>
+#include <map>
 #include <sstream>
 #include <utility>
 
@@ -115,25 +117,43 @@ class TreeBuilder : public YAML::EventHandler {
   std::size_t nodes_ = 0;
 };
 
-/// Returns whether a line of the text is indented by a tab. @param line the index of the line,
-/// counted from 0.
-bool isIndentedByTab(const std::string& text, int line) {
-  std::size_t begin = 0;
-  for (int i = 0; i < line; ++i) {
-    begin = text.find('\n', begin);
-    if (begin == text.npos) return false;
-    ++begin;
-  }
-  const std::size_t end = text.find_first_not_of(" \t", begin);
-  return text.substr(begin, end - begin).find('\t') != std::string::npos;
+/// Returns a line of the text, counted from 0; "" if there is no such line.
+std::string lineOf(const std::string& text, int line) {
+  std::istringstream stream(text);
+  std::string found;
+  for (int i = 0; i <= line; ++i)
+    if (!std::getline(stream, found)) return "";
+  return found;
 }
 
-/// Returns yaml-cpp's message, or a clearer one for a missing bracket.
-std::string explained(const std::string& message) {
-  if (message == YAML::ErrorMsg::END_OF_MAP_FLOW) return "a } is missing, here or above";
-  if (message == YAML::ErrorMsg::END_OF_SEQ_FLOW) return "a ] is missing, here or above";
-  if (message == YAML::ErrorMsg::FLOW_END) return "a } or ] is missing, or there is one too many";
-  return message;
+/// Returns a clearer message for the faults that people make most, or else yaml-cpp's message.
+std::string explained(const YAML::Exception& error, const std::string& line) {
+  using namespace YAML::ErrorMsg;
+  const std::size_t indent = line.find_first_not_of(" \t");
+  const auto column = static_cast<std::size_t>(std::max(error.mark.column, 0));
+  if (line.substr(0, indent).find('\t') != line.npos)
+    return "the line is indented by a tab; use blanks";
+  if (error.msg == END_OF_MAP || error.msg == END_OF_SEQ) {
+    if (indent < column && column <= line.size())
+      return "nothing may follow the value on this line";
+    return "\"key: value\" or \"- value\" is needed here, indented like the lines above it, and "
+           "with a "
+           "blank after the colon or the minus";
+  }
+  if (error.msg == UNKNOWN_TOKEN && column < line.size() && ' ' < line[column] &&
+      line[column] < 0x7f)
+    return std::string("a text that begins with ") + line[column] + " must be in quotes";
+  static const std::map<std::string, const char*> texts{
+      {END_OF_MAP_FLOW, "a } is missing, here or above"},
+      {END_OF_SEQ_FLOW, "a ] is missing, here or above"},
+      {FLOW_END, "a } or ] is missing, or there is one too many"},
+      {BLOCK_ENTRY,
+       "\"- \" begins a list item; it must begin its line, and can't be inside [ ] or { }"},
+      {MAP_VALUE,
+       "a colon can't be here; a map on one line needs braces, {key: value}, and a text that "
+       "contains a colon needs quotes; or the line above lacks the blank after its colon"}};
+  const auto found = texts.find(error.msg);
+  return found == texts.end() ? error.msg : found->second;
 }
 
 }  // namespace
@@ -148,10 +168,8 @@ YamlValue parseYaml(const std::string& file, const std::string& text, const Yaml
       throw InputError(Fault{file, 0, "has more than one YAML document (---); keep one"});
     return first.take();
   } catch (const YAML::Exception& error) {
-    const bool tab = isIndentedByTab(text, error.mark.line);
     throw InputError(Fault{file, error.mark.line + 1,
-                           tab ? "is not YAML: the line is indented by a tab; use blanks"
-                               : "is not YAML: " + explained(error.msg)});
+                           "is not YAML: " + explained(error, lineOf(text, error.mark.line))});
   }
 }
 

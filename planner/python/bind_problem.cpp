@@ -18,6 +18,18 @@ namespace {
 
 using ProblemPointer = std::shared_ptr<NativeProblem>;
 
+/// Builds the model. Its faults name the class `Problem`, which Python users know.
+Model built(ModelBuilder& builder) {
+  try {
+    return builder.build();
+  } catch (const InputError& error) {
+    std::vector<Fault> faults = error.faults();
+    for (Fault& fault : faults)
+      if (fault.file == ModelBuilder::kFaultFile) fault.file = "Problem";
+    throw InputError(std::move(faults));
+  }
+}
+
 /// Builds a problem from descriptions of robots and obstacles (corridor/problem.py).
 ProblemPointer build(const py::list& robots, const py::dict& obstacles, const py::list& allowed) {
   ModelBuilder builder;
@@ -31,7 +43,7 @@ ProblemPointer build(const py::list& robots, const py::dict& obstacles, const py
     builder.allow(a, b);
   }
   Problem problem;
-  problem.model = builder.build();
+  problem.model = built(builder);
   problem.source.name = "problem";
   problem.task.start = Configuration::Zero(static_cast<Eigen::Index>(problem.model.space.size()));
   finishProblem({}, {}, problem);

@@ -129,6 +129,7 @@ py::dict reportDict(const VerifyReport& report) {
     finding["t"] = f.t;
     finding["verdict"] = nameOf(f.verdict);
     finding["gap_m"] = f.gap;
+    finding["required_m"] = f.required;
     finding["reason"] = f.reason;
     if (!f.a.empty()) finding["bodies"] = py::make_tuple(f.a, f.b);
     findings.append(std::move(finding));

@@ -21,10 +21,8 @@ std::string onLine(int line) {
 }
 
 void RobotFaults::fault(int line, std::string text) {
-  // Names in the file may contain control characters, which would garble the message.
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, '?');
-  if (++faultCount_ <= FaultList::kMost) faults_.push_back({label_, line, std::move(text)});
+  if (++faultCount_ <= FaultList::kMost)
+    faults_.push_back({label_, line, withoutControls(std::move(text))});
 }
 
 std::string RobotFaults::at(int line, const std::string& text) const {

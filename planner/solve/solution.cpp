@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "collision/core/shortest.h"
+#include "collision/core/spelling.h"
 #include "planner/problem/format_key.h"
 #include "planner/problem/text_words.h"
 #include "planner/problem/yaml_reader.h"
@@ -68,7 +69,7 @@ std::string yamlOf(const Solution& solution) {
     text << "{position: " << digits(at(solution.tube, 0))
          << ", rotation: " << digits(at(solution.tube, space == "SE2" ? 2 : 3)) << "}  # m, rad";
   text << ": the proof holds for every curve this close to the path\n"
-       << "path:  # " << listed(solution.numbers, " ") << "\n";
+       << "path:  # " << withoutControls(listed(solution.numbers, " ")) << "\n";
   for (const Configuration& state : solution.path) text << "  - " << row(state) << "\n";
   return text.str();
 }
@@ -231,6 +232,8 @@ std::string solutionText(const Solution& solution) {
 }
 
 bool isSolutionFile(const std::filesystem::path& file) {
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(file, none)) return false;  // reading a pipe may never end
   std::ifstream stream(file, std::ios::binary);
   std::string text(4096, '\0');
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));

@@ -40,7 +40,7 @@ void writeSolution(const Solution& solution, const std::filesystem::path& file);
 std::string solutionText(const Solution& solution);
 
 /// Returns whether a file begins like a solution file: its first 4 kB contain the line that names
-/// the format. Returns false for a file that can't be read.
+/// the format. Returns false for a file that can't be read, and for a pipe or a device.
 bool isSolutionFile(const std::filesystem::path& file);
 
 /// Reads a solution file, or an OMPL.app `.path` file, which has one state per line; "-" is the

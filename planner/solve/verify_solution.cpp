@@ -95,8 +95,9 @@ std::string awayText(const Away& away) {
   };
   add(away.position, " m");
   add(away.angle, " rad");
-  add(std::max(away.joint, away.jointAngle), " in a joint");
-  return "it is " + (text.empty() ? "0" : text) + " away";
+  add(std::max(away.joint, away.jointAngle),
+      away.joint > away.jointAngle ? " rad or m in a joint" : " rad in a joint");
+  return "it differs by " + (text.empty() ? "0" : text);
 }
 
 bool isSame(const Away& away) {
@@ -117,7 +118,7 @@ bool isInGoal(const Problem& problem, const Away& away) {
   return isSame(away);
 }
 
-/// Returns how far a state is from the start, such as "it is 0.1 m away"; "" if it is the start.
+/// Returns how far a state is from the start, such as "it differs by 0.1 m"; "" if it is the start.
 std::string notStart(const Problem& problem, const Configuration& state) {
   const Away away = awayFrom(problem.model.space, problem.task.start, state);
   return isSame(away) ? "" : awayText(away);

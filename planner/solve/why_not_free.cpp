@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <numbers>
 #include <random>
@@ -11,16 +10,11 @@
 #include "collision/core/floating_point.h"
 #include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
+#include "collision/world/body_queries.h"
 #include "planner/robot/angles.h"
 
 namespace corridor {
 namespace {
-
-std::string number(double value, int digits = 4) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.*g", digits, value);
-  return text;
-}
 
 /// Returns the only group of the space if it is planar or floating, else null. A configuration is
 /// then the pose of one body.
@@ -33,7 +27,7 @@ const CoordinateGroup* onlyPose(const ConfigurationSpace& space) {
 std::string position(const Configuration& q, const CoordinateGroup& pose, int digits = 4) {
   std::string text = "[";
   for (std::size_t k = 0; k + 1 < pose.coordinates.size(); ++k)
-    text += (k ? ", " : "") + number(q[static_cast<Eigen::Index>(k)], digits);
+    text += (k ? ", " : "") + withDigits(q[static_cast<Eigen::Index>(k)], digits);
   return text + "]";
 }
 
@@ -161,7 +155,7 @@ NearestFree withFewDigits(const Configuration& exact, const Configuration& from,
   for (const int digits : {4, 6, 9, 12}) {
     Configuration q = exact;
     for (Eigen::Index i = 0; i < q.size(); ++i)
-      if (isRounded(i)) q[i] = std::strtod(number(q[i], digits).c_str(), nullptr);
+      if (isRounded(i)) q[i] = std::strtod(withDigits(q[i], digits).c_str(), nullptr);
     if (checker.isProvedFree(q)) return {q, digits, pose ? away : (q - from).cwiseAbs().maxCoeff()};
   }
   return {exact, 17, away};
@@ -200,7 +194,7 @@ std::string describedFree(const std::optional<NearestFree>& free, const Configur
                           const ConfigurationSpace& space) {
   if (const CoordinateGroup* pose = onlyPose(space)) {
     if (!free) return "no free position was found nearby with this orientation";
-    return "the nearest free position found is " + number(free->away) +
+    return "the nearest free position found is " + withDigits(free->away) +
            " m away: at: " + position(free->q, *pose, free->digits);
   }
   if (!free) return "no free values were found nearby";
@@ -209,10 +203,40 @@ std::string describedFree(const std::optional<NearestFree>& free, const Configur
   for (std::size_t i = 0; i < names.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
     values += (values.empty() ? "" : ", ") + names[i] + ": " +
-              (free->q[k] == q[k] ? shortest(q[k]) : number(free->q[k], free->digits));
+              (free->q[k] == q[k] ? shortest(q[k]) : withDigits(free->q[k], free->digits));
   }
-  return "the nearest free values found are at most " + number(free->away) + " rad or m away: {" +
-         values + "}";
+  return "the nearest free values found are at most " + withDigits(free->away) +
+         " rad or m away: {" + values + "}";
+}
+
+/// Returns the distance of two shapes.
+double gapOf(const Checker& checker, const Configuration& q, const Contact& pair) {
+  const std::vector<Transform> poses = framePoses(checker.model().tree, q);
+  const auto posed = [&](std::size_t shape) {
+    const Scene::Placed& placed = checker.scene().bodies()[shape];
+    return Posed<Body>(placed.body, placed.restX_WF.value_or(poses[placed.frame]));
+  };
+  QueryContext context;
+  return distance(posed(pair.bodyA), posed(pair.bodyB), {}, context).distance;
+}
+
+/// Returns `; not proved free either: "hand" and "table", "arm" and "wall"`: the pairs of bodies
+/// for which the configuration is not proved free, except for the pair of `named`. Returns "" if
+/// there are none.
+std::string otherPairs(const Checker& checker, const Configuration& q, const Contact& named) {
+  constexpr std::size_t most = 5;
+  const std::vector<ModelBody>& bodies = checker.model().bodies;
+  const std::size_t a = checker.bodyOf(named.bodyA), b = checker.bodyOf(named.bodyB);
+  std::string text;
+  std::size_t count = 0;
+  for (const Checker::PairNotFree& pair : checker.pairsNotFree(q)) {
+    if (pair.a == std::min(a, b) && pair.b == std::max(a, b)) continue;
+    if (++count > most) continue;
+    text += (text.empty() ? "; not proved free either: " : ", ") + quotedWord(bodies[pair.a].name) +
+            " and " + quotedWord(bodies[pair.b].name);
+  }
+  if (count > most) text += ", and " + std::to_string(count - most) + " more";
+  return text;
 }
 
 /// Explains the reasons that do not depend on the gap between two bodies.
@@ -262,26 +286,36 @@ std::optional<std::string> whyNotFree(const Configuration& q, const Checker& che
     // tolerance, covers that.
     const double needed = result.pair ? tubeOf(checker, q, *result.pair) : 0;
     if (result.gap <= needed) {
-      return "the gap between " + pair + " is " + number(result.gap) + " m, and the tube needs " +
-             number(needed) + " m; move the two bodies apart, or set a smaller tube";
+      return "the gap between " + pair + " is " + withDigits(result.gap) +
+             " m, and the tube needs " + withDigits(needed) +
+             " m; move the two bodies apart, or set a smaller tube";
     }
-    return "the gap between " + pair + " is " + number(result.gap) + " m" +
+    return "the gap between " + pair + " is " + withDigits(result.gap) + " m" +
            (margin > 0 ? " beyond the " + kept : "") + ", too small to prove at a tolerance of " +
-           number(options.tolerance) +
-           " m; move the two bodies apart, or set checker: {tolerance: " + number(result.gap / 4) +
-           "}";
+           withDigits(options.tolerance) +
+           " m; move the two bodies apart, or set checker: {tolerance: " +
+           withDigits(result.gap / 4) + "}";
   }
   if (result.verdict == MotionVerdict::undecided && result.reason == UndecidedReason::rounding)
     return "a value is so large that the rounding of the pose exceeds the gap between " + pair +
-           ", or the tolerance of " + number(options.tolerance) +
+           ", or the tolerance of " + withDigits(options.tolerance) +
            " m; reduce the value (an angle by whole turns), or set a larger checker: {tolerance: "
            "…}";
   if (result.verdict == MotionVerdict::undecided) return whyUndecided(result.reason);
-  return "in contact: " + pair +
-         (checker.interference(q)
-              ? " touch"
-              : " are closer than the " + kept + " of " + number(margin) + " m") +
-         "; " + describedFree(nearestFree(q, checker), q, checker.space());
+  // A pair that touches is named before a pair that is only within its margin.
+  const std::optional<Contact> contact = checker.interference(q);
+  std::string text = "in contact: " + (contact ? described(checker, *contact) : pair) + " touch";
+  const double gap = contact || !result.pair ? 0 : gapOf(checker, q, *result.pair);
+  if (0 < gap && gap < margin) {
+    const auto [gapText, marginText] = orderedTexts(gap, margin);
+    text = "too close: " + pair + " are " + gapText + " m apart; more than the " + kept + " of " +
+           marginText + " m is needed";
+  } else if (!contact && margin > 0) {
+    text = "too close: " + pair + " are not proved to be farther apart than the " + kept + " of " +
+           withDigits(margin) + " m";
+  }
+  if (contact || result.pair) text += otherPairs(checker, q, contact ? *contact : *result.pair);
+  return text + "; " + describedFree(nearestFree(q, checker), q, checker.space());
 }
 
 }  // namespace corridor

@@ -275,7 +275,7 @@ Emission emitRows(const TimeLaw& given, const std::vector<CurvePiece>& path,
     const double factor = neededFactor(result.ratios);
     if (!std::isfinite(factor)) break;
     if (atRest) {  // slow the law down, and choose rows again
-      // Without a rate, the stretch of the rows has brought them near to the limits already.
+      // Without a rate, the rows have been stretched already. The law lacks this stretch.
       const double by = (options.rate ? factor : result.stretch / stretchOfLaw) * kMostExcess;
       slowDown(law.segments, by);
       for (double& stop : law.stopTimes) stop *= by;

@@ -465,6 +465,7 @@ PathFinding PairProver::finding(const TimeInterval& interval, std::size_t pair,
   const Placement X_WA = curve.at(fromRoot, interval.middle).at;
   finding.point = (X_WA.rotation * answer.point + X_WA.position).cast<double>();
   finding.gap = static_cast<double>(answer.upper);
+  finding.required = static_cast<double>(p.margin);
   finding.reason = answer.reason;
   return finding;
 }

@@ -125,8 +125,9 @@ struct PathFinding {
   /// A point of contact, a point of one body inside the other, or the closest point of `b`; metres,
   /// in the world frame.
   Vec3 point = Vec3::Zero();
-  double gap = 0;      ///< distance of the two bodies at t, metres; 0: contact, or inside
-  std::string reason;  ///< a few words: "contact", "ambiguous half turn", …
+  double gap = 0;       ///< distance of the two bodies at t, metres; 0: contact, or inside
+  double required = 0;  ///< distance that two bodies must keep: margin plus padding, metres
+  std::string reason;   ///< a few words: "contact", "ambiguous half turn", …
 };
 
 struct PathReport {

@@ -105,6 +105,7 @@ class Checks(unittest.TestCase):
             (np.zeros((2, 2, 7)), r"states: .* not \(2, 2, 7\)"),
             (np.full(7, math.nan), "states: the numbers must be finite"),
             ([["a"] * 7], "states: an array of numbers is needed"),
+            ([[0.0] * 7, [0.0]], "states: an array of numbers is needed, with rows of equal length"),
         ):
             with self.assertRaisesRegex(ValueError, text):
                 self.problem.check(states)
@@ -195,6 +196,12 @@ class Problems(unittest.TestCase):
         self.assertRegex(str(caught.exception), "^start: in contact")
         with self.assertRaisesRegex(corridor.InputError, "^goal: in contact"):
             corridor.solve(problem.edited(goals=touching))
+
+    def test_faults_of_built_problems_name_the_class(self):
+        body = corridor.rigid_body(shapes.box([0.2, 0.2, 0.2]), [[-2, -1, -1], [2, 1, 1]])
+        with self.assertRaises(corridor.InputError) as caught:
+            corridor.Problem([body, body])
+        self.assertEqual({fault.file for fault in caught.exception.faults}, {"Problem"})
 
     def test_values_of_the_wrong_type(self):
         problem, body, q = corridor.read_problem(ARM), Body(shapes.sphere(1)), corridor.read_problem(ARM).start
@@ -403,12 +410,20 @@ class Solve(unittest.TestCase):
             page = solution.view(pathlib.Path(folder, "s.html"))
             self.assertGreater(os.path.getsize(page), 10_000)
 
+    def test_solutions_without_a_trajectory_say_so(self):
+        solution = pickle.loads(pickle.dumps(corridor.solve(cube_in_room())))
+        self.assertEqual(solution.trajectory, {})
+        for act in (lambda: solution.trajectory["text"], solution.verify_trajectory):
+            with self.assertRaisesRegex((KeyError, ValueError), 'there is no trajectory; pass trajectory="csv" to solve'):
+                act()
+
     def test_path_that_touches_is_refuted(self):
         solution = corridor.solve(cube_in_room())
         solution.path = np.array([solution.path[0], solution.path[-1]])  # a path through the wall
         report = solution.verify()
         self.assertEqual(report["verdict"], "refuted")
         self.assertEqual(set(report["findings"][0]["bodies"]), {"cube", "wall"})
+        self.assertEqual(report["findings"][0]["required_m"], 0)
 
     def test_no_path(self):
         closed = corridor.Problem(
@@ -417,8 +432,11 @@ class Solve(unittest.TestCase):
             start=[-1, 0, 0, 0, 0, 0, 1],
             goals=[1, 0, 0, 0, 0, 0, 1],
         )
-        solution = corridor.solve(closed, time=0.3)
+        solution = corridor.solve(closed, time=0.3, trajectory="csv")
         self.assertFalse(solution)
+        for act in (lambda: solution.trajectory["text"], solution.verify_trajectory):
+            with self.assertRaisesRegex((KeyError, ValueError), "there is no trajectory; the problem is not solved"):
+                act()
         self.assertEqual(solution.path.shape, (0, 7))
         with self.assertRaisesRegex(ValueError, "there is no path"):
             solution.verify()

@@ -141,7 +141,7 @@ class Pictures(unittest.TestCase):
         self.assertEqual(self.solution.svg("top"), self.solution.svg(seen_from="-90,90"))
         with self.assertRaisesRegex(corridor.InputError, r'seen_from: .* is needed, not "topp" \(did you mean "top"\?\)'):
             self.solution.svg(seen_from="topp")
-        with self.assertRaisesRegex(ValueError, "seen_from: a name is needed"):
+        with self.assertRaisesRegex(ValueError, r'seen_from: a text is needed, such as "front" or "-60,38", not \(0, 90\)'):
             self.solution.png(seen_from=(0, 90))
 
     def test_without_the_program(self):

@@ -11,12 +11,17 @@ from numpy.typing import NDArray
 
 def _array(name: str, value: Any) -> NDArray[np.float64]:
     """Returns a copy as doubles. Other numbers are rounded to the nearest double; proofs are about the doubles."""
-    if isinstance(value, np.ma.MaskedArray) or np.iscomplexobj(value):
-        raise ValueError(f"{name}: an array of real numbers without a mask is needed")
+    real = not isinstance(value, np.ma.MaskedArray)
     try:
-        return np.array(value, dtype=float)
-    except (TypeError, ValueError) as error:
-        raise ValueError(f"{name}: an array of numbers is needed: {error}") from None
+        real = real and not np.iscomplexobj(value)
+        array = np.array(value, dtype=float) if real else np.zeros(0)
+    except (TypeError, ValueError, OverflowError) as error:
+        rows = "inhomogeneous" in str(error) or "sequence" in str(error)
+        why = ", with rows of equal length" if rows else f": {error}"
+        raise ValueError(f"{name}: an array of numbers is needed{why}") from None
+    if not real:
+        raise ValueError(f"{name}: an array of real numbers without a mask is needed")
+    return array
 
 
 def _number(name: str, value: Any) -> float:

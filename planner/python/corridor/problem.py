@@ -257,6 +257,17 @@ def _frame(page: str) -> str:
     return f'<iframe srcdoc="{html.escape(page)}" style="width: 100%; height: 600px; border: 0"></iframe>'
 
 
+class _NoTrajectory(dict[str, Any]):
+    """The empty `trajectory` of a solution. Its KeyError says why it is empty."""
+
+    def __init__(self, why: str = 'pass trajectory="csv" to solve'):
+        super().__init__()
+        self.why = why
+
+    def __missing__(self, key: str) -> Any:
+        raise KeyError(f"{key}: there is no trajectory; {self.why}")
+
+
 @dataclass(repr=False, eq=False)
 class Solution:
     """The result of `solve`. It can be pickled. `bool(solution)` is True if the problem is solved."""
@@ -268,8 +279,9 @@ class Solution:
     certified: bool  #: every edge of `path` is proved
     #: times, lengths and counts. `proved_clearance_m` is at most the preferred clearance; `verify` may prove more
     figures: dict[str, Any] = field(default_factory=dict)
-    #: `text`, `duration`, `proved`, `keeps_limits`, `why_none`. Empty if `solve` was called without `trajectory`
-    trajectory: dict[str, Any] = field(default_factory=dict)
+    #: `text`, `duration`, `proved`, `keeps_limits`, `why_none`. Empty if `solve` was called without `trajectory`, or if
+    #: the problem is not solved
+    trajectory: dict[str, Any] = field(default_factory=_NoTrajectory)
     _text: str = ""
 
     def __bool__(self) -> bool:
@@ -291,7 +303,8 @@ class Solution:
     def verify_trajectory(self) -> dict[str, Any]:
         """Verifies the text of the trajectory by the independent verifier. Returns `verdict`, `keeps_limits`, ..."""
         if not self.trajectory.get("text"):
-            raise ValueError('there is no trajectory; pass trajectory="csv" to solve')
+            why = self.trajectory.get("why_none") or getattr(self.trajectory, "why", "")
+            raise ValueError(f"there is no trajectory; {why}")
         return _native.verify_trajectory(self.problem._native, self.trajectory["text"])
 
     def save(self, file: str | os.PathLike[str]) -> None:
@@ -321,8 +334,9 @@ class Solution:
         "AZIMUTH,ELEVATION" in degrees, such as "-60,38". Without it, the scene is seen from above at an angle.
         """
         self._require_path()
-        direction = None if seen_from is None else _text("seen_from", seen_from)
-        return _native.picture(self.problem._native, self.path, direction)
+        if seen_from is not None and not isinstance(seen_from, str):
+            raise ValueError(f'seen_from: a text is needed, such as "front" or "-60,38", not {seen_from!r}')
+        return _native.picture(self.problem._native, self.path, seen_from)
 
     def png(self, width: int = 1200, seen_from: str | None = None) -> bytes:
         """Returns the picture of `svg` as the bytes of a PNG file, `width` pixels wide.
@@ -379,8 +393,9 @@ def solve(
     finally:
         _this_thread.solves = False
     take = result.pop
+    none = _NoTrajectory() if trajectory is None else _NoTrajectory("the problem is not solved")
     return Solution(
-        problem, take("outcome"), take("why"), take("path"), take("certified"), trajectory=take("trajectory", {}),
+        problem, take("outcome"), take("why"), take("path"), take("certified"), trajectory=take("trajectory", none),
         _text=take("text", ""), figures=result,
     )  # fmt: skip
 

@@ -38,6 +38,10 @@ TEST(Spelling, QuotesForMessages) {
   EXPECT_EQ(quotedWord(std::string(59, 'x') + "ü"), "\"" + std::string(59, 'x') + "…\"");
 }
 
+TEST(Spelling, ControlCharactersAreReplaced) {
+  EXPECT_EQ(withoutControls("Tür\x1b[2J\t\x7f.yaml"), "Tür?[2J??.yaml");
+}
+
 TEST(QuotedPath, KeepsTheEndOfALongName) {
   EXPECT_EQ(quotedPath("meshes/a\nb.stl"), "\"meshes/a?b.stl\"");
   EXPECT_EQ(quotedPath(std::string(60, 'x')), "\"" + std::string(60, 'x') + "\"");

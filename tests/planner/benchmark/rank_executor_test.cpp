@@ -216,7 +216,7 @@ TEST_F(RankTest, WaitsForTheSetUpOfAllRanks) {
   }
 }
 
-/// A rank that takes long to set up does not keep an interrupt waiting.
+/// After an interrupt, `begin` does not wait for a rank that takes long to set up.
 TEST_F(RankTest, AnInterruptEndsTheWaitForTheSetUp) {
   interrupted_ = true;
   executor_->begin("late fault", interrupted_);

@@ -78,7 +78,7 @@ TEST_F(NeverInContactPairs, Faults) {
     return complaintOf(armHead + "start: ready\ngoal: {pan: 1, lift: 0.5}\n");
   };
   EXPECT_EQ(faults("[[base, finger]]"),
-            "arm.yaml:6: never_in_contact: a map (key: value) is needed, not a list");
+            "arm.yaml:6: never_in_contact: a map such as {margin: …} is needed, not a list");
   EXPECT_EQ(faults("{margin: 0.01, pairs: [[base, finger]]}"),
             "arm.yaml:6: missing key \"beyond_limits\" in never_in_contact: rad or m: how far "
             "the proof goes beyond the limits of joints");

@@ -50,6 +50,30 @@ TEST_F(ProblemFaults, Syntax) {
   EXPECT_EQ(with("[1]: 2\n"), "problem.yaml:8: a key must be a word");
   EXPECT_EQ(with("planner:\n\tname: RRT\n"),
             "problem.yaml:9: is not YAML: the line is indented by a tab; use blanks");
+  const auto expectFault = [&](const char* text, const char* fault) {
+    EXPECT_EQ(with(text), std::string("problem.yaml:") + fault) << text;
+  };
+  for (const char* text : {"planner:\n    name: RRT\n  time: 3\n",
+                           "allow:\n  - [a, b]\n - [a, c]\n", "allow:\n  - [a, b]\n  [a, c]\n"})
+    expectFault(text,
+                "10: is not YAML: \"key: value\" or \"- value\" is needed here, indented like the "
+                "lines above it, and with a blank after the colon or the minus");
+  expectFault("planner:\n  name: RRT\n  time:3\n",
+              "10: unknown key \"time:3\" in planner; write a blank after the colon (known: name, "
+              "time, stop, restart, params)");
+  for (const char* text : {"margin: [1, 2],\n", "margin: [1, 2] m\n", "margin: \"A\" \"B\"\n"})
+    expectFault(text, "8: is not YAML: nothing may follow the value on this line");
+  const std::string colon =
+      ": is not YAML: a colon can't be here; a map on one line needs braces, {key: value}, and a "
+      "text that contains a colon needs quotes; or the line above lacks the blank after its colon";
+  EXPECT_EQ(with("planner: name: RRT\n"), "problem.yaml:8" + colon);
+  EXPECT_EQ(with("planner:\n  name:RRT\n  time: 3\n"), "problem.yaml:10" + colon);
+  for (const char* text : {"allow: - [a, b]\n", "allow: [- 1, 0]\n"})
+    expectFault(text,
+                "8: is not YAML: \"- \" begins a list item; it must begin its line, and can't be "
+                "inside [ ] or { }");
+  expectFault("planner: {name: @RRT}\n",
+              "8: is not YAML: a text that begins with @ must be in quotes");
   EXPECT_EQ(with("---\na: 1\n"), "problem.yaml: has more than one YAML document (---); keep one");
 }
 
@@ -79,6 +103,37 @@ TEST_F(ProblemFaults, UnknownAndDuplicateKeys) {
                         "wedge.obj}\n  a: {mesh: wedge.obj}\n" +
                         poses),
             "problem.yaml:5: duplicate key \"a\" in world, first on line 4");
+}
+
+TEST_F(ProblemFaults, KeysInTheWrongPlace) {
+  const auto expectHint = [&](const char* text, const char* hint) {
+    EXPECT_THAT(with(text), testing::HasSubstr(hint)) << text;
+  };
+  expectHint("time: 3\n", "unknown key \"time\" (did you mean planner: {time: …}?)");
+  expectHint("planner.time: 3\n",
+             "unknown key \"planner.time\" (did you mean planner: {time: …}?)");
+  expectHint("planner.params.range: 3\n",
+             "unknown key \"planner.params.range\" (did you mean planner: {params: {range: …}}?)");
+  expectHint("planner.tmie: 3\n", "unknown key \"planner.tmie\" (known: ");
+  expectHint("planner: {range: 3}\n",
+             "unknown key \"range\" in planner (did you mean planner: {params: {range: …}}?)");
+  expectHint("planner: {seed: 3}\n",
+             "unknown key \"seed\" in planner (did you mean seed: … at the top level?)");
+  expectHint("name: mine\n", "unknown key \"name\" (known: ");
+  expectHint("limits: {velocity: 3}\n",
+             "unknown key \"velocity\" in limits (did you mean limits: {default: {velocity: …}}?)");
+  expectHint("checker: {corner_deviation: 3}\n",
+             "(did you mean trajectory: {corner_deviation: …}?)");
+  expectHint("planner: name:RRT\n",
+             "planner: a map such as {name: …} is needed, not \"name:RRT\"; write a blank after "
+             "the colon");
+  for (const char* at : {"[0 0 1]", "[0 0, 1, 2]"})
+    EXPECT_THAT(complaintOf(head + "start: {at: " + at + "}\ngoal: {at: [0, 0, 1]}\n"),
+                testing::HasSubstr("; write commas between the numbers"));
+  expectHint("planner: C:\\x\n", "is needed, not \"C:\\x\"");
+  EXPECT_THAT(with("planner: C:\\x\n"), testing::Not(testing::HasSubstr("blank")));
+  EXPECT_EQ(complaintOf(head + "start: {at: [0, 0, 1]}\ngoal.at: [0, 0, 1]\n").find("missing"),
+            std::string::npos);
 }
 
 TEST_F(ProblemFaults, AMistypedKeyIsNotAlsoMissing) {
@@ -125,7 +180,7 @@ TEST_F(ProblemFaults, WrongTypes) {
   EXPECT_EQ(with("margin: [1]\n"), "problem.yaml:8: margin: a number is needed, not a list");
   EXPECT_EQ(with("margin:\n"), "problem.yaml:8: margin: a number is needed, not nothing");
   EXPECT_EQ(with("planner: RRT\n"),
-            "problem.yaml:8: planner: a map (key: value) is needed, not \"RRT\"");
+            "problem.yaml:8: planner: a map such as {name: …} is needed, not \"RRT\"");
   EXPECT_EQ(with("planner: {params: {range: [1]}}\n"),
             "problem.yaml:8: planner.params.range: a word is needed, not a list");
   EXPECT_EQ(with("simplify: yes\n"),
@@ -286,7 +341,7 @@ TEST_F(ProblemFaults, Bounds) {
             "problem.yaml:7: bounds.at: the lower and the upper corner are needed, at: [[x, y, z], "
             "[x, y, z]], not a list");
   EXPECT_EQ(complaintOf(start + "bounds: [[0, 0, 0], [1, 1, 1]]\n"),
-            "problem.yaml:7: bounds: a map (key: value) is needed, not a list");
+            "problem.yaml:7: bounds: a map such as {at: …} is needed, not a list");
   EXPECT_EQ(complaintOf(
                 planarHead +
                 "start: {at: [5, 0]}\ngoal: {at: [0, 5]}\nbounds: {at: [[0, 0, 0], [9, 9, 9]]}\n"),

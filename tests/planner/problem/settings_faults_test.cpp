@@ -43,9 +43,10 @@ TEST_F(ProblemFaults, Prefer) {
   EXPECT_EQ(with("prefer: {detour: .nan}\n"),
             "problem.yaml:8: prefer.detour: a finite number is needed, not \".nan\"");
   EXPECT_EQ(with("prefer: 0.1\n"),
-            "problem.yaml:8: prefer: a map (key: value) is needed, not \"0.1\"");
+            "problem.yaml:8: prefer: a map such as {clearance: …} is needed, not \"0.1\"");
   EXPECT_EQ(with("prefer: {margin: 1}\n"),
-            "problem.yaml:8: unknown key \"margin\" in prefer (known: clearance, detour)");
+            "problem.yaml:8: unknown key \"margin\" in prefer (did you mean margin: … at the top "
+            "level?) (known: clearance, detour)");
   const std::string place = "problem.yaml:9: prefer.clearance: ";
   EXPECT_EQ(with("margin: 0.01\nprefer: {clearance: 0.1}\n"),
             place + "can't be used with a margin; leave one of the two out");

@@ -411,7 +411,8 @@ TEST(Solve, MarginAndTube) {
   problem.task.start.head(3) = Vec3(-0.6, -2, 0);  // the bar is 0.0995 m from the wall
   problem.task.margin = 0.2;
   EXPECT_THAT(complaintOf(problem),
-              HasSubstr("are closer than the margin of 0.2 m; the nearest free position"));
+              HasSubstr(" are 0.0995 m apart; more than the margin of 0.2 m is needed; the "
+                        "nearest free position"));
   problem.task.margin = 0;
   problem.task.start.head(3) = Vec3(-0.5005 - 0.01, -2, 0);
   problem.task.tube.head(3).setConstant(0.02);

@@ -29,5 +29,44 @@ TEST(WhyNotFree, NamesFloatingPointSettings) {
   }
 }
 
+/// A ball of radius 0.5 m between others.
+TEST(WhyNotFree, NamesTheGapAndTheOtherPairs) {
+  using testing::StartsWith;
+  Problem problem = test::rigidProblem(test::Rigid::SE2);
+  const auto ball = [](double radius, const Vec3& at) {
+    return std::vector<PlacedShape>{test::partShape("ball", Sphere{radius}, at)};
+  };
+  const auto why = [&] {
+    return whyNotFree(test::poseOf(test::Rigid::SE2, 0, 0), Checker(problem)).value_or("free");
+  };
+  problem.model.bodies = {{"ball", 2, 0, ball(0.5, Vec3::Zero())},
+                          {"left", 0, {}, ball(0.25, {-0.95 + 1e-9, 0, 0})}};
+  EXPECT_EQ(why(), "free");
+  problem.task.margin = 0.2;
+  const std::string left =
+      "too close: \"ball\" and \"left\" are 0.199999999 m apart; more than the margin of 0.2 m is "
+      "needed; ";
+  EXPECT_THAT(why(), StartsWith(left + "the nearest free position"));
+  problem.model.bodies.push_back({"right", 0, {}, ball(0.25, {0.9, 0, 0})});
+  const std::string right =
+      "too close: \"ball\" and \"right\" are 0.15 m apart; more than the margin of 0.2 m is "
+      "needed; ";
+  EXPECT_THAT(
+      why(), testing::AnyOf(
+                 StartsWith(left + "not proved free either: \"ball\" and \"right\"; the nearest"),
+                 StartsWith(right + "not proved free either: \"ball\" and \"left\"; the nearest")));
+  // A pair that touches is named first, whatever pair the checker finds.
+  for (const bool first : {true, false}) {
+    Problem touching = problem;
+    std::vector<ModelBody>& bodies = touching.model.bodies;
+    bodies.insert(first ? bodies.begin() + 1 : bodies.end(),
+                  {"above", 0, {}, ball(0.3, {0, 0.75, 0})});
+    const std::string text =
+        whyNotFree(test::poseOf(test::Rigid::SE2, 0, 0), Checker(touching)).value_or("free");
+    EXPECT_THAT(text, StartsWith("in contact: \"ball\" and \"above\" touch; not proved free "
+                                 "either: \"ball\" and \"left\", \"ball\" and \"right\"; "));
+  }
+}
+
 }  // namespace
 }  // namespace corridor
