@@ -80,8 +80,11 @@ void addElsewhere(KeysOfMaps& keys) {
       if (std::find(map.legal.begin(), map.legal.end(), key) == map.legal.end())
         map.elsewhere[key] = nested(home, key) + (*home ? "" : " at the top level");
   }
-  for (const auto& [key, home] : homes)
+  for (const auto& [key, home] : homes) {
     if (*home) keys[""].elsewhere[home + std::string(".") + key] = nested(home, key);
+    if (home == std::string("planner.params"))
+      keys[""].elsewhere[std::string("planner.") + key] = nested(home, key);
+  }
   for (const std::string& limit : angleLimitKeys)
     keys["limits"].elsewhere[limit] = nested("limits.default", limit);
   for (const auto& [path, map] : keys)

@@ -144,8 +144,8 @@ std::string explained(const YAML::Exception& error, const std::string& line) {
       line[column] < 0x7f)
     return std::string("a text that begins with ") + line[column] + " must be in quotes";
   static const std::map<std::string, const char*> texts{
-      {END_OF_MAP_FLOW, "a } is missing, here or above"},
-      {END_OF_SEQ_FLOW, "a ] is missing, here or above"},
+      {END_OF_MAP_FLOW, "a comma or a } is missing, here or above"},
+      {END_OF_SEQ_FLOW, "a comma or a ] is missing, here or above"},
       {FLOW_END, "a } or ] is missing, or there is one too many"},
       {BLOCK_ENTRY,
        "\"- \" begins a list item; it must begin its line, and can't be inside [ ] or { }"},

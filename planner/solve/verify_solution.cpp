@@ -96,7 +96,7 @@ std::string awayText(const Away& away) {
   add(away.position, " m");
   add(away.angle, " rad");
   add(std::max(away.joint, away.jointAngle),
-      away.joint > away.jointAngle ? " rad or m in a joint" : " rad in a joint");
+      away.joint < away.jointAngle ? " rad in a joint" : " rad or m in a joint");
   return "it differs by " + (text.empty() ? "0" : text);
 }
 

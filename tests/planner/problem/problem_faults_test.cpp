@@ -40,7 +40,7 @@ TEST_F(ProblemFaults, AreOfOneLineWithoutControlCharacters) {
 
 TEST_F(ProblemFaults, Syntax) {
   EXPECT_EQ(complaintOf("format: corridor-problem-1\nrobot: [robot.yaml\nworld: {}\n"),
-            "problem.yaml:3: is not YAML: a ] is missing, here or above");
+            "problem.yaml:3: is not YAML: a comma or a ] is missing, here or above");
   EXPECT_EQ(complaintOf("format: corridor-problem-1\nworld: {a: [1, 2}\n"),
             "problem.yaml:2: is not YAML: a } or ] is missing, or there is one too many");
   EXPECT_EQ(with("margin: *m\n"),
@@ -114,6 +114,8 @@ TEST_F(ProblemFaults, KeysInTheWrongPlace) {
              "unknown key \"planner.time\" (did you mean planner: {time: …}?)");
   expectHint("planner.params.range: 3\n",
              "unknown key \"planner.params.range\" (did you mean planner: {params: {range: …}}?)");
+  expectHint("planner.range: 3\n",
+             "unknown key \"planner.range\" (did you mean planner: {params: {range: …}}?)");
   expectHint("planner.tmie: 3\n", "unknown key \"planner.tmie\" (known: ");
   expectHint("planner: {range: 3}\n",
              "unknown key \"range\" in planner (did you mean planner: {params: {range: …}}?)");
@@ -420,7 +422,7 @@ TEST_F(ProblemFaults, Robots) {
                              "name: a}\n  - {mesh: wedge.obj, name: a}\n"),
             "robot.yaml:5: shapes[1].name: \"a\" is the name of another shape");
   EXPECT_EQ(complaintOfRobot("rigid: {\n"),
-            "robot.yaml:2: is not YAML: a } is missing, here or above");
+            "robot.yaml:2: is not YAML: a comma or a } is missing, here or above");
 }
 
 TEST_F(ProblemFaults, ReportsProblemAndRobotAtOnce) {

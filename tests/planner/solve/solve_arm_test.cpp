@@ -9,6 +9,7 @@
 #include "planner/solve/verify_solution.h"
 #include "tests/planner/checker/hall.h"
 #include "tests/planner/solve/complaint.h"
+#include "tests/support/support.h"
 
 namespace corridor {
 namespace {
@@ -27,7 +28,7 @@ Problem armAt(double shoulder, double elbow, double wrist) {
 TEST(Arm, EveryKindOfPlannerSolvesCertifiedAndVerified) {
   Problem problem = armProblem();
   problem.settings.planner.stopAtFirst = true;
-  problem.settings.planner.time = 10;
+  problem.settings.planner.time = 10 * test::kSlowdown;  // a limit; planners end earlier
   for (const char* planner :
        {"RRTConnect", "RRT", "KPIECE1", "SBL", "PRM", "RRTstar", "InformedRRTstar", "BITstar"}) {
     problem.settings.planner.name = planner;

@@ -179,13 +179,13 @@ TEST_F(TrajectoryCurve, StartAndGoalAreNotedAndBoundsRefute) {
   const VerifyReport later = verified("0.1 0\n1 0.5\n");
   EXPECT_EQ(later.verdict, PathVerdict::proved);
   EXPECT_THAT(textsOf(later.notes), ElementsAre("the trajectory does not begin at the problem's "
-                                                "start: it differs by 0.1 rad or m in a joint"));
+                                                "start: it differs by 0.1 rad in a joint"));
   const VerifyReport shorter = verified("0 0\n0.5 0.5\n");
   EXPECT_EQ(shorter.verdict, PathVerdict::proved);
   EXPECT_THAT(
       textsOf(shorter.notes),
-      ElementsAre("the trajectory does not end in the problem's goal: it differs by 0.5 rad or "
-                  "m in a joint"));
+      ElementsAre("the trajectory does not end in the problem's goal: it differs by 0.5 rad in a "
+                  "joint"));
   const VerifyReport beyond = verified("time pan lift\n0 0 0\n2 0 -3.5\n3 0 0\n");
   EXPECT_EQ(beyond.verdict, PathVerdict::refuted);
   EXPECT_THAT(beyond.violations,
