@@ -4,7 +4,6 @@
 #include <cctype>
 #include <cerrno>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <map>
@@ -54,9 +53,7 @@ void warn(const std::string& text) {
 }
 
 std::string rounded(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value + 0.0);  // no "-0"
-  return text;
+  return withDigits(value + 0.0);  // no "-0"
 }
 
 std::string rounded(const Vec3& v, int dimension) {

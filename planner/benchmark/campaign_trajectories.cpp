@@ -127,8 +127,8 @@ class LimitSets {
     LimitSpec spec;
     const YamlValue named = withPrefix(value, robot.name);
     try {
-      const MapKeys keys{problemKeys().at("limits").legal, {}};
-      const YamlMap map(named, robots.pathOf(robot.description.name), &keys, source);
+      const YamlMap map(named, robots.pathOf(robot.description.name), &problemKeys().at("limits"),
+                        source);
       spec = readLimitMap(map, folder_, model, true, files);
       faults.throwIfAny();
     } catch (const InputError& error) {

@@ -21,9 +21,7 @@ namespace {
 void Variant::apply(CheckerSettings& spec) const {
   FaultList faults;
   YamlSource source{"variant " + name, faults, {}};
-  MapKeys keys = problemKeys().at("checker");
-  keys.elsewhere.clear();  // places in problem files
-  readCheckerKeys(YamlMap(checker, "checker", &keys, source), spec);
+  readCheckerKeys(YamlMap(checker, "checker", &problemKeys().at("checker"), source), spec);
   faults.throwIfAny();
 }
 

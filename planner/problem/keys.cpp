@@ -38,61 +38,6 @@ void addShape(KeysOfMaps& keys, const std::string& path, const Words& more) {
   keys[path + ".octomap"] = {{"file", "unknown", "threshold"}, {}};
 }
 
-/// Returns how a key is written in its maps: "planner: {params: {range: …}}" for the path
-/// "planner.params".
-std::string nested(std::string path, const std::string& key) {
-  std::string text = key + ": …";
-  while (!path.empty()) {
-    const std::size_t dot = path.rfind('.'), begin = dot == path.npos ? 0 : dot + 1;
-    text = path.substr(begin) + ": {" + text + "}";
-    path.resize(dot == path.npos ? 0 : dot);
-  }
-  return text;
-}
-
-/// Sets `elsewhere` of the problem's main maps, for keys that people write into the wrong one of
-/// them. The file as a whole also gets every key with the path of its map: "planner.time".
-void addElsewhere(KeysOfMaps& keys) {
-  const std::vector<std::pair<const char*, const char*>> homes{{"time", "planner"},
-                                                               {"stop", "planner"},
-                                                               {"restart", "planner"},
-                                                               {"params", "planner"},
-                                                               {"range", "planner.params"},
-                                                               {"goal_bias", "planner.params"},
-                                                               {"edges", "checker"},
-                                                               {"resolution", "checker"},
-                                                               {"tolerance", "checker"},
-                                                               {"volume", "checker"},
-                                                               {"detour", "prefer"},
-                                                               {"smooth", "trajectory"},
-                                                               {"corner_deviation", "trajectory"},
-                                                               {"rate", "trajectory"},
-                                                               {"velocity_scale", "limits"},
-                                                               {"acceleration_scale", "limits"},
-                                                               {"link_speed", "limits"},
-                                                               {"seed", ""},
-                                                               {"margin", ""},
-                                                               {"sampler", ""},
-                                                               {"simplify", ""}};
-  for (const char* path : {"", "planner", "checker", "prefer", "trajectory", "limits"}) {
-    MapKeys& map = keys.at(path);
-    for (const auto& [key, home] : homes)
-      if (std::find(map.legal.begin(), map.legal.end(), key) == map.legal.end())
-        map.elsewhere[key] = nested(home, key) + (*home ? "" : " at the top level");
-  }
-  for (const auto& [key, home] : homes) {
-    if (*home) keys[""].elsewhere[home + std::string(".") + key] = nested(home, key);
-    if (home == std::string("planner.params"))
-      keys[""].elsewhere[std::string("planner.") + key] = nested(home, key);
-  }
-  for (const std::string& limit : angleLimitKeys)
-    keys["limits"].elsewhere[limit] = nested("limits.default", limit);
-  for (const auto& [path, map] : keys)
-    if (!path.empty() && path.find_first_of("*[") == path.npos)
-      for (const std::string& key : map.legal)
-        keys[""].elsewhere[path + "." + key] = nested(path, key);
-}
-
 KeysOfMaps makeProblemKeys() {
   KeysOfMaps keys{
       {"",
@@ -128,7 +73,6 @@ KeysOfMaps makeProblemKeys() {
   };
   addShape(keys, "world.*", {"shapes"});
   addShape(keys, "world.*.shapes[]", {"name"});
-  addElsewhere(keys);
   return keys;
 }
 
@@ -144,6 +88,52 @@ KeysOfMaps makeRobotKeys() {
   };
   addShape(keys, "shapes[]", {"name"});
   return keys;
+}
+
+/// Returns how a key is written in its maps: "planner: {params: {range: …}}" for the path
+/// "planner.params".
+std::string nested(std::string path, const std::string& key) {
+  std::string text = key + ": …";
+  while (!path.empty()) {
+    const std::size_t dot = path.rfind('.'), begin = dot == path.npos ? 0 : dot + 1;
+    text = path.substr(begin) + ": {" + text + "}";
+    path.resize(dot == path.npos ? 0 : dot);
+  }
+  return text;
+}
+
+std::map<std::string, std::string> makeProblemPlaces() {
+  // Keys that people write into a wrong map, and the map of each.
+  const Words ofPlanner{"time", "stop", "restart", "params"},
+      ofParams{"range", "goal_bias"},  // the most common ones of OMPL's planners
+      ofChecker{"edges", "resolution", "tolerance", "volume"},
+      ofTrajectory{"smooth", "corner_deviation", "rate"},
+      ofLimits{"velocity_scale", "acceleration_scale", "link_speed"},
+      ofFile{"seed", "margin", "sampler", "simplify"};
+  std::map<std::string, std::string> places;
+  for (const char* map : {"", "planner.", "checker.", "prefer.", "trajectory.", "limits."})
+    for (const auto& [home, keys] :
+         std::vector<std::pair<std::string, Words>>{{"planner", ofPlanner},
+                                                    {"planner.params", ofParams},
+                                                    {"checker", ofChecker},
+                                                    {"prefer", {"detour"}},
+                                                    {"trajectory", ofTrajectory},
+                                                    {"limits", ofLimits},
+                                                    {"", ofFile}})
+      for (const std::string& key : keys)
+        places[map + key] = nested(home, key) + (home.empty() ? " at the top level" : "");
+  for (const std::string& limit : angleLimitKeys)
+    places["limits." + limit] =
+        nested("limits.default", limit) + ", or limits: {joints: {NAME: {" + limit + ": …}}}";
+  places["clearance"] = places["checker.clearance"] =
+      "prefer: {clearance: …}, or margin: …, which every path must keep";
+  // A key of the file as a whole that contains a path: "planner.time".
+  for (const std::string& key : ofParams)
+    places["planner.params." + key] = nested("planner.params", key);
+  for (const auto& [path, map] : problemKeys())
+    if (!path.empty() && path.find_first_of("*[") == path.npos)
+      for (const std::string& key : map.legal) places[path + "." + key] = nested(path, key);
+  return places;
 }
 
 Words volumeNames() {
@@ -167,6 +157,11 @@ Words ofAnyVolume(Words VolumeKind::*variants) {
 const std::map<std::string, MapKeys>& problemKeys() {
   static const KeysOfMaps keys = makeProblemKeys();
   return keys;
+}
+
+const std::map<std::string, std::string>& problemPlaces() {
+  static const std::map<std::string, std::string> places = makeProblemPlaces();
+  return places;
 }
 
 const std::map<std::string, MapKeys>& robotKeys() {

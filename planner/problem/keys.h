@@ -14,6 +14,9 @@ namespace corridor {
 const std::map<std::string, MapKeys>& problemKeys();
 const std::map<std::string, MapKeys>& robotKeys();
 
+/// Where keys of problem files belong that people write into a wrong map (`YamlSource::places`).
+const std::map<std::string, std::string>& problemPlaces();
+
 /// The legal words of each key whose value is one of several words, by the key's path.
 const std::map<std::string, std::vector<std::string>>& problemChoices();
 const std::map<std::string, std::vector<std::string>>& robotChoices();

@@ -97,11 +97,11 @@ LimitSpec readLimits(const YamlMap& problem, const std::filesystem::path& folder
                      std::vector<std::filesystem::path>& files) {
   const YamlValue* value = problem.find("limits");
   if (!value) return {};
-  MapKeys keys = problemKeys().at("limits");
   if (isComplete)
     for (const LimitedJoint& joint : jointsWithLimits(model))
-      keys.elsewhere[joint.name] = "limits: {joints: {" + joint.name + ": …}}";
-  const YamlMap map(*value, "limits", &keys, problem.source());
+      problem.source().places["limits." + joint.name] =
+          "limits: {joints: {" + joint.name + ": {velocity: …}}}";
+  const YamlMap map(*value, "limits", &problemKeys().at("limits"), problem.source());
   return readLimitMap(map, folder, model, isComplete, files);
 }
 

@@ -185,6 +185,7 @@ void readYaml(const std::filesystem::path& file, Problem& problem) {
       parseYaml(file.string(), readTextFile(file, "a problem (format: corridor-problem-1)"));
   FaultList faults(file.string());
   YamlSource source{file.string(), faults, {}};
+  source.places = problemPlaces();
   if (!acceptsFormat(document, "corridor-problem-1", source)) faults.throwIfAny();
   const YamlMap map(document, "", &problemKeys().at(""), source);
 

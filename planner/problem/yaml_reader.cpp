@@ -6,9 +6,9 @@
 #include <cstdlib>
 #include <map>
 #include <numbers>
-#include <sstream>
 
 #include "planner/model/settings.h"
+#include "planner/problem/text_words.h"
 
 namespace corridor {
 
@@ -93,11 +93,11 @@ namespace {
 std::optional<std::string> usualName(const std::string& key,
                                      const std::vector<std::string>& legal) {
   static const std::map<std::string, std::string> others{
-      {"pos", "at"},           {"position", "at"},          {"xyz", "at"},
-      {"origin", "at"},        {"translation", "at"},       {"pose", "at"},
-      {"quat", "quat_xyzw"},   {"quaternion", "quat_xyzw"}, {"orientation", "quat_xyzw"},
-      {"obstacles", "world"},  {"scene", "world"},          {"file", "mesh"},
-      {"clearance", "margin"}, {"timeout", "time"}};
+      {"pos", "at"},          {"position", "at"},          {"xyz", "at"},
+      {"origin", "at"},       {"translation", "at"},       {"pose", "at"},
+      {"quat", "quat_xyzw"},  {"quaternion", "quat_xyzw"}, {"orientation", "quat_xyzw"},
+      {"obstacles", "world"}, {"scene", "world"},          {"file", "mesh"},
+      {"timeout", "time"}};
   const auto other = others.find(key);
   if (other == others.end() || std::find(legal.begin(), legal.end(), other->second) == legal.end())
     return std::nullopt;
@@ -118,13 +118,12 @@ bool lacksBlank(std::string_view text, const MapKeys* keys) {
 
 /// Returns whether the value is a text of several numbers that are separated by blanks only.
 bool isRowOfNumbers(const YamlValue& value) {
-  if (value.kind != YamlValue::Kind::Scalar || value.text.find(' ') == value.text.npos)
-    return false;
-  std::istringstream words(value.text);
+  if (value.kind != YamlValue::Kind::Scalar) return false;
+  const std::vector<std::string> words = wordsOfLine(value.text);
   double number = 0;
-  for (std::string word; words >> word;)
-    if (!parseNumber(word, Range::Any, number).empty()) return false;
-  return true;
+  return words.size() > 1 && std::ranges::all_of(words, [&](const std::string& word) {
+           return parseNumber(word, Range::Any, number).empty();
+         });
 }
 
 }  // namespace
@@ -157,8 +156,8 @@ YamlMap::YamlMap(const YamlValue& value, std::string path, const MapKeys* keys, 
         continue;
       }
       auto near = usualName(entry.key, keys->legal);
-      const auto place = keys->elsewhere.find(entry.key);
-      const bool isElsewhere = !near && place != keys->elsewhere.end();
+      const auto place = source.places.find(pathOf(entry.key));
+      const bool isElsewhere = !near && place != source.places.end();
       if (!near && !isElsewhere) near = mostSimilar(entry.key, keys->legal);
       if (near) missed_.insert(*near);
       if (isElsewhere) missed_.insert(place->second.substr(0, place->second.find(':')));
@@ -228,9 +227,10 @@ namespace {
 
 /// Sets `number` and returns "", or returns an error message.
 std::string parseNumber(const YamlValue& value, Range range, double& number) {
-  return value.kind == YamlValue::Kind::Scalar && value.isPlain
-             ? parseNumber(value.text, range, number)
-             : "a number is needed, not " + described(value);
+  if (value.kind != YamlValue::Kind::Scalar) return "a number is needed, not " + described(value);
+  const std::string fault = parseNumber(value.text, range, number);
+  if (value.isPlain || !fault.empty()) return fault;
+  return "the number " + value.text + " is in quotes; remove them";
 }
 
 }  // namespace

@@ -27,13 +27,10 @@ struct UnsupportedKey {
 };
 
 /// The keys of a map: the legal ones, and unsupported ones. The fault of an unsupported key says
-/// what to do instead. The fault of a key that is legal elsewhere names the place.
+/// what to do instead.
 struct MapKeys {
   std::vector<std::string> legal;
   std::vector<UnsupportedKey> unsupported;
-  /// Keys that belong elsewhere in the file, and how they are written there: the key "time" has the
-  /// text "planner: {time: …}".
-  std::map<std::string, std::string> elsewhere = {};
 };
 
 /// A file while it is read: the list of its faults, and the lines of its keys.
@@ -43,6 +40,9 @@ struct YamlSource {
   /// The line of every legal key that was read, by its path ("checker.edges").
   std::map<std::string, int> lines;
   std::vector<Note> notes = {};  ///< notes on values; the file's reader adds them to its own notes
+  /// Where keys belong that people write into a wrong map, by the wrong path: the key `time` at the
+  /// top level has the text "planner: {time: …}". Faults of unknown keys quote these texts.
+  std::map<std::string, std::string> places = {};
 
   void fault(int line, std::string text) const { faults.add(file, line, std::move(text)); }
 };

@@ -137,21 +137,21 @@ std::string explained(const YAML::Exception& error, const std::string& line) {
     if (indent < column && column <= line.size())
       return "nothing may follow the value on this line";
     return "\"key: value\" or \"- value\" is needed here, indented like the lines above it, and "
-           "with a "
-           "blank after the colon or the minus";
+           "with a blank after the colon or the minus";
   }
   if (error.msg == UNKNOWN_TOKEN && column < line.size() && ' ' < line[column] &&
       line[column] < 0x7f)
     return std::string("a text that begins with ") + line[column] + " must be in quotes";
   static const std::map<std::string, const char*> texts{
-      {END_OF_MAP_FLOW, "a comma or a } is missing, here or above"},
+      {END_OF_MAP_FLOW, "a comma, a } or the blank after a colon is missing, here or above"},
       {END_OF_SEQ_FLOW, "a comma or a ] is missing, here or above"},
       {FLOW_END, "a } or ] is missing, or there is one too many"},
       {BLOCK_ENTRY,
        "\"- \" begins a list item; it must begin its line, and can't be inside [ ] or { }"},
       {MAP_VALUE,
-       "a colon can't be here; a map on one line needs braces, {key: value}, and a text that "
-       "contains a colon needs quotes; or the line above lacks the blank after its colon"}};
+       "a colon can't be here; perhaps this line or the line above lacks a colon or the blank "
+       "after "
+       "it; a map on one line needs braces, {key: value}, and a text with a colon needs quotes"}};
   const auto found = texts.find(error.msg);
   return found == texts.end() ? error.msg : found->second;
 }

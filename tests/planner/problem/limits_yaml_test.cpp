@@ -190,7 +190,7 @@ TEST_F(LimitsTest, Faults) {
   EXPECT_THAT(
       complaintOfLimits("  lift: {velocity: 1}\n"),
       testing::HasSubstr("unknown key \"lift\" in limits (did you mean limits: {joints: {lift: "
-                         "…}}?)"));
+                         "{velocity: …}}}?)"));
   EXPECT_EQ(complaintOfLimits("  joints: {slide: {velocity_deg: 1}}\n"),
             "problem.yaml:2: limits.joints.slide.velocity_deg: slide is a length; use velocity, in "
             "metres");

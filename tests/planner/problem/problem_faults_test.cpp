@@ -64,8 +64,9 @@ TEST_F(ProblemFaults, Syntax) {
   for (const char* text : {"margin: [1, 2],\n", "margin: [1, 2] m\n", "margin: \"A\" \"B\"\n"})
     expectFault(text, "8: is not YAML: nothing may follow the value on this line");
   const std::string colon =
-      ": is not YAML: a colon can't be here; a map on one line needs braces, {key: value}, and a "
-      "text that contains a colon needs quotes; or the line above lacks the blank after its colon";
+      ": is not YAML: a colon can't be here; perhaps this line or the line above lacks a colon or "
+      "the blank after it; a map on one line needs braces, {key: value}, and a text with a colon "
+      "needs quotes";
   EXPECT_EQ(with("planner: name: RRT\n"), "problem.yaml:8" + colon);
   EXPECT_EQ(with("planner:\n  name:RRT\n  time: 3\n"), "problem.yaml:10" + colon);
   for (const char* text : {"allow: - [a, b]\n", "allow: [- 1, 0]\n"})
@@ -85,9 +86,11 @@ TEST_F(ProblemFaults, UnknownAndDuplicateKeys) {
   EXPECT_EQ(with("checker: {edges: discrete, rezolution: 0.1}\n"),
             "problem.yaml:8: unknown key \"rezolution\" in checker (did you mean \"resolution\"?) "
             "(known: edges, resolution, tolerance, volume, fit, overlap, build)");
-  EXPECT_EQ(with("clearance: 0.1\n"),
-            std::string("problem.yaml:8: unknown key \"clearance\" (did you mean \"margin\"?)") +
-                topKeys);
+  EXPECT_EQ(
+      with("clearance: 0.1\n"),
+      std::string("problem.yaml:8: unknown key \"clearance\" (did you mean prefer: {clearance: "
+                  "…}, or margin: …, which every path must keep?)") +
+          topKeys);
   EXPECT_THAT(complaintOf("format: corridor-problem-1\nrobot: robot.yaml\nworld: {a: {box: {size: "
                           "[1, 1, 1]}, pos: [9, 9, 9]}}\n" +
                           poses),
@@ -122,8 +125,10 @@ TEST_F(ProblemFaults, KeysInTheWrongPlace) {
   expectHint("planner: {seed: 3}\n",
              "unknown key \"seed\" in planner (did you mean seed: … at the top level?)");
   expectHint("name: mine\n", "unknown key \"name\" (known: ");
-  expectHint("limits: {velocity: 3}\n",
-             "unknown key \"velocity\" in limits (did you mean limits: {default: {velocity: …}}?)");
+  expectHint(
+      "limits: {velocity: 3}\n",
+      "unknown key \"velocity\" in limits (did you mean limits: {default: {velocity: …}}, or "
+      "limits: {joints: {NAME: {velocity: …}}}?)");
   expectHint("checker: {corner_deviation: 3}\n",
              "(did you mean trajectory: {corner_deviation: …}?)");
   expectHint("planner: name:RRT\n",
@@ -177,7 +182,8 @@ TEST_F(ProblemFaults, MissingKeys) {
 
 TEST_F(ProblemFaults, WrongTypes) {
   EXPECT_EQ(with("margin: wide\n"), "problem.yaml:8: margin: a number is needed, not \"wide\"");
-  EXPECT_EQ(with("margin: '0.1'\n"), "problem.yaml:8: margin: a number is needed, not \"0.1\"");
+  EXPECT_EQ(with("margin: '0.1'\n"),
+            "problem.yaml:8: margin: the number 0.1 is in quotes; remove them");
   EXPECT_EQ(with("margin: 0.1m\n"), "problem.yaml:8: margin: a number is needed, not \"0.1m\"");
   EXPECT_EQ(with("margin: [1]\n"), "problem.yaml:8: margin: a number is needed, not a list");
   EXPECT_EQ(with("margin:\n"), "problem.yaml:8: margin: a number is needed, not nothing");
@@ -422,7 +428,8 @@ TEST_F(ProblemFaults, Robots) {
                              "name: a}\n  - {mesh: wedge.obj, name: a}\n"),
             "robot.yaml:5: shapes[1].name: \"a\" is the name of another shape");
   EXPECT_EQ(complaintOfRobot("rigid: {\n"),
-            "robot.yaml:2: is not YAML: a comma or a } is missing, here or above");
+            "robot.yaml:2: is not YAML: a comma, a } or the blank after a colon is missing, here "
+            "or above");
 }
 
 TEST_F(ProblemFaults, ReportsProblemAndRobotAtOnce) {
