@@ -275,47 +275,44 @@ std::optional<std::string> whyNotFree(const Configuration& q, const Checker& che
   const MotionResult result = checker.certifyState(q);
   if (result.verdict == MotionVerdict::free) return std::nullopt;
 
+  const bool undecided = result.verdict == MotionVerdict::undecided;
   const std::string pair = result.pair ? described(checker, *result.pair) : "two bodies";
   const MotionOptions& options = checker.options();
-  const double margin = result.pair ? checker.marginOf(checker.bodyOf(result.pair->bodyA),
-                                                       checker.bodyOf(result.pair->bodyB))
-                                    : options.margin;
-  const std::string kept = margin > options.margin ? "margin and padding" : "margin";
-  if (result.verdict == MotionVerdict::undecided && result.reason == UndecidedReason::clearance) {
-    // `needed` does not include the clearance that the tolerance requires: another message, on the
-    // tolerance, covers that.
-    const double needed = result.pair ? tubeOf(checker, q, *result.pair) : 0;
-    if (result.gap <= needed) {
-      return "the gap between " + pair + " is " + withDigits(result.gap) +
-             " m, and the tube needs " + withDigits(needed) +
-             " m; move the two bodies apart, or set a smaller tube";
-    }
-    return "the gap between " + pair + " is " + withDigits(result.gap) + " m" +
-           (margin > 0 ? " beyond the " + kept : "") + ", too small to prove at a tolerance of " +
-           withDigits(options.tolerance) +
-           " m; move the two bodies apart, or set checker: {tolerance: " +
-           withDigits(result.gap / 4) + "}";
-  }
-  if (result.verdict == MotionVerdict::undecided && result.reason == UndecidedReason::rounding)
+  if (undecided && result.reason == UndecidedReason::rounding)
     return "a value is so large that the rounding of the pose exceeds the gap between " + pair +
            ", or the tolerance of " + withDigits(options.tolerance) +
            " m; reduce the value (an angle by whole turns), or set a larger checker: {tolerance: "
            "…}";
-  if (result.verdict == MotionVerdict::undecided) return whyUndecided(result.reason);
-  // A pair that touches is named before a pair that is only within its margin.
+  if (undecided && result.reason != UndecidedReason::clearance) return whyUndecided(result.reason);
+
+  // A pair that touches is named before a pair that is only too close.
   const std::optional<Contact> contact = checker.interference(q);
-  std::string text = "in contact: " + (contact ? described(checker, *contact) : pair) + " touch";
-  const double gap = contact || !result.pair ? 0 : gapOf(checker, q, *result.pair);
-  if (0 < gap && gap < margin) {
-    const auto [gapText, marginText] = orderedTexts(gap, margin);
-    text = "too close: " + pair + " are " + gapText + " m apart; more than the " + kept + " of " +
-           marginText + " m is needed";
-  } else if (!contact && margin > 0) {
-    text = "too close: " + pair + " are not proved to be farther apart than the " + kept + " of " +
-           withDigits(margin) + " m";
+  if (contact || !result.pair)
+    return "in contact: " + (contact ? described(checker, *contact) : pair) + " touch" +
+           (contact ? otherPairs(checker, q, *contact) : "") + "; " +
+           describedFree(nearestFree(q, checker), q, checker.space());
+  const double margin =
+      checker.marginOf(checker.bodyOf(result.pair->bodyA), checker.bodyOf(result.pair->bodyB));
+  const std::string kept = margin > options.margin ? "margin and padding" : "margin";
+  const double gap = gapOf(checker, q, *result.pair);
+  const std::string others = otherPairs(checker, q, *result.pair);
+  if (!undecided || gap <= margin) {
+    const auto [gapText, marginText] = orderedTexts(std::min(gap, margin), margin);
+    return "too close: " + pair + " are " + gapText + " m apart; more than the " + kept + " of " +
+           marginText + " m is needed" + others + "; " +
+           describedFree(nearestFree(q, checker), q, checker.space());
   }
-  if (contact || result.pair) text += otherPairs(checker, q, contact ? *contact : *result.pair);
-  return text + "; " + describedFree(nearestFree(q, checker), q, checker.space());
+  // `needed` does not include the clearance that the tolerance requires: another message, on the
+  // tolerance, covers that.
+  const double needed = tubeOf(checker, q, *result.pair), clear = gap - margin;
+  const std::string text = "the gap between " + pair + " is " + withDigits(clear) + " m" +
+                           (margin > 0 ? " beyond the " + kept : "");
+  if (clear <= needed)
+    return text + ", and the tube needs " + withDigits(needed) +
+           " m; move the two bodies apart, or set a smaller tube" + others;
+  return text + ", too small to prove at a tolerance of " + withDigits(options.tolerance) +
+         " m; move the two bodies apart, or set checker: {tolerance: " + withDigits(clear / 4) +
+         "}" + others;
 }
 
 }  // namespace corridor

@@ -11,7 +11,7 @@ namespace corridor {
 /// Returns nullopt if the configuration can be used. For a contact, the line names the two bodies,
 /// their triangles, and the nearest free configuration that a search found. For two bodies that are
 /// too close, it names the gap, and the setting to change. Up to
-/// five other pairs that are not proved free follow, if the configuration is in contact.
+/// five other pairs that are not proved free follow.
 std::optional<std::string> whyNotFree(const Configuration& q, const Checker& checker);
 
 /// Returns one line: the numbers that are outside of their bounds, and the bounds. If the

@@ -203,6 +203,10 @@ class Problems(unittest.TestCase):
             corridor.Problem([body, body])
         self.assertEqual({fault.file for fault in caught.exception.faults}, {"Problem"})
 
+    def test_parameters_of_planners_are_no_edits(self):
+        with self.assertRaisesRegex(TypeError, r"it is a parameter of planners: params=\{'range': \.\.\.\}"):
+            corridor.read_problem(ARM).edited(range=0.5)
+
     def test_values_of_the_wrong_type(self):
         problem, body, q = corridor.read_problem(ARM), Body(shapes.sphere(1)), corridor.read_problem(ARM).start
         for text, call in (

@@ -85,6 +85,8 @@ class Problem:
             if key not in _EDITS:
                 close = difflib.get_close_matches(key, _EDITS, 1)
                 hint = f" (did you mean {close[0]!r}?)" if close else f"; there are {', '.join(_EDITS)}"
+                if key in ("range", "goal_bias"):
+                    hint = f"; it is a parameter of planners: params={{{key!r}: ...}}"
                 raise TypeError(f"a problem has no {key!r} that can be edited{hint}")
         edits = {k: _value(k, v) for k, v in edits.items()}
         if "planner" in edits:  # parameters belong to one planner: a new planner gets none of the old ones

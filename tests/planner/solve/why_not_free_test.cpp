@@ -47,6 +47,15 @@ TEST(WhyNotFree, NamesTheGapAndTheOtherPairs) {
       "too close: \"ball\" and \"left\" are 0.199999999 m apart; more than the margin of 0.2 m is "
       "needed; ";
   EXPECT_THAT(why(), StartsWith(left + "the nearest free position"));
+  // A tube does not hide that the margin is the reason.
+  problem.task.tube.setConstant(0.01);
+  EXPECT_THAT(why(), StartsWith(left + "the nearest free position"));
+  problem.task.margin = 0.199;
+  EXPECT_THAT(why(),
+              StartsWith("the gap between \"ball\" and \"left\" is 0.001 m beyond the margin, "
+                         "and the tube needs "));
+  problem.task.margin = 0.2;
+  problem.task.tube = test::roundingTube(problem.model.space);
   problem.model.bodies.push_back({"right", 0, {}, ball(0.25, {0.9, 0, 0})});
   const std::string right =
       "too close: \"ball\" and \"right\" are 0.15 m apart; more than the margin of 0.2 m is "
