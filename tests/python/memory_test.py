@@ -2,6 +2,7 @@
 
 import ctypes
 import gc
+import mmap
 import os
 import pathlib
 import pickle
@@ -17,9 +18,13 @@ SANITIZED = "libasan" in os.environ.get("LD_PRELOAD", "")
 CALLS = 1_000_000 if os.environ.get("CORRIDOR_STRESS") else 2_000 if SANITIZED else 5_000
 
 
-def resident():
-    """Returns the resident memory of this process, in bytes."""
-    pages = int(pathlib.Path("/proc/self/statm").read_text().split()[1])
+def mapped():
+    """Returns the bytes of the mappings that this process can write to.
+
+    Unlike the resident memory, they change only by calls of this process: the kernel may evict and load resident pages,
+    and counts them with errors.
+    """
+    pages = int(pathlib.Path("/proc/self/statm").read_text().split()[5])
     return pages * os.sysconf("SC_PAGE_SIZE")
 
 
@@ -46,13 +51,13 @@ def arm(**edits):
 
 class Growth(unittest.TestCase):
     def assertNoGrowth(self, call, calls=CALLS):
-        """Calls `call` many times, in rounds, and counts what Python and malloc have handed out.
+        """Calls `call` many times, in rounds, and measures what Python, malloc and the kernel have handed out.
 
         If each call leaks an object, Python's blocks grow by at least `calls` in every round. If each call leaks a
         block of malloc, the bytes of malloc grow by at least 32·`calls` in every round: malloc's smallest block has 32
-        bytes. Caches and lists of free blocks grow, too, but less and less. So there is no leak if the growth in some
-        round is less than half of both numbers. The resident memory is measured, too. In all rounds together
-        it may grow by 16·`calls` bytes or 1 MiB, whichever is more: threads may use heaps that the first calls did not.
+        bytes. If each call leaks a mapping, such as the stack of a thread, the mapped memory grows by at least a page
+        of 4,096 bytes per call in every round. Caches and lists of free blocks grow, too, but less and less. So there
+        is no leak if the growth in some round is less than half of all three numbers.
 
         Under AddressSanitizer, which keeps freed memory for a while, growth is not tested; the calls must only cause no
         error.
@@ -63,18 +68,19 @@ class Growth(unittest.TestCase):
         gc.collect()
         if SANITIZED:
             return
-        pages = resident()
         for _ in range(6):
-            blocks, bytes_ = sys.getallocatedblocks(), allocated()
+            before = sys.getallocatedblocks(), allocated(), mapped()
             for _ in range(calls):
                 call()
             gc.collect()
-            grown = sys.getallocatedblocks() - blocks, allocated() - bytes_
-            if grown[0] < calls / 2 and grown[1] < 16 * calls:
-                break
-        else:
-            self.fail(f"each of 6 rounds of {calls} calls grows the memory, the last by {grown} blocks and bytes")
-        self.assertLess(resident() - pages, max(2**20, 16 * calls))
+            after = sys.getallocatedblocks(), allocated(), mapped()
+            blocks, bytes_, mappings = (y - x for x, y in zip(before, after))
+            if blocks < calls / 2 and bytes_ < 16 * calls and mappings < 2048 * calls:
+                return
+        self.fail(
+            f"each of 6 rounds of {calls} calls grows the memory; the last one by {blocks} blocks of Python, "
+            f"{bytes_} bytes of malloc and {mappings} bytes of mappings"
+        )
 
     def test_states_and_edges(self):
         problem = arm()
@@ -142,8 +148,16 @@ class Growth(unittest.TestCase):
     @unittest.skipIf(SANITIZED, "AddressSanitizer's run looks for errors, not for leaks")
     def test_the_test_finds_leaks(self):
         kept = []
-        with self.assertRaises(AssertionError):
-            self.assertNoGrowth(lambda: kept.append(object()))
+        malloc, map_pages = ctypes.CDLL(None).malloc, ctypes.CDLL(None).mmap
+        malloc.restype = map_pages.restype = ctypes.c_void_p
+        flags = mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS
+        for leak in (
+            lambda: kept.append(object()),
+            lambda: malloc(1),
+            lambda: map_pages(None, ctypes.c_size_t(1), mmap.PROT_READ | mmap.PROT_WRITE, flags, -1, ctypes.c_long(0)),
+        ):
+            with self.assertRaisesRegex(AssertionError, "grows the memory"):
+                self.assertNoGrowth(leak, 1000)
 
 
 class References(unittest.TestCase):
