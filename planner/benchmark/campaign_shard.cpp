@@ -1,11 +1,13 @@
 #include "planner/benchmark/campaign_shard.h"
 
+#include <cassert>
 #include <charconv>
 #include <numeric>
 
 namespace corridor {
 
 bool CampaignShard::contains(std::size_t group, std::size_t groups, std::uint64_t seed) const {
+  assert(count >= 1 && group < groups);
   // The basic rule: group g of seed i goes to the shard with the index (i·groups + g) mod count,
   // from 0. By this rule alone, group g would go only to shards s with s ≡ g (mod gcd(groups,
   // count)), and to each of them once in `period` seeds. So the order of the groups is rotated by

@@ -21,7 +21,7 @@ struct CampaignShard {
 
   /// Returns whether a group belongs to this shard.
   /// @param group the index, from 0, of the combination of problem and planner. @param groups the
-  /// number of these combinations.
+  /// number of these combinations, above `group`.
   /// @param seed the index of the seed, from 0.
   bool contains(std::size_t group, std::size_t groups, std::uint64_t seed) const;
 };
