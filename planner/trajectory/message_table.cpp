@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstdint>
 
 #include "planner/problem/yaml_reader.h"
@@ -197,6 +198,7 @@ TrajectoryTable readMessageTable(const std::string& file, const std::string& tex
   if (words && words->empty()) map.fault("joint_names", "has no name");
   if (points && points->items.empty()) map.fault("points", "has no point");
   faults.throwIfAny();
+  assert(names && words && points);  // what is missing is among the faults
   PointReader reader(*words, file);
   RowFaults rowFaults(file);
   for (std::size_t i = 0; i < points->items.size(); ++i)
