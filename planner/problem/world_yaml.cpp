@@ -174,7 +174,11 @@ AllowedBodies readAllow(const YamlMap& file, const Model& model) {
       continue;
     }
     const auto a = names.find((*pair)[0], fault), b = names.find((*pair)[1], fault);
-    if (a && b) allowed.push_back({*a, *b});
+    if (a && a == b)
+      file.source().notes.push_back({"allow: [" + (*pair)[0] + ", " + (*pair)[1] +
+                                     "] names one body twice, and allows nothing"});
+    else if (a && b)
+      allowed.push_back({*a, *b});
   }
   return allowed;
 }

@@ -12,7 +12,8 @@ void readWorld(const YamlMap& file, bool needed, bool isPlanar, ModelBuilder& bu
                Source& source);
 
 /// Reads `allow`, a list of pairs of bodies, which are given by their names. A pair with a link
-/// that has no shapes is left out. @pre The model has all its bodies.
+/// that has no shapes is left out. So is a pair of a body with itself, with a note. @pre The model
+/// has all its bodies.
 AllowedBodies readAllow(const YamlMap& file, const Model& model);
 
 /// Reads `padding`. Links without shapes are left out. @pre The model has all its bodies.

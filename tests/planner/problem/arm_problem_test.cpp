@@ -292,6 +292,9 @@ TEST_F(ArmProblem, AllowListsMayUseTheRobotsName) {
   EXPECT_EQ(skipped(p, "base", "post"), "allow");
   EXPECT_EQ(skipped(p, "lower", "post"), "allow");
   EXPECT_EQ(skipped(p, "upper", "post"), "");
+  p = read(armHead + armStates + "allow: [[base, arm7/base]]\n");
+  EXPECT_THAT(textsOf(p.source.notes),
+              Contains("allow: [base, arm7/base] names one body twice, and allows nothing"));
 }
 
 TEST_F(ArmProblem, TwoRobotsAndTheirPairs) {
