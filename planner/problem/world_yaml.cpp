@@ -175,8 +175,9 @@ AllowedBodies readAllow(const YamlMap& file, const Model& model) {
     }
     const auto a = names.find((*pair)[0], fault), b = names.find((*pair)[1], fault);
     if (a && a == b)
-      file.source().notes.push_back({"allow: [" + (*pair)[0] + ", " + (*pair)[1] +
-                                     "] names one body twice, and allows nothing"});
+      file.source().notes.push_back(
+          {"allow: [" + (*pair)[0] + ", " + (*pair)[1] +
+           "] names one body twice; name two bodies, or remove the pair"});
     else if (a && b)
       allowed.push_back({*a, *b});
   }

@@ -94,6 +94,7 @@ void Audit::expectDecided() const {
   if (only_) return;
   for (const Table* table : {&checker_, &verifier_}) {
     const long all = table->sum(Table::cases);
+    EXPECT_GT(all, 0);
     if (test::kSlowdown > 1 && all < 100) continue;  // too few cases for shares
     EXPECT_GT(table->sum(Table::truthFree), all / 8);
     EXPECT_GT(table->sum(Table::truthContact), all / 4);

@@ -31,8 +31,8 @@ class Audit {
   void report(const std::string& title) const;
   /// Fails the test if the true verdict is known for too few cases, if too few cases are decided,
   /// or if too many reach the work limit: an audit in which every case is undecided would find no
-  /// fault. Does nothing if CORRIDOR_AUDIT_CASE is set. Builds with a sanitizer, which test fewer
-  /// cases, skip tables of less than 100 cases.
+  /// fault. Does nothing if CORRIDOR_AUDIT_CASE is set. Builds with AddressSanitizer, which test
+  /// fewer cases, skip tables with fewer than 100 cases.
   void expectDecided() const;
 
  private:
