@@ -30,7 +30,8 @@ struct JointModel {
                    ///< link has this pose, too
   /// In the joint's frame, not 0. For a planar joint, it is the normal of the joint's plane.
   Vec3 axis = Vec3::UnitX();
-  /// Inclusive limits, rad or m. Revolute and prismatic joints only.
+  /// Inclusive limits, rad or m. Revolute and prismatic joints only. The limits of a joint that
+  /// mimics another one are not used, and may be in the wrong order.
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
   /// The largest speed that the URDF allows, rad/s or m/s. It is infinite if the URDF gives no
