@@ -26,7 +26,7 @@ namespace {
 using Seconds = std::chrono::duration<double>;
 
 /// Milliseconds between the parent's tests of `interrupted`.
-constexpr int kPollMs = 200;
+constexpr int kSignalPollMs = 200;
 // The first byte of each line that the child sends.
 constexpr char kMessage = 'm', kFailure = 'f';
 
@@ -176,7 +176,7 @@ ChildEnd inChild(const ChildProcess::Work& work, const ChildLimits& limits,
     if (interrupted && interrupted->load())
       child.stop("interrupted");
     else
-      ChildProcess::waitForAny({&child}, kPollMs);
+      ChildProcess::waitForAny({&child}, kSignalPollMs);
   }
   return child.end();
 }

@@ -20,7 +20,7 @@ using std::chrono::microseconds;
 constexpr microseconds kLeastPause{50}, kLongestPause{2000};
 /// The longest time, in milliseconds, between two polls of a rank for messages while a task is
 /// under way.
-constexpr int kPollMs = 5;
+constexpr int kBusyPollMs = 5;
 /// Milliseconds of one call of `wait` while the other ranks set up.
 constexpr int kSetUpPollMs = 100;
 /// The longest time, in seconds, that rank 0 waits for the other ranks at the end. Rank 0 waits so
@@ -233,7 +233,8 @@ void serveRanks(Ranks& ranks, const RankSetUp& setUp, const std::function<int()>
       while (!waiting.empty() && executor->start(waiting.front())) waiting.pop_front();
     });
     if (executor && executor->underWay() > 0) {
-      for (const TaskEnd& one : executor->wait(kPollMs)) ranks.send(0, textOf(one)), pause.reset();
+      for (const TaskEnd& one : executor->wait(kBusyPollMs))
+        ranks.send(0, textOf(one)), pause.reset();
     } else {
       pause();
     }

@@ -30,8 +30,8 @@ bool readPoints(const YamlMap& inner, const MeshFileOptions& options, const Tran
 
 bool readMap(const YamlMap& inner, const Transform& X, PlacedShape& shape) {
   OccupancyRules rules;
-  if (const auto unknown = inner.choice("unknown", problemChoices().at("world.*.octomap.unknown")))
-    rules.unknownIsOccupied = *unknown == "occupied";
+  if (const auto cells = inner.choice("unknown", problemChoices().at("world.*.octomap.unknown")))
+    rules.unknownIsOccupied = *cells == "occupied";
   if (const auto threshold = inner.number("threshold", Range::Positive)) {
     rules.threshold = *threshold;
     if (!(*threshold < 1)) {

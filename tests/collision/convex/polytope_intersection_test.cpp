@@ -5,7 +5,6 @@
 #include <iostream>
 #include <limits>
 #include <optional>
-#include <random>
 #include <stdexcept>
 #include <vector>
 
@@ -18,6 +17,7 @@
 #include "collision/convex/rational-inl.h"
 #include "tests/collision/convex/hull_pairs.h"
 #include "tests/collision/convex/posed_polytopes.h"
+#include "tests/collision/convex/random_points.h"
 #include "tests/support/support.h"
 
 namespace corridor {
@@ -25,6 +25,8 @@ namespace {
 
 using seidel::Rational;
 using seidel::rational;
+using test::exactDot;
+using test::RandomPoints;
 
 /// A polytope with both of its hierarchies. The object can't be moved, because the outer hierarchy
 /// refers to the inner one.
@@ -41,12 +43,6 @@ std::vector<Vec3> some(const Polytope& polytope, const std::vector<std::uint32_t
   std::vector<Vec3> points;
   for (const std::uint32_t v : which) points.push_back(X * polytope.vertices()[v]);
   return points;
-}
-
-Rational along(const Vec3& n, const Vec3& x) {
-  Rational sum = 0;
-  for (int k = 0; k < 3; ++k) sum += rational(n[k]) * rational(x[k]);
-  return sum;
 }
 
 struct Tally {
@@ -74,9 +70,9 @@ void expectRight(const Preprocessed& p, const Transform& X_WP, const Preprocesse
         << "pair " << tally.pairs;
     return;
   }
-  Rational last = along(found.direction_W, a[0]), first = along(found.direction_W, b[0]);
-  for (const Vec3& x : a) last = std::max(last, along(found.direction_W, x));
-  for (const Vec3& x : b) first = std::min(first, along(found.direction_W, x));
+  Rational last = exactDot(found.direction_W, a[0]), first = exactDot(found.direction_W, b[0]);
+  for (const Vec3& x : a) last = std::max(last, exactDot(found.direction_W, x));
+  for (const Vec3& x : b) first = std::min(first, exactDot(found.direction_W, x));
   EXPECT_LT(last, first) << "pair " << tally.pairs;
 }
 
@@ -124,24 +120,6 @@ TEST(PolytopeIntersection, AgreesWithRationalSimplexOnDegeneratePairs) {
   EXPECT_GT(tally.meeting, tally.pairs / 5);
   EXPECT_LT(tally.meeting, tally.pairs * 9 / 10);
 }
-
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
-  double real() { return std::uniform_real_distribution(-1.0, 1.0)(engine_); }
-  Vec3 direction() {
-    return Vec3(normal_(engine_), normal_(engine_), normal_(engine_)).normalized();
-  }
-  std::vector<Vec3> onSphere(std::size_t count) {
-    std::vector<Vec3> points(count);
-    for (Vec3& p : points) p = direction();
-    return points;
-  }
-
- private:
-  std::mt19937_64 engine_;
-  std::normal_distribution<double> normal_;
-};
 
 /// The tolerance of this test. Coordinates of points and half-spaces are below 4. The search has
 /// some 100 successive roundings, and each error grows if planes are nearly parallel. A wrong plane
@@ -194,7 +172,7 @@ void expectInvariants(const PolytopePruning& left, const Preprocessed& p, const 
 }
 
 TEST(PolytopeIntersection, EachPruningKeepsBothInvariants) {
-  Random random(test::testSeed(63));
+  RandomPoints random(test::testSeed(63));
   const int pairs = test::isStressRun() ? 3000 : 64 / test::kSlowdown;
   int steps[2] = {0, 0}, changes = 0, deepest = 0;
   for (int n = 0; n < pairs; ++n) {
@@ -241,7 +219,7 @@ TEST(PolytopeIntersection, EachPruningKeepsBothInvariants) {
 /// The number of steps grows like the logarithm of the number of vertices, even if the polytopes
 /// nearly touch.
 TEST(PolytopeIntersection, TakesLogarithmicallyManySteps) {
-  Random random(test::testSeed(64));
+  RandomPoints random(test::testSeed(64));
   for (const std::size_t n : {10u, 100u, 1000u, 4000u / test::kSlowdown}) {
     const Preprocessed p{Polytope(random.onSphere(n))}, q{Polytope(random.onSphere(n))};
     const std::size_t levels = p.inner.levels() + q.outer.polar()->levels();
@@ -304,7 +282,7 @@ TEST(PolytopeIntersection, OneUlpDecides) {
 }
 
 TEST(PolytopeIntersection, OneContainsTheOther) {
-  Random random(test::testSeed(65));
+  RandomPoints random(test::testSeed(65));
   const Preprocessed big(box(Vec3::Constant(-10), Vec3::Constant(10))),
       same(box(Vec3::Constant(-10), Vec3::Constant(10))), small{Polytope(random.onSphere(200))};
   for (const Vec3& t : {Vec3(0, 0, 0), Vec3(8.9, -8.9, 8.9), Vec3(3, 0, 0)}) {
@@ -356,7 +334,7 @@ TEST(OuterHierarchy, PassesTheCheck) {
   EXPECT_EQ(cube.outer.faceCount(), 6u);
   EXPECT_EQ(cube.outer.polar()->polytope().vertices().size(), 6u);
   EXPECT_EQ(cube.outer.face(0).size(), 4u);
-  Random sphere(test::testSeed(67));
+  RandomPoints sphere(test::testSeed(67));
   const Preprocessed many{Polytope(sphere.onSphere(800))};
   EXPECT_EQ(many.outer.check(), std::nullopt);
   EXPECT_EQ(many.outer.polar()->polytope().vertices().size(), many.polytope().faces().size());
@@ -376,7 +354,7 @@ TEST(OuterHierarchy, FlatPolytopesHaveNoPolar) {
 /// Tests the weights of both players: the weights of each player prove that the other player's
 /// weights are optimal.
 TEST(MatrixGame, WeightsAreOptimal) {
-  Random random(test::testSeed(68));
+  RandomPoints random(test::testSeed(68));
   for (int n = 0; n < 2000; ++n) {
     MatrixGame game;
     game.rows = 1 + static_cast<std::size_t>(n) % MatrixGame::kMost;

@@ -15,7 +15,7 @@ using test::contains;
 using test::exactly;
 using test::Fraction;
 using test::Point2;
-using Kind = PolygonFault::Kind;
+using FaultKind = PolygonFault::Kind;
 using PolygonPoints = test::Polygons::Points;
 
 /// The boundary of polygons as a formal sum of directed segments, which are divided at the points
@@ -90,11 +90,11 @@ TEST(SimplePolygon, AgreesWithRationals) {
     const std::vector<Point2> e = exactly(p);
     const auto fault = checkSimple(p);
     ASSERT_EQ(!fault, test::isSimple(e)) << name;
-    if (fault && fault->kind == Kind::repeatedPoint) {
+    if (fault && fault->kind == FaultKind::repeatedPoint) {
       ASSERT_LT(fault->first, fault->second) << name;
       EXPECT_EQ(e[fault->first], e[fault->second]) << name;
     }
-    if (fault && fault->kind == Kind::edgesMeet) {
+    if (fault && fault->kind == FaultKind::edgesMeet) {
       ASSERT_LT(fault->first, fault->second) << name;
       EXPECT_TRUE(test::edgesMeet(e, fault->first, fault->second)) << name;
     }
@@ -154,19 +154,19 @@ TEST(SimplePolygon, Faults) {
     return found ? std::tuple(static_cast<int>(found->kind), found->first, found->second)
                  : std::tuple(-1, std::size_t{0}, std::size_t{0});
   };
-  const auto as = [](Kind kind, std::size_t first = 0, std::size_t second = 0) {
+  const auto as = [](FaultKind kind, std::size_t first = 0, std::size_t second = 0) {
     return std::tuple(static_cast<int>(kind), first, second);
   };
-  EXPECT_EQ(fault({}), as(Kind::tooFewPoints));
-  EXPECT_EQ(fault({{0, 0}, {1, 0}}), as(Kind::tooFewPoints));
+  EXPECT_EQ(fault({}), as(FaultKind::tooFewPoints));
+  EXPECT_EQ(fault({{0, 0}, {1, 0}}), as(FaultKind::tooFewPoints));
   EXPECT_EQ(fault({{0, 0}, {1, 0}, {1, std::numeric_limits<double>::infinity()}}),
-            as(Kind::notFinite, 2));
-  EXPECT_EQ(fault({{0, 0}, {1, 0}, {1, 1}, {0, 0}}), as(Kind::repeatedPoint, 0, 3));
-  EXPECT_EQ(fault({{0, 0}, {1, 2}, {3, 6}}), as(Kind::noArea));
-  EXPECT_EQ(fault({{0, 0}, {1, 1}, {1, 0}, {0, 1}}), as(Kind::edgesMeet, 0, 2)) << "a bow tie";
-  EXPECT_EQ(fault({{0, 0}, {4, 0}, {4, 2}, {2, 0}, {0, 2}}), as(Kind::edgesMeet, 0, 3))
+            as(FaultKind::notFinite, 2));
+  EXPECT_EQ(fault({{0, 0}, {1, 0}, {1, 1}, {0, 0}}), as(FaultKind::repeatedPoint, 0, 3));
+  EXPECT_EQ(fault({{0, 0}, {1, 2}, {3, 6}}), as(FaultKind::noArea));
+  EXPECT_EQ(fault({{0, 0}, {1, 1}, {1, 0}, {0, 1}}), as(FaultKind::edgesMeet, 0, 2)) << "a bow tie";
+  EXPECT_EQ(fault({{0, 0}, {4, 0}, {4, 2}, {2, 0}, {0, 2}}), as(FaultKind::edgesMeet, 0, 3))
       << "a corner touches an edge";
-  EXPECT_EQ(fault({{0, 0}, {2, 0}, {1, 0}, {1, 1}}), as(Kind::edgesMeet, 0, 1)) << "a spike";
+  EXPECT_EQ(fault({{0, 0}, {2, 0}, {1, 0}, {1, 1}}), as(FaultKind::edgesMeet, 0, 1)) << "a spike";
   EXPECT_EQ(std::get<0>(fault({{0, 0}, {1, 0}, {0.5, 1}})), -1);
 }
 
@@ -187,7 +187,7 @@ TEST(SimplePolygon, CornersThatTouchEdges) {
       std::rotate(each->begin(), each->begin() + n / 16, each->end());
     }
     ASSERT_TRUE(checkSimple(p)) << n;
-    EXPECT_EQ(checkSimple(p)->kind, Kind::edgesMeet) << n;
+    EXPECT_EQ(checkSimple(p)->kind, FaultKind::edgesMeet) << n;
     EXPECT_FALSE(checkSimple(apart)) << n;
   }
 }
@@ -218,7 +218,7 @@ TEST(SimplePolygon, LargePolygons) {
   EXPECT_EQ(std::count(used.begin(), used.end(), 1u), static_cast<std::ptrdiff_t>(comb.size()));
   std::swap(comb[comb.size() / 2], comb[comb.size() / 2 + 2]);
   ASSERT_TRUE(checkSimple(comb));
-  EXPECT_EQ(checkSimple(comb)->kind, Kind::edgesMeet);
+  EXPECT_EQ(checkSimple(comb)->kind, FaultKind::edgesMeet);
 }
 
 }  // namespace

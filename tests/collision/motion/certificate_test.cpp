@@ -21,7 +21,7 @@ using test::bodyOf;
 using test::box;
 using test::randomEdge;
 using test::turned;
-using Kind = CertificateFault::Kind;
+using FaultKind = CertificateFault::Kind;
 
 /// A motion of one body past a fixed body, and what is tested about it: the answer of the query,
 /// which returns a certificate, and the result of checking this certificate.
@@ -110,32 +110,32 @@ TEST_P(Certificate, TamperedWithItFails) {
     const auto found = swing.check();
     swing.certificate = whole;
     EXPECT_TRUE(found);
-    return found ? found->kind : Kind::malformed;
+    return found ? found->kind : FaultKind::malformed;
   };
 
   for (std::size_t i = 0; i < whole.free.size(); ++i) {
     swing.certificate.free.erase(swing.certificate.free.begin() + static_cast<std::ptrdiff_t>(i));
-    EXPECT_EQ(fault(), Kind::gap) << i;
+    EXPECT_EQ(fault(), FaultKind::gap) << i;
   }
   auto least = std::min_element(
       swing.certificate.free.begin(), swing.certificate.free.end(),
       [](const FreeInterval& x, const FreeInterval& y) { return x.clearance < y.clearance; });
   least->clearance = 1;  // a false claim: the bar comes closer than half of this clearance
-  EXPECT_EQ(fault(), Kind::refuted);
+  EXPECT_EQ(fault(), FaultKind::refuted);
   swing.certificate.free[0].pair = 1;
-  EXPECT_EQ(fault(), Kind::malformed);
+  EXPECT_EQ(fault(), FaultKind::malformed);
   swing.certificate.free[0].clearance = std::nan("");
-  EXPECT_EQ(fault(), Kind::malformed);
+  EXPECT_EQ(fault(), FaultKind::malformed);
   swing.certificate.free[0].clearance = 0;
-  EXPECT_EQ(fault(), Kind::malformed) << "a clearance of 0";
+  EXPECT_EQ(fault(), FaultKind::malformed) << "a clearance of 0";
   swing.certificate.free[0].t1 = 0.1;
-  EXPECT_EQ(fault(), Kind::malformed) << "t1 is not on the grid";
+  EXPECT_EQ(fault(), FaultKind::malformed) << "t1 is not on the grid";
   swing.certificate.free[0].t1 = 1.5;
-  EXPECT_EQ(fault(), Kind::malformed);
+  EXPECT_EQ(fault(), FaultKind::malformed);
   swing.certificate.free[0].t1 = swing.certificate.free[0].t0;
-  EXPECT_EQ(fault(), Kind::malformed);
+  EXPECT_EQ(fault(), FaultKind::malformed);
   swing.options.margin = 1;
-  EXPECT_EQ(fault(), Kind::malformed) << "less than the required clearance";
+  EXPECT_EQ(fault(), FaultKind::malformed) << "less than the required clearance";
 }
 
 /// If the distance does not exceed the margin, no claim may be accepted, even if the distance is
@@ -172,7 +172,7 @@ TEST_P(Certificate, OtherArithmeticIsRefused) {
     }
     ASSERT_EQ(fault.has_value(), !setting.standard()) << setting.name;
     if (fault) {
-      EXPECT_EQ(fault->kind, Kind::floatingPoint);
+      EXPECT_EQ(fault->kind, FaultKind::floatingPoint);
     }
   }
 }
@@ -186,7 +186,7 @@ TEST_P(Certificate, AHalfTurnIsNoEdge) {
   turn.result.certifiedUntil = 1;
   turn.certificate.free = {{0, 0, 1, 0.1}};
   ASSERT_TRUE(turn.check());
-  EXPECT_EQ(turn.check()->kind, Kind::ambiguous);
+  EXPECT_EQ(turn.check()->kind, FaultKind::ambiguous);
 }
 
 TEST_P(Certificate, WhatIsInsideASolidIsNotFree) {
@@ -202,7 +202,7 @@ TEST_P(Certificate, WhatIsInsideASolidIsNotFree) {
       const auto fault = inside.check();
       EXPECT_EQ(fault.has_value(), fixed == &solid);
       if (fault) {
-        EXPECT_EQ(fault->kind, Kind::refuted);
+        EXPECT_EQ(fault->kind, FaultKind::refuted);
       }
       // Now the solid shell moves, and the body inside is at rest.
       Case around(*moving, *fixed, RigidMotion::spatial(at(Vec3(-1, 0, 0)), at(Vec3(1, 0, 0)), {}));
@@ -222,7 +222,7 @@ TEST_P(Certificate, TheWorkLimitEndsTheCheck) {
   ASSERT_FALSE(slide.check());
   slide.options.workLimit = 3;
   ASSERT_TRUE(slide.check());
-  EXPECT_EQ(slide.check()->kind, Kind::workLimit);
+  EXPECT_EQ(slide.check()->kind, FaultKind::workLimit);
 }
 
 /// These certificates make large claims, some of them false. If a certificate is accepted, its
@@ -281,7 +281,7 @@ TEST_P(Certificate, TubesRefuteNoTrueClaim) {
   ASSERT_EQ(c.result.verdict, MotionVerdict::free);
   const auto fault = c.check();
   if (fault) {
-    EXPECT_EQ(fault->kind, Kind::unproved);
+    EXPECT_EQ(fault->kind, FaultKind::unproved);
   }
 }
 

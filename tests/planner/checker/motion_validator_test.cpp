@@ -21,7 +21,7 @@ namespace ob = ompl::base;
 using test::Hall;
 using test::Rigid;
 
-struct Kind {
+struct ValidatorKind {
   Rigid space;
   std::string edges, volume;  ///< values of these keys in `checker: {…}`
 
@@ -30,10 +30,10 @@ struct Kind {
 
 /// Returns all kinds of validators that a problem may use: every method in both spaces, and every
 /// volume with one of the methods in turn.
-std::vector<Kind> kinds() {
+std::vector<ValidatorKind> kinds() {
   const auto& methods = problemChoices().at("checker.edges");
   const auto& volumes = problemChoices().at("checker.volume");
-  std::vector<Kind> all;
+  std::vector<ValidatorKind> all;
   for (const std::string& edges : methods)
     for (const Rigid space : {Rigid::SE3, Rigid::SE2})
       all.push_back({space, edges, volumes.front()});
@@ -44,13 +44,13 @@ std::vector<Kind> kinds() {
   return all;
 }
 
-std::string nameOf(const testing::TestParamInfo<Kind>& info) {
+std::string nameOf(const testing::TestParamInfo<ValidatorKind>& info) {
   std::string volume = info.param.volume;
   std::replace(volume.begin(), volume.end(), '-', '_');
   return info.param.edges + (info.param.space == Rigid::SE3 ? "SE3" : "SE2") + "_" + volume;
 }
 
-class MotionValidators : public testing::TestWithParam<Kind> {
+class MotionValidators : public testing::TestWithParam<ValidatorKind> {
  protected:
   MotionValidators() : hall_(GetParam().space, GetParam().edges, GetParam().volume) {
     if (GetParam().proves()) {

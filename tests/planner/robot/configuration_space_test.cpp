@@ -17,9 +17,9 @@ namespace corridor {
 namespace {
 
 using std::numbers::pi;
-using Kind = Coordinate::Kind;
+using CoordinateKind = Coordinate::Kind;
 
-Coordinate coordinate(Kind kind, std::string name, double weight = 1, double lower = -10,
+Coordinate coordinate(CoordinateKind kind, std::string name, double weight = 1, double lower = -10,
                       double upper = 10) {
   Coordinate c;
   c.kind = kind;
@@ -31,7 +31,7 @@ Coordinate coordinate(Kind kind, std::string name, double weight = 1, double low
 }
 
 /// Returns a space of one coordinate of the given kind.
-ConfigurationSpace single(Kind kind) {
+ConfigurationSpace single(CoordinateKind kind) {
   ConfigurationSpace space;
   space.addGroup({CoordinateGroup::Kind::joints, "", {space.add(coordinate(kind, "q"))}});
   return space;
@@ -41,9 +41,9 @@ ConfigurationSpace floating(double rotationWeight = 1) {
   ConfigurationSpace space;
   CoordinateGroup group{CoordinateGroup::Kind::floating, "left", {}};
   for (const char* name : {"left/x", "left/y", "left/z"})
-    group.coordinates.push_back(space.add(coordinate(Kind::line, name)));
+    group.coordinates.push_back(space.add(coordinate(CoordinateKind::line, name)));
   group.coordinates.push_back(
-      space.add(coordinate(Kind::rotation, "left/rotation", rotationWeight)));
+      space.add(coordinate(CoordinateKind::rotation, "left/rotation", rotationWeight)));
   space.addGroup(group);
   return space;
 }
@@ -52,8 +52,8 @@ ConfigurationSpace planar(double rotationWeight = 1) {
   ConfigurationSpace space;
   CoordinateGroup group{CoordinateGroup::Kind::planar, "", {}};
   for (const char* name : {"x", "y"})
-    group.coordinates.push_back(space.add(coordinate(Kind::line, name)));
-  group.coordinates.push_back(space.add(coordinate(Kind::circle, "yaw", rotationWeight)));
+    group.coordinates.push_back(space.add(coordinate(CoordinateKind::line, name)));
+  group.coordinates.push_back(space.add(coordinate(CoordinateKind::circle, "yaw", rotationWeight)));
   space.addGroup(group);
   return space;
 }
@@ -69,7 +69,7 @@ Configuration turned(double angle, const Vec3& axis = Vec3(1, 2, 3).normalized()
 }
 
 TEST(ConfigurationSpace, SmallAndLargeRotationsAreFollowed) {
-  const ConfigurationSpace space = single(Kind::rotation);
+  const ConfigurationSpace space = single(CoordinateKind::rotation);
   // For angles below 9e-5, OMPL 1.5.2 would return `from`.
   for (const double angle :
        {1e-300, 1e-12, 1e-9, 5e-5, 8.9e-5, 9e-5, 9.1e-5, 0.1, 1.0, 3.0, pi - 1e-6}) {
@@ -84,7 +84,7 @@ TEST(ConfigurationSpace, SmallAndLargeRotationsAreFollowed) {
 }
 
 TEST(ConfigurationSpace, RotationsTakeTheShorterArcWhateverSignAndNorm) {
-  const ConfigurationSpace space = single(Kind::rotation);
+  const ConfigurationSpace space = single(CoordinateKind::rotation);
   EXPECT_NEAR(space.largestTurn(turned(0), -turned(1)), 1, 1e-15);
   for (const double size : {1.0, 3.0, 1e-3, 1e-300, 1e300}) {
     const Configuration at = space.interpolate(turned(0.3), -size * turned(1.1), 0.5);
@@ -96,13 +96,14 @@ TEST(ConfigurationSpace, RotationsTakeTheShorterArcWhateverSignAndNorm) {
 }
 
 TEST(ConfigurationSpace, HalfTurnsAreAmbiguousAndNearlyHalfTurnsAreNot) {
-  const ConfigurationSpace rotation = single(Kind::rotation), circle = single(Kind::circle);
+  const ConfigurationSpace rotation = single(CoordinateKind::rotation),
+                           circle = single(CoordinateKind::circle);
   EXPECT_TRUE(rotation.ambiguous(turned(0), turned(pi)));
   EXPECT_TRUE(rotation.ambiguous(turned(0), turned(pi - 0.5e-9)));
   EXPECT_FALSE(rotation.ambiguous(turned(0), turned(pi - 2e-9)));
   EXPECT_TRUE(circle.ambiguous(values({-pi / 2}), values({pi / 2})));
   EXPECT_FALSE(circle.ambiguous(values({-pi / 2}), values({pi / 2 - 2e-9})));
-  EXPECT_FALSE(single(Kind::line).ambiguous(values({-pi / 2}), values({pi / 2})));
+  EXPECT_FALSE(single(CoordinateKind::line).ambiguous(values({-pi / 2}), values({pi / 2})));
   // If the difference is a little below or above a half turn, the edge goes the shorter way.
   for (const double angle : {pi - 1e-8, pi + 1e-8}) {
     const Configuration middle = rotation.interpolate(turned(0), turned(angle), 0.5);
@@ -112,7 +113,7 @@ TEST(ConfigurationSpace, HalfTurnsAreAmbiguousAndNearlyHalfTurnsAreNot) {
 }
 
 TEST(ConfigurationSpace, CirclesTakeTheShorterWayAcrossTheSeam) {
-  const ConfigurationSpace space = single(Kind::circle);
+  const ConfigurationSpace space = single(CoordinateKind::circle);
   const auto at = [&](double from, double to, double t) {
     return space.interpolate(values({from}), values({to}), t)[0];
   };
@@ -165,14 +166,14 @@ TEST(ConfigurationSpace, DistancesAreWeightedAndSummedOverGroups) {
   ConfigurationSpace mobile = planar(2);
   mobile.addGroup({CoordinateGroup::Kind::joints,
                    "",
-                   {mobile.add(coordinate(Kind::line, "lift", 3)),
-                    mobile.add(coordinate(Kind::circle, "pan", 0.5))}});
+                   {mobile.add(coordinate(CoordinateKind::line, "lift", 3)),
+                    mobile.add(coordinate(CoordinateKind::circle, "pan", 0.5))}});
   EXPECT_NEAR(mobile.distance(values({0, 0, 0, 0, 3}), values({3, 4, 1, 1, -3})),
               5 + 2 + std::hypot(3, 0.5 * (2 * pi - 6)), 1e-14);
 }
 
 TEST(ConfigurationSpace, DistanceIsZeroForEqualConfigurationsOnly) {
-  const ConfigurationSpace arm = single(Kind::line), body = floating();
+  const ConfigurationSpace arm = single(CoordinateKind::line), body = floating();
   for (const double step : {1e-7, 1e-170, 5e-324}) {
     EXPECT_GT(arm.distance(values({0}), values({step})), 0);
     EXPECT_FALSE(arm.equal(values({0}), values({step})));
@@ -201,8 +202,8 @@ TEST(ConfigurationSpace, DistanceIsZeroForEqualConfigurationsOnly) {
 
 TEST(ConfigurationSpace, BoundsAreInclusiveAndForLinesOnly) {
   ConfigurationSpace space;
-  space.add(coordinate(Kind::line, "lift", 1, -1, 2));
-  space.add(coordinate(Kind::circle, "pan", 1, 0, 0));
+  space.add(coordinate(CoordinateKind::line, "lift", 1, -1, 2));
+  space.add(coordinate(CoordinateKind::circle, "pan", 1, 0, 0));
   EXPECT_TRUE(space.inBounds(values({-1, 3})));
   EXPECT_TRUE(space.inBounds(values({2, -100})));
   EXPECT_FALSE(space.inBounds(values({std::nextafter(2, 3), 0})));
