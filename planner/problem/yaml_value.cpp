@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <sstream>
 #include <utility>
 
@@ -22,6 +23,7 @@ class TreeBuilder : public YAML::EventHandler {
       : file_(std::move(file)), limits_(limits) {}
 
   YamlValue take() { return std::move(root_); }
+  bool endsWithQuotedScalar() const { return endsWithQuotedScalar_; }
 
   void OnDocumentStart(const YAML::Mark&) override {}
   void OnDocumentEnd() override {}
@@ -37,6 +39,7 @@ class TreeBuilder : public YAML::EventHandler {
     scalar.text = text;
     // The tag of yaml-cpp is "?" for plain text, "!" for quoted text, else the tag in the file.
     scalar.isPlain = tag == "?";
+    endsWithQuotedScalar_ = !scalar.isPlain;
     put(std::move(scalar));
   }
   void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
@@ -115,6 +118,7 @@ class TreeBuilder : public YAML::EventHandler {
   YamlValue root_;
   std::vector<Open> open_;
   std::size_t nodes_ = 0;
+  bool endsWithQuotedScalar_ = false;
 };
 
 /// Returns a line of the text, counted from 0; "" if there is no such line.
@@ -124,6 +128,53 @@ std::string lineOf(const std::string& text, int line) {
   for (int i = 0; i <= line; ++i)
     if (!std::getline(stream, found)) return "";
   return found;
+}
+
+/// Passes the documents of the text to the two builders. Returns whether there is a second one.
+/// @throws YAML::Exception for a syntax error.
+bool readDocuments(const std::string& text, TreeBuilder& first, TreeBuilder& second) {
+  std::istringstream stream(text);
+  YAML::Parser parser(stream);
+  parser.HandleNextDocument(first);
+  return parser.HandleNextDocument(second);
+}
+
+/// Returns whether the text ends inside quotes.
+bool endsInQuotes(const std::string& text) {
+  TreeBuilder first("", {}), second("", {});
+  try {
+    // yaml-cpp 0.7 misses the end of the text behind a line break. It does not miss the end behind
+    // a comment.
+    readDocuments(text + "\n#", first, second);
+  } catch (const YAML::Exception& error) {
+    return error.msg == YAML::ErrorMsg::EOF_IN_SCALAR;
+  } catch (const InputError&) {
+  }
+  return false;
+}
+
+/// Returns the line, counted from 0, where the quotes open in which the first `lines` lines of the
+/// text end; nullopt if these lines end outside of quotes.
+std::optional<int> lineOfOpenQuote(const std::string& text, int lines) {
+  std::vector<std::size_t> ends{0};  // ends[n]: the length of the first n lines
+  for (std::size_t at = 0; static_cast<int>(ends.size()) <= lines && at < text.size();) {
+    at = std::min(text.find('\n', at), text.size() - 1) + 1;
+    ends.push_back(at);
+  }
+  const auto isInside = [&](std::size_t n) { return endsInQuotes(text.substr(0, ends[n])); };
+  std::size_t outside = 0, inside = ends.size() - 1;
+  if (!isInside(inside)) return std::nullopt;
+  while (inside - outside > 1) {
+    const std::size_t middle = (inside + outside) / 2;
+    (isInside(middle) ? inside : outside) = middle;
+  }
+  return static_cast<int>(outside);
+}
+
+/// Returns the number of lines up to the last one that is not blank, at least 1.
+int linesOf(const std::string& text) {
+  const auto size = static_cast<std::ptrdiff_t>(text.find_last_not_of(" \t\r\n") + 1);
+  return static_cast<int>(std::count(text.begin(), text.begin() + size, '\n')) + 1;
 }
 
 /// Returns a clearer message for the faults that people make most, or else yaml-cpp's message.
@@ -156,21 +207,43 @@ std::string explained(const YAML::Exception& error, const std::string& line) {
   return found == texts.end() ? error.msg : found->second;
 }
 
+/// Returns the fault of a quote that is not closed; nullopt if there is none.
+std::optional<Fault> unclosedQuote(const std::string& file, const std::string& text) {
+  const auto line = lineOfOpenQuote(text, linesOf(text));
+  if (!line) return std::nullopt;
+  return Fault{file, *line + 1, "is not YAML: a quote on this line is not closed"};
+}
+
+/// Returns the fault that explains the parser's error.
+Fault faultOf(const YAML::Exception& error, const std::string& file, const std::string& text) {
+  if (const auto fault = unclosedQuote(file, text)) return *fault;
+  const int line = std::clamp(error.mark.line, 0, linesOf(text) - 1);
+  if (const auto open = lineOfOpenQuote(text, line))
+    return {file, *open + 1,
+            "is not YAML: a quote on this line is closed only on line " + std::to_string(line + 1) +
+                "; is one missing?"};
+  return {file, line + 1, "is not YAML: " + explained(error, lineOf(text, line))};
+}
+
 }  // namespace
 
 YamlValue parseYaml(const std::string& file, const std::string& text, const YamlLimits& limits) {
+  TreeBuilder first(file, limits), second(file, limits);
+  bool hasSecond = false;
   try {
-    std::istringstream stream(text);
-    YAML::Parser parser(stream);
-    TreeBuilder first(file, limits), second(file, limits);
-    parser.HandleNextDocument(first);
-    if (parser.HandleNextDocument(second))
-      throw InputError(Fault{file, 0, "has more than one YAML document (---); keep one"});
-    return first.take();
+    hasSecond = readDocuments(text, first, second);
   } catch (const YAML::Exception& error) {
-    throw InputError(Fault{file, error.mark.line + 1,
-                           "is not YAML: " + explained(error, lineOf(text, error.mark.line))});
+    throw InputError(faultOf(error, file, text));
+  } catch (const InputError&) {  // an open quote can make a key of what follows
+    if (const auto fault = unclosedQuote(file, text)) throw InputError(*fault);
+    throw;
   }
+  if (hasSecond)
+    throw InputError(Fault{file, 0, "has more than one YAML document (---); keep one"});
+  // If a quote is not closed, yaml-cpp takes the rest of the text as part of the quoted value.
+  if (first.endsWithQuotedScalar())
+    if (const auto fault = unclosedQuote(file, text)) throw InputError(*fault);
+  return first.take();
 }
 
 }  // namespace corridor

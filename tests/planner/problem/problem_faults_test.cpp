@@ -38,6 +38,22 @@ TEST_F(ProblemFaults, AreOfOneLineWithoutControlCharacters) {
   EXPECT_EQ(text.find('\x1b'), text.npos);
 }
 
+// yaml-cpp takes the rest of the file as part of the value, and reports nothing.
+TEST_F(ProblemFaults, QuotesThatAreNotClosed) {
+  const std::string unclosed = "problem.yaml:9: is not YAML: a quote on this line is not closed";
+  for (const char* text : {"seed: 1\nallow: [[a, \"b]]\nmargin: 0.02\n",
+                           "seed: 1\nplanner: {name: 'RRT}\nmargin: 1\n\n",
+                           "seed: 1\nplanner: \"RRT\r\nmargin: 1\r\n", "seed: 1\nplanner: \"",
+                           "seed: 1\nplanner: \"\n", "seed: 1\nplanner: \"a\\\"\nmargin: 1\n# end",
+                           "seed: 1\nplanner: \"a\nmargin: 1\n  \nb: 'c'\n"})
+    EXPECT_EQ(with(text), unclosed) << text;
+  EXPECT_EQ(with("seed: 1\nplanner: \"RRT\nmargin: 1\nallow: [[\"a\", b]]\n"),
+            "problem.yaml:9: is not YAML: a quote on this line is closed only on line 11; is one "
+            "missing?");
+  EXPECT_THAT(with("planner: \"RRT\n  Connect\"\n"), testing::HasSubstr("RRT Connect"));
+  EXPECT_THAT(with("# don't\nmargin: 1 # \"\nplanner: 'it''s'\n"), testing::HasSubstr("it's"));
+}
+
 TEST_F(ProblemFaults, Syntax) {
   EXPECT_EQ(complaintOf("format: corridor-problem-1\nrobot: [robot.yaml\nworld: {}\n"),
             "problem.yaml:3: is not YAML: a comma or a ] is missing, here or above");
@@ -428,7 +444,7 @@ TEST_F(ProblemFaults, Robots) {
                              "name: a}\n  - {mesh: wedge.obj, name: a}\n"),
             "robot.yaml:5: shapes[1].name: \"a\" is the name of another shape");
   EXPECT_EQ(complaintOfRobot("rigid: {\n"),
-            "robot.yaml:2: is not YAML: a comma, a } or the blank after a colon is missing, here "
+            "robot.yaml:1: is not YAML: a comma, a } or the blank after a colon is missing, here "
             "or above");
 }
 
