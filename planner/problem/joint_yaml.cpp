@@ -13,13 +13,16 @@ std::string noSuchJoint(const std::string& name, const RobotModel& model) {
   std::vector<std::string> known;
   for (const JointModel& joint : model.joints)
     if (joint.type != JointType::fixed && !joint.mimic) known.push_back(joint.name);
-  return "there is no joint " + quotedWord(name) + didYouMean(name, known) + knownWords(known);
+  const bool isNumber = !name.empty() && name.find_first_not_of("0123456789") == name.npos;
+  return "there is no joint " + quotedWord(name) + didYouMean(name, known) + knownWords(known) +
+         (isNumber ? "; decimals need a point, not a comma" : "");
 }
 
 std::string whyNotActive(const RobotModel& model, std::size_t j) {
   const JointModel& joint = model.joints[j];
   if (joint.type == JointType::fixed) return "is fixed";
-  if (joint.mimic) return "follows " + model.joints[joint.mimic->joint].name + " (mimic)";
+  if (joint.mimic)
+    return "follows " + model.joints[joint.mimic->joint].name + " (mimic); leave it out";
   return "";
 }
 

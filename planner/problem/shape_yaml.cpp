@@ -243,7 +243,8 @@ std::optional<PlacedShape> readShape(const YamlMap& map, const ShapePlace& place
     if (solid) {
       if (const std::string& why = files.meshes.whyNotWatertight(shape.mesh); !why.empty()) {
         map.fault("solid", "needs a watertight mesh, and " + shape.file.string() +
-                               " is not watertight: " + why);
+                               " is not watertight: " + why +
+                               "; repair the mesh, or leave solid out");
         return std::nullopt;
       }
     }

@@ -62,6 +62,10 @@ TubeSpec readTube(const YamlMap& file, const ConfigurationSpace& space, bool isC
   TubeSpec tube;
   const YamlValue* value = file.find("tube");
   if (!value) return tube;
+  if (value->kind != YamlValue::Kind::Map) {
+    file.fault("tube", "a map such as {joints: 0.001} is needed, not " + described(*value));
+    return tube;
+  }
   const YamlMap map(*value, "tube", nullptr, file.source());
   tube.joints = map.angle("joints", Range::NotNegative);
   tube.slides = map.number("slides", Range::NotNegative);

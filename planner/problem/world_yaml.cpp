@@ -164,13 +164,14 @@ AllowedBodies readAllow(const YamlMap& file, const Model& model) {
   }
   const BodyNames names(model);
   for (const YamlValue& item : value->items) {
-    const auto pair = readWords(item, "such as [hand, table]", "allow", file.source());
+    const auto pair = readWords(item, "as in allow: [[hand, table]]", "allow", file.source());
     if (!pair) continue;
     const auto fault = [&](const std::string& text) {
       file.source().fault(item.line, "allow: " + text);
     };
     if (pair->size() != 2) {
-      fault("two bodies are needed, such as [hand, table], not " + std::to_string(pair->size()));
+      fault("two bodies are needed, as in allow: [[hand, table]], not " +
+            std::to_string(pair->size()));
       continue;
     }
     const auto a = names.find((*pair)[0], fault), b = names.find((*pair)[1], fault);

@@ -11,6 +11,7 @@
 
 #include "planner/checker/checker.h"
 #include "planner/checker/problem_goal.h"
+#include "planner/checker/still_pairs.h"
 #include "planner/model/reach.h"
 #include "planner/view/closest_pairs.h"
 #include "planner/view/curve_plots.h"
@@ -65,7 +66,10 @@ class PageData {
     addEnds();
     addPairs();
     addTrees();
-    json_["notes"] = textsOf(problem_.source.notes);
+    std::vector<Note> notes;
+    if (hasStillPairs(problem_.model)) notes = notesOnStillPairs(checker_, startOf(problem_));
+    notes.insert(notes.end(), problem_.source.notes.begin(), problem_.source.notes.end());
+    json_["notes"] = textsOf(notes);
     if (path_) {
       addSolution();
       addPath();

@@ -42,7 +42,7 @@ TEST_F(ArmFaults, States) {
       "problem.yaml:5: start.slide: is held at 0.01, and not planned for; to plan for it, choose "
       "it by joints or group in the robot's file, and remove it from hold\n"
       "problem.yaml:5: start.wrist: is fixed\n"
-      "problem.yaml:5: start.follow: follows slide (mimic)");
+      "problem.yaml:5: start.follow: follows slide (mimic); leave it out");
   EXPECT_EQ(start("{pan: 1, lift: 3.2}"),
             "problem.yaml:5: start.lift: 3.2 is outside of its limits, [-3.14159, 3.14159]");
   EXPECT_EQ(start("{pan: 1, pan_deg: 2, lift: 0}"),
@@ -94,11 +94,12 @@ TEST_F(ArmFaults, AllowAndTube) {
             "problem.yaml:7: allow: there is no body \"psot\" (did you mean \"post\"?) "
             "(known: base, upper, lower, finger, thumb, post)");
   EXPECT_EQ(with("allow: [[base]]\n"),
-            "problem.yaml:7: allow: two bodies are needed, such as [hand, table], not 1");
-  EXPECT_EQ(
-      with("allow: [base, post]\n"),
-      "problem.yaml:7: allow: a list of names is needed, such as [hand, table], not \"base\"\n"
-      "problem.yaml:7: allow: a list of names is needed, such as [hand, table], not \"post\"");
+            "problem.yaml:7: allow: two bodies are needed, as in allow: [[hand, table]], not 1");
+  EXPECT_EQ(with("allow: [base, post]\n"),
+            "problem.yaml:7: allow: a list of names is needed, as in allow: [[hand, table]], not "
+            "\"base\"\n"
+            "problem.yaml:7: allow: a list of names is needed, as in allow: [[hand, table]], not "
+            "\"post\"");
   EXPECT_EQ(with("allow: base\n"),
             "problem.yaml:7: allow: a list of pairs of bodies is needed, such as [[hand, table]], "
             "not \"base\"");
@@ -197,7 +198,7 @@ TEST_F(ArmFaults, RobotFiles) {
             "arm.yaml:3: joints: there is no joint \"lfit\" (did you mean \"lift\"?) (known: pan, "
             "lift, slide)\n"
             "arm.yaml:3: joints: wrist is fixed\n"
-            "arm.yaml:3: joints: follow follows slide (mimic)\n"
+            "arm.yaml:3: joints: follow follows slide (mimic); leave it out\n"
             "arm.yaml:3: joints: pan is named twice");
   EXPECT_EQ(robot("joints: pan\n"),
             "arm.yaml:3: joints: a list of names is needed, such as [pan, lift], not \"pan\"");
@@ -223,7 +224,7 @@ TEST_F(ArmFaults, RobotFiles) {
   EXPECT_EQ(robot("joints: [pan, lift]\nhold: {pan: 1, slide: 2, wirst: 0, follow: 1}\n"),
             "arm.yaml:4: hold.slide: 2 is outside of its limits, [0.01, 0.05]\n"
             "arm.yaml:4: hold.wirst: there is no joint \"wirst\" (known: pan, lift, slide)\n"
-            "arm.yaml:4: hold.follow: follows slide (mimic)\n"
+            "arm.yaml:4: hold.follow: follows slide (mimic); leave it out\n"
             "arm.yaml:4: hold: pan is planned for, and can't be held; remove it from hold");
   EXPECT_EQ(
       robot("states: {home: {pna: 1}}\nallow: [[base, hand]]\nweights: {joints: {tilt: 1, "

@@ -98,7 +98,7 @@ TEST_F(Shapes, Faults) {
   EXPECT_EQ(rock("{mesh: open.obj, solid: true}"),
             "problem.yaml:4: world.rock.solid: needs a watertight mesh, and open.obj is not "
             "watertight: 3 of "
-            "its edges have a triangle on one side only");
+            "its edges have a triangle on one side only; repair the mesh, or leave solid out");
 }
 
 }  // namespace

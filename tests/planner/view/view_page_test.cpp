@@ -6,6 +6,7 @@
 #include <set>
 
 #include <Eigen/Geometry>
+#include <gmock/gmock.h>
 
 #include "planner/checker/checker.h"
 #include "planner/model/model_builder.h"
@@ -335,6 +336,14 @@ TEST(ViewPage, SameInputGivesTheSameBytes) {
   const Problem problem = ownProblem("two_arms");
   const ViewedPath path = viewed(problem, straight(problem));
   EXPECT_TRUE(viewPage(problem, path) == viewPage(problem, path));
+}
+
+TEST(ViewPage, NamesPairsThatAreNotProved) {
+  Problem problem = ownProblem("two_arms");
+  problem.task.margin = 5;
+  const PageReader page(viewPage(problem, std::nullopt));
+  EXPECT_THAT(page.json["notes"][0].get<std::string>(),
+              testing::StartsWith("in every state, these bodies are closer than the margin: "));
 }
 
 TEST(ViewPage, OneStateIsAPath) {
