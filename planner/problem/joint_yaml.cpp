@@ -8,21 +8,29 @@
 #include "planner/robot/angles.h"
 
 namespace corridor {
+namespace {
+
+/// Returns whether the entry is what YAML makes of the decimals in `{pan: 0,5}`: a key 5 without a
+/// value.
+bool hasDecimalComma(const YamlValue::Entry& entry) {
+  return entry.value.kind == YamlValue::Kind::Null &&
+         entry.key.find_first_not_of("0123456789") == entry.key.npos;
+}
+
+}  // namespace
 
 std::string noSuchJoint(const std::string& name, const RobotModel& model) {
   std::vector<std::string> known;
   for (const JointModel& joint : model.joints)
     if (joint.type != JointType::fixed && !joint.mimic) known.push_back(joint.name);
-  const bool isNumber = !name.empty() && name.find_first_not_of("0123456789") == name.npos;
-  return "there is no joint " + quotedWord(name) + didYouMean(name, known) + knownWords(known) +
-         (isNumber ? "; decimals need a point, not a comma" : "");
+  return "there is no joint " + quotedWord(name) + didYouMean(name, known) + knownWords(known);
 }
 
 std::string whyNotActive(const RobotModel& model, std::size_t j) {
   const JointModel& joint = model.joints[j];
   if (joint.type == JointType::fixed) return "is fixed";
   if (joint.mimic)
-    return "follows " + model.joints[joint.mimic->joint].name + " (mimic); leave it out";
+    return "follows " + model.joints[joint.mimic->joint].name + " (mimic); give only that joint";
   return "";
 }
 
@@ -53,7 +61,8 @@ void readJointValues(const YamlMap& map, const RobotModel& model,
       map.fault(key, noSuchJoint(name, model) +
                          (name == "pose" || name == "position" || name == "at"
                               ? "; poses of links are not supported: give the joints' values"
-                              : ""));
+                          : hasDecimalComma(*entry) ? "; decimals need a point, not a comma"
+                                                    : ""));
     else if (map.find(name))
       map.fault(key, "say " + name + " (radians) or " + key + " (degrees), not both");
     else if (const JointType type = model.joints[*j].type;

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 #include <yaml-cpp/eventhandler.h>
@@ -16,14 +17,54 @@
 namespace corridor {
 namespace {
 
+/// Returns whether the text is in UTF-16 or UTF-32, which yaml-cpp also reads.
+bool hasWideCharacters(const std::string& text) {
+  return text.find('\0') != text.npos;
+}
+
+/// Returns the position of the quote that closes the one at `open`, or npos.
+std::size_t closingQuote(std::string_view text, std::size_t open) {
+  const char quote = text[open];
+  for (std::size_t i = open + 1; i < text.size(); ++i) {
+    if (text[i] == quote) {
+      if (quote == '"' || text.substr(i, 2) != "''") return i;
+      ++i;  // '' stands for one quote
+    } else if (quote == '"' && text[i] == '\\') {
+      ++i;
+    }
+  }
+  return text.npos;
+}
+
+/// Returns whether a line looks like a key with its value, or like an item of a list.
+bool looksLikeKeyOrItem(std::string_view line) {
+  const std::string_view blanks = " \t\r";
+  line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
+  if (line.starts_with("- ")) return true;
+  const std::size_t end = std::min(line.find_first_of(" \t\r:"), line.size());
+  return end > 0 && end < line.size() && line[end] == ':' &&
+         (end + 1 == line.size() || blanks.find(line[end + 1]) != blanks.npos);
+}
+
 /// Builds the document from the parser's events, since yaml-cpp's own nodes hide repeated keys.
 class TreeBuilder : public YAML::EventHandler {
  public:
-  TreeBuilder(std::string file, const YamlLimits& limits)
-      : file_(std::move(file)), limits_(limits) {}
+  TreeBuilder(std::string file, std::string_view text, const YamlLimits& limits)
+      : file_(std::move(file)), text_(text), limits_(limits) {}
 
-  YamlValue take() { return std::move(root_); }
-  bool endsWithQuotedScalar() const { return endsWithQuotedScalar_; }
+  /// Returns the document. @throws InputError if a key is no word.
+  YamlValue take() {
+    if (wrongKey_) throw InputError(*wrongKey_);
+    return std::move(root_);
+  }
+
+  /// Returns a remark for a fault on the line (counted from 0) where quotes of an earlier line are
+  /// closed; "" for other lines.
+  std::string remarkOnQuotes(int line) const {
+    if (line != lastLineOfQuotes_) return "";
+    return "; the quote on line " + std::to_string(firstLineOfQuotes_ + 1) +
+           " is closed only here: is one missing?";
+  }
 
   void OnDocumentStart(const YAML::Mark&) override {}
   void OnDocumentEnd() override {}
@@ -39,7 +80,7 @@ class TreeBuilder : public YAML::EventHandler {
     scalar.text = text;
     // The tag of yaml-cpp is "?" for plain text, "!" for quoted text, else the tag in the file.
     scalar.isPlain = tag == "?";
-    endsWithQuotedScalar_ = !scalar.isPlain;
+    if (!scalar.isPlain) checkQuotes(mark);
     put(std::move(scalar));
   }
   void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
@@ -73,6 +114,33 @@ class TreeBuilder : public YAML::EventHandler {
     throw InputError(Fault{file_, mark.line + 1, std::move(text)});
   }
 
+  /// Refuses quotes that are not closed: yaml-cpp takes the rest of the file as part of the value.
+  /// Refuses quotes that are closed on a later line, if what looks like a key is between: these
+  /// keys would be lost, for example a margin.
+  void checkQuotes(const YAML::Mark& mark) {
+    auto at = static_cast<std::size_t>(mark.pos);
+    while (at < text_.size() && (text_[at] == '!' || text_[at] == '&'))  // a tag, an anchor
+      at = text_.find_first_not_of(" \t", std::min(text_.find_first_of(" \t", at), text_.size()));
+    if (at >= text_.size() || (text_[at] != '"' && text_[at] != '\'')) return;
+    const std::size_t close = closingQuote(text_, at);
+    if (close == text_.npos) fail(mark, "is not YAML: a quote on this line is not closed");
+    std::string_view inside = text_.substr(at, close - at);
+    std::size_t end = inside.find('\n');
+    if (end == inside.npos) return;
+    firstLineOfQuotes_ = mark.line;
+    lastLineOfQuotes_ =
+        mark.line + static_cast<int>(std::count(inside.begin(), inside.end(), '\n'));
+    while (end != inside.npos) {
+      inside.remove_prefix(end + 1);
+      end = inside.find('\n');
+      if (looksLikeKeyOrItem(inside.substr(0, end)))
+        fail(mark, "a quote on this line is closed only on line " +
+                       std::to_string(lastLineOfQuotes_ + 1) +
+                       ", behind what looks like a key or an item; is a quote missing? If not, "
+                       "write the text on one line");
+    }
+  }
+
   void open(YamlValue value) {
     requireNoKey(value);
     if (open_.size() == limits_.depth)
@@ -89,9 +157,12 @@ class TreeBuilder : public YAML::EventHandler {
     put(std::move(done));
   }
 
-  void requireNoKey(const YamlValue& value) const {
-    if (!open_.empty() && open_.back().value.kind == YamlValue::Kind::Map && open_.back().keyIsNext)
-      throw InputError(Fault{file_, value.line, "a key must be a word"});
+  /// Notes a key that is no word. If a } or ] is missing, the parser passes on such keys before it
+  /// reports the missing bracket, or an open quote behind it. So `take` reports the key.
+  void requireNoKey(const YamlValue& value) {
+    if (!open_.empty() && open_.back().value.kind == YamlValue::Kind::Map &&
+        open_.back().keyIsNext && !wrongKey_)
+      wrongKey_ = Fault{file_, value.line, "a key must be a word"};
   }
 
   void put(YamlValue value) {
@@ -114,11 +185,14 @@ class TreeBuilder : public YAML::EventHandler {
   }
 
   std::string file_;
+  std::string_view text_;
   YamlLimits limits_;
   YamlValue root_;
   std::vector<Open> open_;
   std::size_t nodes_ = 0;
-  bool endsWithQuotedScalar_ = false;
+  std::optional<Fault> wrongKey_;
+  /// The lines of the last value in quotes that has several lines; -1 if there is none.
+  int firstLineOfQuotes_ = -1, lastLineOfQuotes_ = -1;
 };
 
 /// Returns a line of the text, counted from 0; "" if there is no such line.
@@ -128,47 +202,6 @@ std::string lineOf(const std::string& text, int line) {
   for (int i = 0; i <= line; ++i)
     if (!std::getline(stream, found)) return "";
   return found;
-}
-
-/// Passes the documents of the text to the two builders. Returns whether there is a second one.
-/// @throws YAML::Exception for a syntax error.
-bool readDocuments(const std::string& text, TreeBuilder& first, TreeBuilder& second) {
-  std::istringstream stream(text);
-  YAML::Parser parser(stream);
-  parser.HandleNextDocument(first);
-  return parser.HandleNextDocument(second);
-}
-
-/// Returns whether the text ends inside quotes.
-bool endsInQuotes(const std::string& text) {
-  TreeBuilder first("", {}), second("", {});
-  try {
-    // yaml-cpp 0.7 misses the end of the text behind a line break. It does not miss the end behind
-    // a comment.
-    readDocuments(text + "\n#", first, second);
-  } catch (const YAML::Exception& error) {
-    return error.msg == YAML::ErrorMsg::EOF_IN_SCALAR;
-  } catch (const InputError&) {
-  }
-  return false;
-}
-
-/// Returns the line, counted from 0, where the quotes open in which the first `lines` lines of the
-/// text end; nullopt if these lines end outside of quotes.
-std::optional<int> lineOfOpenQuote(const std::string& text, int lines) {
-  std::vector<std::size_t> ends{0};  // ends[n]: the length of the first n lines
-  for (std::size_t at = 0; static_cast<int>(ends.size()) <= lines && at < text.size();) {
-    at = std::min(text.find('\n', at), text.size() - 1) + 1;
-    ends.push_back(at);
-  }
-  const auto isInside = [&](std::size_t n) { return endsInQuotes(text.substr(0, ends[n])); };
-  std::size_t outside = 0, inside = ends.size() - 1;
-  if (!isInside(inside)) return std::nullopt;
-  while (inside - outside > 1) {
-    const std::size_t middle = (inside + outside) / 2;
-    (isInside(middle) ? inside : outside) = middle;
-  }
-  return static_cast<int>(outside);
 }
 
 /// Returns the number of lines up to the last one that is not blank, at least 1.
@@ -197,6 +230,8 @@ std::string explained(const YAML::Exception& error, const std::string& line) {
       {END_OF_MAP_FLOW, "a comma, a } or the blank after a colon is missing, here or above"},
       {END_OF_SEQ_FLOW, "a comma or a ] is missing, here or above"},
       {FLOW_END, "a } or ] is missing, or there is one too many"},
+      {EOF_IN_SCALAR, "a quote above is not closed"},
+      {DOC_IN_SCALAR, "a quote above is not closed"},
       {BLOCK_ENTRY,
        "\"- \" begins a list item; it must begin its line, and can't be inside [ ] or { }"},
       {MAP_VALUE,
@@ -207,43 +242,27 @@ std::string explained(const YAML::Exception& error, const std::string& line) {
   return found == texts.end() ? error.msg : found->second;
 }
 
-/// Returns the fault of a quote that is not closed; nullopt if there is none.
-std::optional<Fault> unclosedQuote(const std::string& file, const std::string& text) {
-  const auto line = lineOfOpenQuote(text, linesOf(text));
-  if (!line) return std::nullopt;
-  return Fault{file, *line + 1, "is not YAML: a quote on this line is not closed"};
-}
-
-/// Returns the fault that explains the parser's error.
-Fault faultOf(const YAML::Exception& error, const std::string& file, const std::string& text) {
-  if (const auto fault = unclosedQuote(file, text)) return *fault;
-  const int line = std::clamp(error.mark.line, 0, linesOf(text) - 1);
-  if (const auto open = lineOfOpenQuote(text, line))
-    return {file, *open + 1,
-            "is not YAML: a quote on this line is closed only on line " + std::to_string(line + 1) +
-                "; is one missing?"};
-  return {file, line + 1, "is not YAML: " + explained(error, lineOf(text, line))};
-}
-
 }  // namespace
 
 YamlValue parseYaml(const std::string& file, const std::string& text, const YamlLimits& limits) {
-  TreeBuilder first(file, limits), second(file, limits);
-  bool hasSecond = false;
+  const bool isWide = hasWideCharacters(text);  // then positions of yaml-cpp are not those of bytes
+  const std::string_view utf8 =
+      isWide ? "" : std::string_view(text).substr(text.starts_with("\xef\xbb\xbf") ? 3 : 0);
+  TreeBuilder first(file, utf8, limits), second(file, utf8, limits);
   try {
-    hasSecond = readDocuments(text, first, second);
+    // With the line break, yaml-cpp also passes on the last value if its quote is not closed.
+    std::istringstream stream(isWide ? text : std::string(utf8) + "\n");
+    YAML::Parser parser(stream);
+    parser.HandleNextDocument(first);
+    if (parser.HandleNextDocument(second))
+      throw InputError(Fault{file, 0, "has more than one YAML document (---); keep one"});
+    return first.take();
   } catch (const YAML::Exception& error) {
-    throw InputError(faultOf(error, file, text));
-  } catch (const InputError&) {  // an open quote can make a key of what follows
-    if (const auto fault = unclosedQuote(file, text)) throw InputError(*fault);
-    throw;
+    const int line = std::clamp(error.mark.line, 0, linesOf(text) - 1);
+    throw InputError(
+        Fault{file, line + 1,
+              "is not YAML: " + explained(error, lineOf(text, line)) + first.remarkOnQuotes(line)});
   }
-  if (hasSecond)
-    throw InputError(Fault{file, 0, "has more than one YAML document (---); keep one"});
-  // If a quote is not closed, yaml-cpp takes the rest of the text as part of the quoted value.
-  if (first.endsWithQuotedScalar())
-    if (const auto fault = unclosedQuote(file, text)) throw InputError(*fault);
-  return first.take();
 }
 
 }  // namespace corridor

@@ -26,8 +26,8 @@ struct YamlValue::Entry {
   YamlValue value;
 };
 
-/// Limits of a document. They keep its memory below 1.4 GB and its nesting small. Aliases are
-/// errors, because nested aliases can expand a small file without bound.
+/// Limits of a document. They keep its memory, besides its texts, below 2 GB, and its nesting
+/// small. Aliases are errors, because nested aliases can expand a small file without bound.
 struct YamlLimits {
   std::size_t nodes = 10'000'000;  ///< keys and values
   std::size_t depth = 64;          ///< the largest depth of nested lists and maps

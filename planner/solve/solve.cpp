@@ -261,7 +261,7 @@ std::string Solve::whyNotFound(ob::PlannerStatus status) const {
       text = std::string(report_.restarts > 0 ? "the best path of the last search"
                                               : "the best path found") +
              " ends " + shortest(std::round(definition_->getSolutionDifference() * 1e4) / 1e4) +
-             " from the goal (in the planner's metric)";
+             " from the goal (the planner's distance; see weights)";
       break;
     default:
       text = clock_.seconds() < problem_.settings.planner.time

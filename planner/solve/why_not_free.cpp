@@ -309,8 +309,8 @@ std::optional<std::string> whyNotFree(const Configuration& q, const Checker& che
                            (margin > 0 ? " beyond the " + kept : "");
   if (clear <= needed)
     return text + ", and the tube needs " + withDigits(needed) +
-           " m; move the two bodies apart, or set a smaller " +
-           (margin > 0 ? kept + " or tube" : "tube") + others;
+           " m; move the two bodies apart, or reduce the " +
+           (margin > 0 ? kept + " or the tube" : "tube") + others;
   return text + ", too small to prove at a tolerance of " + withDigits(options.tolerance) +
          " m; move the two bodies apart, or set checker: {tolerance: " + withDigits(clear / 4) +
          "}" + others;

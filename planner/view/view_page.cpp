@@ -66,9 +66,8 @@ class PageData {
     addEnds();
     addPairs();
     addTrees();
-    std::vector<Note> notes;
-    if (hasStillPairs(problem_.model)) notes = notesOnStillPairs(checker_, startOf(problem_));
-    notes.insert(notes.end(), problem_.source.notes.begin(), problem_.source.notes.end());
+    std::vector<Note> notes = notesOnStillPairs(checker_, startOf(problem_));
+    addAll(problem_.source.notes, notes);
     json_["notes"] = textsOf(notes);
     if (path_) {
       addSolution();

@@ -42,7 +42,12 @@ TEST_F(ArmFaults, States) {
       "problem.yaml:5: start.slide: is held at 0.01, and not planned for; to plan for it, choose "
       "it by joints or group in the robot's file, and remove it from hold\n"
       "problem.yaml:5: start.wrist: is fixed\n"
-      "problem.yaml:5: start.follow: follows slide (mimic); leave it out");
+      "problem.yaml:5: start.follow: follows slide (mimic); give only that joint");
+  EXPECT_EQ(start("{pan: 0,5, lift: 0}"),
+            "problem.yaml:5: start.5: there is no joint \"5\" (known: pan, lift, slide); decimals "
+            "need a point, not a comma");
+  EXPECT_EQ(start("{pan: 1, lift: 0, 5: 1}"),
+            "problem.yaml:5: start.5: there is no joint \"5\" (known: pan, lift, slide)");
   EXPECT_EQ(start("{pan: 1, lift: 3.2}"),
             "problem.yaml:5: start.lift: 3.2 is outside of its limits, [-3.14159, 3.14159]");
   EXPECT_EQ(start("{pan: 1, pan_deg: 2, lift: 0}"),
@@ -110,6 +115,8 @@ TEST_F(ArmFaults, AllowAndTube) {
           armStates + "allow: [[upper, base]]\n"),
       "problem.yaml:6: allow: \"upper\" names a link and an obstacle; write \"arm7/upper\" or "
       "\"world/upper\"");
+  EXPECT_EQ(with("tube: 0.1\n"),
+            "problem.yaml:7: tube: a map such as {joints: 0.001} is needed, not \"0.1\"");
   EXPECT_EQ(with("tube: {position: 0.1}\n"),
             "problem.yaml:7: tube.position: there is no rigid body and no planar or floating joint "
             "here; use joints (rad, or m for prismatic joints)");
@@ -198,7 +205,7 @@ TEST_F(ArmFaults, RobotFiles) {
             "arm.yaml:3: joints: there is no joint \"lfit\" (did you mean \"lift\"?) (known: pan, "
             "lift, slide)\n"
             "arm.yaml:3: joints: wrist is fixed\n"
-            "arm.yaml:3: joints: follow follows slide (mimic); leave it out\n"
+            "arm.yaml:3: joints: follow follows slide (mimic); give only that joint\n"
             "arm.yaml:3: joints: pan is named twice");
   EXPECT_EQ(robot("joints: pan\n"),
             "arm.yaml:3: joints: a list of names is needed, such as [pan, lift], not \"pan\"");
@@ -224,7 +231,7 @@ TEST_F(ArmFaults, RobotFiles) {
   EXPECT_EQ(robot("joints: [pan, lift]\nhold: {pan: 1, slide: 2, wirst: 0, follow: 1}\n"),
             "arm.yaml:4: hold.slide: 2 is outside of its limits, [0.01, 0.05]\n"
             "arm.yaml:4: hold.wirst: there is no joint \"wirst\" (known: pan, lift, slide)\n"
-            "arm.yaml:4: hold.follow: follows slide (mimic); leave it out\n"
+            "arm.yaml:4: hold.follow: follows slide (mimic); give only that joint\n"
             "arm.yaml:4: hold: pan is planned for, and can't be held; remove it from hold");
   EXPECT_EQ(
       robot("states: {home: {pna: 1}}\nallow: [[base, hand]]\nweights: {joints: {tilt: 1, "

@@ -41,17 +41,43 @@ TEST_F(ProblemFaults, AreOfOneLineWithoutControlCharacters) {
 // yaml-cpp takes the rest of the file as part of the value, and reports nothing.
 TEST_F(ProblemFaults, QuotesThatAreNotClosed) {
   const std::string unclosed = "problem.yaml:9: is not YAML: a quote on this line is not closed";
-  for (const char* text : {"seed: 1\nallow: [[a, \"b]]\nmargin: 0.02\n",
-                           "seed: 1\nplanner: {name: 'RRT}\nmargin: 1\n\n",
-                           "seed: 1\nplanner: \"RRT\r\nmargin: 1\r\n", "seed: 1\nplanner: \"",
-                           "seed: 1\nplanner: \"\n", "seed: 1\nplanner: \"a\\\"\nmargin: 1\n# end",
-                           "seed: 1\nplanner: \"a\nmargin: 1\n  \nb: 'c'\n"})
+  for (const char* text :
+       {"seed: 1\nallow: [[a, \"b]]\nmargin: 0.02\n",
+        "seed: 1\nplanner: {name: 'RRT}\nmargin: 1\n\n", "seed: 1\nplanner: \"RRT\r\nmargin: 1\r\n",
+        "seed: 1\nplanner: \"", "seed: 1\nplanner: \"\n",
+        "seed: 1\nplanner: \"a\\\"\nmargin: 1\n# end",
+        "seed: 1\nplanner: \"a\nmargin: 1\n \nb: 'c'\n", "seed: 1\nplanner: !!str 'a\nmargin: 1\n",
+        "seed: 1\n\"planner: RRT\nmargin: 1\n"})
     EXPECT_EQ(with(text), unclosed) << text;
-  EXPECT_EQ(with("seed: 1\nplanner: \"RRT\nmargin: 1\nallow: [[\"a\", b]]\n"),
-            "problem.yaml:9: is not YAML: a quote on this line is closed only on line 11; is one "
-            "missing?");
-  EXPECT_THAT(with("planner: \"RRT\n  Connect\"\n"), testing::HasSubstr("RRT Connect"));
-  EXPECT_THAT(with("# don't\nmargin: 1 # \"\nplanner: 'it''s'\n"), testing::HasSubstr("it's"));
+  EXPECT_EQ(with("planner: \"of\n  two lines\"\nname: \"x\n"),
+            "problem.yaml:10: is not YAML: a quote on this line is not closed");
+  for (const char* mark : {"---\n", "...\n"})
+    EXPECT_EQ(with("planner: \"RRT\n" + std::string(mark)),
+              "problem.yaml:9: is not YAML: a quote above is not closed");
+}
+
+TEST_F(ProblemFaults, QuotesThatAreClosedTooLate) {
+  for (const char* text :
+       {"seed: 1\nplanner: \"RRT\nmargin: 1\nallow: [[\"a\", b]]\n",
+        "name: \"x\nmargin: 1\n\n# of 30\"\n", "seed: 1\nname: 'x\n at: [0, 0]\n # the robots'\n",
+        "allow:\n - [\"a, b]\n\n - [c, \"]\n"}) {
+    const std::string line = text[0] == 's' || text[0] == 'a' ? "9" : "8";
+    EXPECT_EQ(with(text),
+              "problem.yaml:" + line +
+                  ": a quote on this line is closed only on line 11, "
+                  "behind what looks like a key or an item; is a quote missing? If not, "
+                  "write the text on one line")
+        << text;
+  }
+  EXPECT_EQ(with("name: \"a\n b\" c\n"),
+            "problem.yaml:9: is not YAML: nothing may follow the value on this line; the quote on "
+            "line 8 is closed only here: is one missing?");
+}
+
+TEST_F(ProblemFaults, QuotesMayHaveSeveralLines) {
+  for (const char* text :
+       {"planner: \"a\n  b\"\n", "planner: 'a\n\n  b'\n# 'x\n", "planner: 'it''s\n a b'"})
+    EXPECT_THAT(with(text), testing::HasSubstr("problem.yaml:8: planner: a map")) << text;
 }
 
 TEST_F(ProblemFaults, Syntax) {

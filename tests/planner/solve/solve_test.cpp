@@ -418,8 +418,7 @@ TEST(Solve, MarginAndTube) {
   problem.task.tube.head(3).setConstant(0.02);
   EXPECT_THAT(
       complaintOf(problem),
-      HasSubstr(
-          " m, and the tube needs 0.03464 m; move the two bodies apart, or set a smaller tube"));
+      HasSubstr(" m, and the tube needs 0.03464 m; move the two bodies apart, or reduce the tube"));
 }
 
 TEST(Solve, OutOfBoundsAndClosedGoalRegion) {

@@ -31,7 +31,7 @@ TEST(WhyNotFree, NamesFloatingPointSettings) {
 
 /// A ball of radius 0.5 m between others.
 TEST(WhyNotFree, NamesTheGapAndTheOtherPairs) {
-  using testing::StartsWith;
+  using testing::AllOf, testing::HasSubstr, testing::StartsWith;
   Problem problem = test::rigidProblem(test::Rigid::SE2);
   const auto ball = [](double radius, const Vec3& at) {
     return std::vector<PlacedShape>{test::partShape("ball", Sphere{radius}, at)};
@@ -51,9 +51,10 @@ TEST(WhyNotFree, NamesTheGapAndTheOtherPairs) {
   problem.task.tube.setConstant(0.01);
   EXPECT_THAT(why(), StartsWith(left + "the nearest free position"));
   problem.task.margin = 0.199;
-  EXPECT_THAT(why(),
-              StartsWith("the gap between \"ball\" and \"left\" is 0.001 m beyond the margin, "
-                         "and the tube needs "));
+  EXPECT_THAT(
+      why(), AllOf(StartsWith("the gap between \"ball\" and \"left\" is 0.001 m beyond the margin, "
+                              "and the tube needs "),
+                   HasSubstr("; move the two bodies apart, or reduce the margin or the tube")));
   problem.task.margin = 0.2;
   problem.task.tube = test::roundingTube(problem.model.space);
   problem.model.bodies.push_back({"right", 0, {}, ball(0.25, {0.9, 0, 0})});
