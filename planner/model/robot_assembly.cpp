@@ -10,7 +10,7 @@
 namespace corridor {
 namespace {
 
-using Kind = Coordinate::Kind;
+using CoordinateKind = Coordinate::Kind;
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double pi = std::numbers::pi;
 
@@ -64,13 +64,14 @@ class RobotAssembly {
     group.name = joint.empty() ? (alone_ ? description_.name : robot_.name) : prefix_ + joint;
     for (const char* axis : planar ? std::vector{"x", "y"} : std::vector{"x", "y", "z"})
       group.coordinates.push_back(
-          model_.space.add({Kind::line, in + axis, 0, unknown, unknown, false, weight}));
+          model_.space.add({CoordinateKind::line, in + axis, 0, unknown, unknown, false, weight}));
     // For a `rotation`, the space's distance measures the quaternion angle, which is half the
     // rotation angle. So the weight is doubled.
-    group.coordinates.push_back(model_.space.add(
-        planar ? Coordinate{Kind::circle, in + "yaw", 0, -pi, pi, true, robot_.rotationWeight}
-               : Coordinate{Kind::rotation, in + "rotation", 0, 0, 0, true,
-                            2 * robot_.rotationWeight}));
+    group.coordinates.push_back(
+        model_.space.add(planar ? Coordinate{CoordinateKind::circle, in + "yaw", 0, -pi, pi, true,
+                                             robot_.rotationWeight}
+                                : Coordinate{CoordinateKind::rotation, in + "rotation", 0, 0, 0,
+                                             true, 2 * robot_.rotationWeight}));
     robot_.plannedJoints.push_back({joint, type, group.coordinates.front()});
     model_.space.addGroup(std::move(group));
   }
@@ -79,11 +80,11 @@ class RobotAssembly {
     const JointModel& joint = description_.joints[j];
     if (isPoseJoint(joint.type)) return addPoseJoint(joint.name, joint.type);
     Coordinate coordinate{
-        Kind::line,          prefix_ + joint.name, 0,
-        joint.lower,         joint.upper,          joint.type != JointType::prismatic,
+        CoordinateKind::line, prefix_ + joint.name, 0,
+        joint.lower,          joint.upper,          joint.type != JointType::prismatic,
         weightOf(joint.name)};
     if (joint.type == JointType::continuous) {
-      coordinate.kind = Kind::circle;
+      coordinate.kind = CoordinateKind::circle;
       coordinate.lower = -pi;
       coordinate.upper = pi;
     }

@@ -2,6 +2,7 @@
 // run, for runs that take no time. Usage: `mpirun -n 64 --oversubscribe
 // build/release/tests/ranks_benchmark [RUNS [BYTES]]`. BYTES is the length of each result. The
 // default is 3000, the length for a run without trajectories.
+#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -74,7 +75,7 @@ int main(int argc, char** argv) {
     return 0;
   }
   RankExecutor executor(*ranks, 1);
-  executor.begin("");
+  executor.begin("", std::atomic<bool>(false));
   handOut(executor, executor.places(), bytes);  // all ranks are ready
   const std::uint64_t messages = executor.messages();
   const double processor = processorSeconds();

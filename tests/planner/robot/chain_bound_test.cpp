@@ -14,8 +14,8 @@
 namespace corridor {
 namespace {
 
+using test::LongReal;
 using test::RandomTrees;
-using test::Real;
 using test::ReferenceKinematics;
 using test::Vec3L;
 
@@ -71,14 +71,14 @@ TEST(ChainBound, IsNeverExceeded) {
     const ReferenceKinematics reference(random.tree, random.space, from, to);
     const double noise = 1e-17 * (1 + p.norm() + x.norm());  // rounding of the reference
     for (const double s : {-1.0, 1.0, random.real(), 0.0}) {
-      const auto real = reference.relative(pair[0].a, pair[0].b, t + static_cast<Real>(s) * h);
+      const auto real = reference.relative(pair[0].a, pair[0].b, t + static_cast<LongReal>(s) * h);
       const Vec3L moved = real.at(p) - test::exactly(w.X_AB, p);
       const Vec3L otherMoved = real.at(other) - test::exactly(w.X_AB, other);
       ASSERT_LE(moved.norm(), bound.isotropic + bound.pad + noise) << "case " << n;
       ASSERT_LE(otherMoved.norm(), ball.isotropic + ball.pad + noise) << "case " << n;
       const Vec3 step = s * (w.linear + w.angular.cross(y));
-      const auto off =
-          static_cast<double>(std::abs((moved - step.cast<Real>()).dot(direction.cast<Real>())));
+      const auto off = static_cast<double>(
+          std::abs((moved - step.cast<LongReal>()).dot(direction.cast<LongReal>())));
       const double remainder = bound.secondOrderAcross * direction.cross(w.angular).norm() +
                                bound.secondOrder + bound.pad;
       ASSERT_LE(off, remainder + noise) << "case " << n;

@@ -19,9 +19,9 @@ namespace corridor {
 namespace {
 
 using test::add;
+using test::LongReal;
 using test::MovingPose;
 using test::RandomTrees;
-using test::Real;
 using test::ReferenceKinematics;
 
 /// Returns a random piece for the tree. The rows are so smooth that some pieces pass each place
@@ -63,7 +63,7 @@ struct CurveGrazing {
     const Vec3 p = random.vector(0.5);
     const test::Vec3L x = there.at(p), v = there.velocity(p);
     if (v.norm() < 1e-6L) return;
-    const test::Vec3L away = random.direction().cast<Real>();
+    const test::Vec3L away = random.direction().cast<LongReal>();
     test::Vec3L up =
         n % 5 ? test::Vec3L(away - v * (v.dot(away) / v.squaredNorm()))
               : test::Vec3L(n % 2 ? -v : v);  // approaches at the end, leaves at the start
@@ -90,15 +90,15 @@ struct CurveGrazing {
     };
     add(a, world(low[0]), world(low[1]), world(low[2]));
     add(b, body(high[0]), body(high[1]), body(high[2]));
-    const auto lowest = [&](Real t) {
+    const auto lowest = [&](LongReal t) {
       const MovingPose X = reference.relative(0, frames.b, t);
-      Real least = 1e300L;
+      LongReal least = 1e300L;
       for (const Vec3& q : b.vertices) least = std::min(least, up.dot(X.at(q) - x));
       return least;
     };
-    const Real least = lowest(at);
+    const LongReal least = lowest(at);
     known = true;
-    const auto check = [&](Real t) {
+    const auto check = [&](LongReal t) {
       if (t >= 0 && t <= 1) known = known && lowest(t) >= least - 1e-16L;
     };
     for (int i = 0; i <= 200 && known; ++i) check(i / 200.0L);
@@ -258,7 +258,7 @@ TEST(CurveMotion, RandomPiecesAgainstSamples) {
     };
     const MotionResult r = verdictOf(piece);
     ++verdicts[static_cast<int>(r.verdict)];
-    const auto touches = [&](Real t) {
+    const auto touches = [&](LongReal t) {
       const MovingPose X = reference.relative(0, frames.b, t);
       return interference(Posed(a.binaryTree()),
                           Posed(b.binaryTree(), {X.m.cast<double>(), X.t.cast<double>()}), context);

@@ -15,9 +15,9 @@
 namespace corridor {
 namespace {
 
+using test::LongReal;
 using test::MovingPose;
 using test::RandomTrees;
-using test::Real;
 using test::ReferenceKinematics;
 
 /// Returns a random piece. Some joints rest, some reverse their direction at the middle, some move
@@ -84,8 +84,9 @@ TEST(CurveMotion, PosesAndTwistsAreWithinTheirStatedError) {
                            noise(piece, p.norm() + static_cast<double>(real.t.norm()));
       const auto off = static_cast<double>((test::exactly(w.X_AB, p) - real.at(p)).norm());
       ASSERT_LE(off, bound) << "case " << n << ", t = " << t;
-      const test::Vec3L step = w.linear.cast<Real>() +
-                               w.angular.cast<Real>().cross(w.X_AB.m.cast<Real>() * p.cast<Real>());
+      const test::Vec3L step =
+          w.linear.cast<LongReal>() +
+          w.angular.cast<LongReal>().cross(w.X_AB.m.cast<LongReal>() * p.cast<LongReal>());
       const auto offTwist = static_cast<double>((step - half * real.velocity(p)).norm());
       ASSERT_LE(offTwist, bound) << "case " << n << ", t = " << t << ", h = " << half;
       worst = std::max({worst, off / bound, offTwist / bound});
@@ -113,15 +114,15 @@ TEST(CurveMotion, MotionBoundsHold) {
     const Vec3 y = w.X_AB.m * p;
     const MotionBound bound = motionBound(w, y + w.X_AB.t, 0);
     const test::Vec3L x = test::exactly(w.X_AB, p);
-    const test::Vec3L first = (w.linear + w.angular.cross(y)).cast<Real>();
+    const test::Vec3L first = (w.linear + w.angular.cross(y)).cast<LongReal>();
     for (int k = -4; k <= 4; ++k) {
-      const Real s = k / 4.0L;
+      const LongReal s = k / 4.0L;
       const test::Vec3L at = reference.relative(pair[0].a, pair[0].b, t + s * h).at(p);
       const double blur = noise(piece, p.norm() + static_cast<double>(at.norm()));
       const auto moved = static_cast<double>((at - x).norm());
       ASSERT_LE(moved, bound.isotropic + bound.pad + blur) << "case " << n << ", s = " << k;
       const Vec3 m = random.direction();
-      const test::Vec3L n_A = m.cast<Real>();
+      const test::Vec3L n_A = m.cast<LongReal>();
       const auto beyond = static_cast<double>(std::abs(n_A.dot(at - x - s * first)));
       const double allowed =
           bound.secondOrderAcross * m.cross(w.angular).norm() + bound.secondOrder + bound.pad;

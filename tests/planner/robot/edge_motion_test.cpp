@@ -17,9 +17,9 @@
 namespace corridor {
 namespace {
 
+using test::LongReal;
 using test::MovingPose;
 using test::RandomTrees;
-using test::Real;
 using test::ReferenceKinematics;
 
 using std::numbers::pi;
@@ -80,8 +80,9 @@ TEST(EdgeMotion, PosesAndTwistsAreWithinTheirStatedError) {
         worst = std::max(worst, off / bound);
         shares.push_back(off / bound);
       }
-      const test::Vec3L step = w.linear.cast<Real>() +
-                               w.angular.cast<Real>().cross(w.X_AB.m.cast<Real>() * p.cast<Real>());
+      const test::Vec3L step =
+          w.linear.cast<LongReal>() +
+          w.angular.cast<LongReal>().cross(w.X_AB.m.cast<LongReal>() * p.cast<LongReal>());
       const auto offTwist = static_cast<double>((step - half * real.velocity(p)).norm());
       ASSERT_LE(offTwist, bound) << "case " << n << ", t = " << t << ", h = " << half;
       worstTwist = std::max(worstTwist, offTwist / bound);
@@ -149,8 +150,9 @@ TEST(EdgeMotion, LongChainsAreWithinTheirStatedError) {
           w.fixedError + w.reachError * (w.X_AB.m * p).norm() + 10 * noise(real, p.norm());
       const auto off = static_cast<double>((test::exactly(w.X_AB, p) - real.at(p)).norm());
       ASSERT_LE(off, bound) << n;
-      const test::Vec3L step = w.linear.cast<Real>() +
-                               w.angular.cast<Real>().cross(w.X_AB.m.cast<Real>() * p.cast<Real>());
+      const test::Vec3L step =
+          w.linear.cast<LongReal>() +
+          w.angular.cast<LongReal>().cross(w.X_AB.m.cast<LongReal>() * p.cast<LongReal>());
       const auto offTwist = static_cast<double>((step - h * real.velocity(p)).norm());
       // The last joint rotates by 1,000 rad in half of the interval, which enlarges the reference's
       // own rounding.
@@ -227,7 +229,7 @@ TEST(EdgeMotion, ScrewsAreTheMotion) {
       if ((linear - w.linear).norm() + (angular - w.angular).norm() > 1e-12) continue;
       const MovingPose end = reference.relative(pair[0].a, pair[0].b, t + h);
       const Vec3 p = random.vector();
-      found = ((X * (w.X_AB * p)).cast<Real>() - end.at(p)).norm() < 1e-11;
+      found = ((X * (w.X_AB * p)).cast<LongReal>() - end.at(p)).norm() < 1e-11;
     }
     ASSERT_TRUE(found) << "case " << n;
   }
@@ -250,9 +252,9 @@ TEST(EdgeMotion, ManyPairsShareOneMotion) {
         for (std::size_t i = 0; i < pairs.size(); ++i) {
           const RelativeMotion w = all.relativeMotion(i, t, h);
           const MovingPose real = reference.relative(pairs[i].a, pairs[i].b, t);
-          ASSERT_LE((w.X_AB.t.cast<Real>() - real.t).norm(), w.fixedError + noise(real, 0))
+          ASSERT_LE((w.X_AB.t.cast<LongReal>() - real.t).norm(), w.fixedError + noise(real, 0))
               << n << ' ' << i;
-          ASSERT_LE((w.X_AB.m.cast<Real>() - real.m).norm(), 2 * w.reachError + noise(real, 0))
+          ASSERT_LE((w.X_AB.m.cast<LongReal>() - real.m).norm(), 2 * w.reachError + noise(real, 0))
               << n << ' ' << i;
         }
       }
@@ -305,8 +307,8 @@ TEST(EdgeMotion, AmountsAreNeverBelowTheRealMotion) {
     const double size = std::pow(10.0, n % 7), near = std::pow(10.0, -(n % 5));
     const double from = random.real(-size, size),
                  to = from + near * random.real() + 2 * pi * std::trunc(random.real(-10, 10));
-    const Real way = std::remainder(static_cast<Real>(to) - static_cast<Real>(from),
-                                    2 * std::numbers::pi_v<Real>);
+    const LongReal way = std::remainder(static_cast<LongReal>(to) - static_cast<LongReal>(from),
+                                        2 * std::numbers::pi_v<LongReal>);
     const auto motion = circle.motion(from, to);
     const RelativeMotion w = motion->relativeMotion(0, 0.5, 0.5);
     if (motion->ambiguous()) continue;
