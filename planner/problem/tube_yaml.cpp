@@ -62,11 +62,7 @@ TubeSpec readTube(const YamlMap& file, const ConfigurationSpace& space, bool isC
   TubeSpec tube;
   const YamlValue* value = file.find("tube");
   if (!value) return tube;
-  if (value->kind != YamlValue::Kind::Map) {
-    file.fault("tube", "a map such as {joints: 0.001} is needed, not " + described(*value));
-    return tube;
-  }
-  const YamlMap map(*value, "tube", nullptr, file.source());
+  const YamlMap map(*value, "tube", nullptr, file.source(), "{joints: 0.001}");
   tube.joints = map.angle("joints", Range::NotNegative);
   tube.slides = map.number("slides", Range::NotNegative);
   tube.position = map.number("position", Range::NotNegative);

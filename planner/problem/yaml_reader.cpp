@@ -128,11 +128,13 @@ bool isRowOfNumbers(const YamlValue& value) {
 
 }  // namespace
 
-YamlMap::YamlMap(const YamlValue& value, std::string path, const MapKeys* keys, YamlSource& source)
+YamlMap::YamlMap(const YamlValue& value, std::string path, const MapKeys* keys, YamlSource& source,
+                 std::string_view example)
     : path_(std::move(path)), source_(&source), line_(value.line) {
   if (value.kind != YamlValue::Kind::Map) {
     source.fault(line_,
-                 (path_.empty() ? "" : path_ + ": ") + "a map " + exampleOf(keys) +
+                 (path_.empty() ? "" : path_ + ": ") + "a map " +
+                     (example.empty() ? exampleOf(keys) : "such as " + std::string(example)) +
                      " is needed, not " + described(value) +
                      (lacksBlank(value.text, keys) ? "; write a blank after the colon" : ""));
     explainsMissing_ = true;

@@ -69,7 +69,10 @@ class YamlMap {
   /// object.
   /// @param path the path of the map in its file: "", "planner", "planner.params".
   /// @param keys the legal keys; nullptr: any key is legal.
-  YamlMap(const YamlValue& value, std::string path, const MapKeys* keys, YamlSource& source);
+  /// @param example for the fault of a value that is no map, such as "{joints: 0.001}"; if empty,
+  /// the first legal key is the example.
+  YamlMap(const YamlValue& value, std::string path, const MapKeys* keys, YamlSource& source,
+          std::string_view example = {});
 
   const std::vector<const YamlValue::Entry*>& entries() const { return entries_; }
   YamlSource& source() const { return *source_; }

@@ -1,0 +1,97 @@
+#include <string>
+
+#include <gmock/gmock.h>
+
+#include "planner/problem/yaml_value.h"
+#include "tests/planner/problem/problem_faults.h"
+
+namespace corridor::test {
+namespace {
+
+/// Faults that make a file no YAML, as users see them in problem files.
+using YamlFaults = ProblemFaults;
+
+// yaml-cpp takes the rest of the file as part of the value, and reports nothing.
+TEST_F(YamlFaults, QuotesThatAreNotClosed) {
+  const std::string unclosed = "problem.yaml:9: is not YAML: a quote on this line is not closed";
+  for (const char* text :
+       {"seed: 1\nallow: [[a, \"b]]\nmargin: 0.02\n",
+        "seed: 1\nplanner: {name: 'RRT}\nmargin: 1\n\n", "seed: 1\nplanner: \"RRT\r\nmargin: 1\r\n",
+        "seed: 1\nplanner: \"", "seed: 1\nplanner: \"\n",
+        "seed: 1\nplanner: \"a\\\"\nmargin: 1\n# end",
+        "seed: 1\nplanner: \"a\nmargin: 1\n \nb: 'c'\n", "seed: 1\nplanner: !!str 'a\nmargin: 1\n",
+        "seed: 1\n\"planner: RRT\nmargin: 1\n"})
+    EXPECT_EQ(with(text), unclosed) << text;
+  EXPECT_EQ(with("planner: \"of\n  two lines\"\nname: \"x\n"),
+            "problem.yaml:10: is not YAML: a quote on this line is not closed");
+  for (const char* mark : {"---\n", "...\n"})
+    EXPECT_EQ(with("planner: \"RRT\n" + std::string(mark)),
+              "problem.yaml:9: is not YAML: a quote above is not closed");
+}
+
+TEST_F(YamlFaults, QuotesThatAreClosedTooLate) {
+  for (const char* text :
+       {"seed: 1\nplanner: \"RRT\nmargin: 1\nallow: [[\"a\", b]]\n",
+        "name: \"x\nmargin: 1\n\n# of 30\"\n", "seed: 1\nname: 'x\n at: [0, 0]\n # the robots'\n",
+        "allow:\n - [\"a, b]\n\n - [c, \"]\n"}) {
+    const std::string line = text[0] == 's' || text[0] == 'a' ? "9" : "8";
+    EXPECT_EQ(with(text),
+              "problem.yaml:" + line +
+                  ": a quote on this line is closed only on line 11, "
+                  "behind what looks like a key or an item; is a quote missing? If not, "
+                  "write the text on one line")
+        << text;
+  }
+  EXPECT_EQ(with("name: \"a\n b\" c\n"),
+            "problem.yaml:9: is not YAML: nothing may follow the value on this line; the quote on "
+            "line 8 is closed only here: is one missing?");
+}
+
+TEST_F(YamlFaults, QuotesMayHaveSeveralLines) {
+  for (const char* text :
+       {"planner: \"a\n  b\"\n", "planner: 'a\n\n  b'\n# 'x\n", "planner: 'it''s\n a b'"})
+    EXPECT_THAT(with(text), testing::HasSubstr("problem.yaml:8: planner: a map")) << text;
+}
+
+TEST_F(YamlFaults, Syntax) {
+  EXPECT_EQ(complaintOf("format: corridor-problem-1\nrobot: [robot.yaml\nworld: {}\n"),
+            "problem.yaml:3: is not YAML: a comma or a ] is missing, here or above");
+  EXPECT_EQ(complaintOf("format: corridor-problem-1\nworld: {a: [1, 2}\n"),
+            "problem.yaml:2: is not YAML: a } or ] is missing, or there is one too many");
+  EXPECT_EQ(with("margin: *m\n"),
+            "problem.yaml:8: is not YAML: the referenced anchor is not defined");
+  EXPECT_EQ(with("margin: &m 1\nseed: *m\n"),
+            "problem.yaml:9: aliases (*name) are not read here; write the value out");
+  EXPECT_EQ(with("[1]: 2\n"), "problem.yaml:8: a key must be a word");
+  EXPECT_EQ(with("planner:\n\tname: RRT\n"),
+            "problem.yaml:9: is not YAML: the line is indented by a tab; use blanks");
+  const auto expectFault = [&](const char* text, const char* fault) {
+    EXPECT_EQ(with(text), std::string("problem.yaml:") + fault) << text;
+  };
+  for (const char* text : {"planner:\n    name: RRT\n  time: 3\n",
+                           "allow:\n  - [a, b]\n - [a, c]\n", "allow:\n  - [a, b]\n  [a, c]\n"})
+    expectFault(text,
+                "10: is not YAML: \"key: value\" or \"- value\" is needed here, indented like the "
+                "lines above it, and with a blank after the colon or the minus");
+  expectFault("planner:\n  name: RRT\n  time:3\n",
+              "10: unknown key \"time:3\" in planner; write a blank after the colon (known: name, "
+              "time, stop, restart, params)");
+  for (const char* text : {"margin: [1, 2],\n", "margin: [1, 2] m\n", "margin: \"A\" \"B\"\n"})
+    expectFault(text, "8: is not YAML: nothing may follow the value on this line");
+  const std::string colon =
+      ": is not YAML: a colon can't be here; perhaps this line or the line above lacks a colon or "
+      "the blank after it; a map on one line needs braces, {key: value}, and a text with a colon "
+      "needs quotes";
+  EXPECT_EQ(with("planner: name: RRT\n"), "problem.yaml:8" + colon);
+  EXPECT_EQ(with("planner:\n  name:RRT\n  time: 3\n"), "problem.yaml:10" + colon);
+  for (const char* text : {"allow: - [a, b]\n", "allow: [- 1, 0]\n"})
+    expectFault(text,
+                "8: is not YAML: \"- \" begins a list item; it must begin its line, and can't be "
+                "inside [ ] or { }");
+  expectFault("planner: {name: @RRT}\n",
+              "8: is not YAML: a text that begins with @ must be in quotes");
+  EXPECT_EQ(with("---\na: 1\n"), "problem.yaml: has more than one YAML document (---); keep one");
+}
+
+}  // namespace
+}  // namespace corridor::test
