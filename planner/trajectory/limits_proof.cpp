@@ -7,8 +7,8 @@
 
 #include "planner/trajectory/limit_bands.h"
 #include "planner/trajectory/link_speed.h"
-#include "planner/trajectory/path_view.h"
 #include "planner/trajectory/row_polynomials.h"
+#include "planner/trajectory/row_rotation.h"
 
 namespace corridor {
 namespace {
@@ -74,6 +74,9 @@ double largestLength(Vectors part, double known, double limit, int halvings = kB
   const double bound = part.bound();
   if (bound <= known || halvings == 0 || part.degree == 0 || !std::isfinite(bound)) return bound;
   const double attained = part.attained(), enough = std::max(known, attained * (1 + kTight));
+  // Halving brings the bound near the attained value, but does not reduce the rounding, which is in
+  // both: if it is most of the difference, halving is of no use.
+  if (bound - attained <= 4 * part.error) return bound;
   const bool isNearLimit = bound > limit && attained <= limit && known <= limit;
   if (bound <= enough && !isNearLimit) return bound;
   const double least = isNearLimit ? std::max(known, attained) : enough;
@@ -185,28 +188,27 @@ class Prover {
     raiseBy(jerk, limits_.jerk[n], n, rows_[i].time, ratios_.jerk);
   }
 
-  Eigen::Vector3d turnRate(std::size_t i, Eigen::Index r) const {
-    return rotationVector(rows_[i].position.segment<4>(r), rows_[i + 1].position.segment<4>(r)) /
-           (rows_[i + 1].time - rows_[i].time);
+  void addRotation(std::size_t i, Eigen::Index r) {
+    const RowRotation rotation = rowRotation(rows_[i], rows_[i + 1], r);
+    raiseTo(rotation.length(), limits_.velocity[r], r, i, ratios_.velocity);
+    if (i == 0) return;
+    const RowRotation before = rowRotation(rows_[i - 1], rows_[i], r);
+    // The errors of the two rates displace their difference. The sums, the length and the quotients
+    // round by less than 2^-60 of the result, which `raiseTo` includes.
+    const long double change = (rotation.rate - before.rate).norm() + rotation.error + before.error;
+    const long double mean = (static_cast<long double>(rows_[i + 1].time) - rows_[i - 1].time) / 2;
+    const bool defined = !rotation.ambiguous && !before.ambiguous;
+    raiseTo(defined ? change / mean : kUnbounded, limits_.acceleration[r], r, i,
+            ratios_.acceleration);
   }
 
-  void addRotation(std::size_t i, Eigen::Index r) {
-    // 2^-45 rad: the angle is computed from the product of two unit quaternions, with an error of
-    // some tens of u of a half turn (u = 2^-53). The quaternions themselves are rounded, too, which
-    // adds some u of a half turn.
-    constexpr double rounding = 0x1p-45;
-    const double duration = rows_[i + 1].time - rows_[i].time;
-    const Eigen::Vector3d rate = turnRate(i, r);
-    const double length = rate.norm() + (rate.isZero() ? 0 : rounding / duration);
-    const auto number = static_cast<std::size_t>(r);
-    if (std::isfinite(limits_.velocity[r]))
-      raise(ratios_.velocity, length == 0 ? 0 : length / limits_.velocity[r], number,
-            rows_[i].time);
-    if (i == 0 || std::isinf(limits_.acceleration[r])) return;
-    const double mean = (rows_[i + 1].time - rows_[i - 1].time) / 2;
-    const double change = (rate - turnRate(i - 1, r)).norm();
-    raise(ratios_.acceleration, change == 0 ? 0 : change / mean / limits_.acceleration[r], number,
-          rows_[i].time);
+  /// Raises `most` to the ratio of a value to its limit, if that is larger. 2^-51 covers the
+  /// roundings here, and those of a value in long double.
+  void raiseTo(long double value, double limit, Eigen::Index number, std::size_t row,
+               LimitShare& most) const {
+    if (std::isinf(limit)) return;
+    const double share = value == 0 ? 0 : static_cast<double>(value / limit) * (1 + 0x1p-51);
+    raise(most, share, static_cast<std::size_t>(number), rows_[row].time);
   }
 
   void addPositions(std::size_t i) {
@@ -237,7 +239,7 @@ class Prover {
     const TimedRow &from = rows_[i], &to = rows_[i + 1];
     const Eigen::Index n = from.position.size();
     std::vector<RowPolynomials> curves;
-    Configuration reach(n), velocity(n), acceleration(n);
+    Configuration reach(n), velocity(n), acceleration(n), rounding = Configuration::Zero(n);
     for (Eigen::Index k = 0; k < n; ++k) {
       curves.push_back(rowPolynomials(from, to, degree_, k));
       const RowPolynomials& p = curves.back();
@@ -250,21 +252,38 @@ class Prover {
       velocity[k] = most(p.velocity);
       acceleration[k] = most(p.acceleration);
     }
+    bool defined = true;
     for (const Eigen::Index r : rotations_) {
-      velocity.segment<4>(r) << turnRate(i, r), 0;
+      const RowRotation rotation = rowRotation(from, to, r);
+      const double length = static_cast<double>(rotation.length()) * (1 + 0x1p-51);
+      velocity.segment<4>(r) << length, 0, 0, 0;
       acceleration.segment<4>(r).setZero();
+      rounding[r] = static_cast<double>(rotation.error);
+      defined = defined && !rotation.ambiguous;
     }
     for (std::size_t l = 0; l < limits_.links.size(); ++l) {
-      const PointBounds bounds =
-          pointBounds(tree_, limits_.links[l], reach, velocity, acceleration);
-      raise(ratios_.link, linkShare(i, l, curves, bounds, 0, 1, 16), l, from.time);
+      const LinkSpeed& link = limits_.links[l];
+      const LinkBounds bounds{
+          pointBounds(tree_, link, reach, velocity, acceleration),
+          pointBounds(tree_, link, reach, rounding, Configuration::Zero(n)).speed};
+      const bool finite = std::isfinite(bounds.points.speed + bounds.points.acceleration);
+      raise(ratios_.link,
+            defined && finite ? linkShare(i, l, curves, bounds, 0, 1, 16) : kUnbounded, l,
+            from.time);
     }
   }
+
+  /// Bounds of the points of a link in one interval. `rounding`, m/s: how much faster a point may
+  /// be than computed, because the rates of rotations are rounded.
+  struct LinkBounds {
+    PointBounds points;
+    double rounding = 0;
+  };
 
   /// Returns an upper bound of the ratio of a link's speed to its limit, on the part [a, b] of
   /// interval i. The interval has the parameters 0 to 1.
   double linkShare(std::size_t i, std::size_t l, const std::vector<RowPolynomials>& curves,
-                   const PointBounds& bounds, double a, double b, int halvings) const {
+                   const LinkBounds& bounds, double a, double b, int halvings) const {
     const double middle = (a + b) / 2, duration = rows_[i + 1].time - rows_[i].time;
     const Eigen::Index n = rows_[i].position.size();
     Configuration q(n), v(n);
@@ -276,15 +295,15 @@ class Prover {
       v[k] = valueAt(p.velocity.c, p.velocity.degree, middle);
     }
     for (const Eigen::Index r : rotations_) {
-      const Eigen::Vector3d rate = turnRate(i, r);
+      const Eigen::Vector3d rate = rowRotation(rows_[i], rows_[i + 1], r).rate.cast<double>();
       const Eigen::Vector3d way = rate * (middle * duration);
       v.segment<4>(r) << rate, 0;
       const double angle = way.norm();
       if (angle > 0)
-        q.segment<4>(r) =
-            (Eigen::Quaterniond(Eigen::AngleAxisd(angle, way / angle)) *
-             Eigen::Quaterniond(Eigen::Vector4d(rows_[i].position.segment<4>(r).normalized())))
-                .coeffs();
+        q.segment<4>(r) = (Eigen::Quaterniond(Eigen::AngleAxisd(angle, way / angle)) *
+                           Eigen::Quaterniond(
+                               Eigen::Vector4d(rows_[i].position.segment<4>(r).stableNormalized())))
+                              .coeffs();
       else
         q.segment<4>(r) = rows_[i].position.segment<4>(r);
     }
@@ -294,10 +313,12 @@ class Prover {
     // Between the middle of the part and any other time in it, the speed changes by at most half of
     // the part's duration, times the bound of the acceleration. 2^-40 of the largest speed is far
     // above the rounding of the kinematics: some u for each of up to 100 frames. Only large angles
-    // have a larger effect: an error of 2u times the angle rotates all points after the joint.
-    const double bound = attained + ((b - a) / 2 * duration * bounds.acceleration +
-                                     (0x1p-40 + 0x1p-45 * largestAngle) * bounds.speed) /
-                                        link.speed * (1 + 0x1p-40);
+    // have a larger effect: an error of 2u times the angle rotates all points after the joint. The
+    // rounding of the rates of rotations is larger, too, if the rotations are small.
+    const double bound =
+        attained + ((b - a) / 2 * duration * bounds.points.acceleration + bounds.rounding +
+                    (0x1p-40 + 0x1p-45 * largestAngle) * bounds.points.speed) /
+                       link.speed * (1 + 0x1p-40);
     if (bound <= std::max({1.0, ratios_.link.share, attained * 1.005}) || halvings == 0)
       return bound;
     const double first = linkShare(i, l, curves, bounds, a, middle, halvings - 1);

@@ -46,14 +46,16 @@ struct LimitRatios {
 /// The derivatives of this curve are polynomials in Bernstein form, so the coefficients bound the
 /// derivatives. The position of a planar or floating joint has one limit for the length of its
 /// vector; there, the lengths of the coefficient vectors are the bound. An interval is halved, at
-/// most 24 times, until the bound is at most 1, is within 0.01 % of a value that is attained, or
-/// can no longer raise the result. All roundings of the coefficients are included
-/// (limits_proof.cpp). The jerk of the cubic is not bounded, because its acceleration jumps at
-/// rows.
+/// most 24 times, until the bound is at most 1, is within 0.01 % of a value that is attained, is
+/// within four times the rounding of it, or can no longer raise the result. All roundings are
+/// included (row_polynomials.cpp, row_rotation.cpp). The jerk of the cubic is not bounded, because
+/// its acceleration jumps at rows.
 /// - Rotations are slerps of constant angular velocity between rows (curve.h), so this velocity
 ///   jumps at rows. Its length is bounded. In place of an angular acceleration, this quotient is
 ///   computed: the change of the angular velocity from one interval to the next, divided by the
-///   mean of the two durations.
+///   mean of the two durations. For the durations S and T, the bound is above the quotient by at
+///   most 2^-55 rad/(S·T), besides some u of it. If rows are half a turn apart, within 1e-9 rad, no
+///   curve is defined, and the bounds of this quotient and of all link speeds are infinite.
 /// - Speeds of links: the largest speed of the points of LinkSpeed, from the Jacobian in the middle
 ///   of an interval and a bound of the points' acceleration. An interval is halved, at most 16
 ///   times, until the bound is at most 1, is within 0.5 % of the speed in the middle, or can no

@@ -25,9 +25,10 @@ inline constexpr double kLimitSlack = 0x1p-40;
 
 /// Returns whether the upper bound of a tested ratio is above 1 + kLimitSlack, or a position is
 /// more than kLimitSlack beyond its bounds. (The limit itself may still be kept, because the ratio
-/// is an upper bound.) The rounding of an upper bound is below 2^-44 of it. A motion exactly at a
-/// limit may therefore have a bound above 1; so a ratio of up to 1 + kLimitSlack counts as kept.
-/// For positions, kLimitSlack is less than the default tube.
+/// is an upper bound.) The rounding of an upper bound is below 2^-44 of it, except for the angular
+/// acceleration of rotations (`proveLimits`). A motion exactly at a limit may therefore have a
+/// bound above 1; so a ratio of up to 1 + kLimitSlack counts as kept. For positions, kLimitSlack is
+/// less than the default tube.
 bool exceedsLimits(const LimitRatios& ratios);
 /// Returns whether all limits are kept at every instant: no limit is exceeded (`exceedsLimits`),
 /// and each limit that is given was tested.
