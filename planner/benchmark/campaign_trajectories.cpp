@@ -248,7 +248,7 @@ CampaignTrajectories readTrajectories(const YamlMap& campaign, const std::filesy
     return trajectories;
   }
   const YamlMap sets(*limits, "trajectories.limits", nullptr, campaign.source());
-  if (sets.entries().empty() && limits->kind == YamlValue::Kind::Map)
+  if (sets.empty() && limits->kind == YamlValue::Kind::Map)
     map.fault("limits", "at least one set is needed, such as {own: {}}: each problem's own limits");
   trajectories.limits = LimitSets(sets, folder, problems, notes).read();
   return trajectories;

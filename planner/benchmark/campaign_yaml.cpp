@@ -203,7 +203,7 @@ class CampaignReader {
                      "{edges: discrete, resolution: 0.01}}");
     if (!value) return;
     const YamlMap map(*value, "checkers", nullptr, source_);
-    if (map.entries().empty() && value->kind == YamlValue::Kind::Map)
+    if (map.empty() && value->kind == YamlValue::Kind::Map)
       file.fault("checkers", "at least one is needed");
     for (const YamlValue::Entry* entry : map.entries()) {
       if (entry->value.kind != YamlValue::Kind::Map) {

@@ -16,6 +16,7 @@ bool acceptsFormat(const YamlValue& document, const std::string& format, YamlSou
     source.fault(0, "missing key \"format\"; begin the file with format: " + format);
     return true;
   }
+  entry->use = YamlValue::Entry::Use::read;
   if (entry->value.text == format) return true;
   source.fault(entry->line,
                "format: " + format + " is needed here, not " + described(entry->value));

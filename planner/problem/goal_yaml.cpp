@@ -8,9 +8,13 @@
 namespace corridor {
 namespace {
 
+/// Returns the value of a key and marks it as read, or returns nullptr if the key is absent.
 const YamlValue* entryOf(const YamlValue& map, const char* key) {
   for (const auto& entry : map.entries)
-    if (entry.key == key) return &entry.value;
+    if (entry.key == key) {
+      entry.use = YamlValue::Entry::Use::read;
+      return &entry.value;
+    }
   return nullptr;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include <nlohmann/json.hpp>
 
@@ -48,7 +49,8 @@ class MbmReader {
     problem_.source.name = file_.stem().string() + "#" + index_;
     problem_.source.files = {file_};
     faults_.throwIfAny();
-    readRobot(set);
+    noteUnknown(set, problem);
+    readRobot(set, problem);
     for (const Json& object : list(problem, "objects")) readObject(object);
     faults_.throwIfAny();
     problem_.model = builder_.buildForReader();
@@ -69,13 +71,21 @@ class MbmReader {
   Json parse() {
     const std::string text = readTextFile(file_, "a set of problems (format: mbm-scene-1)");
     std::size_t values = 0;
-    const auto countValue = [&](int depth, Json::parse_event_t, const Json&) {
+    std::vector<std::set<std::string>> keys;  // of the open objects
+    const auto countValue = [&](int depth, Json::parse_event_t event, const Json& parsed) {
       if (++values > kMostEvents)
         stop("has more than " + std::to_string(kMostEvents / 2) +
              " keys and values; split the set");
       if (depth > kMostDepth)
         stop("has lists and objects nested more than " + std::to_string(kMostDepth) +
              " deep; a set needs no more than six");
+      // The parser would take the last of several equal keys.
+      if (event == Json::parse_event_t::object_start) keys.emplace_back();
+      if (event == Json::parse_event_t::object_end) keys.pop_back();
+      if (event == Json::parse_event_t::key &&
+          !keys.back().insert(parsed.get<std::string>()).second)
+        stop("has the key " + quotedWord(parsed.get<std::string>()) +
+             " twice in one object; remove one of them");
       return true;
     };
     try {
@@ -162,7 +172,65 @@ class MbmReader {
     stop(std::string(key) + ": " + name + " is in no folder above this file");
   }
 
-  void readRobot(const Json& set) {
+  /// Adds one note that lists the keys that are not known.
+  void noteUnknown(const Json& set, const Json& problem) {
+    std::map<std::string, std::size_t> unknown;  // number of objects that have the key
+    const auto check = [&](const Json& object, const std::string& path,
+                           std::initializer_list<std::string_view> known) {
+      if (object.is_object())
+        for (const auto& [key, value] : object.items())
+          if (std::find(known.begin(), known.end(), key) == known.end()) ++unknown[path + key];
+    };
+    check(
+        set, "",
+        {"format", "robot", "urdf", "srdf", "scene", "frame", "group", "joint_names", "problems"});
+    check(problem, "problems[].",
+          {"index", "valid", "vamp", "mesh", "mesh_contacts", "start", "goals", "fixed_joints",
+           "objects"});
+    for (const Json& object : list(problem, "objects"))
+      check(object, "objects[].",
+            {"id", "type", "size", "radius", "length", "position", "orientation_xyzw"});
+    std::vector<std::string> texts;
+    for (const auto& [key, count] : unknown)
+      texts.push_back(count == 1 ? key : key + " (" + std::to_string(count) + ")");
+    if (!texts.empty())
+      problem_.source.notes.push_back(
+          {file_.string() + ": not used: " + joinedFirst(texts), NoteWeight::motion});
+  }
+
+  /// Holds joints that are not planned for at the values of `fixed_joints`.
+  void holdFixed(const Json& problem, ModelRobot& robot) {
+    if (!problem.contains("fixed_joints")) return;
+    const Json& values = problem["fixed_joints"];
+    if (!values.is_object()) stop("fixed_joints: a map of joint values is needed");
+    std::vector<std::string> unused;
+    for (const auto& [name, value] : values.items()) {
+      const std::string path = "fixed_joints." + name;
+      const double wanted = number(value, path);
+      const auto j = findJoint(robot.description, name);
+      if (j && std::find(robot.planned.begin(), robot.planned.end(), *j) != robot.planned.end()) {
+        fault(path + ": the joint is planned for (joint_names), and can't be held");
+      } else if (!j || !robot.held.contains(*j)) {
+        unused.push_back(name);
+      } else {
+        const JointModel& joint = robot.description.joints[*j];
+        if (const auto held =
+                withinLimits(wanted, joint.lower, joint.upper, path, robot.description.notes))
+          robot.held[*j] = *held, robot.heldFrom[*j] = "fixed_joints";
+        else
+          fault(path + ": " + outsideLimits(wanted, joint.lower, joint.upper));
+      }
+    }
+    if (!unused.empty())
+      problem_.source.notes.push_back(
+          {file_.string() +
+               ": fixed_joints: not used, because they are no joints that can be "
+               "held: " +
+               joinedFirst(unused),
+           NoteWeight::detail});
+  }
+
+  void readRobot(const Json& set, const Json& problem) {
     RobotSetup setup;
     std::vector<Fault> found;
     std::vector<std::filesystem::path> files;
@@ -191,6 +259,12 @@ class MbmReader {
     }
     faults_.throwIfAny();
     chooseJoints(setup.robot, active);
+    const std::string& root = setup.robot.description.links[setup.robot.description.root].name;
+    if (set.contains("frame") && set["frame"] != Json(root))
+      fault("frame: the robot's root link, " + quotedWord(root) + ", is needed, not " +
+            set["frame"].dump());
+    holdFixed(problem, setup.robot);
+    faults_.throwIfAny();
     addRobots({std::move(setup)}, builder_, problem_.source);
   }
 

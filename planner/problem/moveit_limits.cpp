@@ -4,6 +4,7 @@
 #include "collision/core/read_file.h"
 #include "collision/core/spelling.h"
 #include "planner/problem/limits_yaml.h"
+#include "planner/problem/yaml_ledger.h"
 
 namespace corridor {
 namespace {
@@ -31,7 +32,10 @@ std::optional<double> readLimit(const YamlMap& joint, const std::string& what) {
     return std::nullopt;
   }
   // If has_… is false, MoveIt's files often have max_…: 0.
-  if (!has.value_or(false)) return std::nullopt;
+  if (!has.value_or(false)) {
+    joint.ignore({key});
+    return std::nullopt;
+  }
   joint.require(key, "the limit, such as " + key + ": 2");
   if (what != "deceleration") return joint.number(key, Range::Positive);
   const auto value = joint.number(key, Range::Any);
@@ -50,6 +54,7 @@ void readFile(const YamlMap& map, const Model& model, bool isComplete, LimitSpec
     notes.push_back(
         {file + ": cartesian_limits are not used; set link_speed in the problem instead",
          NoteWeight::motion});
+  map.ignore({"cartesian_limits"});
   readScale(map, "default_velocity_scaling_factor", spec.velocityScale);
   readScale(map, "default_acceleration_scaling_factor", spec.accelerationScale);
   const YamlValue* value =
@@ -62,6 +67,8 @@ void readFile(const YamlMap& map, const Model& model, bool isComplete, LimitSpec
   const YamlMap limits(*value, map.pathOf("joint_limits"), nullptr, map.source());
   for (const YamlValue::Entry* entry : limits.entries()) {
     const YamlMap own(entry->value, limits.pathOf(entry->key), &kJoint, map.source());
+    own.ignore(
+        {"min_position", "max_position", "has_effort_limits", "max_effort", "angle_wraparound"});
     LimitValues values;
     values.velocity = readLimit(own, "velocity");
     values.acceleration = readLimit(own, "acceleration");
@@ -131,9 +138,11 @@ void readMoveitLimits(const std::filesystem::path& file, const Model& model, boo
   // `robot_description_planning`, beside other keys.
   const YamlValue& parameters = parametersOf(document);
   const YamlValue* const inner = valueIn(parameters, "robot_description_planning");
-  readFile(YamlMap(inner ? *inner : parameters, inner ? "robot_description_planning" : "", &kFile,
-                   source),
-           model, isComplete, spec, notes);
+  const YamlValue& read = inner ? *inner : parameters;
+  readFile(YamlMap(read, inner ? "robot_description_planning" : "", &kFile, source), model,
+           isComplete, spec, notes);
+  if (isComplete && faults.size() == 0)
+    addAll(notesOnUnread(read, file.string(), DefaultValues::sayNothing), notes);
 }
 
 }  // namespace corridor

@@ -2,8 +2,11 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "planner/problem/moveit_state.h"
 #include "planner/problem/problem.h"
 #include "planner/problem/robot_file.h"
 #include "planner/problem/yaml_reader.h"
@@ -17,7 +20,8 @@ namespace corridor {
 /// fault, because the resulting path would be wrong if this content were ignored: attached objects,
 /// poses of joints with several variables that are not the identity, goals that are positions or
 /// orientations of links, goals that move a held joint, constraints of the path, and unknown keys.
-/// All other fields, and the tolerances of goals, are ignored.
+/// Fields that concern MoveIt's planners, and the tolerances of goals, are ignored. All other
+/// fields with another value than messages have by default are in a note.
 class MoveitRequest {
  public:
   /// @throws InputError if the file is not YAML.
@@ -25,20 +29,16 @@ class MoveitRequest {
 
   /// Returns the name of the request's group, or "".
   std::string group();
-  /// For each joint of the robot that is not planned for: holds the joint at its value in the start
-  /// state. Skips joints without a value in the start state, and joints whose value is in the
-  /// robot's `hold`.
+  /// Holds joints that are not planned for at their values in the start state (`holdAt`).
   void hold(RobotSetup& setup);
   /// Reads the start, or the goals, of the only robot into the problem.
   void readStart(Problem& problem);
   void readGoals(Problem& problem);
+  /// Returns the notes on the message. @pre All other members that read it were called.
+  std::vector<Note> takeNotes(const Problem& problem);
 
  private:
   YamlMap root() { return {document_, "", nullptr, source_}; }
-  /// Reads the values of the planned joints. Returns nullopt if a fault was added.
-  std::optional<Configuration> read(const std::map<std::string, double>& values, int line,
-                                    const std::string& path, Problem& problem);
-
   /// Adds a fault for each held joint whose value in `values` differs from the value at which it is
   /// held, and for each unknown joint.
   void checkHeld(const std::map<std::string, double>& values, int line, const std::string& path,
@@ -46,9 +46,7 @@ class MoveitRequest {
 
   YamlValue document_;
   YamlSource source_;
-  std::map<std::string, double> start_;  // values in the start state, by joint
-  int startLine_ = 0;
-  bool startIsRead_ = false;  // whether the start state was read without a fault
+  std::optional<MoveitState> start_;
 };
 
 }  // namespace corridor

@@ -5,11 +5,13 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "collision/core/read_file.h"
 #include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
 #include "planner/problem/moveit_shapes.h"
+#include "planner/problem/yaml_ledger.h"
 
 namespace corridor {
 namespace {
@@ -27,6 +29,7 @@ const MapKeys kObject{
     {}};
 const MapKeys kMatrix{
     {"entry_names", "entry_values", "default_entry_names", "default_entry_values"}, {}};
+const MapKeys kTransforms{{"header", "child_frame_id", "transform"}, {}};
 const MapKeys kHeader{{"seq", "stamp", "frame_id"}, {}};
 
 /// Returns the pose in the world of the frame that an object's header names.
@@ -36,6 +39,7 @@ Placement readFrame(const YamlMap& object, const std::string& root, const RigidP
   const YamlValue* const header = object.find("header");
   if (!header) return {};
   const YamlMap map(*header, object.pathOf("header"), &kHeader, object.source());
+  map.ignore({"seq", "stamp"});
   const std::string frame = map.text("frame_id").value_or("");
   if (frame == root) return {base, {rotationMatrix(base.q), base.p}};
   if (!frame.empty() && frame != "world")
@@ -44,11 +48,33 @@ Placement readFrame(const YamlMap& object, const std::string& root, const RigidP
   return {};
 }
 
+/// Adds a fault if the scene moves the robot's root link, or the world, relative to its other
+/// frames. Other frames have no effect, because objects in them are faults.
+void checkTransforms(const YamlMap& scene, const std::string& root) {
+  const std::string path = "fixed_frame_transforms";
+  for (const YamlValue* const item : itemsOf(scene, path)) {
+    const YamlMap map(*item, path, &kTransforms, scene.source());
+    std::string child = map.text("child_frame_id").value_or("");
+    child.erase(0, child.find_first_not_of('/'));
+    map.ignore({"header"});
+    if (child != root && child != "world") {
+      map.ignore({"transform"});
+      continue;
+    }
+    const YamlValue* const transform = map.find("transform");
+    if (transform && !isIdentityTransform(*transform, path + ".transform", scene.source()))
+      map.fault("transform", "a pose of " + quotedWord(child) +
+                                 " that is not the identity is not supported; give the pose of the "
+                                 "robot by base in the problem");
+  }
+}
+
 /// Returns the paddings of links, by their names (metres). Adds a fault for each link that the
 /// scene scales.
 std::map<std::string, double> readLinks(const YamlMap& scene) {
   for (const YamlValue* const item : itemsOf(scene, "link_scale")) {
     const YamlMap map(*item, "link_scale", nullptr, scene.source());
+    map.ignore({"link_name"});
     if (map.number("scale").value_or(1) != 1)
       map.fault("scale",
                 "links are tested in their own size; use link_padding, or padding in the "
@@ -77,18 +103,26 @@ MoveitScene::MoveitScene(const std::filesystem::path& file, FaultList& faults)
       throw InputError(Fault{file.string(), 0,
                              "is a motion plan request, not a planning scene (it has " +
                                  std::string(key) + "); write moveit: {request: FILE}"});
+  const YamlMap scene(document_, "", &kScene, source_);
+  scene.ignore({"name", "object_colors"});
+  if (const YamlValue* const isDiff = scene.find("is_diff");
+      isDiff && lowered(isDiff->text) == "true")
+    scene.fault("is_diff",
+                "the scene is a difference to another one, so objects may be missing; save the "
+                "whole scene, or write false if the file has all objects");
+  state_ = readMoveitState(scene, "robot_state");
+}
+
+void MoveitScene::hold(RobotSetup& setup) {
+  if (state_) holdAt(*state_, "robot_state of the scene", source_, setup);
 }
 
 void MoveitScene::addWorld(const std::string& root, const RigidPose& base, ModelBuilder& builder) {
-  const YamlMap scene(document_, "", &kScene, source_);
+  const YamlMap scene = message();
   scene.require("world", "the collision objects of a planning scene of MoveIt");
   padding_ = readLinks(scene);
+  checkTransforms(scene, root);
   const YamlValue* const value = scene.find("world");
-  if (const YamlValue* const state = scene.find("robot_state")) {
-    const YamlMap map(*state, "robot_state", nullptr, source_);
-    if (!isEmpty(map, "attached_collision_objects"))
-      map.fault("attached_collision_objects", "is not supported; add the objects to the robot");
-  }
   if (!value) return;
   const YamlMap world(*value, "world", &kWorld, source_);
   if (const YamlValue* const octomap = world.find("octomap")) {
@@ -111,6 +145,7 @@ void MoveitScene::addWorld(const std::string& root, const RigidPose& base, Model
       continue;
     }
     const YamlMap object(*item, "object " + quotedWord(*id), &kObject, source_);
+    object.ignore({"type", "subframe_names", "subframe_poses"});
     Placement outer = readFrame(object, root, base);
     if (!ids.insert(*id).second) object.fault("id", "another object has this name");
     if (const auto operation = object.text("operation");
@@ -155,8 +190,16 @@ void MoveitScene::addWorld(const std::string& root, const RigidPose& base, Model
   }
 }
 
-std::vector<Note> MoveitScene::notesOn(const Model& model) {
-  std::vector<Note> notes;
+std::vector<Note> MoveitScene::takeNotes(const Problem& problem) {
+  const Model& model = problem.model;
+  std::vector<Note> notes = std::exchange(source_.notes, {});
+  if (state_) noteOtherStart(*state_, source_.file, problem, notes);
+  noteNames(model, notes);
+  addAll(notesOnUnread(document_, source_.file, DefaultValues::sayNothing), notes);
+  return notes;
+}
+
+void MoveitScene::noteNames(const Model& model, std::vector<Note>& notes) {
   const RobotModel& robot = model.robots.front().description;
   const auto name = message().text("robot_model_name");
   if (name && !name->empty() && *name != robot.name && *name != robot.urdfName)
@@ -173,7 +216,7 @@ std::vector<Note> MoveitScene::notesOn(const Model& model) {
                          std::to_string(noLinks.size()) + "): " + joinedFirst(noLinks, 3),
                      NoteWeight::coverage});
   const YamlValue* const matrix = message().find("allowed_collision_matrix");
-  if (!matrix || matrix->kind != YamlValue::Kind::Map) return notes;
+  if (!matrix || matrix->kind != YamlValue::Kind::Map) return;
   const YamlMap map(*matrix, "allowed_collision_matrix", nullptr, source_);
   std::set<std::string> known;
   for (const LinkModel& link : robot.links) known.insert(link.name);
@@ -185,7 +228,6 @@ std::vector<Note> MoveitScene::notesOn(const Model& model) {
     notes.push_back({source_.file +
                      ": its allowed_collision_matrix has names of neither links nor obstacles (" +
                      std::to_string(unknown.size()) + "): " + joinedFirst(unknown, 3)});
-  return notes;
 }
 
 Padding MoveitScene::paddingOf(const Model& model) const {
@@ -201,6 +243,7 @@ void MoveitScene::applyAllowed(Model& model) {
   const YamlValue* const value = message().find("allowed_collision_matrix");
   if (!value || value->kind != YamlValue::Kind::Map) return;
   const YamlMap map(*value, "allowed_collision_matrix", &kMatrix, source_);
+  map.ignore({"default_entry_names", "default_entry_values"});
   if (isEmpty(map, "entry_names")) return;
   const auto names = readWords(*map.find("entry_names"), "such as [hand, table]",
                                "allowed_collision_matrix.entry_names", source_);
@@ -214,8 +257,10 @@ void MoveitScene::applyAllowed(Model& model) {
     // A row is a list, or a message with the list `enabled`.
     const YamlValue* row = rows[i];
     if (row->kind == YamlValue::Kind::Map)
-      for (const YamlValue::Entry& entry : row->entries)
-        if (entry.key == "enabled") row = &entry.value;
+      if (const YamlValue* const enabled =
+              YamlMap(*row, "allowed_collision_matrix.entry_values", nullptr, source_)
+                  .find("enabled"))
+        row = enabled;
     const std::string path = "allowed_collision_matrix.entry_values[" + std::to_string(i) + "]";
     const auto words = readWords(*row, "such as [true, false]", path, source_);
     if (!words) return;
@@ -233,14 +278,15 @@ void MoveitScene::applyAllowed(Model& model) {
   }
   std::map<std::string, std::size_t> bodies;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) bodies[model.bodies[b].name] = b;
+  const Required any = Required::beyondProofs();  // the matrix has no say about proofs
   for (std::size_t a = 0; a < model.bodies.size(); ++a)
     for (std::size_t b = a + 1; b < model.bodies.size() && model.bodies[b].robot; ++b)
-      if (model.filter.whyNotTested(a, b).starts_with("SRDF")) model.filter.include(a, b);
+      if (model.filter.whyNotTested(a, b, any).starts_with("SRDF")) model.filter.include(a, b);
   for (std::size_t i = 0; i < names->size(); ++i)
     for (std::size_t k = 0; k < i; ++k) {
       const auto a = bodies.find((*names)[i]), b = bodies.find((*names)[k]);
       if (!allowed[i][k] || a == bodies.end() || b == bodies.end()) continue;
-      if (model.filter.whyNotTested(a->second, b->second).empty())
+      if (model.filter.whyNotTested(a->second, b->second, any).empty())
         model.filter.skip(a->second, b->second, "allowed_collision_matrix");
     }
 }

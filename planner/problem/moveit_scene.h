@@ -2,10 +2,14 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "planner/model/model_builder.h"
 #include "planner/model/task.h"
+#include "planner/problem/moveit_state.h"
+#include "planner/problem/problem.h"
 #include "planner/problem/yaml_reader.h"
 
 namespace corridor {
@@ -15,14 +19,18 @@ namespace corridor {
 ///
 /// The members read the collision objects (primitives and meshes), the octomap, the allowed
 /// collision matrix and the paddings of links. Some content is a fault, because the resulting path
-/// would be wrong if this content were ignored: attached objects, planes, scaled links, objects in
-/// a frame other than the world's or that of the robot's root link, and unknown keys. All other
-/// fields are ignored.
+/// would be wrong if this content were ignored: a scene that is a difference to another one
+/// (`is_diff`), attached objects, planes, scaled links, objects in a frame other than the world's
+/// or that of the robot's root link, and unknown keys. Fields without any effect are ignored:
+/// names, stamps, colours, subframes. All other fields with another value than messages have by
+/// default are in a note.
 class MoveitScene {
  public:
   /// @throws InputError if the file is not YAML.
   MoveitScene(const std::filesystem::path& file, FaultList& faults);
 
+  /// Holds joints that are not planned for at their values in the scene's `robot_state` (`holdAt`).
+  void hold(RobotSetup& setup);
   /// Adds each collision object, and the octomap, as an obstacle. Objects in the frame of the
   /// robot's root link are placed relative to the robot's base.
   /// @param root the name of the robot's root link.
@@ -35,15 +43,18 @@ class MoveitScene {
   /// obstacle.
   /// @pre `addWorld` was called.
   Padding paddingOf(const Model& model) const;
-  /// Returns notes if the scene names another robot, or if its paddings or its matrix name links or
-  /// bodies that the model does not have.
-  std::vector<Note> notesOn(const Model& model);
+  /// Returns the notes on the scene: another robot, other values of planned joints than the start,
+  /// paddings or a matrix with names of links or bodies that the model does not have, and values
+  /// that are not used. @pre All other members that read the scene were called.
+  std::vector<Note> takeNotes(const Problem& problem);
 
  private:
+  void noteNames(const Model& model, std::vector<Note>& notes);
   YamlMap message() { return {document_, "", nullptr, source_}; }
 
   YamlValue document_;
   YamlSource source_;
+  std::optional<MoveitState> state_;
   std::map<std::string, double> padding_;  // of links, by name; metres
 };
 

@@ -9,6 +9,7 @@
 #include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
 #include "planner/problem/cloud_yaml.h"
+#include "planner/problem/yaml_ledger.h"
 
 namespace corridor {
 namespace {
@@ -117,6 +118,7 @@ std::optional<TriangleMesh> readMesh(const YamlValue& value, const std::string& 
     YamlValue holder;
     holder.kind = YamlValue::Kind::Map;
     holder.line = vertices[i]->line;
+    markRead(*vertices[i]);
     holder.entries.push_back({"vertex", vertices[i]->line, *vertices[i]});
     const YamlMap one(holder, map.pathOf("vertices[" + std::to_string(i) + "]"), nullptr, source);
     if (const auto p = readNamed(one, "vertex", {"x", "y", "z"}))
@@ -153,6 +155,7 @@ std::optional<TriangleMesh> readMesh(const YamlValue& value, const std::string& 
 std::optional<PlacedShape> readOctomap(const YamlValue& value, const std::string& path,
                                        const Placement& at, YamlSource& source) {
   const YamlMap map(value, path, &kOctomap, source);
+  map.ignore({"header"});  // the frame is that of the message around the map
   if (isEmpty(map, "data")) return std::nullopt;
   OccupancyMessage message;
   const auto resolution = map.number("resolution", Range::Positive);

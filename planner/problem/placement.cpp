@@ -44,7 +44,7 @@ bool isWrongKind(const YamlValue& value, const PoseForm& form) {
   if (value.kind != YamlValue::Kind::Map) return true;
   const std::vector<std::string>& legal = form.keys->legal;
   bool hasLegal = false;
-  for (const auto& [key, line, entry] : value.entries) {
+  for (const auto& [key, line, entry, use] : value.entries) {
     hasLegal |= std::find(legal.begin(), legal.end(), key) != legal.end();
     const bool planar = key == "yaw" || key == "yaw_deg";
     const bool spatial = key == "rpy" || key == "rpy_deg" || key == "quat_xyzw";

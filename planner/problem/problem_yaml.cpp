@@ -19,6 +19,7 @@
 #include "planner/problem/trajectory_yaml.h"
 #include "planner/problem/tube_yaml.h"
 #include "planner/problem/world_yaml.h"
+#include "planner/problem/yaml_ledger.h"
 
 namespace corridor {
 namespace {
@@ -105,7 +106,7 @@ std::vector<RobotSetup> readRobots(const YamlMap& file, const std::filesystem::p
     robot->robot.name = entry->key;
     robots.push_back(std::move(*robot));
   }
-  if (known && robots.empty() && map.entries().empty())
+  if (known && robots.empty() && map.empty())
     file.fault("robots", "at least one robot is needed, such as {left: {file: robot.yaml}}");
   if (known) return robots;
   for (const RobotSetup& robot : robots) addAll(robot.robot.description.notes, notes);
@@ -173,8 +174,7 @@ std::pair<std::optional<MoveitScene>, std::optional<MoveitRequest>> readMoveit(
   };
   read("scene", found.first);
   read("request", found.second);
-  if (map.entries().empty())
-    problem.fault("moveit", "scene: FILE, request: FILE, or both are needed");
+  if (map.empty()) problem.fault("moveit", "scene: FILE, request: FILE, or both are needed");
   return found;
 }
 
@@ -208,6 +208,7 @@ void readYaml(const std::filesystem::path& file, Problem& problem) {
     map.fault("moveit", "a request is for a robot with joints; this one is rigid");
     request.reset();
   }
+  if (scene && known && !robots.front().robot.isRigid()) scene->hold(robots.front());
   if (request && known) request->hold(robots.front());
   holdAsStart(map, robots);
   std::string root;  // the root link of the robot to which a scene of MoveIt belongs
@@ -221,10 +222,7 @@ void readYaml(const std::filesystem::path& file, Problem& problem) {
   readWorld(map, worldNeeded, isPlanar, builder, problem.source);
   if (scene && known) scene->addWorld(root, base, builder);
   problem.model = builder.buildForReader();
-  if (scene && known) {
-    scene->applyAllowed(problem.model);
-    addAll(scene->notesOn(problem.model), problem.source.notes);
-  }
+  if (scene && known) scene->applyAllowed(problem.model);
   AllowedBodies allowed;
   if (known && faults.size() == 0) {
     if (scene) problem.task.padding = scene->paddingOf(problem.model);
@@ -257,6 +255,9 @@ void readYaml(const std::filesystem::path& file, Problem& problem) {
   }
   addAll(source.notes, problem.source.notes);
   faults.throwIfAny();
+  if (scene) addAll(scene->takeNotes(problem), problem.source.notes);
+  if (request) addAll(request->takeNotes(problem), problem.source.notes);
+  addAll(notesOnUnread(document, file.string(), DefaultValues::count), problem.source.notes);
   problem.task.limits = limitsOf(problem.model, limits);
   finishProblem(allowed, tube, problem);
   problem.source.lines = std::move(source.lines);

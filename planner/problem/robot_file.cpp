@@ -10,6 +10,7 @@
 #include "planner/problem/keys.h"
 #include "planner/problem/shape_yaml.h"
 #include "planner/problem/urdf_robot.h"
+#include "planner/problem/yaml_ledger.h"
 #include "planner/robot/xacro.h"
 
 namespace corridor {
@@ -114,6 +115,7 @@ std::optional<RobotSetup> readRobotFile(const std::filesystem::path& file, Fault
     faults.add(error);
     return std::nullopt;
   }
+  const std::size_t faultsBefore = faults.size();
   YamlSource source{file.string(), faults, {}};
   if (!acceptsFormat(document, "corridor-robot-1", source)) return std::nullopt;
   const YamlMap map(document, "", &robotKeys().at(""), source);
@@ -127,6 +129,8 @@ std::optional<RobotSetup> readRobotFile(const std::filesystem::path& file, Fault
         readUrdfRobot(map, name, group, file.parent_path(), use, std::move(setup), notesOfFaulty);
   else if (kind == "rigid")
     read = readRigid(map, name, file.parent_path(), std::move(setup));
+  if (faults.size() == faultsBefore)
+    addAll(notesOnUnread(document, file.string(), DefaultValues::count), source.notes);
   addAll(source.notes, read ? read->robot.description.notes : notesOfFaulty);
   return read;
 }

@@ -140,6 +140,7 @@ YamlMap::YamlMap(const YamlValue& value, std::string path, const MapKeys* keys, 
     explainsMissing_ = true;
     return;
   }
+  value.isOpened = true;
   const std::string in = path_.empty() ? "" : " in " + path_;
   for (const YamlValue::Entry& entry : value.entries) {
     if (const YamlValue::Entry* const first = entryOf(entry.key)) {
@@ -194,7 +195,20 @@ const YamlValue::Entry* YamlMap::entryOf(std::string_view key) const {
 
 const YamlValue* YamlMap::find(std::string_view key) const {
   const YamlValue::Entry* const entry = entryOf(key);
-  return entry ? &entry->value : nullptr;
+  if (!entry) return nullptr;
+  entry->use = YamlValue::Entry::Use::read;
+  return &entry->value;
+}
+
+const std::vector<const YamlValue::Entry*>& YamlMap::entries() const {
+  for (const YamlValue::Entry* const entry : entries_) entry->use = YamlValue::Entry::Use::read;
+  return entries_;
+}
+
+void YamlMap::ignore(std::initializer_list<std::string_view> keys) const {
+  for (const std::string_view key : keys)
+    if (const YamlValue::Entry* const entry = entryOf(key))
+      entry->use = YamlValue::Entry::Use::ignored;
 }
 
 const YamlValue* YamlMap::require(std::string_view key, const std::string& purpose) const {

@@ -61,7 +61,8 @@ struct WholeRange {
 /// nearest double. A number that is too large for a double, nan and inf give an error message.
 std::string parseNumber(std::string_view text, Range range, double& value);
 
-/// A map of a YAML file, and the path of the map in the file.
+/// A map of a YAML file, and the path of the map in the file. Functions that return values mark
+/// their keys as read (yaml_ledger.h).
 class YamlMap {
  public:
   /// Adds a fault if the value is not a map, and a fault for each unknown, unsupported or repeated
@@ -74,7 +75,12 @@ class YamlMap {
   YamlMap(const YamlValue& value, std::string path, const MapKeys* keys, YamlSource& source,
           std::string_view example = {});
 
-  const std::vector<const YamlValue::Entry*>& entries() const { return entries_; }
+  /// Returns the legal entries, and marks all of them as read.
+  const std::vector<const YamlValue::Entry*>& entries() const;
+  bool empty() const { return entries_.empty(); }  ///< whether there is no legal entry
+  /// Marks keys whose values have no effect on anything that Corridor computes. Absent keys are
+  /// skipped.
+  void ignore(std::initializer_list<std::string_view> keys) const;
   YamlSource& source() const { return *source_; }
   int line() const { return line_; }
   std::string pathOf(std::string_view key) const;
@@ -136,7 +142,7 @@ std::optional<std::vector<std::string>> readWords(const YamlValue& value, const 
 std::optional<std::vector<double>> readNumbers(const YamlValue& value, std::size_t count,
                                                const std::string& path, const YamlSource& source);
 
-/// Returns whether the value is a map with this key.
+/// Returns whether the value is a map with this key. Does not mark the key as read.
 bool hasKey(const YamlValue& value, std::string_view key);
 
 /// Returns whether a key is absent, or its value is an empty list, map or text.

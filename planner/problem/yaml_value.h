@@ -8,6 +8,9 @@ namespace corridor {
 
 /// A value of a YAML document: a scalar, or a list or map with all values in it. Repeated keys are
 /// kept. Each value and each key has the number of its line in the file; the first line is 1.
+///
+/// A document is also the ledger of its reader: `YamlMap` marks the maps and the keys that were
+/// read, and `unreadKeys` (yaml_ledger.h) returns the others. One thread reads a document.
 struct YamlValue {
   enum class Kind { Null, Scalar, List, Map };
   struct Entry;
@@ -16,14 +19,23 @@ struct YamlValue {
   int line = 0;
   std::string text;      ///< Scalar
   bool isPlain = false;  ///< Scalar: written without quotes, so it may be a number or true, false
-  std::vector<YamlValue> items;  ///< List
-  std::vector<Entry> entries;    ///< Map
+  std::vector<YamlValue> items;   ///< List
+  std::vector<Entry> entries;     ///< Map
+  mutable bool isOpened = false;  ///< Map: a YamlMap was made of it
 };
 
 struct YamlValue::Entry {
+  /// What the reader of the file did with the key.
+  enum class Use {
+    unread,  ///< nothing
+    read,    ///< it used the value, or added a fault
+    ignored  ///< it does not need the value: nothing depends on it
+  };
+
   std::string key;
   int line = 0;
   YamlValue value;
+  mutable Use use = Use::unread;
 };
 
 /// Limits of a document. They keep its memory, besides its texts, below 2 GB, and its nesting

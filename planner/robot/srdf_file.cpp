@@ -66,6 +66,7 @@ class PairReader {
 
   void read() {
     forEach(root_, "disable_collisions", [&](Element& element) {
+      file_.checkAttributes(element, {"link1", "link2", "reason"}, "pair", model_.notes);
       const auto pair = findPair(element);
       const char* const reason = element.Attribute("reason");
       if (pair)
@@ -180,8 +181,18 @@ void readAll(XmlFile& file, RobotModel& model) {
   readVirtualJoints(file, names, model);
   readSrdfGroups(file, names, model);
   UnknownNames passive;
-  forEach(root, "passive_joint",
-          [&](Element& element) { names.findJoint(element, "name", "", passive); });
+  std::vector<std::string> passiveJoints;
+  forEach(root, "passive_joint", [&](Element& element) {
+    if (const auto joint = names.findJoint(element, "name", "", passive))
+      passiveJoints.push_back(model.joints[*joint].name);
+  });
+  if (!passiveJoints.empty())
+    model.notes.push_back(
+        {file.at(0,
+                 "passive joints are planned for like other joints, unless the robot's file "
+                 "holds or leaves them out: " +
+                     joinedFirst(passiveJoints)),
+         NoteWeight::motion});
   names.note(passive, "passive joint is not in the URDF: ", "passive joints are not in the URDF: ",
              model.notes);
   PairReader(file, names, model).read();

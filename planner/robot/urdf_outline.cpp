@@ -45,6 +45,12 @@ void checkMesh(XmlFile& file, Element& shape, MeshStore& meshes, UrdfCollision& 
 void checkShape(XmlFile& file, Element& shape, MeshStore& meshes, UrdfCollision& collision,
                 const std::string& owner, std::vector<Note>& notes) {
   const std::string kind = shape.Name();
+  if (kind == "box" || kind == "sphere" || kind == "cylinder")
+    file.checkAttributes(shape,
+                         kind == "box"      ? std::vector<std::string>{"size"}
+                         : kind == "sphere" ? std::vector<std::string>{"radius"}
+                                            : std::vector<std::string>{"radius", "length"},
+                         owner, notes);
   if (kind == "box") return checkSize(file, shape, "size", 3, owner);
   if (kind == "sphere") return checkSize(file, shape, "radius", 1, owner);
   if (kind == "cylinder") {
@@ -87,6 +93,7 @@ UrdfCollision readCollision(XmlFile& file, Element& element, MeshStore& meshes,
                             const std::string& owner, std::vector<Note>& notes) {
   UrdfCollision collision;
   collision.line = element.GetLineNum();
+  file.checkAttributes(element, {"name", "group"}, owner, notes);
   file.checkChildren(element, {"origin", "geometry"},
                      {"material", "verbose", "contact_coefficients"}, owner, notes);
   collision.rpy = readOrigin(file, element, owner, notes);
@@ -109,6 +116,7 @@ UrdfLink readLink(XmlFile& file, Element& element, const UrdfRules& rules, MeshS
                   std::vector<std::string>& visible, std::vector<Note>& notes) {
   UrdfLink link{file.text(element, "name", "").value_or(""), element.GetLineNum(), {}};
   const std::string owner = owned("link", link.name);
+  file.checkAttributes(element, {"name", "type"}, owner, notes);
   if (!element.FirstChildElement("collision") && element.FirstChildElement("visual")) {
     if (rules.visualsCollide)
       while (Element* const visual = element.FirstChildElement("visual"))
@@ -139,16 +147,20 @@ std::optional<JointType> readType(XmlFile& file, Element& element, const std::st
 
 /// Reads <parent> or <child>.
 /// @returns the link's name; empty if a fault was reported.
-std::string readEnd(XmlFile& file, Element& joint, const char* end, const std::string& owner) {
-  if (const Element* element = file.child(joint, end, owner))
+std::string readEnd(XmlFile& file, Element& joint, const char* end, const std::string& owner,
+                    std::vector<Note>& notes) {
+  if (const Element* element = file.child(joint, end, owner)) {
+    file.checkAttributes(*element, {"link"}, owner, notes);
     return file.text(*element, "link", owner).value_or("");
+  }
   file.fault(joint.GetLineNum(), owner + ": <" + std::string(end) + " link=\"…\"/> is missing");
   return "";
 }
 
 void checkAxis(XmlFile& file, Element& joint, std::optional<JointType> type,
-               const std::string& owner) {
+               const std::string& owner, std::vector<Note>& notes) {
   Element* const axis = file.child(joint, "axis", owner);
+  if (axis) file.checkAttributes(*axis, {"xyz"}, owner, notes);
   if (!axis || !type || *type == JointType::fixed || *type == JointType::floating) return;
   file.require(*axis, "xyz", owner);
   const Numbers xyz = file.numbers(*axis, "xyz", 3, owner);
@@ -240,14 +252,15 @@ UrdfJoint readJoint(XmlFile& file, Element& element, const UrdfRules& rules,
   joint.name = file.text(element, "name", "").value_or("");
   joint.line = element.GetLineNum();
   const std::string owner = owned("joint", joint.name);
+  file.checkAttributes(element, {"name", "type"}, owner, notes);
   file.checkChildren(element, {"origin", "parent", "child", "axis", "limit", "mimic"},
                      {"dynamics", "calibration", "safety_controller", "hardwareInterface"}, owner,
                      notes);
   joint.type = readType(file, element, owner);
-  joint.parent = readEnd(file, element, "parent", owner);
-  joint.child = readEnd(file, element, "child", owner);
+  joint.parent = readEnd(file, element, "parent", owner, notes);
+  joint.child = readEnd(file, element, "child", owner, notes);
   joint.rpy = readOrigin(file, element, owner, notes);
-  checkAxis(file, element, joint.type, owner);
+  checkAxis(file, element, joint.type, owner, notes);
   joint.limit = readLimit(file, element, joint.type, owner, notes);
   if (narrow(file, element, rules.softLimits, owner, joint)) soft.push_back(joint.name);
   joint.mimic = readMimic(file, element, owner, notes);
@@ -361,6 +374,7 @@ UrdfOutline readUrdfOutline(XmlFile& file, const UrdfRules& rules, MeshStore& me
   Lines links, joints;
   std::vector<std::string> visible, soft;  // names for the notes
   outline.name = file.text(root, "name", "").value_or("");
+  file.checkAttributes(root, {"name", "version"}, owned("robot", outline.name), notes);
   file.checkChildren(root, {"link", "joint"},
                      {"material", "transmission", "gazebo", "sensor", "ros2_control"},
                      owned("robot", outline.name), notes);

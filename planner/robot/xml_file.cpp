@@ -47,15 +47,15 @@ bool contains(const std::vector<std::string>& all, const std::string& one) {
 /// Returns whether ignoring the element would lose collision geometry. This is so if the element is
 /// or contains a <collision>, or if its name contains "collision" ("collision_model") and it
 /// contains a <geometry>.
-bool holdsCollision(const XmlFile::Element& element) {
+const XmlFile::Element* collisionIn(const XmlFile::Element& element) {
   const std::string_view name = element.Name();
-  if (name == "collision") return true;
+  if (name == "collision") return &element;
   if (lowered(name).find("collision") != std::string::npos && element.FirstChildElement("geometry"))
-    return true;
+    return &element;
   for (const XmlFile::Element* child = element.FirstChildElement(); child;
        child = child->NextSiblingElement())
-    if (holdsCollision(*child)) return true;
-  return false;
+    if (const XmlFile::Element* const found = collisionIn(*child)) return found;
+  return nullptr;
 }
 
 /// Returns the reason why TinyXML2 would need gigabytes (too many elements and attributes) or
@@ -202,13 +202,22 @@ void XmlFile::checkChildren(Element& parent, const std::vector<std::string>& rea
   for (Element* element = parent.FirstChildElement(); element;
        element = element->NextSiblingElement()) {
     const std::string name = element->Name();
-    if (contains(known, name)) continue;
+    if (contains(read, name)) continue;
+    if (contains(ignored, name)) {
+      // Extensions of Gazebo have <collision> elements of their own.
+      if (const Element* const lost = name == "gazebo" ? nullptr : collisionIn(*element);
+          lost && isFirst("collision in " + name))
+        notes.push_back({at(lost->GetLineNum(), owner + ": the <collision> in <" + name +
+                                                    "> is not read; move it into its <link>"),
+                         NoteWeight::coverage});
+      continue;
+    }
     const std::string unknown = owner + ": <" + name + "> is not known";
     const auto near = mostSimilar(name, known);
     const std::string hint = near ? " (did you mean <" + *near + ">?)" : "";
     if (near && contains(read, *near))
       fault(element->GetLineNum(), unknown + hint);
-    else if (holdsCollision(*element))
+    else if (collisionIn(*element))
       fault(element->GetLineNum(),
             unknown + ", and the collision geometry in it would be lost" + hint);
     else if (name.find(':') == name.npos && noted.size() < mostNames && noted.insert(name).second)
@@ -221,11 +230,11 @@ void XmlFile::checkAttributes(const Element& element, const std::vector<std::str
   for (const tinyxml2::XMLAttribute* attribute = element.FirstAttribute(); attribute;
        attribute = attribute->Next()) {
     const std::string name = attribute->Name();
-    if (contains(read, name)) continue;
+    if (contains(read, name) || name.find(':') != name.npos) continue;
     const std::string unknown = owner + ": " + element.Name() + ": " + name + " is not known";
     if (const std::string hint = didYouMean(name, read); !hint.empty())
       fault(attribute->GetLineNum(), unknown + hint);
-    else
+    else if (isFirst(std::string(element.Name()) + "/" + name))
       notes.push_back({at(attribute->GetLineNum(), unknown + ", and is ignored")});
   }
 }

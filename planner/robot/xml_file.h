@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <initializer_list>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <tinyxml2.h>
@@ -51,22 +52,27 @@ class XmlFile : public RobotFaults {
   /// Checks for children whose names are in neither list. Such a child is a fault if its name is
   /// similar to one in `read`, or if it has collision geometry, because ignoring such a child may
   /// lose data. For the other children, one note is added per name, for at most 100 names. Elements
-  /// of other formats ("drake:joint") are ignored.
+  /// of other formats ("drake:joint") are ignored. If a child in `ignored` has a <collision> in it,
+  /// a note says that it is not read.
   void checkChildren(Element& parent, const std::vector<std::string>& read,
                      const std::vector<std::string>& ignored, const std::string& owner,
                      std::vector<Note>& notes);
   /// Checks for attributes whose names are not in `read`. Such an attribute is a fault if its name
-  /// is similar to one in `read`. For other attributes a note is added.
+  /// is similar to one in `read`. For other attributes a note is added: one for each name of an
+  /// element and an attribute in the file. Attributes of other formats ("xmlns:xacro") are ignored.
   void checkAttributes(const Element& element, const std::vector<std::string>& read,
                        const std::string& owner, std::vector<Note>& notes);
 
  private:
   void open(const std::string& what, const std::vector<std::string>& xacro);
+  /// Returns whether this is the first call with this key.
+  bool isFirst(const std::string& key) { return noted_.insert(key).second; }
 
   std::filesystem::path path_;
   std::string expanded_;
   tinyxml2::XMLDocument document_;
   Element* root_ = nullptr;
+  std::set<std::string> noted_;  // kinds of notes that were added
 };
 
 /// Calls `read` for each child of that name.

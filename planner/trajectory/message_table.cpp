@@ -3,6 +3,8 @@
 #include <cassert>
 #include <cstdint>
 
+#include "planner/problem/moveit_state.h"
+#include "planner/problem/yaml_ledger.h"
 #include "planner/problem/yaml_reader.h"
 #include "planner/problem/yaml_value.h"
 #include "planner/trajectory/row_faults.h"
@@ -16,6 +18,22 @@ namespace {
 constexpr std::array kWrappers{"joint_trajectory",    "trajectory", "planned_trajectory",
                                "robot_trajectory",    "goal",       "result",
                                "motion_plan_response"};
+/// The fields of these messages that move nothing.
+constexpr std::array<std::string_view, 15> kHarmless{"header",
+                                                     "goal_id",
+                                                     "status",
+                                                     "model_id",
+                                                     "group_name",
+                                                     "planning_time",
+                                                     "processing_time",
+                                                     "description",
+                                                     "error_code",
+                                                     "controller_names",
+                                                     "goal_tolerance",
+                                                     "component_goal_tolerance",
+                                                     "goal_time_tolerance",
+                                                     "request_id",
+                                                     "display_trajectory_id"};
 
 const MapKeys kTrajectory{{"header", "joint_names", "points"}, {}};
 const MapKeys kPoint{
@@ -24,40 +42,59 @@ const MapKeys kDuration{{"sec", "nanosec", "secs", "nsecs"}, {}};
 constexpr WholeRange kSeconds{0, 4'294'967'295, "0 to 2^32 - 1"};
 constexpr WholeRange kWithinSecond{0, 999'999'999, "0 to 999999999"};
 
-const YamlValue* valueOf(const YamlValue& map, std::string_view key) {
-  for (const YamlValue::Entry& entry : map.entries)
-    if (entry.key == key) return &entry.value;
-  return nullptr;
-}
-
 bool hasPoints(const YamlValue& map) {
-  const YamlValue* const points = valueOf(map, "points");
-  return points && !points->items.empty();
+  for (const YamlValue::Entry& entry : map.entries)
+    if (entry.key == "points") return !entry.value.items.empty();
+  return false;
 }
 
-/// Adds all maps in `value` that are joint trajectories to `found`. Adds a fault for each
-/// trajectory of poses.
-void collectTrajectories(const YamlValue& value, std::vector<const YamlValue*>& found,
-                         YamlSource& source) {
-  for (const YamlValue& item : value.items) collectTrajectories(item, found, source);
-  if (valueOf(value, "points") || valueOf(value, "joint_names")) {
-    found.push_back(&value);
+/// The messages in a document.
+struct Messages {
+  std::vector<const YamlValue*> trajectories;  // all maps that are joint trajectories
+  std::vector<MoveitState> starts;
+};
+
+/// Adds the joint trajectories and the start states in `value` to `found`. Adds a fault for each
+/// trajectory of poses, and notes on what a controller does beyond the trajectory.
+void collectMessages(const YamlValue& value, const std::string& path, Messages& found,
+                     YamlSource& source) {
+  for (const YamlValue& item : value.items) collectMessages(item, path + "[]", found, source);
+  if (hasKey(value, "points") || hasKey(value, "joint_names")) {
+    found.trajectories.push_back(&value);
     return;
   }
-  for (const YamlValue::Entry& entry : value.entries) {
-    if (entry.key == "multi_dof_joint_trajectory" && hasPoints(entry.value))
-      source.fault(entry.line,
-                   "multi_dof_joint_trajectory: trajectories of poses are not read from messages; "
-                   "write rows of numbers (CSV)");
-    if (std::find(kWrappers.begin(), kWrappers.end(), entry.key) != kWrappers.end())
-      collectTrajectories(entry.value, found, source);
+  if (value.kind != YamlValue::Kind::Map) return;
+  const YamlMap map(value, path, nullptr, source);
+  for (const std::string_view key : kHarmless) map.ignore({key});
+  for (const char* const key : {"multi_dof_joint_trajectory", "multi_dof_trajectory"})
+    if (const YamlValue* const poses = map.find(key)) {
+      markRead(*poses);
+      if (hasPoints(*poses))
+        map.fault(key,
+                  "trajectories of poses are not read from messages; write rows of numbers (CSV)");
+    }
+  for (const char* const key : {"path_tolerance", "component_path_tolerance"})
+    if (!isEmpty(map, key)) {
+      markRead(*map.find(key));
+      source.notes.push_back({source.file + ": " + map.pathOf(key) +
+                                  ": is not used; a proof covers the problem's tube (key tube)",
+                              NoteWeight::coverage});
+    }
+  if (const YamlValue* const executed = map.find("executed_trajectory")) {
+    markRead(*executed);
+    source.notes.push_back({source.file + ": " + map.pathOf("executed_trajectory") +
+                                ": is not read; to verify it, save it as a file of its own",
+                            NoteWeight::coverage});
   }
+  if (auto start = readMoveitState(map, "trajectory_start"))
+    found.starts.push_back(std::move(*start));
+  for (const char* const key : kWrappers)
+    if (const YamlValue* const inner = map.find(key))
+      collectMessages(*inner, map.pathOf(key), found, source);
 }
 
-/// Returns the only trajectory of a document, or nullptr if a fault was added.
-const YamlValue* trajectoryIn(const YamlValue& document, YamlSource& source) {
-  std::vector<const YamlValue*> found;
-  collectTrajectories(document, found, source);
+/// Returns the only trajectory among those of a document, or nullptr if a fault was added.
+const YamlValue* trajectoryIn(std::vector<const YamlValue*> found, YamlSource& source) {
   if (source.faults.size() > 0) return nullptr;
   const auto empty = [](const YamlValue* map) { return !hasPoints(*map); };
   if (found.size() > 1 && !std::all_of(found.begin(), found.end(), empty))
@@ -84,7 +121,7 @@ std::optional<double> readTime(const YamlMap& point) {
     map.fault("sec", "secs and nsecs are given, too; keep one pair");
     return std::nullopt;
   }
-  if (map.entries().empty()) {
+  if (map.empty()) {
     point.fault("time_from_start", "sec and nanosec are needed");
     return std::nullopt;
   }
@@ -120,6 +157,7 @@ class PointReader {
     const std::string path = "points[" + std::to_string(index) + "]";
     YamlSource source{file_, faultsOfRow, {}};
     const YamlMap point(value, path, &kPoint, source);
+    point.ignore({"effort", "efforts"});
     TrajectoryTable::Row row;
     row.line = value.line;
     const std::size_t count = table_.positions.size();
@@ -188,9 +226,15 @@ TrajectoryTable readMessageTable(const std::string& file, const std::string& tex
   const YamlValue document = parseYaml(file, withoutLastMark(text));
   FaultList faults(file);
   YamlSource source{file, faults, {}};
-  const YamlValue* const found = trajectoryIn(document, source);
+  Messages messages;
+  collectMessages(document, "", messages, source);
+  const YamlValue* const found = trajectoryIn(messages.trajectories, source);
+  if (messages.starts.size() > 1)
+    source.fault(messages.starts[1].line, "has " + std::to_string(messages.starts.size()) +
+                                              " states trajectory_start; keep one of them");
   faults.throwIfAny();
   const YamlMap map(*found, "", &kTrajectory, source);
+  map.ignore({"header"});
   const YamlValue* const names = map.require("joint_names", "such as [pan, lift]");
   const YamlValue* const points = map.require("points", "the rows of the trajectory");
   const auto words =
@@ -207,6 +251,11 @@ TrajectoryTable readMessageTable(const std::string& file, const std::string& tex
   faults.throwIfAny();
   TrajectoryTable table = reader.take();
   table.namesLine = names->line;
+  if (!messages.starts.empty())
+    table.start = {messages.starts.front().path, messages.starts.front().line,
+                   std::move(messages.starts.front().values)};
+  addAll(source.notes, table.notes);
+  addAll(notesOnUnread(document, file, DefaultValues::sayNothing), table.notes);
   return table;
 }
 

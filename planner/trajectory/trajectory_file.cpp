@@ -8,10 +8,9 @@
 #include "collision/core/read_file.h"
 #include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
-#include "planner/problem/urdf_robot.h"
-#include "planner/robot/joint_types.h"
 #include "planner/trajectory/row_faults.h"
 #include "planner/trajectory/trajectory_table.h"
+#include "planner/trajectory/unplanned_columns.h"
 
 namespace corridor {
 namespace {
@@ -69,7 +68,9 @@ class RowMaker {
         addRow(row, positions, velocities, accelerations, result, faults);
       });
     rowFaults.addTo(faults_);
-    checkOthers(positions, table, result);
+    checkUnplanned(table, {positions, velocities, accelerations}, model_, result, faults_,
+                   result.notes);
+    checkStart(table, names_, model_, result, faults_, result.notes);
     if (table.rows.size() < 2)
       faults_.add(file_, table.rows.front().line,
                   "the trajectory has one row; it needs two or more (corridor check --states "
@@ -163,96 +164,6 @@ class RowMaker {
                  "the time " + shortest(made.time) + " s is not after that of the row before, " +
                      shortest(result.rows.back().time) + " s; times must ascend");
     result.rows.push_back(std::move(made));
-  }
-
-  /// Returns the value of the joint that a mimic joint follows, in a row with these positions: the
-  /// held value, or the planned joint's position. Returns nullopt if the joint has neither.
-  std::optional<double> leaderValue(const ModelRobot& robot, std::size_t joint,
-                                    const Configuration& positions) const {
-    if (const auto held = robot.held.find(joint); held != robot.held.end()) return held->second;
-    for (std::size_t k = 0; k < robot.planned.size(); ++k)
-      if (robot.planned[k] == joint) {
-        const std::size_t coordinate = robot.plannedJoints[k].coordinate;
-        return positions[static_cast<Eigen::Index>(model_.space.coordinates()[coordinate].first)];
-      }
-    return std::nullopt;
-  }
-
-  /// Checks the columns of joints that are not planned for.
-  void checkOthers(const Columns& columns, const TrajectoryTable& table, TrajectoryRows& result) {
-    std::vector<std::string> followers, fixed;
-    for (std::size_t i = 0; i < columns.size(); ++i) {
-      if (columns[i].kind == Meaning::Kind::number) continue;
-      const ModelRobot& robot = model_.robots[columns[i].robot];
-      const JointModel& joint = robot.description.joints[columns[i].index];
-      const std::string& name = table.positions[i];
-      if (columns[i].kind == Meaning::Kind::other) {
-        if (joint.type == JointType::fixed)
-          fixed.push_back(name);
-        else
-          faults_.add(file_, table.namesLine,
-                      quotedWord(name) + " is a " + nameOf(joint.type) +
-                          " joint, and is not planned for; leave it out");
-      } else if (columns[i].kind == Meaning::Kind::held) {
-        checkHeld(robot.held.at(columns[i].index), name, joint.name, i, table);
-      } else {
-        followers.push_back(name);
-        noteMimic(robot, *joint.mimic, name, i, table, result);
-      }
-    }
-    if (!fixed.empty())
-      result.notes.push_back(
-          {file_ + ": not read: " + joinedFirst(fixed) + "; these joints are fixed",
-           NoteWeight::detail});
-    if (!followers.empty())
-      result.notes.push_back({file_ + ": not read: " + joinedFirst(followers) +
-                                  "; mimic joints follow the rule of the robot",
-                              NoteWeight::detail});
-  }
-
-  void checkHeld(double held, const std::string& name, const std::string& joint, std::size_t column,
-                 const TrajectoryTable& table) {
-    double lower = HUGE_VAL, upper = -HUGE_VAL;
-    const TrajectoryTable::Row* first = nullptr;  // the first row whose value is not the held value
-    for (const TrajectoryTable::Row& row : table.rows) {
-      const double value = row.positions[column];
-      lower = std::min(lower, value), upper = std::max(upper, value);
-      if (!first && std::abs(value - held) > limitSlack) first = &row;
-    }
-    if (!first) return;
-    const std::string isHeld =
-        quotedWord(name) + " is held at " + shortest(held) + " in the problem, but is ";
-    if (upper - lower <= limitSlack)
-      faults_.add(file_, first->line,
-                  isHeld + shortest(first->positions[column]) +
-                      " here: the proof would be about another robot; in the robot's file, write "
-                      "hold: {" +
-                      joint + ": " + shortest(first->positions[column]) + "}");
-    else
-      faults_.add(file_, first->line,
-                  isHeld + shortest(lower) + " to " + shortest(upper) +
-                      " in this file; plan for the joint (joints: in the robot's file), or leave "
-                      "it out of the file and let margin cover its motion");
-  }
-
-  /// Adds a note if a mimic joint is off its rule.
-  void noteMimic(const ModelRobot& robot, const Mimic& mimic, const std::string& name,
-                 std::size_t column, const TrajectoryTable& table, TrajectoryRows& result) const {
-    double largest = 0;
-    int line = 0;
-    for (std::size_t r = 0; r < table.rows.size(); ++r) {
-      const auto leader = leaderValue(robot, mimic.joint, result.rows[r].positions);
-      if (!leader) return;
-      const double off =
-          std::abs(table.rows[r].positions[column] - (mimic.multiplier * *leader + mimic.offset));
-      if (off > largest) largest = off, line = table.rows[r].line;
-    }
-    if (largest > limitSlack)
-      result.notes.push_back({file_ + ": " + quotedWord(name) + " is up to " + shortest(largest) +
-                                  " off the rule by which it follows " +
-                                  quotedWord(robot.description.joints[mimic.joint].name) +
-                                  " (line " + std::to_string(line) + "); the proof is for the rule",
-                              NoteWeight::coverage});
   }
 
   void noteStart(TrajectoryRows& result) const {

@@ -34,7 +34,7 @@ struct TrajectoryRows {
   /// The file is a message for a controller. A controller begins at time 0, in the robot's state at
   /// that time.
   bool isMessage = false;
-  std::vector<Note> notes;  ///< on values that are not used, and on joints that mimic others
+  std::vector<Note> notes;  ///< on values that are not used
 };
 
 /// The kinds of files that describe a motion.
@@ -56,11 +56,13 @@ std::string readMotionText(const std::filesystem::path& file, const std::string&
 /// Reads a trajectory of all joints that the model plans for.
 /// - The names in the file are those of the space (`numberNames`), in any order. The robot's name
 ///   before them ("left/pan") may be left out if only one robot has the joint.
-/// - A joint that is held must have the value at which it is held, up to `limitSlack`
-///   (planner/problem/urdf_robot.h). Otherwise the file is refused: a proof would be about another
-///   robot.
-/// - The values of a joint that mimics another joint are not used, and a note says so. If a value
-///   differs from the mimic rule by more than `limitSlack`, another note says by how much.
+/// - A joint that is held must stay at the value at which it is held, and a joint that mimics
+///   another must stay on its rule, up to rounding, on the whole curve between the rows. Otherwise
+///   the file is refused: a proof would be about another robot (unplanned_columns.h).
+/// - If a message has a start state (`trajectory_start`), the first row must be this state, and no
+///   object may be attached to the robot.
+/// - Each other value of a message is used, or a note says that it is not. Values that move nothing
+///   have no note (efforts, time stamps, identifiers).
 /// @param file the name for messages.
 /// @param text a text of the format `rows` or `message`.
 /// @throws InputError with all faults; from the rows, only the faults of the first faulty row.

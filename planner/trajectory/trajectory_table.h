@@ -57,12 +57,19 @@ struct TrajectoryTable {
     std::optional<double> time;
     std::vector<double> positions, velocities, accelerations;
   };
+  /// The state from which a message says that the robot starts: `trajectory_start` of MoveIt.
+  struct Start {
+    std::string path;  ///< for messages
+    int line = 0;
+    std::map<std::string, double> values;  ///< by the joints' names
+  };
   int namesLine = 0;  ///< the line of the names; 0: the file has no names, and its columns are the
                       ///< components of a Configuration
   /// The name of each value of a row. If a table has no velocities, the list of their names is
   /// empty; the same holds for accelerations.
   std::vector<std::string> positions, velocities, accelerations;
   std::vector<Row> rows;
+  std::optional<Start> start;
   bool isMessage = false;
   std::vector<Note> notes;
 };

@@ -1,3 +1,4 @@
+#include "planner/robot/joint_types.h"
 #include "tests/planner/problem/arm_fixture.h"
 #include "tests/support/support.h"
 
@@ -72,6 +73,42 @@ TEST_F(MbmJson, Faults) {
   std::filesystem::remove(folder_ / "arm.srdf");
   EXPECT_EQ(complaintOfSet(set(two), "#2"),
             "sets/box.json: srdf: arm.srdf is in no folder above this file");
+}
+
+/// Values of held joints, the frame and unknown keys are used, refused or noted.
+TEST_F(MbmJson, NothingIsDropped) {
+  const auto changed = [&](const std::string& from, const std::string& to) {
+    std::string text = two;
+    return text.replace(text.find(from), from.size(), to);
+  };
+  const auto heldSlide = [](const Problem& p) {
+    const ModelRobot& robot = p.model.robots.front();
+    return robot.held.at(*findJoint(robot.description, "slide"));
+  };
+  const Problem p =
+      readProblem(set(changed("\"ghost\": 1", "\"ghost\": 1, \"slide\": 0.03")).string() + "#2");
+  EXPECT_EQ(heldSlide(p), 0.03);
+  EXPECT_THAT(textsOf(p.source.notes),
+              testing::Contains((folder_ / "sets/box.json").string() +
+                                ": fixed_joints: not used, because they are no joints that can be "
+                                "held: ghost"));
+  EXPECT_EQ(complaintOfSet(set(changed("\"ghost\"", "\"slide\"")), "#2"),
+            "sets/box.json: fixed_joints.slide: 1 is outside of its limits, [0.01, 0.05]");
+  EXPECT_EQ(complaintOfSet(set(changed("\"ghost\"", "\"pan\"")), "#2"),
+            "sets/box.json: fixed_joints.pan: the joint is planned for (joint_names), and can't be "
+            "held");
+  EXPECT_THAT(
+      textsOf(readProblem(set(changed("\"size\"", "\"scale\": 2, \"size\"")).string() + "#2")
+                  .source.notes),
+      testing::Contains((folder_ / "sets/box.json").string() + ": not used: objects[].scale"));
+  EXPECT_EQ(complaintOfSet(set(changed("\"length\": 2", "\"length\": 2, \"length\": 3")), "#2"),
+            "sets/box.json: has the key \"length\" twice in one object; remove one of them");
+  const auto file = set(two);
+  std::string text = contents(file);
+  text.insert(1, "\"frame\": \"camera\", ");
+  write("sets/box.json", text);
+  EXPECT_EQ(complaintOfSet(file, "#2"),
+            "sets/box.json: frame: the robot's root link, \"base\", is needed, not \"camera\"");
 }
 
 TEST(MbmSets, AllAreRead) {
