@@ -266,8 +266,8 @@ void MovingJoint::setValue(const Configuration& from, const Configuration& to) {
   if (kind_ == Coordinate::Kind::circle) {
     const CircleTurn turn = circleTurn(q0, q1);
     // A revolute joint that mimics a circle by a whole multiplier returns to the same pose after a
-    // full turn of the circle. Any other joint that mimics a circle would jump where the edge
-    // crosses the seam at ±π.
+    // full turn of the circle. Any other joint that mimics a circle would jump if the shorter way
+    // is not the difference of the stored angles, but full turns less.
     const bool comesRound =
         joint_ == Frame::Joint::revolute && multiplier_ == std::trunc(multiplier_);
     ambiguous_ = turn.ambiguous() || (!comesRound && turn.angle != delta);

@@ -86,9 +86,9 @@ EdgeCurve::EdgeCurve(const KinematicTree& tree, const std::vector<Coordinate>& c
     boundsOf(c.first, {}) = {number.terms, std::abs(way), 0, number.terms};
     if (!circle) continue;
     ambiguous_ |= kPi - std::abs(way) <= kAmbiguous;
-    const bool throughSeam = std::abs(Real(to[i]) - Real(from[i])) > kPi;
-    jumps_ |= throughSeam && std::any_of(tree.frames.begin(), tree.frames.end(),
-                                         [&](const Frame& f) { return leavesCircle(f, c); });
+    const bool wraps = std::abs(Real(to[i]) - Real(from[i])) > kPi;
+    jumps_ |= wraps && std::any_of(tree.frames.begin(), tree.frames.end(),
+                                   [&](const Frame& f) { return leavesCircle(f, c); });
   }
 }
 

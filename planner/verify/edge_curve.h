@@ -151,8 +151,9 @@ class EdgeCurve {
   /// shorter way round is then not defined, so the edge or piece defines no curve.
   bool ambiguous() const { return ambiguous_; }
   /// Returns whether a joint would jump. The edge then defines no curve. A joint jumps if two
-  /// conditions hold: it mimics a circle that crosses the seam at ±π on the edge; and a full turn
-  /// of this circle leaves the joint in another pose. Such a joint is prismatic, or revolute with a
+  /// conditions hold: it mimics a circle whose two stored angles differ by more than half a turn,
+  /// so that the shorter way ends full turns away from the second angle; and a full turn of this
+  /// circle leaves the joint in another pose. Such a joint is prismatic, or revolute with a
   /// multiplier that is not a whole number.
   bool jumps() const { return jumps_; }
   FrameState at(const KinematicChain& chain, Real t) const;

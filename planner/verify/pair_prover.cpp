@@ -119,8 +119,8 @@ void PairProver::addEdge(const Configuration& from, const Configuration& to) {
     fault = "ambiguous half turn";
   else if (curve.jumps())
     fault =
-        "a joint that mimics a continuous joint would jump where the continuous joint passes 180 "
-        "degrees";
+        "a joint that mimics a continuous joint would jump: the two angles of the continuous joint "
+        "differ by more than half a turn";
   addCurve(std::move(curve), Configuration::Zero(problem_.tube.size()), fault,
            isState(from) && !valid ? to : from);
 }

@@ -326,9 +326,12 @@ TEST(EdgeMotion, HalfTurnsAreAmbiguous) {
   EXPECT_FALSE(circle.motion(pi / 2, -pi / 2 + 1e-8)->ambiguous());
   EXPECT_FALSE(circle.motion(pi, -pi)->ambiguous());
   EXPECT_FALSE(line.motion(0, pi)->ambiguous());
-  // A joint that mimics a coordinate of the kind `circle` with the multiplier ½ would jump at ±π.
+  // A joint that mimics a coordinate of the kind `circle` with the multiplier ½ would jump where
+  // the stored angles differ by more than half a turn.
   EXPECT_TRUE(OneTurn(Coordinate::Kind::circle, 0.5).motion(3, -3)->ambiguous());
+  EXPECT_TRUE(OneTurn(Coordinate::Kind::circle, 0.5).motion(7, 0.5)->ambiguous());
   EXPECT_FALSE(OneTurn(Coordinate::Kind::circle, 0.5).motion(1, -1)->ambiguous());
+  EXPECT_FALSE(OneTurn(Coordinate::Kind::circle, 0.5).motion(3, 4)->ambiguous());
   EXPECT_FALSE(OneTurn(Coordinate::Kind::circle, -2).motion(3, -3)->ambiguous());
 }
 

@@ -231,7 +231,7 @@ TEST(LargeValues, StatesAreNotWrapped) {
 }
 
 /// A joint that mimics a coordinate of the kind `circle`, with a multiplier that is not a whole
-/// number, would jump at ±180°.
+/// number, would jump where the two angles differ by more than half a turn.
 TEST(LargeValues, FractionsOfACircleDoNotPassItsSeam) {
   for (const double multiplier : {0.5, -1.5, 2.0}) {
     const Sweep sweep(pi() / 2, multiplier, false);
@@ -240,15 +240,73 @@ TEST(LargeValues, FractionsOfACircleDoNotPassItsSeam) {
     EXPECT_EQ(report.verdict, whole ? PathVerdict::proved : PathVerdict::refuted) << multiplier;
     if (!whole) {
       EXPECT_EQ(report.findings[0].reason,
-                "a joint that mimics a continuous joint would jump where the continuous joint "
-                "passes 180 degrees");
+                "a joint that mimics a continuous joint would jump: the two angles of the "
+                "continuous joint differ by more than half a turn");
     }
     EXPECT_EQ(sweep.checked(3, -3).verdict, whole ? MotionVerdict::free : MotionVerdict::undecided)
         << multiplier;
-    // This edge does not pass ±180° or the post.
+    // This edge does not pass the post.
     EXPECT_EQ(verifyPath(sweep.problem, {sweep.at(2), sweep.at(2.2)}).verdict, PathVerdict::proved);
     EXPECT_EQ(sweep.checked(2, 2.2).verdict, MotionVerdict::free) << multiplier;
   }
+}
+
+/// Whether a fraction of a circle has a curve depends only on the stored angles, not on whether the
+/// edge passes ±180°. If it has one, it is the fraction of the stored angles in between.
+TEST(LargeValues, FractionsOfACircleFollowTheStoredAngles) {
+  constexpr double turn = 2 * std::numbers::pi;
+  struct Edge {
+    double from, to;
+    bool jumps;
+  };
+  const Edge edges[] = {
+      {3, 4, false},          // passes +180°
+      {4, 3, false},          //
+      {-3.5, -2.5, false},    // passes −180°
+      {3, turn - 3, false},   //
+      {9, 10, false},         // passes 3·180°
+      {3, -3, true},          // the shorter way passes +180°
+      {7, 0.5, true},         // the shorter way passes 0°
+      {-1, turn - 1.5, true}  //
+  };
+  for (const Edge& e : edges)
+    for (const double multiplier : {0.5, -1.5, 3.0}) {
+      const std::string what = std::to_string(e.from) + " to " + std::to_string(e.to) + " x" +
+                               std::to_string(multiplier);
+      const double middle = (e.from + e.to) / 2;
+      const bool jumps = e.jumps && multiplier != 3;
+      // The rod passes the first post at the middle of the stored angles. The second post is where
+      // the rod would be with a full turn less.
+      const Sweep hit(Many(multiplier) * Many(middle), multiplier, false),
+          missed(Many(multiplier) * (Many(middle) - 2 * pi()), multiplier, false);
+      const MotionResult checked = hit.checked(e.from, e.to), free = missed.checked(e.from, e.to);
+      const PathReport verified = verifyPath(hit.problem, {hit.at(e.from), hit.at(e.to)}),
+                       proved = verifyPath(missed.problem, {missed.at(e.from), missed.at(e.to)});
+      if (jumps) {
+        for (const MotionResult& r : {checked, free}) {
+          EXPECT_EQ(r.verdict, MotionVerdict::undecided) << what;
+          EXPECT_EQ(r.reason, UndecidedReason::ambiguous) << what;
+        }
+        for (const PathReport& r : {verified, proved}) {
+          ASSERT_EQ(r.verdict, PathVerdict::refuted) << what;
+          EXPECT_EQ(r.findings[0].reason,
+                    "a joint that mimics a continuous joint would jump: the two angles of the "
+                    "continuous joint differ by more than half a turn")
+              << what;
+        }
+      } else if (!e.jumps) {
+        EXPECT_EQ(checked.verdict, MotionVerdict::contact) << what;
+        EXPECT_EQ(verified.verdict, PathVerdict::refuted) << what;
+        EXPECT_NE(verified.findings[0].reason.substr(0, 7), "a joint") << what;
+        if (multiplier != 3) {
+          EXPECT_EQ(free.verdict, MotionVerdict::free) << what;
+          EXPECT_EQ(proved.verdict, PathVerdict::proved) << what;
+        }
+      } else {  // a whole multiplier: an edge the shorter way round, whatever the stored angles are
+        EXPECT_NE(checked.reason, UndecidedReason::ambiguous) << what;
+        EXPECT_NE(free.reason, UndecidedReason::ambiguous) << what;
+      }
+    }
 }
 
 }  // namespace
