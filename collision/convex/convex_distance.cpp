@@ -282,12 +282,20 @@ ConvexDistance convexDistance(const PosedSet& a, const PosedSet& b, double relat
 
 ConvexDistance separatedDistance(const PosedSet& a, const PosedSet& b, const ConvexCache& from) {
   const Pair pair(a, b);
+  const auto done = [](const auto& upper, const auto& lower) {
+    return static_cast<double>(upper - lower) <= 0;
+  };
+  const auto never = [](const Vec3&, double, std::uint32_t, std::uint32_t) { return false; };
   gjk::Search<DoubleDouble> search(a, b, pair.size());
-  search.run(
-      gjk::startOf<DoubleDouble>(&from),
-      [](const auto& upper, const auto& lower) { return static_cast<double>(upper - lower) <= 0; },
-      [](const Vec3&, double, std::uint32_t, std::uint32_t) { return false; });
+  search.run(gjk::startOf<DoubleDouble>(&from), done, never);
   ConvexDistance result = pair.apart(search, false);
+  // If the maps are not rigid, the spheres must be parts of the cores (as in `convexDistance`).
+  if (pair.radii() > 0 && !(a.keepsBall() && b.keepsBall())) {
+    gjk::Search<DoubleDouble> withBalls(a, b, pair.size(), true);
+    withBalls.run(search.simplex, done, never);
+    const ConvexDistance other = pair.apart(withBalls, true);
+    if (!(other.distance - other.lower >= result.distance - result.lower)) result = other;
+  }
   result.lower = result.lower > 0 ? result.lower : 0;  // NaN if no gap was found
   result.exact = true;
   return result;

@@ -48,7 +48,7 @@ ConvexDistance convexDistance(const PosedSet& a, const PosedSet& b, double relat
 /// `convexSetsTouch` returns true although the sets are known to share no point (`confirmContact`,
 /// exact_contact.h). The guarantees are those of `convexDistance`, and `distance` is above 0.
 /// @param from  the cache that a query of the same two sets has filled.
-/// @pre the sets have no swept spheres, and share no point.
+/// @pre the sets share no point.
 ConvexDistance separatedDistance(const PosedSet& a, const PosedSet& b, const ConvexCache& from);
 
 /// A proved range of a distance, metres. If lower > 0, the sets do not touch.

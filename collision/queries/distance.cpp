@@ -1,6 +1,8 @@
 #include "collision/queries/distance.h"
 
 #include <algorithm>
+#include <cmath>
+#include <concepts>
 #include <functional>
 #include <limits>
 #include <vector>
@@ -78,6 +80,8 @@ class Nearest {
     return false;
   }
   Distance result() { return nearest_.result(a_, b_); }
+  void takeAsApart() { nearest_.takeAsApart(); }         // only `Parts`
+  bool isDenied() { return nearest_.isDenied(a_, b_); }  // only `Parts`
 
  private:
   const Tree &a_, &b_;
@@ -134,8 +138,18 @@ using BoundedPairs = std::vector<BoundedPair>;
 template <class Items, class Volume>
 Distance nearest(const Posed<VolumeTree<Volume>>& a, const Posed<VolumeTree<Volume>>& b,
                  const DistanceOptions& options, QueryContext& context) {
+  const auto search = [&](Nearest<Volume, Items>& query) {
+    traverse(a.shape, b.shape, BoundedPair{0, 0, 0}, context.scratch.of<BoundedPairs>(), query);
+  };
   Nearest<Volume, Items> query(a, b, options, context);
-  traverse(a.shape, b.shape, BoundedPair{0, 0, 0}, context.scratch.of<BoundedPairs>(), query);
+  search(query);
+  if constexpr (std::same_as<Items, Parts>)
+    if (query.isDenied()) {
+      Nearest<Volume, Items> again(a, b, options, context);
+      again.takeAsApart();
+      search(again);
+      return again.result();
+    }
   return query.result();
 }
 
@@ -160,6 +174,7 @@ template <BoundingVolume Volume>
 bool closerThan(const Posed<VolumeTree<Volume>>& a, const Posed<VolumeTree<Volume>>& b, double d,
                 QueryContext& context) {
   if (d == 0) return interference(a, b, context).has_value();
+  if (std::isnan(d)) return true;  // a NaN proves nothing
   return a.shape.hasParts() || b.shape.hasParts() ? closer<Parts>(a, b, d, context)
                                                   : closer<Triangles>(a, b, d, context);
 }

@@ -41,6 +41,8 @@ class NearestWithParts : public BoxesWithin<true> {
   }
 
   Distance result() { return nearest_.result(a_, b_); }
+  void takeAsApart() { nearest_.takeAsApart(); }
+  bool isDenied() { return nearest_.isDenied(a_, b_); }
 
  private:
   bool testPair(std::uint32_t s, std::uint32_t t) {
@@ -58,10 +60,17 @@ class NearestWithParts : public BoxesWithin<true> {
 Distance distanceOfParts(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b,
                          const Obb4TreePose& pose, const DistanceOptions& options,
                          QueryContext& context) {
+  const auto search = [&](NearestWithParts& query) {
+    walkObb4(a.shape, b.shape, pose.floats.scale, kWholeTrees, context.scratch.of<Obb4Stack>(),
+             context.counters, query);
+  };
   NearestWithParts query(a, b, pose, options, context);
-  walkObb4(a.shape, b.shape, pose.floats.scale, kWholeTrees, context.scratch.of<Obb4Stack>(),
-           context.counters, query);
-  return query.result();
+  search(query);
+  if (!query.isDenied()) return query.result();
+  NearestWithParts again(a, b, pose, options, context);
+  again.takeAsApart();
+  search(again);
+  return again.result();
 }
 
 /// The tolerance query on two 4-wide OBB trees of which at least one holds convex parts.
