@@ -93,17 +93,17 @@ MotionResult askModel(const Case& c) {
 }
 
 /// The answers to one question, and counts of the answers that claim a proof.
-struct Answers {
+struct ProofAnswers {
   MotionResult scene, model;
   PathReport verifier;
 
-  explicit Answers(const Case& c)
+  explicit ProofAnswers(const Case& c)
       : scene(*askChecker(c)), model(askModel(c)), verifier(*askVerifier(c)) {}
 };
-struct Counts {
+struct ProofCounts {
   long cases = 0, scene = 0, model = 0, verifier = 0;
 
-  void add(const Answers& answers) {
+  void add(const ProofAnswers& answers) {
     ++cases;
     scene += answers.scene.verdict == MotionVerdict::free;
     model += answers.model.verdict == MotionVerdict::free;
@@ -121,7 +121,7 @@ TEST(Audit, CurvesThatTouchInTheirTube) {
   const std::uint64_t seed = test::testSeed(15);
   const char* only = std::getenv("CORRIDOR_AUDIT_CASE");
   const long count = only ? 1 : countOf(200, 100'000);
-  Counts touching, bare, noTube, noError;
+  ProofCounts touching, bare, noTube, noError;
   long wrong = 0;
   std::array<long, CurvePiece::kLargestDegree + 1> degrees{};
   for (long number = only ? std::stol(only) : 0; touching.cases < count; ++number) {
@@ -153,15 +153,15 @@ TEST(Audit, CurvesThatTouchInTheirTube) {
         truth,
         question,
         "CORRIDOR_SEED=" + std::to_string(seed) + " CORRIDOR_AUDIT_CASE=" + std::to_string(number)};
-    const Answers answers(c);
+    const ProofAnswers answers(c);
     for (const std::string& fault :
          {faultOf(c, answers.scene), faultOf(c, answers.model), faultOf(c, answers.verifier)})
       if (!fault.empty() && ++wrong <= 3) std::cout << fault << "\n" << describe(c) << std::endl;
     touching.add(answers);
     ++degrees[static_cast<std::size_t>(edge.piece->degree())];
-    const auto control = [&](bool tube, bool error, Counts& counts) {
+    const auto control = [&](bool tube, bool error, ProofCounts& counts) {
       const Edge changed = without(edge, tube, error);
-      counts.add(Answers({changed, graze, rest, truth, question, c.name}));
+      counts.add(ProofAnswers({changed, graze, rest, truth, question, c.name}));
     };
     control(true, true, bare);
     if (stray == Stray::both) {
