@@ -119,6 +119,7 @@ class Bisection {
 
 MotionResult certifyAdaptively(MotionSource& motion, std::span<const MotionPair> pairs,
                                const MotionOptions& options, QueryContext& context) {
+  requireValid(options, pairs.size());
   return answered(motion, options.earliest, [&] {
     DistanceSteps steps(motion, pairs, options, context);
     return Bisection(steps).run(pairs.size());

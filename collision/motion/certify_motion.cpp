@@ -185,7 +185,9 @@ class Certifier {
     for (double after = 0; !source_.still(); after = std::max(2 * after, 0x1p-40)) {
       const double t = std::min(w.t1 + after, 1.0);
       if (after > 0 && t - w.t0 > query_.options.timeTolerance) return false;
-      const Transform X_AB = source_.relativeMotion(query_.pairs[bodies].motion, t, 0).X_AB;
+      // Not from `source_` directly: a motion that `motions_` keeps would lose its screws.
+      motions_.select(t, 0);
+      const Transform X_AB = motions_.relative(query_.pairs[bodies].motion).X_AB;
       if (findContact(bodies, X_AB, t, kWholeTrees)) return true;
       if (t == 1) return false;
     }
@@ -285,9 +287,24 @@ PairMargins::PairMargins(std::vector<double> metres) : metres_(std::move(metres)
   }
 }
 
+void requireValid(const MotionOptions& options, std::size_t pairs) {
+  const auto finite = [](double x, bool zeroToo) {
+    return std::isfinite(x) && (zeroToo ? x >= 0 : x > 0);
+  };
+  if (!finite(options.tolerance, false))
+    throw std::invalid_argument("the tolerance of a motion query must be positive and finite");
+  if (!finite(options.margin, true) || !finite(options.clearanceSlack, true))
+    throw std::invalid_argument("margin and clearance slack must be finite and not negative");
+  if (!finite(options.timeTolerance, false))
+    throw std::invalid_argument("the time tolerance must be positive and finite");
+  if (options.pairMargins && options.pairMargins->size() != pairs)
+    throw std::invalid_argument("margins of pairs: one for each pair is required");
+}
+
 MotionResult certifyMotion(MotionSource& motion, std::span<const MotionPair> pairs,
                            const MotionOptions& options, QueryContext& context,
                            MotionCertificate* certificate, const BroadPhase* broadPhase) {
+  requireValid(options, pairs.size());
   if (certificate) *certificate = {};
   return answered(motion, options.earliest, [&] {
     const std::uint64_t before = context.counters.work(),

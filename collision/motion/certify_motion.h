@@ -26,11 +26,14 @@ enum class UndecidedReason {
   none,
   clearance,  ///< the clearance is below twice the tolerance somewhere
   workLimit,  ///< the query reached its work limit
-  /// The edge defines no curve: it has a half turn, whose shorter way is not unique, or a
-  /// displacement that overflows.
+  /// The edge defines no curve: it has a half turn, whose shorter way is not unique, a displacement
+  /// that overflows, or a number that is not finite.
   ambiguous,
   rounding,       ///< the rounding of large values takes more than half of the tolerance
   floatingPoint,  ///< no bound holds with these processor settings (core/floating_point.h)
+  /// The motion leaves the configurations for which pairs that the caller left out are proved apart
+  /// (planner/model/pair_proofs.h). No query of this library gives this reason.
+  beyondProofs,
 };
 
 /// The answer of a motion query (collision/PROMISES.md, promise 2). `free` is never wrong.
@@ -61,8 +64,8 @@ class BroadPhase;
 /// to pad bodies, and to prove that each pair keeps a distance of its own.
 class PairMargins {
  public:
-  /// @param metres one margin for each pair of the query, in the query's order. Queries of a
-  /// `Scene` take the order of `Scene::motionPairs()`, which is not that of `Scene::pairs()`.
+  /// @param metres one margin for each pair of the query, in the query's order; for queries of a
+  /// `Scene`, the order of `Scene::pairs()`, which is also that of `Scene::motionPairs()`.
   /// @throws std::invalid_argument if a margin is negative or not finite. (The margins are tested
   /// here, and not by each query, because scenes may have millions of pairs.)
   explicit PairMargins(std::vector<double> metres);
@@ -115,6 +118,13 @@ struct MotionOptions {
   }
 };
 
+/// Checks the options of a motion query of `pairs` pairs. Every motion query calls it: with a
+/// negative margin, for example, `free` would be possible although bodies touch.
+/// @throws std::invalid_argument if tolerance or time tolerance is not positive and finite, if
+/// margin or clearance slack is negative or not finite, or if there is not one margin for each
+/// pair.
+void requireValid(const MotionOptions& options, std::size_t pairs);
+
 /// The relative motions along an edge. Each distinct relative motion of two frames has a number,
 /// which the implementation defines. An object may hold scratch memory, so only one thread may use
 /// it at a time.
@@ -125,9 +135,9 @@ class MotionSource {
   /// result stays valid until the next call for the same `i`. @pre 0 ≤ t ≤ 1, h ≤ 1/2; t − h and t
   /// + h are exact.
   virtual RelativeMotion relativeMotion(std::size_t i, double t, double h) = 0;
-  /// Returns true if the edge cannot be certified, for one of three reasons: a half turn (to within
-  /// 1e-9 rad), whose shorter way is not unique; a displacement that overflows; unsuitable
-  /// processor settings.
+  /// Returns true if the edge cannot be certified, for one of four reasons: a half turn (to within
+  /// 1e-9 rad), whose shorter way is not unique; a displacement that overflows; a number of the
+  /// edge that is not finite; unsuitable processor settings.
   virtual bool ambiguous() const = 0;
   /// Reports whether nothing moves. The whole edge is then one pose, apart from the tube.
   virtual bool still() const = 0;
@@ -202,6 +212,7 @@ struct MotionCertificate {
 /// @param broadPhase if not null, the broad phase of these pairs. It finds the pairs that may come
 /// close, so that not every pair is tested. A query with a certificate does not use it, because the
 /// certificate has an entry for every pair.
+/// @throws std::invalid_argument as `requireValid`.
 MotionResult certifyMotion(MotionSource& motion, std::span<const MotionPair> pairs,
                            const MotionOptions& options, QueryContext& context,
                            MotionCertificate* certificate = nullptr,

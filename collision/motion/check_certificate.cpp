@@ -45,7 +45,8 @@ class CertificateCheck {
       return CertificateFault{Kind::unproved, i.pair, i.t0};
     if (context_.counters.work() >= workEnd_)
       return CertificateFault{Kind::workLimit, i.pair, middle};
-    const RelativeMotion relative = motion_.relativeMotion(pair.motion, middle, h);
+    RelativeMotion relative = motion_.relativeMotion(pair.motion, middle, h);
+    spreadNaN(relative);
     const auto closer = [&](double d) {
       return closerThan(Posed(pair.a->binaryTree()), Posed(pair.b->binaryTree(), relative.X_AB), d,
                         context_);

@@ -83,6 +83,7 @@ class Advancement {
 
 MotionResult certifyByAdvancement(MotionSource& motion, std::span<const MotionPair> pairs,
                                   const MotionOptions& options, QueryContext& context) {
+  requireValid(options, pairs.size());
   return answered(motion, options.earliest, [&] {
     DistanceSteps steps(motion, pairs, options, context);
     return Advancement(steps).run(pairs.size());

@@ -44,6 +44,7 @@ bool DistanceSteps::outOfWork() const {
 
 RelativeMotion DistanceSteps::relativeMotion(std::uint32_t pair, double t, double h) {
   RelativeMotion w = motion_.relativeMotion(pairs_[pair].motion, t, h);
+  spreadNaN(w);
   w.fixedError += options_.clearanceSlack;  // a proof requires the slack, a contact does not
   ++context_.counters.poses;
   return w;

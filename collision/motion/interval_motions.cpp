@@ -22,6 +22,7 @@ void IntervalMotions::select(double t, double h) {
 void IntervalMotions::compute(std::size_t motion) {
   posed_ = motion;
   relative_ = source_.relativeMotion(motion, t_, h_);
+  spreadNaN(relative_);
   ++counters_.poses;
 }
 

@@ -41,11 +41,12 @@ BodiesAnswer testBounds(const MotionQuery& query, double t0, double t1,
 }
 
 /// Walks the trees of a pair of bodies below the node pairs of its group. Appends the node pairs
-/// that cannot be separated to `list.nodePairs`. For a pose that overflows, returns `undecided` at
-/// once.
+/// that cannot be separated to `list.nodePairs`. For a pose that overflows, or a bound that is NaN,
+/// returns `undecided` at once: not every comparison in a kernel fails for NaN.
 Descent walkTrees(const MotionQuery& query, const WorkList::Group& group,
                   const RelativeMotion& relative, const DescentOptions& asked, WorkList& list) {
-  if (!relative.X_AB.isFinite()) return {.kind = Descent::Kind::undecided};
+  if (!relative.X_AB.isFinite() || std::isnan(relative.fixedError))
+    return {.kind = Descent::Kind::undecided};
   const MotionPair& pair = query.pairs[group.bodies];
   return withTrees(query.options.trees, *pair.a, *pair.b,
                    [&](auto overlap, const auto& a, const auto& b) {

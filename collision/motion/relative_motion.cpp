@@ -90,6 +90,14 @@ constexpr double kLeastLength = 0x1p-500;
 
 }  // namespace
 
+void spreadNaN(RelativeMotion& relative) {
+  // A NaN in `X_AB`, or in the axis, point or tube of a rotation, is already in every pad.
+  double sum = relative.linear.sum() + relative.angular.sum() + relative.speed + relative.angle +
+               relative.reachError;
+  for (const ScrewMotion& screw : relative.screws) sum += screw.amount + screw.deviation;
+  if (std::isnan(sum)) relative.fixedError = sum;
+}
+
 MotionBound motionBound(const RelativeMotion& relative, const Vec3& x_A, double radius) {
   const Vec3 y = x_A - relative.X_AB.t;
   const double loose = 16 * kUnit * (taxicab(y) + taxicab(relative.X_AB.t) + radius) + kLeastLength;

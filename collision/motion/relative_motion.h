@@ -69,6 +69,10 @@ struct RelativeMotion {
   double fixedTube = 0, reachTube = 0;
 };
 
+/// Makes a motion prove nothing if one of its numbers is NaN: `fixedError` becomes NaN. (Minima and
+/// comparisons may drop a NaN elsewhere, but no bound drops one of `fixedError`.)
+void spreadNaN(RelativeMotion& relative);
+
 /// A motion bound for all points x of b within a radius of a given point. For every vector n and
 /// every s
 ///   |n·(x(s) − x(0) − s·(linear + angular × y))| ≤ secondOrderAcross·|n × angular| +

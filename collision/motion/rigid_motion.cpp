@@ -43,6 +43,13 @@ void RigidMotion::setLine(const Vec3& from, const Vec3& to) {
   direction_ = delta_.stableNormalized();
 }
 
+void RigidMotion::setTube(const Tube& tube, double lengths) {
+  fixedTube_ = lengths * tube.position;
+  reachTube_ = tube.rotation;
+  unsound_ = unsound_ || !(fixedTube_ >= 0 && fixedTube_ < HUGE_VAL && reachTube_ >= 0 &&
+                           reachTube_ < HUGE_VAL);
+}
+
 void RigidMotion::setRotation(const Mat3& R0, const Vec3& axis, double angle, double angleError) {
   Mat3 K;
   K << 0, -axis[2], axis[1], axis[2], 0, -axis[0], -axis[1], axis[0], 0;
@@ -52,6 +59,7 @@ void RigidMotion::setRotation(const Mat3& R0, const Vec3& axis, double angle, do
   axis_ = axis;
   angle_ = angle;
   ambiguous_ = !(angle + angleError <= std::numbers::pi - kHalfTurnBand);
+  unsound_ = unsound_ || !R0.allFinite();
 }
 
 RigidMotion RigidMotion::spatial(const RigidPose& from, const RigidPose& to, const Tube& tube) {
@@ -69,15 +77,15 @@ RigidMotion RigidMotion::spatial(const RigidPose& from, const RigidPose& to, con
   Eigen::Quaterniond turn = q1 * q0.conjugate();
   if (turn.w() < 0) turn.coeffs() = -turn.coeffs();
   const double s = turn.vec().norm();
-  const bool turns = !equal && s > 0;
+  const bool turns = !equal && s > 0;  // false for NaN, which would be a rest
+  m.unsound_ = m.unsound_ || !turn.coeffs().allFinite();
   m.setRotation(q0.toRotationMatrix(), turns ? Vec3(turn.vec() / s) : Vec3::Zero(),
                 turns ? 2 * std::atan2(s, turn.w()) : 0, 0);
   // p = p0 + t·δ. The values δ, t·δ and the sum are at most 2P, 2P and P, and each is rounded once.
   // The error is below 7uP per coordinate. Half of the interval's displacement, h·δ, adds less than
   // 2uP. As a length this is 9√3·uP < 16uP. The tube moves each coordinate by `position`.
   const double P = std::max(from.p.cwiseAbs().maxCoeff(), to.p.cwiseAbs().maxCoeff());
-  m.fixedTube_ = std::sqrt(3.0) * tube.position;
-  m.reachTube_ = tube.rotation;
+  m.setTube(tube, std::sqrt(3.0));
   m.fixedError_ = roundedUp(16 * kUnit * P + m.fixedTube_ + kLeastError);
   m.reachError_ = roundedUp(kRotationError + m.reachTube_);
   return m;
@@ -112,8 +120,7 @@ RigidMotion RigidMotion::planar(const Vec3& from, const Vec3& to, const Tube& tu
                 turn.error);
   const double P =
       std::max(from.head<2>().cwiseAbs().maxCoeff(), to.head<2>().cwiseAbs().maxCoeff());
-  m.fixedTube_ = std::sqrt(2.0) * tube.position;
-  m.reachTube_ = tube.rotation;
+  m.setTube(tube, std::sqrt(2.0));
   m.fixedError_ = roundedUp(16 * kUnit * P + m.fixedTube_ + kLeastError);
   m.reachError_ = roundedUp(kRotationError + turn.error + m.reachTube_);
   return m;

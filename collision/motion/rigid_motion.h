@@ -16,20 +16,20 @@ namespace corridor {
 /// the yaw is linear in t and goes the shorter way round.
 class RigidMotion {
  public:
-  /// Returns the motion in space. @pre The poses are finite, and the quaternions are not zero.
+  /// Returns the motion in space. If a number is not finite, a quaternion is zero, or a half width
+  /// of the tube is negative, the motion is `ambiguous`; so it is for `translation` and `planar`.
   static RigidMotion spatial(const RigidPose& from, const RigidPose& to, const Tube& tube);
   /// Returns the translation by `delta` metres of a body that starts at the map `from`. The
-  /// position is linear in t, and the orientation does not change. @pre All numbers are finite, and
-  /// `from.m` is within 2^-20 of a rotation.
+  /// position is linear in t, and the orientation does not change. @pre `from.m` is within 2^-20 of
+  /// a rotation.
   static RigidMotion translation(const Transform& from, const Vec3& delta);
-  /// Returns the motion in the plane z = 0, of (x, y, yaw) in metres and radians. @pre All numbers
-  /// are finite.
+  /// Returns the motion in the plane z = 0, of (x, y, yaw) in metres and radians.
   static RigidMotion planar(const Vec3& from, const Vec3& to, const Tube& tube);
 
   /// Returns true if the edge defines no curve, or if no bound holds, for one of these reasons:
   /// * The rotation is a half turn to within 1e-9 rad, or to within the rounding of large yaws. The
   ///   shorter way is then not unique.
-  /// * The displacement overflows.
+  /// * The displacement overflows, or a number of the motion is not finite.
   /// * The motion was made with floating-point settings under which no bound holds
   ///   (core/floating_point.h).
   bool ambiguous() const { return ambiguous_ || unsound_; }
@@ -60,6 +60,9 @@ class RigidMotion {
  private:
   RigidMotion() = default;
   void setLine(const Vec3& from, const Vec3& to);
+  /// @param lengths the length of a vector whose coordinates are the half width of the positions,
+  /// divided by this half width.
+  void setTube(const Tube& tube, double lengths);
   void setRotation(const Mat3& R0, const Vec3& axis, double angle, double angleError);
 
   Vec3 from_ = Vec3::Zero(), delta_ = Vec3::Zero();

@@ -54,6 +54,7 @@ double depthAlong(const Body& a, const Body& b, const Transform& X_AB, const Vec
   // rounding of motions requires a larger tolerance.
   const double size = a.radius() + b.radius() + X_AB.t.stableNorm() + far;
   options.tolerance = std::max(accuracy * far / 4, RigidMotion::roundingTolerance(size));
+  if (!(options.tolerance > 0)) return HUGE_VAL;  // flushed to zero
   const MotionResult result = certifyMotion(approach, {&pair, 1}, options, context);
   // If not even the start of the approach is proved free, the bodies are too small or too large for
   // the bounds.

@@ -74,28 +74,13 @@ BoundingBox boxUnder(const Body& body, const Transform& X) {
                                  0x1p-45 * X.t.stableNorm());
   box.lower.array() -= error;
   box.upper.array() += error;
+  // If the map overflows, a bound may have missed points (a minimum drops NaN), or be NaN itself.
+  if (!(error < HUGE_VAL)) {
+    box.upper.setConstant(HUGE_VAL);
+    box.lower = -box.upper;
+  }
   box.terms = box.lower.cwiseAbs().sum() + box.upper.cwiseAbs().sum();
   return box;
-}
-
-void require(const PairMargins& margins, std::size_t pairs) {
-  if (margins.size() != pairs)
-    throw std::invalid_argument("margins of pairs: one for each pair is required");
-}
-
-/// Checks the options of a motion query. With a negative margin, for example, the verdict `free`
-/// would be possible although bodies touch.
-void require(const MotionOptions& options, std::size_t pairs) {
-  const auto finite = [](double x, bool zeroToo) {
-    return std::isfinite(x) && (zeroToo ? x >= 0 : x > 0);
-  };
-  if (!finite(options.tolerance, false))
-    throw std::invalid_argument("the tolerance of a motion query must be positive and finite");
-  if (!finite(options.margin, true) || !finite(options.clearanceSlack, true))
-    throw std::invalid_argument("margin and clearance slack must be finite and not negative");
-  if (!finite(options.timeTolerance, false))
-    throw std::invalid_argument("the time tolerance must be positive and finite");
-  if (options.pairMargins) require(*options.pairMargins, pairs);
 }
 
 }  // namespace
@@ -136,8 +121,7 @@ Scene::Scene(std::vector<Placed> bodies, std::vector<Pair> pairs)
   solidMeshes_ = std::any_of(pairs_.begin(), pairs_.end(), [&](const Pair& pair) {
     return bodies_[pair.a].body.isSolidMesh() || bodies_[pair.b].body.isSolidMesh();
   });
-  std::vector<MotionPair> motionPairs;
-  motionPairs.reserve(pairs_.size());
+  motionPairs_.reserve(pairs_.size());
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     const Placed &a = bodies_[pairs_[i].a], &b = bodies_[pairs_[i].b];
     MotionPair pair{&a.body, &b.body, motionsOfPairs[i], pairs_[i].a, pairs_[i].b};
@@ -148,23 +132,22 @@ Scene::Scene(std::vector<Placed> bodies, std::vector<Pair> pairs)
       pair.restBox = &a.body.box();
     else
       pair.worldMotionA = motionOf(0, a.frame);
-    motionPairs.push_back(pair);
+    motionPairs_.push_back(pair);
   }
   // All pairs of one moving body with bodies at rest are adjacent in the order, although their
   // motions may differ.
-  const auto keyOf = [&](std::size_t i) {
-    const MotionPair& pair = motionPairs[i];
+  const auto keyOf = [](const MotionPair& pair) {
     const bool atRest = pair.restBox && pair.worldMotionB != MotionPair::kNone;
     return std::tuple(atRest ? pair.worldMotionB : pair.motion, pair.bodyB, pair.motion);
   };
-  const auto isBefore = [&](std::size_t i, std::size_t k) { return keyOf(i) < keyOf(k); };
-  order_.resize(pairs_.size());
-  std::iota(order_.begin(), order_.end(), std::size_t{0});
+  const auto isBefore = [&](const MotionPair& x, const MotionPair& y) {
+    return keyOf(x) < keyOf(y);
+  };
   // Scenes of robot models usually list their pairs in this order already.
-  if (!std::is_sorted(order_.begin(), order_.end(), isBefore))
-    std::stable_sort(order_.begin(), order_.end(), isBefore);
-  motionPairs_.reserve(pairs_.size());
-  for (const std::size_t i : order_) motionPairs_.push_back(motionPairs[i]);
+  if (!std::is_sorted(motionPairs_.begin(), motionPairs_.end(), isBefore))
+    std::stable_sort(motionPairs_.begin(), motionPairs_.end(), isBefore);
+  for (std::size_t i = 0; i < pairs_.size(); ++i)
+    pairs_[i] = {motionPairs_[i].bodyA, motionPairs_[i].bodyB};
   broadPhase_ = std::make_unique<const BroadPhase>(motionPairs_);
 }
 
@@ -275,7 +258,8 @@ std::vector<Scene::NearPair> Scene::pairsWithin(std::span<const Transform> X_WF,
                                                 const PairMargins& within,
                                                 const DistanceOptions& options,
                                                 QueryContext& context, TreeKind trees) const {
-  require(within, pairs_.size());
+  if (within.size() != pairs_.size())
+    throw std::invalid_argument("margins of pairs: one for each pair is required");
   ++context.counters.states;
   std::vector<NearPair> near;
   forNearPairs(
@@ -316,8 +300,7 @@ bool provesNothingFree(const MotionResult& result) {
   return result.verdict != MotionVerdict::free && !(result.certifiedUntil > 0);
 }
 
-/// Scratch memory: the indices in `motionPairs_` of the pairs of bodies that may come near each
-/// other in an interval.
+/// Scratch memory: the indices of the pairs of bodies that may come near each other in an interval.
 struct NearPairs {
   std::vector<std::uint32_t> pairs;
 };
@@ -377,7 +360,6 @@ MotionResult Scene::withContainment(MotionResult result, std::span<const std::ui
 
 MotionResult Scene::certify(MotionSource& motion, const MotionOptions& options,
                             QueryContext& context, EdgeMethod method) const {
-  require(options, pairs_.size());
   const MotionResult result = certifyPairs(motion, options, context, method);
   count(motion, result, context.counters);
   return result;
@@ -385,7 +367,6 @@ MotionResult Scene::certify(MotionSource& motion, const MotionOptions& options,
 
 MotionResult Scene::certify(MotionSource& motion, const MotionOptions& options,
                             QueryContext& context, MotionCertificate& certificate) const {
-  require(options, pairs_.size());
   const MotionResult result =
       certifyPairs(motion, options, context, EdgeMethod::directional, &certificate);
   count(motion, result, context.counters);
@@ -394,7 +375,7 @@ MotionResult Scene::certify(MotionSource& motion, const MotionOptions& options,
 
 std::vector<MotionResult> Scene::certifyEachPair(MotionSource& motion, const MotionOptions& options,
                                                  QueryContext& context) const {
-  require(options, pairs_.size());
+  requireValid(options, pairs_.size());
   std::vector<MotionResult> results;
   results.resize(pairs_.size());
   MotionResult counted;  // counts as one query, which is undecided if any pair is
@@ -410,7 +391,7 @@ std::vector<MotionResult> Scene::certifyEachPair(MotionSource& motion, const Mot
   }
   const std::vector<std::uint32_t> tested = near;  // a copy: the queries below overwrite `near`
   for (const std::uint32_t i : tested) {
-    MotionResult& result = results[order_[i]];
+    MotionResult& result = results[i];
     MotionOptions own = options;
     own.margin = options.marginOf(i);
     own.pairMargins = nullptr;

@@ -46,7 +46,8 @@ class Scene {
 
   /// Only `pairs` are ever tested. In each pair of `pairs()`, a is a body on frame 0 or on a frame
   /// at rest, if the pair has such a body. Otherwise a is the body on the frame of lower index. The
-  /// constructor exchanges the two bodies of a pair if necessary.
+  /// constructor exchanges the two bodies of a pair if necessary. It also sorts the pairs, once:
+  /// `pairs()`, `motionPairs()` and everything that has one entry for each pair are in one order.
   /// @throws std::invalid_argument if a pair names a body that does not exist, or the map of a
   /// frame at rest is not finite.
   Scene(std::vector<Placed> bodies, std::vector<Pair> pairs);
@@ -55,6 +56,7 @@ class Scene {
   Scene& operator=(Scene&&) noexcept;
 
   const std::vector<Placed>& bodies() const { return bodies_; }
+  /// The tested pairs. Their order may differ from the order that the constructor was given.
   const std::vector<Pair>& pairs() const { return pairs_; }
   /// Returns the pairs of frames whose motions a `MotionSource` has to supply: the distinct pairs
   /// of the frames of bodies in `pairs()`, and for each of these frames that moves, the pair of the
@@ -87,13 +89,13 @@ class Scene {
 
   /// A pair of bodies that are near each other.
   struct NearPair {
-    std::size_t pair = 0;  ///< its index in `motionPairs()`
+    std::size_t pair = 0;  ///< its index in `pairs()`
     Distance distance;     ///< with witness points in the world
   };
   /// Returns the pairs whose measured distance is at most the length that `within` states for the
-  /// pair, with these distances, in the order of `motionPairs()`. The errors of the distances are
+  /// pair, with these distances, in the order of `pairs()`. The errors of the distances are
   /// those of `distance` in queries/distance.h; the option `upTo` is ignored.
-  /// @param within metres, one length for each pair, in the order of `motionPairs()`.
+  /// @param within metres, one length for each pair, in the order of `pairs()`.
   std::vector<NearPair> pairsWithin(std::span<const Transform> X_WF, const PairMargins& within,
                                     const DistanceOptions& options, QueryContext& context,
                                     TreeKind trees = TreeKind::obb4) const;
@@ -110,9 +112,9 @@ class Scene {
   /// from containment in a solid mesh, or if containment cannot be decided.
   MotionResult certify(MotionSource& motion, const MotionOptions& options, QueryContext& context,
                        MotionCertificate& certificate) const;
-  /// Returns `pairs()` in the form and order in which motion queries take them. A certificate
-  /// numbers its pairs in this order. The span is valid as long as the scene exists and is not
-  /// moved.
+  /// Returns `pairs()` in the form in which motion queries take them: entry i is pair i of
+  /// `pairs()`. A certificate numbers its pairs in this order. The span is valid as long as the
+  /// scene exists and is not moved.
   std::span<const MotionPair> motionPairs() const { return motionPairs_; }
   /// Returns the answer of `certify` for each pair of bodies alone, in the order of `pairs()`. The
   /// counters of the context count all pairs together as one query.
@@ -123,9 +125,8 @@ class Scene {
   MotionResult certifyPairs(MotionSource& motion, const MotionOptions& options,
                             QueryContext& context, EdgeMethod method,
                             MotionCertificate* certificate = nullptr) const;
-  /// Returns `result`, the answer about surfaces, corrected if a body of these pairs (indices of
-  /// `motionPairs_`) is inside a solid mesh, or if this cannot be decided. In both cases also
-  /// clears the certificate.
+  /// Returns `result`, the answer about surfaces, corrected if a body of these pairs (by index) is
+  /// inside a solid mesh, or if this cannot be decided. In both cases also clears the certificate.
   MotionResult withContainment(MotionResult result, std::span<const std::uint32_t> pairs,
                                MotionSource& motion, QueryContext& context,
                                MotionCertificate* certificate) const;
@@ -145,8 +146,7 @@ class Scene {
   std::vector<Placed> bodies_;
   std::vector<Pair> pairs_;
   std::map<std::size_t, BoundingBox> restBoxes_;  // in the world, for each body with `restX_WF`
-  std::vector<std::size_t> order_;  // indices of `pairs_`, in the order of `motionPairs_`
-  std::vector<MotionPair> motionPairs_;
+  std::vector<MotionPair> motionPairs_;           // entry i is pair i of `pairs_`
   std::vector<FramePair> framePairs_;
   // The frames of bodies in pairs. Frames at rest are left out; the world stands for them.
   std::vector<std::size_t> posedFrames_;

@@ -1,6 +1,10 @@
 // Tests of margins that differ from pair to pair. A cube slides past a row of boxes, each at a
 // known distance. So it is known which margins the motion keeps.
+#include <algorithm>
+#include <optional>
 #include <random>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -22,7 +26,7 @@ class Row {
 
   const Scene& scene() const { return scene_.scene(); }
   std::size_t size() const { return gaps_.size(); }
-  /// Returns the distance that the cube keeps from the box of a pair of `motionPairs()`.
+  /// Returns the distance that the cube keeps from the box of a pair.
   double gapOf(std::size_t pair) const { return gaps_[scene().motionPairs()[pair].bodyA]; }
   RigidMotion motion() const {
     const double end = 0.5 * static_cast<double>(size());
@@ -178,6 +182,123 @@ TEST(PairMargins, FindsThePairsWithinThem) {
         EXPECT_NEAR((pair.distance.p_WA - pair.distance.p_WB).norm(), distances[pair.pair], 1e-14);
       }
     }
+  }
+}
+
+/// A link of two cubes between two walls, with the distance of every pair. The given pairs are not
+/// in the scene's order: the scene puts the pairs of one cube side by side.
+class LinkBetweenWalls {
+ public:
+  LinkBetweenWalls() : scene_(makeScene()) {}
+
+  const Scene& scene() const { return scene_; }
+  static double gapOf(std::size_t wall, std::size_t cube) {
+    return cube == 2 ? (wall == 0 ? 0.9 : 1.4) : (wall == 0 ? 0.8 : 1.3);
+  }
+  MotionResult certify(const PairMargins& margins, MotionCertificate* certificate = nullptr) const {
+    RigidEdge edge(RigidMotion::spatial(at(Vec3(0, 0, 0)), at(Vec3(1, 0, 0)), {}));
+    QueryContext context;
+    const MotionOptions options = optionsWith(margins, 0);
+    return certificate ? scene_.certify(edge, options, context, *certificate)
+                       : scene_.certify(edge, options, context);
+  }
+  std::vector<MotionResult> certifyEachPair(const PairMargins& margins) const {
+    RigidEdge edge(RigidMotion::spatial(at(Vec3(0, 0, 0)), at(Vec3(1, 0, 0)), {}));
+    QueryContext context;
+    return scene_.certifyEachPair(edge, optionsWith(margins, 0), context);
+  }
+
+ private:
+  static Scene makeScene() {
+    std::vector<Scene::Placed> bodies;
+    bodies.push_back({bodyOf(box(Vec3(-1, 1, -1), Vec3(2, 1.2, 3))), 0});             // wall 0
+    bodies.push_back({bodyOf(box(Vec3(-1, -1.7, -1), Vec3(2, -1.5, 3))), 0});         // wall 1
+    bodies.push_back({bodyOf(box(Vec3(-0.1, -0.1, -0.1), Vec3(0.1, 0.1, 0.1))), 1});  // cube 2
+    bodies.push_back({bodyOf(box(Vec3(-0.1, -0.2, 1.9), Vec3(0.1, 0.2, 2.1))), 1});   // cube 3
+    return {std::move(bodies), {{0, 2}, {0, 3}, {1, 2}, {1, 3}}};
+  }
+
+  Scene scene_;
+};
+
+/// Margins that are built in the order of `pairs()`, and margins that are built in the order of
+/// `motionPairs()`, must be the same margins, and give the right verdict.
+TEST(PairMargins, PairsAndMotionPairsHaveOneOrder) {
+  const LinkBetweenWalls link;
+  const Scene& scene = link.scene();
+  ASSERT_EQ(scene.pairs().size(), 4u);
+  ASSERT_EQ(scene.motionPairs().size(), 4u);
+  for (std::size_t tooClose = 0; tooClose <= 4; ++tooClose) {
+    // Pair `tooClose`, if there is one, is asked for more than its gap; the others for far less.
+    const auto metresOf = [&](std::size_t pair, std::size_t a, std::size_t b) {
+      return (pair == tooClose ? 1.05 : 0.5) * LinkBetweenWalls::gapOf(a, b);
+    };
+    std::vector<double> byPairs, byMotionPairs;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Scene::Pair& pair = scene.pairs()[i];
+      byPairs.push_back(metresOf(i, pair.a, pair.b));
+      const MotionPair& moved = scene.motionPairs()[i];
+      byMotionPairs.push_back(metresOf(i, moved.bodyA, moved.bodyB));
+      EXPECT_EQ(&scene.bodies()[pair.a].body, moved.a);
+      EXPECT_EQ(&scene.bodies()[pair.b].body, moved.b);
+    }
+    EXPECT_EQ(byPairs, byMotionPairs);
+    for (const std::vector<double>& metres : {byPairs, byMotionPairs}) {
+      const PairMargins margins(metres);
+      const MotionResult result = link.certify(margins);
+      ASSERT_EQ(result.verdict == MotionVerdict::free, tooClose == 4) << "pair " << tooClose;
+      const std::vector<MotionResult> each = link.certifyEachPair(margins);
+      for (std::size_t i = 0; i < 4; ++i)
+        EXPECT_EQ(each[i].verdict != MotionVerdict::free, i == tooClose) << "pair " << i;
+      MotionCertificate certificate;
+      link.certify(margins, &certificate);
+      for (const FreeInterval& proved : certificate.free) {
+        const Scene::Pair& pair = scene.pairs()[proved.pair];
+        EXPECT_LE(proved.clearance, LinkBetweenWalls::gapOf(pair.a, pair.b));
+        EXPECT_GE(proved.clearance, metres[proved.pair]);
+      }
+    }
+  }
+}
+
+/// Random scenes: the sorted pairs are the given pairs, with a and b exchanged where the header
+/// says so, and all queries number them alike.
+TEST(PairMargins, SortedPairsAreTheGivenPairs) {
+  std::mt19937_64 random(testSeed(2502));
+  for (int n = 0; n < 200; ++n) {
+    std::vector<Scene::Placed> bodies;
+    const std::size_t count = 3 + random() % 8, frames = 1 + random() % 4;
+    const Body cube = bodyOf(box(Vec3(0, 0, 0), Vec3(1, 1, 1)));
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t frame = random() % (frames + 1);
+      const bool rests = frame > 0 && random() % 4 == 0;
+      bodies.push_back({cube.renamed(std::to_string(i)), rests ? frame + 10 : frame,
+                        rests ? std::optional(Transform()) : std::nullopt});
+    }
+    std::vector<Scene::Pair> given;
+    std::vector<std::pair<std::size_t, std::size_t>> wanted, sorted;
+    for (std::size_t a = 0; a < count; ++a)
+      for (std::size_t b = a + 1; b < count; ++b) {
+        if (bodies[a].frame == bodies[b].frame || random() % 3 == 0) continue;
+        given.push_back(random() % 2 ? Scene::Pair{a, b} : Scene::Pair{b, a});
+        wanted.emplace_back(a, b);
+      }
+    std::shuffle(given.begin(), given.end(), random);
+    const Scene scene(std::move(bodies), given);
+    ASSERT_EQ(scene.pairs().size(), given.size());
+    ASSERT_EQ(scene.motionPairs().size(), given.size());
+    for (std::size_t i = 0; i < given.size(); ++i) {
+      const auto [a, b] = scene.pairs()[i];
+      const MotionPair& moved = scene.motionPairs()[i];
+      ASSERT_EQ(a, moved.bodyA);
+      ASSERT_EQ(b, moved.bodyB);
+      const Scene::FramePair& frame = scene.framePairs()[moved.motion];
+      ASSERT_EQ(frame.a, scene.bodies()[a].frame);
+      ASSERT_EQ(frame.b, scene.bodies()[b].frame);
+      sorted.emplace_back(std::min(a, b), std::max(a, b));
+    }
+    std::sort(sorted.begin(), sorted.end());
+    EXPECT_EQ(sorted, wanted);
   }
 }
 
