@@ -41,13 +41,26 @@ std::uint32_t ConvexSet::farthestVertex(const Vec3& m, std::uint32_t start) cons
 
 void PosedSet::findBounds() const {
   double farthest = set_.polytope ? set_.polytope->reachSquared() : 0;
+  double sum = farthest;
   if (!set_.polytope)
-    for (const Vec3& p : set_.points) farthest = std::max(farthest, p.squaredNorm());
+    for (const Vec3& p : set_.points) {
+      const double square = p.squaredNorm();
+      farthest = std::max(farthest, square);
+      sum += square;
+    }
   // Squares below 2^-1022 vanish, and with them lengths below 2^-511. 2^-500 covers this for
   // points, and 2^-440 for ‖M‖ and for the length of Mᵀn: 20u·2^-440 > 2^-511.
   localReach_ = roundedUp(std::sqrt(farthest) + set_.ball + set_.disc + 0x1p-500);
+  // The maximum may drop a NaN; the sum does not. With NaN as its bounds, a set is never separated.
+  if (std::isnan(sum) || !(localReach_ > 0)) localReach_ = std::numeric_limits<double>::quiet_NaN();
   reach_ = roundedUp(std::max(0x1p-440, X_.m.norm()) * localReach_);
   error_ = roundedUp(kUnit * (20 * reach_ + 6 * X_.t.norm()));
+}
+
+bool PosedSet::isFinite() const {
+  return X_.isFinite() && std::isfinite(set_.ball) && std::isfinite(set_.disc) &&
+         std::all_of(set_.points.begin(), set_.points.end(),
+                     [](const Vec3& p) { return p.allFinite(); });
 }
 
 bool PosedSet::keepsBall() const {

@@ -97,6 +97,9 @@ class PosedSet {
   /// Returns max m·p over the points p of the core; m and p are in the set's own frame. Rounded.
   double coreHighest(const Vec3& m, std::uint32_t start = ConvexSet::kCold) const;
 
+  /// Returns whether all numbers of the set and of its map are finite. (Queries need no such test:
+  /// a set with NaN or infinities has NaN or infinity as its bounds, and is never separated.)
+  bool isFinite() const;
   /// True if the map takes the sphere to a sphere, up to 3·2^-48 of its radius.
   bool keepsBall() const;
 

@@ -278,9 +278,17 @@ class Expansion {
   Vec3 bestNormal_ = Vec3::Zero();
 };
 
+void require(const PosedSet& a, const PosedSet& b, double accuracy) {
+  if (!a.isFinite() || !b.isFinite())
+    throw std::invalid_argument("penetration: the sets and their maps must be finite");
+  if (!(accuracy >= 0 && accuracy < HUGE_VAL))
+    throw std::invalid_argument("penetration: the accuracy must be finite and not negative");
+}
+
 }  // namespace
 
 Penetration penetration(const PosedSet& a, const PosedSet& b, double accuracy) {
+  require(a, b, accuracy);
   if (!convexSetsTouch(a, b)) return {};
   const bool ballsInCores = !(a.keepsBall() && b.keepsBall());
   const double radii = a.set().ball + b.set().ball;
@@ -312,6 +320,7 @@ Penetration penetrationAlong(const PosedSet& a, const PosedSet& b, const Vec3& d
   const double largest = direction.cwiseAbs().maxCoeff();
   if (!direction.allFinite() || !(largest > 0))
     throw std::invalid_argument("penetrationAlong: the direction must be finite and not 0");
+  require(a, b, accuracy);
   if (!convexSetsTouch(a, b)) return {};
   const Vec3 along = (direction / powerOfTwo(largest)).normalized();
   return Expansion(a, b, &along, a.set().ball + b.set().ball > 0).run(accuracy);

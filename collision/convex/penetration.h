@@ -41,6 +41,8 @@ struct Penetration {
 /// The face closest to the origin gives `lower`, and the support of A − B along the normal of that
 /// face gives `upper`. Cost: some 10 to 100 rounds.
 /// @param accuracy  the relative accuracy of the depth, ≥ 0.
+/// @throws std::invalid_argument if a set, a map or the accuracy is not finite, or the accuracy is
+/// negative.
 Penetration penetration(const PosedSet& a, const PosedSet& b, double accuracy = 1e-9);
 
 /// Computes the depth along a direction: the length by which b must move along the direction to
@@ -50,7 +52,7 @@ Penetration penetration(const PosedSet& a, const PosedSet& b, double accuracy = 
 /// the surface where the sets touch, or to flat sets on one plane, `lower` is 0 and `upper` may be
 /// infinite.
 /// @param direction  not 0, finite.
-/// @throws std::invalid_argument if the direction is 0 or not finite.
+/// @throws std::invalid_argument if the direction is 0 or not finite, or as `penetration`.
 Penetration penetrationAlong(const PosedSet& a, const PosedSet& b, const Vec3& direction,
                              double accuracy = 1e-9);
 

@@ -41,11 +41,14 @@ struct QuickSet {
     const double square = M.squaredNorm(), map = 0.28868 * (square + 3);
     isNearlyRigid = std::abs(square - 3) <= 0x1p-10;
     Vec3 reach;  // coordinates of points are at most reach + 8·residual in magnitude
+    // NaN if a point is not finite. The maxima below may drop a NaN, but `size` must be NaN, too.
+    double nothing;
     if (count == 8 && findEdges()) {
       box = true;
       middle = 0.5 * (points[0] + points[7]);
       reach =
           middle.cwiseAbs() + 0.5 * (edge[0].cwiseAbs() + edge[1].cwiseAbs() + edge[2].cwiseAbs());
+      nothing = 0 * (points[3] + points[5] + points[6]).sum();  // `reach` has the other points
     } else {
       middle = points[0];
       reach = middle.cwiseAbs();
@@ -53,9 +56,10 @@ struct QuickSet {
         middle += points[i];
         reach = reach.cwiseMax(points[i].cwiseAbs());
       }
+      nothing = 0 * middle.sum();
       if (count > 1) middle *= 1.0 / count;
     }
-    const double local = reach.sum() + 8 * residual + ball + set.set().disc;
+    const double local = reach.sum() + 8 * residual + ball + set.set().disc + nothing;
     size = roundedUp(map * local + t.cwiseAbs().sum());
     if (box) boxError = roundedUp(map * (8 * residual + 90 * kUnit * local));
   }

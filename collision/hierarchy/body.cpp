@@ -14,6 +14,7 @@
 
 #include "collision/core/rounding.h"
 #include "collision/geometry/mesh_health.h"
+#include "collision/hierarchy/check_part.h"
 #include "collision/volumes/pair_tests.h"
 
 namespace corridor {
@@ -50,17 +51,6 @@ struct Body::Impl {
 };
 
 namespace {
-
-void require(const ConvexPart& part, const std::string& name) {
-  if (part.points.empty()) throw std::invalid_argument("body " + name + " has no points");
-  if (part.flatEnds && part.points.size() != 2)
-    throw std::invalid_argument("body " + name + ": a cylinder needs exactly two points");
-  if (!(std::isfinite(part.radius) && part.radius >= 0))
-    throw std::invalid_argument("body " + name + ": the radius must be finite and not negative");
-  for (const Vec3& q : part.points)
-    if (!q.allFinite())
-      throw std::invalid_argument("body " + name + " has a point that is not finite");
-}
 
 /// Returns how far a part extends beyond its points along each coordinate axis, rounded up.
 Vec3 reachOf(const ConvexPart& part) {
@@ -135,7 +125,7 @@ Body::Body(std::string name, std::vector<ConvexPart> parts)
     : name_(std::move(name)), impl_(std::make_shared<Impl>()) {
   requireStandardFloatingPoint();
   if (parts.empty()) throw std::invalid_argument("body " + name_ + " has no parts");
-  for (const ConvexPart& part : parts) require(part, name_);
+  for (const ConvexPart& part : parts) requireValid(part, "body " + name_);
   impl_->solid = true;
   impl_->parts = std::make_shared<const std::vector<ConvexPart>>(std::move(parts));
   bounds_.around([&](auto take) {

@@ -96,6 +96,7 @@ Split bestSplit(std::span<const BoundingBox> boxes, std::span<const std::uint32_
 
 BoxTree::BoxTree(std::span<const BoundingBox> boxes) {
   if (boxes.size() >= kItems) throw std::invalid_argument("a BoxTree holds fewer than 2^31 boxes");
+  for (const BoundingBox& box : boxes) requireNumbers(box);
   std::vector<std::uint32_t> numbers(boxes.size());
   std::iota(numbers.begin(), numbers.end(), std::uint32_t{0});
   leaves_.assign(boxes.size(), kNone);

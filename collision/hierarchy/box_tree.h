@@ -36,6 +36,7 @@ class BoxTree {
  public:
   BoxTree() = default;  ///< no items
   /// Builds the tree. Box number k is item k. Takes O(n log n) time.
+  /// @throws std::invalid_argument if there are 2^31 boxes or more, or a bound is not a number.
   explicit BoxTree(std::span<const BoundingBox> boxes);
 
   std::size_t size() const { return size_; }  ///< number of items

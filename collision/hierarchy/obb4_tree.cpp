@@ -6,6 +6,7 @@
 #include "collision/core/parallel.h"
 #include "collision/core/rounding.h"
 #include "collision/geometry/mesh_health.h"
+#include "collision/hierarchy/check_part.h"
 #include "collision/hierarchy/obb4_build.h"
 
 namespace corridor {
@@ -35,6 +36,7 @@ Obb4Tree::Obb4Tree(std::shared_ptr<const std::vector<ConvexPart>> parts, unsigne
   if (!parts_ || parts_->empty()) throw std::invalid_argument("a tree needs at least one part");
   if (parts_->size() >= kMostItems)
     throw std::length_error("a tree must have fewer than 2^29 - 1 parts");
+  for (const ConvexPart& part : *parts_) requireValid(part, "a part of a tree");
   take(parts_->size() == 1 ? layOutObb4(parts_->front()) : layOutObb4(*parts_, threads));
 }
 

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <numeric>
+#include <stdexcept>
 #include <utility>
 
 #include "collision/core/rounding.h"
+#include "collision/geometry/mesh_health.h"
 
 namespace corridor {
 namespace {
@@ -45,6 +47,7 @@ Cell boundsOf(const Triangle& t) {
 
 Octree::Octree(const TriangleMesh& mesh, const OctreeParams& params) {
   requireStandardFloatingPoint();
+  if (const auto complaint = checkMesh(mesh)) throw std::invalid_argument(*complaint);
   std::vector<Cell> extents;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     extents.push_back(boundsOf({mesh.corner(i, 0), mesh.corner(i, 1), mesh.corner(i, 2)}));

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "collision/geometry/mesh_health.h"
+#include "collision/hierarchy/check_part.h"
 #include "collision/volumes/part_obb.h"
 
 namespace corridor {
@@ -19,6 +20,7 @@ TreePrimitives::TreePrimitives(const TriangleMesh& mesh) : numbers(mesh.triangle
 
 TreePrimitives::TreePrimitives(std::vector<ConvexPart> convexParts)
     : parts(std::move(convexParts)), numbers(parts.size()) {
+  for (const ConvexPart& part : parts) requireValid(part, "a part of a tree");
   std::iota(numbers.begin(), numbers.end(), 0U);
 }
 

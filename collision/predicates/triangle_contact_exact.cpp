@@ -159,10 +159,16 @@ std::optional<bool> touchInDoubles(const Triangle& a, const Transform& X_WA, con
   return touch(mapped(a, X_WA), mapped(b, X_WB));
 }
 
+bool areFinite(const Triangle& corners, const Transform& X) {
+  return X.isFinite() && std::all_of(corners.begin(), corners.end(),
+                                     [](const Vec3& corner) { return corner.allFinite(); });
+}
+
 }  // namespace
 
 bool trianglesTouchExact(const Triangle& a, const Transform& X_WA, const Triangle& b,
                          const Transform& X_WB) {
+  if (!areFinite(a, X_WA) || !areFinite(b, X_WB)) return true;  // a NaN proves nothing
   if (const auto known = touchInDoubles(a, X_WA, b, X_WB)) return *known;
   const exact::MappedPoints cornersA(X_WA, a), cornersB(X_WB, b);
   exact::Grid grid;

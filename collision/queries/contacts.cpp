@@ -1,5 +1,7 @@
 #include "collision/queries/contacts.h"
 
+#include <stdexcept>
+
 #include "collision/hierarchy/traverse.h"
 #include "collision/queries/touching_pairs.h"
 #include "collision/queries/triangle_intersection.h"
@@ -8,6 +10,8 @@ namespace corridor {
 template <class Overlap, BoundingVolume Volume>
 std::vector<TriangleContact> contacts(const Posed<VolumeTree<Volume>>& a,
                                       const Posed<VolumeTree<Volume>>& b, QueryContext& context) {
+  if (!a.X_W.isFinite() || !b.X_W.isFinite())
+    throw std::invalid_argument("contacts: the maps must be finite");
   const auto test = pairTestOf<Volume, Overlap>(a, b);
   std::vector<TriangleContact> all;
   const auto add = [&](std::uint32_t s, std::uint32_t t) {

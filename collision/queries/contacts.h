@@ -26,7 +26,8 @@ struct TriangleContact {
 /// The set of pairs is exact, as for `interference`. Each coordinate of a segment's ends is off by
 /// at most 2^-50·S, where S is the largest Σ|m||v| + |t| of the mapped corners. This holds for any
 /// angle between the triangles (`triangle_intersection.h`).
-/// @pre Both are trees of triangles, not of convex parts; the maps are finite.
+/// @pre Both are trees of triangles, not of convex parts.
+/// @throws std::invalid_argument if a map is not finite.
 /// @tparam Overlap  as in `interference`.
 template <class Overlap = StandardOverlap, BoundingVolume Volume>
 std::vector<TriangleContact> contacts(const Posed<VolumeTree<Volume>>& a,

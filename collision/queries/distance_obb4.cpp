@@ -232,6 +232,7 @@ Distance distance(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b,
 bool closerThan(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b, double d, QueryContext& context,
                 LastPair* last) {
   if (d == 0) return interference(a, b, context, last).has_value();
+  if (std::isnan(d)) return true;  // a NaN proves nothing
   const Obb4Tree &treeA = a.shape, &treeB = b.shape;
   const Obb4TreePose pose(treeA, a.X_W, treeB, b.X_W, d);
   if (pose.apart) {

@@ -1,5 +1,6 @@
 #include "collision/queries/interference_obb4.h"
 
+#include <stdexcept>
 #include <vector>
 
 #include "collision/convex/convex_contact.h"
@@ -154,6 +155,8 @@ std::optional<PrimitivePair> interferenceBelow(std::span<const NodePair4> start,
 
 std::vector<TriangleContact> contacts(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b,
                                       QueryContext& context) {
+  if (!a.X_W.isFinite() || !b.X_W.isFinite())
+    throw std::invalid_argument("contacts: the maps must be finite");
   std::vector<TriangleContact> found;
   const Obb4TreePose pose(a.shape, a.X_W, b.shape, b.X_W, 0);
   if (pose.apart) {

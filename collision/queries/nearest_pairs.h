@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <stdexcept>
 #include <vector>
 
 #include "collision/core/query_context.h"
@@ -23,6 +24,7 @@ struct BoundedPair {
 /// measures these pairs with all digits.
 class NearestPairs {
  public:
+  /// @throws std::invalid_argument if an option is negative or NaN.
   NearestPairs(const DistanceOptions& options, QueryContext& context)
       : options_(options),
         relative_(options.relative + kTieShare),
@@ -30,6 +32,8 @@ class NearestPairs {
         // If the distance is `upTo`, the options allow a slightly larger answer. A pair with this
         // larger distance must still pass `canImprove`, which applies `allowedFor` again.
         upper_((allowedFor(allowedFor(options.upTo))) * (1 + 0x1p-48)) {
+    if (!(options.relative >= 0 && options.absolute >= 0 && options.upTo >= 0))
+      throw std::invalid_argument("the options of a distance query must be 0 or more, and not NaN");
     candidates_.clear();
   }
 
