@@ -102,6 +102,10 @@ EdgeMotion::Impl::Impl(const KinematicTree& tree, const ConfigurationSpace& move
                        std::span<const Scene::FramePair> pairs, const Configuration& tube)
     : space(moved) {
   requireStandardFloatingPoint();
+  if (tube.size() != static_cast<Eigen::Index>(moved.size()) || !(tube.array() >= 0).all())
+    throw std::invalid_argument(
+        "EdgeMotion: the tube must have a half width of 0 or more for each number of a "
+        "configuration");
   const std::size_t count = tree.frames.size();
   // Keep the world, the frames of pairs, their common ancestors, and all frames whose joint moves.
   // The constant poses of the other frames are multiplied into those of their descendants.
@@ -280,11 +284,24 @@ EdgeMotion::EdgeMotion(const KinematicTree& tree, const ConfigurationSpace& spac
 EdgeMotion::~EdgeMotion() = default;
 
 void EdgeMotion::set(const Configuration& from, const Configuration& to) {
-  impl_->begin(impl_->space.ambiguous(from, to), [&](MovingJoint& joint) { joint.set(from, to); });
+  const ConfigurationSpace& space = impl_->space;
+  const bool defined = space.isFinite(from) && space.isFinite(to) && !space.ambiguous(from, to);
+  impl_->begin(!defined, [&](MovingJoint& joint) { joint.set(from, to); });
 }
 
 void EdgeMotion::set(const CurvePiece& piece) {
-  impl_->begin(false, [&](MovingJoint& joint) { joint.set(piece); });
+  const auto hasRotations = [&](Eigen::Index column) {  // in each rotation: no zero quaternion
+    const auto& coordinates = impl_->space.coordinates();
+    return std::all_of(coordinates.begin(), coordinates.end(), [&](const Coordinate& c) {
+      const auto first = static_cast<Eigen::Index>(c.first);
+      return c.kind != Coordinate::Kind::rotation ||
+             !piece.coefficients.col(column).segment<4>(first).isZero(0);
+    });
+  };
+  const bool defined = piece.coefficients.allFinite() && hasRotations(0) &&
+                       hasRotations(piece.degree()) && piece.error.allFinite() &&
+                       (piece.error.array() >= 0).all();
+  impl_->begin(!defined, [&](MovingJoint& joint) { joint.set(piece); });
 }
 
 RelativeMotion EdgeMotion::relativeMotion(std::size_t pair, double t, double h) {

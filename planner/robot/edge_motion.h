@@ -25,19 +25,22 @@ class EdgeMotion final : public MotionSource {
   /// @param tube for each number of a Configuration, the deviation from the edge that the motion
   /// bounds cover, ≥ 0 (metres or radians). The deviation of a rotation is an angle in radians,
   /// stored at the first of the rotation's four numbers.
+  /// @throws std::invalid_argument if the tube has another length than a configuration, or a half
+  /// width is negative or NaN.
   /// @throws std::runtime_error if the processor's floating-point mode makes the bounds invalid
   /// (collision/core/floating_point.h).
   EdgeMotion(const KinematicTree& tree, const ConfigurationSpace& space,
              std::span<const Scene::FramePair> pairs, const Configuration& tube);
   ~EdgeMotion() override;
 
-  /// Sets the edge. @pre Both configurations have the space's size and finite numbers, and no
-  /// quaternion is zero.
+  /// Sets the edge. If a number is not finite, or a quaternion is zero, the edge is `ambiguous`.
+  /// @pre Both configurations have the space's size.
   void set(const Configuration& from, const Configuration& to);
   /// Sets a piece of a curve, whose parameter τ takes the place of t. The piece's `error` is added
   /// to the tube. Time intervals must be within [0, 1]. Queries must use `EdgeMethod::directional`,
-  /// which keeps to this rule. @pre Coefficients and errors are finite, with one row or entry for
-  /// each number of a configuration. No first or last quaternion is zero.
+  /// which keeps to this rule. If a coefficient or an error is not finite, an error is negative, or
+  /// a first or last quaternion is zero, the piece is `ambiguous`. @pre There is one row and one
+  /// error for each number of a configuration.
   void set(const CurvePiece& piece);
 
   RelativeMotion relativeMotion(std::size_t pair, double t, double h) override;

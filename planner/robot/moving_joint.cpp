@@ -57,6 +57,11 @@ constexpr double kFreeRateError = 0x1p-45;
 /// The square of a number of at least this magnitude is a normal number. Smaller motions are
 /// treated as rest; EdgeMotion's least error covers them.
 constexpr double kLeastMotion = 0x1p-500;
+/// Returns whether a displacement is treated as rest. A displacement with NaN is not: Eigen's
+/// `maxCoeff` would drop a NaN that is not the first coefficient.
+bool isRest(const Vec3& v) {
+  return (v.array().abs() < kLeastMotion).all();
+}
 
 }  // namespace
 
@@ -119,7 +124,7 @@ MovingJoint::MovingJoint(const Frame& frame, const LongPose& fixed, Coordinate::
       versine_ = (fixed.m * KK).cast<double>();
     }
   }
-  tube_ = tube_ > 0 ? roundedUp(tube_) : 0;
+  tube_ = tube_ == 0 ? 0 : roundedUp(tube_);  // NaN stays NaN
 }
 
 Transform MovingJoint::at(double t) {
@@ -176,10 +181,9 @@ void MovingJoint::set(const CurvePiece& piece) {
     setRotation(Eigen::Quaterniond(Eigen::Vector4d(d.col(0).segment<4>(variable_))),
                 Eigen::Quaterniond(Eigen::Vector4d(d.rightCols<1>().col(0).segment<4>(variable_))));
     largestRate_ = rate_ == 0 ? 0 : std::abs(rate_) + rateError_;
-    curveError_ = piece.error[variable_] > 0 ? roundedUp(piece.error[variable_]) : 0;
+    curveError_ = piece.error[variable_] == 0 ? 0 : roundedUp(piece.error[variable_]);
     return;
   }
-  ambiguous_ = false;
   curve_.setZero(3, d.cols());
   const bool translates = joint_ == Frame::Joint::translation;
   double V = 0;
@@ -193,7 +197,9 @@ void MovingJoint::set(const CurvePiece& piece) {
     V = roundedUp(std::abs(multiplier_) * d.row(variable_).cwiseAbs().maxCoeff() +
                   std::abs(offset_));
   }
-  curveError_ = curveError_ > 0 ? roundedUp(curveError_) : 0;
+  curveError_ = curveError_ == 0 ? 0 : roundedUp(curveError_);
+  // Largest coefficients, as in V, need not notice NaN.
+  ambiguous_ = !curve_.allFinite();
   setCurveBounds(V);
   const double valueError = (4 * piece.degree() + 2) * kUnit * V;
   if (joint_ == Frame::Joint::revolute) {
@@ -241,7 +247,7 @@ void MovingJoint::evaluateCurve(double t) {
   const Vec3 value = (1 - t) * b.col(0) + t * b.col(1);
   if (joint_ == Frame::Joint::translation) {
     from_ = shift_ + fixed_ * value;
-    rate_ = still() || rate.cwiseAbs().maxCoeff() < kLeastMotion ? 0 : rate.norm();
+    rate_ = still() || isRest(rate) ? 0 : rate.norm();
     axis_ = rate_ > 0 ? Vec3(rate / rate_) : Vec3::UnitX();
   } else {
     angle_ = value[0];
@@ -262,7 +268,7 @@ double MovingJoint::curveDeviation(double h) const {
 void MovingJoint::setValue(const Configuration& from, const Configuration& to) {
   const double q0 = from[variable_], q1 = to[variable_];
   double delta = q1 - q0, deltaError = 0;
-  ambiguous_ = false;
+  ambiguous_ = !std::isfinite(delta);
   if (kind_ == Coordinate::Kind::circle) {
     const CircleTurn turn = circleTurn(q0, q1);
     // A revolute joint that mimics a circle by a whole multiplier returns to the same pose after a
@@ -270,7 +276,8 @@ void MovingJoint::setValue(const Configuration& from, const Configuration& to) {
     // is not the difference of the stored angles, but full turns less.
     const bool comesRound =
         joint_ == Frame::Joint::revolute && multiplier_ == std::trunc(multiplier_);
-    ambiguous_ = turn.ambiguous() || (!comesRound && turn.angle != delta);
+    ambiguous_ = !(std::isfinite(q0) && std::isfinite(q1)) || turn.ambiguous() ||
+                 (!comesRound && turn.angle != delta);
     delta = turn.angle;
     deltaError = std::abs(multiplier_) * turn.error;
   }
@@ -305,7 +312,8 @@ void MovingJoint::setShift(const Configuration& from, const Configuration& to) {
   p0.head(count_) = from.segment(variable_, count_);
   p1.head(count_) = to.segment(variable_, count_);
   Vec3 delta = p1 - p0;
-  if (delta.cwiseAbs().maxCoeff() < kLeastMotion) delta.setZero();
+  ambiguous_ = !delta.allFinite();
+  if (isRest(delta)) delta.setZero();
   from_ = shift_ + fixed_ * p0;
   delta_ = fixed_ * delta;
   rate_ = delta.norm();
@@ -330,7 +338,7 @@ void MovingJoint::setRotation(const Eigen::Quaterniond& a, const Eigen::Quaterni
   const Vec3 axis = turns ? Vec3(turn.vec() / s) : Vec3::UnitX();
   rate_ = turns ? 2 * std::atan2(s, turn.w()) : 0;
   rateError_ = equal ? 0 : kFreeRateError;
-  ambiguous_ = CircleTurn{rate_, 0}.ambiguous();
+  ambiguous_ = !turn.coeffs().allFinite() || CircleTurn{rate_, 0}.ambiguous();
   const Mat3 R0 = q0.toRotationMatrix();
   Mat3 K;
   K << 0, -axis[2], axis[1], axis[2], 0, -axis[0], -axis[1], axis[0], 0;

@@ -55,7 +55,8 @@ class MovingJoint {
 
   // Properties of the current edge:
   /// True if the edge defines no motion of the joint: a rotation by half a turn has no unique
-  /// direction, or a joint that mimics a circle would jump at ±π.
+  /// direction, a joint that mimics a circle would jump, a displacement overflows, or a
+  /// number is not finite.
   bool ambiguous() const { return ambiguous_; }
   bool still() const { return largestRate_ == 0; }
   const Vec3& axis() const { return axis_; }  ///< unit vector, in the frame's coordinates

@@ -36,6 +36,14 @@ RangeAnswer rangeOf(const Bernstein& polynomial, Real lower, Real upper) {
   const auto record = [&](RangeAnswer::Verdict verdict, Real at, Real value) {
     answer = {verdict, at, value};
   };
+  // A maximum of several numbers may drop a NaN.
+  const auto coefficients = polynomial.coefficients();
+  if (std::isnan(lower) || std::isnan(upper) || !std::isfinite(polynomial.error) ||
+      !std::all_of(coefficients.begin(), coefficients.end(),
+                   [](Real c) { return std::isfinite(c); })) {
+    record(RangeAnswer::Verdict::undecided, 0, polynomial.c[0]);
+    return answer;
+  }
   int halvings = 0;
   std::vector<Part> open = {{polynomial, 0, 0}};
   while (!open.empty()) {

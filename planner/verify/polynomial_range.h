@@ -12,7 +12,9 @@ struct RangeAnswer {
     /// The real polynomial is beyond a limit at τ = `at`. Never wrong.
     exceeded,
     /// The polynomial was not shown to exceed a limit, but near τ = `at` it is so close to a limit
-    /// that rounding, or the polynomial's own `error`, decides.
+    /// that rounding, or the polynomial's own `error`, decides. Or a coefficient is not finite, or
+    /// a
+    /// limit is NaN.
     undecided,
   };
   Verdict verdict = Verdict::within;
@@ -35,7 +37,7 @@ struct RangeAnswer {
 /// A piece that starts or ends exactly on a limit, and turns inwards there, is usually decided: the
 /// first and the last coefficient are the exact values at the ends. If sums of coefficients are
 /// rounded, `undecided` is possible at such an end, too.
-/// @pre all coefficients are finite; lower ≤ upper.
+/// @pre lower ≤ upper, unless one of them is NaN.
 RangeAnswer rangeOf(const Bernstein& polynomial, Real lower, Real upper);
 
 }  // namespace corridor::verify
