@@ -29,7 +29,7 @@ class ClearanceTargets {
   /// Returns the smallest distance of a pair at the start and at the goal, metres; infinite if no
   /// pair is closer than `clearance()` there.
   double smallestAtEnds() const { return smallestAtEnds_; }
-  /// Returns the targets, metres, one for each pair of `Scene::motionPairs()`.
+  /// Returns the targets, metres, one for each pair of `Scene::pairs()`.
   const PairMargins& all() const { return targets_; }
 
   /// Returns whether every pair is proved to keep its target on the whole edge.
