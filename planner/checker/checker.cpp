@@ -25,22 +25,29 @@ std::vector<std::size_t> bodiesOfShapes(const Model& model) {
   return owner;
 }
 
-/// Returns the result of a query under a floating-point mode that makes the bounds invalid.
-MotionResult refused() {
+/// Returns the result of a query that proves nothing. By default, the reason is a floating-point
+/// mode that makes the bounds invalid.
+MotionResult refused(UndecidedReason reason = UndecidedReason::floatingPoint) {
   MotionResult result;
   result.verdict = MotionVerdict::undecided;
-  result.reason = UndecidedReason::floatingPoint;
+  result.reason = reason;
   result.certifiedUntil = 0;
   return result;
 }
 
-/// Checks the options of a checker, except their padding.
+/// Checks the options of a checker.
 /// @throws std::invalid_argument if an option is invalid.
 void requireValid(const CheckerOptions& options, const ConfigurationSpace& space) {
   const auto require = [](bool holds, const char* what) {
     if (!holds) throw std::invalid_argument(std::string("CheckerOptions: ") + what);
   };
   require(options.margin >= 0 && std::isfinite(options.margin), "margin must be 0 or more");
+  const auto requirePadding = [&](const auto& metres) {
+    for (const auto& [bodies, each] : metres)
+      require(each >= 0 && std::isfinite(each), "every padding must be 0 or more");
+  };
+  requirePadding(options.padding.bodies);
+  requirePadding(options.padding.pairs);
   require(!options.tolerance || (*options.tolerance > 0 && std::isfinite(*options.tolerance)),
           "tolerance must be above 0");
   require(
@@ -52,9 +59,15 @@ void requireValid(const CheckerOptions& options, const ConfigurationSpace& space
           "advancement, which measure distances");
 }
 
+void requireConfiguration(const ConfigurationSpace& space, const Configuration& q) {
+  if (!space.isFinite(q))
+    throw std::invalid_argument("Checker: a configuration must be finite, and no quaternion zero");
+}
+
 }  // namespace
 
-Scene makeScene(const Model& model, const TreeParams& params) {
+Scene makeScene(const Model& model, const Required& need, const TreeParams& params) {
+  requireObstaclesAtRest(model);
   std::vector<Scene::Placed> placed;
   std::vector<std::size_t> firstShape;
   // For each pair of a mesh and `solid`, the index in `placed` of the first body made of it.
@@ -75,11 +88,15 @@ Scene makeScene(const Model& model, const TreeParams& params) {
   }
   firstShape.push_back(placed.size());
   std::vector<Scene::Pair> pairs;
-  forEachTestedPair(model, [&](std::size_t i, std::size_t j) {
+  forEachTestedPair(model, need, [&](std::size_t i, std::size_t j) {
     for (std::size_t a = firstShape[i]; a < firstShape[i + 1]; ++a)
       for (std::size_t b = firstShape[j]; b < firstShape[j + 1]; ++b) pairs.push_back({a, b});
   });
   return Scene(std::move(placed), std::move(pairs));
+}
+
+Required requiredBy(const CheckerOptions& options, const ConfigurationSpace& space) {
+  return {options.margin, options.padding, options.tube.size() == 0 ? tubeOf(space) : options.tube};
 }
 
 CheckerOptions checkerOptions(const Task& task, const CheckerSettings& settings) {
@@ -97,7 +114,7 @@ CheckerOptions checkerOptions(const Task& task, const CheckerSettings& settings)
 struct Checker::Workspace {
   explicit Workspace(const Checker& checker)
       : motion(checker.model_.tree, checker.model_.space, checker.scene_.framePairs(),
-               checker.tube_),
+               checker.required_.tube),
         poses(checker.model_) {}
 
   QueryContext context;
@@ -138,25 +155,24 @@ class Checker::Pool {
 
 Checker::Checker(const Model& model, const CheckerOptions& options)
     : model_(model),
-      scene_(makeScene(model, options.trees.params)),
+      required_(requiredBy(options, model.space)),
+      scene_(makeScene(model, required_, options.trees.params)),
+      proved_(provedBox(model, required_)),
       bodyOf_(bodiesOfShapes(model)),
-      tube_(options.tube.size() == 0 ? tubeOf(model.space) : options.tube),
-      padding_(options.padding),
       method_(options.method),
       pool_(std::make_unique<Pool>()) {
   requireValid(options, model.space);
   options_.tolerance =
-      options.tolerance.value_or(defaultTolerance(model, scene_.defaultTolerance()));
+      options.tolerance.value_or(defaultTolerance(model, required_, scene_.defaultTolerance()));
   options_.clearanceSlack = options_.tolerance;
   options_.margin = options.margin;
-  if (!padding_.empty()) {
-    std::vector<double> metres;
-    for (const MotionPair& pair : scene_.motionPairs())
-      metres.push_back(paddingOf(model, padding_, bodyOf_[pair.bodyA], bodyOf_[pair.bodyB]));
-    paddings_.emplace(std::move(metres));
+  options_.trees = options.trees.trees;
+  notFreeAtRest_ = restPairsNotFree(model, scene_, required_, options_);
+  if (!notFreeAtRest_.empty()) scene_ = withPairs(model, scene_, notFreeAtRest_);
+  if (!required_.padding.empty()) {
+    paddings_.emplace(paddingsOf(model, required_.padding, scene_));
     options_.pairMargins = &*paddings_;
   }
-  options_.trees = options.trees.trees;
 }
 
 Checker::Checker(const Problem& problem)
@@ -165,7 +181,7 @@ Checker::Checker(const Problem& problem)
 Checker::~Checker() = default;
 
 double Checker::marginOf(std::size_t a, std::size_t b) const {
-  const double padding = paddingOf(model_, padding_, a, b);
+  const double padding = paddingOf(model_, required_.padding, a, b);
   return padding > 0 ? roundedUp(options_.margin + padding) : options_.margin;
 }
 
@@ -177,12 +193,18 @@ Counters Checker::counters() const {
   return pool_->total();
 }
 
+bool Checker::isCovered(const Configuration& q) const {
+  // A configuration that is no data is refused for that reason.
+  return !proved_ || !q.allFinite() || proved_->contains(q);
+}
+
 bool Checker::inBounds(const Configuration& q) const {
   return space().isFinite(q) && space().inBounds(q);
 }
 
 MotionResult Checker::certifyState(const Configuration& q) const {
   if (!standardFloatingPoint()) return refused();
+  if (!isCovered(q)) return refused(UndecidedReason::beyondProofs);
   Workspace& workspace = workspaceOfThread();
   workspace.motion.set(q, q);
   return scene_.certify(workspace.motion, options_, workspace.context);
@@ -199,6 +221,7 @@ MotionResult Checker::certifyEdge(const Configuration& from, const Configuration
                                   MotionCertificate& certificate) const {
   certificate = {};
   if (!standardFloatingPoint()) return refused();
+  if (!isCovered(from) || !isCovered(to)) return refused(UndecidedReason::beyondProofs);
   MotionOptions options = options_;
   options.earliest = earliest;
   Workspace& workspace = workspaceOfThread();
@@ -226,6 +249,7 @@ MotionResult Checker::certifyEdge(const Configuration& from, const Configuration
 MotionResult Checker::certify(const Configuration& from, const Configuration& to,
                               const MotionOptions& options, EdgeMethod method) const {
   if (!standardFloatingPoint()) return refused();
+  if (!isCovered(from) || !isCovered(to)) return refused(UndecidedReason::beyondProofs);
   Workspace& workspace = workspaceOfThread();
   workspace.motion.set(from, to);
   return scene_.certify(workspace.motion, options, workspace.context, method);
@@ -240,6 +264,8 @@ MotionResult Checker::certifyCurve(const CurvePiece& piece, bool earliest) const
         "certifyCurve: a piece has one row and one error of 0 or more for each number of a "
         "configuration, and a degree from 1 to 9");
   if (!standardFloatingPoint()) return refused();
+  if (proved_ && piece.coefficients.allFinite() && !proved_->contains(piece))
+    return refused(UndecidedReason::beyondProofs);
   MotionOptions options = options_;
   options.earliest = earliest;
   Workspace& workspace = workspaceOfThread();
@@ -249,12 +275,14 @@ MotionResult Checker::certifyCurve(const CurvePiece& piece, bool earliest) const
 
 std::optional<Contact> Checker::interference(const Configuration& q) const {
   requireStandardFloatingPoint();
+  requireConfiguration(space(), q);
   Workspace& workspace = workspaceOfThread();
   return scene_.interference(workspace.poses.at(q), workspace.context, options_.trees);
 }
 
 double Checker::clearance(const Configuration& q) const {
   requireStandardFloatingPoint();
+  requireConfiguration(space(), q);
   Workspace& workspace = workspaceOfThread();
   return scene_.clearance(workspace.poses.at(q), workspace.context, options_.trees) -
          options_.margin;
@@ -263,6 +291,7 @@ double Checker::clearance(const Configuration& q) const {
 std::vector<Scene::NearPair> Checker::pairsWithin(const Configuration& q,
                                                   const PairMargins& within) const {
   requireStandardFloatingPoint();
+  requireConfiguration(space(), q);
   Workspace& workspace = workspaceOfThread();
   return scene_.pairsWithin(workspace.poses.at(q), within, {.relative = 1e-3}, workspace.context,
                             options_.trees);

@@ -6,7 +6,9 @@
 
 #include "collision/motion/check_certificate.h"
 #include "collision/world/scene.h"
+#include "planner/checker/rest_pairs.h"
 #include "planner/model/model.h"
+#include "planner/model/pair_proofs.h"
 #include "planner/model/settings.h"
 #include "planner/model/task.h"
 #include "planner/robot/curve.h"
@@ -18,8 +20,13 @@ struct Problem;
 /// Returns the scene of a model. The scene has one body for each shape of each model body, in the
 /// model's order. Its pairs are the pairs of shapes of all pairs of model bodies that the model's
 /// filter does not exclude. Builds no tree.
+/// @param need what the queries of the scene have to cover. Pairs that were proved never in contact
+/// are left out if their proof covers it. Queries of the scene are then only for configurations in
+/// `provedBox(model, need)`; `Checker` sees to it.
 /// @param params how the trees of meshes are built, when queries need them.
-Scene makeScene(const Model& model, const TreeParams& params = {});
+/// @throws std::invalid_argument if a body without a robot is on a frame that moves. Such a body
+/// would be taken to be at rest.
+Scene makeScene(const Model& model, const Required& need, const TreeParams& params = {});
 
 /// The options of a checker: the margin, tube and tolerance of its proofs, the method, the trees.
 struct CheckerOptions {
@@ -37,6 +44,9 @@ struct CheckerOptions {
 /// unknown, or cannot be combined with the other names (`invalidNameIn`).
 CheckerOptions checkerOptions(const Task& task, const CheckerSettings& settings);
 
+/// Returns what the proofs of a checker with these options have to cover.
+Required requiredBy(const CheckerOptions& options, const ConfigurationSpace& space);
+
 /// Checks states and edges of a model. The OMPL classes in this folder forward to it, except
 /// `DiscreteMotionValidator`, which samples edges itself.
 ///
@@ -46,6 +56,7 @@ class Checker {
  public:
   /// The model must outlive the checker; its bodies are copied.
   /// @throws std::invalid_argument in these cases:
+  /// - A body without a robot is on a frame that moves (`makeScene`).
   /// - The margin, a padding or the tolerance is not finite, the margin or a padding is negative,
   ///   or the tolerance is not above 0.
   /// - The tube is not empty and has another length than a configuration, or a half width is
@@ -61,8 +72,11 @@ class Checker {
   const Model& model() const { return model_; }
   const ConfigurationSpace& space() const { return model_.space; }
   const Scene& scene() const { return scene_; }
+  /// What the proofs cover: margin, padding and tube. Pairs that were proved never in contact for
+  /// at least this are not tested (`PairFilter`).
+  const Required& required() const { return required_; }
   /// The tube that the proofs cover.
-  const Configuration& tube() const { return tube_; }
+  const Configuration& tube() const { return required_.tube; }
   /// The options of motion queries, with tolerance and margin. The clearance slack is the
   /// tolerance: `free` requires a clearance of at least the tolerance beyond margin and tube. This
   /// requirement costs little, since less clearance may give `undecided` anyway. It has two
@@ -72,55 +86,66 @@ class Checker {
   /// Returns the distance that two bodies of the model must keep, metres: margin plus padding,
   /// rounded up.
   double marginOf(std::size_t a, std::size_t b) const;
+  /// Bodies that stand still relative to each other, because the joints between them are held, are
+  /// tested once, by the constructor. Returns the pairs that are not proved free, such as a held
+  /// arm that touches the table. They are tested like all other pairs from then on, so no state is
+  /// free.
+  const std::vector<RestPair>& notFreeAtRest() const { return notFreeAtRest_; }
   /// Returns the index of the model's body to which a body of the scene (one shape) belongs.
   std::size_t bodyOf(std::size_t shape) const { return bodyOf_[shape]; }
 
   /// Returns whether a configuration is within the bounds, which are inclusive. A configuration
   /// that is not finite or has a zero quaternion is out of bounds.
   bool inBounds(const Configuration& q) const;
+
+  /// Pairs of links that were proved never in contact, for the margin, padding and tube of the
+  /// options, are not tested. This proof is for the limits of the joints, and for what it covers
+  /// beyond them. If there are such pairs, and a state, an edge or a piece, with the tube, leaves
+  /// these configurations, the answer of a motion query is `undecided`, with the reason
+  /// `beyondProofs`.
+  ///
+  /// All queries below test no bounds. A motion query of a state, an edge or a piece in which a
+  /// number is not finite, or a quaternion is zero, is `undecided`, with the reason `ambiguous`.
+  /// Other queries (`interference`, `clearance`, `pairsWithin`) throw std::invalid_argument for
+  /// such a configuration. @pre Configurations have the space's size.
+
   /// Decides whether a state is free, as an edge of zero length, always by
-  /// `EdgeMethod::directional`. Doesn't test the bounds. @pre `q` is finite, and no quaternion is
-  /// zero.
+  /// `EdgeMethod::directional`.
   MotionResult certifyState(const Configuration& q) const;
-  /// Decides whether an edge is free, by the method of the options. Doesn't test the bounds. @pre
-  /// Both states are finite, and no quaternion is zero.
+  /// Decides whether an edge is free, by the method of the options.
   /// @param earliest whether to search for the first contact, as in `MotionOptions`.
   MotionResult certifyEdge(const Configuration& from, const Configuration& to, bool earliest) const;
   /// Decides whether an edge is free, and stores in `certificate` what was proved. The method is
   /// always `EdgeMethod::directional`. The pairs of the certificate are those of
-  /// `Scene::motionPairs()`. A certificate is about surfaces, so it is empty if the verdict follows
-  /// from containment in a solid mesh. Doesn't test the bounds. Takes longer than the query without
-  /// a certificate, because every pair is proved, without a broad phase. @pre Both states are
-  /// finite, and no quaternion is zero.
+  /// `Scene::pairs()`. A certificate is about surfaces, so it is empty if the verdict follows from
+  /// containment in a solid mesh. Takes longer than the query without a certificate, because every
+  /// pair is proved, without a broad phase.
   MotionResult certifyEdge(const Configuration& from, const Configuration& to, bool earliest,
                            MotionCertificate& certificate) const;
   /// Checks a certificate of an edge, by a method that is independent of the method that made the
   /// certificate (collision/motion/check_certificate.h). Returns the first fault of the
-  /// certificate, or nullopt if it has none. @pre Both states are finite, and no quaternion is
-  /// zero.
+  /// certificate, or nullopt if it has none.
   /// @param until `certifiedUntil` of the result that came with the certificate.
   std::optional<CertificateFault> faultOf(const MotionCertificate& certificate,
                                           const Configuration& from, const Configuration& to,
                                           double until) const;
   /// Decides whether every pair keeps its margin on an edge: the margin of the options, plus the
   /// pair's entry in `more`, which replaces the pair's padding. The method is always
-  /// `EdgeMethod::directional`. Doesn't test the bounds. @pre Both states are finite, and no
-  /// quaternion is zero.
-  /// @param more one margin for each pair of `Scene::motionPairs()`, metres.
+  /// `EdgeMethod::directional`.
+  /// @param more one margin for each pair of `Scene::pairs()`, metres.
   /// @throws std::invalid_argument for numbers that are not finite or are negative.
   MotionResult certifyEdge(const Configuration& from, const Configuration& to,
                            const PairMargins& more, bool earliest = false) const;
   /// Decides whether a piece of a curve is free, for the tube widened by the piece's `error`. Times
   /// in the result are values of the piece's parameter τ. The method is always
-  /// `EdgeMethod::directional`. Doesn't test the bounds. @pre The coefficients are finite, and no
-  /// quaternion is zero.
+  /// `EdgeMethod::directional`.
   /// @throws std::invalid_argument if the piece has another number of rows than a configuration has
   /// numbers, a degree that is not from 1 to 9, or an `error` that is negative, not finite, or of
   /// another size.
   MotionResult certifyCurve(const CurvePiece& piece, bool earliest = false) const;
   /// Returns a contact of a tested pair at the rounded poses of the frames, or nullopt if no pair
   /// is in contact. The test is exact for meshes, as `Scene::interference` states. Margin, padding,
-  /// tolerance and tube are ignored. @pre `q` is finite, and no quaternion is zero.
+  /// tolerance and tube are ignored.
   /// @throws std::runtime_error if the processor's floating-point mode makes the bounds invalid
   /// (collision/core/floating_point.h). `clearance`, `pairsWithin` and `pairsNotFree` throw it,
   /// too.
@@ -129,12 +154,11 @@ class Checker {
   /// ignored. If the result is 0 or less, `certifyState` is not `free`. If it is below twice the
   /// tolerance plus the displacement that the tube allows, `certifyState` may be `undecided`. If a
   /// pair touches, the result is 0 − margin, since no penetration depth is computed. If no pair is
-  /// tested, the result is infinite. @pre `q` is finite, and no quaternion is zero.
+  /// tested, the result is infinite.
   double clearance(const Configuration& q) const;
   /// Returns the pairs of shapes whose distance is at most the pair's length in `within`
   /// (`Scene::pairsWithin`). The returned distances may exceed the true distances by a thousandth
   /// of their value.
-  /// @pre `q` is finite, and no quaternion is zero.
   std::vector<Scene::NearPair> pairsWithin(const Configuration& q, const PairMargins& within) const;
   /// Two bodies of the model, by index, for which a state is not free.
   struct PairNotFree {
@@ -144,7 +168,7 @@ class Checker {
     bool tooLarge = false;
   };
   /// Returns all pairs of bodies because of which `certifyState` does not return `free`, each pair
-  /// once. @pre `q` is finite, and no quaternion is zero.
+  /// once.
   std::vector<PairNotFree> pairsNotFree(const Configuration& q) const;
 
   /// Returns whether q is in bounds and `certifyState` is `free`.
@@ -160,14 +184,17 @@ class Checker {
   struct Workspace;
   class Pool;
   Workspace& workspaceOfThread() const;
+  /// Returns whether the pairs that are tested are enough for a query at q (`provedBox`).
+  bool isCovered(const Configuration& q) const;
   MotionResult certify(const Configuration& from, const Configuration& to,
                        const MotionOptions& options, EdgeMethod method) const;
 
   const Model& model_;
+  Required required_;
   Scene scene_;
+  std::optional<ProvedBox> proved_;  // where the pairs that are not tested are proved apart
   std::vector<std::size_t> bodyOf_;
-  Configuration tube_;
-  Padding padding_;
+  std::vector<RestPair> notFreeAtRest_;  // the scene has these pairs, too
   std::optional<PairMargins> paddings_;  // for each pair of the scene; unset: no padding
   MotionOptions options_;                // refers to `paddings_`
   EdgeMethod method_;

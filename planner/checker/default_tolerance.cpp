@@ -96,7 +96,7 @@ double farthestPoint(const ModelBody& body) {
 
 }  // namespace
 
-double roundingTolerance(const Model& model) {
+double roundingTolerance(const Model& model, const Required& need) {
   std::vector<Share> chains(model.tree.frames.size());  // from the world to each frame
   for (std::size_t f = 1; f < chains.size(); ++f) {
     const Frame& frame = model.tree.frames[f];
@@ -106,7 +106,7 @@ double roundingTolerance(const Model& model) {
   std::vector<double> farthest;  // for each body
   for (const ModelBody& body : model.bodies) farthest.push_back(farthestPoint(body));
   double largest = 0;
-  forEachTestedPair(model, [&](std::size_t a, std::size_t b) {
+  forEachTestedPair(model, need, [&](std::size_t a, std::size_t b) {
     double size = 0, roundings = kLeaves;
     for (const std::size_t i : {a, b}) {
       const ModelBody& body = model.bodies[i];
@@ -119,8 +119,8 @@ double roundingTolerance(const Model& model) {
   return 4 * largest;
 }
 
-double defaultTolerance(const Model& model, double usual) {
-  return std::clamp(roundingTolerance(model), usual, 1000 * usual);
+double defaultTolerance(const Model& model, const Required& need, double usual) {
+  return std::clamp(roundingTolerance(model, need), usual, 1000 * usual);
 }
 
 }  // namespace corridor

@@ -9,12 +9,14 @@ namespace corridor {
 /// proved. This holds even if coordinates are large compared with the bodies.
 ///
 /// The guarantee assumes that the angles of circles are in [−π, π].
-double roundingTolerance(const Model& model);
+/// @param need what the tests have to cover. It decides which pairs are tested.
+double roundingTolerance(const Model& model, const Required& need);
 
 /// Returns a model's default tolerance, metres: the larger of `usual` and roundingTolerance(), but
 /// at most 1000 times `usual`. Without this upper limit, joint limits of 10^16 rad would need a
 /// tolerance of kilometres. With the limit, edges with such large values may be undecided.
 /// @param usual the tolerance for coordinates of moderate size, such as Scene::defaultTolerance().
-double defaultTolerance(const Model& model, double usual);
+/// @param need as in roundingTolerance().
+double defaultTolerance(const Model& model, const Required& need, double usual);
 
 }  // namespace corridor

@@ -107,7 +107,7 @@ std::vector<SurveyedPair> surveyPairs(
   const Model& model = checker.model();
   std::vector<SurveyedPair> pairs;
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> indexOf;
-  forEachTestedPair(model, [&](std::size_t a, std::size_t b) {
+  forEachTestedPair(model, checker.required(), [&](std::size_t a, std::size_t b) {
     indexOf[{a, b}] = pairs.size();
     pairs.push_back({a, b, 0, movesFreely(model, a, b), std::nullopt});
   });
@@ -116,7 +116,8 @@ std::vector<SurveyedPair> surveyPairs(
   while (progress.samples < options.samples && !isSet(options.interrupted)) {
     const Configuration q = randomConfiguration(model.space, [&] { return random(); });
     for (const Checker::PairNotFree& pair : checker.pairsNotFree(q))
-      ++pairs[indexOf.at({pair.a, pair.b})].contacts;
+      if (const auto index = indexOf.find({pair.a, pair.b}); index != indexOf.end())
+        ++pairs[index->second].contacts;  // not found: a pair of held joints (notFreeAtRest)
     ++progress.samples;
     if (options.progress) options.progress(progress);
   }

@@ -36,7 +36,7 @@ struct PairSurveyOptions {
   const std::atomic<bool>* interrupted = nullptr;
 };
 
-/// The result of a survey for one pair of bodies that the model's filter does not exclude.
+/// The result of a survey for one pair of bodies that the checker tests.
 struct SurveyedPair {
   std::size_t a = 0, b = 0;  ///< bodies of the model, by index
   std::size_t contacts = 0;  ///< number of random states in which the pair is not proved free
@@ -54,7 +54,7 @@ struct SurveyedPair {
 Configuration randomConfiguration(const ConfigurationSpace& space,
                                   const std::function<std::uint64_t()>& next);
 
-/// Tests all pairs that the model's filter does not exclude, and returns them in ascending order.
+/// Tests all pairs that the checker tests, and returns them in ascending order.
 /// All pairs are tested at random states. A proof is tried for each pair that was free in all these
 /// states and between whose bodies no planar or floating joint lies, if `wantsProof` returns true.
 /// Unless the survey is interrupted, the result depends on the model and the options only.

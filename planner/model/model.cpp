@@ -1,18 +1,62 @@
 #include "planner/model/model.h"
 
 #include <algorithm>
+#include <stdexcept>
+
+#include "collision/core/rounding.h"
+#include "collision/core/spelling.h"
 
 namespace corridor {
+namespace {
+
+/// Returns whether a proof covers the requirements, for a pair with this padding.
+bool covers(const PairProof& proof, const Required& need, double padding) {
+  // The sum is rounded up, because the proof must cover the exact sum.
+  const double margin = padding == 0 ? need.margin : roundedUp(need.margin + padding);
+  // Numbers that are no lengths, such as NaN, are not covered: the tests refuse them.
+  if (!(need.margin >= 0 && padding >= 0)) return false;
+  if (!(margin <= proof.margin)) return false;
+  return std::all_of(proof.ranges.begin(), proof.ranges.end(), [&](const PairProof::Range& range) {
+    const auto i = static_cast<Eigen::Index>(range.number);
+    return i < need.tube.size() && need.tube[i] >= 0 && need.tube[i] <= proof.beyondLimits;
+  });
+}
+
+}  // namespace
 
 void PairFilter::skip(std::size_t a, std::size_t b, std::string reason) {
   reasons_.insert_or_assign(std::minmax(a, b), std::move(reason));
 }
 
-std::string_view PairFilter::whyNotTested(std::size_t a, std::size_t b) const {
+void PairFilter::skipProved(std::size_t a, std::size_t b, PairProof proof) {
+  proofs_.insert_or_assign(std::minmax(a, b), std::move(proof));
+}
+
+std::string_view PairFilter::whyNotTested(std::size_t a, std::size_t b,
+                                          const Required& need) const {
   const auto found = reasons_.find(std::minmax(a, b));
   if (found != reasons_.end()) return found->second;
-  const bool still = !movers_.empty() && movers_[a] == movers_[b];
-  return still ? kNeverMove : std::string_view();
+  const auto proof = proofs_.find(std::minmax(a, b));
+  if (proof != proofs_.end() && covers(proof->second, need, need.padding.of(a, b, true)))
+    return kNeverInContact;
+  const auto isSame = [&](const std::vector<std::size_t>& ofBodies) {
+    return std::max(a, b) < ofBodies.size() && ofBodies[a] == ofBodies[b];
+  };
+  if (!isSame(movers_)) return {};
+  return parts_.empty() || isSame(parts_) ? kNeverMove : kTestedAtRest;
+}
+
+void requireObstaclesAtRest(const Model& model) {
+  const std::vector<std::size_t> movers = moversOf(model.tree);
+  for (const ModelBody& body : model.bodies) {
+    if (body.frame >= movers.size())
+      throw std::invalid_argument("Model: the frame of the body " + quotedWord(body.name) +
+                                  " does not exist");
+    if (!body.robot && movers[body.frame] != 0)
+      throw std::invalid_argument("Model: the frame of the body " + quotedWord(body.name) +
+                                  " moves, but the body has no robot; set ModelBody::robot, or "
+                                  "choose a frame that is fixed to the world");
+  }
 }
 
 double pairCount(const Model& model) {

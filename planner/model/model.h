@@ -62,31 +62,71 @@ struct ModelBody {
   std::vector<PlacedShape> shapes;   ///< at least one, in the coordinates of `frame`
 };
 
+/// What is proved about two links of one robot (planner/checker/never_in_contact.h): they keep more
+/// than `margin` metres for all configurations whose numbers are in the `ranges`, or beyond them by
+/// at most `beyondLimits`.
+struct PairProof {
+  /// The limits of a joint that moves one link against the other, and the index of its number in a
+  /// Configuration. Infinite if the proof is for all values.
+  struct Range {
+    std::size_t number = 0;
+    double lower = 0, upper = 0;
+  };
+
+  double margin = 0;          ///< metres
+  double beyondLimits = 0;    ///< rad or m
+  std::vector<Range> ranges;  ///< empty: the links never move against each other
+};
+
 /// Decides which pairs of bodies are tested. By default, no pair is excluded.
+///
+/// Most pairs are excluded for good. A pair with a proof is excluded only from tests whose
+/// requirements the proof covers, so every question about a pair comes with its requirements.
 class PairFilter {
  public:
   /// Excludes a pair of bodies from all tests. A later reason for the same pair replaces the
   /// earlier one.
   /// @param reason not empty: "adjacent", "SRDF: Never", "allow", …
   void skip(std::size_t a, std::size_t b, std::string reason);
-  /// Undoes `skip` for a pair. The pair is then tested, unless the two bodies have the same mover.
+  /// Excludes a pair from the tests whose requirements the proof covers. @pre the two bodies are
+  /// links of the same robot.
+  void skipProved(std::size_t a, std::size_t b, PairProof proof);
+  /// Undoes `skip` for a pair. The pair is then tested, unless the two bodies have the same mover,
+  /// or a proof covers the requirements.
   void include(std::size_t a, std::size_t b) { reasons_.erase(std::minmax(a, b)); }
   /// Excludes pairs of bodies that never move relative to each other.
   /// @param movers for each body, the frame that moves it (moversOf). Two bodies with the same
   /// mover stand still relative to each other.
-  void setMovers(std::vector<std::size_t> movers) { movers_ = std::move(movers); }
+  /// @param parts for each body, its part (fixedPartsOf). Two bodies of different parts that stand
+  /// still have held joints between them. Empty: all bodies have the same part.
+  void setMovers(std::vector<std::size_t> movers, std::vector<std::size_t> parts = {}) {
+    movers_ = std::move(movers);
+    parts_ = std::move(parts);
+  }
 
-  /// Returns "" if the pair is tested, or else the reason why not. Takes logarithmic time in the
-  /// number of excluded pairs.
-  std::string_view whyNotTested(std::size_t a, std::size_t b) const;
+  /// Returns "" if the pair is tested, or else the reason why not: that of `skip`, or
+  /// kNeverInContact if the pair has a proof that covers `need`, or kTestedAtRest or kNeverMove if
+  /// the two bodies never move relative to each other. A proof covers `need` in this case: margin
+  /// plus the pair's padding, rounded up, is at most the proof's margin, and the half widths of the
+  /// tube, for the numbers of the proof's ranges, are at most its `beyondLimits`. Takes logarithmic
+  /// time in the number of excluded pairs.
+  std::string_view whyNotTested(std::size_t a, std::size_t b, const Required& need) const;
+  /// Returns the pairs with a proof, with the lower index first.
+  const std::map<std::pair<std::size_t, std::size_t>, PairProof>& proofs() const { return proofs_; }
 
  private:
   std::map<std::pair<std::size_t, std::size_t>, std::string> reasons_;
-  std::vector<std::size_t> movers_;
+  std::map<std::pair<std::size_t, std::size_t>, PairProof> proofs_;
+  std::vector<std::size_t> movers_, parts_;
 };
 
-/// The reason of PairFilter for bodies with the same mover.
+/// The reason of PairFilter for bodies that stand still relative to each other, because the joints
+/// between them are fixed. Checkers and verifiers don't test these pairs.
 inline constexpr std::string_view kNeverMove = "never move relative to each other";
+/// The reason of PairFilter for bodies that stand still relative to each other, because joints
+/// between them are held. One state decides such a pair for all states: checkers and verifiers test
+/// it once.
+inline constexpr std::string_view kTestedAtRest = "only held joints between them: tested once";
 
 /// The robots, the obstacles, and the pairs of bodies that are tested. Plain data, which a
 /// `ModelBuilder` makes. Lengths are in metres, angles in radians.
@@ -107,8 +147,9 @@ inline double paddingOf(const Model& model, const Padding& padding, std::size_t 
 
 /// Calls visit(a, b, why) for every pair of two bodies, a < b, of which at least one belongs to a
 /// robot, in ascending order. `why` is empty if the pair is tested, or else the reason why not.
+/// @param need what the tests have to cover (`PairFilter::whyNotTested`).
 template <class Visit>
-void forEachPair(const Model& model, Visit visit) {
+void forEachPair(const Model& model, const Required& need, Visit visit) {
   const std::vector<ModelBody>& bodies = model.bodies;
   std::vector<std::size_t> ofRobots;
   for (std::size_t i = 0; i < bodies.size(); ++i)
@@ -118,20 +159,26 @@ void forEachPair(const Model& model, Visit visit) {
     while (later < ofRobots.size() && ofRobots[later] <= a) ++later;
     if (bodies[a].robot)
       for (std::size_t b = a + 1; b < bodies.size(); ++b)
-        visit(a, b, model.filter.whyNotTested(a, b));
+        visit(a, b, model.filter.whyNotTested(a, b, need));
     else
       for (std::size_t i = later; i < ofRobots.size(); ++i)
-        visit(a, ofRobots[i], model.filter.whyNotTested(a, ofRobots[i]));
+        visit(a, ofRobots[i], model.filter.whyNotTested(a, ofRobots[i], need));
   }
 }
 
 /// Calls visit(a, b) for every pair of two bodies that is tested, in the order of `forEachPair`.
 template <class Visit>
-void forEachTestedPair(const Model& model, Visit visit) {
-  forEachPair(model, [&](std::size_t a, std::size_t b, std::string_view why) {
+void forEachTestedPair(const Model& model, const Required& need, Visit visit) {
+  forEachPair(model, need, [&](std::size_t a, std::size_t b, std::string_view why) {
     if (why.empty()) visit(a, b);
   });
 }
+
+/// Checks that every body without a robot is at rest. Scenes take such bodies to be at rest, and no
+/// two of them are a pair.
+/// @throws std::invalid_argument if such a body is on a frame that moves, or if a body's frame does
+/// not exist.
+void requireObstaclesAtRest(const Model& model);
 
 /// Returns the number of pairs that `forEachPair` visits, in constant memory and linear time.
 double pairCount(const Model& model);

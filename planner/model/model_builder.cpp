@@ -5,6 +5,8 @@
 #include <map>
 
 #include "collision/core/spelling.h"
+#include "planner/model/held_joints.h"
+#include "planner/model/pair_proofs.h"
 #include "planner/model/planned_joints.h"
 #include "planner/model/robot_assembly.h"
 #include "planner/robot/angles.h"
@@ -13,6 +15,11 @@
 
 namespace corridor {
 namespace {
+
+/// Returns whether a pair is tested, except for tests that its proof covers.
+bool isTested(const Model& model, std::size_t a, std::size_t b) {
+  return model.filter.whyNotTested(a, b, Required::beyondProofs()).empty();
+}
 
 /// Excludes pairs of a robot's links from the tests: pairs that SRDF and robot.yaml allow, and
 /// adjacent links. Two links are adjacent if all of these conditions hold:
@@ -33,21 +40,21 @@ void skipLinks(Model& model, std::size_t robot) {
   };
   const auto skip = [&](std::optional<std::size_t> a, std::optional<std::size_t> b,
                         const std::string& reason) {  // the first reason given for a pair is kept
-    if (a && b && model.filter.whyNotTested(*a, *b).empty()) model.filter.skip(*a, *b, reason);
+    if (a && b && isTested(model, *a, *b)) model.filter.skip(*a, *b, reason);
   };
   std::map<std::string, std::size_t> linkNamed;
   for (std::size_t link = 0; link < description.links.size(); ++link)
     linkNamed[description.links[link].name] = link;
-  // Excludes the allowed pairs that have a proof (if `proved` is true), or those that have none (if
-  // it is false).
-  const auto skipAllowed = [&](bool proved) {
+  // Calls visit(a, b, pair) for the links of each allowed pair.
+  const auto forEachAllowed = [&](const auto& visit) {
     for (const AllowedPair& pair : description.allowed) {
       const auto a = linkNamed.find(pair.a), b = linkNamed.find(pair.b);
-      if (pair.proof.has_value() == proved && a != linkNamed.end() && b != linkNamed.end())
-        skip(bodyOf(a->second), bodyOf(b->second), pair.reason);
+      if (a != linkNamed.end() && b != linkNamed.end()) visit(a->second, b->second, pair);
     }
   };
-  skipAllowed(false);
+  forEachAllowed([&](std::size_t a, std::size_t b, const AllowedPair& pair) {
+    if (!pair.proof) skip(bodyOf(a), bodyOf(b), pair.reason);
+  });
   std::vector<const JointModel*> above(description.links.size(), nullptr);
   for (const JointModel& joint : description.joints) above[joint.child] = &joint;
   for (std::size_t link = 0; link < description.links.size(); ++link) {
@@ -61,11 +68,14 @@ void skipLinks(Model& model, std::size_t robot) {
       break;
     }
   }
-  // Pairs with a proof come last. If such a pair also has another reason not to be tested, that
-  // reason is kept. If the proof does not cover the margin or tube of a problem, the problem's
-  // reader removes the reason kNeverInContact, but no other reason. The pair is then tested again
-  // (testBeyondProofs).
-  skipAllowed(true);
+  // Pairs with a proof come last. If such a pair also has another reason not to be tested, the
+  // proof is not needed.
+  forEachAllowed([&](std::size_t a, std::size_t b, const AllowedPair& pair) {
+    const auto bodyA = bodyOf(a), bodyB = bodyOf(b);
+    if (!pair.proof || !bodyA || !bodyB || !isTested(model, *bodyA, *bodyB)) return;
+    if (const auto proof = proofBetween(model.robots[robot], model.space, a, b, *pair.proof))
+      model.filter.skipProved(*bodyA, *bodyB, *proof);
+  });
 }
 
 }  // namespace
@@ -234,7 +244,7 @@ Model ModelBuilder::buildForReader() {
   const std::vector<std::size_t> mover = moversOf(model_.tree);
   std::vector<std::size_t> movers;
   for (const ModelBody& body : model_.bodies) movers.push_back(mover[body.frame]);
-  model_.filter.setMovers(std::move(movers));
+  model_.filter.setMovers(std::move(movers), fixedPartsOf(model_));
   Model model = std::move(model_);
   *this = ModelBuilder();
   return model;

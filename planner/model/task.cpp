@@ -1,6 +1,7 @@
 #include "planner/model/task.h"
 
 #include <algorithm>
+#include <limits>
 #include <numbers>
 
 #include "collision/core/rounding.h"
@@ -15,7 +16,7 @@ double Padding::of(std::size_t a, std::size_t b, bool sameRobot) const {
     return found == bodies.end() ? 0 : found->second;
   };
   const double sum = own(a) + own(b);
-  return sum > 0 ? roundedUp(sum) : 0;
+  return sum == 0 ? 0 : roundedUp(sum);  // NaN stays NaN, and is refused
 }
 
 double Padding::largest() const {
@@ -26,6 +27,14 @@ double Padding::largest() const {
   }
   for (const auto& [both, metres] : pairs) pair = std::max(pair, metres);
   return std::max(roundedUp(first + second), pair);
+}
+
+Required Required::beyondProofs() {
+  return {std::numeric_limits<double>::infinity(), {}, {}};
+}
+
+Required requiredBy(const Task& task) {
+  return {task.margin, task.padding, task.tube};
 }
 
 Configuration tubeOf(const ConfigurationSpace& space, const TubeSpec& asked) {

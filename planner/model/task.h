@@ -53,6 +53,21 @@ struct Task {
   JointLimits limits;
 };
 
+/// What the tests of a model have to cover. Some pairs of links were proved never in contact
+/// (`PairProof`). Such a pair is left out of the tests only if its proof covers the requirements.
+struct Required {
+  double margin = 0;  ///< metres that the two bodies of every pair must keep apart
+  Padding padding;    ///< distances of bodies and pairs beyond the margin
+  Configuration
+      tube;  ///< half widths, as `tubeOf` returns them. Of another length: no proof counts
+
+  /// Returns requirements that no proof covers. No pair is then left out because of a proof.
+  static Required beyondProofs();
+};
+
+/// Returns the requirements of a task.
+Required requiredBy(const Task& task);
+
 /// The deviation from the path that a proof shall cover, in each coordinate that is planned for.
 /// The tube is for errors of these coordinates: the tracking error of joints, offsets of encoders,
 /// the localisation of a mobile base whose planar joint is planned for. The robot as a whole may

@@ -25,55 +25,28 @@ void addNotesOnPairs(Problem& problem) {
   if (nothingIsTested(problem)) notes.insert(notes.begin(), {kNothingTested, NoteWeight::coverage});
 }
 
-/// Returns the largest half width of the tube among the robot's single joints, rad or m.
-double largestTube(const ModelRobot& robot, const Problem& problem) {
-  double largest = 0;
-  for (const PlannedJoint& joint : robot.plannedJoints) {
-    if (isPoseJoint(joint.type)) continue;
-    const Coordinate& coordinate = problem.model.space.coordinates()[joint.coordinate];
-    largest = std::max(largest, problem.task.tube[static_cast<Eigen::Index>(coordinate.first)]);
-  }
-  return largest;
-}
+constexpr std::string_view kNoteOnProofs = " tested: the proof covers a margin of up to ";
 
-/// Includes in the tests those pairs of `never_in_contact` whose proof does not cover the problem,
-/// because it is for less than the problem's margin plus the pair's padding, or for less than the
-/// problem's tube. Adds a note if there are such pairs.
-void testBeyondProofs(Problem& problem) {
+/// Adds a note if pairs of `never_in_contact` are tested because their proof does not cover the
+/// problem's margin plus the pair's padding, or its tube. Removes an earlier such note.
+void noteOnProofs(Problem& problem) {
+  std::vector<Note>& notes = problem.source.notes;
+  std::erase_if(notes,
+                [](const Note& note) { return note.text.find(kNoteOnProofs) != note.text.npos; });
+  const Required need = requiredBy(problem.task);
   std::size_t tested = 0;
-  AllowedPair::Proof covered;
-  for (std::size_t r = 0; r < problem.model.robots.size(); ++r) {
-    const ModelRobot& robot = problem.model.robots[r];
-    const double tube = largestTube(robot, problem);
-    const auto bodyOf = [&](const std::string& link) {
-      const std::string name = robot.name.empty() ? link : robot.name + "/" + link;
-      return std::find_if(
-          problem.model.bodies.begin(), problem.model.bodies.end(),
-          [&](const ModelBody& body) { return body.robot == r && body.name == name; });
-    };
-    for (const AllowedPair& pair : robot.description.allowed) {
-      if (!pair.proof) continue;
-      const auto a = bodyOf(pair.a), b = bodyOf(pair.b), end = problem.model.bodies.end();
-      if (a == end || b == end) continue;
-      const auto i = static_cast<std::size_t>(a - problem.model.bodies.begin()),
-                 k = static_cast<std::size_t>(b - problem.model.bodies.begin());
-      const double padding = problem.task.padding.of(i, k, true);
-      // The sum is rounded up, because the proof must cover the exact sum.
-      const double margin =
-          padding > 0 ? roundedUp(problem.task.margin + padding) : problem.task.margin;
-      if (margin <= pair.proof->margin && tube <= pair.proof->beyondLimits) continue;
-      if (problem.model.filter.whyNotTested(i, k) != kNeverInContact) continue;
-      problem.model.filter.include(i, k);
-      covered = *pair.proof;
-      ++tested;
-    }
+  PairProof covered;
+  for (const auto& [pair, proof] : problem.model.filter.proofs()) {
+    if (!problem.model.filter.whyNotTested(pair.first, pair.second, need).empty()) continue;
+    covered = proof;
+    ++tested;
   }
   if (tested > 0)
-    problem.source.notes.push_back(
+    notes.push_back(
         {std::to_string(tested) +
              (tested == 1 ? " pair of never_in_contact is" : " pairs of never_in_contact are") +
-             " tested: the proof covers a margin of up to " + shortest(covered.margin) +
-             " m and a tube of up to " + shortest(covered.beyondLimits) + " rad or m",
+             std::string(kNoteOnProofs) + shortest(covered.margin) + " m and a tube of up to " +
+             shortest(covered.beyondLimits) + " rad or m",
          NoteWeight::detail});
 }
 
@@ -155,18 +128,18 @@ void finishProblem(const AllowedBodies& allowed, const TubeSpec& tube, Problem& 
   requireFiniteSizes(problem.model, problem.source.file.string());
   for (const auto& [a, b] : allowed) problem.model.filter.skip(a, b, "allow");
   problem.task.tube = tubeOf(problem.model.space, tube);
-  testBeyondProofs(problem);
+  noteOnProofs(problem);
   addNotesOnPairs(problem);
 }
 
 void setMargin(Problem& problem, double margin) {
   problem.task.margin = margin;
-  testBeyondProofs(problem);
+  noteOnProofs(problem);
 }
 
 void setTube(Problem& problem, Configuration tube) {
   problem.task.tube = std::move(tube);
-  testBeyondProofs(problem);
+  noteOnProofs(problem);
 }
 
 }  // namespace corridor

@@ -4,7 +4,8 @@ namespace corridor {
 
 bool nothingIsTested(const Problem& problem) {
   bool nothing = true;
-  forEachTestedPair(problem.model, [&](std::size_t, std::size_t) { nothing = false; });
+  const Required need = requiredBy(problem.task);
+  forEachTestedPair(problem.model, need, [&](std::size_t, std::size_t) { nothing = false; });
   return nothing;
 }
 

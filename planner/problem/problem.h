@@ -52,12 +52,11 @@ struct Problem {
 Problem readProblem(const std::filesystem::path& path);
 
 /// Replaces the margin of a problem. If the proof that some pairs of links are never in contact
-/// holds only for less than the new margin plus the padding, these pairs are tested from now on,
-/// and a note reports it. @pre `margin` is in metres, finite, and 0 or more.
+/// does not cover the new margin plus the padding, these pairs are tested, and a note reports it.
+/// @pre `margin` is in metres, finite, and 0 or more.
 void setMargin(Problem& problem, double margin);
 /// Replaces the tube of a problem. Pairs that were proved never in contact only for less than the
-/// new tube are tested from now on, and a note says so. @pre `tube` has half widths as `tubeOf`
-/// returns them.
+/// new tube are tested, and a note says so. @pre `tube` has half widths as `tubeOf` returns them.
 void setTube(Problem& problem, Configuration tube);
 
 }  // namespace corridor

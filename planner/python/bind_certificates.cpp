@@ -58,6 +58,8 @@ const char* nameOf(UndecidedReason reason) {
       return "rounding";
     case UndecidedReason::floatingPoint:
       return "floating point";
+    case UndecidedReason::beyondProofs:
+      return "beyond proofs";
   }
   return "";
 }

@@ -76,9 +76,17 @@ std::string fingerprintOf(const Problem& problem) {
     bytes.add(body.frame);
     bytes.add(std::span(body.shapes));
   }
-  forEachPair(model, [&](std::size_t a, std::size_t b, std::string_view why) {
+  const Required need = requiredBy(problem.task);
+  forEachPair(model, need, [&](std::size_t a, std::size_t b, std::string_view why) {
     bytes.add(a), bytes.add(b), bytes.add(why.empty());
   });
+  bytes.add(model.filter.proofs().size());
+  for (const auto& [pair, proof] : model.filter.proofs()) {
+    bytes.add(pair.first), bytes.add(pair.second), bytes.add(proof.margin);
+    bytes.add(proof.beyondLimits), bytes.add(proof.ranges.size());
+    for (const PairProof::Range& range : proof.ranges)
+      bytes.add(range.number), bytes.add(range.lower), bytes.add(range.upper);
+  }
   for (const std::string& name : model.space.numberNames()) bytes.add(name);
   for (const Coordinate& c : model.space.coordinates()) bytes.add(c.lower), bytes.add(c.upper);
   FramePoses frames(model);

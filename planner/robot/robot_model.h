@@ -58,9 +58,8 @@ struct AllowedPair {
   };
 
   std::string a, b, reason;
-  /// If set, the pair is tested in the problems that the proof does not cover: those whose margin
-  /// plus the pair's padding is above `margin`, or whose tube of a single joint is above
-  /// `beyondLimits`.
+  /// If set, the pair is left out only of tests that the proof covers (PairFilter, in
+  /// planner/model). The proof must be for this description, with every joint at any value.
   std::optional<Proof> proof = {};
 };
 /// The `reason` of pairs that have a `proof`.

@@ -124,7 +124,7 @@ TEST_P(Threads, SceneAndEdgeMotions) {
   const std::vector<Edge> edges = someEdges(problem, 16);
   MotionOptions options;
   options.tolerance = 1e-5;
-  const Scene scene = makeScene(problem.model);
+  const Scene scene = makeScene(problem.model, requiredBy(problem.task));
   const Answers answers = expectSameAnswersInAllThreads([&] {
     Answers mine;
     QueryContext context;
@@ -219,7 +219,7 @@ TEST_P(Threads, ReadProblems) {
     for (int i = 0; i < 3; ++i) {
       const Problem problem = ownProblem(GetParam());
       seen[k] += digestOf(problem);
-      forEachTestedPair(problem.model, [&](std::size_t a, std::size_t b) {
+      forEachTestedPair(problem.model, requiredBy(problem.task), [&](std::size_t a, std::size_t b) {
         seen[k] += " " + std::to_string(a) + "~" + std::to_string(b);
       });
     }

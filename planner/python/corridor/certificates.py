@@ -48,7 +48,8 @@ class Certificate:
     q0: NDArray[np.float64]  #: (J,)
     q1: NDArray[np.float64]  #: (J,)
     verdict: Verdict
-    reason: str  #: why undecided: "clearance", "work limit", "ambiguous", "rounding", "floating point"; or ""
+    reason: str  #: why undecided: "clearance", "work limit", "ambiguous", "rounding", "floating point",
+    #: "beyond proofs" (outside of the joint limits, where never_in_contact proves nothing); or ""
     free_until: float  #: proved free on [0, free_until]; 0: nothing is proved. The bounds of joints are not tested
     shapes: list[tuple[str, str]]  #: P names of shapes, a and b of each tested pair
     pairs: NDArray[np.int64]  #: P×2, the bodies of each tested pair, indices into `problem.bodies`

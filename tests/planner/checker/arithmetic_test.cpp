@@ -52,7 +52,7 @@ TEST(CheckerArithmetic, OtherFloatingPointModesAreRefusedInEveryThread) {
 TEST(CheckerArithmetic, MotionsSetInOtherModesAreRefused) {
   const Problem problem =
       readProblem(std::filesystem::path(CORRIDOR_SOURCE_DIR) / "problems/arm_at_shelf");
-  const Scene scene = makeScene(problem.model);
+  const Scene scene = makeScene(problem.model, requiredBy(problem.task));
   EdgeMotion motion(problem.model.tree, problem.model.space, scene.framePairs(), problem.task.tube);
   const Configuration start = startOf(problem);
   for (const auto& setting : test::floatingPointSettings()) {

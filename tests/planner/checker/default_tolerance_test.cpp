@@ -129,7 +129,7 @@ TEST(DefaultTolerance, ChainsFarFromTheOrigin) {
     placed.push_back({Body("floor", floor), 0});
     const Scene scene(std::move(placed), {{0, 1}});
     MotionOptions options;
-    const double rounding = roundingTolerance(problem.model);
+    const double rounding = roundingTolerance(problem.model, requiredBy(problem.task));
     options.tolerance = std::max(scene.defaultTolerance(), rounding);
     sharp += options.tolerance == rounding;
     ASSERT_LT(options.tolerance, 0.01 * size) << "the tolerance is too large to be of use";
@@ -194,7 +194,7 @@ TEST(DefaultTolerance, BranchesFarFromTheOrigin) {
     };
     bodies(0);
     MotionOptions options;
-    options.tolerance = defaultTolerance(problem.model, 1e-7 * size);
+    options.tolerance = defaultTolerance(problem.model, requiredBy(problem.task), 1e-7 * size);
     ASSERT_LT(options.tolerance, 0.01 * size) << "the tolerance is too large to be of use";
     const Scene scene(bodies(options.tolerance * (2.05 + std::abs(real(random)))), {{0, 1}});
     EdgeMotion motion(problem.model.tree, problem.model.space, scene.framePairs(),
@@ -221,8 +221,8 @@ TEST(DefaultTolerance, IsNeverMoreThanAThousandTimesTheUsualOne) {
   PlacedShape ball;
   ball.parts = {ConvexPart{{Vec3(1, 0, 0)}, 0.1, false}};
   problem.model.bodies = {{"ball", link, 0, {ball}}, {"post", 0, {}, {ball}}};
-  EXPECT_GT(roundingTolerance(problem.model), 1);
-  EXPECT_DOUBLE_EQ(defaultTolerance(problem.model, 1e-8), 1e-5);
+  EXPECT_GT(roundingTolerance(problem.model, requiredBy(problem.task)), 1);
+  EXPECT_DOUBLE_EQ(defaultTolerance(problem.model, requiredBy(problem.task), 1e-8), 1e-5);
 }
 
 }  // namespace

@@ -55,7 +55,7 @@ std::size_t bodyNamed(const Model& model, const std::string& name) {
 
 NeverInContactResult prove(const Model& model, const std::string& a, const std::string& b,
                            const NeverInContactOptions& options = {}) {
-  const Scene scene = makeScene(model);
+  const Scene scene = makeScene(model, Required::beyondProofs());
   QueryContext context;
   return NeverInContact(model, scene)
       .prove(bodyNamed(model, a), bodyNamed(model, b), options, context);
@@ -245,7 +245,7 @@ TEST(NeverInContact, NoStateRefutesAProof) {
   std::size_t proved = 0, met = 0, others = 0;
   for (int robot = 0; robot < 40; ++robot) {
     const Model model = modelOf(randomRobot(random));
-    const Scene scene = makeScene(model);
+    const Scene scene = makeScene(model, Required::beyondProofs());
     const NeverInContact prover(model, scene);
     QueryContext context;
     std::vector<std::size_t> firstShape{0};

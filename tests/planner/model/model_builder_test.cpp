@@ -30,7 +30,8 @@ using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
 
 Pairs testedPairs(const Model& model) {
   Pairs pairs;
-  forEachTestedPair(model, [&](std::size_t a, std::size_t b) { pairs.emplace_back(a, b); });
+  forEachTestedPair(model, Required::beyondProofs(),
+                    [&](std::size_t a, std::size_t b) { pairs.emplace_back(a, b); });
   return pairs;
 }
 
@@ -75,9 +76,10 @@ TEST(ModelBuilder, MakesWhatTheReaderMakes) {
   // `forEachPair` must visit all pairs except those of two obstacles, in ascending order, and none
   // twice.
   Pairs all, expected;
-  forEachPair(model, [&](std::size_t a, std::size_t b, std::string_view why) {
+  const Required need = Required::beyondProofs();
+  forEachPair(model, need, [&](std::size_t a, std::size_t b, std::string_view why) {
     all.emplace_back(a, b);
-    EXPECT_EQ(why, model.filter.whyNotTested(b, a)) << "in either order";
+    EXPECT_EQ(why, model.filter.whyNotTested(b, a, need)) << "in either order";
   });
   for (std::size_t a = 0; a < model.bodies.size(); ++a)
     for (std::size_t b = a + 1; b < model.bodies.size(); ++b)
@@ -90,11 +92,12 @@ TEST(ModelBuilder, MakesWhatTheReaderMakes) {
     while (model.bodies.at(i).name != name) ++i;
     return i;
   };
-  EXPECT_EQ(model.filter.whyNotTested(bodyNamed("left/hand"), bodyNamed("post")), "allow");
-  EXPECT_EQ(model.filter.whyNotTested(bodyNamed("left/base"), bodyNamed("left/shoulder")),
+  EXPECT_EQ(model.filter.whyNotTested(bodyNamed("left/hand"), bodyNamed("post"), need), "allow");
+  EXPECT_EQ(model.filter.whyNotTested(bodyNamed("left/base"), bodyNamed("left/shoulder"), need),
             "adjacent");
-  EXPECT_EQ(model.filter.whyNotTested(bodyNamed("left/base"), bodyNamed("right/base")), kNeverMove);
-  EXPECT_EQ(model.filter.whyNotTested(bodyNamed("left/hand"), bodyNamed("right/hand")), "");
+  EXPECT_EQ(model.filter.whyNotTested(bodyNamed("left/base"), bodyNamed("right/base"), need),
+            kNeverMove);
+  EXPECT_EQ(model.filter.whyNotTested(bodyNamed("left/hand"), bodyNamed("right/hand"), need), "");
 }
 
 /// A checker of a model in memory, without a problem.

@@ -85,8 +85,8 @@ TEST_F(ProblemYaml, EveryKeyIsRead) {
   EXPECT_EQ(p.settings.prefer.clearance, 0);
   EXPECT_EQ(p.settings.prefer.detour, 0.25);
   EXPECT_EQ(pairCount(p.model), 2);
-  EXPECT_EQ(p.model.filter.whyNotTested(0, 1), "");
-  EXPECT_EQ(p.model.filter.whyNotTested(0, 2), "allow");
+  EXPECT_EQ(p.model.filter.whyNotTested(0, 1, requiredBy(p.task)), "");
+  EXPECT_EQ(p.model.filter.whyNotTested(0, 2, requiredBy(p.task)), "allow");
   EXPECT_EQ(p.task.tube.head(3), Vec3(0.001, 0.001, 0.001));
   EXPECT_DOUBLE_EQ(p.task.tube[3], degree);
   EXPECT_EQ(p.settings.planner.name, "RRT");

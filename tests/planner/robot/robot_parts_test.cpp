@@ -131,9 +131,11 @@ TEST(RobotParts, ABuilderTakesThem) {
   left.links[2].shapes = {shapeOf("finger", Sphere{0.1})};
   left.links[0].shapes = left.links[2].shapes;
   const Model touching = ModelBuilder().addRobot(left).build();
-  EXPECT_EQ(touching.filter.whyNotTested(0, 2), "");
+  EXPECT_EQ(touching.filter.whyNotTested(0, 2, Required::beyondProofs()), "");
   left.allow = {{"finger", "base"}};
-  EXPECT_EQ(ModelBuilder().addRobot(left).build().filter.whyNotTested(0, 2), "allow");
+  EXPECT_EQ(
+      ModelBuilder().addRobot(left).build().filter.whyNotTested(0, 2, Required::beyondProofs()),
+      "allow");
   try {
     ModelBuilder().addRobot(fingered(), {}, {"follow"}).build();
     FAIL() << "a joint that mimics can't be planned for";

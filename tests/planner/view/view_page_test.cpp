@@ -227,10 +227,11 @@ TEST(ViewPage, DistancesAreThoseOfTheChecker) {
           b(points[6 * i + 3], points[6 * i + 4], points[6 * i + 5]);
       EXPECT_NEAR((a - b).norm(), metres[i], rounding(20));
       bool tested = false;
-      forEachTestedPair(problem.model, [&](std::size_t one, std::size_t other) {
-        tested = tested || std::set<std::size_t>{one, other} ==
-                               std::set<std::size_t>{bodies[2 * i], bodies[2 * i + 1]};
-      });
+      forEachTestedPair(
+          problem.model, requiredBy(problem.task), [&](std::size_t one, std::size_t other) {
+            tested = tested || std::set<std::size_t>{one, other} ==
+                                   std::set<std::size_t>{bodies[2 * i], bodies[2 * i + 1]};
+          });
       EXPECT_TRUE(tested);
     }
     EXPECT_TRUE(contact && apart) << "the straight path shows both";
@@ -304,7 +305,8 @@ TEST(ViewPage, ExcludedPairsAreReported) {
   const Problem problem = ownProblem("arm_at_shelf");
   const PageReader page(viewPage(problem, std::nullopt));
   std::size_t skipped = 0, tested = 0;
-  forEachPair(problem.model, [&](std::size_t, std::size_t, std::string_view why) {
+  const Required need = requiredBy(problem.task);
+  forEachPair(problem.model, need, [&](std::size_t, std::size_t, std::string_view why) {
     ++(why.empty() ? tested : skipped);
   });
   ASSERT_GT(skipped, 0U);
@@ -314,7 +316,7 @@ TEST(ViewPage, ExcludedPairsAreReported) {
     for (std::size_t i = 0; i < list.size(); i += 2) {
       --skipped;
       EXPECT_LT(list[i], list[i + 1]);
-      EXPECT_EQ(problem.model.filter.whyNotTested(list[i], list[i + 1]),
+      EXPECT_EQ(problem.model.filter.whyNotTested(list[i], list[i + 1], need),
                 group["reason"].get<std::string>());
     }
   }
