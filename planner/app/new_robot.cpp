@@ -196,6 +196,7 @@ int newRobot(const NewRobotArguments& a) {
     if (link.shapes.empty()) noShapes.push_back(link.name);
     link.shapes.clear();
   }
+  const RobotDigest digest = digestOfRobot(files.model);
   const Model model = modelOf(std::move(files.model), a.urdf);
   const Checker checker(model);
   // Before this line, a signal ends the program by its default action, because nothing has been
@@ -219,7 +220,7 @@ int newRobot(const NewRobotArguments& a) {
                  : comment("srdf: FILE  # groups, named states, pairs of links that may touch");
   text += readingText(a, description, noShapes);
   text += jointsText(description, a.srdf.has_value());
-  text += pairsText(a, model, pairs);
+  text += pairsText(a, model, pairs, digest);
   writeNewFile(a.file, text);
 
   const ResultPrinter out(a.file.toStdout());

@@ -131,7 +131,7 @@ SortedPairs sortedPairs(const Checker& checker, const std::vector<AllowedPair>& 
     return found == reasons.end() ? std::string() : found->second;
   };
   SortedPairs pairs;
-  forEachPair(model, [&](std::size_t, std::size_t, std::string_view why) {
+  forEachPair(model, checker.required(), [&](std::size_t, std::size_t, std::string_view why) {
     pairs.adjacent += why == "adjacent";
   });
   PairSurveyOptions options{a.margin, a.beyondLimits, a.work, a.samples, a.seed, {}, &interrupted};
@@ -157,7 +157,8 @@ SortedPairs sortedPairs(const Checker& checker, const std::vector<AllowedPair>& 
   return pairs;
 }
 
-std::string pairsText(const NewRobotArguments& a, const Model& model, const SortedPairs& pairs) {
+std::string pairsText(const NewRobotArguments& a, const Model& model, const SortedPairs& pairs,
+                      const RobotDigest& robot) {
   std::string text =
       "\n" +
       comment("Pairs of links that are not tested, besides adjacent links (" +
@@ -166,16 +167,21 @@ std::string pairsText(const NewRobotArguments& a, const Model& model, const Sort
   if (pairs.proved.empty()) {
     text += comment("No pair was proved never in contact.");
   } else {
+    std::vector<std::array<std::string, 2>> names;
+    for (const SurveyedPair& pair : pairs.proved)
+      names.push_back({model.bodies[pair.a].name, model.bodies[pair.b].name});
     text +=
         "never_in_contact:\n" +
-        comment(counted(pairs.proved.size(), "pair") +
-                    " proved: the two links keep the margin (m) for all joint values within the "
-                    "limits, where each limit is extended by beyond_limits (rad or m). Problems "
-                    "with a larger margin or tube test these pairs. If the URDF, a mesh or a key "
-                    "above changes, write this file again.",
-                2) +
+        comment(
+            counted(pairs.proved.size(), "pair") +
+                " proved: the two links keep the margin (m) for all joint values within the "
+                "limits, where each limit is extended by beyond_limits (rad or m). Problems "
+                "with a larger margin or tube test these pairs. If the robot's shapes, joints or "
+                "limits, or these lines change, the digest no longer matches: all the pairs "
+                "are tested, until you write this file again.",
+            2) +
         "  margin: " + shortest(a.margin) + "\n  beyond_limits: " + shortest(a.beyondLimits) +
-        "\n  pairs:\n";
+        "\n  digest: " + proofDigest(robot, {a.margin, a.beyondLimits}, names) + "\n  pairs:\n";
     for (const SurveyedPair& pair : pairs.proved) text += "  - " + pairText(model, pair) + "\n";
   }
   text += decideText(a, model, pairs.nearlyAlways);

@@ -8,6 +8,7 @@
 
 #include "planner/app/new_file.h"
 #include "planner/checker/pair_survey.h"
+#include "planner/problem/proof_digest.h"
 
 namespace corridor::app {
 
@@ -33,7 +34,8 @@ SortedPairs sortedPairs(const Checker& checker, const std::vector<AllowedPair>& 
                         const NewRobotArguments& arguments, const std::atomic<bool>& interrupted);
 
 /// Returns the part of the robot's file on pairs of links.
+/// @param robot of the robot's description, before the model was made of it.
 std::string pairsText(const NewRobotArguments& arguments, const Model& model,
-                      const SortedPairs& pairs);
+                      const SortedPairs& pairs, const RobotDigest& robot);
 
 }  // namespace corridor::app

@@ -84,7 +84,7 @@ KeysOfMaps makeRobotKeys() {
          "reference", "weights"},
         {}}},
       {"weights", {{"joints", "rotation"}, {}}},
-      {"never_in_contact", {{"margin", "beyond_limits", "pairs"}, {}}},
+      {"never_in_contact", {{"margin", "beyond_limits", "digest", "pairs"}, {}}},
   };
   addShape(keys, "shapes[]", {"name"});
   return keys;

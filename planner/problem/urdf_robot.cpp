@@ -1,8 +1,10 @@
 #include "planner/problem/urdf_robot.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include "collision/core/read_file.h"
 #include "collision/core/shortest.h"
@@ -11,6 +13,7 @@
 #include "planner/problem/hold_yaml.h"
 #include "planner/problem/joint_yaml.h"
 #include "planner/problem/keys.h"
+#include "planner/problem/proof_digest.h"
 #include "planner/problem/shape_yaml.h"
 #include "planner/robot/urdf_file.h"
 #include "planner/robot/xacro.h"
@@ -196,15 +199,18 @@ void readStates(const YamlMap& file, RobotModel& model) {
   }
 }
 
-/// Reads a list of pairs of links, and adds them to the model.
-void readLinkPairs(const YamlMap& map, const char* key, const AllowedPair& kind,
-                   RobotModel& model) {
+/// Reads a list of pairs of links.
+std::vector<std::array<std::string, 2>> readLinkPairs(const YamlMap& map, const char* key,
+                                                      const RobotModel& model) {
+  std::vector<std::array<std::string, 2>> pairs;
   const YamlValue& value = *map.find(key);
   std::vector<std::string> links;
   for (const LinkModel& link : model.links) links.push_back(link.name);
-  if (value.kind != YamlValue::Kind::List)
-    return map.fault(key, "a list of pairs of links is needed, such as [[hand, finger]], not " +
-                              described(value));
+  if (value.kind != YamlValue::Kind::List) {
+    map.fault(key, "a list of pairs of links is needed, such as [[hand, finger]], not " +
+                       described(value));
+    return pairs;
+  }
   const std::string path = map.pathOf(key);
   for (const YamlValue& item : value.items) {
     const auto pair = readWords(item, "such as [hand, finger]", path, map.source());
@@ -221,24 +227,57 @@ void readLinkPairs(const YamlMap& map, const char* key, const AllowedPair& kind,
                                           didYouMean(name, links) + knownWords(links));
         known = false;
       }
-    if (known) model.allowed.push_back({(*pair)[0], (*pair)[1], kind.reason, kind.proof});
+    if (known) pairs.push_back({(*pair)[0], (*pair)[1]});
   }
+  return pairs;
 }
 
-void readAllow(const YamlMap& file, RobotModel& model) {
-  if (file.find("allow")) readLinkPairs(file, "allow", {"", "", "robot.yaml: allow"}, model);
-  const YamlValue* value = file.find("never_in_contact");
-  if (!value) return;
-  const YamlMap map(*value, "never_in_contact", &robotKeys().at("never_in_contact"), file.source());
+/// Reads `never_in_contact`. Its pairs are added to the model if the digest shows that they were
+/// proved for this robot. Otherwise a note says that they are tested.
+void readProvedPairs(const YamlMap& map, RobotModel& model) {
   map.require("margin", "metres: the margin that the proof of these pairs covers");
   map.require("beyond_limits", "rad or m: how far the proof goes beyond the limits of joints");
   map.require("pairs", "pairs of links, such as [[hand, foot]]");
   const auto margin = map.number("margin", Range::NotNegative),
              beyond = map.number("beyond_limits", Range::NotNegative);
-  if (margin && beyond && map.find("pairs"))
-    readLinkPairs(map, "pairs",
-                  {"", "", std::string(kNeverInContact), AllowedPair::Proof{*margin, *beyond}},
-                  model);
+  const auto digest = map.find("digest") ? map.text("digest") : std::optional<std::string>("");
+  if (!margin || !beyond || !digest || !map.find("pairs")) return;
+  const std::size_t before = map.source().faults.size();
+  const auto pairs = readLinkPairs(map, "pairs", model);
+  if (map.source().faults.size() != before || pairs.empty()) return;
+  const AllowedPair::Proof proof{*margin, *beyond};
+  std::string why = ", because it has no digest";
+  try {
+    if (!digest->empty() && *digest == proofDigest(digestOfRobot(model), proof, pairs)) {
+      for (const auto& [a, b] : pairs)
+        model.allowed.push_back({a, b, std::string(kNeverInContact), proof});
+      return;
+    }
+    if (!digest->empty())
+      why =
+          ", because its digest does not match: the shapes, joints or limits of the robot, or the "
+          "list, have changed since the proof";
+  } catch (const std::runtime_error& error) {  // of sha256
+    why = std::string(", because its digest can't be compared: ") + error.what();
+  }
+  model.notes.push_back(
+      {"never_in_contact: " +
+           (pairs.size() == 1 ? std::string("its pair is tested")
+                              : "its " + std::to_string(pairs.size()) + " pairs are tested") +
+           why +
+           "; corridor new robot proves the pairs again, and writes a never_in_contact with a "
+           "digest",
+       NoteWeight::motion});
+}
+
+void readAllow(const YamlMap& file, RobotModel& model) {
+  if (file.find("allow"))
+    for (const auto& [a, b] : readLinkPairs(file, "allow", model))
+      model.allowed.push_back({a, b, "robot.yaml: allow"});
+  if (const YamlValue* value = file.find("never_in_contact"))
+    readProvedPairs(
+        YamlMap(*value, "never_in_contact", &robotKeys().at("never_in_contact"), file.source()),
+        model);
 }
 
 void readWeights(const YamlMap& file, RobotSetup& setup) {

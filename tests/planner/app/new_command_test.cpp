@@ -82,7 +82,8 @@ TEST_F(NewCommand, WritesARobotWithItsPairs) {
   EXPECT_THAT(file, HasSubstr("format: corridor-robot-1\nname: reach\nurdf: reach.urdf\n"));
   EXPECT_THAT(file, HasSubstr("\nnever_in_contact:\n  # 1 pair proved: "));
   EXPECT_THAT(file, HasSubstr("\n  - [far, hand]\n"));
-  EXPECT_THAT(file, HasSubstr("\n  margin: 0.01\n  beyond_limits: 0.01\n  pairs:\n"));
+  EXPECT_THAT(file, testing::ContainsRegex("\n  margin: 0.01\n  beyond_limits: 0.01\n  digest: "
+                                           "[0-9a-f]{64}\n  pairs:\n"));
   EXPECT_THAT(file, HasSubstr("\n# DECIDE: 1 pair in contact in at least 95 % of 1,000 random "
                               "states, of which 1 in all."));
   EXPECT_THAT(file, HasSubstr("\n# allow:\n#   - [inner, hand]  # in 1,000 of 1,000\n"));
@@ -94,6 +95,25 @@ TEST_F(NewCommand, WritesARobotWithItsPairs) {
   // pair.
   EXPECT_EQ(allowedPairs("reach.yaml"),
             std::vector<std::string>({"far, hand: robot.yaml: never_in_contact"}));
+}
+
+/// The proved pairs are left out only as long as the robot is the one for which they were proved.
+TEST_F(NewCommand, ProvedPairsAreTestedAfterAnEdit) {
+  ASSERT_EQ(run("new robot reach.urdf -o reach.yaml").status, 0);
+  EXPECT_EQ(allowedPairs("reach.yaml"),
+            std::vector<std::string>({"far, hand: robot.yaml: never_in_contact"}));
+  EXPECT_THAT(run("inspect reach.yaml").out, Not(HasSubstr("its digest does not match")));
+  const std::string urdf = read("reach.urdf");
+  std::string edited = urdf;
+  edited.replace(edited.find("-3 0 0"), 6, "-2 0 0");
+  write("reach.urdf", edited);
+  EXPECT_EQ(allowedPairs("reach.yaml"), std::vector<std::string>());
+  EXPECT_THAT(run("inspect reach.yaml").out,
+              HasSubstr("never_in_contact: its pair is tested, because its digest does not match"));
+  ASSERT_EQ(run("new robot reach.urdf -o reach.yaml --force").status, 0);
+  EXPECT_THAT(run("inspect reach.yaml").out, Not(HasSubstr("its digest does not match")));
+  write("reach.urdf", urdf);
+  EXPECT_EQ(allowedPairs("reach.yaml"), std::vector<std::string>());
 }
 
 TEST_F(NewCommand, ReadsAnSrdfAndChecksItsPairs) {

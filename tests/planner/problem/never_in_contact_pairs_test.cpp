@@ -1,5 +1,8 @@
 // Pairs of links that robot.yaml lists as proved never in contact. They are tested all the same if
-// the proof does not cover the problem's margin or tube.
+// the proof does not cover the problem's margin or tube, or if the digest does not match.
+#include "collision/core/shortest.h"
+#include "planner/problem/proof_digest.h"
+#include "planner/robot/urdf_file.h"
 #include "tests/planner/problem/arm_fixture.h"
 
 namespace corridor::test {
@@ -11,11 +14,22 @@ using testing::Not;
 
 class NeverInContactPairs : public ArmTest {
  protected:
-  Problem readWith(const std::string& pairs, const std::string& more) const {
-    write("arm.yaml", std::string(arm) +
-                          "never_in_contact: {margin: 0.01, beyond_limits: 0.002, "
-                          "pairs: " +
-                          pairs + "}\n");
+  using Pairs = std::vector<std::array<std::string, 2>>;
+
+  /// Returns the key never_in_contact, with the digest for the arm as it is read now.
+  std::string listOf(const Pairs& pairs, AllowedPair::Proof proof, UrdfRules rules = {}) const {
+    std::vector<Fault> faults;
+    std::vector<std::filesystem::path> files;
+    const RobotModel robot = readUrdf(folder_ / "arm.urdf", rules, faults, files).value();
+    std::string list;
+    for (const auto& [a, b] : pairs) list += (list.empty() ? "[" : ", [") + a + ", " + b + "]";
+    return "never_in_contact: {margin: " + shortest(proof.margin) +
+           ", beyond_limits: " + shortest(proof.beyondLimits) +
+           ", digest: " + proofDigest(digestOfRobot(robot), proof, pairs) + ", pairs: [" + list +
+           "]}\n";
+  }
+  Problem readWith(const Pairs& pairs, const std::string& more) const {
+    write("arm.yaml", std::string(arm) + listOf(pairs, {0.01, 0.002}));
     return read(armHead + "start: ready\ngoal: {pan: 1, lift: 0.5}\n" + more);
   }
 };
@@ -23,7 +37,7 @@ class NeverInContactPairs : public ArmTest {
 constexpr const char* kReason = "robot.yaml: never_in_contact";
 
 TEST_F(NeverInContactPairs, AreTestedBeyondTheProof) {
-  const std::string pairs = "[[base, finger]]";
+  const Pairs pairs = {{"base", "finger"}};
   for (const char* within : {"", "margin: 0.01\n", "tube: {joints: 0.002}\n",
                              "margin: 0.005\npadding: {bodies: {finger: 9}, pairs: [[finger, base, "
                              "0.004]]}\n"}) {
@@ -46,7 +60,7 @@ TEST_F(NeverInContactPairs, AreTestedBeyondTheProof) {
 
 /// Pairs that are excluded for another reason, too, are never tested.
 TEST_F(NeverInContactPairs, OtherReasonsStay) {
-  const Problem p = readWith("[[base, lower], [base, upper], [upper, finger]]",
+  const Problem p = readWith({{"base", "lower"}, {"base", "upper"}, {"upper", "finger"}},
                              "margin: 0.05\nallow: [[upper, "
                              "finger]]\n");
   EXPECT_EQ(skipped(p, "base", "lower"), "SRDF: Never");
@@ -55,9 +69,7 @@ TEST_F(NeverInContactPairs, OtherReasonsStay) {
 }
 
 TEST_F(NeverInContactPairs, OfSeveralRobots) {
-  write("arm.yaml",
-        std::string(arm) +
-            "never_in_contact: {margin: 0, beyond_limits: 0.1, pairs: [[base, finger]]}\n");
+  write("arm.yaml", std::string(arm) + listOf({{"base", "finger"}}, {0, 0.1}));
   const auto with = [&](const std::string& more) {
     return read(
         "format: corridor-problem-1\nrobots:\n  left: {file: arm.yaml, base: {at: [0, 2, 0]}}\n  "
@@ -70,6 +82,148 @@ TEST_F(NeverInContactPairs, OfSeveralRobots) {
   EXPECT_EQ(skipped(wide, "right/base", "right/finger"), "");
   EXPECT_EQ(skipped(wide, "left/base", "left/finger"), "");
   EXPECT_THAT(textsOf(wide.source.notes), Contains(HasSubstr("2 pairs of never_in_contact")));
+}
+
+/// After any change of what the proof rests on, the pairs are tested, and one note says so.
+TEST_F(NeverInContactPairs, AreTestedWithoutAMatchingDigest) {
+  const std::string mesh =
+      "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0 0 0.1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+  std::string urdfText = urdf;
+  urdfText.insert(urdfText.find("</robot>"),
+                  "<link name='skin'><visual><geometry><sphere radius='0.01'/></geometry></visual>"
+                  "</link>" +
+                      joint("to skin", "fixed", "base", "skin", "") +
+                      "<link name='tool'><collision><geometry><mesh filename='tool.obj'/>"
+                      "</geometry></collision></link>" +
+                      joint("to tool", "fixed", "flange", "tool", ""));
+  urdfText.insert(urdfText.find("<axis xyz='0 1 0'/>"),
+                  "<safety_controller soft_lower_limit='-3' soft_upper_limit='3' k_velocity='1'/>");
+  write("arm.urdf", urdfText);
+  write("tool.obj", mesh);
+  const std::string list = listOf({{"base", "finger"}, {"tool", "base"}}, {0.01, 0.1});
+  const auto readNow = [&](const std::string& keys) {
+    write("arm.yaml", std::string(arm) + keys);
+    return read(armHead + "start: ready\ngoal: {pan: 1, lift: 0.5}\n");
+  };
+  const auto expectProved = [&](const std::string& keys, const char* what) {
+    const Problem p = readNow(keys);
+    EXPECT_EQ(skipped(p, "base", "finger"), kReason) << what;
+    EXPECT_EQ(skipped(p, "base", "tool"), kReason) << what;
+    EXPECT_THAT(textsOf(p.source.notes), Not(Contains(HasSubstr("never_in_contact")))) << what;
+  };
+  const std::string note =
+      " pairs are tested, because its digest does not match: the shapes, joints or limits of the "
+      "robot, or the list, have changed since the proof; corridor new robot proves the pairs "
+      "again, and writes a never_in_contact with a digest";
+  const auto expectTested = [&](const std::string& keys, const char* what, int pairs = 2) {
+    const Problem p = readNow(keys);
+    EXPECT_EQ(skipped(p, "base", "finger"), "") << what;
+    EXPECT_EQ(skipped(p, "base", "tool"), "") << what;
+    std::vector<Note> notes;
+    for (const Note& each : p.source.notes)
+      if (each.text.find("never_in_contact") != std::string::npos) notes.push_back(each);
+    ASSERT_EQ(notes.size(), 1u) << what;
+    EXPECT_EQ(notes[0].text, "never_in_contact: its " + std::to_string(pairs) + note) << what;
+    EXPECT_EQ(notes[0].weight, NoteWeight::motion);
+  };
+  const auto replaced = [](std::string text, const std::string& old, const std::string& now) {
+    const auto place = text.find(old);
+    if (place == text.npos) throw std::logic_error(old);
+    return text.replace(place, old.size(), now);
+  };
+  expectProved(list, "unchanged");
+
+  // The URDF: a byte of a pose, a size, an axis, a limit and a mimic.
+  for (const auto& [old, now] : std::vector<std::pair<std::string, std::string>>{
+           {"xyz='0 0 0.5'", "xyz='0 0 0.6'"},
+           {"size='0.2 0.2 0.2'", "size='0.2 0.3 0.2'"},
+           {"<axis xyz='0 1 0'/>", "<axis xyz='0 1 1'/>"},
+           {"lower='0.01' upper='0.05'", "lower='0.01' upper='0.06'"},
+           {"multiplier='-1'", "multiplier='-2'"},
+           {"type='continuous'", "type='revolute'"},
+           {"name='thumb'", "name='thumc'"}}) {
+    std::string changed = replaced(urdfText, old, now);
+    if (old == "type='continuous'")
+      changed =
+          replaced(changed, "<axis xyz='0 0 1'/>",
+                   "<axis xyz='0 0 1'/><limit lower='-9' upper='9' effort='1' velocity='1'/>");
+    if (old == "name='thumb'")
+      changed = replaced(changed, "child link='thumb'", "child link='thumc'");
+    write("arm.urdf", changed);
+    expectTested(list, old.c_str());
+  }
+  write("arm.urdf", urdfText + "<!-- a comment changes nothing that is proved -->");
+  expectProved(list, "comment");
+  write("arm.urdf", urdfText);
+
+  write("tool.obj", replaced(mesh, "0.1 0 0", "0.2 0 0"));
+  expectTested(list, "a vertex of the mesh");
+  write("tool.obj", replaced(mesh, "f 1 3 2", "f 1 2 3"));
+  expectTested(list, "a triangle of the mesh");
+  write("tool.obj", mesh);
+
+  expectTested("visuals: collide\n" + list, "visuals");
+  expectTested("limits: soft\n" + list, "limits");
+  write("arm.urdf", replaced(urdfText, "tool.obj", "package://other/tool.obj"));
+  write("other/tool.obj", mesh);
+  expectProved("packages: {other: other}\n" + list, "the same mesh in a package");
+  write("other/tool.obj", replaced(mesh, "0.1 0 0", "0.2 0 0"));
+  expectTested("packages: {other: other}\n" + list, "another mesh in a package");
+  write("arm.urdf", urdfText);
+
+  expectTested(replaced(list, "margin: 0.01", "margin: 0.02"), "margin");
+  expectTested(replaced(list, "beyond_limits: 0.1", "beyond_limits: 0.2"), "beyond_limits");
+  expectTested(replaced(list, "[tool, base]", "[tool, base], [finger, upper]"), "a pair was added",
+               3);
+  expectProved(replaced(list, "[base, finger], [tool, base]", "[base, tool], [finger, base]"),
+               "the order does not matter");
+  const auto digest = list.find("digest: ") + 8;
+  std::string wrong = list;
+  wrong[digest] = wrong[digest] == '0' ? '1' : '0';
+  expectTested(wrong, "a digit of the digest");
+  expectTested(replaced(list, list.substr(digest, 64), "none"), "no digest at all");
+
+  const Problem p = readNow(replaced(list, "digest: " + list.substr(digest, 64) + ", ", ""));
+  EXPECT_EQ(skipped(p, "base", "tool"), "");
+  EXPECT_THAT(textsOf(p.source.notes),
+              Contains("never_in_contact: its 2 pairs are tested, because it has no digest; "
+                       "corridor new robot proves the pairs again, and writes a never_in_contact "
+                       "with a digest"));
+}
+
+/// The proof is for all values of all joints within their limits. So it does not matter which
+/// joints are planned for, or at which values the others are held.
+TEST_F(NeverInContactPairs, AreProvedForAllHeldValues) {
+  const std::string list = listOf({{"base", "finger"}}, {0.01, 0.1});
+  for (const char* keys : {"", "hold: {slide: 0.05}\n",
+                           "states: {ready: {pan: 0, lift: 0.5, slide: "
+                           "0.04}}\n"}) {
+    write("arm.yaml", std::string(arm) + keys + list);
+    const Problem p = read(armHead + "start: ready\ngoal: {pan: 1, lift: 0.5}\n");
+    EXPECT_EQ(skipped(p, "base", "finger"), kReason) << keys;
+  }
+  std::string all = arm;
+  all.replace(all.find("group: arm"), 10, "joints: [pan, lift, slide]");
+  write("arm.yaml", all + list);
+  const Problem p = read(armHead +
+                         "start: {pan: 0, lift: 0, slide: 0.02}\ngoal: {pan: 1, lift: 0.5, slide: "
+                         "0.03}\n");
+  EXPECT_EQ(skipped(p, "base", "finger"), kReason);
+}
+
+/// The digest of a robot of one link, computed by another program from the description of the bytes
+/// in proof_digest.h.
+TEST(ProofDigest, HasTheDescribedBytes) {
+  RobotModel robot;
+  PlacedShape ball;
+  ball.parts = {{{Vec3(1, 2, 3)}, 0.5, false}};
+  robot.links = {{"a", {ball}}, {"b", {}}};
+  JointModel joint;
+  joint.name = "j", joint.type = JointType::revolute, joint.child = 1;
+  joint.lower = -1, joint.upper = 2, joint.mimic = Mimic{0, 2, 0.25};
+  robot.joints = {joint};
+  EXPECT_EQ(proofDigest(digestOfRobot(robot), {0.01, 0.5}, {{"b", "a"}}),
+            "64bd4712adb72ba2f9d1dac8275a676b1ec3974d3ca3f865daa749430e6ef584");
 }
 
 TEST_F(NeverInContactPairs, Faults) {
