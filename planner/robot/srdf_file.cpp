@@ -182,15 +182,18 @@ void readAll(XmlFile& file, RobotModel& model) {
   readSrdfGroups(file, names, model);
   UnknownNames passive;
   std::vector<std::string> passiveJoints;
+  int firstPassive = 0;
   forEach(root, "passive_joint", [&](Element& element) {
-    if (const auto joint = names.findJoint(element, "name", "", passive))
-      passiveJoints.push_back(model.joints[*joint].name);
+    const auto joint = names.findJoint(element, "name", "", passive);
+    if (!joint) return;
+    if (passiveJoints.empty()) firstPassive = element.GetLineNum();
+    passiveJoints.push_back(model.joints[*joint].name);
   });
   if (!passiveJoints.empty())
     model.notes.push_back(
-        {file.at(0,
-                 "passive joints are planned for like other joints, unless the robot's file "
-                 "holds or leaves them out: " +
+        {file.at(firstPassive,
+                 "<passive_joint> has no effect here; these joints are planned for "
+                 "or held like others: " +
                      joinedFirst(passiveJoints)),
          NoteWeight::motion});
   names.note(passive, "passive joint is not in the URDF: ", "passive joints are not in the URDF: ",
