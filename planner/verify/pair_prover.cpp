@@ -18,6 +18,22 @@ constexpr const char* kErrorTooLarge = "the error of the piece may exceed the cl
   throw std::invalid_argument("verifyPath: " + what);
 }
 
+/// Bounds of bodies and chains are minima and maxima, which may drop a NaN.
+bool isFinite(const VerifyBody& body) {
+  const auto finite = [](const Vec3& p) { return p.allFinite(); };
+  if (body.mesh) return std::all_of(body.mesh->vertices.begin(), body.mesh->vertices.end(), finite);
+  return std::all_of(body.parts.begin(), body.parts.end(), [&](const ConvexPart& part) {
+    return std::isfinite(part.radius) && part.radius >= 0 &&
+           std::all_of(part.points.begin(), part.points.end(), finite);
+  });
+}
+
+bool isFinite(const Frame& frame) {
+  return frame.fixed.p.allFinite() && frame.fixed.q.coeffs().allFinite() &&
+         !frame.fixed.q.coeffs().isZero(0) && frame.axis.allFinite() &&
+         std::isfinite(frame.multiplier) && std::isfinite(frame.offset);
+}
+
 void require(const PathProblem& problem) {
   if (!problem.tree || !problem.space) refuse("tree and space must not be null");
   if (!(problem.margin >= 0 && std::isfinite(problem.margin)))
@@ -30,18 +46,26 @@ void require(const PathProblem& problem) {
     refuse("tube must have as many numbers as a configuration");
   if (!problem.tube.allFinite() || (problem.tube.array() < 0).any())
     refuse("tube must be finite and not negative");
+  const Eigen::Index limits = problem.provedLower.size();
+  if (limits != problem.provedUpper.size() || (limits != 0 && limits != problem.tube.size()))
+    refuse("provedLower and provedUpper must be empty or have the size of a configuration");
   for (const VerifyBody& body : problem.bodies)
     if ((body.mesh == nullptr) == body.parts.empty() ||
         (body.mesh && body.mesh->triangles.empty()) ||
         std::any_of(body.parts.begin(), body.parts.end(),
                     [](const ConvexPart& part) { return part.points.empty(); }))
       refuse("body " + body.name + " needs a mesh or parts");
-  for (const VerifyPair& pair : problem.pairs)
-    if (pair.a >= problem.bodies.size() || pair.b >= problem.bodies.size())
-      refuse("a pair names a body that does not exist");
-  for (const VerifyPair& pair : problem.pairs)
-    if (!(pair.padding >= 0 && std::isfinite(pair.padding)))
-      refuse("padding must be finite and not negative");
+  for (const VerifyBody& body : problem.bodies)
+    if (!isFinite(body)) refuse("body " + body.name + " has a number that is not finite");
+  for (const Frame& frame : problem.tree->frames)
+    if (!isFinite(frame)) refuse("frame " + frame.name + " has a number that is not finite");
+  for (const std::vector<VerifyPair>* pairs : {&problem.pairs, &problem.restPairs})
+    for (const VerifyPair& pair : *pairs) {
+      if (pair.a >= problem.bodies.size() || pair.b >= problem.bodies.size())
+        refuse("a pair names a body that does not exist");
+      if (!(pair.padding >= 0 && std::isfinite(pair.padding)))
+        refuse("padding must be finite and not negative");
+    }
 }
 
 void require(const PathProblem& problem, const CurvePiece& piece) {
@@ -95,16 +119,25 @@ PairProver::PairProver(const PathProblem& problem) : problem_(problem) {
     treeOf_.push_back(trees_.size());
     body.mesh ? trees_.emplace_back(*body.mesh) : trees_.emplace_back(body.parts);
   }
-  for (const VerifyPair& pair : problem.pairs) {
-    const std::size_t fa = problem.bodies[pair.a].frame, fb = problem.bodies[pair.b].frame;
-    const std::size_t base = commonAncestor(*problem.tree, fa, fb);
-    // The factor covers the rounding of the sum.
-    const Real margin = pair.padding > 0
-                            ? (Real(problem.margin) + Real(pair.padding)) * (1 + 0x1p-62L)
-                            : Real(problem.margin);
-    pairs_.push_back({pair.a, pair.b, addChain(base, fa), addChain(base, fb), margin});
+  for (const VerifyPair& pair : problem.pairs) addPair(pair);
+  for (const VerifyPair& pair : problem.restPairs) {
+    addPair(pair);
+    for (const std::size_t chain : {pairs_.back().chainA, pairs_.back().chainB})
+      for (const std::size_t frame : chains_[chain].path)
+        if (problem.tree->frames[frame].moves())
+          refuse("a pair of restPairs has a joint that moves between its bodies");
   }
   frameStates_.resize(chains_.size());
+}
+
+void PairProver::addPair(const VerifyPair& pair) {
+  const std::size_t fa = problem_.bodies[pair.a].frame, fb = problem_.bodies[pair.b].frame;
+  const std::size_t base = commonAncestor(*problem_.tree, fa, fb);
+  // The factor covers the rounding of the sum.
+  const Real margin = pair.padding > 0
+                          ? (Real(problem_.margin) + Real(pair.padding)) * (1 + 0x1p-62L)
+                          : Real(problem_.margin);
+  pairs_.push_back({pair.a, pair.b, addChain(base, fa), addChain(base, fb), margin});
 }
 
 void PairProver::addEdge(const Configuration& from, const Configuration& to) {
@@ -154,7 +187,8 @@ void PairProver::addCurve(EdgeCurve curve, const Configuration& error, const cha
   Configuration& tube = tubes_.emplace_back(problem_.tube);
   for (Eigen::Index i = 0; i < tube.size(); ++i) tube[i] = sumUp(tube[i], error[i]);
   std::vector<PairReach> reaches;
-  for (std::size_t p = 0; p < pairs_.size(); ++p) reaches.push_back(reachOf(edge, p, error));
+  const std::size_t count = edge == 0 ? allPairs() : pairs();
+  for (std::size_t p = 0; p < count; ++p) reaches.push_back(reachOf(edge, p, error));
   reaches_.push_back(std::move(reaches));
 }
 

@@ -64,7 +64,15 @@ class PairProver {
   PairProver(const PathProblem& problem, std::span<const CurvePiece> pieces);
 
   std::size_t edges() const { return curves_.size(); }
-  std::size_t pairs() const { return pairs_.size(); }
+  /// Returns the configuration at t of an edge or piece, rounded.
+  Configuration configuration(std::size_t edge, double t) const {
+    return curves_[edge].configuration(t);
+  }
+  /// Returns the number of `PathProblem::pairs`. They have the numbers from 0 to pairs() − 1.
+  std::size_t pairs() const { return problem_.pairs.size(); }
+  /// Returns the number of all pairs. Those of `PathProblem::restPairs` have the numbers from
+  /// pairs() on, and may only be passed to the functions below with the first edge.
+  std::size_t allPairs() const { return pairs_.size(); }
   /// Returns a finding `refuted` if the edge defines no curve, else nullopt. An edge defines no
   /// curve if an end is not a state, a half turn is ambiguous, or a joint jumps; a piece also if it
   /// does not begin where the piece before it ends. Such an edge must not be passed to the
@@ -117,6 +125,7 @@ class PairProver {
   /// @param fault why the edge defines no curve; empty if it does.
   void addCurve(EdgeCurve curve, const Configuration& error, const char* fault,
                 const Configuration& at);
+  void addPair(const VerifyPair& pair);
   std::size_t addChain(std::size_t base, std::size_t frame);
   const BodyTree& treeOf(std::size_t body) const { return trees_[treeOf_[body]]; }
   PairReach reachOf(std::size_t edge, std::size_t pair, const Configuration& error) const;
@@ -150,11 +159,11 @@ class PairProver {
   std::vector<std::size_t> treeOf_;  // for each body, its tree in `trees_`
   std::vector<KinematicChain> chains_;
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> chainIndex_;  // key: (base, frame)
-  std::vector<Pair> pairs_;
+  std::vector<Pair> pairs_;  // those of problem_.pairs, then those of problem_.restPairs
   std::vector<EdgeCurve> curves_;
   std::vector<Configuration> tubes_;  // one per edge: the problem's tube, and the piece's error
   std::vector<std::optional<PathFinding>> noCurve_;  // one per edge
-  std::vector<std::vector<PairReach>> reaches_;      // [edge][pair]
+  std::vector<std::vector<PairReach>> reaches_;      // [edge][pair]; restPairs: only [0][pair]
   // Bounds in segments of currentEdge_; the key is {2^depth + index of the segment, pair}.
   std::map<std::pair<std::size_t, std::size_t>, Reach> segments_;
   // For each chain, a time of currentEdge_ and the state of the frame at this time.

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "planner/verify/pair_prover.h"
+#include "planner/verify/proved_range.h"
 
 namespace corridor {
 namespace {
@@ -70,9 +71,19 @@ struct WorstOnTop {
 class Verifier {
  public:
   Verifier(const PathProblem& problem, const std::vector<Configuration>& states)
-      : problem_(problem), prover_(problem, states), single_(states.size() == 1) {}
+      : problem_(problem), prover_(problem, states), single_(states.size() == 1) {
+    for (std::size_t e = 0; e < prover_.edges(); ++e) {
+      const Configuration &from = states[e], &to = states[std::min(e + 1, states.size() - 1)];
+      if (const auto t = outsideProved(problem, from, to))
+        addBeyondProofs(e, *t, *t > 0 ? to : from);
+    }
+  }
   Verifier(const PathProblem& problem, std::span<const CurvePiece> pieces)
-      : problem_(problem), prover_(problem, pieces), single_(false) {}
+      : problem_(problem), prover_(problem, pieces), single_(false) {
+    for (std::size_t e = 0; e < pieces.size(); ++e)
+      if (const auto t = outsideProved(problem, pieces[e]))
+        addBeyondProofs(e, *t, prover_.configuration(e, *t));
+  }
   PathReport run();
 
  private:
@@ -82,12 +93,14 @@ class Verifier {
   bool test(const Interval& interval, OpenPair& open);
   /// Tests all pairs of the interval and keeps those that are still open.
   void testAll(Interval& interval);
+  void proveAtRest();
   void proveStates();
   void proveEdge(std::size_t edge);
   void proveOutside();
   void refine();
   void findFirst(PathFinding& finding);
   void add(const PathFinding& finding);
+  void addBeyondProofs(std::size_t edge, double t, const Configuration& at);
   PathReport report() const;
   bool outOfWork() const { return queries_ >= problem_.workLimit; }
   bool hasFinding(std::size_t edge) const { return findings_.count(static_cast<int>(edge)) > 0; }
@@ -112,6 +125,7 @@ class Verifier {
   bool single_;                                                              // a path of one state
   std::priority_queue<Interval, std::vector<Interval>, WorstOnTop> proved_;  // each with one pair
   std::map<int, PathFinding> findings_;                                      // key: edge
+  std::vector<PathFinding> restFindings_;                                    // of `restPairs`
   std::set<std::pair<std::size_t, std::size_t>> undecided_;                  // (edge, pair)
   Real smallest_ = kInfinity, leastAtStates_ = kInfinity;
   std::uint64_t queries_ = 0;
@@ -123,6 +137,16 @@ void Verifier::add(const PathFinding& finding) {
   if (!first && place->second.verdict == PathVerdict::undecided &&
       finding.verdict == PathVerdict::refuted)
     place->second = finding;
+}
+
+/// Records that an edge is undecided because it leaves the proved range.
+void Verifier::addBeyondProofs(std::size_t edge, double t, const Configuration& at) {
+  PathFinding finding;
+  finding.edge = static_cast<int>(edge);
+  finding.t = t;
+  finding.configuration = at;
+  finding.reason = kBeyondProofs;
+  add(finding);
 }
 
 Interval Verifier::intervalOf(const TimeInterval& time) const {
@@ -171,6 +195,29 @@ void Verifier::testAll(Interval& interval) {
     }
   }
   interval.pairs = std::move(left);
+}
+
+/// Tests the pairs of `restPairs` at the first state. Their bodies are at rest relative to each
+/// other, so the answer holds for every state. The queries do not count towards the work limit.
+void Verifier::proveAtRest() {
+  if (prover_.noCurve(0)) return;  // the path is refuted
+  constexpr TimeInterval start{0, 0, 0};
+  for (std::size_t pair = prover_.pairs(); pair < prover_.allPairs(); ++pair) {
+    PairAnswer answer = prover_.decide(start, {pair, {}, -kInfinity, -kInfinity}, 0);
+    if (answer.verdict == PathVerdict::proved)
+      if (const auto inside = prover_.insideAtStart(pair)) answer = *inside;
+    if (answer.verdict == PathVerdict::proved) continue;
+    PathFinding finding = prover_.finding(start, pair, answer);
+    finding.inEveryState = true;
+    // Two bodies of several shapes each have many pairs. One finding is enough.
+    const auto same = std::find_if(
+        restFindings_.begin(), restFindings_.end(),
+        [&](const PathFinding& each) { return each.a == finding.a && each.b == finding.b; });
+    if (same == restFindings_.end())
+      restFindings_.push_back(std::move(finding));
+    else if (same->verdict == PathVerdict::undecided)
+      *same = std::move(finding);
+  }
 }
 
 /// Tests the states before the edges, for two reasons. First, bisection comes close to the states,
@@ -276,6 +323,7 @@ void Verifier::findFirst(PathFinding& finding) {
 PathReport Verifier::run() {
   for (std::size_t edge = 0; edge < prover_.edges(); ++edge)
     if (prover_.noCurve(edge)) add(*prover_.noCurve(edge));
+  proveAtRest();
   proveStates();
   for (std::size_t edge = 0; edge < prover_.edges(); ++edge)
     if (!closed(edge) && !single_) proveEdge(edge);
@@ -293,8 +341,9 @@ PathReport Verifier::run() {
 PathReport Verifier::report() const {
   PathReport report;
   report.edges = static_cast<int>(prover_.edges());
-  report.edgesProved = report.edges - static_cast<int>(findings_.size());
-  if (findings_.empty()) {
+  const bool isFreeAtRest = restFindings_.empty();
+  if (isFreeAtRest) report.edgesProved = report.edges - static_cast<int>(findings_.size());
+  if (findings_.empty() && isFreeAtRest) {
     // A proved pair that is not in `proved_` had a bound of at least `usefulBound()`, and
     // `usefulBound()` never increases.
     Real least = single_ ? leastAtStates_ : usefulBound();
@@ -304,13 +353,15 @@ PathReport Verifier::report() const {
     if (report.provenClearance > least)  // the conversion rounded up
       report.provenClearance = std::nextafter(report.provenClearance, 0);
   }
-  for (const auto& [edge, finding] : findings_) {
+  const auto include = [&](const PathFinding& finding) {
     if (finding.verdict == PathVerdict::refuted) report.verdict = PathVerdict::refuted;
     if (report.verdict == PathVerdict::proved) report.verdict = PathVerdict::undecided;
     if (report.findings.size() < std::size_t{kFindings}) report.findings.push_back(finding);
-  }
+  };
+  for (const PathFinding& finding : restFindings_) include(finding);
+  for (const auto& [edge, finding] : findings_) include(finding);
   report.smallestDistanceMet = static_cast<double>(smallest_);
-  report.distanceQueries = queries_;
+  report.distanceQueries = queries_ + (prover_.allPairs() - prover_.pairs());
   return report;
 }
 

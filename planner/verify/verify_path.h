@@ -43,7 +43,8 @@ namespace corridor {
 /// term also has the largest |q_j''| there (edge_curve.h).
 ///
 /// Files: edge_curve (edges and pieces, forward kinematics, reach weights), bernstein
-/// (polynomials), curve_joins (the ends of pieces), polynomial_range (limits), triangle_gap and
+/// (polynomials), curve_joins (the ends of pieces), polynomial_range (limits), proved_range (where
+/// the pairs are all that matters), triangle_gap and
 /// convex_gap (distance of two leaf primitives), moved_slab (two moving leaf primitives), body_tree
 /// (two bodies), exact_contact (rational arithmetic), winding (inside a solid), pair_prover (two
 /// bodies in a time interval), verify_path (the bisection).
@@ -69,6 +70,15 @@ struct PathProblem {
   const ConfigurationSpace* space = nullptr;  ///< not owned; only its `coordinates()` are read
   std::vector<VerifyBody> bodies;
   std::vector<VerifyPair> pairs;
+  /// Pairs of bodies that never move relative to each other: no joint that moves is between their
+  /// frames. They are tested once, at the first state, and this decides them for every state.
+  /// `provenClearance` and `smallestDistanceMet` are about `pairs` only.
+  std::vector<VerifyPair> restPairs;
+  /// The values of each number of a configuration, inclusive, for which bodies that are in no pair
+  /// are proved apart by other means (planner/model/pair_proofs.h); infinite where it does not
+  /// matter. An edge or piece that leaves these values is not proved: it is undecided if it is not
+  /// refuted. Empty: no limit.
+  Configuration provedLower, provedUpper;
   double margin = 0;  ///< metres; a clearance of at most margin + padding is a violation
   /// Metres. `PathReport::provenClearance` is refined until it reaches this value, if the path may
   /// have such a clearance. It does not change the verdict.
@@ -96,6 +106,7 @@ enum class PathVerdict {
   /// - The rounding of a large value may exceed the clearance, or the processor's floating-point
   ///   mode makes the bounds invalid.
   /// - The work limit was reached.
+  /// - An edge or piece leaves PathProblem::provedLower and provedUpper.
   undecided
 };
 
@@ -109,6 +120,9 @@ struct PathFinding {
   PathVerdict verdict = PathVerdict::undecided;
   int edge = 0;  ///< the edge from state `edge` to state `edge` + 1, from 0; or the piece
   double t = 0;  ///< time on the edge, in [0, 1]
+  /// True for a pair of `restPairs`: the fault is the same in every state of the path. `edge` and
+  /// `t` are then 0, and `freeUntil` is not set.
+  bool inEveryState = false;
   /// On the first refuted edge, the edge is proved on [0, freeUntil] unless this is 0, and its
   /// first refutation is in [freeUntil, t]. This bracket is narrowed until the motion bound in it
   /// is below the tolerance, its width is below 2^-30, or a limit of queries is reached. The value
@@ -132,12 +146,13 @@ struct PathFinding {
 
 struct PathReport {
   PathVerdict verdict = PathVerdict::proved;
-  /// One finding for each edge that is not proved, in the order of the edges; at most 100. If the
-  /// first finding is a refutation, it is the first refutation of the path (see
+  /// First the findings of `restPairs`, one for each two names of bodies that are not proved; then
+  /// one for each edge that is not proved, in the order of the edges; at most 100 in all. The first
+  /// refutation among the findings about edges is the first refutation by `pairs` (see
   /// PathFinding::freeUntil).
   std::vector<PathFinding> findings;
   int edges = 0;
-  int edgesProved = 0;
+  int edgesProved = 0;  ///< 0 if a pair of `restPairs` is not proved
   /// Metres. If the path is proved, every curve in the tube keeps at least this distance. If the
   /// path is not proved, the value is 0. If no pair is tested, it is infinite. The value is refined
   /// until one of three conditions holds:
@@ -162,9 +177,14 @@ struct PathReport {
 /// - `states` is empty, or a pointer is null.
 /// - Margin, padding, wanted clearance, tube or tolerance is negative or not finite, or the
 /// tolerance is 0.
-/// - The tube has another length than a configuration.
-/// - A body has neither a mesh nor parts, or both, or an empty mesh or part.
-/// - A pair names a body that does not exist.
+/// - The tube has another length than a configuration; or provedLower or provedUpper has, and they
+/// are not both empty.
+/// - A body has neither a mesh nor parts, or both, or an empty mesh or part. Or a vertex, a point
+/// or
+///   a radius is not finite.
+/// - A frame of the tree has a number that is not finite, or a zero quaternion.
+/// - A pair names a body that does not exist, or a pair of `restPairs` has a joint that moves
+/// between its bodies.
 PathReport verifyPath(const PathProblem& problem, const std::vector<Configuration>& states);
 
 /// Verifies a curve of polynomial pieces, one after the other, as verifyPath() verifies edges. In
