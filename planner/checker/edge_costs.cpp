@@ -74,11 +74,15 @@ EdgeCosts sampleEdgeCosts(const Checker& checker, std::size_t edges, double seco
     const double took =
         secondsOf([&] { result = scene.certify(motion, checker.options(), context); });
     (result.verdict == MotionVerdict::free ? free : other).push_back(took);
-    for (const MotionPair& pair : scene.motionPairs()) {
+    for (std::size_t k = 0; k < scene.motionPairs().size(); ++k) {
+      const MotionPair& pair = scene.motionPairs()[k];
+      MotionOptions options = checker.options();
+      options.margin = options.marginOf(k);  // margins of pairs belong to the query of all pairs
+      options.pairMargins = nullptr;
       Counters before;
       const auto queryAlone = [&] {
         before = context.counters;
-        return secondsOf([&] { certifyMotion(motion, {&pair, 1}, checker.options(), context); });
+        return secondsOf([&] { certifyMotion(motion, {&pair, 1}, options, context); });
       };
       const auto treesBuilt = [&] {
         return scene.bodies()[pair.bodyA].body.treeBuilt() +

@@ -22,6 +22,14 @@ TEST(EdgeCosts, CountsAndSharesAddUp) {
   EXPECT_NEAR(sum, 1, 1e-12);
 }
 
+TEST(EdgeCosts, OfPaddedBodies) {
+  Problem problem = test::armProblem();
+  problem.task.padding.bodies[0] = 0.01;
+  const Checker checker(problem);
+  ASSERT_GT(checker.scene().motionPairs().size(), 1u) << "each pair is measured alone";
+  EXPECT_FALSE(sampleEdgeCosts(checker, 5, 1e9, 1).pairs.empty());
+}
+
 TEST(EdgeCosts, TestsOneEdgeAtLeastAndStopsInTime) {
   const Problem problem = test::hallProblem(test::Rigid::SE3);
   const Checker checker(problem);
