@@ -99,7 +99,7 @@ Solved solveOne(const std::string& file, const SolveArguments& a,
   SolveOptions options;
   options.valueOrigins = applyArguments(a, problem);
   options.interrupted = &interrupted;
-  options.noteStillPairs = true;
+  options.noteLeftOut = true;
   if (a.trajectory) options.trajectory = trajectoryKindOf(*a.trajectory);
   const bool show = !a.quiet && ::isatty(STDERR_FILENO) != 0;
   if (show) {

@@ -10,15 +10,6 @@
 namespace corridor {
 namespace {
 
-/// Returns for each frame the nearest frame with a moving or held joint, among the frame itself and
-/// its ancestors; 0 if there is none. Frames with the same result are joined by fixed joints only.
-std::vector<std::size_t> jointsAbove(const KinematicTree& tree) {
-  std::vector<std::size_t> joint(tree.frames.size(), 0);
-  for (std::size_t i = 1; i < tree.frames.size(); ++i)
-    joint[i] = tree.frames[i].joint != Frame::Joint::none ? i : joint[tree.frames[i].parent];
-  return joint;
-}
-
 /// Returns a box around the points of a model body in the world, rounded.
 BoundingBox boxOf(const ModelBody& body, const Transform& X_WF) {
   BoundingBox box;
@@ -86,22 +77,20 @@ class StillTest {
 
 bool hasStillPairs(const Model& model) {
   bool has = false;
-  forEachPair(model, [&](std::size_t, std::size_t, std::string_view why) {
-    has = has || why == kNeverMove;
-  });
+  forEachPair(model, Required::beyondProofs(),
+              [&](std::size_t a, std::size_t b, std::string_view why) {
+                has = has || (why == kNeverMove && model.bodies[a].robot != model.bodies[b].robot);
+              });
   return has;
 }
 
 std::vector<StillPair> closeStillPairs(const Checker& checker, const Configuration& q) {
   requireStandardFloatingPoint();
   const Model& model = checker.model();
-  const std::vector<std::size_t> jointOf = jointsAbove(model.tree);
   StillTest test(checker, q);
   std::vector<StillPair> found;
-  forEachPair(model, [&](std::size_t a, std::size_t b, std::string_view why) {
-    if (why != kNeverMove) return;
-    const ModelBody &bodyA = model.bodies[a], &bodyB = model.bodies[b];
-    if (bodyA.robot == bodyB.robot && jointOf[bodyA.frame] == jointOf[bodyB.frame]) return;
+  forEachPair(model, checker.required(), [&](std::size_t a, std::size_t b, std::string_view why) {
+    if (why != kNeverMove || model.bodies[a].robot == model.bodies[b].robot) return;
     if (const auto pair = test(a, b)) found.push_back(*pair);
   });
   return found;
@@ -127,8 +116,8 @@ std::vector<Note> notesOnStillPairs(const Checker& checker, const Configuration&
                          : checker.options().pairMargins ? "are closer than margin and padding"
                                                          : "are closer than the margin") +
              ": " + joinedFirst(names, kShown) +
-             "; no proof covers these pairs, because their bodies never move relative to each "
-             "other (allow: [[" +
+             "; no proof covers these pairs, because only fixed joints are between their bodies "
+             "(allow: [[" +
              model.bodies[first->a].name + ", " + model.bodies[first->b].name +
              "]] if this is intended)",
          NoteWeight::coverage});

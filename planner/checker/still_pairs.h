@@ -7,21 +7,21 @@
 
 namespace corridor {
 
-/// Two bodies that never move relative to each other, by their indices in the model.
+/// Two bodies that never move relative to each other, because the joints between them are fixed.
+/// The indices are those of the model. (Pairs with held joints between them: rest_pairs.h.)
 struct StillPair {
   std::size_t a = 0, b = 0;
   bool touches = false;  ///< false: the bodies are apart, but by at most margin plus padding
 };
 
-/// Returns whether the model has a pair of bodies that is not tested only because the two never
-/// move relative to each other.
+/// Returns whether the model has a pair of bodies that is not tested because only fixed joints are
+/// between the two, and that are not links of one robot.
 bool hasStillPairs(const Model& model);
 
-/// Returns pairs of bodies that are not tested, because the two bodies never move against each
-/// other. The returned pairs touch, or are not farther apart than margin plus padding, in every
-/// state. Such a pair may result from a wrong pose of a base or an obstacle, or from a wrong value
-/// of a held joint. Pairs of one robot whose links are joined by fixed joints only are left out:
-/// their overlap is part of the robot.
+/// Returns pairs of bodies that are not tested, because only fixed joints are between the two
+/// (kNeverMove). The returned pairs touch, or are not farther apart than margin plus padding, in
+/// every state. Such a pair may be a base on its table, or result from a wrong pose of a base or an
+/// obstacle. Pairs of one robot are left out: their overlap is part of the robot.
 ///
 /// The bodies are tested at their rounded poses for `q`. @pre `q` is finite.
 /// @throws std::runtime_error as `Checker::interference` does; std::invalid_argument if a pose is

@@ -122,6 +122,8 @@ void Solve::checkEnds() {
   std::vector<Fault> faults;
   if (const auto why = whyNotFree(start_, checker_))
     faults.push_back(faultAt("start", "start: " + *why));
+  // The reason is the same for the goals.
+  if (!faults.empty() && !checker_.notFreeAtRest().empty()) throw InputError(std::move(faults));
   std::vector<std::string> whyNot;
   goalSamples_ = sampleGoals(problem_, checker_, kGoalSamples, whyNot);
   for (const std::string& why : whyNot) {
@@ -197,7 +199,9 @@ void Solve::setUpEnds() {
   start_ = space_->read(start.get());  // as in the path: an angle of π becomes −π
   definition_->addStartState(start);
   definition_->setGoal(std::make_shared<OmplGoal>(si_, problem_, goalSamples_));
-  if (options_.noteStillPairs) report_.notes = notesOnStillPairs(checker_, start_);
+  if (!options_.noteLeftOut) return;
+  report_.notes = notesOnStillPairs(checker_, start_);
+  report_.leftOut = leftOutOf(checker_);
 }
 
 bool Solve::stopsAtFirst() const {

@@ -9,6 +9,7 @@
 
 #include "collision/core/counters.h"
 #include "collision/core/error.h"
+#include "planner/checker/left_out.h"
 #include "planner/problem/problem.h"
 #include "planner/solve/finish_path.h"
 #include "planner/solve/make_trajectory.h"
@@ -28,9 +29,9 @@ struct SolveOptions {
   std::function<void(const SolveProgress&)> progress;
   /// When this becomes true, solving ends soon, without a result.
   const std::atomic<bool>* interrupted = nullptr;
-  /// Whether to make a note on each pair of bodies that never move relative to each other, and that
-  /// touch or are within the margin (checker/still_pairs.h).
-  bool noteStillPairs = false;
+  /// Whether to find out what the proofs leave out (checker/left_out.h), and to make notes on pairs
+  /// of bodies that touch in every state, or are within the margin (checker/still_pairs.h).
+  bool noteLeftOut = false;
   /// For messages: the origins of values that were not read from the problem's file, by key, such
   /// as "planner.name" → "--planner". The keys are planner.name, planner.params.KEY, start and
   /// goal.
@@ -63,7 +64,8 @@ struct SolveReport {
   SolveOutcome outcome = SolveOutcome::notFound;
   std::string why;              ///< why not solved, in one line; empty if solved
   std::vector<Fault> warnings;  ///< if only some goals are used: why the others are not
-  std::vector<Note> notes;      ///< on still pairs, if `SolveOptions::noteStillPairs` is set
+  std::vector<Note> notes;      ///< on still pairs, if `SolveOptions::noteLeftOut` is set
+  LeftOut leftOut;              ///< what is not proved; set if `SolveOptions::noteLeftOut` is set
 
   Path path;  ///< empty unless solved; no rotation by more than 90° between two states
   bool certified = false;  ///< every edge of `path` was proved by the final certification

@@ -5,6 +5,7 @@
 
 #include "collision/core/shortest.h"
 #include "planner/checker/default_tolerance.h"
+#include "planner/model/pair_proofs.h"
 #include "planner/problem/digest.h"
 #include "planner/problem/yaml_reader.h"
 #include "planner/robot/angles.h"
@@ -211,7 +212,7 @@ double sizeOf(const VerifyBody& body) {
 /// Returns a tenth of the checker's tolerance, so that the verifier can decide paths that the
 /// checker certified. If the checker's tolerance is unset, returns a tenth of `defaultTolerance`
 /// for the smallest tested shape, or for a shape of 1 m if all are larger.
-double toleranceOf(const Model& model, const PathProblem& plain,
+double toleranceOf(const Model& model, const Required& need, const PathProblem& plain,
                    const std::optional<double>& checkerTolerance) {
   // The verifier needs a positive tolerance.
   const auto tenth = [](double tolerance) {
@@ -223,7 +224,7 @@ double toleranceOf(const Model& model, const PathProblem& plain,
     for (const std::size_t body : {pair.a, pair.b})
       if (const double size = sizeOf(plain.bodies[body]); size > 0)
         smallest = std::min(smallest, size);
-  return tenth(defaultTolerance(model, 1e-7 * smallest));
+  return tenth(defaultTolerance(model, need, 1e-7 * smallest));
 }
 
 DigestState digestState(const Problem& problem, const Solution& solution) {
@@ -237,8 +238,11 @@ std::string firstFinding(const VerifyReport& report) {
   if (!report.violations.empty()) return report.violations.front();
   if (report.pathReport.findings.empty()) return "";
   const PathFinding& f = report.pathReport.findings.front();
-  std::string place = "edge " + std::to_string(f.edge) + " at t = " + shortest(f.t);
-  if (const auto k = static_cast<std::size_t>(f.edge); k + 1 < report.times.size())
+  std::string place = f.inEveryState
+                          ? "in every state"
+                          : "edge " + std::to_string(f.edge) + " at t = " + shortest(f.t);
+  if (const auto k = static_cast<std::size_t>(f.edge);
+      k + 1 < report.times.size() && !f.inEveryState)
     place =
         "at " + shortest(report.times[k] + f.t * (report.times[k + 1] - report.times[k])) + " s";
   return place + ": " + f.reason + (f.a.empty() ? "" : ": " + f.a + " and " + f.b) +
@@ -247,6 +251,7 @@ std::string firstFinding(const VerifyReport& report) {
 
 PathProblem plainProblem(const Model& model, const Task& task,
                          const std::optional<double>& tolerance) {
+  requireObstaclesAtRest(model);
   PathProblem plain;
   plain.tree = &model.tree;
   plain.space = &model.space;
@@ -261,12 +266,19 @@ PathProblem plainProblem(const Model& model, const Task& task,
                               shape.solid, body.frame});
     }
   }
-  forEachTestedPair(model, [&](std::size_t i, std::size_t j) {
+  const Required need = requiredBy(task);
+  forEachPair(model, need, [&](std::size_t i, std::size_t j, std::string_view why) {
+    if (!why.empty() && why != kTestedAtRest) return;
+    std::vector<VerifyPair>& pairs = why.empty() ? plain.pairs : plain.restPairs;
     for (const std::size_t a : parts[i])
       for (const std::size_t b : parts[j])
-        plain.pairs.push_back({a, b, paddingOf(model, task.padding, i, j)});
+        pairs.push_back({a, b, paddingOf(model, task.padding, i, j)});
   });
-  plain.tolerance = toleranceOf(model, plain, tolerance);
+  if (const auto proved = provedBox(model, need)) {
+    plain.provedLower = proved->lower;
+    plain.provedUpper = proved->upper;
+  }
+  plain.tolerance = toleranceOf(model, need, plain, tolerance);
   return plain;
 }
 

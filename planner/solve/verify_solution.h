@@ -56,7 +56,12 @@ const char* verdictName(const VerifyReport& report);
 std::string firstFinding(const VerifyReport& report);
 
 /// Returns the plain data that planner/verify reads: the model's bodies, the pairs that its filter
-/// does not exclude, and the task's margin and tube. The model must outlive the result.
+/// does not exclude for the task's margin, padding and tube (`requiredBy`), and the task's margin
+/// and tube. Pairs that were proved never in contact are left out only if their proof covers the
+/// task; paths that leave the values for which it holds are then not proved (`provedBox`). Pairs
+/// with only held joints between them are `PathProblem::restPairs`. The model must outlive the
+/// result.
+/// @throws std::invalid_argument if a body without a robot is on a frame that moves.
 /// @param tolerance the checker's tolerance, metres; the verifier uses a tenth of it. Unset: the
 /// verifier uses a tenth of the default tolerance for the smallest tested shape (for a shape of 1 m
 /// if all are larger). This may differ from a tenth of the checker's default.

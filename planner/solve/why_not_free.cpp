@@ -11,6 +11,7 @@
 #include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
 #include "collision/world/body_queries.h"
+#include "planner/model/held_joints.h"
 #include "planner/robot/angles.h"
 
 namespace corridor {
@@ -220,13 +221,23 @@ double gapOf(const Checker& checker, const Configuration& q, const Contact& pair
   return distance(posed(pair.bodyA), posed(pair.bodyB), {}, context).distance;
 }
 
+/// Returns the smallest distance of the shapes of two bodies; 0 if they touch.
+double gapOf(const Checker& checker, const Configuration& q, const RestPair& pair) {
+  double gap = HUGE_VAL;
+  for (const Scene::Pair& shapes : checker.scene().pairs())
+    if (const auto [a, b] = std::minmax({checker.bodyOf(shapes.a), checker.bodyOf(shapes.b)});
+        a == pair.a && b == pair.b)
+      gap = std::min(gap, gapOf(checker, q, Contact{.bodyA = shapes.a, .bodyB = shapes.b}));
+  return gap;
+}
+
 /// Returns `; not proved free either: "hand" and "table", "arm" and "wall"`: the pairs of bodies
-/// for which the configuration is not proved free, except for the pair of `named`. Returns "" if
-/// there are none.
-std::string otherPairs(const Checker& checker, const Configuration& q, const Contact& named) {
+/// for which the configuration is not proved free, except for bodies a and b. Returns "" if there
+/// are none.
+std::string otherPairs(const Checker& checker, const Configuration& q, std::size_t a,
+                       std::size_t b) {
   constexpr std::size_t most = 5;
   const std::vector<ModelBody>& bodies = checker.model().bodies;
-  const std::size_t a = checker.bodyOf(named.bodyA), b = checker.bodyOf(named.bodyB);
   std::string text;
   std::size_t count = 0;
   for (const Checker::PairNotFree& pair : checker.pairsNotFree(q)) {
@@ -239,6 +250,40 @@ std::string otherPairs(const Checker& checker, const Configuration& q, const Con
   return text;
 }
 
+std::string otherPairs(const Checker& checker, const Configuration& q, const Contact& named) {
+  return otherPairs(checker, q, checker.bodyOf(named.bodyA), checker.bodyOf(named.bodyB));
+}
+
+/// Explains why no state is free (`Checker::notFreeAtRest`). Names a pair that touches, if there is
+/// one.
+std::string whyNeverFree(const Configuration& q, const Checker& checker) {
+  const std::vector<RestPair>& pairs = checker.notFreeAtRest();
+  std::vector<double> gaps;
+  for (const RestPair& pair : pairs) gaps.push_back(gapOf(checker, q, pair));
+  const auto least = std::min_element(gaps.begin(), gaps.end());
+  const RestPair& pair = pairs[static_cast<std::size_t>(least - gaps.begin())];
+  const std::vector<ModelBody>& bodies = checker.model().bodies;
+  const double margin = checker.marginOf(pair.a, pair.b);
+  const std::string kept = margin > checker.options().margin ? "margin and padding" : "margin";
+  const std::string names =
+      quotedWord(bodies[pair.a].name) + " and " + quotedWord(bodies[pair.b].name);
+  std::string text;
+  if (*least == 0) {
+    text = "in contact in every state: " + names + " touch";
+  } else if (*least <= margin) {
+    const auto [gap, needed] = orderedTexts(*least, margin);
+    text = "too close in every state: " + names + " are " + gap + " m apart, and more than the " +
+           kept + " of " + needed + " m is needed";
+  } else {
+    text = "the gap between " + names + " is " + withDigits(*least - margin) + " m" +
+           (margin > 0 ? " beyond the " + kept : "") +
+           " in every state, too small to prove at a tolerance of " +
+           withDigits(checker.options().tolerance) + " m";
+  }
+  return text + ", and " + adviceAtRest(checker.model(), pair.a, pair.b) +
+         otherPairs(checker, q, pair.a, pair.b);
+}
+
 /// Explains the reasons that do not depend on the gap between two bodies.
 std::string whyUndecided(UndecidedReason reason) {
   switch (reason) {
@@ -247,6 +292,8 @@ std::string whyUndecided(UndecidedReason reason) {
              described(floatingPoint()) + "; restore them";
     case UndecidedReason::ambiguous:
       return "a value is so large that the pose overflows; reduce it";
+    case UndecidedReason::beyondProofs:
+      return "never_in_contact proves nothing so far beyond the limits of the joints";
     default:
       return "the test reached its work limit";
   }
@@ -274,6 +321,7 @@ std::optional<std::string> whyNotFree(const Configuration& q, const Checker& che
   if (!checker.inBounds(q)) return whyOutOfBounds(q, checker.space());
   const MotionResult result = checker.certifyState(q);
   if (result.verdict == MotionVerdict::free) return std::nullopt;
+  if (!checker.notFreeAtRest().empty() && standardFloatingPoint()) return whyNeverFree(q, checker);
 
   const bool undecided = result.verdict == MotionVerdict::undecided;
   const std::string pair = result.pair ? described(checker, *result.pair) : "two bodies";

@@ -175,7 +175,7 @@ TEST_F(LimitsTest, LinkSpeedLimitsTheBoxOfTheLink) {
   EXPECT_EQ(limits.links[0].speed, 0.25);
   EXPECT_EQ(model_.tree.frames[limits.links[0].frame].name, "finger");
   EXPECT_EQ(limits.links[0].points.size(), 9);  // the origin and the corners
-  EXPECT_EQ(limits.links[0].points[1].cwiseAbs(), Vec3(0.02, 0.02, 0.02));
+  EXPECT_EQ(limits.links[0].points[1].cwiseAbs(), Vec3(0.009, 0.009, 0.009));
 }
 
 TEST_F(LimitsTest, Faults) {
