@@ -15,6 +15,7 @@
 #include "planner/app/output.h"
 #include "planner/app/standard_streams.h"
 #include "planner/benchmark/csv_text.h"
+#include "planner/checker/left_out.h"
 #include "planner/checker/problem_goal.h"
 #include "planner/checker/still_pairs.h"
 #include "planner/problem/bounds.h"
@@ -99,14 +100,23 @@ void warnOfLimits(const std::string& file, std::size_t count, const char* what) 
          ", values that exceeded a limit only by rounding were set to the limit");
 }
 
-/// Prints the JSON report on the states or edges of a file.
-void printReport(const CheckArguments& a, const Problem& problem, bool valid, const char* key,
-                 const ordered_json& rows) {
-  std::cout << ordered_json{{"format", "corridor-check-report-2"},          {"problem", a.problem},
-                            {"numbers", problem.model.space.numberNames()}, {"valid", valid},
-                            {"notes", textsOf(problem.source.notes)},       {key, rows}}
-                   .dump(2)
-            << '\n';
+/// Prints the JSON report on the states or edges of a file. Without `a.json`, the rows are printed
+/// already; then only prints on stderr what the word "free" leaves out.
+void printReport(const CheckArguments& a, const Problem& problem, const LeftOut& leftOut,
+                 bool valid, const char* key, const ordered_json& rows) {
+  if (a.json)
+    std::cout << ordered_json{{"format", "corridor-check-report-2"},
+                              {"problem", a.problem},
+                              {"numbers", problem.model.space.numberNames()},
+                              {"valid", valid},
+                              {"left_out", leftOutJson(problem.model, leftOut)},
+                              {"not_tested", reasonGroups(leftOut)},
+                              {"notes", textsOf(problem.source.notes)},
+                              {key, rows}}
+                     .dump(2)
+              << '\n';
+  else if (!leftOut.except.empty())
+    std::cerr << "note: the " << key << " are tested" << exceptText(problem.model, leftOut) << '\n';
 }
 
 int checkStates(Problem problem, const CheckArguments& a) {
@@ -141,7 +151,7 @@ int checkStates(Problem problem, const CheckArguments& a) {
     if (!std::cout) requireResultsWritten();  // throws: nothing can be written any more
   }
   warnOfLimits(*a.states, noted, "state");
-  if (a.json) printReport(a, problem, all, "states", states);
+  printReport(a, problem, leftOutOf(checker), all, "states", states);
   return all ? kDone : kNegativeResult;
 }
 
@@ -159,6 +169,8 @@ const char* reasonName(UndecidedReason reason) {
       return "rounding";
     case UndecidedReason::floatingPoint:
       return "floating_point";
+    case UndecidedReason::beyondProofs:
+      return "beyond_proofs";
   }
   return "";
 }
@@ -230,7 +242,7 @@ int checkEdges(Problem problem, const CheckArguments& a) {
     if (!std::cout) requireResultsWritten();  // throws: nothing can be written any more
   }
   warnOfLimits(*a.edges, noted, "edge");
-  if (a.json) printReport(a, problem, all, "edges", edges);
+  printReport(a, problem, leftOutOf(checker), all, "edges", edges);
   return all ? kDone : kNegativeResult;
 }
 
@@ -238,12 +250,14 @@ int checkEnds(Problem problem, const CheckArguments& a) {
   checkSettings(problem);
   const Checker checker(problem);
   addFirst(notesOnStillPairs(checker, startOf(problem)), problem.source.notes);
+  const LeftOut leftOut = leftOutOf(checker);
   const ResultPrinter out(a.json);
   ordered_json ends;
   const auto checkEnd = [&](const std::string& name, const Configuration& q) {
     const auto why = whyNotFree(q, checker);
     ends[name] = why.value_or("free");
-    out.line(name, why.value_or("free"), why ? Tone::bad : Tone::good);
+    out.line(name, why.value_or("free" + exceptText(problem.model, leftOut)),
+             why ? Tone::bad : Tone::good);
     return !why;
   };
   out.line("problem", a.problem);
@@ -251,12 +265,15 @@ int checkEnds(Problem problem, const CheckArguments& a) {
   const std::vector<Configuration> goals = goalsOf(problem);
   for (std::size_t i = 0; i < goals.size(); ++i)
     all &= checkEnd(goals.size() == 1 ? "goal" : "goal " + std::to_string(i + 1), goals[i]);
+  out.line("not tested", notTestedText(leftOut));
   for (const std::string& note : condensed(textsOf(problem.source.notes))) out.line("note", note);
   if (a.json)
     std::cout << ordered_json{{"format", "corridor-check-report-2"},
                               {"problem", a.problem},
                               {"valid", all},
                               {"ends", ends},
+                              {"left_out", leftOutJson(problem.model, leftOut)},
+                              {"not_tested", reasonGroups(leftOut)},
                               {"notes", textsOf(problem.source.notes)}}
                      .dump(2)
               << '\n';

@@ -8,6 +8,7 @@
 #include "planner/app/inspect.h"
 #include "planner/app/output.h"
 #include "planner/checker/edge_costs.h"
+#include "planner/checker/left_out.h"
 #include "planner/checker/problem_goal.h"
 #include "planner/checker/still_pairs.h"
 #include "planner/model/reach.h"
@@ -146,26 +147,34 @@ class ProblemReport {
   }
 
   void reportPairs() {
-    std::map<std::string, std::size_t> skipped;
-    std::size_t tested = 0, far = 0;
+    const LeftOut leftOut = leftOutOf(checker_);
+    const std::size_t tested = leftOut.tested;
+    std::size_t far = 0;
     const std::vector<ReachBox> reach = reachOf(problem_.model);
     json_["pair_list"] = ordered_json::array();
-    forEachPair(problem_.model, [&](std::size_t a, std::size_t b, std::string_view why) {
+    const Required need = requiredBy(problem_.task);
+    forEachPair(problem_.model, need, [&](std::size_t a, std::size_t b, std::string_view why) {
       const std::string &nameA = problem_.model.bodies[a].name,
                         &nameB = problem_.model.bodies[b].name;
       const bool isFar = outOfReach(problem_.task, reach[a], reach[b]);
       const bool isTested = why.empty();
-      tested += isTested;
       far += isTested && isFar;
-      if (!isTested) ++skipped[std::string(why)];
       json_["pair_list"].push_back(
           {{"a", nameA}, {"b", nameB}, {"skipped", why}, {"out_of_reach", isFar}});
       if (a_.pairs)
         out_.line("pair", nameA + "~" + nameB + ": " +
-                              (isTested ? "tested" : "not tested: " + std::string(why)) +
+                              (isTested               ? "tested"
+                               : why == kTestedAtRest ? std::string(why)
+                                                      : "not tested: " + std::string(why)) +
                               (isFar ? " (out of reach)" : ""));
     });
-    json_["pairs"] = {{"tested", tested}, {"out_of_reach", far}, {"skipped", skipped}};
+    json_["pairs"] = {{"tested", tested},
+                      {"tested_at_rest", leftOut.testedAtRest},
+                      {"out_of_reach", far},
+                      {"skipped", leftOut.reasons},
+                      {"left_out", leftOutJson(problem_.model, leftOut)},
+                      {"not_tested", reasonGroups(leftOut)}};
+    except_ = exceptText(problem_.model, leftOut);
     out_.line("pairs tested",
               grouped(tested) + (tested ? "" : ": NOTHING IS TESTED, every state is valid"),
               tested ? Tone::plain : Tone::bad);
@@ -173,8 +182,12 @@ class ProblemReport {
       out_.line("of them out of reach",
                 grouped(far) + (far == tested ? ": no contact is possible" : ""),
                 far == tested ? Tone::bad : Tone::plain);
-    for (const auto& [reason, count] : skipped)
+    if (leftOut.testedAtRest)
+      out_.line("pairs tested once",
+                grouped(leftOut.testedAtRest) + ": only held joints between them");
+    for (const auto& [reason, count] : leftOut.reasons)
       out_.line("pairs skipped", grouped(count) + ": " + reason);
+    out_.line("not tested", notTestedText(leftOut));
     out_.line("never a pair", "two obstacles, a body with itself");
   }
 
@@ -192,7 +205,7 @@ class ProblemReport {
   bool reportEnd(const std::string& name, const Configuration& q, ordered_json& json) {
     const auto why = whyNotFree(q, checker_);
     json = why.value_or("free");
-    out_.line(name, why.value_or("free"), why ? Tone::bad : Tone::plain);
+    out_.line(name, why.value_or("free" + except_), why ? Tone::bad : Tone::plain);
     return !why;
   }
 
@@ -245,6 +258,7 @@ class ProblemReport {
   Checker checker_;
   ResultPrinter out_;
   ordered_json json_;
+  std::string except_;  // what the word "free" leaves out
 };
 
 }  // namespace

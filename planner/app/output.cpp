@@ -252,6 +252,15 @@ nlohmann::ordered_json numberJson(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
 }
 
+nlohmann::ordered_json leftOutJson(const Model& model, const LeftOut& leftOut) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const LeftOutPair& pair : leftOut.except)
+    list.push_back({{"a", model.bodies[pair.a].name},
+                    {"b", model.bodies[pair.b].name},
+                    {"reason", nameOf(pair.reason)}});
+  return list;
+}
+
 std::string grouped(std::uint64_t count) {
   std::string text = std::to_string(count);
   for (auto at = static_cast<int>(text.size()) - 3; at > 0; at -= 3)

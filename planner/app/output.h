@@ -11,6 +11,7 @@
 #include "collision/core/rigid_pose.h"
 #include "collision/core/transform.h"
 #include "collision/motion/certify_motion.h"
+#include "planner/checker/left_out.h"
 #include "planner/problem/problem.h"
 #include "planner/robot/configuration_space.h"
 #include "planner/solve/verify_solution.h"
@@ -105,6 +106,9 @@ std::string stateText(const ConfigurationSpace& space, const Configuration& q);
 nlohmann::ordered_json numbersJson(const Configuration& q);
 /// Returns null for an infinity and for NaN, which JSON cannot represent.
 nlohmann::ordered_json numberJson(double value);
+
+/// Returns a list of objects with the names `a` and `b` of the bodies and the `reason`.
+nlohmann::ordered_json leftOutJson(const Model& model, const LeftOut& leftOut);
 
 /// Returns the count with its digits in groups of three: "12,345".
 std::string grouped(std::uint64_t count);

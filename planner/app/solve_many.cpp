@@ -162,6 +162,9 @@ std::string lineOf(const ordered_json& report) {
   if (report.contains("clearance"))
     line += ", clearance " + rounded(1e3 * report["clearance"]["proved_m"].get<double>()) + " mm";
   line += report["certified"].get<bool>() ? ", certified" : ", not certified";
+  if (const std::size_t pairs = report["left_out"].size();
+      pairs > 0 && report["certified"].get<bool>())
+    line += " except " + counted(pairs, "pair");
   return line + ", " + durationText(report["time_s"]);
 }
 

@@ -58,7 +58,9 @@ ordered_json clearanceJson(const PathClearance& c) {
   return j;
 }
 
-void printTrajectory(const ResultPrinter& out, const Problem& p, const MadeTrajectory& made) {
+/// @param except what the proofs leave out (exceptText).
+void printTrajectory(const ResultPrinter& out, const Problem& p, const MadeTrajectory& made,
+                     const std::string& except) {
   if (!made.fault.empty()) {
     out.line("trajectory", "none: " + made.fault, Tone::bad);
     return;
@@ -70,7 +72,7 @@ void printTrajectory(const ResultPrinter& out, const Problem& p, const MadeTraje
                              (made.whyStops.empty() ? "" : ": " + made.whyStops));
   const MotionResult& proof = made.proof;
   out.line("trajectory proved",
-           made.proved() ? "yes, as it is written"
+           made.proved() ? "yes, as it is written" + except
                          : "no: " +
                                std::string(proof.verdict == MotionVerdict::contact ? "contact"
                                                                                    : "undecided") +
@@ -131,9 +133,10 @@ void print(const Solved& result, const std::string& problem, const SolveArgument
   if (r.clearance) {
     for (const std::string& line : clearanceLines(*r.clearance)) out.line("clearance", line);
   }
-  out.line("certified", r.certified ? "yes" : "no (" + r.checker + ")",
+  const std::string except = exceptText(p.model, r.leftOut);
+  out.line("certified", r.certified ? "yes" + except : "no (" + r.checker + ")",
            r.certified ? Tone::good : Tone::bad);
-  if (r.trajectory) printTrajectory(out, p, *r.trajectory);
+  if (r.trajectory) printTrajectory(out, p, *r.trajectory, except);
   if (r.trajectory && r.clearance)
     out.line("note", "the clearance is the path's; corridor verify reports the trajectory's");
   if (a.output) out.line("solution", *a.output);
@@ -166,6 +169,7 @@ ordered_json jsonOf(const Solved& result, const std::string& problem) {
                     {"triangle_tests", r.counters.triangleTests},
                     {"checker", r.checker},
                     {"certified", r.certified},
+                    {"left_out", leftOutJson(p.model, r.leftOut)},
                     {"tolerance_m", r.proofOptions.tolerance},
                     {"margin_m", r.proofOptions.margin},
                     {"tube", tubeJson(p.model.space, p.task.tube)}};

@@ -8,13 +8,16 @@
 
 #include <nlohmann/json.hpp>
 
+#include "collision/core/shortest.h"
 #include "planner/app/commands.h"
 #include "planner/app/limits_output.h"
 #include "planner/app/motion_file.h"
 #include "planner/app/options.h"
 #include "planner/app/output.h"
+#include "planner/checker/left_out.h"
 #include "planner/checker/problem_goal.h"
 #include "planner/checker/still_pairs.h"
+#include "planner/model/held_joints.h"
 #include "planner/problem/nothing_tested.h"
 #include "planner/solve/verify_solution.h"
 #include "planner/trajectory/rows_limits.h"
@@ -78,8 +81,20 @@ std::string whenText(const PathFinding& f, const VerifyReport& report) {
   return text;
 }
 
+/// Returns what can be done about a finding that concerns every state of the path.
+std::string adviceOn(const PathFinding& f, const Model& model) {
+  const auto bodyNamed = [&](const std::string& name) {
+    return static_cast<std::size_t>(
+        std::find_if(model.bodies.begin(), model.bodies.end(),
+                     [&](const ModelBody& body) { return body.name == name; }) -
+        model.bodies.begin());
+  };
+  return adviceAtRest(model, bodyNamed(f.a), bodyNamed(f.b));
+}
+
 std::string text(const PathFinding& f, const VerifyReport& report, const Problem& problem) {
-  std::string line = std::string(nameOf(f.verdict)) + ": " + whenText(f, report) + ": " + f.reason;
+  std::string line = std::string(nameOf(f.verdict)) + ": " +
+                     (f.inEveryState ? "in every state" : whenText(f, report)) + ": " + f.reason;
   if (!f.a.empty()) {
     line +=
         ": " + sideText(f.a, f.triangleA, problem) + " and " + sideText(f.b, f.triangleB, problem);
@@ -91,6 +106,7 @@ std::string text(const PathFinding& f, const VerifyReport& report, const Problem
     }
     line += ", near " + rounded(f.point);
   }
+  if (f.inEveryState) return line + ", and " + adviceOn(f, problem.model);
   return line + "; at " + stateText(problem.model.space, f.configuration);
 }
 
@@ -102,6 +118,7 @@ ordered_json jsonOf(const PathFinding& f, const VerifyReport& report) {
           {"reason", f.reason},
           {"edge", f.edge},
           {"t", f.t},
+          {"in_every_state", f.inEveryState},
           {"free_until", f.freeUntil ? ordered_json(*f.freeUntil) : ordered_json()},
           {"time_s", seconds(f.t)},
           {"free_until_s", seconds(f.freeUntil)},
@@ -115,7 +132,8 @@ ordered_json jsonOf(const PathFinding& f, const VerifyReport& report) {
           {"required_m", f.required}};
 }
 
-ordered_json jsonOf(const Verified& verified, const Problem& problem, const VerifyArguments& a) {
+ordered_json jsonOf(const Verified& verified, const Problem& problem, const LeftOut& leftOut,
+                    const VerifyArguments& a) {
   const VerifyReport& r = verified.report;
   ordered_json j = {{"format", "corridor-verify-report-3"},
                     {"problem", a.problem},
@@ -135,6 +153,8 @@ ordered_json jsonOf(const Verified& verified, const Problem& problem, const Veri
                     {"tube", tubeJson(problem.model.space, r.tube)},
                     {"numbers", problem.model.space.numberNames()},
                     {"distance_queries", r.pathReport.distanceQueries},
+                    {"left_out", leftOutJson(problem.model, leftOut)},
+                    {"not_tested", reasonGroups(leftOut)},
                     {"violations", r.violations},
                     {"findings", ordered_json::array()}};
   for (const PathFinding& finding : r.pathReport.findings)
@@ -143,11 +163,14 @@ ordered_json jsonOf(const Verified& verified, const Problem& problem, const Veri
   return j;
 }
 
-void print(const VerifyReport& r, const Problem& problem, const VerifyArguments& a) {
+void print(const VerifyReport& r, const Problem& problem, const LeftOut& leftOut,
+           const VerifyArguments& a) {
   const ResultPrinter out(a.quiet);
   out.line("problem", a.problem);
   out.line(r.between ? "trajectory" : "solution", a.solution);
-  out.line("verdict", verdictName(r), r.verdict == PathVerdict::proved ? Tone::good : Tone::bad);
+  const bool isProved = r.verdict == PathVerdict::proved;
+  out.line("verdict", verdictName(r) + (isProved ? exceptText(problem.model, leftOut) : ""),
+           isProved ? Tone::good : Tone::bad);
   if (r.otherProblem) return;
   for (const std::string& note : condensed(textsOf(problem.source.notes))) out.line("note", note);
   if (r.between)
@@ -158,6 +181,7 @@ void print(const VerifyReport& r, const Problem& problem, const VerifyArguments&
                                         secondsText(r.times.back()) + " s"));
   out.line("edges proved",
            std::to_string(r.pathReport.edgesProved) + " of " + std::to_string(r.pathReport.edges));
+  out.line("not tested", notTestedText(leftOut));
   if (r.pathReport.verdict == PathVerdict::proved)
     out.line("clearance", nothingIsTested(problem)
                               ? "none: no pair is tested"
@@ -213,12 +237,16 @@ int verifyCommand(const VerifyArguments& a) {
   const Verified verified = verify(problem, a);
   if (a.limits && !verified.report.limits)
     throw InputError(Fault{"--limits", 0, a.solution + " has no times, so it has no speed"});
-  if (hasStillPairs(problem.model))
-    addFirst(notesOnStillPairs(Checker(problem), startOf(problem)), problem.source.notes);
+  std::optional<Checker> checker;
+  if (hasStillPairs(problem.model)) {
+    checker.emplace(problem);
+    addFirst(notesOnStillPairs(*checker, startOf(problem)), problem.source.notes);
+  }
+  const LeftOut leftOut = checker ? leftOutOf(*checker) : leftOutOf(problem);
   if (!a.json) {
-    print(verified.report, problem, a);
+    print(verified.report, problem, leftOut, a);
   } else if (!a.quiet) {
-    std::cout << jsonOf(verified, problem, a).dump(2) << '\n';
+    std::cout << jsonOf(verified, problem, leftOut, a).dump(2) << '\n';
   }
   const std::optional<LimitRatios>& limits = verified.report.limits;
   const bool holds = verified.report.verdict == PathVerdict::proved &&

@@ -19,6 +19,7 @@
 #include "planner/app/motion_file.h"
 #include "planner/app/options.h"
 #include "planner/app/output.h"
+#include "planner/checker/left_out.h"
 #include "planner/problem/problem.h"
 #include "planner/solve/whole_file.h"
 #include "planner/view/browser_picture.h"
@@ -176,8 +177,11 @@ int viewCommand(const ViewArguments& a) {
   const ResultPrinter out(a.quiet);
   out.line("problem", a.problem);
   if (path) {
-    out.line("verdict", verdictName(path->report),
-             path->report.verdict == PathVerdict::proved ? Tone::good : Tone::bad);
+    const bool isProved = path->report.verdict == PathVerdict::proved;
+    out.line(
+        "verdict",
+        verdictName(path->report) + (isProved ? exceptText(problem.model, leftOutOf(problem)) : ""),
+        isProved ? Tone::good : Tone::bad);
   }
   if (pageFile) {
     writeWhole(*pageFile, page);

@@ -6,6 +6,7 @@
 #include <pybind11/stl.h>
 #include <string>
 
+#include "planner/checker/left_out.h"
 #include "planner/problem/digest.h"
 #include "planner/python/arrays.h"
 #include "planner/python/bindings.h"
@@ -71,10 +72,20 @@ py::dict trajectoryDict(const MadeTrajectory& made) {
   return d;
 }
 
+/// Returns (a, b, reason) for each pair that the proofs leave out.
+std::vector<std::tuple<std::string, std::string, std::string>> leftOutList(const Model& model,
+                                                                           const LeftOut& leftOut) {
+  std::vector<std::tuple<std::string, std::string, std::string>> list;
+  for (const LeftOutPair& pair : leftOut.except)
+    list.emplace_back(model.bodies[pair.a].name, model.bodies[pair.b].name, nameOf(pair.reason));
+  return list;
+}
+
 py::dict solve(const NativeProblem& native, const std::optional<std::string>& trajectory,
                const py::object& callback) {
   const Problem& problem = native.problem();
   SolveOptions options;
+  options.noteLeftOut = true;
   options.valueOrigins = native.origins();
   if (trajectory)
     options.trajectory =
@@ -90,6 +101,8 @@ py::dict solve(const NativeProblem& native, const std::optional<std::string>& tr
   d["why"] = r.why;
   d["path"] = arrayOf(r.path, problem.model.space.size());
   d["certified"] = r.certified;
+  d["left_out"] = leftOutList(problem.model, r.leftOut);
+  d["except"] = exceptText(problem.model, r.leftOut);
   d["planner"] = r.planner;
   d["checker"] = r.checker;
   d["seed"] = r.seed;
@@ -113,9 +126,11 @@ py::dict solve(const NativeProblem& native, const std::optional<std::string>& tr
   return d;
 }
 
-py::dict reportDict(const VerifyReport& report) {
+py::dict reportDict(const Problem& problem, const VerifyReport& report, const LeftOut& leftOut) {
   py::dict d;
   d["verdict"] = verdictName(report);
+  d["left_out"] = leftOutList(problem.model, leftOut);
+  d["not_tested"] = reasonGroups(leftOut);
   d["clearance_m"] = report.pathReport.provenClearance;
   d["edges"] = report.pathReport.edges;
   d["edges_proved"] = report.pathReport.edgesProved;
@@ -127,6 +142,7 @@ py::dict reportDict(const VerifyReport& report) {
     py::dict finding;
     finding["edge"] = f.edge;
     finding["t"] = f.t;
+    finding["in_every_state"] = f.inEveryState;
     finding["verdict"] = nameOf(f.verdict);
     finding["gap_m"] = f.gap;
     finding["required_m"] = f.required;
@@ -157,22 +173,26 @@ py::dict verifyPathOf(const NativeProblem& native, const Array& path, double cle
   Solution solution = solutionFrom(problem, path);
   solution.clearance = clearance;
   VerifyReport report;
+  LeftOut leftOut;
   {
     const py::gil_scoped_release unlocked;
     report = verifySolution(problem, solution);
+    leftOut = leftOutOf(native.checker());
   }
-  return reportDict(report);
+  return reportDict(problem, report, leftOut);
 }
 
 /// Verifies a trajectory. @param text the content of the trajectory's file: rows, or a message.
 py::dict verifyTrajectoryOf(const NativeProblem& native, const std::string& text) {
   const Problem& problem = native.problem();
   VerifyReport report;
+  LeftOut leftOut;
   {
     const py::gil_scoped_release unlocked;
     report = verifyTrajectory(problem, readTrajectory("trajectory", text, problem.model));
+    leftOut = leftOutOf(native.checker());
   }
-  py::dict d = reportDict(report);
+  py::dict d = reportDict(problem, report, leftOut);
   if (report.limits) d["keeps_limits"] = keepsLimits(*report.limits);
   return d;
 }

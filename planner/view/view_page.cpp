@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "planner/checker/checker.h"
+#include "planner/checker/left_out.h"
 #include "planner/checker/problem_goal.h"
 #include "planner/checker/still_pairs.h"
 #include "planner/model/reach.h"
@@ -118,17 +119,20 @@ class PageData {
     json_["goal_count"] = problem_.task.goals.size();
   }
 
-  /// Adds the number of tested pairs, the skipped pairs by reason, and those tested pairs whose
-  /// bodies can never reach each other.
+  /// Adds the number of tested pairs, the skipped pairs by reason, the pairs that are tested once,
+  /// and those tested pairs whose bodies can never reach each other.
   void addPairs() {
     std::size_t tested = 0;
     std::map<std::string, std::vector<std::uint32_t>> skipped;
-    std::vector<std::uint32_t> far;
+    std::vector<std::uint32_t> far, atRest;
     const std::vector<ReachBox> reach = reachOf(problem_.model);
-    forEachPair(problem_.model, [&](std::size_t a, std::size_t b, std::string_view why) {
+    const Required need = requiredBy(problem_.task);
+    forEachPair(problem_.model, need, [&](std::size_t a, std::size_t b, std::string_view why) {
       tested += why.empty();
       if (why.empty() && !outOfReach(problem_.task, reach[a], reach[b])) return;
-      std::vector<std::uint32_t>& list = why.empty() ? far : skipped[std::string(why)];
+      std::vector<std::uint32_t>& list = why.empty()            ? far
+                                         : why == kTestedAtRest ? atRest
+                                                                : skipped[std::string(why)];
       list.push_back(static_cast<std::uint32_t>(a));
       list.push_back(static_cast<std::uint32_t>(b));
     });
@@ -137,6 +141,7 @@ class PageData {
     for (const auto& [reason, list] : skipped)
       pairs["skipped"].push_back(
           {{"reason", reason}, {"pairs", jsonOf(buffers_.addIndices(list, bodies))}});
+    pairs["at_rest"] = jsonOf(buffers_.addIndices(atRest, bodies));
     pairs["far"] = jsonOf(buffers_.addIndices(far, bodies));
   }
 
@@ -192,6 +197,12 @@ class PageData {
                                                 {"reaches_goal", r.reachesGoal},
                                                 {"violations", r.violations},
                                                 {"findings", ordered_json::array()}};
+    const LeftOut leftOut = leftOutOf(checker_);
+    verdict["left_out"] = ordered_json::array();
+    for (const LeftOutPair& pair : leftOut.except)
+      verdict["left_out"].push_back({pair.a, pair.b, nameOf(pair.reason)});
+    if (r.verdict == PathVerdict::proved && !r.otherProblem)
+      verdict["except"] = exceptText(problem_.model, leftOut);
     if (r.pathReport.verdict == PathVerdict::proved) {
       verdict["clearance_m"] = r.pathReport.provenClearance;
       verdict["distance_met_m"] = r.pathReport.smallestDistanceMet;
@@ -203,11 +214,12 @@ class PageData {
                                      {"reason", f.reason},
                                      {"edge", f.edge},
                                      {"t", f.t},
+                                     {"in_every_state", f.inEveryState},
                                      {"a", bodyNamed(f.a)},
                                      {"b", bodyNamed(f.b)},
                                      {"point", jsonOf(Vec3(f.point - scene_.origin))},
                                      {"gap_m", f.gap}});
-      if (r.times.empty()) continue;
+      if (r.times.empty() || f.inEveryState) continue;
       const auto k = static_cast<std::size_t>(f.edge);
       verdict["findings"].back()["time_s"] = r.times[k] + f.t * (r.times[k + 1] - r.times[k]);
     }

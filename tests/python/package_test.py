@@ -296,8 +296,9 @@ class Problems(unittest.TestCase):
         robot["base"][0, 3] = 0.3
         np.testing.assert_array_equal(pickle.loads(pickle.dumps(problem)).clearance([-1, 1, 1, 0, 0, 0]), before)
 
-    def test_a_wide_tube_tests_pairs_again(self):
-        # robot.yaml says: block and arm are never in contact. This was proved up to 0.01 rad beyond the limits.
+    def test_a_wide_tube_or_margin_tests_pairs_again(self):
+        # robot.yaml says: block and arm are never in contact. This was proved up to 0.01 rad beyond the limits, by
+        # corridor new robot, which wrote the digest.
         with tempfile.TemporaryDirectory() as folder:
             folder = pathlib.Path(folder)
             (folder / "arm.urdf").write_text(
@@ -310,14 +311,18 @@ class Problems(unittest.TestCase):
             )
             (folder / "robot.yaml").write_text(
                 "format: corridor-robot-1\nurdf: arm.urdf\nnever_in_contact: {margin: 0.01, beyond_limits: 0.01, "
-                "pairs: [[arm, block]]}\n"
+                "digest: 849e2a30826ee5e34019f72043a08d7446f4be58219e13aa50f346f86c11b3c1, pairs: [[arm, block]]}\n"
             )
             text = "format: corridor-problem-1\nrobot: robot.yaml\nstart: {turn: -0.9}\ngoal: {turn: 0.98}\n"
             (folder / "plain.yaml").write_text(text)
             (folder / "tube.yaml").write_text(text + "tube: {joints: 0.4}\n")
             plain, tube = (corridor.read_problem(folder / f"{name}.yaml") for name in ("plain", "tube"))
             edited = plain.edited(tube={"joints": 0.4})
+            near = plain.edited(margin=0.2)
         state = [0.98]
+        self.assertFalse(any("digest" in note for note in plain.notes))
+        self.assertFalse(near.check(state))
+        self.assertNotEqual(plain.certify([0], [1.5]).verdict[0], corridor.Verdict.FREE)
         self.assertTrue(plain.check(state))
         self.assertFalse(tube.check(state))
         self.assertEqual(edited.check(state).verdict[0], tube.check(state).verdict[0])
@@ -365,7 +370,52 @@ class Problems(unittest.TestCase):
             np.testing.assert_array_equal(copy.goals, problem.goals)
 
 
+def crane_over_floor(winch, keys=""):
+    """A crane that turns, with a hook on a held winch: its ball is at z = 1 - winch. The floor's face is at z = 0, and
+    touches the foot of the mast."""
+    link = '<link name="{}"><collision><geometry><sphere radius="0.1"/></geometry></collision></link>'
+    limits = '<limit lower="-3" upper="3" effort="1" velocity="1"/></joint>'
+    with tempfile.TemporaryDirectory() as folder:
+        folder = pathlib.Path(folder)
+        (folder / "crane.urdf").write_text(
+            '<robot name="crane">' + "".join(link.format(name) for name in ("mast", "hook", "lamp"))
+            + '<joint name="turn" type="revolute"><parent link="mast"/><child link="lamp"/><origin xyz="0 1 1"/>'
+            + '<axis xyz="0 0 1"/>' + limits + '<joint name="winch" type="prismatic"><parent link="mast"/>'
+            + '<child link="hook"/><origin xyz="1 0 1"/><axis xyz="0 0 -1"/>' + limits + "</robot>"
+        )  # fmt: skip
+        (folder / "robot.yaml").write_text(
+            f"format: corridor-robot-1\nurdf: crane.urdf\njoints: [turn]\nhold: {{winch: {winch}}}\n"
+        )
+        (folder / "p.yaml").write_text(
+            "format: corridor-problem-1\nrobot: robot.yaml\nworld: {floor: {box: [6, 6, 0.2], at: [0, 0, -0.1]}}\n"
+            "start: {turn: 0}\ngoal: {turn: 1}\n" + keys
+        )
+        return corridor.read_problem(folder / "p.yaml")
+
+
 class Solve(unittest.TestCase):
+    def test_held_links_that_touch(self):
+        problem = crane_over_floor(1)
+        with self.assertRaisesRegex(corridor.InputError, "start: in contact in every state: \"hook\" and \"floor\" touch"):
+            corridor.solve(problem)
+        results = problem.check([[0], [1]])
+        np.testing.assert_array_equal(results.verdict, [corridor.Verdict.CONTACT] * 2)
+        self.assertEqual(sorted(results.pair(1)), ["floor", "hook"])
+        self.assertEqual(problem.certify([0], [1]).verdict[0], corridor.Verdict.CONTACT)
+
+    def test_what_the_proof_leaves_out(self):
+        solution = corridor.solve(crane_over_floor(1, "allow: [[hook, floor]]\n"))
+        left_out = [("mast", "floor", "touch at rest"), ("hook", "floor", "allow")]
+        self.assertEqual(solution.left_out, left_out)
+        self.assertRegex(
+            repr(solution),
+            "certified, except 2 pairs that touch at rest or are allowed to: mast ~ floor, hook ~ floor>$",
+        )
+        report = solution.verify()
+        self.assertEqual(report["verdict"], "proved")
+        self.assertEqual(report["left_out"], left_out)
+        self.assertEqual(report["not_tested"], {"adjacent": 2, "allow": 1, "never move relative to each other": 1})
+
     def test_solution(self):
         calls = []
         solution = corridor.solve(cube_in_room(), time=20, progress=lambda *a: calls.append(a))

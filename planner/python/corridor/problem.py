@@ -278,19 +278,24 @@ class Solution:
     outcome: str  #: "solved", "not found", "approximate only"
     why: str  #: why the problem is not solved, one line; empty if solved
     path: NDArray[np.float64]  #: N×J states; empty unless solved
-    certified: bool  #: every edge of `path` is proved
+    certified: bool  #: every edge of `path` is proved, for all pairs except `left_out`
     #: times, lengths and counts. `proved_clearance_m` is at most the preferred clearance; `verify` may prove more
     figures: dict[str, Any] = field(default_factory=dict)
     #: `text`, `duration`, `proved`, `keeps_limits`, `why_none`. Empty if `solve` was called without `trajectory`, or if
     #: the problem is not solved
     trajectory: dict[str, Any] = field(default_factory=_NoTrajectory)
+    #: pairs that no proof covers: names of the two bodies, and "touch at rest", "within the margin at rest", "allow" or
+    #: "allowed_collision_matrix". At least one body of each pair is an obstacle, or they belong to two robots
+    left_out: list[tuple[str, str, str]] = field(default_factory=list)
     _text: str = ""
+    _except: str = ""
 
     def __bool__(self) -> bool:
         return self.outcome == "solved"
 
     def __repr__(self) -> str:
-        states = f", {len(self.path)} states, {'certified' if self.certified else 'not certified'}" if self else ""
+        certified = f"certified{self._except}" if self.certified else "not certified"
+        states = f", {len(self.path)} states, {certified}" if self else ""
         return f"<Solution: {self.outcome}{states}{'; ' + self.why if self.why else ''}>"
 
     def _require_path(self) -> None:
@@ -298,7 +303,8 @@ class Solution:
             raise ValueError(f"there is no path: {self.why or self.outcome}")
 
     def verify(self) -> dict[str, Any]:
-        """Verifies the path by the independent verifier. Returns `verdict`, `findings`, `clearance_m`, ..."""
+        """Verifies the path by the independent verifier. Returns `verdict`, `findings`, `clearance_m`,
+        `left_out` (as `Solution.left_out`), `not_tested` (the number of pairs that are not tested, by reason), ..."""
         self._require_path()
         return _native.verify_path(self.problem._native, self.path, self.figures.get("proved_clearance_m") or 0.0)
 
@@ -398,7 +404,7 @@ def solve(
     none = _NoTrajectory() if trajectory is None else _NoTrajectory("the problem is not solved")
     return Solution(
         problem, take("outcome"), take("why"), take("path"), take("certified"), trajectory=take("trajectory", none),
-        _text=take("text", ""), figures=result,
+        left_out=take("left_out"), _text=take("text", ""), _except=take("except"), figures=result,
     )  # fmt: skip
 
 

@@ -11,6 +11,7 @@ const Panel = {
     if (s) {
       const badge = byId('badge');
       badge.textContent = {proved: 'Proved free of contact', refuted: 'Refuted', undecided: 'Undecided', 'other problem': 'Other problem'}[v.verdict];
+      badge.textContent += v.except || '';
       badge.className = this.verdictClass();
       if (this.provedOfNothing()) badge.textContent = 'No pair is tested';
       else if (this.exceedsLimits()) badge.textContent += ', limits exceeded';
@@ -48,7 +49,7 @@ const Panel = {
     v.findings.forEach((f, index) => {
       const pair = f.a === null ? '' : `${this.bodyName(f.a)} and ${this.bodyName(f.b)}`;
       const text = make('div', pair ? `${pair}: ${f.reason}` : f.reason,
-        make('small', `${f.verdict === 'undecided' ? 'undecided, ' : ''}${f.time_s === undefined ? `edge ${f.edge}, t = ${digits(f.t)}` : `at ${seconds(f.time_s)}, edge ${f.edge}`}${f.gap_m > 0 ? `, ${metres(f.gap_m)} apart` : ''}`));
+        make('small', `${f.verdict === 'undecided' ? 'undecided, ' : ''}${f.in_every_state ? 'in every state' : f.time_s === undefined ? `edge ${f.edge}, t = ${digits(f.t)}` : `at ${seconds(f.time_s)}, edge ${f.edge}`}${f.gap_m > 0 ? `, ${metres(f.gap_m)} apart` : ''}`));
       const button = make('button', 'Show');
       button.setAttribute('aria-pressed', 'false');
       button.addEventListener('click', () => show(button.getAttribute('aria-pressed') === 'true' ? -1 : index));
@@ -86,7 +87,8 @@ const Panel = {
     const short = (name) => name.length > 32 ? `${name.slice(0, 15)}…${name.slice(-16)}` : name;  // to fit into a picture's legend
     const pair = f && f.a !== null ? `${short(this.bodyName(f.a))} and ${short(this.bodyName(f.b))}` : '';
     const reason = !f ? (violations[0] || '').split(': ')[0] : !pair ? f.reason : f.reason === 'contact' ? `${pair} touch` : `${pair}: ${f.reason}`;
-    return reason ? `${verdict}: ${reason}` : verdict;
+    const always = f && f.in_every_state ? ' in every state' : '';
+    return reason ? `${verdict}: ${reason}${always}` : verdict + (data.verdict.except || '');
   },
 
   pressFinding(index) {
@@ -94,7 +96,7 @@ const Panel = {
   },
 
   pairs() {
-    const body = byId('pairs-body'), {tested, skipped} = data.pairs, far = data.array(data.pairs.far);
+    const body = byId('pairs-body'), {tested, skipped} = data.pairs, far = data.array(data.pairs.far), atRest = data.array(data.pairs.at_rest);
     const numberOf = (array) => array.length / 2;
     const sum = skipped.reduce((total, group) => total + group.pairs[2] / 2, 0);
     body.append(make('p', `${counted(tested, 'pair')} of bodies tested, ${sum.toLocaleString('en')} not. Obstacles are never tested with each other, nor a body with itself.`));
@@ -109,6 +111,7 @@ const Panel = {
       body.append(details);
     };
     for (const {reason, pairs} of skipped) group(reason, data.array(pairs));
+    if (atRest.length) group('tested once, because only held joints are between the two', atRest);
     if (far.length) group('tested, but out of reach', far);
   },
 

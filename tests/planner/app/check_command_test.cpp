@@ -233,7 +233,9 @@ TEST_F(CheckCommand, ReportsFaultyStatesByLine) {
 TEST_F(CheckCommand, CheckOfStartAndGoal) {
   const Result sound = run("check arm.yaml");
   EXPECT_EQ(sound.status, 0) << sound.err;
-  EXPECT_EQ(sound.out, "problem: arm.yaml\nstart: free\ngoal: free\n");
+  EXPECT_EQ(sound.out,
+            "problem: arm.yaml\nstart: free\ngoal: free\n"
+            "not tested: 1 pair: 1 adjacent\n");
   write("touch.yaml",
         "format: corridor-problem-1\nrobot: arm.urdf\nworld:\n  post: {sphere: 0.1, at: [0, 1.5, "
         "0]}\n"
