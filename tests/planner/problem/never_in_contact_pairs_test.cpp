@@ -175,6 +175,7 @@ TEST_F(NeverInContactPairs, AreTestedWithoutAMatchingDigest) {
   expectTested(replaced(list, "beyond_limits: 0.1", "beyond_limits: 0.2"), "beyond_limits");
   expectTested(replaced(list, "[tool, base]", "[tool, base], [finger, upper]"), "a pair was added",
                3);
+  expectTested(replaced(list, "[tool, base]", "[finger, upper]"), "a pair was replaced");
   expectProved(replaced(list, "[base, finger], [tool, base]", "[base, tool], [finger, base]"),
                "the order does not matter");
   const auto digest = list.find("digest: ") + 8;
