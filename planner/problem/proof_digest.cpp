@@ -12,13 +12,15 @@ namespace {
 /// Collects the bytes of a digest, as proof_digest.h describes them.
 class DigestBytes {
  public:
-  void add(std::uint64_t number) {
-    for (int shift = 0; shift < 64; shift += 8)
-      bytes_ += static_cast<char>((number >> shift) & 0xff);
-  }
-  void add(double number) { add(std::bit_cast<std::uint64_t>(number)); }
-  void add(const Vec3& p) {
-    for (const double x : p) add(x);
+  void add(std::uint64_t number) { addRaw(&number, sizeof number); }
+  void add(double number) { addRaw(&number, sizeof number); }
+  void add(const Vec3& p) { addRaw(p.data(), 3 * sizeof(double)); }
+  void add(const TriangleMesh& mesh) {
+    static_assert(sizeof(Vec3) == 24 && sizeof mesh.triangles[0] == 12);
+    add(std::uint64_t{mesh.vertices.size()});
+    addRaw(mesh.vertices.data(), 24 * mesh.vertices.size());
+    add(std::uint64_t{mesh.triangles.size()});
+    addRaw(mesh.triangles.data(), 12 * mesh.triangles.size());
   }
   void add(std::string_view text) {
     add(std::uint64_t{text.size()});
@@ -30,6 +32,11 @@ class DigestBytes {
   const std::string& str() const { return bytes_; }
 
  private:
+  static_assert(std::endian::native == std::endian::little);
+  void addRaw(const void* data, std::size_t size) {
+    bytes_.append(static_cast<const char*>(data), size);
+  }
+
   std::string bytes_;
 };
 
@@ -37,13 +44,7 @@ RobotDigest digestOfShape(const PlacedShape& shape) {
   DigestBytes bytes;
   const auto count = [&](std::size_t number) { bytes.add(std::uint64_t{number}); };
   count(shape.solid);
-  count(shape.mesh ? shape.mesh->mesh.vertices.size() : 0);
-  if (shape.mesh)
-    for (const Vec3& p : shape.mesh->mesh.vertices) bytes.add(p);
-  count(shape.mesh ? shape.mesh->mesh.triangles.size() : 0);
-  if (shape.mesh)
-    for (const auto& triangle : shape.mesh->mesh.triangles)
-      for (const auto index : triangle) count(index);
+  bytes.add(shape.mesh ? shape.mesh->mesh : TriangleMesh());
   count(shape.parts.size());
   for (const ConvexPart& part : shape.parts) {
     count(part.points.size());

@@ -28,8 +28,9 @@ using RobotDigest = std::array<std::uint8_t, 32>;
 ///   position; x, y, z, w of the quaternion), axis, lower, upper; then 0, or 1 and the index,
 ///   multiplier and offset of its mimic.
 /// The bytes of a shape: 1 if it is solid, else 0; the number of vertices of its mesh (0 without a
-/// mesh), the vertices, the number of triangles, and their indices; then the number of parts, and
-/// for each the number of points, the points, the radius, and 1 if it has flat ends, else 0.
+/// mesh), the vertices, the number of triangles, and their indices, as 32 bits each; then the
+/// number of parts, and for each the number of points, the points, the radius, and 1 if it has flat
+/// ends, else 0.
 /// @throws std::runtime_error as sha256 does.
 RobotDigest digestOfRobot(const RobotModel& robot);
 

@@ -218,13 +218,17 @@ TEST(ProofDigest, HasTheDescribedBytes) {
   RobotModel robot;
   PlacedShape ball;
   ball.parts = {{{Vec3(1, 2, 3)}, 0.5, false}};
-  robot.links = {{"a", {ball}}, {"b", {}}};
+  MeshFile file;
+  file.mesh = {{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)}, {{0, 1, 2}}};
+  PlacedShape triangle;
+  triangle.mesh = std::make_shared<const MeshFile>(file);
+  robot.links = {{"a", {ball}}, {"b", {triangle}}};
   JointModel joint;
   joint.name = "j", joint.type = JointType::revolute, joint.child = 1;
   joint.lower = -1, joint.upper = 2, joint.mimic = Mimic{0, 2, 0.25};
   robot.joints = {joint};
   EXPECT_EQ(proofDigest(digestOfRobot(robot), {0.01, 0.5}, {{"b", "a"}}),
-            "64bd4712adb72ba2f9d1dac8275a676b1ec3974d3ca3f865daa749430e6ef584");
+            "2affdadcbb1795fc1f049638ddfd01ceae2e71eae9a8bf55a982674e64359408");
 }
 
 TEST_F(NeverInContactPairs, Faults) {
