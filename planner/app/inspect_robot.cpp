@@ -183,8 +183,12 @@ int inspectRobot(const InspectArguments& a) {
     out.line("reach", "at most " + rounded(*farthest) + " m from the origin of " +
                           model.links[model.root].name + ": link " +
                           model.links[static_cast<std::size_t>(farthest - reach.begin())].name);
-  for (const AllowedPair& pair : model.allowed)
+  for (const AllowedPair& pair : model.allowed) {
     j["allowed"].push_back({{"a", pair.a}, {"b", pair.b}, {"reason", pair.reason}});
+    if (pair.proof)
+      j["allowed"].back()["proof"] = {{"margin", pair.proof->margin},
+                                      {"beyond_limits", pair.proof->beyondLimits}};
+  }
   out.line("pairs allowed to touch", grouped(model.allowed.size()));
   for (const auto& [name, group] : model.groups) {
     if (reportUnusable("group", name, group.unusable, out, j)) continue;

@@ -102,6 +102,8 @@ TEST_F(NewCommand, ProvedPairsAreTestedAfterAnEdit) {
   ASSERT_EQ(run("new robot reach.urdf -o reach.yaml").status, 0);
   EXPECT_EQ(allowedPairs("reach.yaml"),
             std::vector<std::string>({"far, hand: robot.yaml: never_in_contact"}));
+  const json allowed = json::parse(run("inspect reach.yaml --json").out)["allowed"];
+  EXPECT_EQ(allowed.back()["proof"], json({{"margin", 0.01}, {"beyond_limits", 0.01}}));
   EXPECT_THAT(run("inspect reach.yaml").out, Not(HasSubstr("its digest does not match")));
   const std::string urdf = read("reach.urdf");
   std::string edited = urdf;
