@@ -175,9 +175,10 @@ class Robot:
             return {self.body: self.shapes}
         return {self.prefix + link: shapes for link, shapes in self.urdf.links.items()}
 
-    def moved_apart(self, a, b):
-        """Whether a joint that is planned for, or that mimics such a joint, is between two links."""
-        return any(j.type != "fixed" and self.urdf.leader(j.name)[0] in self.planned for j in self.urdf.between(a, b))
+    def can_part(self, a, b):
+        """Whether a joint that can move, even if it is held, is between two links."""
+        leaders = [self.urdf.joints[self.urdf.leader(j.name)[0]] for j in self.urdf.between(a, b) if j.type != "fixed"]
+        return any(j.lower < j.upper for j in leaders)
 
 
 def free_pose(keys, flat):
@@ -277,7 +278,7 @@ class Problem:
             links = frozenset((x, y))
             disabled = robot.srdf and links in robot.srdf.disabled and not self.replaces_srdf
             allowed = {frozenset(p) for p in robot.keys.get("allow", [])}
-            if disabled or links in allowed or robot.urdf.adjacent(x, y) or not robot.moved_apart(x, y):
+            if disabled or links in allowed or robot.urdf.adjacent(x, y) or not robot.can_part(x, y):
                 return None
             if links in robot.never:
                 return None
@@ -305,4 +306,4 @@ class Problem:
         if body not in of:
             return False
         robot = of[body][1]
-        return bool(robot.rigid) or robot.moved_apart(body.removeprefix(robot.prefix), robot.urdf.root)
+        return bool(robot.rigid) or robot.can_part(body.removeprefix(robot.prefix), robot.urdf.root)

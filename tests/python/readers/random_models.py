@@ -279,7 +279,12 @@ def write_problem(rng, folder):
         messages.append("request: request.yaml")
     if messages:
         text += f"moveit: {{{', '.join(messages)}}}\n"
-    for key in () if request else ("start", "goal"):
+    # A start that names a state of the SRDF also gives the values of held joints.
+    named = not two and not request and "srdf" in (folder / "robot.yaml").read_text() and all(
+        kind not in ("planar", "floating") for _, kind, _, _ in robots[0][1])  # fmt: skip
+    if named:
+        text += "start: ready\n"
+    for key in () if request else ("goal",) if named else ("start", "goal"):
         parts = {name: state(rng, moving, chosen) for name, moving, chosen in robots}
         text += f"{key}: " + ("{" + ", ".join(f"{n}: {s}" for n, s in parts.items()) + "}" if two else parts["robot"]) + "\n"
     text += _bounds(robots, two)
@@ -288,7 +293,7 @@ def write_problem(rng, folder):
     if rng.integers(2):
         text += f"allow: [[{rng.choice(names)}, {rng.choice(list(obstacles))}]]\n"
     if rng.integers(3) == 0:
-        text += (f"padding: {{bodies: {{thing 0: 0.02, {names[-1]}: 0.01}}, pairs: [[{names[1]}, thing 1, 0.03]]}}\n")
+        text += f"padding: {{bodies: {{thing 0: 0.15, {names[-1]}: 0.1}}, pairs: [[{names[1]}, thing 1, 0.2]]}}\n"
     (folder / "problem.yaml").write_text(text)
     return folder / "problem.yaml"
 
