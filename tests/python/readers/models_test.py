@@ -12,7 +12,7 @@ from problems import NotRead
 from random_models import write_problem
 
 SEED = int(os.environ.get("CORRIDOR_SEED", 1))
-ROUNDS = 1000 if os.environ.get("CORRIDOR_STRESS") else 36
+ROUNDS = 1000 if os.environ.get("CORRIDOR_STRESS") else 28
 SOURCE = runs.SOURCE
 
 
