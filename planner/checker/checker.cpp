@@ -232,6 +232,8 @@ MotionResult Checker::certifyEdge(const Configuration& from, const Configuration
 std::optional<CertificateFault> Checker::faultOf(const MotionCertificate& certificate,
                                                  const Configuration& from, const Configuration& to,
                                                  double until) const {
+  if (until > 0 && !(isCovered(from) && isCovered(to)))
+    return CertificateFault{CertificateFault::Kind::unproved, 0, 0};
   Workspace& workspace = workspaceOfThread();
   workspace.motion.set(from, to);
   return checkCertificate(workspace.motion, scene_.motionPairs(), options_, until, certificate,

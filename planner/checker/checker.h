@@ -125,12 +125,14 @@ class Checker {
   /// Checks a certificate of an edge, by a method that is independent of the method that made the
   /// certificate (collision/motion/check_certificate.h). Returns the first fault of the
   /// certificate, or nullopt if it has none.
+  /// If the edge leaves the values for which pairs that are not tested are proved, and the
+  /// certificate claims anything, the fault is `unproved`.
   /// @param until `certifiedUntil` of the result that came with the certificate.
   std::optional<CertificateFault> faultOf(const MotionCertificate& certificate,
                                           const Configuration& from, const Configuration& to,
                                           double until) const;
-  /// Decides whether every pair keeps its margin on an edge: the margin of the options, plus the
-  /// pair's entry in `more`, which replaces the pair's padding. The method is always
+  /// Decides whether every tested pair keeps its margin on an edge: the margin of the options, plus
+  /// the pair's entry in `more`, which replaces the pair's padding. The method is always
   /// `EdgeMethod::directional`.
   /// @param more one margin for each pair of `Scene::pairs()`, metres.
   /// @throws std::invalid_argument for numbers that are not finite or are negative.
@@ -168,7 +170,7 @@ class Checker {
     bool tooLarge = false;
   };
   /// Returns all pairs of bodies because of which `certifyState` does not return `free`, each pair
-  /// once.
+  /// once. The result may be empty if the reason is `beyondProofs`.
   std::vector<PairNotFree> pairsNotFree(const Configuration& q) const;
 
   /// Returns whether q is in bounds and `certifyState` is `free`.

@@ -25,8 +25,8 @@ LeftOut leftOutByFilter(const Model& model, const Required& need) {
       return;
     }
     ++leftOut.reasons[std::string(why)];
-    if (isOfOneRobot(model, a, b)) return;
     if (why == kAllow) leftOut.except.push_back({a, b, LeftOutReason::allowed});
+    if (isOfOneRobot(model, a, b)) return;
     if (why == kSceneAllows) leftOut.except.push_back({a, b, LeftOutReason::allowedInTheScene});
   });
   return leftOut;

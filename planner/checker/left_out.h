@@ -24,8 +24,8 @@ enum class LeftOutReason {
 /// Returns "touch at rest", "within the margin at rest", "allow" or "allowed_collision_matrix".
 const char* nameOf(LeftOutReason reason);
 
-/// A pair that no proof covers, although one of the two bodies is an obstacle, or they belong to
-/// two robots.
+/// A pair that no proof covers, although the problem allows it, one of the two bodies is an
+/// obstacle, or they belong to two robots.
 struct LeftOutPair {
   std::size_t a = 0, b = 0;  ///< bodies of the model, by index; a < b
   LeftOutReason reason = LeftOutReason::touchesAtRest;
@@ -33,8 +33,9 @@ struct LeftOutPair {
 
 struct LeftOut {
   /// The pairs that stand beside every proof ("proved, except 2 pairs …"), in ascending order.
-  /// Pairs of one robot's links are not among them: what SRDF, robot.yaml or adjacency exclude
-  /// there, or fixed joints join, is the robot's own construction.
+  /// Pairs of one robot's links are not among them, unless the problem allows them: what SRDF,
+  /// robot.yaml, a scene's matrix or adjacency exclude there, or fixed joints join, is the robot's
+  /// own construction.
   std::vector<LeftOutPair> except;
   /// The number of pairs that are not tested, by the reason of the model's filter. Pairs that are
   /// tested once (kTestedAtRest) are not counted.

@@ -76,13 +76,17 @@ std::optional<PairProof> proofBetween(const ModelRobot& robot, const Configurati
     if (multiplier == 0) continue;
     const std::size_t source = joint.mimic ? joint.mimic->joint : j;
     const JointModel& leader = joints[source];
+    // A joint with equal limits is not planned for by `corridor new robot`, so the proof is for its
+    // only value, and for nothing beyond it.
     const bool anyValue = leader.type == JointType::continuous;
+    const bool isRigid = !anyValue && leader.lower == leader.upper;
     if (anyValue && (joint.type == JointType::prismatic || multiplier != std::trunc(multiplier)))
       return std::nullopt;
     const auto planned = std::find_if(
         robot.plannedJoints.begin(), robot.plannedJoints.end(),
         [&](const PlannedJoint& one) { return !leader.name.empty() && one.name == leader.name; });
     if (planned != robot.plannedJoints.end()) {
+      if (isRigid) return std::nullopt;
       const std::size_t number = space.coordinates()[planned->coordinate].first;
       found.ranges.push_back(
           {number, anyValue ? -kInfinity : leader.lower, anyValue ? kInfinity : leader.upper});
@@ -90,7 +94,11 @@ std::optional<PairProof> proofBetween(const ModelRobot& robot, const Configurati
     }
     const auto held = robot.held.find(source);
     if (held == robot.held.end()) return std::nullopt;
-    if (anyValue) continue;
+    if (isRigid && held->second != leader.lower) return std::nullopt;
+    // The pose of a held joint is stored with a rounding of some 2^-52 of the lengths, which only a
+    // margin of the proof covers.
+    if (!isRigid && !(proof.margin > 0)) return std::nullopt;
+    if (anyValue || isRigid) continue;
     // The value of a mimicking joint is rounded if its leader is held (RobotAssembly::drive). As a
     // change of the leader's value, this rounding is at most:
     const double rounding =

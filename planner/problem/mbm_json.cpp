@@ -1,6 +1,7 @@
 #include "planner/problem/mbm_json.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -204,12 +205,15 @@ class MbmReader {
     const Json& values = problem["fixed_joints"];
     if (!values.is_object()) stop("fixed_joints: a map of joint values is needed");
     std::vector<std::string> unused;
+    std::vector<std::pair<std::size_t, double>> followers;
     for (const auto& [name, value] : values.items()) {
       const std::string path = "fixed_joints." + name;
       const double wanted = number(value, path);
       const auto j = findJoint(robot.description, name);
       if (j && std::find(robot.planned.begin(), robot.planned.end(), *j) != robot.planned.end()) {
         fault(path + ": the joint is planned for (joint_names), and can't be held");
+      } else if (j && robot.description.joints[*j].mimic) {
+        followers.emplace_back(*j, wanted);
       } else if (!j || !robot.held.contains(*j)) {
         unused.push_back(name);
       } else {
@@ -220,6 +224,16 @@ class MbmReader {
         else
           fault(path + ": " + outsideLimits(wanted, joint.lower, joint.upper));
       }
+    }
+    for (const auto& [j, wanted] : followers) {
+      const JointModel& joint = robot.description.joints[j];
+      const auto leader = robot.held.find(joint.mimic->joint);
+      if (leader == robot.held.end() ||
+          std::abs(wanted - (joint.mimic->multiplier * leader->second + joint.mimic->offset)) >
+              limitSlack)
+        fault("fixed_joints." + joint.name + ": the joint mimics " +
+              quotedWord(robot.description.joints[joint.mimic->joint].name) +
+              ", which gives it another value; leave it out");
     }
     if (!unused.empty())
       problem_.source.notes.push_back(

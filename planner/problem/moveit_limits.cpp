@@ -113,18 +113,23 @@ const YamlValue* valueIn(const YamlValue& map, std::string_view key) {
   return nullptr;
 }
 
-/// Returns the parameters in a file for ROS 2 (`/**: {ros__parameters: …}`): those of the first
-/// node that has limits, or of the first node if no node has limits. Returns any other document
-/// unchanged.
-const YamlValue& parametersOf(const YamlValue& document) {
-  const YamlValue* first = nullptr;
+/// Returns the parameters in a file for ROS 2 (`/**: {ros__parameters: …}`): those of the node that
+/// has limits, or of the first node if no node has limits. Adds a fault if several nodes have
+/// limits. Returns any other document unchanged.
+const YamlValue& parametersOf(const YamlValue& document, const YamlSource& source) {
+  const YamlValue *first = nullptr, *found = nullptr;
   for (const YamlValue::Entry& node : document.entries) {
     const YamlValue* const own = valueIn(node.value, "ros__parameters");
     if (!own) continue;
-    if (valueIn(*own, "robot_description_planning") || valueIn(*own, "joint_limits")) return *own;
     if (!first) first = own;
+    if (!valueIn(*own, "robot_description_planning") && !valueIn(*own, "joint_limits")) continue;
+    if (found)
+      source.fault(node.line, quotedWord(node.key) +
+                                  " is a second node with limits of joints; keep one of them");
+    else
+      found = own;
   }
-  return first ? *first : document;
+  return found ? *found : first ? *first : document;
 }
 
 }  // namespace
@@ -136,7 +141,7 @@ void readMoveitLimits(const std::filesystem::path& file, const Model& model, boo
   YamlSource source{file.string(), faults, {}};
   // Parameter files, and files that launch files load, have the limits under the key
   // `robot_description_planning`, beside other keys.
-  const YamlValue& parameters = parametersOf(document);
+  const YamlValue& parameters = parametersOf(document, source);
   const YamlValue* const inner = valueIn(parameters, "robot_description_planning");
   const YamlValue& read = inner ? *inner : parameters;
   readFile(YamlMap(read, inner ? "robot_description_planning" : "", &kFile, source), model,

@@ -105,8 +105,7 @@ MoveitScene::MoveitScene(const std::filesystem::path& file, FaultList& faults)
                                  std::string(key) + "); write moveit: {request: FILE}"});
   const YamlMap scene(document_, "", &kScene, source_);
   scene.ignore({"name", "object_colors"});
-  if (const YamlValue* const isDiff = scene.find("is_diff");
-      isDiff && lowered(isDiff->text) == "true")
+  if (scene.flag("is_diff").value_or(false))
     scene.fault("is_diff",
                 "the scene is a difference to another one, so objects may be missing; save the "
                 "whole scene, or write false if the file has all objects");

@@ -86,8 +86,7 @@ std::optional<MoveitState> readMoveitState(const YamlMap& message, std::string_v
   state.line = value->line;
   if (!isEmpty(map, "attached_collision_objects"))
     map.fault("attached_collision_objects", "is not supported; add the objects to the robot");
-  if (const YamlValue* const isDiff = map.find("is_diff");
-      isDiff && lowered(isDiff->text) == "true")
+  if (map.flag("is_diff").value_or(false))
     source.notes.push_back(
         {source.file + ": " + map.pathOf("is_diff") +
              ": the state is a difference to another one, which is not in the file; joints that it "
@@ -185,6 +184,21 @@ void noteOtherStart(const MoveitState& state, const std::string& file, const Pro
     notes.push_back({file + ": " + state.path + ": the start has other values of " +
                          joinedFirst(others) + "; those of the start are used",
                      NoteWeight::motion});
+  // The start of the problem may hold joints, too (`holdAsStart`).
+  const ModelRobot& robot = problem.model.robots.front();
+  std::vector<std::string> replaced;
+  for (const auto& [j, held] : robot.held) {
+    const auto given = state.values.find(robot.description.joints[j].name);
+    const auto from = robot.heldFrom.find(j);
+    if (given != state.values.end() && from != robot.heldFrom.end() &&
+        from->second.starts_with("start: ") && held != given->second)
+      replaced.push_back(given->first + " (" + shortest(held) + ", not " + shortest(given->second) +
+                         ")");
+  }
+  if (!replaced.empty())
+    notes.push_back({file + ": " + state.path +
+                         ": held by the problem's start at another value: " + joinedFirst(replaced),
+                     NoteWeight::coverage});
 }
 
 }  // namespace corridor

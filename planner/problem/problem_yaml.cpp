@@ -258,6 +258,7 @@ void readYaml(const std::filesystem::path& file, Problem& problem) {
   if (scene) addAll(scene->takeNotes(problem), problem.source.notes);
   if (request) addAll(request->takeNotes(problem), problem.source.notes);
   addAll(notesOnUnread(document, file.string(), DefaultValues::count), problem.source.notes);
+  faults.throwIfAny();
   problem.task.limits = limitsOf(problem.model, limits);
   finishProblem(allowed, tube, problem);
   problem.source.lines = std::move(source.lines);

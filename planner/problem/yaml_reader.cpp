@@ -294,6 +294,15 @@ std::optional<bool> YamlMap::boolean(std::string_view key) const {
   return std::nullopt;
 }
 
+std::optional<bool> YamlMap::flag(std::string_view key) const {
+  const YamlValue* value = find(key);
+  if (!value) return std::nullopt;
+  const std::string word = value->isPlain ? lowered(value->text) : "";
+  if (word == "true" || word == "false") return word == "true";
+  fault(key, "true or false is needed, not " + described(*value));
+  return std::nullopt;
+}
+
 std::optional<std::string> YamlMap::text(std::string_view key) const {
   const YamlValue* value = find(key);
   if (!value) return std::nullopt;

@@ -107,6 +107,8 @@ class YamlMap {
   std::optional<std::uint64_t> wholeNumber(std::string_view key,
                                            const WholeRange& range = {}) const;
   std::optional<bool> boolean(std::string_view key) const;
+  /// As `boolean`, also as programs of Python and ROS write it: True, FALSE.
+  std::optional<bool> flag(std::string_view key) const;
   std::optional<std::string> text(std::string_view key) const;
   std::optional<std::string> choice(std::string_view key, const std::vector<std::string>& of) const;
   /// Returns a list of exactly `count` numbers.

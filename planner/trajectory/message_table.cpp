@@ -48,6 +48,18 @@ bool hasPoints(const YamlValue& map) {
   return false;
 }
 
+/// Returns whether a trajectory of poses has anything that could be a point: in `points` of a map,
+/// or anything at all in another value.
+bool movesPoses(const YamlValue& poses) {
+  const auto isNothing = [](const YamlValue& value) {
+    return value.items.empty() && value.entries.empty() && value.text.empty();
+  };
+  if (poses.kind != YamlValue::Kind::Map) return !isNothing(poses);
+  for (const YamlValue::Entry& entry : poses.entries)
+    if (entry.key == "points" && !isNothing(entry.value)) return true;
+  return false;
+}
+
 /// The messages in a document.
 struct Messages {
   std::vector<const YamlValue*> trajectories;  // all maps that are joint trajectories
@@ -68,10 +80,14 @@ void collectMessages(const YamlValue& value, const std::string& path, Messages& 
   for (const std::string_view key : kHarmless) map.ignore({key});
   for (const char* const key : {"multi_dof_joint_trajectory", "multi_dof_trajectory"})
     if (const YamlValue* const poses = map.find(key)) {
-      markRead(*poses);
-      if (hasPoints(*poses))
+      if (movesPoses(*poses)) {
+        markRead(*poses);
         map.fault(key,
                   "trajectories of poses are not read from messages; write rows of numbers (CSV)");
+      } else if (poses->kind == YamlValue::Kind::Map) {  // other keys are left to the note on them
+        YamlMap(*poses, map.pathOf(key), nullptr, source)
+            .ignore({"header", "joint_names", "points"});
+      }
     }
   for (const char* const key : {"path_tolerance", "component_path_tolerance"})
     if (!isEmpty(map, key)) {

@@ -310,10 +310,9 @@ void checkStart(const TrajectoryTable& table, const JointNames& names, const Mod
               " here: the proof would be about another robot; in the robot's file, write hold: {" +
               joint.name + ": " + shortest(value) + "}");
       else
-        notes.push_back({rows.file + ": " + start.path + ": " + quotedWord(name) + " is " +
-                             shortest(std::abs(off)) +
-                             " off the rule of this mimic joint; the proof is for the rule",
-                         NoteWeight::coverage});
+        fault(quotedWord(name) + " is " + shortest(value) + ", and " + shortest(required) +
+              " by the rule of this mimic joint: the proof would be for the rule; leave the value "
+              "out if the joint follows the rule");
     }
   }
   if (!near.empty())

@@ -36,10 +36,10 @@ void checkUnplanned(const TrajectoryTable& table, const TableColumns& columns, c
                     const TrajectoryRows& rows, FaultList& faults, std::vector<Note>& notes);
 
 /// Checks the state from which a message says that the robot starts (`TrajectoryTable::start`):
-/// held joints must be at their held values, and planned joints at those of the first row.
-/// Differences are faults, except differences of planned joints of at most `limitSlack` rad or m,
-/// and mimic joints off their rule: these are notes, since a trajectory's first row is what a
-/// controller moves to. Values of unknown joints are a note, too.
+/// held joints must be at their held values, mimic joints on their rule, and planned joints at the
+/// values of the first row. Differences are faults, except differences of planned joints of at most
+/// `limitSlack` rad or m: these are a note, since a controller moves to the first row. Values of
+/// unknown joints are a note, too.
 void checkStart(const TrajectoryTable& table, const JointNames& names, const Model& model,
                 const TrajectoryRows& rows, FaultList& faults, std::vector<Note>& notes);
 

@@ -153,9 +153,9 @@ struct PathReport {
   std::vector<PathFinding> findings;
   int edges = 0;
   int edgesProved = 0;  ///< 0 if a pair of `restPairs` is not proved
-  /// Metres. If the path is proved, every curve in the tube keeps at least this distance. If the
-  /// path is not proved, the value is 0. If no pair is tested, it is infinite. The value is refined
-  /// until one of three conditions holds:
+  /// Metres. If the path is proved, the bodies of `pairs` keep at least this distance on every
+  /// curve in the tube. If the path is not proved, the value is 0. If no pair is tested, it is
+  /// infinite. The value is refined until one of three conditions holds:
   /// - It reaches 90 % of the difference between `smallestDistanceMet` and the displacement by the
   ///   tube; and also `PathProblem::wantedClearance`, if this is below the difference.
   /// - The motion bound of the worst interval is below the tolerance.

@@ -66,13 +66,13 @@ Configuration armAt(double offset) {
 
 /// The models, each with two ends of a free edge. The arm moves only the tested links; SE2 and SE3
 /// have a mesh.
-struct Case {
+struct NotFiniteCase {
   const char* name;
   Model model;
   Configuration from, to;
 };
-std::vector<Case> cases() {
-  std::vector<Case> all;
+std::vector<NotFiniteCase> cases() {
+  std::vector<NotFiniteCase> all;
   all.push_back({"arm", armOfAllJoints(), armAt(0), armAt(0.1)});
   for (const test::Rigid kind : {test::Rigid::SE2, test::Rigid::SE3})
     all.push_back({kind == test::Rigid::SE2 ? "SE2" : "SE3", test::hallProblem(kind).model,
@@ -87,7 +87,7 @@ void expectAmbiguous(const MotionResult& result, const std::string& what) {
 }
 
 TEST(NotFiniteStates, AreNeverFree) {
-  for (const Case& c : cases())
+  for (const NotFiniteCase& c : cases())
     for (const EdgeMethod method :
          {EdgeMethod::directional, EdgeMethod::adaptive, EdgeMethod::advancement}) {
       const Checker checker(c.model, {.method = method});
@@ -131,7 +131,7 @@ TEST(NotFiniteStates, AreNeverFree) {
 }
 
 TEST(NotFiniteStates, PiecesOfCurvesAreNeverFree) {
-  for (const Case& c : cases()) {
+  for (const NotFiniteCase& c : cases()) {
     const Checker checker(c.model);
     for (const int degree : {1, 2, 5}) {
       CurvePiece good{Eigen::MatrixXd(c.from.size(), degree + 1),
@@ -176,7 +176,7 @@ TEST(NotFiniteStates, PiecesOfCurvesAreNeverFree) {
 }
 
 TEST(NotFiniteStates, OptionsOfCheckersAreRefused) {
-  const Case c = cases().front();
+  const NotFiniteCase c = cases().front();
   const auto numbersOf = [](CheckerOptions& options) {
     std::vector<double*> numbers{&options.margin, &*options.tolerance};
     for (double& metres : options.padding.bodies | std::views::values) numbers.push_back(&metres);
@@ -205,7 +205,7 @@ TEST(NotFiniteStates, OptionsOfCheckersAreRefused) {
 }
 
 TEST(NotFiniteStates, NumbersOfModelsAreNeverFree) {
-  const Case c = cases().front();
+  const NotFiniteCase c = cases().front();
   const auto numbersOf = [](Model& model) {
     std::vector<double*> numbers;
     for (Frame& frame : std::span(model.tree.frames).subspan(1)) {

@@ -141,11 +141,14 @@ TEST(PairProofs, BadRequirementsAreRefused) {
   for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL, -0.01}) {
     for (const Padding& padding : {Padding{{}, {{{0, 1}, bad}}}, Padding{{{1, bad}}, {}}}) {
       EXPECT_THROW(Checker(model, {.padding = padding}), std::invalid_argument) << bad;
-      if (!padding.pairs.empty())
+      if (!padding.pairs.empty()) {
         EXPECT_THROW(verdictOf(model, taskOf(model, 0, padding), 0), std::invalid_argument) << bad;
+      }
     }
     EXPECT_THROW(Checker(model, {.margin = bad}), std::invalid_argument) << bad;
-    if (bad != HUGE_VAL) EXPECT_THROW(Checker(model, {.tube = at(bad)}), std::invalid_argument);
+    if (bad != HUGE_VAL) {
+      EXPECT_THROW(Checker(model, {.tube = at(bad)}), std::invalid_argument);
+    }
     EXPECT_THROW(verdictOf(model, taskOf(model, bad), 0), std::invalid_argument) << bad;
     Required need = requiredBy(taskOf(model));
     need.tube = at(bad);
@@ -203,6 +206,7 @@ TEST(PairProofs, NothingIsFreeBeyondTheProvedValues) {
                     "edge with margins");
       MotionCertificate certificate;
       expectCovered(checker.certifyEdge(here, there, false, certificate), covered, "certificate");
+      EXPECT_EQ(checker.faultOf({}, here, there, 1).has_value(), !covered);
       CurvePiece piece{Eigen::MatrixXd(1, 2), at(0)};
       piece.coefficients << 0, there[0];
       expectCovered(checker.certifyCurve(piece), covered, "piece");
@@ -272,6 +276,39 @@ TEST(PairProofs, HoldForHeldJointsWithinTheLimits) {
     EXPECT_EQ(pairsOf(Checker(model)), 0u) << "they never move against each other";
     for (const auto& [pair, proof] : model.filter.proofs()) EXPECT_TRUE(proof.ranges.empty());
   }
+}
+
+/// A joint with equal limits is not planned for when the proof is made, so the proof is for its
+/// only value. For another value, or if the joint is planned for, the pair is tested.
+TEST(PairProofs, JointsWithEqualLimitsHaveOneProvedValue) {
+  RobotModel description = turner();
+  JointModel slide;
+  slide.name = "slide", slide.type = JointType::prismatic, slide.parent = 0, slide.child = 3;
+  slide.lower = 0, slide.upper = 1;
+  description.links.push_back({"cart", {}});
+  description.joints.push_back(slide);
+  description.joints[1].lower = description.joints[1].upper = 0.5;
+  EXPECT_EQ(modelOf(description, "turn", 0.5).filter.proofs().size(), 1u);
+  EXPECT_EQ(modelOf(description, "turn", 0.509).filter.proofs().size(), 0u);
+  ModelRobot robot;
+  robot.description = description;
+  chooseJoints(robot, {1});
+  ModelBuilder builder;
+  builder.addRobot(std::move(robot));
+  EXPECT_EQ(builder.build().filter.proofs().size(), 0u);
+}
+
+/// A held joint is stored with a rounding, which a proof with margin 0 does not cover.
+TEST(PairProofs, HeldJointsNeedAMarginOfTheProof) {
+  RobotModel description = turner();
+  JointModel slide;
+  slide.name = "slide", slide.type = JointType::prismatic, slide.parent = 0, slide.child = 3;
+  slide.lower = 0, slide.upper = 1;
+  description.links.push_back({"cart", {}});
+  description.joints.push_back(slide);
+  description.allowed.back().proof->margin = 0;
+  EXPECT_EQ(modelOf(description, "turn", 0.3).filter.proofs().size(), 0u);
+  EXPECT_EQ(modelOf(description).filter.proofs().size(), 1u);
 }
 
 TEST(PairProofs, ContinuousJointsHaveNoProvedRange) {

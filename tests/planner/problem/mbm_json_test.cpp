@@ -103,6 +103,13 @@ TEST_F(MbmJson, NothingIsDropped) {
       testing::Contains((folder_ / "sets/box.json").string() + ": not used: objects[].scale"));
   EXPECT_EQ(complaintOfSet(set(changed("\"length\": 2", "\"length\": 2, \"length\": 3")), "#2"),
             "sets/box.json: has the key \"length\" twice in one object; remove one of them");
+  EXPECT_EQ(
+      complaintOfSet(set(changed("\"ghost\": 1", "\"slide\": 0.03, \"follow\": 0.02")), "#2"),
+      "sets/box.json: fixed_joints.follow: the joint mimics \"slide\", which gives it another "
+      "value; leave it out");
+  EXPECT_EQ(
+      complaintOfSet(set(changed("\"ghost\": 1", "\"slide\": 0.03, \"follow\": -0.03")), "#2"),
+      "no complaint");
   const auto file = set(two);
   std::string text = contents(file);
   text.insert(1, "\"frame\": \"camera\", ");

@@ -5,7 +5,7 @@
 
 #include "planner/problem/problem.h"
 #include "planner/robot/joint_types.h"
-#include "tests/planner/problem/arm_fixture.h"
+#include "tests/planner/problem/moveit_fixture.h"
 #include "tests/support/support.h"
 #include "tests/support/workload.h"
 
@@ -13,62 +13,6 @@ namespace corridor::test {
 namespace {
 
 using testing::HasSubstr;
-
-class Moveit : public ArmTest {
- protected:
-  void SetUp() override {
-    ArmTest::SetUp();
-    write("arm.yaml", "format: corridor-robot-1\nurdf: arm.urdf\nsrdf: arm.srdf\n");
-    write("scene.yaml", scene);
-    write("request.yaml", request);
-  }
-  static constexpr const char* head =
-      "format: corridor-problem-1\nrobot: arm.yaml\nmoveit: {scene: scene.yaml, request: "
-      "request.yaml}\n";
-  inline static const std::string scene = R"(name: ""
-world:
-  collision_objects:
-    - id: crate
-      pose: {position: [1, 0, 0], orientation: [0, 0, 1, 1]}
-      primitives:
-        - type: box
-          dimensions: [0.2, 0.1, 0.4]
-        - {type: 3, dimensions: [0.5, 0.03]}
-      primitive_poses:
-        - position: [0, 1, 0]
-          orientation: [0, 0, 0, 2]
-        - {position: {x: 0, y: 0, z: 2}, orientation: {x: 0, y: 0, z: 0, w: 1}}
-    - id: wedge
-      header: {frame_id: base}
-      meshes:
-        - vertices: [{x: 0, y: 0, z: 0}, [1, 0, 0], [0, 1, 0]]
-          triangles: [{vertex_indices: [0, 1, 2]}]
-      mesh_poses: [{position: [0, 0, 3]}]
-robot_state: {joint_state: {name: [pan], position: [9]}}
-allowed_collision_matrix:
-  entry_names: [base, lower, crate, finger]
-  entry_values:
-    - [false, false, false, true]
-    - {enabled: [false, false, false, false]}
-    - [false, false, false, true]
-    - [true, false, true, false]
-)";
-  inline static const std::string request = R"(group_name: arm
-planner_id: RRTConnect
-start_state:
-  joint_state:
-    name: [pan, lift, slide, follow, unknown]
-    position: [0.5, -0.25, 0.04, 7, 7]
-goal_constraints:
-  - joint_constraints:
-      - {joint_name: pan, position: 1, tolerance_above: 0.001}
-      - {joint_name: lift, position: 0.75}
-  - joint_constraints:
-      - {joint_name: lift, position: 0}
-      - {joint_name: pan, position: -1}
-)";
-  static Configuration numbers(double a, double b) { return Eigen::Vector2d(a, b); }
-};
 
 TEST_F(Moveit, SceneAndRequest) {
   const Problem p = read(head);
@@ -340,86 +284,6 @@ TEST_F(Moveit, FaultsOfTheRequest) {
   EXPECT_EQ(complaintOf("format: corridor-problem-1\nrobot: arm.yaml\nmoveit: {}\nstart: {pan: 0, "
                         "lift: 0, slide: 0.02}\ngoal: {pan: 0, lift: 0, slide: 0.02}\n"),
             "problem.yaml:3: moveit: scene: FILE, request: FILE, or both are needed");
-}
-
-/// What a scene says about the robot's state is used, is a fault, or is in a note.
-TEST_F(Moveit, TheStateOfTheScene) {
-  const std::string ends = "start: {pan: 0, lift: 0}\ngoal: {pan: 1, lift: 0}\n";
-  const std::string only =
-      "format: corridor-problem-1\nrobot: arm.yaml\nmoveit: {scene: scene.yaml}\n" + ends;
-  write("arm.yaml", "format: corridor-robot-1\nurdf: arm.urdf\nsrdf: arm.srdf\ngroup: arm\n");
-  const auto withState = [&](const std::string& state, const std::string& more = "") {
-    return write("scene.yaml", "world: {}\nrobot_state: {" + state + "}\n" + more);
-  };
-  const auto heldSlide = [&](const Problem& p) {
-    const ModelRobot& robot = p.model.robots.front();
-    return robot.held.at(*findJoint(robot.description, "slide"));
-  };
-  const std::string slide = "joint_state: {name: [slide, pan], position: [0.03, 2]}";
-  withState(slide);
-  const Problem p = read(only);
-  EXPECT_EQ(heldSlide(p), 0.03);
-  EXPECT_THAT(textsOf(p.source.notes),
-              testing::Contains(
-                  HasSubstr("scene.yaml: robot_state: the start has other values of pan; those "
-                            "of the start are used")));
-  const Problem both = read(head + ends);
-  EXPECT_EQ(heldSlide(both), 0.04) << "the start state of the request has priority";
-  EXPECT_THAT(textsOf(both.source.notes),
-              testing::Contains(HasSubstr("request.yaml: start_state: used instead of the scene's "
-                                          "robot_state: slide (0.03)")));
-  EXPECT_THAT(textsOf(both.source.notes),
-              testing::Contains(
-                  HasSubstr("request.yaml: start_state: not used, because they differ from the "
-                            "rule of a mimic joint: follow; the proof is for the rule")));
-  write("arm.yaml",
-        "format: corridor-robot-1\nurdf: arm.urdf\nsrdf: arm.srdf\ngroup: arm\nhold: {slide: "
-        "0.02}\n");
-  const Problem kept = read(only);
-  EXPECT_EQ(heldSlide(kept), 0.02);
-  EXPECT_THAT(
-      textsOf(kept.source.notes),
-      testing::Contains(HasSubstr("scene.yaml: robot_state: held by robot.yaml at another value: "
-                                  "slide (0.02, not 0.03)")));
-  withState("multi_dof_joint_state: {joint_names: [base], transforms: [{translation: [0, 0, 1]}]}");
-  EXPECT_EQ(complaintOf(only),
-            "scene.yaml:2: robot_state.multi_dof_joint_state.transforms: a pose that is not the "
-            "identity is not supported; give it by base, or by start in the problem");
-  withState(slide, "is_diff: true\n");
-  EXPECT_EQ(complaintOf(only),
-            "scene.yaml:3: is_diff: the scene is a difference to another one, so objects may be "
-            "missing; save the whole scene, or write false if the file has all objects");
-  withState("is_diff: true");
-  EXPECT_THAT(textsOf(read(only).source.notes),
-              testing::Contains(HasSubstr("robot_state.is_diff: the state is a difference")));
-  const std::string transform =
-      "fixed_frame_transforms: [{child_frame_id: /NAME, transform: {translation: [1, 0, 0]}}]\n";
-  const auto named = [&](const std::string& name) {
-    std::string text = transform;
-    return text.replace(text.find("NAME"), 4, name);
-  };
-  withState(slide, named("camera"));
-  EXPECT_THAT(textsOf(read(only).source.notes),
-              testing::Not(testing::Contains(HasSubstr("not used"))));
-  withState(slide, named("base"));
-  EXPECT_EQ(complaintOf(only),
-            "scene.yaml:3: fixed_frame_transforms.transform: a pose of \"base\" that is not the "
-            "identity is not supported; give the pose of the robot by base in the problem");
-}
-
-/// Values that are not used are named, except those that move nothing.
-TEST_F(Moveit, OtherFieldsAreNotedByName) {
-  write("request.yaml", request +
-                            "max_velocity_scaling_factor: 0.1\nnum_planning_attempts: 9\n"
-                            "max_acceleration_scaling_factor: 0\n");
-  write("scene.yaml", "name: x\nobject_colors: [{id: a}]\n" + scene.substr(scene.find("world:")));
-  const Problem p = read(head);
-  std::vector<std::string> unused;
-  for (const Note& note : p.source.notes)
-    if (note.text.find(": not used: ") != note.text.npos)
-      unused.push_back(std::filesystem::path(note.text).filename().string());
-  EXPECT_THAT(unused, testing::ElementsAre(
-                          "request.yaml: not used: max_velocity_scaling_factor (line 14)"));
 }
 
 /// Objects that are attached to the robot's root link move with the robot's base.

@@ -69,7 +69,7 @@ TEST_F(NeverInContactPairs, OtherReasonsStay) {
 }
 
 TEST_F(NeverInContactPairs, OfSeveralRobots) {
-  write("arm.yaml", std::string(arm) + listOf({{"base", "finger"}}, {0, 0.1}));
+  write("arm.yaml", std::string(arm) + listOf({{"base", "finger"}}, {0.0005, 0.1}));
   const auto with = [&](const std::string& more) {
     return read(
         "format: corridor-problem-1\nrobots:\n  left: {file: arm.yaml, base: {at: [0, 2, 0]}}\n  "

@@ -200,9 +200,9 @@ TEST_F(StartOfTrajectory, HeldJointsAreAtTheirHeldValues) {
             "t.csv:1: trajectory_start: \"slide\" is held at 0.02 in the problem, but is 0.04 "
             "here: the proof would be about another robot; in the robot's file, write hold: "
             "{slide: 0.04}");
-  EXPECT_THAT(notes(message(joints("wag", "1"))),
-              ElementsAre("t.csv: trajectory_start: \"wag\" is 1 off the rule of this mimic joint; "
-                          "the proof is for the rule"));
+  EXPECT_EQ(complaint(message(joints("wag", "1"))),
+            "t.csv:1: trajectory_start: \"wag\" is 1, and 0 by the rule of this mimic joint: the "
+            "proof would be for the rule; leave the value out if the joint follows the rule");
   EXPECT_THAT(notes(message(joints("ghost", "1"))),
               ElementsAre("t.csv: trajectory_start: the robot has no joint ghost; the values are "
                           "not used"));
@@ -216,9 +216,11 @@ TEST_F(StartOfTrajectory, ObjectsAndPosesAreRefused) {
                                 "[{translation: [1, 0, 0], rotation: [0, 0, 0, 1]}]}")),
               HasSubstr("t.csv:1: trajectory_start.multi_dof_joint_state.transforms: a pose that "
                         "is not the identity"));
-  EXPECT_EQ(complaint(message("", "multi_dof_trajectory: {points: [{}]}\n")),
-            "t.csv:2: multi_dof_trajectory: trajectories of poses are not read from messages; "
-            "write rows of numbers (CSV)");
+  for (const std::string poses : {"{points: [{}]}", "{points: {x: 1}}", "[{points: [{}]}]", "1"})
+    EXPECT_EQ(complaint(message("", "multi_dof_trajectory: " + poses + "\n")),
+              "t.csv:2: multi_dof_trajectory: trajectories of poses are not read from messages; "
+              "write rows of numbers (CSV)")
+        << poses;
 }
 
 /// Fields of the messages around a trajectory that move nothing are ignored, and all others are
@@ -230,6 +232,10 @@ TEST_F(StartOfTrajectory, OtherFieldsAreNotedByName) {
               IsEmpty());
   EXPECT_THAT(notes(message("", "sped: 3\nempty: []\nzero: {a: 0, b: [false, \"\"]}\n")),
               ElementsAre("t.csv: not used: sped (line 2)"));
+  EXPECT_THAT(notes(message("",
+                            "multi_dof_joint_trajectory: {header: {stamp: 3}, joint_names: [], "
+                            "points: [], waypoints: [1]}\n")),
+              ElementsAre("t.csv: not used: multi_dof_joint_trajectory.waypoints (line 2)"));
   EXPECT_THAT(notes(message("", "path_tolerance: [{name: pan, position: 0.1}]\n")),
               ElementsAre("t.csv: path_tolerance: is not used; a proof covers the problem's tube "
                           "(key tube)"));
