@@ -148,9 +148,9 @@ TEST_F(SrdfFile, UnknownNamesAreCountedInNotes) {
 <passive_joint name="right2"/>
 <disable_collisions link1="ground" link2="tool"/>
 <disable_collisions link1="r2" link2="tool"/>)"),
-      R"(r.srdf:2: 2 members of groups are left out, because the URDF lacks left3, nowhere
+      R"(r.srdf:9: <passive_joint> has no effect here; these joints are planned for or held like others: right1, right2
+r.srdf:2: 2 members of groups are left out, because the URDF lacks left3, nowhere
 r.srdf:4: 1 value of a state is left out, because the URDF lacks lft1 (did you mean "left1"?)
-r.srdf:8: <passive_joint> has no effect here; these joints are planned for or held like others: right1, right2
 r.srdf:6: 3 pairs name links that the URDF lacks: l3, l4, l5 and 1 more
 )");
   EXPECT_EQ(group("a"), "left1 left2 ");
