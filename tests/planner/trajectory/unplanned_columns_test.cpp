@@ -216,11 +216,11 @@ TEST_F(StartOfTrajectory, ObjectsAndPosesAreRefused) {
                                 "[{translation: [1, 0, 0], rotation: [0, 0, 0, 1]}]}")),
               HasSubstr("t.csv:1: trajectory_start.multi_dof_joint_state.transforms: a pose that "
                         "is not the identity"));
-  for (const std::string poses : {"{points: [{}]}", "{points: {x: 1}}", "[{points: [{}]}]", "1"})
-    EXPECT_EQ(complaint(message("", "multi_dof_trajectory: " + poses + "\n")),
+  for (const std::string text : {"{points: [{}]}", "{points: {x: 1}}", "[{points: [{}]}]", "1"})
+    EXPECT_EQ(complaint(message("", "multi_dof_trajectory: " + text + "\n")),
               "t.csv:2: multi_dof_trajectory: trajectories of poses are not read from messages; "
               "write rows of numbers (CSV)")
-        << poses;
+        << text;
 }
 
 /// Fields of the messages around a trajectory that move nothing are ignored, and all others are
