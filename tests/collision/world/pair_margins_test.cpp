@@ -229,7 +229,7 @@ TEST(PairMargins, PairsAndMotionPairsHaveOneOrder) {
   ASSERT_EQ(scene.pairs().size(), 4u);
   ASSERT_EQ(scene.motionPairs().size(), 4u);
   for (std::size_t tooClose = 0; tooClose <= 4; ++tooClose) {
-    // Pair `tooClose`, if there is one, is asked for more than its gap; the others for far less.
+    // The margin of pair `tooClose`, if there is one, exceeds its gap; the others are far less.
     const auto metresOf = [&](std::size_t pair, std::size_t a, std::size_t b) {
       return (pair == tooClose ? 1.05 : 0.5) * LinkBetweenWalls::gapOf(a, b);
     };

@@ -43,6 +43,17 @@ RobotModel turner(const std::string& type = "revolute") {
   return model;
 }
 
+/// Returns `turner` with a second joint, so that something is planned for if the first is held.
+RobotModel turnerWithSlide() {
+  RobotModel description = turner();
+  JointModel slide;
+  slide.name = "slide", slide.type = JointType::prismatic, slide.parent = 0, slide.child = 3;
+  slide.lower = 0, slide.upper = 1;
+  description.links.push_back({"cart", {}});
+  description.joints.push_back(slide);
+  return description;
+}
+
 /// The distance of arm and block, for angles from 0.9 to 1.37 rad: that of the block's corner from
 /// the line along the arm's side.
 double gapAt(double angle) {
@@ -262,13 +273,7 @@ TEST(PairProofs, HoldForHeldJointsWithinTheLimits) {
                                                                        {-kLimit - 0.04, true},
                                                                        {kLimit + 0.06, false},
                                                                        {-1.5, false}}) {
-    // A second joint, so that something is planned for.
-    RobotModel description = turner();
-    JointModel slide;
-    slide.name = "slide", slide.type = JointType::prismatic, slide.parent = 0, slide.child = 3;
-    slide.lower = 0, slide.upper = 1;
-    description.links.push_back({"cart", {}});
-    description.joints.push_back(slide);
+    RobotModel description = turnerWithSlide();
     const Model model = modelOf(description, "turn", held);
     EXPECT_EQ(model.filter.proofs().size(), left ? 1u : 0u) << held;
     EXPECT_EQ(model.filter.whyNotTested(0, 1, requiredBy(taskOf(model))),
@@ -281,12 +286,7 @@ TEST(PairProofs, HoldForHeldJointsWithinTheLimits) {
 /// A joint with equal limits is not planned for when the proof is made, so the proof is for its
 /// only value. For another value, or if the joint is planned for, the pair is tested.
 TEST(PairProofs, JointsWithEqualLimitsHaveOneProvedValue) {
-  RobotModel description = turner();
-  JointModel slide;
-  slide.name = "slide", slide.type = JointType::prismatic, slide.parent = 0, slide.child = 3;
-  slide.lower = 0, slide.upper = 1;
-  description.links.push_back({"cart", {}});
-  description.joints.push_back(slide);
+  RobotModel description = turnerWithSlide();
   description.joints[1].lower = description.joints[1].upper = 0.5;
   EXPECT_EQ(modelOf(description, "turn", 0.5).filter.proofs().size(), 1u);
   EXPECT_EQ(modelOf(description, "turn", 0.509).filter.proofs().size(), 0u);
@@ -300,12 +300,7 @@ TEST(PairProofs, JointsWithEqualLimitsHaveOneProvedValue) {
 
 /// A held joint is stored with a rounding, which a proof with margin 0 does not cover.
 TEST(PairProofs, HeldJointsNeedAMarginOfTheProof) {
-  RobotModel description = turner();
-  JointModel slide;
-  slide.name = "slide", slide.type = JointType::prismatic, slide.parent = 0, slide.child = 3;
-  slide.lower = 0, slide.upper = 1;
-  description.links.push_back({"cart", {}});
-  description.joints.push_back(slide);
+  RobotModel description = turnerWithSlide();
   description.allowed.back().proof->margin = 0;
   EXPECT_EQ(modelOf(description, "turn", 0.3).filter.proofs().size(), 0u);
   EXPECT_EQ(modelOf(description).filter.proofs().size(), 1u);
