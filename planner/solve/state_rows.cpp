@@ -6,6 +6,7 @@
 
 #include "collision/core/read_file.h"
 #include "collision/core/spelling.h"
+#include "planner/problem/table_text.h"
 #include "planner/problem/text_words.h"
 #include "planner/problem/yaml_reader.h"
 
@@ -83,21 +84,30 @@ std::vector<Row> readRows(const std::filesystem::path& file, const Configuration
   std::vector<Row> rows;
   FaultList faults(file.string());
   const std::vector<std::string> names = space.numberNames();
-  std::vector<std::size_t> columns;  // the number that each column holds; empty: no header
+  std::vector<std::size_t> columns;          // the number that each column holds; empty: no header
+  std::vector<std::string> inOrder = names;  // the names of the numbers of a row without header
+  if (!allowHeader) inOrder.insert(inOrder.end(), names.begin(), names.end());
   bool isFirst = true;
+  int likeHeader = 0;  // the line of a comment that may be meant as the header; 0: none
   std::istringstream lines(readTextStream(file, "a file of " + what + "s, one per line,"));
   std::string line;
   for (int number = 1; std::getline(lines, line); ++number) {
     if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // byte-order mark
     // numpy.savetxt writes its header as a comment.
-    if (allowHeader && isFirst && line.starts_with('#')) {
-      std::vector<std::string> words = wordsOfLine(line.substr(1)), sorted = names;
+    if (const std::size_t mark = line.find('#'); isFirst && mark != std::string::npos) {
+      const std::string comment = line.substr(mark + 1);
+      std::vector<std::string> words = wordsOfLine(comment), sorted = names;
       std::sort(words.begin(), words.end());
       std::sort(sorted.begin(), sorted.end());
-      if (words == sorted) line.erase(0, 1);
+      if (mark == 0 && allowHeader && words == sorted)
+        line.erase(0, 1);
+      else if (likeHeader == 0 && resemblesHeader(comment, inOrder))
+        likeHeader = number;
     }
     const std::vector<std::string> words = wordsOfLine(line);
     if (words.empty()) continue;
+    if (const std::string wrong = wrongFields(line, isFirst, names); !wrong.empty())
+      throw InputError(Fault{file.string(), number, wrong});
     // A name may look like a number (a joint "1"). So the first line is a header only if one of its
     // words is not a number, and one of its words is a name.
     double number0 = 0;
@@ -113,6 +123,8 @@ std::vector<Row> readRows(const std::filesystem::path& file, const Configuration
       faults.throwIfAny();
       continue;
     }
+    if (likeHeader != 0 && columns.empty())
+      throw InputError(Fault{file.string(), likeHeader, resemblesHeaderText(inOrder)});
     std::vector<double> values;
     std::string complaint;
     for (const std::string& word : words) {

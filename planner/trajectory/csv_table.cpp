@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "collision/core/spelling.h"
+#include "planner/problem/table_text.h"
 #include "planner/problem/text_words.h"
 #include "planner/problem/yaml_reader.h"
 #include "planner/trajectory/row_faults.h"
@@ -89,18 +90,24 @@ class CsvReader {
     std::istringstream lines(text);
     std::string line;
     bool isFirst = true;
+    int likeHeader = 0;  // the line of a comment that may be meant as the header; 0: none
     for (int number = 1; std::getline(lines, line); ++number) {
       if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // byte-order mark
       // numpy.savetxt writes its header as a comment.
-      if (isFirst && line.starts_with('#')) {
-        const std::vector<std::string> words = wordsOfLine(line.substr(1));
-        if (!words.empty() && std::all_of(words.begin(), words.end(), [&](const std::string& word) {
-              return isKnown(word, names_);
-            }))
+      if (const std::size_t mark = line.find('#'); isFirst && mark != std::string::npos) {
+        const std::string comment = line.substr(mark + 1);
+        const std::vector<std::string> words = wordsOfLine(comment);
+        if (mark == 0 && !words.empty() &&
+            std::all_of(words.begin(), words.end(),
+                        [&](const std::string& word) { return isKnown(word, names_); }))
           line.erase(0, 1);
+        else if (likeHeader == 0 && resemblesHeader(comment, names_.numbers()))
+          likeHeader = number;
       }
       const std::vector<std::string> words = wordsOfLine(line);
       if (words.empty()) continue;
+      if (const std::string wrong = wrongFields(line, isFirst, names_.numbers()); !wrong.empty())
+        throw InputError(Fault{file_, number, wrong});
       if (std::exchange(isFirst, false)) {
         if (line.find(';') < line.find('#'))
           throw InputError(Fault{file_, number,
@@ -110,6 +117,8 @@ class CsvReader {
           readHeader(words, number);
           continue;
         }
+        if (likeHeader != 0)
+          throw InputError(Fault{file_, likeHeader, resemblesHeaderText(names_.numbers())});
         for (const std::string& name : names_.numbers()) add({Quantity::position, name});
       }
       rowFaults_.row([&](FaultList& faults) { readRow(words, number, faults); });

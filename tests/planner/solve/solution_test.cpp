@@ -164,6 +164,23 @@ TEST_F(SolutionFile, StateRowsTakeCommasAndComments) {
             "a.path:2: a state has 3 numbers (shoulder elbow wrist), not 2");
 }
 
+/// A comment that may be meant as the header is refused, in files of states and of edges.
+TEST_F(SolutionFile, CommentsThatNameTheColumnsAreRefused) {
+  const ConfigurationSpace space = test::armProblem().model.space;
+  for (const char* const comment : {"# shoulder [rad] elbow [rad] wrist [rad]",
+                                    "# Shoulder Elbow Wrist", "## elbow shoulder wrist"})
+    EXPECT_EQ(complaint("a.path", std::string(comment) + "\n1 2 3\n", space),
+              "a.path:1: the comment seems to be a header, but is not one; write the names only, "
+              "as in \"shoulder,elbow,wrist\" (rad, m), or move the comment behind the first row")
+        << comment;
+  EXPECT_EQ(complaint("a.path", "# Wrist, Elbow, Shoulder\nwrist elbow shoulder\n1 2 3\n", space),
+            "");
+  EXPECT_EQ(complaint("a.path", "1,,2,3\n", space), "a.path:1: the field before comma 2 is empty");
+  const std::string three = "shoulder elbow wrist ", row = "0 0 0 1 1 1\n";
+  EXPECT_EQ(readEdgeRows(write("e.txt", "# " + three + three + "\n" + row), space).size(), 1u);
+  EXPECT_THROW(readEdgeRows(write("e.txt", "# wrist elbow shoulder\n" + row), space), InputError);
+}
+
 TEST_F(SolutionFile, OmplAppPaths) {
   const Solution solution = readSolution(write("a.path", "1 2 0.5 \n\n3 4 -0.25"),
                                          test::rigidProblem(Rigid::SE2).model.space);

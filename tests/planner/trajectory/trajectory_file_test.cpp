@@ -35,6 +35,21 @@ TEST_F(TrajectoryFile, AHeaderNamesColumnsInAnyOrder) {
   EXPECT_EQ(read.rows[1].time, 0.75);
 }
 
+/// A comment that may be meant as the header is refused, unless the file has a header.
+TEST_F(TrajectoryFile, CommentsThatNameTheColumnsAreRefused) {
+  for (const char* const comment : {"# lift [rad], pan [rad]", "# pan_deg, lift", "# Pan, Lift",
+                                    "## lift pan", "# order: lift pan", "# lift;pan"})
+    EXPECT_EQ(complaint("# a title\n" + std::string(comment) + "\n0.5 1\n0.25 1\n"),
+              "t.csv:2: the comment seems to be a header, but is not one; write the names only, as "
+              "in \"pan,lift\" (rad, m), or move the comment behind the first row")
+        << comment;
+  EXPECT_EQ(complaint("0.5 1 # lift pan!\n0.25 1\n").substr(0, 9), "t.csv:1: ");
+  EXPECT_EQ(complaint("0.5 1\n0.25 1 # lift pan!\n"), "");
+  const TrajectoryRows read = rows("# pan [rad], lift [rad]\nlift,pan\n0.5 1\n0.25 1\n");
+  EXPECT_EQ(read.rows[0].positions, numbers({1, 0.5}));
+  EXPECT_EQ(complaint("pan,lift\n1,,2\n3,4\n"), "t.csv:2: the field before comma 2 is empty");
+}
+
 TEST_F(TrajectoryFile, FixedJointsAreNotRead) {
   const TrajectoryRows read = rows("pan lift wrist\n1 2 0\n3 4 0\n");
   EXPECT_EQ(read.rows[1].positions, numbers({3, 4}));
@@ -61,6 +76,25 @@ TEST_F(TrajectoryFile, EffortsAreNotedAndNotUsed) {
   const TrajectoryRows read = rows("pan lift pan_effort lift_torque\n0 0 x 9\n1 1 - 9\n");
   EXPECT_EQ(read.rows[1].positions, numbers({1, 1}));
   EXPECT_THAT(texts(read), ElementsAre("t.csv: not used: pan_effort, lift_torque"));
+}
+
+/// A planner or controller that failed may have left a part of a trajectory.
+TEST_F(TrajectoryFile, ErrorCodesOtherThanSuccessAreNoted) {
+  const auto notes = [&](const std::string& code) {
+    return texts(
+        rows("trajectory: {joint_names: [pan, lift], points: [{positions: [0, 0]}, "
+             "{positions: [1, 1]}]}\nerror_code: " +
+             code + "\n"));
+  };
+  EXPECT_THAT(
+      notes("{val: -2, message: 'x'}"),
+      ElementsAre("t.csv: error_code.val: -2 is not success; the trajectory is judged as it "
+                  "stands"));
+  EXPECT_THAT(notes("-4"),
+              ElementsAre("t.csv: error_code: -4 is not success; the trajectory is judged as it "
+                          "stands"));
+  for (const char* const code : {"{val: 1, message: '', source: ''}", "{val: 0}", "0", "{}"})
+    EXPECT_THAT(notes(code), testing::IsEmpty()) << code;
 }
 
 TEST_F(TrajectoryFile, MessagesOfRosAndMoveitAreTheSameRows) {
