@@ -144,6 +144,7 @@ std::optional<CfgMesh> readMesh(const IniFile& ini, const std::string& key, Prob
   addFile(problem.source.files, path);
   try {
     CfgMesh mesh{readOmplAppMesh(path), {}};
+    for (const std::string& other : mesh.read.otherFiles) addFile(problem.source.files, other);
     mesh.shape.name = path.stem().string();
     mesh.shape.file = path;
     MeshFile file;
@@ -276,7 +277,10 @@ void readCfg(const std::filesystem::path& file, Problem& problem) {
     std::vector<RobotSetup> robots{robotOf(robot ? std::move(*robot) : CfgMesh{}, *space)};
     ModelBuilder builder;
     addRobots(std::move(robots), builder, problem.source);
-    if (world) builder.addObstacle(world->shape.name, {std::move(world->shape)});
+    if (world) {
+      const std::string name = world->shape.name;  // a copy: the shape is moved
+      builder.addObstacle(name, {std::move(world->shape)});
+    }
     problem.model = builder.buildForReader();
     problem.task.start = readPose(ini, "start", problem);
     problem.task.goals = {readPose(ini, "goal", problem)};

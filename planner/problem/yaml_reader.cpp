@@ -62,6 +62,21 @@ std::string described(const YamlValue& value) {
   }
 }
 
+namespace {
+
+/// Returns a hint for a text such as "1,5", which is a number with a decimal comma; "" for others.
+std::string hintOnComma(std::string_view text) {
+  const std::size_t comma = text.find(',');
+  if (comma == text.npos || text.find(',', comma + 1) != text.npos) return "";
+  std::string point(text);
+  point[comma] = '.';
+  double value = 0;
+  return parseNumber(point, Range::Any, value).empty() ? "; decimals need a point, not a comma"
+                                                       : "";
+}
+
+}  // namespace
+
 std::string parseNumber(std::string_view text, Range range, double& value) {
   for (const char* name :
        {".nan", ".NaN", ".NAN", ".inf", "-.inf", "+.inf", ".Inf", "-.Inf", ".INF", "-.INF"})
@@ -72,7 +87,7 @@ std::string parseNumber(std::string_view text, Range range, double& value) {
   double number = 0;
   const auto [stop, error] = std::from_chars(begin, end, number);
   if (stop != end || error == std::errc::invalid_argument)
-    return "a number is needed, not " + quotedWord(text);
+    return "a number is needed, not " + quotedWord(text) + hintOnComma(text);
   // from_chars does not report whether the number is too large or too small; strtod returns
   // infinity, or the nearest double.
   if (error == std::errc::result_out_of_range)
@@ -118,7 +133,8 @@ bool lacksBlank(std::string_view text, const MapKeys* keys) {
 
 /// Returns whether the value is a text of several numbers that are separated by blanks only.
 bool isRowOfNumbers(const YamlValue& value) {
-  if (value.kind != YamlValue::Kind::Scalar) return false;
+  if (value.kind != YamlValue::Kind::Scalar || value.text.find(',') != std::string::npos)
+    return false;
   const std::vector<std::string> words = wordsOfLine(value.text);
   double number = 0;
   return words.size() > 1 && std::ranges::all_of(words, [&](const std::string& word) {
@@ -310,6 +326,13 @@ std::optional<std::string> YamlMap::text(std::string_view key) const {
   fault(key, "a word is needed, not " +
                  (value->kind == YamlValue::Kind::Scalar ? "nothing" : described(*value)));
   return std::nullopt;
+}
+
+std::string YamlMap::textOrNone(std::string_view key) const {
+  const YamlValue* const value = find(key);
+  const bool isNone = !value || value->kind == YamlValue::Kind::Null ||
+                      (value->kind == YamlValue::Kind::Scalar && value->text.empty());
+  return isNone ? "" : text(key).value_or("");
 }
 
 std::optional<std::string> YamlMap::choice(std::string_view key,

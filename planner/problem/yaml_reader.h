@@ -110,6 +110,9 @@ class YamlMap {
   /// As `boolean`, also as programs of Python and ROS write it: True, FALSE.
   std::optional<bool> flag(std::string_view key) const;
   std::optional<std::string> text(std::string_view key) const;
+  /// Returns the text, or "" if the key is absent or its value is empty, as in messages of ROS,
+  /// which have all fields. Also returns "" if a fault was added.
+  std::string textOrNone(std::string_view key) const;
   std::optional<std::string> choice(std::string_view key, const std::vector<std::string>& of) const;
   /// Returns a list of exactly `count` numbers.
   std::optional<std::vector<double>> numbers(std::string_view key, std::size_t count) const;

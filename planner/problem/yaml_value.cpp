@@ -17,6 +17,9 @@
 namespace corridor {
 namespace {
 
+/// What yaml-cpp makes of "!!".
+const std::string kStandardTag = "tag:yaml.org,2002:";
+
 /// Returns whether the text is in UTF-16 or UTF-32, which yaml-cpp also reads.
 bool hasWideCharacters(const std::string& text) {
   return text.find('\0') != text.npos;
@@ -44,6 +47,21 @@ bool looksLikeKeyOrItem(std::string_view line) {
   const std::size_t end = std::min(line.find_first_of(" \t\r:"), line.size());
   return end > 0 && end < line.size() && line[end] == ':' &&
          (end + 1 == line.size() || blanks.find(line[end + 1]) != blanks.npos);
+}
+
+/// Returns whether a tag, as yaml-cpp passes it on, says no more than what the value's form says.
+/// yaml-cpp's own tags are "?" for values without a tag, and "!" for texts in quotes.
+bool saysNothing(const std::string& tag, YamlValue::Kind kind) {
+  if (tag.empty() || tag == "?" || tag == "!") return true;
+  const std::string form = kind == YamlValue::Kind::List  ? "seq"
+                           : kind == YamlValue::Kind::Map ? "map"
+                                                          : "str";
+  return tag == kStandardTag + form;
+}
+
+/// Returns a tag as it is in the file: "!!float", "!cm".
+std::string tagAsWritten(const std::string& tag) {
+  return tag.starts_with(kStandardTag) ? "!!" + tag.substr(kStandardTag.size()) : tag;
 }
 
 /// Builds the document from the parser's events, since yaml-cpp's own nodes hide repeated keys.
@@ -76,6 +94,7 @@ class TreeBuilder : public YAML::EventHandler {
   }
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t,
                 const std::string& text) override {
+    requireNoTag(mark, tag, YamlValue::Kind::Scalar);
     YamlValue scalar = value(YamlValue::Kind::Scalar, mark);
     scalar.text = text;
     // The tag of yaml-cpp is "?" for plain text, "!" for quoted text, else the tag in the file.
@@ -83,13 +102,15 @@ class TreeBuilder : public YAML::EventHandler {
     if (!scalar.isPlain) checkQuotes(mark);
     put(std::move(scalar));
   }
-  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+  void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t,
                        YAML::EmitterStyle::value) override {
+    requireNoTag(mark, tag, YamlValue::Kind::List);
     open(value(YamlValue::Kind::List, mark));
   }
   void OnSequenceEnd() override { close(); }
-  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+  void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t,
                   YAML::EmitterStyle::value) override {
+    requireNoTag(mark, tag, YamlValue::Kind::Map);
     open(value(YamlValue::Kind::Map, mark));
   }
   void OnMapEnd() override { close(); }
@@ -112,6 +133,12 @@ class TreeBuilder : public YAML::EventHandler {
 
   [[noreturn]] void fail(const YAML::Mark& mark, std::string text) const {
     throw InputError(Fault{file_, mark.line + 1, std::move(text)});
+  }
+
+  /// Refuses tags: `at: !cm [1, 2, 3]` is meant as centimetres, and no reader knows that.
+  void requireNoTag(const YAML::Mark& mark, const std::string& tag, YamlValue::Kind kind) const {
+    if (!saysNothing(tag, kind))
+      fail(mark, "tags (" + tagAsWritten(tag) + ") are not read here; write the value without it");
   }
 
   /// Refuses quotes that are not closed: yaml-cpp takes the rest of the file as part of the value.

@@ -38,6 +38,7 @@ TEST_F(OmplAppCfg, PlanarProblem) {
   double lowest = 1;
   for (const Vec3& v : meshOf(p, "wedge").vertices) lowest = std::min(lowest, v.z());
   EXPECT_EQ(lowest, 0) << "z is not recentred in the plane";
+  EXPECT_EQ(p.model.bodies.back().name, "world/wedge") << "the robot has the name wedge, too";
 }
 
 TEST_F(OmplAppCfg, SpatialProblemWithEverything) {
@@ -131,7 +132,8 @@ TEST_F(OmplAppCfg, Faults) {
             "problem.cfg:17: time_limit: a number is needed, not \"soon\"");
   EXPECT_EQ(complaint(cfg(meshes + "start.x = 5,0\nstart.y = nan\nstart.theta = 0\ngoal.x = "
                                    "0\ngoal.y = 5\ngoal.theta = 1 2\n")),
-            "problem.cfg:4: start.x: a number is needed, not \"5,0\"\n"
+            "problem.cfg:4: start.x: a number is needed, not \"5,0\"; decimals need a point, not a "
+            "comma\n"
             "problem.cfg:5: start.y: a finite number is needed, not \"nan\"\n"
             "problem.cfg:9: goal.theta: a number is needed, not \"1 2\"");
   EXPECT_EQ(

@@ -53,6 +53,34 @@ TEST_F(YamlFaults, QuotesMayHaveSeveralLines) {
     EXPECT_THAT(with(text), testing::HasSubstr("problem.yaml:8: planner: a map")) << text;
 }
 
+// A tag may say something that no reader knows: a unit, another type.
+TEST_F(YamlFaults, TagsAreNotRead) {
+  const auto fault = [](const std::string& line, const std::string& tag) {
+    return "problem.yaml:" + line + ": tags (" + tag +
+           ") are not read here; write the value without it";
+  };
+  EXPECT_EQ(with("bounds:\n  at: !cm [1, 2, 3]\n"), fault("9", "!cm"));
+  EXPECT_EQ(with("planner: !deg {time: 1}\n"), fault("8", "!deg"));
+  EXPECT_EQ(with("planner:\n  time: !cm 1\n"), fault("9", "!cm"));
+  EXPECT_EQ(with("planner: {name: !cm RRT}\n"), fault("8", "!cm"));
+  EXPECT_EQ(with("margin: !!float 1\n"), fault("8", "!!float"));
+  EXPECT_EQ(with("allow: !!set {}\n"), fault("8", "!!set"));
+  EXPECT_EQ(with("allow: !!map []\n"), fault("8", "!!map"));
+  EXPECT_EQ(with("margin: !cm\n"), fault("8", "!cm"));
+  EXPECT_EQ(with("!cm margin: 1\n"), fault("8", "!cm"));
+  EXPECT_EQ(with("planner: !!map {name: !!str RRT}\nallow: !!seq []\n"), "no complaint");
+}
+
+TEST_F(YamlFaults, DecimalCommas) {
+  const std::string end = "a number is needed, not \"1,5\"; decimals need a point, not a comma";
+  EXPECT_EQ(with("margin: 1,5\n"), "problem.yaml:8: margin: " + end);
+  EXPECT_THAT(complaintOf("format: corridor-problem-1\nrobot: robot.yaml\nworld:\n  rock:\n    "
+                          "box:\n    - 1,5\n    - 2\n    - 3\n"),
+              testing::HasSubstr("problem.yaml:6: world.rock.box: " + end));
+  EXPECT_EQ(with("margin: 1,500,000\n"),
+            "problem.yaml:8: margin: a number is needed, not \"1,500,000\"");
+}
+
 TEST_F(YamlFaults, Syntax) {
   EXPECT_EQ(complaintOf("format: corridor-problem-1\nrobot: [robot.yaml\nworld: {}\n"),
             "problem.yaml:3: is not YAML: a comma or a ] is missing, here or above");
