@@ -106,8 +106,15 @@ class MbmReader {
     if (!set.is_object() || set.value("format", Json()) != Json("mbm-scene-1"))
       stop("a set of problems (format: mbm-scene-1) is needed");
     std::vector<std::string> indices;
-    for (const Json& problem : list(set, "problems"))
+    std::map<std::string, std::size_t> first;  // place in the list, by the index
+    for (const Json& problem : list(set, "problems")) {
       indices.push_back(field(problem, "index").dump());
+      const auto [known, isNew] = first.emplace(indices.back(), indices.size() - 1);
+      if (!isNew)
+        stop("problems[" + std::to_string(known->second) + "] and problems[" +
+             std::to_string(indices.size() - 1) + "] have the same index, " + known->first +
+             "; give each problem its own");
+    }
     return indices;
   }
 
@@ -282,8 +289,20 @@ class MbmReader {
     addRobots({std::move(setup)}, builder_, problem_.source);
   }
 
+  /// Adds a fault for each size that objects of this type do not have: perhaps the type is wrong.
+  void faultOtherSizes(const Json& object, const std::string& id, const std::string& type) {
+    const std::map<std::string, std::set<std::string>> sizes{
+        {"box", {"size"}}, {"cylinder", {"radius", "length"}}, {"sphere", {"radius"}}};
+    const auto own = sizes.find(type);
+    if (own == sizes.end()) return;
+    for (const char* const key : {"size", "radius", "length"})
+      if (object.contains(key) && !own->second.contains(key))
+        fault(id + "." + key + ": a " + type + " has none; remove it, or change the type");
+  }
+
   void readObject(const Json& object) {
     const std::string id = word(object, "id"), type = word(object, "type");
+    faultOtherSizes(object, id, type);
     Primitive primitive;
     if (type == "box") {
       const auto size = numbers(field(object, "size"), 3, id + ".size");

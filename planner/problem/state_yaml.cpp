@@ -34,9 +34,10 @@ struct StateReader::Given {
 
 std::optional<double> coordinateValue(const Coordinate& coordinate, double value,
                                       const std::string& path, std::vector<Note>& notes,
-                                      std::string& why) {
-  const std::string angle =
-      path.ends_with("_deg") ? "" : coordinate.name;  // a value in degrees needs no hint
+                                      std::string& why, DegreesHint hint) {
+  const std::string angle = hint == DegreesHint::none || path.ends_with("_deg")
+                                ? ""  // a value in degrees needs no hint
+                                : coordinate.name;
   if (coordinate.kind == Coordinate::Kind::circle) {
     if (-std::numbers::pi < value && value <= std::numbers::pi) return value;
     double wrapped = wrappedYaw(value);
@@ -257,7 +258,8 @@ bool StateReader::setSingle(const PlannedJoint& planned, double value, int line,
                             const std::string& path, Configuration& q) {
   const Coordinate& coordinate = problem_.model.space.coordinates()[planned.coordinate];
   std::string why;
-  const auto stored = coordinateValue(coordinate, value, path, problem_.source.notes, why);
+  const auto stored =
+      coordinateValue(coordinate, value, path, problem_.source.notes, why, DegreesHint::key);
   if (stored)
     q[static_cast<Eigen::Index>(coordinate.first)] = *stored;
   else

@@ -55,6 +55,10 @@ class StateReader {
   YamlSource& source_;
 };
 
+/// Whether a message may advise to write degrees, by the key `…_deg`. Only values in maps of YAML
+/// have this key; messages of MoveIt and sets of MotionBenchMaker do not.
+enum class DegreesHint { none, key };
+
 /// Returns the value to store in a coordinate. The angle of a circle coordinate (a continuous
 /// joint, or a yaw) is brought into (−π, π]. If the value of a line coordinate is beyond a limit by
 /// at most `limitSlack`, it is replaced by the limit. Each of these changes adds a note. If the
@@ -62,6 +66,6 @@ class StateReader {
 /// @param path the value's place in the file, for the note and for `why`.
 std::optional<double> coordinateValue(const Coordinate& coordinate, double value,
                                       const std::string& path, std::vector<Note>& notes,
-                                      std::string& why);
+                                      std::string& why, DegreesHint hint = DegreesHint::none);
 
 }  // namespace corridor

@@ -55,8 +55,7 @@ TEST_F(MbmJson, Faults) {
             "sets/box.json: start: a list of 1 numbers is needed");
   EXPECT_EQ(
       complaintOfSet(set(R"({"index": 1, "start": [9, 0], "goals": [], "objects": []})"), "#1"),
-      "sets/box.json: start.lift: 9 is outside of its limits, [-3.14159, 3.14159]; in "
-      "degrees, write lift_deg: 9\n"
+      "sets/box.json: start.lift: 9 is outside of its limits, [-3.14159, 3.14159]\n"
       "sets/box.json: goals: at least one is needed");
   EXPECT_EQ(
       complaintOfSet(
@@ -73,6 +72,27 @@ TEST_F(MbmJson, Faults) {
   std::filesystem::remove(folder_ / "arm.srdf");
   EXPECT_EQ(complaintOfSet(set(two), "#2"),
             "sets/box.json: srdf: arm.srdf is in no folder above this file");
+}
+
+TEST_F(MbmJson, EachProblemHasAnIndexOfItsOwn) {
+  EXPECT_EQ(complaintOfSet(set("{\"index\": 1}, " + two + ", {\"index\": 3}, " + two), "#2"),
+            "sets/box.json: problems[1] and problems[3] have the same index, 2; give each problem "
+            "its own");
+}
+
+TEST_F(MbmJson, SizesOfOtherTypesAreFaults) {
+  const auto changed = [&](const std::string& from, const std::string& to) {
+    std::string text = two;
+    return complaintOfSet(set(text.replace(text.find(from), from.size(), to)), "#2");
+  };
+  const std::string end = " has none; remove it, or change the type";
+  EXPECT_EQ(
+      changed("\"size\"", "\"radius\": 2, \"length\": 1, \"size\""),
+      "sets/box.json: base.radius: a box" + end + "\nsets/box.json: base.length: a box" + end);
+  EXPECT_EQ(changed("\"radius\": 0.1", "\"radius\": 0.1, \"size\": [1, 1, 1]"),
+            "sets/box.json: can.size: a cylinder" + end);
+  EXPECT_EQ(changed("\"radius\": 1}", "\"radius\": 1, \"length\": 1}"),
+            "sets/box.json: ball.length: a sphere" + end);
 }
 
 /// Values of held joints, the frame and unknown keys are used, refused or noted.
