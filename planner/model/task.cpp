@@ -26,7 +26,8 @@ double Padding::largest() const {
     first = std::max(first, metres);
   }
   for (const auto& [both, metres] : pairs) pair = std::max(pair, metres);
-  return std::max(roundedUp(first + second), pair);
+  const double sum = first + second;
+  return std::max(sum == 0 ? 0 : roundedUp(sum), pair);
 }
 
 Required Required::beyondProofs() {

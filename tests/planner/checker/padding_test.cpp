@@ -83,6 +83,8 @@ TEST(Padding, IsNotForBodiesOfOneRobot) {
   EXPECT_EQ(padding.of(3, 1, true), 0.4);
   EXPECT_EQ(padding.of(5, 6, false), 0);
   EXPECT_EQ(padding.largest(), 0.4);
+  EXPECT_EQ(Padding().largest(), 0);
+  EXPECT_EQ((Padding{{{0, 0.0}}, {{{0, 1}, 0.0}}}.largest()), 0);
   padding.pairs.clear();
   EXPECT_GE(padding.largest(), padding.of(0, 3, false));
   // An arm's links are adjacent, or near each other: they may be padded.
