@@ -66,7 +66,7 @@ class PairReader {
 
   void read() {
     forEach(root_, "disable_collisions", [&](Element& element) {
-      file_.checkAttributes(element, {"link1", "link2", "reason"}, "pair", model_.notes);
+      file_.checkLeaf(element, {"link1", "link2", "reason"}, "pair", model_.notes);
       const auto pair = findPair(element);
       const char* const reason = element.Attribute("reason");
       if (pair)

@@ -28,7 +28,7 @@ void checkSize(XmlFile& file, Element& shape, const char* attribute, std::size_t
 
 void checkMesh(XmlFile& file, Element& shape, MeshStore& meshes, UrdfCollision& collision,
                const std::string& owner, std::vector<Note>& notes) {
-  file.checkAttributes(shape, {"filename", "scale"}, owner, notes);
+  file.checkLeaf(shape, {"filename", "scale"}, owner, notes);
   const Numbers scale = file.numbers(shape, "scale", 3, owner);
   if (scale && std::find(scale->begin(), scale->end(), 0.0) != scale->end())
     file.fault(shape.FindAttribute("scale")->GetLineNum(),
@@ -46,11 +46,11 @@ void checkShape(XmlFile& file, Element& shape, MeshStore& meshes, UrdfCollision&
                 const std::string& owner, std::vector<Note>& notes) {
   const std::string kind = shape.Name();
   if (kind == "box" || kind == "sphere" || kind == "cylinder")
-    file.checkAttributes(shape,
-                         kind == "box"      ? std::vector<std::string>{"size"}
-                         : kind == "sphere" ? std::vector<std::string>{"radius"}
-                                            : std::vector<std::string>{"radius", "length"},
-                         owner, notes);
+    file.checkLeaf(shape,
+                   kind == "box"      ? std::vector<std::string>{"size"}
+                   : kind == "sphere" ? std::vector<std::string>{"radius"}
+                                      : std::vector<std::string>{"radius", "length"},
+                   owner, notes);
   if (kind == "box") return checkSize(file, shape, "size", 3, owner);
   if (kind == "sphere") return checkSize(file, shape, "radius", 1, owner);
   if (kind == "cylinder") {
@@ -77,7 +77,7 @@ Vec3 readOrigin(XmlFile& file, Element& parent, const std::string& owner,
   if (const auto* quaternion = element->FindAttribute("quat_xyzw"))  // of URDF 1.2
     file.fault(quaternion->GetLineNum(), owner + ": origin quat_xyzw is not supported; use rpy");
   else
-    file.checkAttributes(*element, {"xyz", "rpy"}, owner, notes);
+    file.checkLeaf(*element, {"xyz", "rpy"}, owner, notes);
   file.numbers(*element, "xyz", 3, owner);
   const Numbers rpy = file.numbers(*element, "rpy", 3, owner);
   if (rpy && std::any_of(rpy->begin(), rpy->end(), seemsDegrees))
@@ -99,6 +99,8 @@ UrdfCollision readCollision(XmlFile& file, Element& element, MeshStore& meshes,
   collision.rpy = readOrigin(file, element, owner, notes);
   Element* const geometry = file.child(element, "geometry", owner);
   Element* const shape = geometry ? geometry->FirstChildElement() : nullptr;
+  if (geometry) file.checkAttributes(*geometry, {}, owner, notes);
+  if (geometry) file.checkText(*geometry, owner, notes);
   if (!shape) {
     file.fault(geometry ? geometry->GetLineNum() : element.GetLineNum(),
                owner + ": " + (geometry ? "<geometry> is empty" : "<collision> has no <geometry>") +
@@ -149,8 +151,8 @@ std::optional<JointType> readType(XmlFile& file, Element& element, const std::st
 /// @returns the link's name; empty if a fault was reported.
 std::string readEnd(XmlFile& file, Element& joint, const char* end, const std::string& owner,
                     std::vector<Note>& notes) {
-  if (const Element* element = file.child(joint, end, owner)) {
-    file.checkAttributes(*element, {"link"}, owner, notes);
+  if (Element* const element = file.child(joint, end, owner)) {
+    file.checkLeaf(*element, {"link"}, owner, notes);
     return file.text(*element, "link", owner).value_or("");
   }
   file.fault(joint.GetLineNum(), owner + ": <" + std::string(end) + " link=\"…\"/> is missing");
@@ -160,7 +162,7 @@ std::string readEnd(XmlFile& file, Element& joint, const char* end, const std::s
 void checkAxis(XmlFile& file, Element& joint, std::optional<JointType> type,
                const std::string& owner, std::vector<Note>& notes) {
   Element* const axis = file.child(joint, "axis", owner);
-  if (axis) file.checkAttributes(*axis, {"xyz"}, owner, notes);
+  if (axis) file.checkLeaf(*axis, {"xyz"}, owner, notes);
   if (!axis || !type || *type == JointType::fixed || *type == JointType::floating) return;
   file.require(*axis, "xyz", owner);
   const Numbers xyz = file.numbers(*axis, "xyz", 3, owner);
@@ -200,10 +202,10 @@ std::optional<UrdfLimit> readLimit(XmlFile& file, Element& joint, std::optional<
     }
   if (!missing.empty())
     notes.push_back({file.at(limit.line, owner + ": <limit> has no " + joined(missing))});
-  if (ranged)
-    file.checkAttributes(
-        *element, {"lower", "upper", "effort", "velocity", "acceleration", "deceleration", "jerk"},
-        owner, notes);
+  if (ranged || type == JointType::continuous)
+    file.checkLeaf(*element,
+                   {"lower", "upper", "effort", "velocity", "acceleration", "deceleration", "jerk"},
+                   owner, notes);
   return limit;
 }
 
@@ -211,7 +213,7 @@ std::optional<UrdfMimic> readMimic(XmlFile& file, Element& joint, const std::str
                                    std::vector<Note>& notes) {
   Element* const element = file.child(joint, "mimic", owner);
   if (!element) return std::nullopt;
-  file.checkAttributes(*element, {"joint", "multiplier", "offset"}, owner, notes);
+  file.checkLeaf(*element, {"joint", "multiplier", "offset"}, owner, notes);
   UrdfMimic mimic;
   mimic.line = element->GetLineNum();
   if (const Numbers multiplier = file.numbers(*element, "multiplier", 1, owner))

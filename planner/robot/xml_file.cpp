@@ -44,6 +44,48 @@ bool contains(const std::vector<std::string>& all, const std::string& one) {
   return std::find(all.begin(), all.end(), one) != all.end();
 }
 
+/// Returns the part of a name after its prefix: "xyz" of "u:xyz".
+std::string localName(const std::string& name) {
+  return name.substr(name.rfind(':') + 1);
+}
+
+/// Returns the first text in the element, outside of its children, that is not blank, or nullptr.
+const tinyxml2::XMLText* textIn(const XmlFile::Element& element) {
+  for (const tinyxml2::XMLNode* node = element.FirstChild(); node; node = node->NextSibling())
+    if (const tinyxml2::XMLText* const text = node->ToText();
+        text && !wordsOf(text->Value()).empty())
+      return text;
+  return nullptr;
+}
+
+/// Returns whether the text seems to have an attribute: an = and a quote.
+bool seemsAttribute(std::string_view text) {
+  for (std::size_t equals = text.find('='); equals != text.npos;
+       equals = text.find('=', equals + 1)) {
+    const std::size_t next = text.find_first_not_of(blanks, equals + 1);
+    if (next != text.npos && (text[next] == '"' || text[next] == '\'')) return true;
+  }
+  return false;
+}
+
+/// Returns the text without blanks around it, for messages.
+std::string quotedText(const tinyxml2::XMLText& text) {
+  std::string joinedWords;
+  for (const std::string& word : wordsOf(text.Value()))
+    joinedWords += (joinedWords.empty() ? "" : " ") + word;
+  return quotedWord(joinedWords);
+}
+
+/// Returns a <collision> in the element that has a <geometry>, or nullptr.
+const XmlFile::Element* shapedCollisionIn(const XmlFile::Element& element) {
+  if (std::string_view(element.Name()) == "collision" && element.FirstChildElement("geometry"))
+    return &element;
+  for (const XmlFile::Element* child = element.FirstChildElement(); child;
+       child = child->NextSiblingElement())
+    if (const XmlFile::Element* const found = shapedCollisionIn(*child)) return found;
+  return nullptr;
+}
+
 /// Returns whether ignoring the element would lose collision geometry. This is so if the element is
 /// or contains a <collision>, or if its name contains "collision" ("collision_model") and it
 /// contains a <geometry>.
@@ -199,17 +241,25 @@ void XmlFile::checkChildren(Element& parent, const std::vector<std::string>& rea
   std::vector<std::string> known = read;
   known.insert(known.end(), ignored.begin(), ignored.end());
   std::set<std::string> noted;
+  checkText(parent, owner, notes);
   for (Element* element = parent.FirstChildElement(); element;
        element = element->NextSiblingElement()) {
     const std::string name = element->Name();
     if (contains(read, name)) continue;
     if (contains(ignored, name)) {
-      // Extensions of Gazebo have <collision> elements of their own.
-      if (const Element* const lost = name == "gazebo" ? nullptr : collisionIn(*element);
+      if (const Element* const lost =
+              name == "gazebo" ? shapedCollisionIn(*element) : collisionIn(*element);
           lost && isFirst("collision in " + name))
         notes.push_back({at(lost->GetLineNum(), owner + ": the <collision> in <" + name +
                                                     "> is not read; move it into its <link>"),
                          NoteWeight::coverage});
+      continue;
+    }
+    const std::string local = localName(name);
+    if (local == "include") {
+      fault(element->GetLineNum(), owner + ": <" + name +
+                                       ">: files are not included; put the elements of that file "
+                                       "into this one");
       continue;
     }
     const std::string unknown = owner + ": <" + name + "> is not known";
@@ -220,7 +270,14 @@ void XmlFile::checkChildren(Element& parent, const std::vector<std::string>& rea
     else if (collisionIn(*element))
       fault(element->GetLineNum(),
             unknown + ", and the collision geometry in it would be lost" + hint);
-    else if (name.find(':') == name.npos && noted.size() < mostNames && noted.insert(name).second)
+    else if (local != name && contains(read, local) && noted.size() < mostNames &&
+             noted.insert(name).second)
+      notes.push_back({at(element->GetLineNum(), owner + ": <" + name +
+                                                     "> belongs to another format, and is not "
+                                                     "read; <" +
+                                                     local + "> would be"),
+                       NoteWeight::coverage});
+    else if (local == name && noted.size() < mostNames && noted.insert(name).second)
       notes.push_back({at(element->GetLineNum(), unknown + ", and is ignored" + hint)});
   }
 }
@@ -230,13 +287,50 @@ void XmlFile::checkAttributes(const Element& element, const std::vector<std::str
   for (const tinyxml2::XMLAttribute* attribute = element.FirstAttribute(); attribute;
        attribute = attribute->Next()) {
     const std::string name = attribute->Name();
-    if (contains(read, name) || name.find(':') != name.npos) continue;
+    const std::string local = localName(name);
+    if (contains(read, name)) continue;
+    if (local != name) {
+      if (contains(read, local) && isFirst(std::string(element.Name()) + "/" + name))
+        notes.push_back({at(attribute->GetLineNum(), owner + ": " + element.Name() + ": " + name +
+                                                         " belongs to another format, and is not "
+                                                         "read; " +
+                                                         local + " would be"),
+                         NoteWeight::coverage});
+      continue;
+    }
     const std::string unknown = owner + ": " + element.Name() + ": " + name + " is not known";
     if (const std::string hint = didYouMean(name, read); !hint.empty())
       fault(attribute->GetLineNum(), unknown + hint);
     else if (isFirst(std::string(element.Name()) + "/" + name))
       notes.push_back({at(attribute->GetLineNum(), unknown + ", and is ignored")});
   }
+}
+
+void XmlFile::checkLeaf(Element& element, const std::vector<std::string>& read,
+                        const std::string& owner, std::vector<Note>& notes) {
+  checkAttributes(element, read, owner, notes);
+  const std::string place = owner + ": <" + element.Name() + ">: ";
+  const std::string advice = "; values are attributes: " + joined(read);
+  if (const tinyxml2::XMLText* const text = textIn(element))
+    return fault(text->GetLineNum(),
+                 place + "the text " + quotedText(*text) + " is not read" + advice);
+  for (const Element* child = element.FirstChildElement(); child;
+       child = child->NextSiblingElement())
+    if (contains(read, localName(child->Name())))
+      return fault(child->GetLineNum(), place + "<" + child->Name() + "> is not read" + advice);
+  checkChildren(element, {}, {}, owner + ": " + element.Name(), notes);
+}
+
+void XmlFile::checkText(const Element& element, const std::string& owner,
+                        std::vector<Note>& notes) {
+  const tinyxml2::XMLText* const text = textIn(element);
+  if (!text) return;
+  const std::string said =
+      owner + ": the text " + quotedText(*text) + " in <" + element.Name() + "> is not read";
+  if (seemsAttribute(text->Value()))
+    fault(text->GetLineNum(), said + "; has an element lost its \"<\"?");
+  else if (isFirst("text in " + std::string(element.Name())))
+    notes.push_back({at(text->GetLineNum(), said), NoteWeight::coverage});
 }
 
 }  // namespace corridor

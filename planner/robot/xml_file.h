@@ -52,16 +52,30 @@ class XmlFile : public RobotFaults {
   /// Checks for children whose names are in neither list. Such a child is a fault if its name is
   /// similar to one in `read`, or if it has collision geometry, because ignoring such a child may
   /// lose data. For the other children, one note is added per name, for at most 100 names. Elements
-  /// of other formats ("drake:joint") are ignored. If a child in `ignored` has a <collision> in it,
-  /// a note says that it is not read.
+  /// of other formats ("drake:other") are ignored; a note names those whose name after the colon is
+  /// in `read`. An element that includes another file is a fault. If a child in `ignored` has a
+  /// <collision> in it, a note says that it is not read. In <gazebo>, only a <collision> with a
+  /// <geometry> counts: its extensions have <collision> elements of their own.
+  ///
+  /// Text in `parent` has no meaning: it is a fault if it seems to have an attribute, since an
+  /// element has perhaps lost its "<". Other text is a note, one for each name of `parent` in the
+  /// file.
   void checkChildren(Element& parent, const std::vector<std::string>& read,
                      const std::vector<std::string>& ignored, const std::string& owner,
                      std::vector<Note>& notes);
   /// Checks for attributes whose names are not in `read`. Such an attribute is a fault if its name
   /// is similar to one in `read`. For other attributes a note is added: one for each name of an
-  /// element and an attribute in the file. Attributes of other formats ("xmlns:xacro") are ignored.
+  /// element and an attribute in the file. Attributes of other formats ("xmlns:xacro") are ignored,
+  /// except that a note names those whose name after the colon is in `read`.
   void checkAttributes(const Element& element, const std::vector<std::string>& read,
                        const std::string& owner, std::vector<Note>& notes);
+  /// Checks the text in an element that has only elements. `checkChildren` calls this function.
+  void checkText(const Element& element, const std::string& owner, std::vector<Note>& notes);
+  /// `checkAttributes` for an element that has nothing but attributes. Text in it is a fault, and
+  /// so is a child that has the name of an attribute in `read`. Other children are as for
+  /// `checkChildren`.
+  void checkLeaf(Element& element, const std::vector<std::string>& read, const std::string& owner,
+                 std::vector<Note>& notes);
 
  private:
   void open(const std::string& what, const std::vector<std::string>& xacro);
