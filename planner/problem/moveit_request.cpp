@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "collision/core/read_file.h"
@@ -47,7 +48,7 @@ MoveitRequest::MoveitRequest(const std::filesystem::path& file, FaultList& fault
 }
 
 std::string MoveitRequest::group() {
-  return root().text("group_name").value_or("");
+  return root().textOrNone("group_name");
 }
 
 void MoveitRequest::hold(RobotSetup& setup) {
@@ -67,6 +68,45 @@ void MoveitRequest::checkHeld(const std::map<std::string, double>& values, int l
       source_.fault(line, path + ": " + name + " is held at " + shortest(held->second) +
                               ", and can't move to " + shortest(value));
   }
+}
+
+void MoveitRequest::checkFollowers(const std::map<std::string, double>& values, int line,
+                                   const std::string& path, const Configuration& q,
+                                   const Problem& problem) {
+  const ModelRobot& robot = problem.model.robots.front();
+  const auto isPlanned = [&](const std::string& name) {
+    return std::ranges::any_of(robot.plannedJoints,
+                               [&](const PlannedJoint& planned) { return planned.name == name; });
+  };
+  std::vector<std::string> unused;
+  for (const auto& [name, value] : values) {
+    const auto j = findJoint(robot.description, name);
+    if (!j || robot.held.contains(*j) || isPlanned(name)) continue;
+    const JointModel& joint = robot.description.joints[*j];
+    if (!joint.mimic) {
+      unused.push_back(name);
+      continue;
+    }
+    const JointModel& leader = robot.description.joints[joint.mimic->joint];
+    double at = 0;
+    if (const auto held = robot.held.find(joint.mimic->joint); held != robot.held.end())
+      at = held->second;
+    for (const PlannedJoint& planned : robot.plannedJoints)
+      if (planned.name == leader.name)
+        at = q[static_cast<Eigen::Index>(
+            problem.model.space.coordinates()[planned.coordinate].first)];
+    const double own = joint.mimic->multiplier * at + joint.mimic->offset;
+    const bool turns = joint.type == JointType::continuous || leader.type == JointType::continuous;
+    const double off = turns ? std::remainder(value - own, 2 * std::numbers::pi) : value - own;
+    if (std::abs(off) > limitSlack)
+      source_.fault(line, path + ": " + name + " follows " + leader.name + " (mimic), and is at " +
+                              shortest(own) + " there, not at " + shortest(value));
+  }
+  if (!unused.empty())
+    source_.notes.push_back(
+        {source_.file + ": " + path +
+             ": not used, because the joints are fixed or need a pose: " + joinedFirst(unused),
+         NoteWeight::motion});
 }
 
 void MoveitRequest::readStart(Problem& problem) {
@@ -113,8 +153,10 @@ void MoveitRequest::readGoals(Problem& problem) {
         one.fault("joint_name", quotedWord(*name) + " is named twice");
     }
     checkHeld(values, goals[g]->line, path, problem.model.robots.front());
-    if (auto q = plannedValues({path, goals[g]->line, true, values}, source_, problem))
+    if (auto q = plannedValues({path, goals[g]->line, true, values}, source_, problem)) {
+      checkFollowers(values, goals[g]->line, path, *q, problem);
       problem.task.goals.push_back(std::move(*q));
+    }
   }
 }
 

@@ -19,9 +19,10 @@ namespace corridor {
 /// The members read the group, the start state, and goals that are joint values. Some content is a
 /// fault, because the resulting path would be wrong if this content were ignored: attached objects,
 /// poses of joints with several variables that are not the identity, goals that are positions or
-/// orientations of links, goals that move a held joint, constraints of the path, and unknown keys.
-/// Fields that concern MoveIt's planners, and the tolerances of goals, are ignored. All other
-/// fields with another value than messages have by default are in a note.
+/// orientations of links, goals that move a held joint or disagree with the rule of a mimic joint,
+/// constraints of the path, and unknown keys. Fields that concern MoveIt's planners, and the
+/// tolerances of goals, are ignored. All other fields with another value than messages have by
+/// default are in a note.
 class MoveitRequest {
  public:
   /// @throws InputError if the file is not YAML.
@@ -43,6 +44,10 @@ class MoveitRequest {
   /// held, and for each unknown joint.
   void checkHeld(const std::map<std::string, double>& values, int line, const std::string& path,
                  const ModelRobot& robot);
+  /// Adds a fault for each mimic joint whose value in `values` is not that of its rule at the goal
+  /// `q`, and a note on the joints of `values` that have no value of their own.
+  void checkFollowers(const std::map<std::string, double>& values, int line,
+                      const std::string& path, const Configuration& q, const Problem& problem);
 
   YamlValue document_;
   YamlSource source_;

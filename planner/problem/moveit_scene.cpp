@@ -11,6 +11,7 @@
 #include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
 #include "planner/problem/moveit_shapes.h"
+#include "planner/problem/urdf_robot.h"
 #include "planner/problem/yaml_ledger.h"
 
 namespace corridor {
@@ -40,7 +41,7 @@ Placement readFrame(const YamlMap& object, const std::string& root, const RigidP
   if (!header) return {};
   const YamlMap map(*header, object.pathOf("header"), &kHeader, object.source());
   map.ignore({"seq", "stamp"});
-  const std::string frame = map.text("frame_id").value_or("");
+  const std::string frame = map.textOrNone("frame_id");
   if (frame == root) return {base, {rotationMatrix(base.q), base.p}};
   if (!frame.empty() && frame != "world")
     map.fault("frame_id", "the frame of the robot's root, " + quotedWord(root) +
@@ -200,9 +201,9 @@ std::vector<Note> MoveitScene::takeNotes(const Problem& problem) {
 
 void MoveitScene::noteNames(const Model& model, std::vector<Note>& notes) {
   const RobotModel& robot = model.robots.front().description;
-  const auto name = message().text("robot_model_name");
-  if (name && !name->empty() && *name != robot.name && *name != robot.urdfName)
-    notes.push_back({source_.file + ": is for robot " + quotedWord(*name) + ", and is used for " +
+  const std::string name = message().textOrNone("robot_model_name");
+  if (!name.empty() && name != robot.name && name != robot.urdfName)
+    notes.push_back({source_.file + ": is for robot " + quotedWord(name) + ", and is used for " +
                          quotedWord(robot.urdfName.empty() ? robot.name : robot.urdfName),
                      NoteWeight::coverage});
   std::vector<std::string> noLinks;
@@ -242,7 +243,6 @@ void MoveitScene::applyAllowed(Model& model) {
   const YamlValue* const value = message().find("allowed_collision_matrix");
   if (!value || value->kind != YamlValue::Kind::Map) return;
   const YamlMap map(*value, "allowed_collision_matrix", &kMatrix, source_);
-  map.ignore({"default_entry_names", "default_entry_values"});
   if (isEmpty(map, "entry_names")) return;
   const auto names = readWords(*map.find("entry_names"), "such as [hand, table]",
                                "allowed_collision_matrix.entry_names", source_);
@@ -268,7 +268,12 @@ void MoveitScene::applyAllowed(Model& model) {
                                           " values are needed, not " +
                                           std::to_string(words->size()));
     std::vector<bool>& values = allowed.emplace_back();
-    for (const std::string& word : *words) values.push_back(lowered(word) == "true" || word == "1");
+    for (const std::string& word : *words) {
+      values.push_back(lowered(word) == "true" || word == "1");
+      if (!values.back() && lowered(word) != "false" && word != "0")
+        return source_.fault(row->line,
+                             path + ": true or false is needed, not " + quotedWord(word));
+    }
     for (std::size_t k = 0; k < i; ++k)
       if (values[k] != allowed[k][i])
         return source_.fault(
@@ -281,13 +286,45 @@ void MoveitScene::applyAllowed(Model& model) {
   for (std::size_t a = 0; a < model.bodies.size(); ++a)
     for (std::size_t b = a + 1; b < model.bodies.size() && model.bodies[b].robot; ++b)
       if (model.filter.whyNotTested(a, b, any).starts_with("SRDF")) model.filter.include(a, b);
-  for (std::size_t i = 0; i < names->size(); ++i)
+  // The SRDF's reason may have hidden that robot.yaml allows the pair, too.
+  for (const AllowedPair& pair : model.robots.front().description.allowed) {
+    const auto a = bodies.find(pair.a), b = bodies.find(pair.b);
+    if (pair.reason == kAllowedByRobot && a != bodies.end() && b != bodies.end() &&
+        model.filter.whyNotTested(a->second, b->second, any).empty())
+      model.filter.skip(a->second, b->second, pair.reason);
+  }
+  std::vector<std::string> tested, adjacent;
+  for (std::size_t i = 0; i < names.size(); ++i)
     for (std::size_t k = 0; k < i; ++k) {
-      const auto a = bodies.find((*names)[i]), b = bodies.find((*names)[k]);
-      if (!allowed[i][k] || a == bodies.end() || b == bodies.end()) continue;
-      if (model.filter.whyNotTested(a->second, b->second, any).empty())
-        model.filter.skip(a->second, b->second, "allowed_collision_matrix");
+      const auto a = bodies.find(names[i]), b = bodies.find(names[k]);
+      if (a == bodies.end() || b == bodies.end()) continue;
+      const std::string_view why = model.filter.whyNotTested(a->second, b->second, any);
+      const std::string pair = names[k] + " ~ " + names[i];
+      if (allowed[i][k]) {
+        if (why.empty()) model.filter.skip(a->second, b->second, "allowed_collision_matrix");
+      } else if (why == kAllowedByRobot) {
+        tested.push_back(pair);
+        model.filter.include(a->second, b->second);
+      } else if (why == "adjacent") {
+        adjacent.push_back(pair);
+      }
     }
 }
 
 }  // namespace corridor
+  replacePairs(*names, allowed, model);
+}
+
+void MoveitScene::replacePairs(const std::vector<std::string>& names,
+                               const std::vector<std::vector<bool>>& allowed, Model& model) {
+  const std::string matrix = source_.file + ": allowed_collision_matrix: ";
+  if (!tested.empty())
+    source_.notes.push_back(
+        {matrix + "tested, although robot.yaml allows them to touch: " + joinedFirst(tested),
+         NoteWeight::motion});
+  if (!adjacent.empty())
+    source_.notes.push_back({matrix +
+                                 "not tested, although the matrix has false, because the "
+                                 "links are adjacent: " +
+                                 joinedFirst(adjacent),
+                             NoteWeight::coverage});

@@ -36,8 +36,10 @@ class MoveitScene {
   /// @param root the name of the robot's root link.
   void addWorld(const std::string& root, const RigidPose& base, ModelBuilder& builder);
   /// If the scene has an allowed collision matrix with names, excludes the pairs of bodies that the
-  /// matrix allows to touch. As in MoveIt, the matrix then replaces the SRDF's pairs. The default
-  /// entries of the matrix are not read, so pairs that only a default entry allows are tested.
+  /// matrix allows to touch. As in MoveIt, the matrix then replaces the SRDF's pairs. Pairs that
+  /// robot.yaml allows stay excluded, unless the matrix has false for them; a note names those. The
+  /// default entries of the matrix are not read, so pairs that only a default entry allows are
+  /// tested.
   void applyAllowed(Model& model);
   /// Returns the paddings of links (metres). As in MoveIt, they apply to pairs of a link and an
   /// obstacle.
@@ -49,6 +51,9 @@ class MoveitScene {
   std::vector<Note> takeNotes(const Problem& problem);
 
  private:
+  /// @param allowed the matrix: for each name, its row of values.
+  void replacePairs(const std::vector<std::string>& names,
+                    const std::vector<std::vector<bool>>& allowed, Model& model);
   void noteNames(const Model& model, std::vector<Note>& notes);
   YamlMap message() { return {document_, "", nullptr, source_}; }
 

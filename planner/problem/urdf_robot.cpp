@@ -273,7 +273,7 @@ void readProvedPairs(const YamlMap& map, RobotModel& model) {
 void readAllow(const YamlMap& file, RobotModel& model) {
   if (file.find("allow"))
     for (const auto& [a, b] : readLinkPairs(file, "allow", model))
-      model.allowed.push_back({a, b, "robot.yaml: allow"});
+      model.allowed.push_back({a, b, std::string(kAllowedByRobot)});
   if (const YamlValue* value = file.find("never_in_contact"))
     readProvedPairs(
         YamlMap(*value, "never_in_contact", &robotKeys().at("never_in_contact"), file.source()),

@@ -31,6 +31,9 @@ std::optional<RobotSetup> readBareUrdf(const std::filesystem::path& file, RobotU
 /// or more: 3.1416 is 7.4e-6 above π, 3.14159 is 2.7e-6 below π.
 inline constexpr double limitSlack = 1e-5;
 
+/// The reason of pairs that `allow` of the robot's file lists.
+inline constexpr std::string_view kAllowedByRobot = "robot.yaml: allow";
+
 /// Returns the value if it is in [lower, upper]. If it is beyond a limit by at most `limitSlack`,
 /// returns the limit and adds a note. Otherwise returns nullopt; the caller adds the fault.
 /// @param path the value's path in the file, for the note: "start.pan".
