@@ -19,7 +19,7 @@ constexpr std::array kWrappers{"joint_trajectory",    "trajectory", "planned_tra
                                "robot_trajectory",    "goal",       "result",
                                "motion_plan_response"};
 /// The fields of these messages that move nothing.
-constexpr std::array<std::string_view, 15> kHarmless{"header",
+constexpr std::array<std::string_view, 14> kHarmless{"header",
                                                      "goal_id",
                                                      "status",
                                                      "model_id",
@@ -27,7 +27,6 @@ constexpr std::array<std::string_view, 15> kHarmless{"header",
                                                      "planning_time",
                                                      "processing_time",
                                                      "description",
-                                                     "error_code",
                                                      "controller_names",
                                                      "goal_tolerance",
                                                      "component_goal_tolerance",
@@ -66,6 +65,26 @@ struct Messages {
   std::vector<MoveitState> starts;
 };
 
+/// Adds a note if the message has an error code other than success: of a planner of MoveIt
+/// (`{val: 1}` is success) or of a controller (0 is success).
+void noteFailure(const YamlMap& map, YamlSource& source) {
+  const YamlValue* code = map.find("error_code");
+  if (!code) return;
+  std::string path = map.pathOf("error_code");
+  const bool isMoveit = code->kind == YamlValue::Kind::Map;
+  markRead(*code);
+  if (isMoveit) {
+    const YamlMap inner(*code, path, nullptr, source);
+    path = inner.pathOf("val");
+    code = inner.find("val");
+  }
+  const std::string text = code ? code->text : "";
+  if (text.empty() || text == "0" || (isMoveit && text == "1")) return;
+  source.notes.push_back({source.file + ": " + path + ": " + text +
+                              " is not success; the trajectory is judged as it stands",
+                          NoteWeight::coverage});
+}
+
 /// Adds the joint trajectories and the start states in `value` to `found`. Adds a fault for each
 /// trajectory of poses, and notes on what a controller does beyond the trajectory.
 void collectMessages(const YamlValue& value, const std::string& path, Messages& found,
@@ -102,6 +121,7 @@ void collectMessages(const YamlValue& value, const std::string& path, Messages& 
                                 ": is not read; to verify it, save it as a file of its own",
                             NoteWeight::coverage});
   }
+  noteFailure(map, source);
   if (auto start = readMoveitState(map, "trajectory_start"))
     found.starts.push_back(std::move(*start));
   for (const char* const key : kWrappers)

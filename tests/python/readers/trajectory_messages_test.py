@@ -69,7 +69,6 @@ CANNOT_MATTER = {
     "model_id": "the trajectory itself names its joints",
     "goal_tolerance": "how near to its goal the controller must end",
     "component_goal_tolerance": "as above",
-    "error_code.val": "what MoveIt found; the proof does not rest on it",
     "multi_dof_joint_state.twist": "the speed of bodies, and none is named",
     "error_code.message": "a comment on the result",
     "error_code.source": "a comment on the result",
