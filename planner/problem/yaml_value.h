@@ -47,9 +47,9 @@ struct YamlLimits {
 
 /// Parses one YAML document.
 /// @param file for messages.
-/// @throws InputError for a syntax error, more than one document, an alias, a tag (except those that
-/// only repeat the value's form: !!str, !!seq, !!map), a key that is no word, or a document beyond
-/// the limits.
+/// @throws InputError for a syntax error, more than one document, an alias, a tag (except those
+/// that only repeat the value's form: !!str, !!seq, !!map), a key that is no word, or a document
+/// beyond the limits.
 YamlValue parseYaml(const std::string& file, const std::string& text,
                     const YamlLimits& limits = {});
 
