@@ -161,8 +161,8 @@ void MoveitRequest::readGoals(Problem& problem) {
 }
 
 std::vector<Note> MoveitRequest::takeNotes(const Problem& problem) {
+  if (start_) compareWithProblem(*start_, problem, source_);
   std::vector<Note> notes = std::exchange(source_.notes, {});
-  if (start_) noteOtherStart(*start_, source_.file, problem, notes);
   addAll(notesOnUnread(document_, source_.file, DefaultValues::sayNothing), notes);
   return notes;
 }

@@ -49,24 +49,41 @@ Placement readFrame(const YamlMap& object, const std::string& root, const RigidP
   return {};
 }
 
-/// Adds a fault if the scene moves the robot's root link, or the world, relative to its other
-/// frames. Other frames have no effect, because objects in them are faults.
-void checkTransforms(const YamlMap& scene, const std::string& root) {
+/// Compares the poses of the robot's root link and of the world, relative to each other, with the
+/// problem's base. A difference is a fault; a note, if the problem gives a base. Poses of other
+/// frames have no effect, because objects in them are faults.
+void checkTransforms(const YamlMap& scene, const std::string& root, const RigidPose& base) {
   const std::string path = "fixed_frame_transforms";
+  const auto withoutSlash = [](std::string frame) {
+    return frame.erase(0, std::min(frame.size(), frame.find_first_not_of('/')));
+  };
   for (const YamlValue* const item : itemsOf(scene, path)) {
     const YamlMap map(*item, path, &kTransforms, scene.source());
-    std::string child = map.text("child_frame_id").value_or("");
-    child.erase(0, child.find_first_not_of('/'));
-    map.ignore({"header"});
+    const std::string child = withoutSlash(map.textOrNone("child_frame_id"));
+    const std::string parent = withoutSlash(frameOf(map));
     if (child != root && child != "world") {
       map.ignore({"transform"});
       continue;
     }
     const YamlValue* const transform = map.find("transform");
-    if (transform && !isIdentityTransform(*transform, path + ".transform", scene.source()))
-      map.fault("transform", "a pose of " + quotedWord(child) +
-                                 " that is not the identity is not supported; give the pose of the "
-                                 "robot by base in the problem");
+    const auto given = transform
+                           ? readTransform(*transform, map.pathOf("transform"), scene.source())
+                           : std::nullopt;
+    if (!given) continue;
+    RigidPose own;  // by the problem; the pose of a frame in itself is the identity
+    if (child == root && parent != root) own = base;
+    if (child == "world" && parent == root)
+      own = {-(rotationMatrix(base.q).transpose() * base.p), base.q.conjugate()};
+    if (isSamePose(*given, own)) continue;
+    const std::string text = "the pose of " + quotedWord(child) +
+                             " is not that by the base of the "
+                             "robot in the problem";
+    if (isSamePose(base, {}))
+      map.fault("transform", text + "; give it by base in the problem");
+    else
+      map.source().notes.push_back(
+          {map.source().file + ": " + map.pathOf("transform") + ": " + text + ", which is used",
+           NoteWeight::coverage});
   }
 }
 
@@ -121,7 +138,7 @@ void MoveitScene::addWorld(const std::string& root, const RigidPose& base, Model
   const YamlMap scene = message();
   scene.require("world", "the collision objects of a planning scene of MoveIt");
   padding_ = readLinks(scene);
-  checkTransforms(scene, root);
+  checkTransforms(scene, root, base);
   const YamlValue* const value = scene.find("world");
   if (!value) return;
   const YamlMap world(*value, "world", &kWorld, source_);
@@ -192,8 +209,8 @@ void MoveitScene::addWorld(const std::string& root, const RigidPose& base, Model
 
 std::vector<Note> MoveitScene::takeNotes(const Problem& problem) {
   const Model& model = problem.model;
+  if (state_) compareWithProblem(*state_, problem, source_);
   std::vector<Note> notes = std::exchange(source_.notes, {});
-  if (state_) noteOtherStart(*state_, source_.file, problem, notes);
   noteNames(model, notes);
   addAll(notesOnUnread(document_, source_.file, DefaultValues::sayNothing), notes);
   return notes;
@@ -280,6 +297,11 @@ void MoveitScene::applyAllowed(Model& model) {
             row->line, path + ": the matrix is not symmetric: " + quotedWord((*names)[i]) +
                            " and " + quotedWord((*names)[k]) + " are allowed in one order only");
   }
+  replacePairs(*names, allowed, model);
+}
+
+void MoveitScene::replacePairs(const std::vector<std::string>& names,
+                               const std::vector<std::vector<bool>>& allowed, Model& model) {
   std::map<std::string, std::size_t> bodies;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) bodies[model.bodies[b].name] = b;
   const Required any = Required::beyondProofs();  // the matrix has no say about proofs
@@ -309,14 +331,6 @@ void MoveitScene::applyAllowed(Model& model) {
         adjacent.push_back(pair);
       }
     }
-}
-
-}  // namespace corridor
-  replacePairs(*names, allowed, model);
-}
-
-void MoveitScene::replacePairs(const std::vector<std::string>& names,
-                               const std::vector<std::vector<bool>>& allowed, Model& model) {
   const std::string matrix = source_.file + ": allowed_collision_matrix: ";
   if (!tested.empty())
     source_.notes.push_back(
@@ -328,3 +342,6 @@ void MoveitScene::replacePairs(const std::vector<std::string>& names,
                                  "links are adjacent: " +
                                  joinedFirst(adjacent),
                              NoteWeight::coverage});
+}
+
+}  // namespace corridor

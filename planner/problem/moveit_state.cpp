@@ -19,20 +19,6 @@ namespace {
 const MapKeys kState{
     {"joint_state", "multi_dof_joint_state", "attached_collision_objects", "is_diff"}, {}};
 const MapKeys kJointState{{"header", "name", "position", "velocity", "effort"}, {}};
-const MapKeys kPoses{{"header", "joint_names", "transforms", "twist", "wrench"}, {}};
-const MapKeys kTransform{{"translation", "rotation"}, {}};
-
-void readPoses(const YamlMap& state) {
-  const YamlValue* const poses = state.find("multi_dof_joint_state");
-  if (!poses || poses->kind == YamlValue::Kind::Null) return;
-  const YamlMap map(*poses, state.pathOf("multi_dof_joint_state"), &kPoses, state.source());
-  map.ignore({"header", "joint_names", "twist", "wrench"});
-  for (const YamlValue* const item : itemsOf(map, "transforms"))
-    if (!isIdentityTransform(*item, map.pathOf("transforms"), map.source()))
-      map.fault("transforms",
-                "a pose that is not the identity is not supported; give it by base, or by start "
-                "in the problem");
-}
 
 void readJoints(const YamlMap& state, MoveitState& result) {
   const YamlValue* const joints = state.find("joint_state");
@@ -66,15 +52,6 @@ std::optional<double> offRule(const MoveitState& state, const Mimic& mimic, doub
 
 }  // namespace
 
-bool isIdentityTransform(const YamlValue& transform, const std::string& path, YamlSource& source) {
-  const YamlMap map(transform, path, &kTransform, source);
-  const auto p = readNamed(map, "translation", {"x", "y", "z"});
-  const auto q = readNamed(map, "rotation", {"x", "y", "z", "w"});
-  const auto isZero = [](double value) { return value == 0; };
-  return (!p || std::all_of(p->begin(), p->end(), isZero)) &&
-         (!q || std::all_of(q->begin(), q->begin() + 3, isZero));
-}
-
 std::optional<MoveitState> readMoveitState(const YamlMap& message, std::string_view key) {
   const YamlValue* const value = message.find(key);
   if (!value || value->kind == YamlValue::Kind::Null) return std::nullopt;
@@ -92,7 +69,7 @@ std::optional<MoveitState> readMoveitState(const YamlMap& message, std::string_v
              ": the state is a difference to another one, which is not in the file; joints that it "
              "does not name are at the values of the robot's file, and no object is attached",
          NoteWeight::coverage});
-  readPoses(map);
+  state.poses = readMessagePoses(map);
   readJoints(map, state);
   state.isSound = source.faults.size() == before;
   return state;
@@ -167,8 +144,9 @@ std::optional<Configuration> plannedValues(const MoveitState& state, const YamlS
   return sound && missing.empty() ? std::optional(std::move(q)) : std::nullopt;
 }
 
-void noteOtherStart(const MoveitState& state, const std::string& file, const Problem& problem,
-                    std::vector<Note>& notes) {
+void compareWithProblem(const MoveitState& state, const Problem& problem, YamlSource& source) {
+  const std::string& file = source.file;
+  std::vector<Note>& notes = source.notes;
   std::vector<std::string> others;
   for (const PlannedJoint& planned : problem.model.robots.front().plannedJoints) {
     const auto given = state.values.find(planned.name);
@@ -199,6 +177,13 @@ void noteOtherStart(const MoveitState& state, const std::string& file, const Pro
     notes.push_back({file + ": " + state.path +
                          ": held by the problem's start at another value: " + joinedFirst(replaced),
                      NoteWeight::coverage});
+  for (const MessagePose& pose : state.poses)
+    if (const auto conflict = conflictOf(pose, problem.model, problem.task.start, "start")) {
+      if (conflict->isChosen)
+        notes.push_back({file + ": " + conflict->text, NoteWeight::coverage});
+      else
+        source.fault(pose.line, conflict->text + "; " + conflict->fix);
+    }
 }
 
 }  // namespace corridor

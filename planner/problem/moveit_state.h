@@ -3,21 +3,23 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "planner/problem/moveit_poses.h"
 #include "planner/problem/robot_file.h"
 #include "planner/problem/yaml_reader.h"
 
 namespace corridor {
 
 /// A message moveit_msgs/RobotState: the state of one robot. Some content is a fault, because a
-/// proof would be wrong if this content were ignored: attached objects, and poses of joints with
-/// several variables that are not the identity. Efforts, headers and the speeds of such joints have
-/// no effect. Velocities are not read.
+/// proof would be wrong if this content were ignored: attached objects. Efforts, headers and the
+/// speeds of joints with several variables have no effect. Velocities are not read.
 struct MoveitState {
   std::string path;                      ///< of the message, for messages: "start_state"
   int line = 0;                          ///< of the message
   bool isSound = true;                   ///< no fault was added
   std::map<std::string, double> values;  ///< by the joints' names; rad or m
+  std::vector<MessagePose> poses = {};   ///< of planar and floating joints, and of the base
 };
 
 /// Reads the robot state that is the value of a key. Returns nullopt if the key is absent or its
@@ -38,14 +40,10 @@ void holdAt(const MoveitState& state, const std::string& origin, const YamlSourc
 std::optional<Configuration> plannedValues(const MoveitState& state, const YamlSource& source,
                                            Problem& problem);
 
-/// Adds a note if the problem's start has other values of planned joints than a state, by more than
-/// `limitSlack`.
-/// @param file the message's file, for the note.
-void noteOtherStart(const MoveitState& state, const std::string& file, const Problem& problem,
-                    std::vector<Note>& notes);
-
-/// Reads `transform` as geometry_msgs/Transform. Returns whether it is the identity; a part that is
-/// absent, or for which a fault was added, counts as the identity.
-bool isIdentityTransform(const YamlValue& transform, const std::string& path, YamlSource& source);
+/// Compares a state with the problem that was read. Adds a note if the problem's start has other
+/// values of planned joints than the state, by more than `limitSlack`. A pose in the state that
+/// differs from the problem's is a note if the user gave the problem's pose, or else a fault.
+/// @pre the problem's start was read without a fault.
+void compareWithProblem(const MoveitState& state, const Problem& problem, YamlSource& source);
 
 }  // namespace corridor

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -33,6 +35,14 @@ inline constexpr double limitSlack = 1e-5;
 
 /// The reason of pairs that `allow` of the robot's file lists.
 inline constexpr std::string_view kAllowedByRobot = "robot.yaml: allow";
+
+/// Returns how far a value may be from another value that it must equal: 2^-50·max(1, |value|), in
+/// the unit of the value. The pose of a joint at a held value is stored as a quaternion or a
+/// translation, whose rounding has this order. The difference covers a value in degrees that
+/// another program converted to radians.
+inline double equalUpToRounding(double value) {
+  return 0x1p-50 * std::max(1.0, std::abs(value));
+}
 
 /// Returns the value if it is in [lower, upper]. If it is beyond a limit by at most `limitSlack`,
 /// returns the limit and adds a note. Otherwise returns nullopt; the caller adds the fault.

@@ -289,7 +289,8 @@ TrajectoryTable readMessageTable(const std::string& file, const std::string& tex
   table.namesLine = names->line;
   if (!messages.starts.empty())
     table.start = {messages.starts.front().path, messages.starts.front().line,
-                   std::move(messages.starts.front().values)};
+                   std::move(messages.starts.front().values),
+                   std::move(messages.starts.front().poses)};
   addAll(source.notes, table.notes);
   addAll(notesOnUnread(document, file, DefaultValues::sayNothing), table.notes);
   return table;

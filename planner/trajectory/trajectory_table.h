@@ -8,6 +8,7 @@
 
 #include "collision/core/fault_list.h"
 #include "planner/model/model.h"
+#include "planner/problem/moveit_poses.h"
 #include "planner/robot/note.h"
 
 /// The steps between the text of a trajectory file and its `TrajectoryRows`.
@@ -62,6 +63,7 @@ struct TrajectoryTable {
     std::string path;  ///< for messages
     int line = 0;
     std::map<std::string, double> values;  ///< by the joints' names
+    std::vector<MessagePose> poses;
   };
   int namesLine = 0;  ///< the line of the names; 0: the file has no names, and its columns are the
                       ///< components of a Configuration

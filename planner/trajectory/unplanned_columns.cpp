@@ -262,10 +262,6 @@ class UnplannedCheck {
 
 }  // namespace
 
-double equalUpToRounding(double value) {
-  return 0x1p-50 * std::max(1.0, std::abs(value));
-}
-
 void checkUnplanned(const TrajectoryTable& table, const TableColumns& columns, const Model& model,
                     const TrajectoryRows& rows, FaultList& faults, std::vector<Note>& notes) {
   UnplannedCheck(table, model, rows, faults, notes).run(columns);
@@ -315,6 +311,9 @@ void checkStart(const TrajectoryTable& table, const JointNames& names, const Mod
               "out if the joint follows the rule");
     }
   }
+  for (const MessagePose& pose : start.poses)
+    if (const auto conflict = conflictOf(pose, model, first.positions, "first point"))
+      faults.add(rows.file, pose.line, conflict->text + "; " + conflict->fix);
   if (!near.empty())
     notes.push_back({rows.file + ": " + start.path + ": " + joinedFirst(near) +
                          " of the start and of the first point differ by up to " +

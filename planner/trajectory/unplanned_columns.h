@@ -12,12 +12,6 @@ struct TableColumns {
   std::vector<JointNames::Meaning> positions, velocities, accelerations;
 };
 
-/// Returns how far a value may be from another value that it must equal: 2^-50·max(1, |value|), in
-/// the unit of the value. The pose of a joint at a held value is stored as a quaternion or a
-/// translation, whose rounding has this order. The difference covers a value in degrees that
-/// another program converted to radians.
-double equalUpToRounding(double value);
-
 /// Checks the columns of joints that are not planned for. No coordinate describes these joints, so
 /// a proof covers what the file says about them only if it says what the model says:
 /// - A held joint stays at its held value, and a mimic joint on its rule, up to
@@ -39,7 +33,7 @@ void checkUnplanned(const TrajectoryTable& table, const TableColumns& columns, c
 /// held joints must be at their held values, mimic joints on their rule, and planned joints at the
 /// values of the first row. Differences are faults, except differences of planned joints of at most
 /// `limitSlack` rad or m: these are a note, since a controller moves to the first row. Values of
-/// unknown joints are a note, too.
+/// unknown joints are a note, too. Its poses must be those of the model (`conflictOf`).
 void checkStart(const TrajectoryTable& table, const JointNames& names, const Model& model,
                 const TrajectoryRows& rows, FaultList& faults, std::vector<Note>& notes);
 

@@ -51,10 +51,6 @@ TEST_F(MoveitStates, TheStateOfTheScene) {
       textsOf(kept.source.notes),
       testing::Contains(HasSubstr("scene.yaml: robot_state: held by robot.yaml at another value: "
                                   "slide (0.02, not 0.03)")));
-  withState("multi_dof_joint_state: {joint_names: [base], transforms: [{translation: [0, 0, 1]}]}");
-  EXPECT_EQ(complaintOf(only),
-            "scene.yaml:2: robot_state.multi_dof_joint_state.transforms: a pose that is not the "
-            "identity is not supported; give it by base, or by start in the problem");
   withState(slide, "is_diff: true\n");
   EXPECT_EQ(complaintOf(only),
             "scene.yaml:3: is_diff: the scene is a difference to another one, so objects may be "
@@ -73,10 +69,111 @@ TEST_F(MoveitStates, TheStateOfTheScene) {
   withState(slide, named("camera"));
   EXPECT_THAT(textsOf(read(only).source.notes),
               testing::Not(testing::Contains(HasSubstr("not used"))));
-  withState(slide, named("base"));
-  EXPECT_EQ(complaintOf(only),
-            "scene.yaml:3: fixed_frame_transforms.transform: a pose of \"base\" that is not the "
-            "identity is not supported; give the pose of the robot by base in the problem");
+}
+
+/// A message's pose of the robot's base must be that of the problem. A base that the user gave is
+/// used, and a note names the difference.
+TEST_F(MoveitStates, PosesOfTheBaseAreCompared) {
+  const std::string plain =
+      "format: corridor-problem-1\nrobot: arm.yaml\nmoveit: {scene: scene.yaml}\n"
+      "start: {pan: 0, lift: 0}\ngoal: {pan: 1, lift: 0}\n";
+  const std::string moved = plain + "base: {at: [0, 0, 1], rpy_deg: [0, 0, 90]}\n";
+  const std::string turn = "rotation: {x: 0, y: 0, z: 0.7071067811865475, w: 0.7071067811865476}",
+                    same = "{translation: [0, 0, 1], " + turn + "}",
+                    identity = "{translation: [0, 0, 0], rotation: [0, 0, 0, 1]}";
+  write("arm.yaml", "format: corridor-robot-1\nurdf: arm.urdf\nsrdf: arm.srdf\ngroup: arm\n");
+  const auto with = [&](const std::string& text) { write("scene.yaml", "world: {}\n" + text); };
+  const auto state = [&](const std::string& pose) {
+    with("robot_state: {multi_dof_joint_state: {joint_names: [virtual], transforms: [" + pose +
+         "]}}\n");
+  };
+  const auto frame = [&](const std::string& pose, const std::string& parent = "world",
+                         const std::string& child = "/base") {
+    with("fixed_frame_transforms: [{header: {frame_id: " + parent + "}, child_frame_id: " + child +
+         ", transform: " + pose + "}]\n");
+  };
+  const auto notes = [&](const std::string& problem) {
+    std::vector<std::string> all;
+    for (const Note& note : read(problem).source.notes)
+      if (note.text.find("scene.yaml: ") != note.text.npos)
+        all.push_back(note.text.substr(note.text.find("scene.yaml: ")));
+    return all;
+  };
+  state(same);
+  EXPECT_THAT(notes(moved), testing::IsEmpty());
+  EXPECT_EQ(complaintOf(plain),
+            "scene.yaml:2: robot_state.multi_dof_joint_state.transforms: \"virtual\": the base is "
+            "at {at: [0, 0, 0], quat_xyzw: [0, 0, 0, 1]}, not at {at: [0, 0, 1], quat_xyzw: [0, 0, "
+            "0.7071067811865475, 0.7071067811865476]} as here; give it by base in the problem");
+  state(identity);
+  EXPECT_THAT(notes(plain), testing::IsEmpty());
+  EXPECT_THAT(notes(moved), testing::ElementsAre(testing::HasSubstr(
+                                "\"virtual\": the base is at {at: [0, 0, 1], quat_xyzw: [0, 0, ")));
+  with("robot_state: {multi_dof_joint_state: {joint_names: [], transforms: [" + same + "]}}\n");
+  EXPECT_EQ(complaintOf(plain),
+            "scene.yaml:2: robot_state.multi_dof_joint_state.transforms: one transform for each of "
+            "the joint_names is needed, 0, not 1");
+  state("{rotation: [0, 0, 0, 0]}");
+  EXPECT_THAT(complaintOf(plain), testing::HasSubstr("a quaternion of zeros is no rotation"));
+  with(
+      "robot_state: {multi_dof_joint_state: {header: {frame_id: map}, joint_names: [pan], "
+      "transforms: [" +
+      identity + "]}}\n");
+  EXPECT_THAT(complaintOf(plain),
+              testing::HasSubstr("\"pan\": no pose in this problem belongs to this name"));
+
+  frame(same);
+  EXPECT_THAT(notes(moved), testing::IsEmpty());
+  EXPECT_EQ(complaintOf(plain),
+            "scene.yaml:2: fixed_frame_transforms.transform: the pose of \"base\" is not that by "
+            "the base of the robot in the problem; give it by base in the problem");
+  frame(identity);
+  EXPECT_THAT(notes(plain), testing::IsEmpty());
+  EXPECT_THAT(notes(moved), testing::ElementsAre(testing::HasSubstr("which is used")));
+  // The inverse of `same`.
+  frame("{translation: [0, 0, -1], rotation: [0, 0, -0.7071067811865475, 0.7071067811865476]}",
+        "base", "world");
+  EXPECT_THAT(notes(moved), testing::IsEmpty());
+  frame(identity, "base");
+  EXPECT_THAT(notes(moved), testing::IsEmpty()) << "the pose of a frame in itself";
+}
+
+/// A message's pose of a held joint must be the one at which the joint is held.
+TEST_F(MoveitStates, PosesOfHeldJointsAreCompared) {
+  const auto write = [&](const std::string& name, const std::string& text) {
+    std::ofstream(folder_ / name) << text;
+  };
+  write("cart.urdf",
+        "<robot name='cart'><link name='hall'/><link name='cart'/><link name='arm'/>"
+        "<joint name='drive' type='floating'><parent link='hall'/><child link='cart'/></joint>"
+        "<joint name='turn' type='continuous'><parent link='cart'/><child link='arm'/>"
+        "<axis xyz='0 0 1'/></joint></robot>\n");
+  const std::string robot = "format: corridor-robot-1\nurdf: cart.urdf\njoints: [turn]\n",
+                    problem =
+                        "format: corridor-problem-1\nrobot: cart.yaml\nmoveit: {scene: "
+                        "cart_scene.yaml}\nstart: {turn: 0}\ngoal: {turn: 1}\n";
+  const auto pose = [&](const std::string& x) {
+    write("cart_scene.yaml",
+          "world: {}\nrobot_state: {multi_dof_joint_state: {joint_names: "
+          "[drive], transforms: [{translation: [" +
+              x + ", 0, 0]}]}}\n");
+  };
+  const auto notes = [&] { return textsOf(read(problem).source.notes); };
+  const auto noted =
+      testing::Contains(HasSubstr("\"drive\": the joint is held at {at: [2, 0, 0], "
+                                  "quat_xyzw: [0, 0, 0, 1]}, not at {at: [0, 0, 0]"));
+  write("cart.yaml", robot);
+  pose("0");
+  EXPECT_THAT(notes(), testing::Not(testing::Contains(HasSubstr("drive\": the joint is held"))));
+  pose("2");
+  EXPECT_THAT(complaintOf(problem),
+              HasSubstr("\"drive\": the joint is held at {at: [0, 0, 0], quat_xyzw: [0, 0, 0, 1]}, "
+                        "not at {at: [2, 0, 0], quat_xyzw: [0, 0, 0, 1]} as here; give it by hold "
+                        "in the robot's file"));
+  write("cart.yaml", robot + "hold: {drive: {at: [2, 0, 0]}}\n");
+  EXPECT_THAT(notes(), testing::Not(noted));
+  pose("0");
+  EXPECT_THAT(notes(), noted);
 }
 
 /// The start of the problem may hold joints at other values than a message: a note names both.

@@ -275,8 +275,9 @@ TEST_F(Moveit, FaultsOfTheRequest) {
       changed("start_state:\n",
               "start_state:\n  multi_dof_joint_state: {joint_names: "
               "[virtual], transforms: [{translation: [0, 0, 0.5], rotation: [0, 0, 0, 1]}]}\n"),
-      "request.yaml:4: start_state.multi_dof_joint_state.transforms: a pose that is not the "
-      "identity is not supported; give it by base, or by start in the problem");
+      "request.yaml:4: start_state.multi_dof_joint_state.transforms: \"virtual\": the base is at "
+      "{at: [0, 0, 0], quat_xyzw: [0, 0, 0, 1]}, not at {at: [0, 0, 0.5], quat_xyzw: [0, 0, 0, 1]} "
+      "as here; give it by base in the problem");
   EXPECT_EQ(complaintOf("format: corridor-problem-1\nrobot: arm.yaml\nmoveit: {scene: "
                         "none.yaml}\nstart: {pan: 0, lift: 0, slide: 0.02}\ngoal: {pan: 0, lift: "
                         "0, slide: 0.02}\n"),

@@ -212,10 +212,14 @@ TEST_F(StartOfTrajectory, ObjectsAndPosesAreRefused) {
   EXPECT_EQ(complaint(message("attached_collision_objects: [{link_name: finger}]")),
             "t.csv:1: trajectory_start.attached_collision_objects: is not supported; add the "
             "objects to the robot");
-  EXPECT_THAT(complaint(message("multi_dof_joint_state: {joint_names: [base], transforms: "
-                                "[{translation: [1, 0, 0], rotation: [0, 0, 0, 1]}]}")),
-              HasSubstr("t.csv:1: trajectory_start.multi_dof_joint_state.transforms: a pose that "
-                        "is not the identity"));
+  EXPECT_EQ(complaint(message("multi_dof_joint_state: {joint_names: [base], transforms: "
+                              "[{translation: [1, 0, 0], rotation: [0, 0, 0, 1]}]}")),
+            "t.csv:1: trajectory_start.multi_dof_joint_state.transforms: \"base\": the base is at "
+            "{at: [0, 0, 0], quat_xyzw: [0, 0, 0, 1]}, not at {at: [1, 0, 0], quat_xyzw: [0, 0, 0, "
+            "1]} as here; give it by base in the problem");
+  EXPECT_EQ(complaint(message("multi_dof_joint_state: {joint_names: [base], transforms: "
+                              "[{translation: [0, 0, 0], rotation: [0, 0, 0, -1]}]}")),
+            "");
   for (const std::string text : {"{points: [{}]}", "{points: {x: 1}}", "[{points: [{}]}]", "1"})
     EXPECT_EQ(complaint(message("", "multi_dof_trajectory: " + text + "\n")),
               "t.csv:2: multi_dof_trajectory: trajectories of poses are not read from messages; "

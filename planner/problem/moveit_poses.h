@@ -1,0 +1,58 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planner/model/model.h"
+#include "planner/problem/yaml_reader.h"
+
+/// Poses in messages of MoveIt: those of planar and floating joints, and of the robot's base.
+/// Corridor does not take them over, since the problem and the robot's file say where the robot
+/// is. It compares them: a proof for a robot at another place would prove nothing.
+namespace corridor {
+
+/// A pose that a message gives to a joint.
+struct MessagePose {
+  std::string path;  ///< for messages: "robot_state.multi_dof_joint_state: virtual_joint"
+  int line = 0;
+  std::string joint;  ///< a joint of the URDF, or the virtual joint of an SRDF (the robot's base)
+  RigidPose pose;     ///< in metres; the quaternion is not zero
+};
+
+/// Reads the message sensor_msgs/MultiDOFJointState in `multi_dof_joint_state`. Poses without a
+/// name are faults. A note names a frame other than `world`, since the poses are read as those
+/// of the joints.
+std::vector<MessagePose> readMessagePoses(const YamlMap& state);
+
+/// Returns the frame that a message's `header` names, "" if there is none.
+std::string frameOf(const YamlMap& message);
+
+/// Reads a message geometry_msgs/Transform. Returns nullopt if a fault was added.
+std::optional<RigidPose> readTransform(const YamlValue& value, const std::string& path,
+                                       YamlSource& source);
+
+/// Returns whether two poses are the same up to rounding: the positions per axis up to
+/// `equalUpToRounding` of the largest coordinate, and the numbers of the normalised quaternions up
+/// to `equalUpToRounding(1)`.
+bool isSamePose(const RigidPose& a, const RigidPose& b);
+
+/// The difference between a pose in a message and the one in the model.
+struct PoseConflict {
+  std::string text;  ///< "robot_state.…: \"virtual_joint\": the base is at …, not at … as here"
+  std::string fix;  ///< "give it by base in the problem"
+  /// Whether the user gave the model's pose: a base, a hold in the robot's file, or the start.
+  bool isChosen = false;
+};
+
+/// Compares a pose in a message with the model's: the pose in the configuration `q` for a joint
+/// that is planned for, the held pose for another planar or floating joint. A name that no joint
+/// has is that of the joint between the world and the robot (the virtual joint of an SRDF), whose
+/// pose is the base of the only robot. Returns nullopt if the two poses are the same. A joint
+/// without a pose is a conflict.
+/// @param configuration the name of `q` for messages: "start".
+/// @pre q is a configuration of the model.
+std::optional<PoseConflict> conflictOf(const MessagePose& given, const Model& model,
+                                       const Configuration& q, const std::string& configuration);
+
+}  // namespace corridor
