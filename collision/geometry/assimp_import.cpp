@@ -4,6 +4,9 @@
 #include <cctype>
 #include <charconv>
 #include <exception>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -14,11 +17,17 @@
 #include <Eigen/Geometry>
 #include <assimp/BaseImporter.h>
 #include <assimp/DefaultIOSystem.h>
+#include <assimp/DefaultLogger.hpp>
 #include <assimp/Importer.hpp>
+#include <assimp/LogStream.hpp>
 #include <assimp/config.h>
 #include <assimp/importerdesc.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
+
+#include "collision/core/spelling.h"
+#include "collision/geometry/assimp_content.h"
+#include "collision/geometry/mesh_limits.h"
 
 /// Replaces assimp's handler of failed assertions, which would end the program. Debian's assimp is
 /// built with assertions, and some damaged files violate an assertion. The dynamic linker finds
@@ -40,7 +49,8 @@ Eigen::Affine3d inDoubles(const aiMatrix4x4& m) {
   return map;
 }
 
-void addMesh(const aiMesh& from, const Eigen::Affine3d& map, TriangleMesh& to) {
+/// Adds a mesh of the scene. Sets `hasLines` if the mesh has lines or points.
+void addMesh(const aiMesh& from, const Eigen::Affine3d& map, TriangleMesh& to, bool& hasLines) {
   const auto first = static_cast<std::uint32_t>(to.vertices.size());
   for (unsigned i = 0; i < from.mNumVertices; ++i) {
     const aiVector3D& v = from.mVertices[i];
@@ -48,7 +58,10 @@ void addMesh(const aiMesh& from, const Eigen::Affine3d& map, TriangleMesh& to) {
   }
   for (unsigned i = 0; i < from.mNumFaces; ++i) {
     const aiFace& face = from.mFaces[i];
-    if (face.mNumIndices != 3) continue;  // lines and points
+    if (face.mNumIndices != 3) {
+      hasLines = true;
+      continue;
+    }
     if (std::any_of(face.mIndices, face.mIndices + 3,
                     [&](unsigned corner) { return corner >= from.mNumVertices; }))
       throw std::runtime_error("a face has a corner that is out of range");
@@ -58,10 +71,14 @@ void addMesh(const aiMesh& from, const Eigen::Affine3d& map, TriangleMesh& to) {
 }
 
 void addNode(const aiScene& scene, const aiNode& node, const Eigen::Affine3d& parent,
-             TriangleMesh& to) {
+             TriangleMesh& to, bool& hasLines) {
   const Eigen::Affine3d map = parent * inDoubles(node.mTransformation);
-  for (unsigned i = 0; i < node.mNumMeshes; ++i) addMesh(*scene.mMeshes[node.mMeshes[i]], map, to);
-  for (unsigned i = 0; i < node.mNumChildren; ++i) addNode(scene, *node.mChildren[i], map, to);
+  for (unsigned i = 0; i < node.mNumMeshes; ++i) {
+    addMesh(*scene.mMeshes[node.mMeshes[i]], map, to, hasLines);
+  }
+  for (unsigned i = 0; i < node.mNumChildren; ++i) {
+    addNode(scene, *node.mChildren[i], map, to, hasLines);
+  }
 }
 
 /// Returns the number that the file most likely has, if assimp has stored it as the float `value`:
@@ -116,16 +133,44 @@ std::string oneLine(std::string text) {
 }
 
 /// Opens ordinary files only, and reports all others as missing. This rule also applies to files to
-/// which the mesh file refers, such as the buffers of a glTF file.
+/// which the mesh file refers, such as the buffers of a glTF file. Adds each such file to `opened`.
 class OrdinaryFiles : public Assimp::DefaultIOSystem {
  public:
+  OrdinaryFiles(const std::string& file, std::vector<std::string>& opened)
+      : file_(file), opened_(opened) {}
+
   bool Exists(const char* file) const override {  // assimp's own version would open the file
     struct stat status {};
     return ::stat(file, &status) == 0 && S_ISREG(status.st_mode);
   }
   Assimp::IOStream* Open(const char* file, const char* mode) override {
-    return Exists(file) ? Assimp::DefaultIOSystem::Open(file, mode) : nullptr;
+    if (!Exists(file)) return nullptr;
+    if (file != file_ && std::find(opened_.begin(), opened_.end(), file) == opened_.end())
+      opened_.emplace_back(file);
+    return Assimp::DefaultIOSystem::Open(file, mode);
   }
+
+ private:
+  const std::string& file_;
+  std::vector<std::string>& opened_;
+};
+
+/// Turns the messages of assimp's log that say that it left out geometry into faults.
+class DropLog : public Assimp::LogStream {
+ public:
+  DropLog(const std::string& file, ContentReport& report) : file_(file), report_(report) {}
+  void write(const char* message) override {
+    const std::string text = oneLine(message);
+    for (const char* const sign :
+         {"Unable to resolve reference to instanced node", "Unresolved reference format of node",
+          "Unable to find geometry for ID", "TRIANGLES mode. Some vertices were dropped"})
+      if (const auto at = text.find(sign); at != text.npos)
+        report_.fault(file_, 0, "assimp leaves out geometry: " + text.substr(at));
+  }
+
+ private:
+  const std::string& file_;
+  ContentReport& report_;
 };
 
 /// Returns whether an importer reads one of the formats of `kAssimpFormats` or `kOwnFormats`.
@@ -156,10 +201,36 @@ void removeOtherFormats(Assimp::Importer& importer) {
   }
 }
 
-void read(const std::string& file, AssimpRules rules, AssimpImport& result) {
+std::string bytesOf(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// Adds a fault if something other than its nodes moves the vertices of a mesh of the scene.
+void checkDeformation(const aiScene& scene, const std::string& file, ContentReport& report) {
+  for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
+    const aiMesh& mesh = *scene.mMeshes[i];
+    bool moves = mesh.mNumBones > 0;
+    for (unsigned k = 0; k < mesh.mNumAnimMeshes; ++k) moves |= mesh.mAnimMeshes[k]->mWeight != 0;
+    if (moves)
+      report.fault(file, 0,
+                   "bones or blend shapes move the vertices, which is not supported; save the mesh "
+                   "in its pose, without them");
+  }
+}
+
+/// Reads a file, unless a fault of its content is found first.
+void read(const std::string& file, AssimpRules rules, AssimpImport& result, ContentReport& report) {
+  const ContentKind kind = contentKindOf(lowered(std::filesystem::path(file).extension().string()));
+  if (kind != ContentKind::Other) checkContent(kind, file, bytesOf(file), report);
+  if (!report.faults.empty()) return;
+  Assimp::DefaultLogger::create("", Assimp::Logger::NORMAL, 0);
+  Assimp::DefaultLogger::get()->attachStream(std::make_unique<DropLog>(file, report).release(),
+                                             Assimp::Logger::Warn | Assimp::Logger::Err);
   Assimp::Importer importer;
   removeOtherFormats(importer);
-  importer.SetIOHandler(std::make_unique<OrdinaryFiles>().release());  // the importer owns it
+  importer.SetIOHandler(  // the importer owns it
+      std::make_unique<OrdinaryFiles>(file, result.otherFiles).release());
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION,
                            rules == AssimpRules::Stored);
@@ -169,6 +240,9 @@ void read(const std::string& file, AssimpRules rules, AssimpImport& result) {
                                    aiProcess_JoinIdenticalVertices | aiProcess_SortByPType |
                                    aiProcess_OptimizeGraph;
   importer.ReadFile(file, steps);
+  if (kind == ContentKind::X3d)
+    for (const std::string& other : result.otherFiles)
+      checkContent(kind, other, bytesOf(other), report);
   const aiScene* const scene = importer.GetScene();
   if (!scene || !scene->mRootNode) {
     result.error = oneLine(importer.GetErrorString());
@@ -180,28 +254,35 @@ void read(const std::string& file, AssimpRules rules, AssimpImport& result) {
   result.format = description ? description->mName : "unknown";
   if (const auto end = result.format.find(" Importer"); end != std::string::npos)
     result.format.resize(end);
+  checkDeformation(*scene, file, report);
   result.isCollada = result.format.starts_with("Collada");
   if (result.isCollada) checkColladaRoot(*scene, rules);
+  bool hasLines = false;
   if (rules == AssimpRules::Stored) {
     const std::unique_ptr<aiScene> own(importer.GetOrphanedScene());
     result.fileUnit = takeFileUnit(*own, result.format);
-    addNode(*own, *own->mRootNode, Eigen::Affine3d::Identity(), result.mesh);
+    addNode(*own, *own->mRootNode, Eigen::Affine3d::Identity(), result.mesh, hasLines);
   } else {
-    addNode(*scene, *scene->mRootNode, Eigen::Affine3d::Identity(), result.mesh);
+    addNode(*scene, *scene->mRootNode, Eigen::Affine3d::Identity(), result.mesh, hasLines);
   }
+  if (hasLines) report.note(kNoteOnLines);
 }
 
 }  // namespace
 
 AssimpImport importByAssimp(const std::string& file, AssimpRules rules) {
   AssimpImport result;
+  ContentReport report;
   try {
-    read(file, rules, result);
+    read(file, rules, result, report);
   } catch (const std::exception& error) {
     result.error = oneLine(error.what());
   } catch (...) {
     result.error = "assimp gave up without a reason";
   }
+  Assimp::DefaultLogger::kill();
+  result.faults = std::move(report.faults);
+  result.notes = std::move(report.notes);
   return result;
 }
 

@@ -3,7 +3,9 @@
 #include <array>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "collision/core/error.h"
 #include "collision/geometry/triangle_mesh.h"
 
 /// Import of mesh files by assimp: rules, formats, and the result. Only the helper program
@@ -35,6 +37,13 @@ struct AssimpImport {
   double fileUnit = 0;  ///< metres, not applied to the mesh; 0: the format has none, or `OmplApp`
   bool isCollada = false;
   std::string error;  ///< one line; empty: success
+  /// Content that assimp does not read rightly (assimp_content.h). If there is any, `mesh` must not
+  /// be used.
+  std::vector<Fault> faults;
+  std::vector<std::string> notes;  ///< on content that is not read, without the file's name
+  /// The files that assimp opened, without the file itself: buffers of glTF, inlined X3D, and
+  /// others.
+  std::vector<std::string> otherFiles;
 };
 
 /// Reads a file by assimp in this process. A damaged file may crash the process, or make it take

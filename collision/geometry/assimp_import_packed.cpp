@@ -12,8 +12,8 @@ constexpr std::uint64_t kMagic = 0x31706d6973736131;  // "1assimp1"
 /// The header of the packed bytes.
 struct Head {
   std::uint64_t magic = kMagic;
-  std::uint64_t vertices = 0, triangles = 0;  // counts
-  std::uint64_t format = 0, error = 0;        // lengths of the texts in bytes
+  std::uint64_t vertices = 0, triangles = 0;            // counts
+  std::uint64_t faults = 0, notes = 0, otherFiles = 0;  // counts
   double fileUnit = 0;
   std::uint64_t isCollada = 0;
 };
@@ -32,43 +32,84 @@ void take(std::string_view& bytes, T* to, std::size_t count) {
   bytes.remove_prefix(count * sizeof(T));
 }
 
+void appendText(std::string& bytes, const std::string& text) {
+  const std::uint64_t size = text.size();
+  append(bytes, &size, 1);
+  bytes += text;
+}
+
+/// Takes a text that `appendText` appended. Returns false if the bytes are incomplete.
+bool takeText(std::string_view& bytes, std::string& text) {
+  std::uint64_t size = 0;
+  if (bytes.size() < sizeof size) return false;
+  take(bytes, &size, 1);
+  if (bytes.size() < size) return false;
+  text = bytes.substr(0, size);
+  bytes.remove_prefix(size);
+  return true;
+}
+
+bool takeTexts(std::string_view& bytes, std::uint64_t count, std::vector<std::string>& texts) {
+  for (; count > 0; --count)
+    if (!takeText(bytes, texts.emplace_back())) return false;
+  return true;
+}
+
+bool takeFaults(std::string_view& bytes, std::uint64_t count, std::vector<Fault>& faults) {
+  for (; count > 0; --count) {
+    Fault& fault = faults.emplace_back();
+    if (!takeText(bytes, fault.file) || bytes.size() < sizeof fault.line) return false;
+    take(bytes, &fault.line, 1);
+    if (!takeText(bytes, fault.text)) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 std::string packed(const AssimpImport& import) {
   const Head head{kMagic,
                   import.mesh.vertices.size(),
                   import.mesh.triangles.size(),
-                  import.format.size(),
-                  import.error.size(),
+                  import.faults.size(),
+                  import.notes.size(),
+                  import.otherFiles.size(),
                   import.fileUnit,
                   import.isCollada};
   std::string bytes;
-  bytes.reserve(sizeof head + head.vertices * sizeof(Vec3) + head.triangles * sizeof(Indices) +
-                head.format + head.error);
+  bytes.reserve(sizeof head + head.vertices * sizeof(Vec3) + head.triangles * sizeof(Indices));
   append(bytes, &head, 1);
   append(bytes, import.mesh.vertices.data(), import.mesh.vertices.size());
   append(bytes, import.mesh.triangles.data(), import.mesh.triangles.size());
-  bytes += import.format;
-  return bytes += import.error;
+  for (const Fault& fault : import.faults) {
+    appendText(bytes, fault.file);
+    append(bytes, &fault.line, 1);
+    appendText(bytes, fault.text);
+  }
+  for (const auto* const texts : {&import.notes, &import.otherFiles})
+    for (const std::string& text : *texts) appendText(bytes, text);
+  appendText(bytes, import.format);
+  appendText(bytes, import.error);
+  return bytes;
 }
 
 bool unpack(std::string_view bytes, AssimpImport& import) {
   Head head;
   if (bytes.size() < sizeof head) return false;
   take(bytes, &head, 1);
-  // The counts and lengths are compared with the size first, so that the products below cannot
-  // overflow.
+  // The counts are compared with the size first, so that the products below cannot overflow.
   if (head.magic != kMagic || head.vertices > bytes.size() || head.triangles > bytes.size() ||
-      head.format > bytes.size() || head.error > bytes.size() ||
-      bytes.size() != head.vertices * sizeof(Vec3) + head.triangles * sizeof(Indices) +
-                          head.format + head.error)
+      bytes.size() < head.vertices * sizeof(Vec3) + head.triangles * sizeof(Indices))
     return false;
   import.mesh.vertices.resize(head.vertices);
   import.mesh.triangles.resize(head.triangles);
   take(bytes, import.mesh.vertices.data(), head.vertices);
   take(bytes, import.mesh.triangles.data(), head.triangles);
-  import.format = bytes.substr(0, head.format);
-  import.error = bytes.substr(head.format);
+  if (!takeFaults(bytes, head.faults, import.faults) ||
+      !takeTexts(bytes, head.notes, import.notes) ||
+      !takeTexts(bytes, head.otherFiles, import.otherFiles) || !takeText(bytes, import.format) ||
+      !takeText(bytes, import.error) || !bytes.empty())
+    return false;
   import.fileUnit = head.fileUnit;
   import.isCollada = head.isCollada != 0;
   return true;

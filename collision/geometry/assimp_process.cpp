@@ -164,6 +164,7 @@ AssimpImport readWithAssimp(const std::string& file, AssimpRules rules,
     fail("assimp is needed for this format, and its program " + limits.program.string() +
          " cannot be started: " + error.code().message());
   }
+  if (!result.faults.empty()) throw InputError(std::move(result.faults));
   if (!result.error.empty()) fail("cannot be read by assimp: " + result.error);
   return result;
 }

@@ -44,6 +44,7 @@ StoredMesh readOwn(const std::filesystem::path& file, Reader reader, MeshFaults&
   StoredMesh stored;
   stored.file.mesh = std::move(read.mesh);
   stored.file.format = std::move(read.format);
+  stored.file.notes = std::move(read.notes);
   return stored;
 }
 
@@ -118,6 +119,8 @@ StoredMesh readForeign(const std::filesystem::path& file, const std::string& ext
   stored.file.mesh = welded(import.mesh);
   stored.file.format = std::move(import.format);
   stored.file.floatVertices = true;
+  stored.file.notes = std::move(import.notes);
+  stored.file.otherFiles = std::move(import.otherFiles);
   stored.fileUnit = import.fileUnit;
   stored.file.fileUp = up;
   return stored;
@@ -196,13 +199,14 @@ OmplAppMesh readOmplAppMesh(const std::filesystem::path& file) {
   if (!contains(kAssimpFormats, extension) && !contains(kOwnFormats, extension))
     faults.fail(0, notRead(extension));
   requireForAssimp(file, extension, faults);
-  const AssimpImport import = readWithAssimp(file.string(), AssimpRules::OmplApp);
+  AssimpImport import = readWithAssimp(file.string(), AssimpRules::OmplApp);
   requireSound(import.mesh, faults, floatHint);
   OmplAppMesh result;
   result.importedVertices = static_cast<int>(import.mesh.vertices.size());
   for (const Vec3& vertex : import.mesh.vertices) result.vertexAverage += vertex;
   result.vertexAverage /= result.importedVertices;
   result.mesh = welded(import.mesh);
+  result.otherFiles = std::move(import.otherFiles);
   return result;
 }
 

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "collision/geometry/triangle_mesh.h"
 
@@ -31,6 +32,9 @@ struct MeshFile {
   std::optional<char> fileUp = {};
   /// True if assimp read the file, and therefore rounded the vertices to float.
   bool floatVertices = false;
+  std::vector<std::string> notes;  ///< on content that is not read, without the file's name
+  /// The other files that were read with it, such as the buffers of a glTF file.
+  std::vector<std::string> otherFiles;
 };
 
 /// Reads a mesh file. The extension decides which reader is used. Corridor's own readers read OBJ,
@@ -47,7 +51,8 @@ struct OmplAppMesh {
   TriangleMesh mesh;
   /// The mean of all imported vertices. Each vertex counts as often as assimp keeps it.
   Vec3 vertexAverage = Vec3::Zero();
-  int importedVertices = 0;  ///< the number of these vertices
+  int importedVertices = 0;             ///< the number of these vertices
+  std::vector<std::string> otherFiles;  ///< as in `MeshFile`
 };
 /// Reads a mesh file by OMPL.app's rules. @throws InputError in the cases of `readMeshFile`.
 OmplAppMesh readOmplAppMesh(const std::filesystem::path& file);

@@ -8,4 +8,7 @@ namespace corridor {
 /// many vertices and triangles takes 4 GB, and its tree some 8 GB.
 constexpr std::size_t kMaxMeshElements = 100'000'000;
 
+/// The note on a mesh file with lines or points.
+constexpr const char* kNoteOnLines = "lines and points have no volume, and are not read";
+
 }  // namespace corridor

@@ -2,6 +2,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "collision/geometry/mesh_text.h"
 #include "collision/geometry/triangle_mesh.h"
@@ -13,7 +14,8 @@ namespace corridor {
 
 struct ReadMesh {
   TriangleMesh mesh;
-  std::string format;  ///< name of the format for messages, e.g. "STL (binary)"
+  std::string format;                   ///< name of the format for messages, e.g. "STL (binary)"
+  std::vector<std::string> notes = {};  ///< on content that is not read
 };
 
 ReadMesh readObj(std::string_view text, MeshFaults& faults);

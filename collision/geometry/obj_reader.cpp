@@ -1,9 +1,21 @@
+#include <algorithm>
+#include <array>
 #include <cstdint>
 
 #include "collision/geometry/mesh_readers.h"
 
 namespace corridor {
 namespace {
+
+/// Returns whether a keyword cannot matter: it is about normals, textures, names, the looks, or the
+/// parameters of free-form curves and surfaces, which other keywords begin.
+bool isHarmless(std::string_view keyword) {
+  static constexpr std::array<std::string_view, 22> harmless{
+      "vn",        "vt",     "vp",     "g",      "o",        "s",        "mg",  "mtllib",
+      "usemtl",    "usemap", "maplib", "bevel",  "c_interp", "d_interp", "lod", "shadow_obj",
+      "trace_obj", "ctech",  "stech",  "cstype", "deg",      "step"};
+  return std::find(harmless.begin(), harmless.end(), keyword) != harmless.end();
+}
 
 class ObjReader {
  public:
@@ -17,15 +29,20 @@ class ObjReader {
         readVertex();
       } else if (keyword == "f") {
         readFace();
+      } else if (keyword == "l" || keyword == "p") {
+        notes_ = {kNoteOnLines};
+      } else if (!keyword.empty() && !isHarmless(keyword)) {
+        faults_.add(cursor_.line(), "the keyword " + inQuotes(keyword) +
+                                        " is not supported, and may be or move geometry; write "
+                                        "faces with v and f");
       }
-      // All other keywords (normals, groups, materials, lines, points …) do not affect the surface.
       faults_.requireFew(mesh_, cursor_.line());
     } while (cursor_.nextLine());
     for (const LateCorner& late : lateCorners_) {
       if (late.number > count()) outOfRange(late.line, late.number);
     }
     faults_.throwIfAny();
-    return {std::move(mesh_), "OBJ"};
+    return {std::move(mesh_), "OBJ", std::move(notes_)};
   }
 
  private:
@@ -108,6 +125,7 @@ class ObjReader {
   bool continued_ = false;
   TriangleMesh mesh_;
   std::vector<LateCorner> lateCorners_;
+  std::vector<std::string> notes_;
 };
 
 }  // namespace

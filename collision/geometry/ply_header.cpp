@@ -159,6 +159,12 @@ class HeaderReader {
         std::count_if(face.begin(), face.end(), isCornerList) != 1) {
       faults_.fail(0, "element \"face\" needs one list \"vertex_indices\" of an integer type");
     }
+    for (const PlyElement& element : header_.elements)
+      if (element.count > 0 && element.name != "vertex" && element.name != "face" &&
+          std::any_of(element.properties.begin(), element.properties.end(), isCornerList))
+        faults_.fail(0,
+                     "element " + inQuotes(element.name) +
+                         " is not read, and may hold triangles; save the mesh with polygons only");
   }
 
   // Limits for damaged headers. The time to read a header is quadratic in its number of elements,

@@ -1,0 +1,39 @@
+#include "collision/geometry/assimp_content.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+
+namespace corridor {
+
+ContentKind contentKindOf(std::string_view extension) {
+  return extension == ".dae"    ? ContentKind::Collada
+         : extension == ".gltf" ? ContentKind::Gltf
+         : extension == ".glb"  ? ContentKind::BinaryGltf
+         : extension == ".x3d"  ? ContentKind::X3d
+         : extension == ".amf"  ? ContentKind::Amf
+                                : ContentKind::Other;
+}
+
+void ContentReport::fault(const std::string& file, int line, const std::string& text) {
+  if (faults.size() < 10 && known_.insert(file + '\n' + text).second)
+    faults.push_back({file, line, text});
+}
+
+void ContentReport::note(const std::string& text) {
+  if (known_.insert(text).second) notes.push_back(text);
+}
+
+void checkContent(ContentKind kind, const std::string& file, std::string_view bytes,
+                  ContentReport& report) {
+  if (kind == ContentKind::Other) return;
+  if (kind == ContentKind::Gltf) return checkGltf(file, bytes, report);
+  if (kind != ContentKind::BinaryGltf) return checkXml(kind, file, bytes, report);
+  // In both versions of the format, the JSON begins at byte 20, and its size is at byte 12.
+  std::uint32_t size = 0;
+  if (bytes.size() < 20) return;
+  std::memcpy(&size, bytes.data() + 12, sizeof size);
+  checkGltf(file, bytes.substr(20, size), report);
+}
+
+}  // namespace corridor

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "collision/core/error.h"
+
+/// What files hold that assimp 5.2 drops, moves or shrinks without a message. The program
+/// corridor_assimp searches each file for such content before it believes assimp (README.md).
+namespace corridor {
+
+/// assimp chooses its importer by the extension, too.
+enum class ContentKind { Collada, Gltf, BinaryGltf, X3d, Amf, Other };
+
+/// Returns the kind of a file from its extension, in lower case.
+ContentKind contentKindOf(std::string_view extension);
+
+/// The faults and notes of the files of one import, each text once.
+class ContentReport {
+ public:
+  /// Adds a fault, unless there are ten, or one of the same text. @param line 0: the whole file
+  void fault(const std::string& file, int line, const std::string& text);
+  /// Adds a note.
+  void note(const std::string& text);
+
+  std::vector<Fault> faults;
+  std::vector<std::string> notes;
+
+ private:
+  std::set<std::string> known_;
+};
+
+/// Adds a fault for each thing in the file that could be geometry, or move geometry, and that
+/// assimp does not read as the format's specification says; adds notes on optional content that is
+/// not read. Does nothing for `Other`. Faults of syntax are left to assimp, unless assimp ignores
+/// them.
+void checkContent(ContentKind kind, const std::string& file, std::string_view bytes,
+                  ContentReport& report);
+
+/// The parts of `checkContent`.
+void checkGltf(const std::string& file, std::string_view json, ContentReport& report);
+void checkXml(ContentKind kind, const std::string& file, std::string_view text,
+              ContentReport& report);
+
+}  // namespace corridor
