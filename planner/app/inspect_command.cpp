@@ -58,6 +58,7 @@ ordered_json meshJson(const MeshFile& file) {
                     {"turned_edges", health.misorientedEdges}};
   if (!health.watertight) j["why_not_watertight"] = health.whyNotWatertight;
   if (health.volume) j["volume_m3"] = *health.volume;
+  if (!file.notes.empty()) j["notes"] = file.notes;
   return j;
 }
 
@@ -108,6 +109,7 @@ int inspectMeshFile(const InspectArguments& a) {
   out.line("unit", file.unitRule);
   out.line("up-axis", file.upRule);
   if (file.floatVertices) out.line("precision", "float: read by assimp");
+  for (const std::string& note : file.notes) out.line("note", note);
   out.line("vertices", grouped(file.mesh.vertices.size()));
   out.line("triangles", grouped(health.triangles));
   out.line("bounds", rounded(health.min) + " to " + rounded(health.max) + " m");

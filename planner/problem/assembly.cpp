@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <set>
 
 #include "collision/core/fault_list.h"
 #include "collision/core/rounding.h"
@@ -17,11 +19,24 @@
 namespace corridor {
 namespace {
 
+/// Adds the notes on mesh files: one for each text, with the files.
+void addNotesOnMeshes(Problem& problem) {
+  std::map<std::string, std::set<std::string>> files;
+  for (const ModelBody& body : problem.model.bodies)
+    for (const PlacedShape& shape : body.shapes)
+      if (shape.mesh)
+        for (const std::string& text : shape.mesh->notes) files[text].insert(shape.file.string());
+  for (const auto& [text, names] : files)
+    problem.source.notes.push_back(
+        {text + ": " + joinedFirst({names.begin(), names.end()}, 3), NoteWeight::coverage});
+}
+
 void addNotesOnPairs(Problem& problem) {
   std::vector<Note>& notes = problem.source.notes;
   addAll(notesOnReach(problem), notes);
   for (const ModelBody& body : problem.model.bodies)
     for (const PlacedShape& shape : body.shapes) addAll(shape.notes, notes);
+  addNotesOnMeshes(problem);
   if (nothingIsTested(problem)) notes.insert(notes.begin(), {kNothingTested, NoteWeight::coverage});
 }
 

@@ -52,7 +52,10 @@ std::shared_ptr<const MeshFile> readMesh(const YamlMap& map, const char* key,
     return nullptr;
   }
   addFile(files.files, file);
-  return files.meshes.read(map, key, file);
+  const auto mesh = files.meshes.read(map, key, file);
+  if (mesh)
+    for (const std::string& other : mesh->otherFiles) addFile(files.files, other);
+  return mesh;
 }
 
 std::optional<Primitive> readBox(const YamlMap& map) {

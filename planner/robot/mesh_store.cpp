@@ -203,6 +203,8 @@ MeshStore::FoundMesh MeshStore::add(const std::string& name) {
     MeshFile read = readMeshFile(place.file);
     if (const char up = read.fileUp.value_or('z'); rules_.colladaUp && up != 'z')
       read = readMeshFile(place.file, {.up = up});
+    for (const std::string& other : read.otherFiles)
+      if (std::find(files_.begin(), files_.end(), other) == files_.end()) files_.push_back(other);
     mesh = std::make_shared<const MeshFile>(std::move(read));
   } catch (const InputError& error) {
     place.complaint = error.faults().front().str();

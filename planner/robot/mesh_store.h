@@ -22,7 +22,8 @@ class MeshStore {
     std::string complaint;  ///< empty if the file was read, or if its fault was reported before
   };
 
-  /// @param files receives each file when it is first named, whether it exists or not.
+  /// @param files receives each file when it is first named, whether it exists or not, and the
+  /// other files that mesh files name.
   MeshStore(const std::filesystem::path& urdf, const UrdfRules& rules,
             std::vector<std::filesystem::path>& files);
 

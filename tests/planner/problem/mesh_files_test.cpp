@@ -1,0 +1,86 @@
+// Files that mesh files name, and notes on mesh files, in problems.
+#include "planner/problem/digest.h"
+#include "planner/robot/note.h"
+#include "tests/planner/problem/problem_fixture.h"
+
+namespace corridor::test {
+namespace {
+
+const std::string lines = "lines and points have no volume, and are not read: ";
+
+class MeshFiles : public ProblemTest {
+ protected:
+  /// Writes a glTF file of a triangle, and its buffer `NAME.bin`, with the first corner at (x, 0,
+  /// 0).
+  void writeGltf(const std::string& name, float x) const {
+    const float numbers[9] = {x, 0, 0, 1, 0, 0, 0, 2, 0};
+    write(name + ".bin", {reinterpret_cast<const char*>(numbers), sizeof numbers});
+    write(name + ".gltf", R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+"nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+"buffers": [{"uri": ")" + name +
+                              R"(.bin", "byteLength": 36}],
+"bufferViews": [{"buffer": 0, "byteLength": 36}],
+"accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}]})");
+  }
+  static std::string problem(const std::string& mesh) {
+    return "format: corridor-problem-1\nrobot: robot.yaml\nworld: {rock: {mesh: " + mesh +
+           ", at: [50, 0, 0]}}\n" + poses;
+  }
+  /// Expects that the digest of the problem covers the buffer of `name`.gltf.
+  void expectCovered(const std::string& name) const {
+    const Problem p = readProblem(folder_ / "problem.yaml");
+    EXPECT_THAT(p.source.files, testing::Contains(folder_ / (name + ".bin")));
+    const std::string digest = digestOf(p);
+    writeGltf(name, 0.25);
+    EXPECT_NE(digestOf(readProblem(folder_ / "problem.yaml")), digest);
+  }
+};
+
+TEST_F(MeshFiles, TheDigestCoversBuffersOfTheWorld) {
+  writeGltf("m", 0);
+  write("problem.yaml", problem("m.gltf"));
+  expectCovered("m");
+}
+
+TEST_F(MeshFiles, TheDigestCoversBuffersOfURDFs) {
+  writeGltf("m", 0);
+  write("r.urdf",
+        "<robot name=\"r\"><link name=\"base\"/><link name=\"l\"><collision><geometry><mesh "
+        "filename=\"m.gltf\"/></geometry></collision></link><joint name=\"j\" type=\"prismatic\">"
+        "<parent link=\"base\"/><child link=\"l\"/><axis xyz=\"1 0 0\"/><limit lower=\"-1\" "
+        "upper=\"1\" velocity=\"1\" effort=\"1\"/></joint></robot>");
+  write("problem.yaml",
+        "format: corridor-problem-1\nrobot: r.urdf\nworld: {rock: {box: [1, 1, 1], at: [50, 0, 0]}}"
+        "\nstart: {j: 0}\ngoal: {j: 1}\n");
+  expectCovered("m");
+}
+
+TEST_F(MeshFiles, TheDigestCoversBuffersOfOmplApp) {
+  writeGltf("m", 0);
+  write("problem.cfg",
+        "[problem]\nname=p\nrobot=m.gltf\nworld=m.gltf\nstart.x=0\nstart.y=0\nstart.z=9\n"
+        "start.theta=0\nstart.axis.x=1\nstart.axis.y=0\nstart.axis.z=0\ngoal.x=1\ngoal.y=0\n"
+        "goal.z=9\ngoal.theta=0\ngoal.axis.x=1\ngoal.axis.y=0\ngoal.axis.z=0\n"
+        "volume.min.x=-20\nvolume.min.y=-20\nvolume.min.z=-20\nvolume.max.x=20\n"
+        "volume.max.y=20\nvolume.max.z=20\n");
+  EXPECT_THAT(readProblem(folder_ / "problem.cfg").source.files,
+              testing::Contains(folder_ / "m.bin"));
+}
+
+TEST_F(MeshFiles, LinesAreNotedOnceForAllFiles) {
+  const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\nl 1 2\n";
+  write("a.obj", triangle);
+  write("b.obj", triangle);
+  const Problem p = read(
+      "format: corridor-problem-1\nrobot: robot.yaml\nworld:\n"
+      "  one: {mesh: a.obj, at: [50, 0, 0]}\n"
+      "  two: {mesh: b.obj, at: [60, 0, 0]}\n"
+      "  more: {mesh: a.obj, at: [70, 0, 0]}\n"
+      "" +
+      poses);
+  EXPECT_THAT(textsOf(p.source.notes), testing::Contains(lines + (folder_ / "a.obj").string() +
+                                                         ", " + (folder_ / "b.obj").string()));
+}
+
+}  // namespace
+}  // namespace corridor::test
