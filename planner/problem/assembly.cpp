@@ -10,6 +10,7 @@
 #include "collision/core/rounding.h"
 #include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
+#include "collision/geometry/mesh_limits.h"
 #include "planner/model/planned_joints.h"
 #include "planner/problem/nothing_tested.h"
 #include "planner/problem/reach_notes.h"
@@ -28,7 +29,8 @@ void addNotesOnMeshes(Problem& problem) {
         for (const std::string& text : shape.mesh->notes) files[text].insert(shape.file.string());
   for (const auto& [text, names] : files)
     problem.source.notes.push_back(
-        {text + ": " + joinedFirst({names.begin(), names.end()}, 3), NoteWeight::coverage});
+        {text + ": " + joinedFirst({names.begin(), names.end()}, 3),
+         text == kNoteOnLines ? NoteWeight::detail : NoteWeight::coverage});
 }
 
 void addNotesOnPairs(Problem& problem) {
