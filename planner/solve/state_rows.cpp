@@ -97,11 +97,12 @@ std::vector<Row> readRows(const std::filesystem::path& file, const Configuration
     if (const std::size_t mark = line.find('#'); isFirst && mark != std::string::npos) {
       const std::string comment = line.substr(mark + 1);
       std::vector<std::string> words = wordsOfLine(comment), sorted = names;
+      const bool namesAState = words == names;  // in a file of edges, both states are in this order
       std::sort(words.begin(), words.end());
       std::sort(sorted.begin(), sorted.end());
       if (mark == 0 && allowHeader && words == sorted)
         line.erase(0, 1);
-      else if (likeHeader == 0 && resemblesHeader(comment, inOrder))
+      else if (!namesAState && likeHeader == 0 && resemblesHeader(comment, inOrder))
         likeHeader = number;
     }
     const std::vector<std::string> words = wordsOfLine(line);
