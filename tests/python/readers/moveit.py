@@ -35,7 +35,8 @@ def _primitive(keys, X):
 
 
 class Scene:
-    """Obstacles, pairs of bodies that may touch (`allowed`), and whether the matrix of these pairs replaces the SRDF's."""
+    """Obstacles, pairs of bodies that may touch (`allowed`) and that may not (`denied`), and whether the matrix of these
+    pairs replaces the SRDF's."""
 
     def __init__(self, keys, base, root):
         self.objects = {}
@@ -51,11 +52,10 @@ class Scene:
             self.objects[thing["id"]] = shapes
         matrix = keys.get("allowed_collision_matrix", {})
         names = matrix.get("entry_names", [])
-        self.allowed, self.replaces = set(), bool(names)
+        self.allowed, self.denied, self.replaces = set(), set(), bool(names)
         for a, row in zip(names, matrix.get("entry_values", [])):
             for b, value in zip(names, row["enabled"] if isinstance(row, dict) else row):
-                if value == "true":
-                    self.allowed.add(frozenset((a, b)))
+                (self.allowed if value == "true" else self.denied).add(frozenset((a, b)))
         self.padding = {entry["link_name"]: float(entry["padding"]) for entry in keys.get("link_padding", [])}
 
 

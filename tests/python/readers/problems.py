@@ -205,6 +205,7 @@ class Problem:
                        for name, entry in entries.items()}  # fmt: skip
         self.world = {name: shapes_of(shape, folder) for name, shape in keys.get("world", {}).items()}
         self.allowed, self.margin = {frozenset(pair) for pair in keys.get("allow", [])}, float(keys.get("margin", 0))
+        self.denied = set()
         self.replaces_srdf = False  # whether the pairs of a message replace those of the SRDF
         padding = keys.get("padding", {})
         self.link_padding, self.moveit_start, self.moveit_goals = {}, None, []
@@ -228,6 +229,7 @@ class Problem:
             scene = moveit.Scene(load(folder / files["scene"]), robot.base, robot.urdf.root)
             self.world |= scene.objects
             self.allowed |= scene.allowed
+            self.denied = scene.denied
             self.replaces_srdf, self.link_padding = scene.replaces, scene.padding
 
     def _part(self, keys, name):
@@ -277,7 +279,7 @@ class Problem:
             x, y = (body.removeprefix(robot.prefix) for body in (a, b))
             links = frozenset((x, y))
             disabled = robot.srdf and links in robot.srdf.disabled and not self.replaces_srdf
-            allowed = {frozenset(p) for p in robot.keys.get("allow", [])}
+            allowed = {frozenset(p) for p in robot.keys.get("allow", [])} - self.denied
             if disabled or links in allowed or robot.urdf.adjacent(x, y) or not robot.can_part(x, y):
                 return None
             if links in robot.never:
@@ -288,11 +290,13 @@ class Problem:
         return self.margin + self.pair_padding.get(pair, self.padding.get(a, 0.0) + self.padding.get(b, 0.0))
 
     def unclear(self, a, b):
-        """Whether Corridor tests a pair that need not be tested: it lets a message's matrix, which replaces an SRDF, also
-        replace other reasons not to test the SRDF's pairs. This is safe, and its guide does not say it."""
+        """Whether Corridor may test a pair that need not be tested: it lets a message's matrix, which replaces an SRDF,
+        also replace the adjacency of the SRDF's pairs. This is safe, and its guide does not say it."""
         [first, *more] = self.robots.values()
         pair = frozenset((a, b))
-        return self.replaces_srdf and not more and bool(first.srdf) and pair in first.srdf.disabled
+        if not self.replaces_srdf or more or not first.srdf or pair not in first.srdf.disabled:
+            return False
+        return pair not in {frozenset(p) for p in first.keys.get("allow", [])} - self.denied
 
     @staticmethod
     def _spellings(body, of):
