@@ -49,14 +49,21 @@ bool looksLikeKeyOrItem(std::string_view line) {
          (end + 1 == line.size() || blanks.find(line[end + 1]) != blanks.npos);
 }
 
+/// Returns whether a tag stands for numbers, truth values or nothing, as plain text does.
+bool isPlainTag(const std::string& tag) {
+  return tag == "?" || tag == kStandardTag + "float" || tag == kStandardTag + "int" ||
+         tag == kStandardTag + "bool" || tag == kStandardTag + "null";
+}
+
 /// Returns whether a tag, as yaml-cpp passes it on, says no more than what the value's form says.
-/// yaml-cpp's own tags are "?" for values without a tag, and "!" for texts in quotes.
+/// yaml-cpp's own tags are "?" for values without a tag, and "!" for texts in quotes. Python writes
+/// its tuples with a tag.
 bool saysNothing(const std::string& tag, YamlValue::Kind kind) {
   if (tag.empty() || tag == "?" || tag == "!") return true;
-  const std::string form = kind == YamlValue::Kind::List  ? "seq"
-                           : kind == YamlValue::Kind::Map ? "map"
-                                                          : "str";
-  return tag == kStandardTag + form;
+  if (kind == YamlValue::Kind::Map) return tag == kStandardTag + "map";
+  if (kind == YamlValue::Kind::List)
+    return tag == kStandardTag + "seq" || tag == kStandardTag + "python/tuple";
+  return tag == kStandardTag + "str" || isPlainTag(tag);
 }
 
 /// Returns a tag as it is in the file: "!!float", "!cm".
@@ -97,8 +104,7 @@ class TreeBuilder : public YAML::EventHandler {
     requireNoTag(mark, tag, YamlValue::Kind::Scalar);
     YamlValue scalar = value(YamlValue::Kind::Scalar, mark);
     scalar.text = text;
-    // The tag of yaml-cpp is "?" for plain text, "!" for quoted text, else the tag in the file.
-    scalar.isPlain = tag == "?";
+    scalar.isPlain = isPlainTag(tag);
     if (!scalar.isPlain) checkQuotes(mark);
     put(std::move(scalar));
   }

@@ -48,8 +48,8 @@ struct YamlLimits {
 /// Parses one YAML document.
 /// @param file for messages.
 /// @throws InputError for a syntax error, more than one document, an alias, a tag (except those
-/// that only repeat the value's form: !!str, !!seq, !!map), a key that is no word, or a document
-/// beyond the limits.
+/// that only repeat the value's form, such as !!str, !!float, !!seq and !!map, and Python's
+/// tuples), a key that is no word, or a document beyond the limits.
 YamlValue parseYaml(const std::string& file, const std::string& text,
                     const YamlLimits& limits = {});
 

@@ -63,12 +63,13 @@ TEST_F(YamlFaults, TagsAreNotRead) {
   EXPECT_EQ(with("planner: !deg {time: 1}\n"), fault("8", "!deg"));
   EXPECT_EQ(with("planner:\n  time: !cm 1\n"), fault("9", "!cm"));
   EXPECT_EQ(with("planner: {name: !cm RRT}\n"), fault("8", "!cm"));
-  EXPECT_EQ(with("margin: !!float 1\n"), fault("8", "!!float"));
+  EXPECT_EQ(with("margin: !!python/object:m.Metres 1\n"), fault("8", "!!python/object:m.Metres"));
   EXPECT_EQ(with("allow: !!set {}\n"), fault("8", "!!set"));
   EXPECT_EQ(with("allow: !!map []\n"), fault("8", "!!map"));
   EXPECT_EQ(with("margin: !cm\n"), fault("8", "!cm"));
   EXPECT_EQ(with("!cm margin: 1\n"), fault("8", "!cm"));
   EXPECT_EQ(with("planner: !!map {name: !!str RRT}\nallow: !!seq []\n"), "no complaint");
+  EXPECT_EQ(with("margin: !!float 0.1\nallow: !!python/tuple []\nseed: !!int 3\n"), "no complaint");
 }
 
 TEST_F(YamlFaults, DecimalCommas) {
