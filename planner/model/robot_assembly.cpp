@@ -134,10 +134,7 @@ class RobotAssembly {
   /// Returns the pose of a joint's child link in its parent link. @pre the joint is planar or
   /// floating, and held at `pose`.
   static RigidPose heldAt(const JointModel& joint, const RigidPose& pose) {
-    if (joint.type == JointType::floating) return joint.X_PJ * pose;
-    const Eigen::Quaterniond plane = fromZ(joint.axis);
-    return joint.X_PJ * RigidPose{Vec3::Zero(), plane} * pose *
-           RigidPose{Vec3::Zero(), plane.conjugate()};
+    return joint.X_PJ * poseInJointFrame(joint, pose);
   }
 
   void addRoot() {
@@ -209,6 +206,12 @@ class RobotAssembly {
 };
 
 }  // namespace
+
+RigidPose poseInJointFrame(const JointModel& joint, const RigidPose& state) {
+  if (joint.type == JointType::floating) return state;
+  const Eigen::Quaterniond plane = fromZ(joint.axis);
+  return RigidPose{Vec3::Zero(), plane} * state * RigidPose{Vec3::Zero(), plane.conjugate()};
+}
 
 std::vector<std::size_t> assembleRobot(ModelRobot robot, Model& model) {
   RobotAssembly assembly(robot, model);

@@ -4,6 +4,7 @@
 
 #include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
+#include "planner/model/robot_assembly.h"
 #include "planner/problem/joint_yaml.h"
 #include "planner/problem/placement.h"
 #include "planner/problem/urdf_robot.h"
@@ -25,7 +26,7 @@ std::string written(const RigidPose& pose) {
   return "{at: " + list(pose.p) + ", quat_xyzw: " + list(pose.q.coeffs()) + "}";
 }
 
-/// Returns the pose of a planar or floating joint, or of a rigid robot, in a configuration.
+/// Returns the state of a planar or floating joint, or of a rigid robot, in a configuration.
 RigidPose poseIn(const Configuration& q, const PlannedJoint& planned,
                  const ConfigurationSpace& space) {
   const auto first = static_cast<Eigen::Index>(space.coordinates()[planned.coordinate].first);
@@ -45,9 +46,9 @@ struct OwnPose {
 /// Returns the model's pose for the name of a joint in a message, or nullopt if there is none.
 std::optional<OwnPose> ownPoseOf(const std::string& name, const Model& model,
                                  const Configuration& q, const std::string& configuration) {
-  const auto planned = [&](const PlannedJoint& joint) {
-    return OwnPose{poseIn(q, joint, model.space), "the " + configuration + " is at ",
-                   "give it by start in the problem", true};
+  const auto planned = [&](const RigidPose& pose) {
+    return OwnPose{pose, "the " + configuration + " is at ", "give it by start in the problem",
+                   true};
   };
   for (const ModelRobot& robot : model.robots)
     for (std::size_t j = 0; j < robot.description.joints.size(); ++j) {
@@ -56,13 +57,13 @@ std::optional<OwnPose> ownPoseOf(const std::string& name, const Model& model,
       if (name != full && name != joint.name) continue;
       if (!isPoseJoint(joint.type)) return std::nullopt;
       for (const PlannedJoint& one : robot.plannedJoints)
-        if (one.name == full) return planned(one);
-      return OwnPose{robot.heldPoses.at(j), "the joint is held at ",
+        if (one.name == full) return planned(poseInJointFrame(joint, poseIn(q, one, model.space)));
+      return OwnPose{poseInJointFrame(joint, robot.heldPoses.at(j)), "the joint is held at ",
                      "give it by hold in the robot's file", robot.heldByFile.contains(j)};
     }
   if (model.robots.size() != 1) return std::nullopt;
   const ModelRobot& robot = model.robots.front();
-  if (robot.isRigid()) return planned(robot.plannedJoints.front());
+  if (robot.isRigid()) return planned(poseIn(q, robot.plannedJoints.front(), model.space));
   return OwnPose{robot.base, "the base is at ", "give it by base in the problem",
                  !isSamePose(robot.base, {})};
 }

@@ -265,6 +265,9 @@ void MoveitScene::applyAllowed(Model& model) {
                                "allowed_collision_matrix.entry_names", source_);
   const auto rows = itemsOf(map, "entry_values");
   if (!names) return;
+  if (std::set<std::string> known; !std::ranges::all_of(
+          *names, [&](const std::string& name) { return known.insert(name).second; }))
+    return map.fault("entry_names", "a name is listed twice, so its rows may disagree");
   if (rows.size() != names->size())
     return map.fault("entry_values", std::to_string(names->size()) + " rows are needed, not " +
                                          std::to_string(rows.size()));

@@ -63,6 +63,13 @@ TEST_F(MoveitMatrix, FalseIsTestedAgainAndNoted) {
                                  "lower ~ upper"));
 }
 
+TEST_F(MoveitMatrix, ItsNamesDiffer) {
+  matrix("base, lower, base", "[0, 1, 0], [1, 0, 0], [0, 0, 0]");
+  EXPECT_EQ(complaintOf(head),
+            "scene.yaml:3: allowed_collision_matrix.entry_names: a name is listed twice, so its "
+            "rows may disagree");
+}
+
 TEST_F(MoveitMatrix, ItsValuesAreTrueOrFalse) {
   matrix("base, lower", "[false, yes], [yes, false]");
   EXPECT_EQ(complaintOf(head),

@@ -176,6 +176,34 @@ TEST_F(MoveitStates, PosesOfHeldJointsAreCompared) {
   EXPECT_THAT(notes(), noted);
 }
 
+/// A planar joint moves across its axis, here in the plane of y and z: its x is −z. The quaternions
+/// q and −q are the same rotation.
+TEST_F(MoveitStates, PosesOfPlanarJointsAreThoseOfTheLink) {
+  std::ofstream(folder_ / "cart.urdf")
+      << "<robot name='cart'><link name='wall'/><link name='cart'/><link name='arm'/>"
+         "<joint name='slide' type='planar'><parent link='wall'/><child link='cart'/>"
+         "<axis xyz='1 0 0'/></joint>"
+         "<joint name='turn' type='continuous'><parent link='cart'/><child link='arm'/>"
+         "<axis xyz='0 0 1'/></joint></robot>\n";
+  std::ofstream(folder_ / "cart.yaml")
+      << "format: corridor-robot-1\nurdf: cart.urdf\njoints: [turn]\n"
+         "hold: {slide: {at: [0.2, 0.3], yaw: 1.2870022175865687}}\n";  // 2·asin(0.6)
+  const auto notes = [&](const std::string& translation, const std::string& rotation) {
+    std::ofstream(folder_ / "cart_scene.yaml")
+        << "world: {}\nrobot_state: {multi_dof_joint_state: {joint_names: [slide], transforms: "
+           "[{translation: " +
+               translation + ", rotation: " + rotation + "}]}}\n";
+    return textsOf(read("format: corridor-problem-1\nrobot: cart.yaml\nmoveit: {scene: "
+                        "cart_scene.yaml}\nstart: {turn: 0}\ngoal: {turn: 1}\n")
+                       .source.notes);
+  };
+  const auto noted = testing::Contains(HasSubstr("\"slide\": the joint is held at "));
+  EXPECT_THAT(notes("[0, 0.3, -0.2]", "[0.6, 0, 0, 0.8]"), testing::Not(noted));
+  EXPECT_THAT(notes("[0, 0.3, -0.2]", "[-0.6, 0, 0, -0.8]"), testing::Not(noted));
+  EXPECT_THAT(notes("[0, 0.3, -0.2]", "[-0.6, 0, 0, 0.8]"), noted);
+  EXPECT_THAT(notes("[0.2, 0.3, 0]", "[0, 0, 0.6, 0.8]"), noted);
+}
+
 /// The start of the problem may hold joints at other values than a message: a note names both.
 TEST_F(MoveitStates, AStateOfTheStartReplacesHeldValues) {
   write("arm.yaml",
