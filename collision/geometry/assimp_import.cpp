@@ -133,7 +133,8 @@ std::string oneLine(std::string text) {
 }
 
 /// Opens ordinary files only, and reports all others as missing. This rule also applies to files to
-/// which the mesh file refers, such as the buffers of a glTF file. Adds each such file to `opened`.
+/// which the mesh file refers, such as the buffers of a glTF file. Adds each such file to `opened`,
+/// except those of OBJ, which are materials.
 class OrdinaryFiles : public Assimp::DefaultIOSystem {
  public:
   OrdinaryFiles(const std::string& file, std::vector<std::string>& opened)
@@ -145,7 +146,8 @@ class OrdinaryFiles : public Assimp::DefaultIOSystem {
   }
   Assimp::IOStream* Open(const char* file, const char* mode) override {
     if (!Exists(file)) return nullptr;
-    if (file != file_ && std::find(opened_.begin(), opened_.end(), file) == opened_.end())
+    if (file != file_ && !isObj_ &&
+        std::find(opened_.begin(), opened_.end(), file) == opened_.end())
       opened_.emplace_back(file);
     return Assimp::DefaultIOSystem::Open(file, mode);
   }
@@ -153,6 +155,7 @@ class OrdinaryFiles : public Assimp::DefaultIOSystem {
  private:
   const std::string& file_;
   std::vector<std::string>& opened_;
+  const bool isObj_ = lowered(std::filesystem::path(file_).extension().string()) == ".obj";
 };
 
 /// Turns the messages of assimp's log that say that it left out geometry into faults.

@@ -206,6 +206,7 @@ OmplAppMesh readOmplAppMesh(const std::filesystem::path& file) {
   for (const Vec3& vertex : import.mesh.vertices) result.vertexAverage += vertex;
   result.vertexAverage /= result.importedVertices;
   result.mesh = welded(import.mesh);
+  result.notes = std::move(import.notes);
   result.otherFiles = std::move(import.otherFiles);
   return result;
 }

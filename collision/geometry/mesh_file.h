@@ -51,8 +51,8 @@ struct OmplAppMesh {
   TriangleMesh mesh;
   /// The mean of all imported vertices. Each vertex counts as often as assimp keeps it.
   Vec3 vertexAverage = Vec3::Zero();
-  int importedVertices = 0;             ///< the number of these vertices
-  std::vector<std::string> otherFiles;  ///< as in `MeshFile`
+  int importedVertices = 0;                    ///< the number of these vertices
+  std::vector<std::string> notes, otherFiles;  ///< as in `MeshFile`
 };
 /// Reads a mesh file by OMPL.app's rules. @throws InputError in the cases of `readMeshFile`.
 OmplAppMesh readOmplAppMesh(const std::filesystem::path& file);

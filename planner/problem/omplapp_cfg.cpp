@@ -154,6 +154,7 @@ std::optional<CfgMesh> readMesh(const IniFile& ini, const std::string& key, Prob
     file.unitRule = "1 m per unit (OMPL.app knows no units)";
     file.upRule = "rotated to y up by assimp's rule, as in OMPL.app";
     file.floatVertices = true;
+    file.notes = mesh.read.notes;
     mesh.shape.mesh = std::make_shared<const MeshFile>(std::move(file));
     return mesh;
   } catch (const InputError& error) {

@@ -26,6 +26,16 @@ class MeshFiles : public ProblemTest {
     return "format: corridor-problem-1\nrobot: robot.yaml\nworld: {rock: {mesh: " + mesh +
            ", at: [50, 0, 0]}}\n" + poses;
   }
+  Problem readCfg(const std::string& mesh) const {
+    write("problem.cfg",
+          "[problem]\nname=p\nrobot=" + mesh + "\nworld=" + mesh +
+              "\nstart.x=0\nstart.y=0\nstart.z=9\n"
+              "start.theta=0\nstart.axis.x=1\nstart.axis.y=0\nstart.axis.z=0\ngoal.x=1\n"
+              "goal.y=0\ngoal.z=9\ngoal.theta=0\ngoal.axis.x=1\ngoal.axis.y=0\ngoal.axis.z=0\n"
+              "volume.min.x=-20\nvolume.min.y=-20\nvolume.min.z=-20\nvolume.max.x=20\n"
+              "volume.max.y=20\nvolume.max.z=20\n");
+    return readProblem(folder_ / "problem.cfg");
+  }
   /// Expects that the digest of the problem covers the buffer of `name`.gltf.
   void expectCovered(const std::string& name) const {
     const Problem p = readProblem(folder_ / "problem.yaml");
@@ -57,14 +67,20 @@ TEST_F(MeshFiles, TheDigestCoversBuffersOfURDFs) {
 
 TEST_F(MeshFiles, TheDigestCoversBuffersOfOmplApp) {
   writeGltf("m", 0);
-  write("problem.cfg",
-        "[problem]\nname=p\nrobot=m.gltf\nworld=m.gltf\nstart.x=0\nstart.y=0\nstart.z=9\n"
-        "start.theta=0\nstart.axis.x=1\nstart.axis.y=0\nstart.axis.z=0\ngoal.x=1\ngoal.y=0\n"
-        "goal.z=9\ngoal.theta=0\ngoal.axis.x=1\ngoal.axis.y=0\ngoal.axis.z=0\n"
-        "volume.min.x=-20\nvolume.min.y=-20\nvolume.min.z=-20\nvolume.max.x=20\n"
-        "volume.max.y=20\nvolume.max.z=20\n");
-  EXPECT_THAT(readProblem(folder_ / "problem.cfg").source.files,
-              testing::Contains(folder_ / "m.bin"));
+  EXPECT_THAT(readCfg("m.gltf").source.files, testing::Contains(folder_ / "m.bin"));
+}
+
+TEST_F(MeshFiles, TheDigestCoversNoMaterials) {
+  write("m.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 2 0\nusemtl red\nf 1 2 3\n");
+  write("m.mtl", "newmtl red\n");
+  EXPECT_THAT(readCfg("m.obj").source.files,
+              testing::ElementsAre(folder_ / "problem.cfg", folder_ / "m.obj"));
+}
+
+TEST_F(MeshFiles, LinesAreNotedInProblemsOfOmplApp) {
+  write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\nl 1 2\n");
+  EXPECT_THAT(textsOf(readCfg("m.obj").source.notes),
+              testing::Contains(lines + (folder_ / "m.obj").string()));
 }
 
 TEST_F(MeshFiles, LinesAreNotedOnceForAllFiles) {
