@@ -82,7 +82,7 @@ class GltfCheck {
 
   void checkExtension(const std::string& name) {
     if (isHarmless(name) || required_.contains(name)) return;
-    if (name.find("mesh") != name.npos)
+    if (name.find("mesh") != name.npos || name == "CESIUM_RTC")
       fault("the extension \"" + name + "\" moves, copies or packs geometry, and is not supported" +
             kWithout);
     else

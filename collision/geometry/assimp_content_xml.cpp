@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <charconv>
 #include <optional>
+#include <utility>
 
 #include "collision/geometry/assimp_content.h"
 
@@ -50,7 +51,7 @@ bool contains(std::string_view list, std::string_view name) {
 struct XmlTag {
   std::string_view name, attributes;
   bool isEnd = false, isEmpty = false;
-  std::size_t at = 0;
+  int line = 0;
 
   /// Returns the value of an attribute; "" without it.
   std::string_view value(std::string_view attribute) const {
@@ -97,10 +98,7 @@ class XmlCheck {
   }
 
  private:
-  void fault(std::size_t at, const std::string& text) {
-    report_.fault(file_, 1 + static_cast<int>(std::count(text_.begin(), text_.begin() + at, '\n')),
-                  text);
-  }
+  void fault(int line, const std::string& text) { report_.fault(file_, line, text); }
 
   /// assimp reads an X3D file with such a fault, if another file names it, as an empty one.
   void malformed() {
@@ -114,14 +112,15 @@ class XmlCheck {
     if (refused_ != kNone) return;  // within an element that is refused
     if ((!rules_.accepted.empty() && !contains(rules_.accepted, name)) ||
         contains(rules_.refused, name)) {
-      fault(tag.at, "<" + name + "> may be or move geometry, and assimp does not read it rightly" +
-                        kInstead);
+      fault(
+          tag.line,
+          "<" + name + "> may be or move geometry, and assimp does not read it rightly" + kInstead);
       refused_ = open_.size();
     }
     if (name == "unit" && rules_.root == kX3d.root) checkUnit(tag);
     if (name == rules_.numbered && !ids_.insert(std::string(tag.value("id"))).second)
-      fault(tag.at, "two elements <" + name + "> have the id \"" + std::string(tag.value("id")) +
-                        "\", so assimp drops one; give each an id of its own");
+      fault(tag.line, "two elements <" + name + "> have the id \"" + std::string(tag.value("id")) +
+                          "\", so assimp drops one; give each an id of its own");
   }
 
   /// Checks the groups of X3D: after one that is empty, or that uses another, assimp attaches what
@@ -129,8 +128,8 @@ class XmlCheck {
   void leave(const XmlTag& tag) {
     if (rules_.root == kX3d.root && contains(" Group StaticGroup Transform ", tag.name) &&
         (tag.isEmpty || !tag.value("USE").empty()))
-      fault(tag.at, "assimp misplaces what comes after a <" + std::string(tag.name) +
-                        "> that is empty or has USE" + kInstead);
+      fault(tag.line, "assimp misplaces what comes after a <" + std::string(tag.name) +
+                          "> that is empty or has USE" + kInstead);
   }
 
   void checkUnit(const XmlTag& tag) {
@@ -138,8 +137,8 @@ class XmlCheck {
     double value = 0;
     std::from_chars(factor.data(), factor.data() + factor.size(), value);
     if ((category == "length" || category == "angle") && value != 1)
-      fault(tag.at, "the file's unit of " + std::string(category) +
-                        " is not applied; store metres and radians, without <unit>");
+      fault(tag.line, "the file's unit of " + std::string(category) +
+                          " is not applied; store metres and radians, without <unit>");
   }
 
   /// Returns the next tag. Text, comments and the like are skipped.
@@ -147,6 +146,8 @@ class XmlCheck {
     while (true) {
       const std::size_t at = at_ = text_.find('<', at_);
       if (at == text_.npos) return std::nullopt;
+      line_ += static_cast<int>(
+          std::count(text_.begin() + std::exchange(counted_, at), text_.begin() + at, '\n'));
       const std::string_view rest = text_.substr(at);
       if (rest.starts_with("<!--")) {
         skipTo("-->");
@@ -157,7 +158,7 @@ class XmlCheck {
       } else if (rest.starts_with("<!")) {
         skipTo(">");
         if (text_.substr(at, at_ - at).find('[') != text_.npos)
-          fault(at, "a DOCTYPE with declarations is not read; save the file without it");
+          fault(line_, "a DOCTYPE with declarations is not read; save the file without it");
       } else {
         return tagAt(at);
       }
@@ -171,7 +172,7 @@ class XmlCheck {
 
   XmlTag tagAt(std::size_t at) {
     XmlTag tag;
-    tag.at = at;
+    tag.line = line_;
     char quote = 0;
     for (at_ = at + 1; at_ < text_.size() && (quote || text_[at_] != '>'); ++at_) {
       const char c = text_[at_];
@@ -195,6 +196,8 @@ class XmlCheck {
   std::string_view text_;
   ContentReport& report_;
   std::size_t at_ = 0;
+  std::size_t counted_ = 0;  // the lines up to this place are counted in `line_`
+  int line_ = 1;
   std::vector<XmlTag> open_;     // the elements around the current place
   std::size_t refused_ = kNone;  // the depth of the element that is refused, around the current one
   std::set<std::string> ids_;

@@ -72,6 +72,8 @@ TEST_F(Gltf, OptionalExtensions) {
       "the extension \"EXT_mesh_gpu_instancing\" moves, copies or packs geometry, and is not "
       "supported; save the mesh without it";
   EXPECT_EQ(fault(gltf(R"(, "extensionsUsed": ["EXT_mesh_gpu_instancing"])")), instancing);
+  EXPECT_THAT(fault(gltf(R"(, "extensionsUsed": ["CESIUM_RTC"])")),
+              StartsWith("the extension \"CESIUM_RTC\" moves, copies or packs geometry"));
   // The list at the root is optional for the reader: the node counts.
   EXPECT_EQ(fault(gltf("", R"({"mesh": 0, "extensions": {"EXT_mesh_gpu_instancing": {}}})")),
             instancing);
