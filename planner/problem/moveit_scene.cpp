@@ -144,10 +144,16 @@ void MoveitScene::addWorld(const std::string& root, const RigidPose& base, Model
   const YamlMap world(*value, "world", &kWorld, source_);
   if (const YamlValue* const octomap = world.find("octomap")) {
     const YamlMap posed(*octomap, "world.octomap", &kPosedOctomap, source_);
-    Placement at = readFrame(posed, root, base);
-    if (const YamlValue* const origin = posed.find("origin"))
-      at = at * readPose(*origin, posed.pathOf("origin"), source_).value_or(Placement());
     const YamlValue* const map = posed.find("octomap");
+    Placement at;
+    if (map && map->kind == YamlValue::Kind::Map &&
+        isEmpty(YamlMap(*map, posed.pathOf("octomap"), nullptr, source_), "data")) {
+      posed.ignore({"header", "origin"});  // ROS 1 writes zeros, which are no rotation
+    } else {
+      at = readFrame(posed, root, base);
+      if (const YamlValue* const origin = posed.find("origin"))
+        at = at * readPose(*origin, posed.pathOf("origin"), source_).value_or(Placement());
+    }
     if (auto shape = map ? readOctomap(*map, posed.pathOf("octomap"), at, source_) : std::nullopt) {
       const std::string name = shape->name;
       builder.addObstacle(name, {std::move(*shape)});

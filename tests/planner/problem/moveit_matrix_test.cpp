@@ -90,7 +90,9 @@ TEST_F(MoveitMatrix, EmptyTextsAreNoValues) {
   write("scene.yaml",
         "robot_model_name: ''\nworld:\n  collision_objects: [{header: {frame_id: ''}, id: crate, "
         "primitives: [{type: sphere, dimensions: [0.1]}], primitive_poses: [{position: [5, 0, "
-        "0]}]}]\n  octomap: {header: {frame_id: ''}, octomap: {data: []}}\n");
+        "0]}]}]\n  octomap: {header: {frame_id: ''}, origin: {position: [0, 0, 0], orientation: "
+        "[0, 0, "
+        "0, 0]}, octomap: {data: []}}\n");
   const Problem p = read(head + std::string("base: {at: [0, 0, 1]}\n"));
   EXPECT_EQ(p.model.bodies.back().shapes.at(0).parts.at(0).points[0], Vec3(5, 0, 0))
       << "in the world, not in the frame of the robot";
