@@ -12,7 +12,7 @@
 namespace corridor {
 
 /// assimp chooses its importer by the extension, too.
-enum class ContentKind { Collada, Gltf, BinaryGltf, X3d, Amf, Other };
+enum class ContentKind { Collada, Gltf, BinaryGltf, X3d, Amf, ThreeMf, Other };
 
 /// Returns the kind of a file from its extension, in lower case.
 ContentKind contentKindOf(std::string_view extension);

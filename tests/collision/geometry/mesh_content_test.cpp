@@ -362,6 +362,19 @@ TEST_F(MeshContent, Amf) {
             "id of its own");
 }
 
+/// assimp reads the first model only, and drops objects that it takes from others by `p:path`.
+TEST_F(MeshContent, ThreeMfOfSeveralModels) {
+  const auto entry = [](const std::string& name) {
+    std::string bytes = "PK\x01\x02" + std::string(42, '\0') + name;
+    bytes[28] = static_cast<char>(name.size());
+    return bytes;
+  };
+  const std::string one = entry("[Content_Types].xml") + entry("3D/3dmodel.model");
+  EXPECT_EQ(complaint("a.3mf", one + entry("3D/Objects/o.MODEL"), {1, {}}),
+            "a.3mf: the archive has 2 models, of which assimp reads one" + instead);
+  EXPECT_THAT(complaint("a.3mf", one, {1, {}}), StartsWith("a.3mf: cannot be read by assimp"));
+}
+
 // --- Corridor's own readers
 
 TEST_F(MeshContent, ObjKeywords) {
