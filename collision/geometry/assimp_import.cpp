@@ -158,7 +158,8 @@ class OrdinaryFiles : public Assimp::DefaultIOSystem {
   const bool isObj_ = lowered(std::filesystem::path(file_).extension().string()) == ".obj";
 };
 
-/// Turns the messages of assimp's log that say that it left out geometry into faults.
+/// Makes faults of the messages in assimp's log that say that it left out geometry, and a note of
+/// the message that says that it left out something, perhaps geometry.
 class DropLog : public Assimp::LogStream {
  public:
   DropLog(const std::string& file, ContentReport& report) : file_(file), report_(report) {}
@@ -169,6 +170,8 @@ class DropLog : public Assimp::LogStream {
           "Unable to find geometry for ID", "TRIANGLES mode. Some vertices were dropped"})
       if (const auto at = text.find(sign); at != text.npos)
         report_.fault(file_, 0, "assimp leaves out geometry: " + text.substr(at));
+    if (text.find("failed to read source object for incoming Model link") != text.npos)
+      report_.note("parts that are no polygons, such as NURBS surfaces, are not read");
   }
 
  private:
