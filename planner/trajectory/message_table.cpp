@@ -72,13 +72,14 @@ void noteFailure(const YamlMap& map, YamlSource& source) {
   if (!code) return;
   std::string path = map.pathOf("error_code");
   const bool isMoveit = code->kind == YamlValue::Kind::Map;
-  markRead(*code);
   if (isMoveit) {
     const YamlMap inner(*code, path, nullptr, source);
+    inner.ignore({"message", "source"});  // of ROS 2
     path = inner.pathOf("val");
     code = inner.find("val");
   }
-  const std::string text = code ? code->text : "";
+  if (!code || code->kind == YamlValue::Kind::Null) return;
+  const std::string text = code->kind == YamlValue::Kind::Scalar ? code->text : described(*code);
   if (text.empty() || text == "0" || (isMoveit && text == "1")) return;
   source.notes.push_back({source.file + ": " + path + ": " + text +
                               " is not success; the trajectory is judged as it stands",

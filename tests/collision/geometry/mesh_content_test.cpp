@@ -196,6 +196,8 @@ TEST_F(MeshContent, ColladaReferences) {
             "a.dae: assimp leaves out geometry: Unresolved reference format of node");
   EXPECT_EQ(complaint("a.dae", collada("<instance_node url=\"#x\"/>")),
             "a.dae: assimp leaves out geometry: Unable to resolve reference to instanced node x");
+  EXPECT_EQ(complaint("a.dae", collada("<instance_node url=\"#" + std::string(2000, 'x') + "\"/>")),
+            "a.dae: assimp leaves out geometry: long message discarded>");
   EXPECT_THAT(
       complaint("a.dae", collada("<instance_geometry url=\"#x\"/>")),
       StartsWith("a.dae: assimp leaves out geometry: Unable to find geometry for ID \"x\""));

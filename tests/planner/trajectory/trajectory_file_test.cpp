@@ -93,6 +93,10 @@ TEST_F(TrajectoryFile, ErrorCodesOtherThanSuccessAreNoted) {
   EXPECT_THAT(notes("-4"),
               ElementsAre("t.csv: error_code: -4 is not success; the trajectory is judged as it "
                           "stands"));
+  EXPECT_THAT(notes("[1]"),
+              ElementsAre("t.csv: error_code: a list is not success; the trajectory is judged as "
+                          "it stands"));
+  EXPECT_THAT(notes("{value: -4}"), ElementsAre("t.csv: not used: error_code.value (line 2)"));
   for (const char* const code : {"{val: 1, message: '', source: ''}", "{val: 0}", "0", "{}"})
     EXPECT_THAT(notes(code), testing::IsEmpty()) << code;
 }
