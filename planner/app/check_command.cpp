@@ -119,8 +119,16 @@ void printReport(const CheckArguments& a, const Problem& problem, const LeftOut&
     std::cerr << "note: the " << key << " are tested" << exceptText(problem.model, leftOut) << '\n';
 }
 
+/// Adds notes on a file of rows to the problem's for JSON, or else prints them.
+void noteFile(const std::vector<Note>& notes, const CheckArguments& a, Problem& problem) {
+  if (a.json) return addFirst(notes, problem.source.notes);
+  for (const Note& note : notes) std::cerr << "note: " << note.text << '\n';
+}
+
 int checkStates(Problem problem, const CheckArguments& a) {
-  const std::vector<StateRow> rows = readStateRows(*a.states, problem.model.space);
+  std::vector<Note> fileNotes;
+  const std::vector<StateRow> rows = readStateRows(*a.states, problem.model.space, fileNotes);
+  noteFile(fileNotes, a, problem);
   const Checker checker(problem);
   addFirst(notesOnStillPairs(checker, startOf(problem)), problem.source.notes);
   bool all = true;
@@ -211,7 +219,9 @@ CheckedEdge checkEdge(const Checker& checker, EdgeRow row, std::vector<Note>& no
 
 /// Decides each edge of a file, and prints its first contact, and how far it is proved free.
 int checkEdges(Problem problem, const CheckArguments& a) {
-  const std::vector<EdgeRow> rows = readEdgeRows(*a.edges, problem.model.space);
+  std::vector<Note> fileNotes;
+  const std::vector<EdgeRow> rows = readEdgeRows(*a.edges, problem.model.space, fileNotes);
+  noteFile(fileNotes, a, problem);
   const Checker checker(problem);
   addFirst(notesOnStillPairs(checker, startOf(problem)), problem.source.notes);
   bool all = true;

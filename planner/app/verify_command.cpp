@@ -221,8 +221,10 @@ void print(const VerifyReport& r, const Problem& problem, const LeftOut& leftOut
 /// Reads and verifies the solution or trajectory. Adds the notes on a trajectory to the problem's.
 Verified verify(Problem& problem, const VerifyArguments& a) {
   MotionFile motion = readMotion(problem, a.solution, a.between);
-  if (motion.solution)
+  if (motion.solution) {
+    addAll(motion.solution->notes, problem.source.notes);
     return verifyWithWarning(problem, *motion.solution, a.problem, a.solution, a.ignoreDigest);
+  }
   Verified verified{verifyTrajectory(problem, std::move(*motion.trajectory), motion.between), {}};
   addAll(verified.report.notes, problem.source.notes);
   if (verified.report.limits)  // some of the limits may be assumed

@@ -1,5 +1,6 @@
 #include "planner/problem/moveit_poses.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "collision/core/shortest.h"
@@ -8,6 +9,7 @@
 #include "planner/problem/joint_yaml.h"
 #include "planner/problem/placement.h"
 #include "planner/problem/urdf_robot.h"
+#include "planner/robot/joint_types.h"
 
 namespace corridor {
 namespace {
@@ -50,11 +52,15 @@ std::optional<OwnPose> ownPoseOf(const std::string& name, const Model& model,
     return OwnPose{pose, "the " + configuration + " is at ", "give it by start in the problem",
                    true};
   };
+  const auto hasJoint = [&](const ModelRobot& robot) {
+    return findJoint(robot.description, name).has_value();
+  };
+  const bool isUnique = std::count_if(model.robots.begin(), model.robots.end(), hasJoint) == 1;
   for (const ModelRobot& robot : model.robots)
     for (std::size_t j = 0; j < robot.description.joints.size(); ++j) {
       const JointModel& joint = robot.description.joints[j];
       const std::string full = robot.name.empty() ? joint.name : robot.name + "/" + joint.name;
-      if (name != full && name != joint.name) continue;
+      if (name != full && !(isUnique && name == joint.name)) continue;
       if (!isPoseJoint(joint.type)) return std::nullopt;
       for (const PlannedJoint& one : robot.plannedJoints)
         if (one.name == full) return planned(poseInJointFrame(joint, poseIn(q, one, model.space)));
@@ -101,7 +107,7 @@ std::vector<MessagePose> readMessagePoses(const YamlMap& state) {
   if (!value || value->kind == YamlValue::Kind::Null) return poses;
   YamlSource& source = state.source();
   const YamlMap map(*value, state.pathOf("multi_dof_joint_state"), &kPoses, source);
-  map.ignore({"twist", "wrench"});
+  map.ignore({"wrench"});
   const auto transforms = itemsOf(map, "transforms");
   std::vector<std::string> names;
   if (const YamlValue* const list = map.find("joint_names"))

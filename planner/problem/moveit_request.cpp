@@ -42,8 +42,7 @@ MoveitRequest::MoveitRequest(const std::filesystem::path& file, FaultList& fault
                              "is a planning scene, not a motion plan request (it has " +
                                  std::string(key) + "); write moveit: {scene: FILE}"});
   const YamlMap request(document_, "", &kRequest, source_);
-  request.ignore({"workspace_parameters", "reference_trajectories", "pipeline_id", "planner_id",
-                  "num_planning_attempts", "allowed_planning_time"});
+  request.ignore({"pipeline_id", "planner_id", "num_planning_attempts", "allowed_planning_time"});
   start_ = readMoveitState(request, "start_state");
 }
 

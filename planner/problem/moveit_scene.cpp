@@ -36,13 +36,21 @@ const MapKeys kHeader{{"seq", "stamp", "frame_id"}, {}};
 /// Returns the pose in the world of the frame that an object's header names.
 /// @param root the name of the robot's root link.
 /// @param base the pose of this link in the world.
-Placement readFrame(const YamlMap& object, const std::string& root, const RigidPose& base) {
+/// @param worldIsLink whether another link than the root is named "world".
+Placement readFrame(const YamlMap& object, const std::string& root, const RigidPose& base,
+                    bool worldIsLink) {
   const YamlValue* const header = object.find("header");
   if (!header) return {};
   const YamlMap map(*header, object.pathOf("header"), &kHeader, object.source());
   map.ignore({"seq", "stamp"});
   const std::string frame = map.textOrNone("frame_id");
   if (frame == root) return {base, {rotationMatrix(base.q), base.p}};
+  if (frame == "world" && worldIsLink)
+    map.fault(
+        "frame_id",
+        "a link of the robot that is not its root is named \"world\", and objects in its frame "
+        "are not supported; give the object in the frame of the root, " +
+            quotedWord(root));
   if (!frame.empty() && frame != "world")
     map.fault("frame_id", "the frame of the robot's root, " + quotedWord(root) +
                               ", or \"world\" is needed, not " + quotedWord(frame));
@@ -54,6 +62,7 @@ Placement readFrame(const YamlMap& object, const std::string& root, const RigidP
 /// frames have no effect, because objects in them are faults.
 void checkTransforms(const YamlMap& scene, const std::string& root, const RigidPose& base) {
   const std::string path = "fixed_frame_transforms";
+  std::vector<std::string> others;
   const auto withoutSlash = [](std::string frame) {
     return frame.erase(0, std::min(frame.size(), frame.find_first_not_of('/')));
   };
@@ -61,8 +70,10 @@ void checkTransforms(const YamlMap& scene, const std::string& root, const RigidP
     const YamlMap map(*item, path, &kTransforms, scene.source());
     const std::string child = withoutSlash(map.textOrNone("child_frame_id"));
     const std::string parent = withoutSlash(frameOf(map));
-    if (child != root && child != "world") {
+    const bool isKnownParent = parent == root || parent == "world" || parent.empty();
+    if ((child != root && child != "world") || (child == "world" && !isKnownParent)) {
       map.ignore({"transform"});
+      if (child != parent) others.push_back(child);
       continue;
     }
     const YamlValue* const transform = map.find("transform");
@@ -85,6 +96,11 @@ void checkTransforms(const YamlMap& scene, const std::string& root, const RigidP
           {map.source().file + ": " + map.pathOf("transform") + ": " + text + ", which is used",
            NoteWeight::coverage});
   }
+  if (!others.empty())
+    scene.source().notes.push_back({scene.source().file + ": " + path +
+                                    ": without effect, because objects in these frames are "
+                                    "refused: the poses of " +
+                                    joinedFirst(others)});
 }
 
 /// Returns the paddings of links, by their names (metres). Adds a fault for each link that the
@@ -131,6 +147,9 @@ MoveitScene::MoveitScene(const std::filesystem::path& file, FaultList& faults)
 }
 
 void MoveitScene::hold(RobotSetup& setup) {
+  const RobotModel& robot = setup.robot.description;
+  for (std::size_t i = 0; i < robot.links.size(); ++i)
+    worldIsLink_ |= i != robot.root && robot.links[i].name == "world";
   if (state_) holdAt(*state_, "robot_state of the scene", source_, setup);
 }
 
@@ -150,9 +169,17 @@ void MoveitScene::addWorld(const std::string& root, const RigidPose& base, Model
         isEmpty(YamlMap(*map, posed.pathOf("octomap"), nullptr, source_), "data")) {
       posed.ignore({"header", "origin"});  // ROS 1 writes zeros, which are no rotation
     } else {
-      at = readFrame(posed, root, base);
+      at = readFrame(posed, root, base, worldIsLink_);
       if (const YamlValue* const origin = posed.find("origin"))
         at = at * readPose(*origin, posed.pathOf("origin"), source_).value_or(Placement());
+    }
+    if (map && map->kind == YamlValue::Kind::Map) {
+      const std::string own = frameOf(YamlMap(*map, posed.pathOf("octomap"), nullptr, source_));
+      if (const std::string outer = frameOf(posed); !own.empty() && own != outer)
+        source_.notes.push_back({source_.file + ": world.octomap.octomap.header: the frame " +
+                                     quotedWord(own) + " is not used; that of the message around " +
+                                     "it is " + quotedWord(outer),
+                                 NoteWeight::coverage});
     }
     if (auto shape = map ? readOctomap(*map, posed.pathOf("octomap"), at, source_) : std::nullopt) {
       const std::string name = shape->name;
@@ -169,7 +196,7 @@ void MoveitScene::addWorld(const std::string& root, const RigidPose& base, Model
     }
     const YamlMap object(*item, "object " + quotedWord(*id), &kObject, source_);
     object.ignore({"type", "subframe_names", "subframe_poses"});
-    Placement outer = readFrame(object, root, base);
+    Placement outer = readFrame(object, root, base, worldIsLink_);
     if (!ids.insert(*id).second) object.fault("id", "another object has this name");
     if (const auto operation = object.text("operation");
         operation && lowered(*operation) != "add" && *operation != "0" && *operation != "2")

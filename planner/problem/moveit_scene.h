@@ -61,6 +61,7 @@ class MoveitScene {
   YamlSource source_;
   std::optional<MoveitState> state_;
   std::map<std::string, double> padding_;  // of links, by name; metres
+  bool worldIsLink_ = false;               // a link that is not the root is named "world"
 };
 
 }  // namespace corridor

@@ -79,10 +79,12 @@ void holdAt(const MoveitState& state, const std::string& origin, const YamlSourc
             RobotSetup& setup) {
   ModelRobot& robot = setup.robot;
   std::vector<Note>& notes = robot.description.notes;
-  std::vector<std::string> unknown, kept, replaced, off;
+  std::vector<std::string> unknown, fixed, kept, replaced, off;
   for (const auto& [name, value] : state.values) {
     const auto j = findJoint(robot.description, name);
     if (!j) unknown.push_back(name);
+    if (j && value != 0 && robot.description.joints[*j].type == JointType::fixed)
+      fixed.push_back(name);
     if (!j || !robot.held.contains(*j)) continue;
     const JointModel& joint = robot.description.joints[*j];
     if (robot.heldByFile.contains(*j)) {
@@ -111,6 +113,7 @@ void holdAt(const MoveitState& state, const std::string& origin, const YamlSourc
                        NoteWeight::coverage});
   };
   note("the robot has no joint ", unknown, "; the values are not used");
+  note("not used, because the joints are fixed in the URDF: ", fixed, "");
   note("held by robot.yaml at another value: ", kept, "");
   note("used instead of the scene's robot_state: ", replaced, "");
   note("not used, because they differ from the rule of a mimic joint: ", off,

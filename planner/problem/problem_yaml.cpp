@@ -3,6 +3,7 @@
 #include <map>
 
 #include "collision/core/read_file.h"
+#include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
 #include "planner/problem/assembly.h"
 #include "planner/problem/bounds_yaml.h"
@@ -178,6 +179,29 @@ std::pair<std::optional<MoveitScene>, std::optional<MoveitRequest>> readMoveit(
   return found;
 }
 
+/// Adds a note on the paddings of a scene that the problem's own paddings replace by smaller ones.
+void noteSmaller(const Padding& scene, const Padding& own, Problem& problem) {
+  const std::vector<ModelBody>& bodies = problem.model.bodies;
+  std::vector<std::string> names;
+  const auto add = [&](const std::string& name, double metres, double replaced) {
+    if (metres < replaced)
+      names.push_back(name + " (" + shortest(metres) + ", not " + shortest(replaced) + ")");
+  };
+  const auto sceneOf = [&](std::size_t body) {
+    const auto found = scene.bodies.find(body);
+    return found == scene.bodies.end() ? 0 : found->second;
+  };
+  for (const auto& [body, metres] : own.bodies) add(bodies[body].name, metres, sceneOf(body));
+  for (const auto& [pair, metres] : own.pairs)
+    add(bodies[pair.first].name + " ~ " + bodies[pair.second].name, metres,
+        sceneOf(pair.first) + sceneOf(pair.second));
+  if (!names.empty())
+    problem.source.notes.push_back(
+        {"padding of the problem is used instead of the scene's larger link_padding (m): " +
+             joinedFirst(names),
+         NoteWeight::coverage});
+}
+
 /// Reads the problem's file, and the files that it names, into `problem`. Even if an exception is
 /// thrown, `problem` has the notes that were made before.
 void readYaml(const std::filesystem::path& file, Problem& problem) {
@@ -228,6 +252,7 @@ void readYaml(const std::filesystem::path& file, Problem& problem) {
     if (scene) problem.task.padding = scene->paddingOf(problem.model);
     allowed = readAllow(map, problem.model);
     Padding padding = readPadding(map, problem.model);
+    noteSmaller(problem.task.padding, padding, problem);
     for (const auto& [body, metres] : padding.bodies) problem.task.padding.bodies[body] = metres;
     problem.task.padding.pairs = std::move(padding.pairs);
   }

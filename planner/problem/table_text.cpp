@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <string_view>
 
 #include "collision/core/spelling.h"
 #include "planner/problem/text_words.h"
@@ -17,7 +18,9 @@ std::string wrongFields(const std::string& line, bool isFirst,
     if (c == '#') break;
     if (c == ',') {
       ++commas;
-      if (isEmpty) return "the field before comma " + std::to_string(commas) + " is empty";
+      if (isEmpty)
+        return "the field before comma " + std::to_string(commas) + " is empty" +
+               (isFirst && commas == 1 ? " (pandas writes its index so; use index=False)" : "");
       isEmpty = true;
     } else if (c != ' ' && c != '\t' && c != '\r') {
       isEmpty = false;
@@ -36,19 +39,20 @@ std::string wrongFields(const std::string& line, bool isFirst,
          "decimal points: 1.0";
 }
 
-bool resemblesHeader(const std::string& comment, const std::vector<std::string>& names) {
-  if (wordsOfLine(comment) == names) return false;
+namespace {
+
+/// Returns whether a text mentions names as a header would (see resemblesHeader). All words are in
+/// lower case.
+bool mentionsAsHeader(const std::string& text, const std::vector<std::string>& names) {
   const auto isLetter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
   const auto isPart = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; };
-  const std::string text = lowered(comment);
   // The places in `text` that a name covers.
   std::vector<bool> covered(text.size(), false);
   std::size_t mentioned = 0;
   for (const std::string& name : names) {
-    const std::string word = lowered(name);
     bool found = false;
-    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
-      const std::size_t end = at + word.size();
+    for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + 1)) {
+      const std::size_t end = at + name.size();
       if ((at > 0 && isPart(text[at - 1])) || (end < text.size() && isPart(text[end]))) continue;
       found = true;
       std::fill(covered.begin() + std::ptrdiff_t(at), covered.begin() + std::ptrdiff_t(end), true);
@@ -68,11 +72,45 @@ bool resemblesHeader(const std::string& comment, const std::vector<std::string>&
          (mentioned >= 3 && mentioned == names.size());
 }
 
+/// Returns the word in lower case, without the marks by which programs write an index: q[2], q_2.
+std::string withoutMarks(const std::string& word) {
+  std::string text = lowered(word);
+  std::erase_if(text, [](char c) {
+    return std::string_view("[]{}()_-./").find(c) != std::string_view::npos;
+  });
+  return text;
+}
+
+}  // namespace
+
+bool resemblesHeader(const std::string& comment, const std::vector<std::string>& names) {
+  if (wordsOfLine(comment) == names) return false;
+  std::vector<std::string> lower, bare, last;
+  for (const std::string& name : names) {
+    lower.push_back(lowered(name));
+    bare.push_back(withoutMarks(name));
+    last.push_back(lower.back().substr(lower.back().rfind('/') + 1));
+  }
+  const std::string text = lowered(comment);
+  return mentionsAsHeader(text, lower) || mentionsAsHeader(text, last) ||
+         mentionsAsHeader(withoutMarks(comment), bare);
+}
+
 std::string resemblesHeaderText(const std::vector<std::string>& names) {
   std::string header;
   for (const std::string& name : names) header += (header.empty() ? "" : ",") + name;
   return "the comment seems to be a header, but is not one; write the names only, as in \"" +
          header + "\" (rad, m), or move the comment behind the first row";
+}
+
+bool hasLetters(const std::string& comment) {
+  return std::any_of(comment.begin(), comment.end(),
+                     [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; });
+}
+
+std::string notReadText(int line, const std::vector<std::string>& columns) {
+  return "line " + std::to_string(line) + " is a comment, which is not read; the columns are " +
+         joinedFirst(columns) + ", in this order, in m and rad";
 }
 
 }  // namespace corridor

@@ -19,10 +19,17 @@ std::string wrongFields(const std::string& line, bool isFirst,
 /// Such a comment must not be skipped, because the columns may be in its order, or in its units.
 /// It mentions at least half of the names, and half of its words are names, or it mentions three
 /// names or more, and all. Case does not matter, and a name may have a prefix or suffix: turn_deg.
+/// The part of a name behind the last "/" counts, too: "y x yaw" for drive/x, drive/y, drive/yaw.
 /// Exactly the names, in their order, say nothing that the table does not say: returns false.
 /// @param names the names of the columns of a table without a header.
 bool resemblesHeader(const std::string& comment, const std::vector<std::string>& names);
 /// Returns the message for such a comment. @param names the columns in the order of the rows.
 std::string resemblesHeaderText(const std::vector<std::string>& names);
+
+/// Returns whether a comment has a letter. If it is before the first row, it may say something
+/// about the columns that this function's callers do not read, so `notReadText` is then in a note.
+bool hasLetters(const std::string& comment);
+/// Returns the text of that note. @param columns the names of the columns, in their order.
+std::string notReadText(int line, const std::vector<std::string>& columns);
 
 }  // namespace corridor

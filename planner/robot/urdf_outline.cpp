@@ -203,9 +203,12 @@ std::optional<UrdfLimit> readLimit(XmlFile& file, Element& joint, std::optional<
   if (!missing.empty())
     notes.push_back({file.at(limit.line, owner + ": <limit> has no " + joined(missing))});
   if (ranged || type == JointType::continuous)
-    file.checkLeaf(*element,
-                   {"lower", "upper", "effort", "velocity", "acceleration", "deceleration", "jerk"},
-                   owner, notes);
+    file.checkLeaf(*element, {"lower", "upper", "effort", "velocity"}, owner, notes);
+  if (type == JointType::continuous && limit.lower.value_or(0) < limit.upper.value_or(0))
+    notes.push_back({file.at(limit.line, owner + ": is continuous, so lower and upper of its "
+                                                 "<limit> are not used; a joint that they limit is "
+                                                 "of type revolute"),
+                     NoteWeight::motion});
   return limit;
 }
 

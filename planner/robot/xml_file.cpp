@@ -318,6 +318,11 @@ void XmlFile::checkLeaf(Element& element, const std::vector<std::string>& read,
        child = child->NextSiblingElement())
     if (contains(read, localName(child->Name())))
       return fault(child->GetLineNum(), place + "<" + child->Name() + "> is not read" + advice);
+    else if (localName(child->Name()) != child->Name() &&
+             isFirst(std::string(element.Name()) + "/" + child->Name()))
+      notes.push_back({at(child->GetLineNum(), place + "<" + child->Name() +
+                                                   "> belongs to another format, and is not read"),
+                       NoteWeight::coverage});
   checkChildren(element, {}, {}, owner + ": " + element.Name(), notes);
 }
 

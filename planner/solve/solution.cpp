@@ -79,7 +79,8 @@ Solution readPathFile(const std::filesystem::path& file, const ConfigurationSpac
   solution.space = rigidSpaceOf(space);
   solution.numbers = space.numberNames();
   solution.checker = "unknown";
-  for (StateRow& row : readStateRows(file, space)) solution.path.push_back(std::move(row.q));
+  for (StateRow& row : readStateRows(file, space, solution.notes))
+    solution.path.push_back(std::move(row.q));
   return solution;
 }
 

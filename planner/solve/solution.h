@@ -27,6 +27,7 @@ struct Solution {
   double clearance = 0;  ///< proved for all tested pairs (`PathClearance::proved`); 0: not stated
   Configuration tube;    ///< as Task::tube
   Path path;
+  std::vector<Note> notes;  ///< on what the reader of a `.path` file did not use
 };
 
 /// @param digest the problem's (planner/problem/digest.h), or "".

@@ -80,7 +80,8 @@ struct Row {
 /// @param allowHeader whether the first line may be a header.
 template <class WrongWith>
 std::vector<Row> readRows(const std::filesystem::path& file, const ConfigurationSpace& space,
-                          const std::string& what, bool allowHeader, const WrongWith& wrongWith) {
+                          const std::string& what, bool allowHeader, const WrongWith& wrongWith,
+                          std::vector<Note>& notes) {
   std::vector<Row> rows;
   FaultList faults(file.string());
   const std::vector<std::string> names = space.numberNames();
@@ -89,6 +90,7 @@ std::vector<Row> readRows(const std::filesystem::path& file, const Configuration
   if (!allowHeader) inOrder.insert(inOrder.end(), names.begin(), names.end());
   bool isFirst = true;
   int likeHeader = 0;  // the line of a comment that may be meant as the header; 0: none
+  int notRead = 0;     // the line of the first other comment before the first row; 0: none
   std::istringstream lines(readTextStream(file, "a file of " + what + "s, one per line,"));
   std::string line;
   for (int number = 1; std::getline(lines, line); ++number) {
@@ -97,13 +99,16 @@ std::vector<Row> readRows(const std::filesystem::path& file, const Configuration
     if (const std::size_t mark = line.find('#'); isFirst && mark != std::string::npos) {
       const std::string comment = line.substr(mark + 1);
       std::vector<std::string> words = wordsOfLine(comment), sorted = names;
-      const bool namesAState = words == names;  // in a file of edges, both states are in this order
+      // In a file of edges, both states are in the order of the names.
+      const bool namesAState = words == names || words == inOrder;
       std::sort(words.begin(), words.end());
       std::sort(sorted.begin(), sorted.end());
       if (mark == 0 && allowHeader && words == sorted)
         line.erase(0, 1);
       else if (!namesAState && likeHeader == 0 && resemblesHeader(comment, inOrder))
         likeHeader = number;
+      else if (!namesAState && notRead == 0 && wordsOfLine(line).empty() && hasLetters(comment))
+        notRead = number;
     }
     const std::vector<std::string> words = wordsOfLine(line);
     if (words.empty()) continue;
@@ -122,6 +127,7 @@ std::vector<Row> readRows(const std::filesystem::path& file, const Configuration
     if (std::exchange(isFirst, false) && isHeader) {
       columns = readHeader(words, names, file.string(), number, faults);
       faults.throwIfAny();
+      inOrder = words;
       continue;
     }
     if (likeHeader != 0 && columns.empty())
@@ -146,6 +152,8 @@ std::vector<Row> readRows(const std::filesystem::path& file, const Configuration
   }
   if (rows.empty() && faults.size() == 0) faults.add(file.string(), 0, "no " + what + "s");
   faults.throwIfAny();
+  if (notRead != 0)
+    notes.push_back({file.string() + ": " + notReadText(notRead, inOrder), NoteWeight::coverage});
   return rows;
 }
 
@@ -156,16 +164,16 @@ Configuration stateOf(const std::vector<double>& values, std::size_t first, std:
 }  // namespace
 
 std::vector<StateRow> readStateRows(const std::filesystem::path& file,
-                                    const ConfigurationSpace& space) {
+                                    const ConfigurationSpace& space, std::vector<Note>& notes) {
   std::vector<StateRow> states;
   const auto wrongWith = [&](const std::vector<double>& row) { return rowFault(row, space); };
-  for (const Row& row : readRows(file, space, "state", true, wrongWith))
+  for (const Row& row : readRows(file, space, "state", true, wrongWith, notes))
     states.push_back({row.line, stateOf(row.values, 0, space.size())});
   return states;
 }
 
 std::vector<EdgeRow> readEdgeRows(const std::filesystem::path& file,
-                                  const ConfigurationSpace& space) {
+                                  const ConfigurationSpace& space, std::vector<Note>& notes) {
   const std::size_t size = space.size();
   const auto wrongWith = [&](const std::vector<double>& row) -> std::optional<std::string> {
     if (row.size() != 2 * size)
@@ -176,7 +184,7 @@ std::vector<EdgeRow> readEdgeRows(const std::filesystem::path& file,
     return rowFault({middle, row.end()}, space);
   };
   std::vector<EdgeRow> edges;
-  for (const Row& row : readRows(file, space, "edge", false, wrongWith))
+  for (const Row& row : readRows(file, space, "edge", false, wrongWith, notes))
     edges.push_back({row.line, stateOf(row.values, 0, size), stateOf(row.values, size, size)});
   return edges;
 }

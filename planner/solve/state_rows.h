@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "planner/robot/configuration_space.h"
+#include "planner/robot/note.h"
 
 namespace corridor {
 
@@ -31,9 +32,10 @@ struct StateRow {
 /// separated by blanks or commas, and `#` begins a comment. The first line may be a header: the
 /// names of all numbers, in any order. The header may be a comment, as numpy.savetxt writes it. The
 /// file may be a pipe; "-" is the standard input.
+/// @param notes gets a note on a comment before the first state, since it is not read.
 /// @throws InputError with all faults. A file without states is a fault.
 std::vector<StateRow> readStateRows(const std::filesystem::path& file,
-                                    const ConfigurationSpace& space);
+                                    const ConfigurationSpace& space, std::vector<Note>& notes);
 
 /// An edge and its line in the file.
 struct EdgeRow {
@@ -45,6 +47,6 @@ struct EdgeRow {
 /// numbers of its last state. The format is that of `readStateRows`, without a header. @throws
 /// InputError with all faults. A file without edges is a fault.
 std::vector<EdgeRow> readEdgeRows(const std::filesystem::path& file,
-                                  const ConfigurationSpace& space);
+                                  const ConfigurationSpace& space, std::vector<Note>& notes);
 
 }  // namespace corridor

@@ -91,18 +91,25 @@ class CsvReader {
     std::string line;
     bool isFirst = true;
     int likeHeader = 0;  // the line of a comment that may be meant as the header; 0: none
+    int notRead = 0;     // the line of the first other comment before the first row; 0: none
     for (int number = 1; std::getline(lines, line); ++number) {
       if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // byte-order mark
-      // numpy.savetxt writes its header as a comment.
-      if (const std::size_t mark = line.find('#'); isFirst && mark != std::string::npos) {
+      if (const std::size_t mark = line.find('#');
+          table_.rows.empty() && mark != std::string::npos) {
         const std::string comment = line.substr(mark + 1);
         const std::vector<std::string> words = wordsOfLine(comment);
+        // numpy.savetxt writes its header as a comment.
         if (mark == 0 && !words.empty() &&
             std::all_of(words.begin(), words.end(),
-                        [&](const std::string& word) { return isKnown(word, names_); }))
+                        [&](const std::string& word) { return isKnown(word, names_); })) {
+          if (!isFirst)
+            throw InputError(Fault{file_, number, "the file has two headers; keep one of them"});
           line.erase(0, 1);
-        else if (likeHeader == 0 && resemblesHeader(comment, names_.numbers()))
+        } else if (isFirst && likeHeader == 0 && resemblesHeader(comment, names_.numbers())) {
           likeHeader = number;
+        } else if (notRead == 0 && wordsOfLine(line).empty() && hasLetters(comment)) {
+          notRead = number;
+        }
       }
       const std::vector<std::string> words = wordsOfLine(line);
       if (words.empty()) continue;
@@ -124,6 +131,11 @@ class CsvReader {
       rowFaults_.row([&](FaultList& faults) { readRow(words, number, faults); });
     }
     rowFaults_.addTo(faults_);
+    if (notRead != 0)
+      table_.notes.push_back(
+          {file_ + ": " +
+               notReadText(notRead, table_.namesLine == 0 ? names_.numbers() : headerNames_),
+           NoteWeight::coverage});
     if (table_.rows.empty() && faults_.size() == 0) faults_.add(file_, 0, "has no row of numbers");
     faults_.throwIfAny();
     return std::move(table_);
@@ -147,6 +159,7 @@ class CsvReader {
 
   void readHeader(const std::vector<std::string>& words, int line) {
     table_.namesLine = line;
+    headerNames_ = words;
     std::string time;
     std::vector<std::string> ignored;
     for (const std::string& word : words) {
@@ -207,6 +220,7 @@ class CsvReader {
   RowFaults rowFaults_;
   TrajectoryTable table_;
   std::vector<Column> columns_;
+  std::vector<std::string> headerNames_;  // the words of the header
 };
 
 }  // namespace

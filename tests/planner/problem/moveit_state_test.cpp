@@ -232,5 +232,53 @@ TEST_F(MoveitStates, OtherFieldsAreNotedByName) {
                           "request.yaml: not used: max_velocity_scaling_factor (line 14)"));
 }
 
+/// What a scene says about frames and paddings, and is not used, is a fault or in a note.
+TEST_F(MoveitStates, FramesAndPaddingsThatAreNotUsed) {
+  const std::string plain =
+      "format: corridor-problem-1\nrobot: arm.yaml\nmoveit: {scene: scene.yaml}\n"
+      "start: {pan: 0, lift: 0}\ngoal: {pan: 1, lift: 0}\n";
+  const auto contains = [](const std::string& text) { return testing::Contains(HasSubstr(text)); };
+  write("arm.yaml", "format: corridor-robot-1\nurdf: arm.urdf\nsrdf: arm.srdf\ngroup: arm\n");
+  write("scene.yaml",
+        "world: {}\nrobot_state: {joint_state: {name: [wrist], position: [1]}}\n"
+        "fixed_frame_transforms:\n- {header: {frame_id: base}, child_frame_id: odom, transform: "
+        "{translation: [-5, 0, 0]}}\n- {header: {frame_id: odom}, child_frame_id: world}\n");
+  const std::vector<std::string> notes = textsOf(read(plain).source.notes);
+  EXPECT_THAT(notes, contains("fixed_frame_transforms: without effect, because objects in these "
+                              "frames are refused: the poses of odom, world"));
+  EXPECT_THAT(notes, contains("robot_state: not used, because the joints are fixed in the URDF: "
+                              "wrist"));
+  write("scene.yaml",
+        "link_padding: [{link_name: upper, padding: 0.2}]\nworld: {collision_objects: [{id: crate, "
+        "pose: {position: [9, 0, 0]}, primitives: [{type: box, dimensions: [1, 1, 1]}], "
+        "primitive_poses: [{position: [0, 0, 0]}]}]}\n");
+  EXPECT_THAT(textsOf(read(plain + "padding: {bodies: {upper: 0.1}}\n").source.notes),
+              contains("padding of the problem is used instead of the scene's larger link_padding "
+                       "(m): upper (0.1, not 0.2)"));
+  EXPECT_THAT(textsOf(read(plain + "padding: {pairs: [[upper, crate, 0]]}\n").source.notes),
+              contains("link_padding (m): upper ~ crate (0, not 0.2)"));
+  EXPECT_THAT(textsOf(read(plain + "padding: {bodies: {upper: 0.3}}\n").source.notes),
+              testing::Not(contains("link_padding (m)")));
+}
+
+/// "world" is the frame of the world, unless a link that is not the root has this name.
+TEST_F(MoveitStates, ALinkNamedWorld) {
+  std::string named = urdf;
+  named.insert(named.find("</robot>"),
+               "<link name='world'/>" + joint("to_world", "fixed", "base", "world", ""));
+  write("arm.urdf", named);
+  write(
+      "scene.yaml",
+      "world: {collision_objects: [{id: crate, header: {frame_id: world}, pose: {position: [9, 0, "
+      "0]}, primitives: [{type: box, dimensions: [1, 1, 1]}], primitive_poses: [{position: [0, "
+      "0, 0]}]}]}\n");
+  EXPECT_THAT(complaintOf("format: corridor-problem-1\nrobot: arm.yaml\nmoveit: {scene: "
+                          "scene.yaml}\nstart: {pan: 0, lift: 0, slide: 0.02}\ngoal: {pan: 1, "
+                          "lift: 0, slide: 0.02}\n"),
+              HasSubstr("header.frame_id: a link of the robot that is not its root is named "
+                        "\"world\", and objects in its frame are not supported; give the object in "
+                        "the frame of the root, \"base\""));
+}
+
 }  // namespace
 }  // namespace corridor::test

@@ -22,6 +22,12 @@ TEST(TableText, CommentsThatResembleAHeader) {
   const Names many{"j1", "j2", "j3", "j10"};
   EXPECT_TRUE(resemblesHeader("the columns are those of j10 and of j3, j2 and finally j1", many));
   EXPECT_TRUE(resemblesHeader("J10 J3", many));
+  EXPECT_TRUE(resemblesHeader("j_2 [rad], j[1]", {"j1", "j2"}));
+  EXPECT_TRUE(resemblesHeader("J2 j1", {"j_1", "j_2"}));
+  const Names pose{"drive/x", "drive/y", "drive/yaw"};
+  EXPECT_TRUE(resemblesHeader("y x yaw", pose));
+  EXPECT_TRUE(resemblesHeader("drive.y [m] drive.x [m] drive.yaw", pose));
+  EXPECT_TRUE(resemblesHeader("b_slide, a_slide", {"a/slide", "b/slide"}));
   EXPECT_FALSE(resemblesHeader("j1 only", many));
   EXPECT_FALSE(resemblesHeader("a test of j1, j2 and j3 in the hall", many));
 }
@@ -31,6 +37,8 @@ TEST(TableText, EmptyFieldsAndHeadersOfNumbers) {
   EXPECT_EQ(wrongFields("1, 2,", false, names), "");
   EXPECT_EQ(wrongFields("1  2 # a,, b", true, {"a", "b"}), "");
   EXPECT_EQ(wrongFields(",1,2", false, names), "the field before comma 1 is empty");
+  EXPECT_EQ(wrongFields(",a,b", true, {"a", "b"}),
+            "the field before comma 1 is empty (pandas writes its index so; use index=False)");
   EXPECT_EQ(wrongFields("1,2, \t,3", false, names), "the field before comma 3 is empty");
   EXPECT_EQ(wrongFields("1,2", false, names), "");
   EXPECT_EQ(wrongFields("1,2", true, names),

@@ -49,7 +49,8 @@ TEST_F(UrdfFile, JointsOfAllTypesInTheTreesOrder) {
   EXPECT_EQ(model.allowed[0].b, "f");
   EXPECT_EQ(model.allowed[0].reason, "adjacent");
   EXPECT_EQ(files_, std::vector{folder_ / "r.urdf"});
-  EXPECT_TRUE(model.notes.empty());
+  ASSERT_EQ(model.notes.size(), 1u);
+  EXPECT_THAT(model.notes[0].text, testing::HasSubstr("joint \"turn\": is continuous, so lower"));
 }
 
 TEST_F(UrdfFile, MimicsOfMimicsFollowTheOneThatMoves) {

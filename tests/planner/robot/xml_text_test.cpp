@@ -73,7 +73,7 @@ TEST_F(XmlText, ValuesThatAreNotAttributesAreFaults) {
   EXPECT_EQ(inJoint("<limit effort=\"0\" velocity=\"0\"><velocity>1</velocity></limit>"),
             ofJoint +
                 "<limit>: <velocity> is not read; values are attributes: lower, upper, "
-                "effort, velocity, acceleration, deceleration, jerk");
+                "effort, velocity");
   EXPECT_EQ(inJoint("<mimic joint=\"k\">2</mimic>"),
             ofJoint +
                 "<mimic>: the text \"2\" is not read; values are attributes: joint, "
@@ -134,6 +134,24 @@ TEST_F(XmlText, SrdfFilesToo) {
                           "of that file into this one",
                    file + ":4: pair: <disable_collisions>: the text \"never\" is not read; values "
                           "are attributes: link1, link2, reason"}));
+}
+
+/// Limits and extensions that are not used are in notes.
+TEST_F(XmlText, LimitsAndExtensionsThatAreNotUsed) {
+  EXPECT_THAT(notesOn(link("a") + link("b") +
+                      joint("j", "revolute", "a", "b",
+                            "<limit lower='0' upper='1' effort='1' velocity='1' "
+                            "acceleration='0.1' jerk='2'/>")),
+              testing::IsSupersetOf({testing::HasSubstr("limit: acceleration is not known"),
+                                     testing::HasSubstr("limit: jerk is not known")}));
+  EXPECT_THAT(notesOn(link("a") + link("b") +
+                      joint("j", "continuous", "a", "b",
+                            "<limit lower='-1' upper='1' effort='1' velocity='1'/>")),
+              testing::Contains(testing::HasSubstr(
+                  "is continuous, so lower and upper of its <limit> are not used")));
+  EXPECT_THAT(notesOn(link("a", collision("<sphere radius='1'><drake:declare_convex/></sphere>"))),
+              testing::Contains(testing::HasSubstr(
+                  "<sphere>: <drake:declare_convex> belongs to another format, and is not read")));
 }
 
 }  // namespace

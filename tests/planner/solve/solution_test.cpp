@@ -154,8 +154,10 @@ TEST_F(SolutionFile, JointsAreNamed) {
 
 TEST_F(SolutionFile, StateRowsTakeCommasAndComments) {
   const ConfigurationSpace space = test::armProblem().model.space;
-  const auto rows =
-      readStateRows(write("s.txt", "# shoulder elbow wrist\n1, 2,3\n\n-1 0 .5 # low\n"), space);
+  std::vector<Note> notes;
+  const auto rows = readStateRows(
+      write("s.txt", "# shoulder elbow wrist\n1, 2,3\n\n-1 0 .5 # low\n"), space, notes);
+  EXPECT_TRUE(notes.empty());
   ASSERT_EQ(rows.size(), 2u);
   EXPECT_EQ(rows[0].q, Vec3(1, 2, 3));
   EXPECT_EQ(rows[1].q, Vec3(-1, 0, 0.5));
@@ -176,9 +178,19 @@ TEST_F(SolutionFile, CommentsThatNameTheColumnsAreRefused) {
   EXPECT_EQ(complaint("a.path", "# Wrist, Elbow, Shoulder\nwrist elbow shoulder\n1 2 3\n", space),
             "");
   EXPECT_EQ(complaint("a.path", "1,,2,3\n", space), "a.path:1: the field before comma 2 is empty");
+  std::vector<Note> notes;
   const std::string three = "shoulder elbow wrist ", row = "0 0 0 1 1 1\n";
-  EXPECT_EQ(readEdgeRows(write("e.txt", "# " + three + three + "\n" + row), space).size(), 1u);
-  EXPECT_THROW(readEdgeRows(write("e.txt", "# wrist elbow shoulder\n" + row), space), InputError);
+  EXPECT_EQ(readEdgeRows(write("e.txt", "# " + three + three + "\n" + row), space, notes).size(),
+            1u);
+  EXPECT_THROW(readEdgeRows(write("e.txt", "# wrist elbow shoulder\n" + row), space, notes),
+               InputError);
+  EXPECT_TRUE(notes.empty());
+  readStateRows(write("s.txt", "# a title\n1 2 3 # low\n"), space, notes);
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_THAT(notes[0].text, testing::EndsWith("s.txt: line 1 is a comment, which is not read; the "
+                                               "columns are shoulder, elbow, wrist, in this order, "
+                                               "in m and rad"));
+  EXPECT_EQ(readSolution(write("a.path", "# in degrees\n1 2 3\n"), space).notes.size(), 1u);
 }
 
 TEST_F(SolutionFile, OmplAppPaths) {

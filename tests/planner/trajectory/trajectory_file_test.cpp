@@ -47,6 +47,17 @@ TEST_F(TrajectoryFile, CommentsThatNameTheColumnsAreRefused) {
   EXPECT_EQ(complaint("0.5 1\n0.25 1 # lift pan!\n"), "");
   const TrajectoryRows read = rows("# pan [rad], lift [rad]\nlift,pan\n0.5 1\n0.25 1\n");
   EXPECT_EQ(read.rows[0].positions, numbers({1, 0.5}));
+  EXPECT_THAT(
+      texts(rows("# in degrees\n# by foo\n0.5 1 # x\n0.25 1\n")),
+      ElementsAre("t.csv: line 1 is a comment, which is not read; the columns are pan, lift, "
+                  "in this order, in m and rad"));
+  EXPECT_THAT(
+      texts(rows("lift,pan\n# in mm\n0.5,1\n0.25,1\n")),
+      ElementsAre("t.csv: line 2 is a comment, which is not read; the columns are lift, pan, "
+                  "in this order, in m and rad"));
+  EXPECT_THAT(texts(rows("0.5 1\n# in degrees\n0.25 1\n")), ElementsAre());
+  EXPECT_EQ(complaint("# lift pan\n# pan lift\n1 2\n"),
+            "t.csv:2: the file has two headers; keep one of them");
   EXPECT_EQ(complaint("pan,lift\n1,,2\n3,4\n"), "t.csv:2: the field before comma 2 is empty");
 }
 
