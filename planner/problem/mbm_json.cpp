@@ -291,7 +291,7 @@ class MbmReader {
 
   /// Adds a fault for each size that objects of this type do not have: perhaps the type is wrong.
   void faultOtherSizes(const Json& object, const std::string& id, const std::string& type) {
-    const std::map<std::string, std::set<std::string>> sizes{
+    static const std::map<std::string, std::set<std::string>> sizes{
         {"box", {"size"}}, {"cylinder", {"radius", "length"}}, {"sphere", {"radius"}}};
     const auto own = sizes.find(type);
     if (own == sizes.end()) return;
