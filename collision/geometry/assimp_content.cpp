@@ -10,7 +10,8 @@ namespace corridor {
 namespace {
 
 /// Checks the directory of a ZIP archive: objects may be in models other than the one that assimp
-/// reads.
+/// reads. The model itself is packed, and assimp's ZIP reader is not exported, so it is not
+/// checked.
 void checkThreeMf(const std::string& file, std::string_view bytes, ContentReport& report) {
   constexpr std::string_view sign("PK\x01\x02", 4);  // of an entry; its name begins at byte 46
   int models = 0;
@@ -24,6 +25,9 @@ void checkThreeMf(const std::string& file, std::string_view bytes, ContentReport
     report.fault(file, 0,
                  "the archive has " + std::to_string(models) +
                      " models, of which assimp reads one; save the mesh as OBJ, STL, PLY or OFF");
+  report.note(
+      "the model in the archive is not searched for beam lattices, slices and other extensions, "
+      "which would not be read");
 }
 
 }  // namespace

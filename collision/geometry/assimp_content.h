@@ -27,6 +27,7 @@ class ContentReport {
 
   std::vector<Fault> faults;
   std::vector<std::string> notes;
+  double amfUnit = 0;  ///< metres; 0: no AMF file, or it states no unit
 
  private:
   std::set<std::string> known_;

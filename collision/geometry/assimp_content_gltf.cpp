@@ -119,6 +119,8 @@ class GltfCheck {
     const Json* const position = at(member(root_, "accessors"), member(value, "POSITION"));
     if (position && member(*position, "componentType") != kFloat)
       fault("positions are not stored as floats, which is not supported; save them as floats");
+    if (position && member(*position, "type") != "VEC3")
+      fault("positions are not of type VEC3; save three coordinates for each");
   }
 
   /// Notes nodes with meshes that are not in the scene that is read: the default one, else the

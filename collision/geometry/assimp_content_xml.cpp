@@ -22,12 +22,13 @@ constexpr XmlRules kCollada{"COLLADA", "", " instance_controller convex_mesh bre
                             "geometry"};
 /// Left out: nodes that assimp skips (<LOD>, <CADPart> …), prototypes, curved shapes (<Sphere> …),
 /// which assimp replaces by polyhedra within them, and rare ones (<Extrusion> …), in which it is
-/// not tested.
+/// not tested. assimp itself refuses <PhysicalMaterial> and <UnlitMaterial>.
 constexpr XmlRules kX3d{
     "X3D",
     " X3D head meta component unit Scene Group StaticGroup Transform Inline Shape "
     "Box ElevationGrid IndexedFaceSet IndexedTriangleSet IndexedTriangleFanSet TriangleSet "
     "IndexedLineSet LineSet PointSet Coordinate Color ColorRGBA Normal TextureCoordinate "
+    "TextureCoordinateGenerator FogCoordinate "
     "Appearance Material TwoSidedMaterial FillProperties LineProperties ImageTexture PixelTexture "
     "MovieTexture MultiTexture TextureTransform TextureProperties "
     "MetadataBoolean MetadataDouble MetadataFloat MetadataInteger MetadataSet MetadataString "
@@ -68,6 +69,16 @@ struct XmlTag {
     }
   }
 };
+
+/// Returns AMF's unit in metres; 0 if none is stated. (assimp refuses other units.)
+double amfUnit(std::string_view name) {
+  return name == "millimeter" ? 0.001
+         : name == "inch"     ? 0.0254
+         : name == "feet"     ? 0.3048
+         : name == "meter"    ? 1
+         : name == "micron"   ? 1e-6
+                              : 0;
+}
 
 class XmlCheck {
  public:
@@ -118,6 +129,7 @@ class XmlCheck {
       refused_ = open_.size();
     }
     if (name == "unit" && rules_.root == kX3d.root) checkUnit(tag);
+    if (name == kAmf.root && open_.empty()) report_.amfUnit = amfUnit(tag.value("unit"));
     if (name == rules_.numbered && !ids_.insert(std::string(tag.value("id"))).second)
       fault(tag.line, "two elements <" + name + "> have the id \"" + std::string(tag.value("id")) +
                           "\", so assimp drops one; give each an id of its own");

@@ -267,7 +267,7 @@ void read(const std::string& file, AssimpRules rules, AssimpImport& result, Cont
   bool hasLines = false;
   if (rules == AssimpRules::Stored) {
     const std::unique_ptr<aiScene> own(importer.GetOrphanedScene());
-    result.fileUnit = takeFileUnit(*own, result.format);
+    result.fileUnit = takeFileUnit(*own, result.format) + report.amfUnit;  // one of them is 0
     addNode(*own, *own->mRootNode, Eigen::Affine3d::Identity(), result.mesh, hasLines);
   } else {
     addNode(*scene, *scene->mRootNode, Eigen::Affine3d::Identity(), result.mesh, hasLines);

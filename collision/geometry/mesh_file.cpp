@@ -93,13 +93,14 @@ std::string notRead(const std::string& extension) {
 /// 4 GiB of memory.
 constexpr std::uint64_t kMostAssimpBytes = std::uint64_t{1} << 30;
 
-/// Checks a file before assimp reads it: its size, whether it is an ordinary file, and Collada's
-/// unit and up-axis. @throws InputError if a check fails.
+/// Checks a file before assimp reads it: its size, whether it is an ordinary file, Collada's unit
+/// and up-axis, and the lines of OBJ. @throws InputError if a check fails.
 /// @returns Collada's up-axis; nullopt for other formats.
 std::optional<char> requireForAssimp(const std::filesystem::path& file,
                                      const std::string& extension, MeshFaults& faults) {
   if (extension == ".dae")
     return checkColladaAsset(readFile(file, kWhat, kMostAssimpBytes), faults);
+  if (extension == ".obj") checkObjForAssimp(readFile(file, kWhat, kMostAssimpBytes), faults);
   requireFile(file, kWhat, kMostAssimpBytes);
   return std::nullopt;
 }
@@ -188,6 +189,10 @@ MeshFile readMeshFile(const std::filesystem::path& file, const MeshFileOptions& 
     }
   }
   result.unitRule = unitRule(options, stored.fileUnit);
+  if (extension == ".amf" && stored.fileUnit > 0 && *options.metresPerUnit != stored.fileUnit)
+    result.notes.push_back("the file's own unit, " + shortest(stored.fileUnit) +
+                           " m, is not the stated one, " + shortest(*options.metresPerUnit) +
+                           " m, which is used");
   result.upRule = upRule(options, result.fileUp.has_value());
   return result;
 }

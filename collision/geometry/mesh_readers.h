@@ -23,4 +23,8 @@ ReadMesh readStl(std::string_view bytes, MeshFaults& faults);
 ReadMesh readPly(std::string_view bytes, MeshFaults& faults);
 ReadMesh readOff(std::string_view text, MeshFaults& faults);
 
+/// Checks an OBJ file that assimp reads: its keywords, as `readObj` does, and lines that assimp
+/// drops. All other faults are left to assimp. @throws InputError if there is a fault.
+void checkObjForAssimp(std::string_view text, MeshFaults& faults);
+
 }  // namespace corridor

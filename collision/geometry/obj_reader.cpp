@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <utility>
 
 #include "collision/geometry/mesh_readers.h"
 
@@ -17,6 +18,14 @@ bool isHarmless(std::string_view keyword) {
   return std::find(harmless.begin(), harmless.end(), keyword) != harmless.end();
 }
 
+/// Adds a fault if a keyword is not one of those that are read, noted or harmless.
+void checkKeyword(std::string_view keyword, int line, MeshFaults& faults) {
+  constexpr std::array<std::string_view, 4> read{"v", "f", "l", "p"};
+  if (std::find(read.begin(), read.end(), keyword) != read.end() || isHarmless(keyword)) return;
+  faults.add(line, "the keyword " + inQuotes(keyword) +
+                       " is not supported, and may be or move geometry; write faces with v and f");
+}
+
 class ObjReader {
  public:
   ObjReader(std::string_view text, MeshFaults& faults) : cursor_(text), faults_(faults) {}
@@ -25,17 +34,11 @@ class ObjReader {
     do {
       continued_ = false;
       const std::string_view keyword = nextWord();
-      if (keyword == "v") {
-        readVertex();
-      } else if (keyword == "f") {
-        readFace();
-      } else if (keyword == "l" || keyword == "p") {
-        notes_ = {kNoteOnLines};
-      } else if (!keyword.empty() && !isHarmless(keyword)) {
-        faults_.add(cursor_.line(), "the keyword " + inQuotes(keyword) +
-                                        " is not supported, and may be or move geometry; write "
-                                        "faces with v and f");
-      }
+      if (!keyword.empty()) checkKeyword(keyword, cursor_.line(), faults_);
+      if (keyword == "v") readVertex();
+      if (keyword == "f") readFace();
+      if (keyword == "l" || keyword == "p") notes_ = {kNoteOnLines};
+      if (!keyword.empty() && keyword != "f") skipWords();
       faults_.requireFew(mesh_, cursor_.line());
     } while (cursor_.nextLine());
     for (const LateCorner& late : lateCorners_) {
@@ -65,6 +68,11 @@ class ObjReader {
     continued_ = !word.empty() && word.back() == '\\';
     if (continued_) word.remove_suffix(1);
     return word.substr(0, word.starts_with('#') ? 0 : word.npos);
+  }
+
+  void skipWords() {  // of the logical line, which may go on for several lines
+    while (!nextWord().empty()) {
+    }
   }
 
   void readVertex() {  // also keeps a faulty vertex, so that later vertices keep their numbers
@@ -135,6 +143,31 @@ ReadMesh readObj(std::string_view text, MeshFaults& faults) {
   // numbers would be off by one.
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   return ObjReader(text, faults).read();
+}
+
+void checkObjForAssimp(std::string_view text, MeshFaults& faults) {
+  if (text.starts_with("\xEF\xBB\xBF#")) text.remove_prefix(3);
+  bool continued = false;  // the line before ends with a backslash
+  for (int number = 1; !text.empty(); ++number) {
+    std::string_view line = text.substr(0, text.find('\n'));
+    text.remove_prefix(std::min(line.size() + 1, text.size()));
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    const std::string_view keyword = TextCursor(line).wordInLine();
+    const bool isFirst = !std::exchange(continued, line.ends_with('\\'));
+    if (!isFirst || keyword.empty()) continue;
+    if (keyword.starts_with('#')) {
+      if (continued)
+        faults.add(number,
+                   "the comment ends with a backslash, so assimp drops the next line; remove it");
+      continue;
+    }
+    checkKeyword(keyword, number, faults);
+    if (keyword == "cstype")
+      faults.add(number, "assimp drops the lines from cstype on; write faces with v and f");
+    if ((keyword == "v" || keyword == "f") && isBlank(line.front()))
+      faults.add(number, "assimp drops a line that begins with a blank; remove the blank");
+  }
+  faults.throwIfAny();
 }
 
 }  // namespace corridor

@@ -1,36 +1,14 @@
-// What mesh files hold beyond the triangles that are read: it is a fault or a note, and is never
-// dropped in silence.
+// What mesh files of other formats than XML hold beyond the triangles that are read.
 #include <gmock/gmock.h>
 
-#include "tests/collision/geometry/mesh_fixture.h"
+#include "tests/collision/geometry/mesh_content_fixture.h"
 
 namespace corridor::test::mesh_content {
 namespace {
 
 using testing::ElementsAre;
-using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::StartsWith;
-
-const std::string instead = "; save the mesh as OBJ, STL, PLY or OFF";
-const std::string linesNote = "lines and points have no volume, and are not read";
-
-std::string notRight(const std::string& element) {
-  return "<" + element + "> may be or move geometry, and assimp does not read it rightly" + instead;
-}
-
-class MeshContent : public MeshFileTest {
- protected:
-  /// Returns the complaint on a file after its first `words`, which it must begin with.
-  std::string after(const std::string& words, const std::string& name, const std::string& bytes) {
-    const std::string text = complaint(name, bytes);
-    EXPECT_THAT(text, StartsWith(words)) << bytes;
-    return text.substr(std::min(words.size(), text.size()));
-  }
-  std::vector<std::string> notesOf(const std::string& name, const std::string& bytes) {
-    return read(name, bytes).notes;
-  }
-};
 
 // --- glTF: the buffer holds the corners (0, 0, 0), (1, 0, 0) and (0, 2, 0) as floats.
 
@@ -123,6 +101,14 @@ TEST_F(Gltf, PositionsThatAreNoFloats) {
             "positions are not stored as floats, which is not supported; save them as floats");
 }
 
+TEST_F(Gltf, PositionsThatAreNoPoints) {
+  for (const std::string type : {"VEC2", "VEC4", "SCALAR"}) {
+    std::string text = gltf();
+    text.replace(text.find("VEC3"), 4, type);
+    EXPECT_EQ(fault(text), "positions are not of type VEC3; save three coordinates for each");
+  }
+}
+
 TEST_F(Gltf, VerticesThatMakeNoTriangle) {
   std::string text = gltf();
   text.replace(text.find("\"count\": 3"), 10, "\"count\": 2");
@@ -153,216 +139,7 @@ TEST_F(Gltf, OtherFilesAreListed) {
               ElementsAre((folder_ / "a.bin").string()));
 }
 
-// --- Collada
-
-/// Returns a Collada file of the triangle (0, 0, 0), (1, 0, 0), (0, 2, 0). The places: the content
-/// of the node, the primitives, and further libraries, which begin in line 3.
-std::string collada(const std::string& node = "", const std::string& primitives = "",
-                    const std::string& libraries = "") {
-  return R"(<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"><asset/>
-)" + libraries +
-         R"(
-<library_geometries><geometry id="g"><mesh><source id="p"><float_array id="pa" count="9">0 0 0 1 0 0 0 2 0</float_array>
-<technique_common><accessor source="#pa" count="3" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
-<param name="Z" type="float"/></accessor></technique_common></source>
-<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>)" +
-         primitives +
-         R"(<triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles>
-</mesh></geometry></library_geometries>
-<library_visual_scenes><visual_scene id="s"><node id="n"><instance_geometry url="#g"/>)" +
-         node + R"(</node></visual_scene></library_visual_scenes>
-<scene><instance_visual_scene url="#s"/></scene></COLLADA>)";
-}
-
-TEST_F(MeshContent, ColladaElements) {
-  EXPECT_EQ(complaint("a.dae", collada()), "no complaint");
-  EXPECT_EQ(complaint("a.dae", collada("<instance_controller url=\"#c\"/>")),
-            "a.dae:8: " + notRight("instance_controller"));
-  EXPECT_EQ(complaint("a.dae", collada("<node><skew>45 0 1 0 1 0 0</skew></node>")),
-            "a.dae:8: " + notRight("skew"));
-  EXPECT_EQ(complaint("a.dae", collada("<!-- <skew> -->")), "no complaint");
-  EXPECT_EQ(
-      complaint("a.dae", collada("", "<polygons count=\"1\"><ph><p>0 1 2</p></ph></polygons>")),
-      "a.dae:6: " + notRight("ph"));
-  for (const std::string name : {"convex_mesh", "brep"})
-    EXPECT_EQ(complaint("a.dae", collada("", "",
-                                         "<library_geometries><geometry id=\"h\"><" + name +
-                                             "/></geometry></library_geometries>")),
-              "a.dae:2: " + notRight(name));
-}
-
-TEST_F(MeshContent, ColladaReferences) {
-  EXPECT_EQ(complaint("a.dae", collada("<instance_node url=\"other.dae#x\"/>")),
-            "a.dae: assimp leaves out geometry: Unresolved reference format of node");
-  EXPECT_EQ(complaint("a.dae", collada("<instance_node url=\"#x\"/>")),
-            "a.dae: assimp leaves out geometry: Unable to resolve reference to instanced node x");
-  EXPECT_EQ(complaint("a.dae", collada("<instance_node url=\"#" + std::string(2000, 'x') + "\"/>")),
-            "a.dae: assimp leaves out geometry: long message discarded>");
-  EXPECT_THAT(
-      complaint("a.dae", collada("<instance_geometry url=\"#x\"/>")),
-      StartsWith("a.dae: assimp leaves out geometry: Unable to find geometry for ID \"x\""));
-  EXPECT_THAT(complaint("a.dae", collada("<instance_geometry url=\"other.dae#g\"/>")),
-              StartsWith("a.dae: cannot be read by assimp: "));
-  EXPECT_EQ(complaint("a.dae", collada("", "",
-                                       "<library_geometries><geometry id=\"g\"/>"
-                                       "</library_geometries>")),
-            "a.dae:3: two elements <geometry> have the id \"g\", so assimp drops one; give each an "
-            "id of its own");
-}
-
-TEST_F(MeshContent, LinesAreNoted) {
-  EXPECT_THAT(notesOf("a.dae", collada()), IsEmpty());
-  EXPECT_THAT(notesOf("a.dae", collada("",
-                                       "<lines count=\"1\"><input semantic=\"VERTEX\" "
-                                       "source=\"#v\" offset=\"0\"/><p>0 1</p></lines>")),
-              ElementsAre(linesNote));
-}
-
-// --- X3D
-
-std::string x3d(const std::string& scene, const std::string& head = "") {
-  return "<?xml version=\"1.0\"?>\n<X3D profile='Interchange' version='3.3'>" + head + "<Scene>\n" +
-         scene + "</Scene></X3D>";
-}
-const std::string oneShape =
-    "<Shape><Appearance><Material/></Appearance><IndexedFaceSet coordIndex='0 1 2 -1'>"
-    "<Coordinate point='0 0 0 1 0 0 0 2 0'/></IndexedFaceSet></Shape>";
-
-TEST_F(MeshContent, X3dNodes) {
-  EXPECT_EQ(complaint("a.x3d", x3d(oneShape)), "no complaint");
-  for (const std::string name :
-       {"LOD", "Collision", "Anchor", "Billboard", "CADPart", "CADAssembly", "CADLayer", "CADFace",
-        "Switch", "ProtoInstance", "ProtoDeclare", "GeoTransform", "HAnimHumanoid"})
-    EXPECT_EQ(complaint("a.x3d", x3d(oneShape + "\n<" + name + ">" + oneShape + "</" + name + ">")),
-              "a.x3d:4: " + notRight(name));
-  for (const std::string name : {"NurbsPatchSurface", "Sphere", "Cylinder", "Cone", "Disk2D",
-                                 "Text", "Extrusion", "QuadSet"})
-    EXPECT_EQ(complaint("a.x3d", x3d(oneShape + "<Shape>\n<" + name + "/></Shape>")),
-              "a.x3d:4: " + notRight(name));
-  EXPECT_EQ(complaint("a.x3d", x3d("<Viewpoint/><NavigationInfo/><Background/><WorldInfo/>"
-                                   "<DirectionalLight/><!-- <LOD> -->" +
-                                   oneShape)),
-            "no complaint");
-  EXPECT_THAT(complaint("a.x3d", "<!DOCTYPE X3D [<!ENTITY a \"<!--\">]>" + x3d(oneShape)),
-              HasSubstr("a DOCTYPE with declarations is not read; save the file without it"));
-}
-
-TEST_F(MeshContent, X3dUnits) {
-  const auto unit = [](const std::string& category, const std::string& factor) {
-    return x3d(oneShape, "<head><unit category='" + category + "' name='u' conversionFactor='" +
-                             factor + "'/></head>");
-  };
-  for (const std::string category : {"length", "angle"}) {
-    EXPECT_EQ(complaint("a.x3d", unit(category, "0.001")),
-              "a.x3d:2: the file's unit of " + category +
-                  " is not applied; store metres and radians, without <unit>");
-    EXPECT_EQ(complaint("a.x3d", unit(category, "1.0")), "no complaint");
-  }
-  EXPECT_EQ(complaint("a.x3d", unit("mass", "0.001")), "no complaint");
-}
-
-TEST_F(MeshContent, X3dGroupsThatMisplaceWhatFollows) {
-  for (const std::string name : {"Group", "StaticGroup", "Transform"}) {
-    const std::string text = "a.x3d:3: assimp misplaces what comes after a <" + name +
-                             "> that is empty or has USE" + instead;
-    const auto moved = [&](const std::string& group) {
-      return x3d("<Transform translation='5 0 0'>" + group + oneShape + "</Transform>");
-    };
-    EXPECT_EQ(complaint("a.x3d", moved("<" + name + "/>")), text);
-    EXPECT_EQ(complaint("a.x3d", moved("<" + name + "></" + name + ">")), text);
-    EXPECT_EQ(complaint("a.x3d", moved("<" + name + " DEF='a'>" + oneShape + "</" + name + "><" +
-                                       name + " USE='a'/>")),
-              text);
-    const MeshFile file = read("a.x3d", moved("<" + name + " DEF = \"U\" bboxSize='1 1 1'>" +
-                                              oneShape + "</" + name + ">"));
-    EXPECT_EQ(file.mesh.triangles.size(), 2u);
-    for (const Vec3& p : file.mesh.vertices) EXPECT_GE(p.x(), 5) << name;
-  }
-}
-
-/// Each kind of shape that is accepted gives the triangles that its coordinates say.
-TEST_F(MeshContent, X3dShapesThatAreRead) {
-  const std::string points = "<Coordinate point='0 0 0 1 0 0 0 2 0 0 0 3'/>";
-  const auto corners = [&](const std::string& geometry) {
-    const TriangleMesh mesh = read("a.x3d", x3d("<Shape>" + geometry + "</Shape>")).mesh;
-    std::vector<std::vector<double>> all;
-    for (const auto& triangle : mesh.triangles)
-      for (const std::uint32_t i : triangle)
-        all.push_back({mesh.vertices[i].x(), mesh.vertices[i].y(), mesh.vertices[i].z()});
-    return all;
-  };
-  const std::vector<double> o{0, 0, 0}, x{1, 0, 0}, y{0, 2, 0}, z{0, 0, 3};
-  EXPECT_THAT(
-      corners("<IndexedTriangleSet index='0 1 2 3 2 1'>" + points + "</IndexedTriangleSet>"),
-      testing::UnorderedElementsAre(o, x, y, z, y, x));
-  EXPECT_THAT(
-      corners("<IndexedTriangleFanSet index='0 1 2 3 -1'>" + points + "</IndexedTriangleFanSet>"),
-      testing::UnorderedElementsAre(o, x, y, o, y, z));
-  EXPECT_THAT(corners("<TriangleSet><Coordinate point='0 0 0 1 0 0 0 2 0'/></TriangleSet>"),
-              testing::UnorderedElementsAre(o, x, y));
-  EXPECT_THAT(
-      corners("<IndexedFaceSet coordIndex='0 1 2 -1 1 3 2'>" + points + "</IndexedFaceSet>"),
-      testing::UnorderedElementsAre(o, x, y, x, z, y));
-  const auto grid = corners(
-      "<ElevationGrid xDimension='2' zDimension='2' xSpacing='1' "
-      "zSpacing='3' height='0 0 0 7'/>");
-  EXPECT_EQ(grid.size(), 6u);
-  for (const std::vector<double>& corner :
-       std::vector<std::vector<double>>{{0, 0, 0}, {1, 0, 0}, {0, 0, 3}, {1, 7, 3}})
-    EXPECT_THAT(grid, testing::Contains(corner));
-  const auto box = corners("<Box size='2 4 6'/>");
-  EXPECT_EQ(box.size(), 36u);
-  for (const double sx : {-1., 1.})
-    for (const double sy : {-2., 2.})
-      for (const double sz : {-3., 3.})
-        EXPECT_THAT(box, testing::Contains(std::vector<double>{sx, sy, sz}));
-  EXPECT_THAT(notesOf("a.x3d", x3d(oneShape + "<Shape><IndexedLineSet coordIndex='0 1 -1'>" +
-                                   points + "</IndexedLineSet></Shape>")),
-              ElementsAre(linesNote));
-}
-
-TEST_F(MeshContent, X3dInlines) {
-  const std::string outer = x3d(oneShape + "<Inline url='o.x3d'/>");
-  write("o.x3d", x3d("<Transform translation='5 0 0'>" + oneShape + "</Transform>"));
-  const MeshFile file = read("a.x3d", outer);
-  EXPECT_EQ(file.mesh.triangles.size(), 2u);
-  EXPECT_THAT(file.otherFiles, ElementsAre((folder_ / "o.x3d").string()));
-  write("o.x3d", x3d("<LOD>" + oneShape + "</LOD>"));
-  EXPECT_EQ(complaint("a.x3d", outer), "o.x3d:3: " + notRight("LOD"));
-  // assimp reads such a file as an empty one.
-  for (const std::string& broken : {x3d(oneShape + "<Group>"), std::string("#VRML V2.0 utf8\n")}) {
-    write("o.x3d", broken);
-    EXPECT_EQ(complaint("a.x3d", outer), "o.x3d: no complete XML file whose root is <X3D>");
-  }
-}
-
-// --- AMF
-
-std::string amf(const std::string& id, const std::string& more = "") {
-  return "<?xml version=\"1.0\"?>\n<amf unit=\"meter\"><object id=\"" + id +
-         "\"><mesh><vertices>"
-         "<vertex><coordinates><x>0</x><y>0</y><z>0</z></coordinates></vertex>"
-         "<vertex><coordinates><x>1</x><y>0</y><z>0</z></coordinates></vertex>"
-         "<vertex><coordinates><x>0</x><y>2</y><z>0</z></coordinates></vertex></vertices>"
-         "<volume><triangle><v1>0</v1><v2>1</v2><v3>2</v3></triangle></volume></mesh></object>\n" +
-         more + "</amf>";
-}
-
-TEST_F(MeshContent, Amf) {
-  const MeshFileOptions metres{1, {}};
-  EXPECT_EQ(read("a.amf", amf("0"), metres).mesh.triangles.size(), 1u);
-  EXPECT_EQ(complaint("a.amf",
-                      amf("0",
-                          "<constellation id=\"1\"><instance objectid=\"0\">"
-                          "<deltax>4</deltax></instance></constellation>"),
-                      metres),
-            "a.amf:3: " + notRight("constellation"));
-  std::string other = amf("0");
-  other = other.substr(other.find("<object"));
-  EXPECT_EQ(complaint("a.amf", amf("0", other.substr(0, other.find("</amf>"))), metres),
-            "a.amf:3: two elements <object> have the id \"0\", so assimp drops one; give each an "
-            "id of its own");
-}
+// --- FBX, 3MF
 
 TEST_F(MeshContent, FbxSurfacesThatAreNoPolygons) {
   const auto fbx = [](const std::string& ofSecond) {
@@ -417,6 +194,44 @@ TEST_F(MeshContent, ThreeMfOfSeveralModels) {
   EXPECT_THAT(complaint("a.3mf", one, {1, {}}), StartsWith("a.3mf: cannot be read by assimp"));
 }
 
+/// Returns a ZIP archive of files, which are not packed. @param files pairs of name and content
+std::string archive(const std::vector<std::pair<std::string, std::string>>& files) {
+  const auto half = [](std::size_t n) { return bytesOf(static_cast<std::uint16_t>(n)); };
+  const auto word = [](std::size_t n) { return bytesOf(static_cast<std::uint32_t>(n)); };
+  std::string bytes, directory;
+  for (const auto& [name, content] : files) {
+    std::uint32_t crc = ~0u;
+    for (const char c : content) {
+      crc ^= static_cast<unsigned char>(c);
+      for (int i = 0; i < 8; ++i) crc = crc >> 1 ^ (crc & 1 ? 0xEDB88320u : 0u);
+    }
+    const std::string entry = half(20) + word(0) + word(0) + word(~crc) + word(content.size()) +
+                              word(content.size()) + half(name.size()) + half(0);
+    directory += "PK\x01\x02" + half(20) + entry + half(0) + half(0) + half(0) + word(0) +
+                 word(bytes.size()) + name;
+    bytes += "PK\x03\x04" + entry + name + content;
+  }
+  return bytes + directory + "PK\x05\x06" + word(0) + half(files.size()) + half(files.size()) +
+         word(directory.size()) + word(bytes.size()) + half(0);
+}
+
+TEST_F(MeshContent, ThreeMfIsNotSearched) {
+  const std::string relations =
+      R"(<?xml version="1.0"?><Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships">
+<Relationship Target="/3D/3dmodel.model" Id="r" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>)";
+  const std::string model =
+      R"(<?xml version="1.0"?><model unit="meter" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02">
+<resources><object id="1" type="model"><mesh><vertices><vertex x="0" y="0" z="0"/><vertex x="1" y="0" z="0"/>
+<vertex x="0" y="2" z="0"/></vertices><triangles><triangle v1="0" v2="1" v3="2"/></triangles></mesh></object></resources>
+<build><item objectid="1"/></build></model>)";
+  const MeshFile file =
+      read("a.3mf", archive({{"_rels/.rels", relations}, {"3D/3dmodel.model", model}}), {1, {}});
+  EXPECT_EQ(file.mesh.triangles.size(), 1u);
+  EXPECT_THAT(file.notes,
+              ElementsAre("the model in the archive is not searched for beam lattices, slices and "
+                          "other extensions, which would not be read"));
+}
+
 // --- Corridor's own readers
 
 TEST_F(MeshContent, ObjKeywords) {
@@ -434,6 +249,44 @@ TEST_F(MeshContent, ObjKeywords) {
               IsEmpty());
   EXPECT_THAT(notesOf("a.obj", triangle + "l 1 2\nl 2 3\n"), ElementsAre(linesNote));
   EXPECT_THAT(notesOf("a.obj", triangle + "p 1\n"), ElementsAre(linesNote));
+}
+
+TEST_F(MeshContent, ObjLinesThatGoOn) {
+  const std::string text =
+      "# c \\\nv 0 0 0 \\\n1.0\nv 1 0 0\nv 0 2 0\nvn 0 0 \\\n1\ng a \\\n b\nl 1 \\\n2\nf 1 2 "
+      "\\\n3\n";
+  EXPECT_EQ(read("a.obj", text).mesh.triangles.size(), 1u);
+}
+
+/// Problems of OMPL.app have their OBJ files read by assimp, which drops more than keywords.
+TEST_F(MeshContent, ObjReadByAssimp) {
+  const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n";
+  const auto refused = [&](const std::string& line) {
+    const std::string face = triangle + line + "\nf 3 2 1\n";
+    return complaintOf([&] { readOmplAppMesh(write("a.obj", face)); });
+  };
+  for (const std::string keyword : {"fo", "F", "surf", "curv", "call", "bzp", "csh", "hello"})
+    EXPECT_EQ(refused(keyword + " 1 2 3"),
+              "a.obj:5: the keyword \"" + keyword +
+                  "\" is not supported, and may be or move geometry; write faces with v and f");
+  EXPECT_EQ(refused("cstype bezier"),
+            "a.obj:5: assimp drops the lines from cstype on; write faces with v and f");
+  for (const std::string line : {" f 1 2 3", "\tv 1 2 3"})
+    EXPECT_EQ(refused(line),
+              "a.obj:5: assimp drops a line that begins with a blank; remove the blank");
+  for (const std::string line : {"# C:\\", "#\\\r"})
+    EXPECT_EQ(refused(line),
+              "a.obj:5: the comment ends with a backslash, so assimp drops the next line; remove "
+              "it");
+  // What is accepted loses no face.
+  for (const std::string line :
+       {"vn 0 0 1", "vn 0 0 \\\n1", "vt 0 0", "vp 0", "g a", "o b\\c", "s 1", "mg 0", "usemtl m",
+        "deg 1", " # f 9", "# C:\\x y", "g a \\\r\nfo\r", ""})
+    EXPECT_EQ(
+        readOmplAppMesh(write("a.obj", triangle + line + "\nf 3 2 1\n")).mesh.triangles.size(), 2u)
+        << line;
+  EXPECT_EQ(readOmplAppMesh(write("a.obj", "\xEF\xBB\xBF# c\n" + triangle)).mesh.triangles.size(),
+            1u);
 }
 
 TEST_F(MeshContent, PlyStrips) {
