@@ -28,17 +28,23 @@ void checkKeyword(std::string_view keyword, int line, MeshFaults& faults) {
 
 class ObjReader {
  public:
-  ObjReader(std::string_view text, MeshFaults& faults) : cursor_(text), faults_(faults) {}
+  ObjReader(std::string_view text, MeshFaults& faults)
+      : cursor_(text), mayContinue_(text.find('\\') != text.npos), faults_(faults) {}
 
   ReadMesh read() {
     do {
       continued_ = false;
       const std::string_view keyword = nextWord();
-      if (!keyword.empty()) checkKeyword(keyword, cursor_.line(), faults_);
-      if (keyword == "v") readVertex();
-      if (keyword == "f") readFace();
-      if (keyword == "l" || keyword == "p") notes_ = {kNoteOnLines};
-      if (!keyword.empty() && keyword != "f") skipWords();
+      if (keyword == "v") {
+        readVertex();
+      } else if (keyword == "f") {
+        readFace();
+      } else if (keyword == "l" || keyword == "p") {
+        notes_ = {kNoteOnLines};
+      } else if (!keyword.empty()) {
+        checkKeyword(keyword, cursor_.line(), faults_);
+      }
+      if (mayContinue_ && !keyword.empty() && keyword != "f") skipWords();
       faults_.requireFew(mesh_, cursor_.line());
     } while (cursor_.nextLine());
     for (const LateCorner& late : lateCorners_) {
@@ -129,6 +135,7 @@ class ObjReader {
   }
 
   TextCursor cursor_;
+  const bool mayContinue_;  // there is a backslash in the file; skipping words takes time
   MeshFaults& faults_;
   bool continued_ = false;
   TriangleMesh mesh_;
