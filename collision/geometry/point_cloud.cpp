@@ -1,6 +1,7 @@
 #include "collision/geometry/point_cloud.h"
 
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "collision/core/read_file.h"
@@ -11,7 +12,7 @@
 namespace corridor {
 namespace {
 
-using CloudReader = PointCloud (*)(std::string_view, MeshFaults&);
+using CloudReader = std::function<PointCloud(std::string_view, MeshFaults&)>;
 
 bool isRead(const std::string& extension) {
   for (const char* known : {".ply", ".pcd", ".xyz", ".txt", ".asc", ".pts", ".csv"})
@@ -22,10 +23,14 @@ bool isRead(const std::string& extension) {
 /// Returns the reader of a file. The content decides, because files of every format may have the
 /// extension .xyz or .txt. The extension decides only if the content does not begin like a known
 /// format.
-CloudReader readerOf(std::string_view bytes, const std::string& extension) {
+CloudReader readerOf(std::string_view bytes, const std::string& extension, double metresPerUnit) {
   if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return readPlyPoints;
   if (bytes.starts_with("# .PCD") || bytes.starts_with("# PCD")) return readPcd;
-  return extension == ".ply" ? readPlyPoints : extension == ".pcd" ? readPcd : readXyz;
+  if (extension == ".ply") return readPlyPoints;
+  if (extension == ".pcd") return readPcd;
+  return [=](std::string_view text, MeshFaults& faults) {
+    return readXyz(text, metresPerUnit, faults);
+  };
 }
 
 }  // namespace
@@ -43,7 +48,8 @@ PointCloud readPointCloud(const std::filesystem::path& file, const MeshFileOptio
   std::string_view content = bytes;
   if (content.starts_with("\xEF\xBB\xBF"))
     content.remove_prefix(3);  // the byte-order mark of UTF-8
-  PointCloud cloud = readerOf(content, extension)(content, faults);
+  const double unit = options.metresPerUnit.value_or(1);
+  PointCloud cloud = readerOf(content, extension, unit)(content, faults);
   faults.throwIfAny();
   const std::size_t all = cloud.points.size();
   std::erase_if(cloud.points, [](const Vec3& p) { return !p.allFinite(); });

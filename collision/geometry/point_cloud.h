@@ -21,13 +21,17 @@ struct PointCloud {
   /// True if a PCD file has a viewpoint (the pose of the sensor) other than the identity.
   /// `readPointCloud` does not apply the viewpoint.
   bool hasViewpoint = false;
+  /// The line of the first comment before the points of a text file that may say what the columns
+  /// mean (it has letters) and does not name x, y, z in this order; 0: none. It is not read.
+  int comment = 0;
 };
 
 /// Reads the points of a file: the vertices of PLY; PCD (ASCII, binary and compressed); or a text
 /// file (.xyz, .txt, .asc, .pts, .csv) with three numbers or more in each line, of which the first
-/// three are x, y and z. If the content begins like PLY or PCD, it is read in this format, whatever
-/// the extension. Normals, colours and faces are not read. As in PCL, the viewpoint of a PCD file
-/// is not applied.
+/// three are x, y and z. Refused: a comment before the points that names x, y and z in another
+/// order or place, or another unit than that of `options` (1 m without one). If the content begins
+/// like PLY or PCD, it is read in this format, whatever the extension. Normals, colours and faces
+/// are not read. As in PCL, the viewpoint of a PCD file is not applied.
 /// @throws InputError that names the file and the line or byte: unreadable, no points, truncated,
 /// counts that do not fit the file, unknown extension, …
 PointCloud readPointCloud(const std::filesystem::path& file, const MeshFileOptions& options = {});

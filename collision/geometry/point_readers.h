@@ -27,6 +27,7 @@ inline void limitPoints(std::uint64_t count, int line, MeshFaults& faults) {
 
 PointCloud readPlyPoints(std::string_view bytes, MeshFaults& faults);
 PointCloud readPcd(std::string_view bytes, MeshFaults& faults);
-PointCloud readXyz(std::string_view text, MeshFaults& faults);
+/// @param metresPerUnit that will be applied, to compare it with the unit in comments.
+PointCloud readXyz(std::string_view text, double metresPerUnit, MeshFaults& faults);
 
 }  // namespace corridor

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
+#include "collision/geometry/column_names.h"
 #include "collision/geometry/point_readers.h"
 
 namespace corridor {
@@ -52,9 +54,26 @@ bool areNames(std::string_view x, std::string_view y, std::string_view z) {
          lowered(std::string(z)) == "z";
 }
 
+bool isNumber(std::string_view word) {
+  double value = 0;
+  return !parseCoordinate(word, value, true);
+}
+
+/// Adds a fault for a comment, or a header, that does not fit the columns as they are read.
+void checkNames(const ColumnNames& names, double metresPerUnit, int line, MeshFaults& faults) {
+  if (names.order == ColumnNames::Order::other)
+    faults.add(line,
+               "names x, y and z in another order or place than the first three columns, which "
+               "are read as x, y, z; put these columns first, or remove the line if it is wrong");
+  else if (names.metresPerUnit.value_or(metresPerUnit) != metresPerUnit)
+    faults.add(line, "says that a unit is " + shortest(*names.metresPerUnit) +
+                         " m, but coordinates are read with a unit of " + shortest(metresPerUnit) +
+                         " m; state the unit, or remove the line if it is wrong");
+}
+
 }  // namespace
 
-PointCloud readXyz(std::string_view text, MeshFaults& faults) {
+PointCloud readXyz(std::string_view text, double metresPerUnit, MeshFaults& faults) {
   PointCloud cloud{{}, "text"};
   std::int64_t promised = -1;  // the number of points, with which .pts files begin; -1: not stated
   int number = 0;
@@ -65,11 +84,29 @@ PointCloud readXyz(std::string_view text, MeshFaults& faults) {
     text.remove_prefix(std::min(end + 1, text.size()));
     const std::string_view whole = line, marks = marksOf(line);
     const std::string_view first = nextWord(line, marks);
-    if (first.empty() || first.front() == '#' || first.starts_with("//")) continue;
+    if (first.empty()) continue;
+    if (first.front() == '#' || first.starts_with("//")) {
+      if (!cloud.points.empty()) continue;
+      const ColumnNames names = columnNamesIn(whole);
+      checkNames(names, metresPerUnit, number, faults);
+      if (names.hasWords && names.order == ColumnNames::Order::none && cloud.comment == 0)
+        cloud.comment = number;
+      continue;
+    }
     const std::string_view second = nextWord(line, marks), third = nextWord(line, marks);
     if (cloud.points.empty() && promised < 0) {
       if (second.empty() && parseInteger(first, promised)) continue;
-      if (areNames(first, second, third)) continue;
+      if (areNames(first, second, third)) {
+        checkNames(columnNamesIn(whole), metresPerUnit, number, faults);
+        continue;
+      }
+    }
+    if (cloud.points.empty() && !third.empty() && !isNumber(first) && !isNumber(second) &&
+        !isNumber(third)) {
+      faults.add(number, "is a header that begins with " + inQuotes(first) +
+                             ", not with x y z; put x, y and z into the first three columns, in "
+                             "metres, and remove the header");
+      continue;
     }
     if (third.empty()) {
       faults.add(number,

@@ -20,6 +20,12 @@ bool readPoints(const YamlMap& inner, const MeshFileOptions& options, const Tran
                                std::to_string(cloud.points.size() + cloud.notFinite) +
                                " points are not finite, and are left out",
                            NoteWeight::coverage});
+  if (cloud.comment > 0)
+    shape.notes.push_back(
+        {shape.file.string() + ": line " + std::to_string(cloud.comment) +
+             " is a comment, which is not read; the first three columns are x, y, z" +
+             (options.metresPerUnit ? "" : " in metres"),
+         NoteWeight::coverage});
   if (cloud.hasViewpoint)
     shape.notes.push_back({shape.file.string() +
                                ": its viewpoint (the sensor's pose) is not applied; at and a "

@@ -91,6 +91,18 @@ TEST_F(Clouds, NotesOnWhatIsNotAnObstacle) {
   EXPECT_THAT(notesOf("{points: {file: a.pcd, radius: 0.1}}"), Not(Contains(HasSubstr("a.pcd"))));
 }
 
+TEST_F(Clouds, NotesOnComments) {
+  write("b.xyz", "# by hand\n1 2 3\n");
+  const auto notesOf = [&](const std::string& unit) {
+    return textsOf(read(problem("{points: {file: b.xyz, radius: 0.1}" + unit + "}")).source.notes);
+  };
+  const std::string note =
+      (folder_ / "b.xyz").string() +
+      ": line 1 is a comment, which is not read; the first three columns are x, y, z";
+  EXPECT_THAT(notesOf(""), testing::Contains(note + " in metres"));
+  EXPECT_THAT(notesOf(", unit: mm"), testing::Contains(note));
+}
+
 TEST_F(Clouds, OfARobot) {
   write("robot.yaml",
         "format: corridor-robot-1\nname: scan\nrigid: SE3\nshapes:\n"
