@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -14,12 +15,13 @@ struct XmlRules {
   std::string_view accepted;  ///< the elements that are read, or cannot matter; empty: all others
   std::string_view refused;
   std::string_view numbered;  ///< the element whose `id` must be unique: assimp drops repeated ones
+  std::string_view single;    ///< elements that may be in another once: assimp drops all but one
 };
 
 /// Collada's elements <technique> and <extra> may hold anything, so a list of all others is not
 /// possible. assimp's skins and morphs are not applied; it reads holes <ph> as no face.
 constexpr XmlRules kCollada{"COLLADA", "", " instance_controller convex_mesh brep skew ph ",
-                            "geometry"};
+                            "geometry", " asset "};
 /// Left out: nodes that assimp skips (<LOD>, <CADPart> …), prototypes, curved shapes (<Sphere> …),
 /// which assimp replaces by polyhedra within them, and rare ones (<Extrusion> …), in which it is
 /// not tested. assimp itself refuses <PhysicalMaterial> and <UnlitMaterial>.
@@ -34,14 +36,14 @@ constexpr XmlRules kX3d{
     "MetadataBoolean MetadataDouble MetadataFloat MetadataInteger MetadataSet MetadataString "
     "DirectionalLight PointLight SpotLight Background TextureBackground Fog NavigationInfo "
     "Viewpoint OrthoViewpoint WorldInfo Sound AudioClip ",
-    "", ""};
+    "", "", " Scene "};
 /// Left out: constellations, which assimp moves by angles instead of lengths, and normals and
 /// edges, which make triangles curved.
 constexpr XmlRules kAmf{"amf",
                         " amf object mesh vertices vertex coordinates x y z volume triangle v1 v2 "
                         "v3 metadata material color r g b a composite texture texmap map utex1 "
                         "utex2 utex3 vtex1 vtex2 vtex3 u1 u2 u3 ",
-                        "", "object"};
+                        "", "object", " mesh vertices volume "};
 
 constexpr std::string_view kBlanks = " \t\r\n";
 
@@ -49,10 +51,27 @@ bool contains(std::string_view list, std::string_view name) {
   return list.find(" " + std::string(name) + " ") != list.npos;
 }
 
+std::string_view trimmed(std::string_view text) {
+  const auto first = std::min(text.find_first_not_of(kBlanks), text.size());
+  return text.substr(first, text.find_last_not_of(kBlanks) + 1 - first);
+}
+
+/// Returns the number that is all of a text but blanks; NaN if there is none.
+double numberIn(std::string_view text) {
+  text = trimmed(text);
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+  double value = 0;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && stop == text.data() + text.size() ? value : std::nan("");
+}
+
 struct XmlTag {
   std::string_view name, attributes;
+  std::string_view content;  ///< what is between an element's tags; set when it ends
   bool isEnd = false, isEmpty = false;
   int line = 0;
+  std::size_t from = 0, to = 0;  ///< the tag's place in the file
+  std::string single;            ///< those of `XmlRules::single` that are in the element
 
   /// Returns the value of an attribute; "" without it.
   std::string_view value(std::string_view attribute) const {
@@ -91,6 +110,7 @@ class XmlCheck {
     while (const auto tag = next()) {
       if (tag->isEnd) {
         if (open_.empty() || open_.back().name != tag->name) return malformed();
+        open_.back().content = text_.substr(open_.back().to, tag->from - open_.back().to);
         leave(open_.back());
         open_.pop_back();
         continue;
@@ -106,6 +126,9 @@ class XmlCheck {
       open_.pop_back();
     }
     if (isFirst || !open_.empty()) malformed();
+    if (std::any_of(targets_.begin(), targets_.end(),
+                    [&](std::string_view id) { return !urls_.contains(id); }))
+      report_.note("geometries that are in no node of the scene are not read");
   }
 
  private:
@@ -128,17 +151,73 @@ class XmlCheck {
           "<" + name + "> may be or move geometry, and assimp does not read it rightly" + kInstead);
       refused_ = open_.size();
     }
-    if (name == "unit" && rules_.root == kX3d.root) checkUnit(tag);
+    if (!open_.empty() && contains(rules_.single, name)) {
+      std::string& single = open_.back().single;
+      if (contains(single, name))
+        fault(tag.line, "a second <" + name + "> is in one <" + std::string(open_.back().name) +
+                            ">, and assimp drops one" + kInstead);
+      single += ' ' + name + ' ';
+    }
+    if (rules_.root == kX3d.root) enterX3d(tag);
+    if (rules_.root == kCollada.root) enterCollada(tag);
     if (name == kAmf.root && open_.empty()) report_.amfUnit = amfUnit(tag.value("unit"));
     if (name == rules_.numbered && !ids_.insert(std::string(tag.value("id"))).second)
       fault(tag.line, "two elements <" + name + "> have the id \"" + std::string(tag.value("id")) +
                           "\", so assimp drops one; give each an id of its own");
   }
 
+  void enterX3d(const XmlTag& tag) {
+    if (tag.name == "unit") checkUnit(tag);
+    if (tag.name == "Inline" && tag.value("load") == "false")
+      fault(tag.line, "<Inline load=\"false\"> is not read; remove it, or load=\"false\"");
+    const std::string_view name = tag.value("DEF");
+    if (!name.empty() && !ids_.insert(std::string(name)).second)
+      fault(tag.line, "two nodes have the name DEF=\"" + std::string(name) +
+                          "\", of which assimp uses one; give each a name of its own");
+  }
+
+  /// Finds out what could be in the scene, and what is.
+  void enterCollada(const XmlTag& tag) {
+    const bool isInLibrary = !open_.empty() && open_.back().name == "library_nodes";
+    if (contains(" geometry visual_scene ", tag.name) || (tag.name == "node" && isInLibrary))
+      targets_.insert(tag.value("id"));
+    if (const std::string_view url = tag.value("url");
+        tag.name.starts_with("instance_") && url.starts_with('#'))
+      urls_.insert(url.substr(1));
+  }
+
+  void leave(const XmlTag& tag) {
+    if (rules_.root == kCollada.root) leaveCollada(tag);
+    if (rules_.root == kX3d.root) leaveX3d(tag);
+    if (rules_.root == kAmf.root && contains(" x y z v1 v2 v3 ", tag.name) &&
+        std::isnan(numberIn(tag.content)))
+      fault(tag.line, "<" + std::string(tag.name) +
+                          "> is not a number; write decimal numbers such as -1.25e-3");
+  }
+
+  /// Checks that an <asset> within the document says what the document's own says: assimp reads
+  /// that one only. @pre `tag` is the last of `open_`
+  void leaveCollada(const XmlTag& tag) {
+    const std::size_t depth = open_.size();
+    if (!contains(" unit up_axis ", tag.name) || depth < 3 || open_[depth - 2].name != "asset")
+      return;
+    double unit = unit_;
+    std::string_view up = up_;
+    if (tag.name == "up_axis") up = trimmed(tag.content);
+    if (const std::string_view meter = tag.value("meter"); tag.name == "unit")
+      unit = meter.empty() ? 1 : numberIn(meter);
+    hasInnerAsset_ |= depth > 3;
+    if (hasInnerAsset_ && (unit != unit_ || up != up_))
+      fault(tag.line, "an <asset> within the document has another <" + std::string(tag.name) +
+                          "> than the document, which assimp does not apply" + kInstead);
+    unit_ = unit;
+    up_ = up;
+  }
+
   /// Checks the groups of X3D: after one that is empty, or that uses another, assimp attaches what
   /// follows to a wrong parent.
-  void leave(const XmlTag& tag) {
-    if (rules_.root == kX3d.root && contains(" Group StaticGroup Transform ", tag.name) &&
+  void leaveX3d(const XmlTag& tag) {
+    if (contains(" Group StaticGroup Transform ", tag.name) &&
         (tag.isEmpty || !tag.value("USE").empty()))
       fault(tag.line, "assimp misplaces what comes after a <" + std::string(tag.name) +
                           "> that is empty or has USE" + kInstead);
@@ -185,11 +264,13 @@ class XmlCheck {
   XmlTag tagAt(std::size_t at) {
     XmlTag tag;
     tag.line = line_;
+    tag.from = at;
     char quote = 0;
     for (at_ = at + 1; at_ < text_.size() && (quote || text_[at_] != '>'); ++at_) {
       const char c = text_[at_];
       if (quote ? c == quote : c == '"' || c == '\'') quote = quote ? '\0' : c;
     }
+    tag.to = std::min(at_ + 1, text_.size());
     std::string_view inside = text_.substr(at + 1, at_ - at - 1);
     tag.isEnd = inside.starts_with('/');
     if (tag.isEnd) inside.remove_prefix(1);
@@ -213,6 +294,11 @@ class XmlCheck {
   std::vector<XmlTag> open_;     // the elements around the current place
   std::size_t refused_ = kNone;  // the depth of the element that is refused, around the current one
   std::set<std::string> ids_;
+  // Only for Collada: the document's unit and up-axis, and the ids of what may be instanced.
+  double unit_ = 1;
+  std::string_view up_ = "Y_UP";
+  bool hasInnerAsset_ = false;
+  std::set<std::string_view> targets_, urls_;
 };
 
 }  // namespace

@@ -144,15 +144,30 @@ class OrdinaryFiles : public Assimp::DefaultIOSystem {
     struct stat status {};
     return ::stat(file, &status) == 0 && S_ISREG(status.st_mode);
   }
-  Assimp::IOStream* Open(const char* file, const char* mode) override {
-    if (!Exists(file)) return nullptr;
+  Assimp::IOStream* Open(const char* name, const char* mode) override {
+    const std::string file = Exists(name) ? name : decoded(name);
+    if (!Exists(file.c_str())) return nullptr;
     if (file != file_ && !isObj_ &&
         std::find(opened_.begin(), opened_.end(), file) == opened_.end())
       opened_.emplace_back(file);
-    return Assimp::DefaultIOSystem::Open(file, mode);
+    return Assimp::DefaultIOSystem::Open(file.c_str(), mode);
   }
 
  private:
+  /// Returns a name with the bytes that URIs write as %20 and the like, which assimp does not
+  /// decode.
+  static std::string decoded(std::string name) {
+    for (auto at = name.find('%'); at != name.npos; at = name.find('%', at + 1)) {
+      unsigned char byte = 0;
+      const char* const digits = name.data() + at + 1;
+      if (at + 3 > name.size() || std::from_chars(digits, digits + 2, byte, 16).ptr != digits + 2 ||
+          byte == 0)
+        continue;
+      name.replace(at, 3, 1, static_cast<char>(byte));
+    }
+    return name;
+  }
+
   const std::string& file_;
   std::vector<std::string>& opened_;
   const bool isObj_ = lowered(std::filesystem::path(file_).extension().string()) == ".obj";
@@ -226,6 +241,15 @@ void checkDeformation(const aiScene& scene, const std::string& file, ContentRepo
   }
 }
 
+/// Returns the up-axis as in `AssimpImport::up`.
+char upOf(ContentKind kind, const aiScene& scene) {
+  if (kind == ContentKind::Gltf || kind == ContentKind::BinaryGltf || kind == ContentKind::X3d)
+    return 'y';
+  std::int32_t axis = 0;  // only FBX has it
+  if (!scene.mMetaData || !scene.mMetaData->Get("UpAxis", axis) || axis < 0 || axis > 2) return 0;
+  return static_cast<char>('x' + axis);
+}
+
 /// Reads a file, unless a fault of its content is found first.
 void read(const std::string& file, AssimpRules rules, AssimpImport& result, ContentReport& report) {
   const ContentKind kind = contentKindOf(lowered(std::filesystem::path(file).extension().string()));
@@ -264,6 +288,7 @@ void read(const std::string& file, AssimpRules rules, AssimpImport& result, Cont
   checkDeformation(*scene, file, report);
   result.isCollada = result.format.starts_with("Collada");
   if (result.isCollada) checkColladaRoot(*scene, rules);
+  result.up = upOf(kind, *scene);
   bool hasLines = false;
   if (rules == AssimpRules::Stored) {
     const std::unique_ptr<aiScene> own(importer.GetOrphanedScene());

@@ -36,6 +36,9 @@ struct AssimpImport {
   std::string format;   ///< assimp's name of the format
   double fileUnit = 0;  ///< metres, not applied to the mesh; 0: the format has none, or `OmplApp`
   bool isCollada = false;
+  /// The up-axis that the format prescribes (glTF, X3D) or the file states (FBX): 'x', 'y' or 'z';
+  /// 0: others. It is not applied.
+  char up = 0;
   std::string error;  ///< one line; empty: success
   /// Content that assimp does not read rightly (assimp_content.h). If there is any, `mesh` must not
   /// be used.

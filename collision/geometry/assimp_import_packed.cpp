@@ -16,6 +16,7 @@ struct Head {
   std::uint64_t faults = 0, notes = 0, otherFiles = 0;  // counts
   double fileUnit = 0;
   std::uint64_t isCollada = 0;
+  std::int64_t up = 0;
 };
 
 using Indices = std::array<std::uint32_t, 3>;
@@ -75,7 +76,8 @@ std::string packed(const AssimpImport& import) {
                   import.notes.size(),
                   import.otherFiles.size(),
                   import.fileUnit,
-                  import.isCollada};
+                  import.isCollada,
+                  import.up};
   std::string bytes;
   bytes.reserve(sizeof head + head.vertices * sizeof(Vec3) + head.triangles * sizeof(Indices));
   append(bytes, &head, 1);
@@ -112,6 +114,7 @@ bool unpack(std::string_view bytes, AssimpImport& import) {
     return false;
   import.fileUnit = head.fileUnit;
   import.isCollada = head.isCollada != 0;
+  import.up = static_cast<char>(head.up);
   return true;
 }
 

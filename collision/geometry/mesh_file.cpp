@@ -123,7 +123,8 @@ StoredMesh readForeign(const std::filesystem::path& file, const std::string& ext
   stored.file.notes = std::move(import.notes);
   stored.file.otherFiles = std::move(import.otherFiles);
   stored.fileUnit = import.fileUnit;
-  stored.file.fileUp = up;
+  stored.file.isCollada = up.has_value();
+  stored.file.fileUp = up || import.up == 0 ? up : std::optional(import.up);
   return stored;
 }
 
@@ -136,7 +137,7 @@ std::string unitRule(const MeshFileOptions& options, double fileUnit) {
   return "1 m per unit, since neither the format nor the user states one";
 }
 
-std::string upRule(const MeshFileOptions& options, bool isCollada) {
+std::string upRule(const MeshFileOptions& options, const MeshFile& file) {
   std::string rule;
   switch (options.up.value_or(' ')) {
     case 'x':
@@ -152,7 +153,9 @@ std::string upRule(const MeshFileOptions& options, bool isCollada) {
       rule = "coordinates as stored, since no up-axis was requested";
       break;
   }
-  return rule + (isCollada ? "; the file's own <up_axis> is not applied (ROS's rule)" : "");
+  if (file.isCollada) return rule + "; the file's own <up_axis> is not applied (ROS's rule)";
+  return rule +
+         (file.fileUp ? std::string("; the file's own, ") + *file.fileUp + ", is not applied" : "");
 }
 
 }  // namespace
@@ -193,8 +196,13 @@ MeshFile readMeshFile(const std::filesystem::path& file, const MeshFileOptions& 
     result.notes.push_back("the file's own unit, " + shortest(stored.fileUnit) +
                            " m, is not the stated one, " + shortest(*options.metresPerUnit) +
                            " m, which is used");
-  result.upRule = upRule(options, result.fileUp.has_value());
+  result.upRule = upRule(options, result);
   return result;
+}
+
+std::string noteOnUp(const std::string& files, const std::string& whatAppliesIt) {
+  return "the up-axis of " + files + " is not z; it is not applied (ROS's rule), and " +
+         whatAppliesIt + " applies it";
 }
 
 OmplAppMesh readOmplAppMesh(const std::filesystem::path& file) {

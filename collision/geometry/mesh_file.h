@@ -26,10 +26,11 @@ struct MeshFile {
   std::string format;  ///< "OBJ", "STL (binary)", "PLY (ASCII)" …, or assimp's name of the format
   std::string unitRule;  ///< one line for people: which unit was used, and why
   std::string upRule;    ///< one line for people: which rotation was applied, and why
-  /// The up-axis that a Collada file states ('x', 'y' or 'z'; 'y' if it states none). Unset: not
-  /// Collada. By ROS's rule, `readMeshFile` does not apply this axis; it applies only the axis that
-  /// the caller sets in `MeshFileOptions::up`.
+  /// The up-axis that a Collada or FBX file states ('x', 'y' or 'z'; 'y' if Collada states none);
+  /// 'y' for glTF and X3D. Unset: other formats. By ROS's rule, `readMeshFile` does not apply this
+  /// axis; it applies only the axis that the caller sets in `MeshFileOptions::up`.
   std::optional<char> fileUp = {};
+  bool isCollada = false;
   /// True if assimp read the file, and therefore rounded the vertices to float.
   bool floatVertices = false;
   std::vector<std::string> notes;  ///< on content that is not read, without the file's name
@@ -44,6 +45,9 @@ struct MeshFile {
 /// @throws InputError that names the file and the line, face or byte: unreadable, no faces, not
 /// finite, index out of range, truncated, too large, unknown extension, …
 MeshFile readMeshFile(const std::filesystem::path& file, const MeshFileOptions& options = {});
+
+/// Returns the text of a note on files whose `fileUp` is not z and was not applied.
+std::string noteOnUp(const std::string& files, const std::string& whatAppliesIt);
 
 /// A mesh as OMPL.app places it: read with OMPL.app's import steps. The transforms of nodes are
 /// applied. For Collada, the unit and the rotation to y-up are applied, too.

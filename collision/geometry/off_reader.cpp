@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "collision/geometry/mesh_limits.h"
 #include "collision/geometry/mesh_readers.h"
 
 namespace corridor {
@@ -34,7 +35,9 @@ class OffReader {
       faults_.add(cursor_.line(), inQuotes(more) + " comes after the last of the " +
                                       std::to_string(faces) + " faces: the counts are wrong");
     faults_.throwIfAny();
-    return {std::move(mesh_), "OFF"};
+    ReadMesh read{std::move(mesh_), "OFF"};
+    if (hasLines_) read.notes = {kNoteOnLines};
+    return read;
   }
 
  private:
@@ -99,6 +102,7 @@ class OffReader {
                   "a face begins with the number of its corners, not " + inQuotes(word));
       corners = 0;
     }
+    hasLines_ |= corners == 1 || corners == 2;
     std::array<std::uint32_t, 3> triangle{};
     for (std::int64_t k = 0; k < corners; ++k) {
       const auto corner = readCorner(k, corners);
@@ -134,6 +138,7 @@ class OffReader {
   TextCursor cursor_;
   MeshFaults& faults_;
   TriangleMesh mesh_;
+  bool hasLines_ = false;
 };
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <array>
 #include <utility>
 
+#include "collision/core/spelling.h"
+
 namespace corridor {
 namespace {
 
@@ -142,6 +144,20 @@ class HeaderReader {
     return *found;
   }
 
+  /// Returns whether an element other than `vertex` and `face` may hold triangles: it has a list of
+  /// corners; or it is no common one, and has any list, or a name like "polygon" or "tristrips".
+  static bool mayHoldTriangles(const PlyElement& element) {
+    const auto has = [&](const auto& isMeant) {
+      return std::any_of(element.properties.begin(), element.properties.end(), isMeant);
+    };
+    if (has(isCornerList)) return true;
+    const std::string name = lowered(element.name);
+    if (name == "edge" || name == "material" || name == "camera") return false;
+    for (const char* const part : {"face", "poly", "tris", "triang", "quad", "strip", "mesh"})
+      if (name.find(part) != name.npos) return true;
+    return has([](const PlyProperty& p) { return p.countType.has_value(); });
+  }
+
   void check() {
     const auto& vertex = find("vertex").properties;
     for (const std::string_view axis : {"x", "y", "z"}) {
@@ -161,7 +177,7 @@ class HeaderReader {
     }
     for (const PlyElement& element : header_.elements)
       if (element.count > 0 && element.name != "vertex" && element.name != "face" &&
-          std::any_of(element.properties.begin(), element.properties.end(), isCornerList))
+          mayHoldTriangles(element))
         faults_.fail(0,
                      "element " + inQuotes(element.name) +
                          " is not read, and may hold triangles; save the mesh with polygons only");

@@ -11,6 +11,11 @@
 namespace corridor {
 namespace {
 
+/// Lists of faces that do not concern their shapes.
+constexpr std::array<std::string_view, 11> kLooks{"texcoord", "texnumber", "flags",  "red",
+                                                  "green",    "blue",      "alpha",  "color",
+                                                  "colour",   "colors",    "quality"};
+
 /// The element that is being read, and the index of its entry, for messages.
 struct Place {
   const PlyElement* element = nullptr;
@@ -253,8 +258,20 @@ TriangleMesh readBody(std::string_view body, const PlyHeader& header, bool isMes
   return BodyReader<Body>(header, isMesh, Body(body, header, faults), faults).read();
 }
 
-ReadMesh readPly(std::string_view bytes, bool isMesh, MeshFaults& faults) {
-  const PlyHeader header = readPlyHeader(bytes, isMesh, faults);
+/// Returns notes on lists of faces that are not read, and are none of those that do not concern
+/// their shapes.
+std::vector<std::string> notesOnLists(const PlyHeader& header) {
+  std::vector<std::string> notes;
+  for (const PlyElement& element : header.elements)
+    for (const PlyProperty& p : element.properties)
+      if (element.name == "face" && element.count > 0 && p.countType && !isCornerList(p) &&
+          std::none_of(kLooks.begin(), kLooks.end(), [&](auto name) { return p.name == name; }))
+        notes.push_back("the list " + inQuotes(p.name) + " of faces is not read");
+  return notes;
+}
+
+ReadMesh readPlyElements(std::string_view bytes, const PlyHeader& header, bool isMesh,
+                         MeshFaults& faults) {
   const std::string_view body = bytes.substr(header.size);
   switch (header.encoding) {
     case PlyEncoding::Ascii:
@@ -270,11 +287,15 @@ ReadMesh readPly(std::string_view bytes, bool isMesh, MeshFaults& faults) {
 }  // namespace
 
 ReadMesh readPly(std::string_view bytes, MeshFaults& faults) {
-  return readPly(bytes, true, faults);
+  const PlyHeader header = readPlyHeader(bytes, true, faults);
+  ReadMesh read = readPlyElements(bytes, header, true, faults);
+  read.notes = notesOnLists(header);
+  return read;
 }
 
 PointCloud readPlyPoints(std::string_view bytes, MeshFaults& faults) {
-  ReadMesh read = readPly(bytes, false, faults);
+  const PlyHeader header = readPlyHeader(bytes, false, faults);
+  ReadMesh read = readPlyElements(bytes, header, false, faults);
   return {std::move(read.mesh.vertices), std::move(read.format)};
 }
 

@@ -183,7 +183,10 @@ std::shared_ptr<const MeshFile> ShapeMeshes::read(const YamlMap& map, const char
   const auto [known, isNew] = meshes_.try_emplace({file, {options.metresPerUnit, options.up}});
   if (!isNew) return known->second;
   try {
-    known->second = std::make_shared<const MeshFile>(readMeshFile(file, options));
+    MeshFile mesh = readMeshFile(file, options);
+    if (const char up = mesh.fileUp.value_or('z'); up != 'z' && !options.up)
+      mesh.notes.push_back(noteOnUp("the file", std::string("up: ") + up));
+    known->second = std::make_shared<const MeshFile>(std::move(mesh));
   } catch (const InputError& error) {
     map.source().faults.add(error);
     if (mayBeCloud(file, error.what()))
@@ -267,6 +270,10 @@ std::optional<PlacedShape> readShape(const YamlMap& map, const ShapePlace& place
     shape.parts.push_back(placed(*shape.primitive, whole.X));
     inRange = isFinite(shape.parts.front());
   }
+  if ((hull || *kind == "convex") && !shape.mesh && !shape.file.empty())
+    for (const std::string& text :
+         files.meshes.read(map, hull ? "mesh" : "convex", shape.file)->notes)
+      shape.notes.push_back({text + ": " + shape.file.string(), NoteWeight::coverage});
   if (inRange) return shape;
   faultRange(map);
   return std::nullopt;

@@ -92,10 +92,11 @@ bool MeshStore::isDoubtful(const std::string& package) const {
          });
 }
 
-std::vector<std::string> MeshStore::ignoredUpAxes() const {
+std::vector<std::string> MeshStore::ignoredUpAxes(bool ofCollada) const {
   std::vector<std::string> names;
   for (const auto& [file, mesh] : meshes_)
-    if (!rules_.colladaUp && mesh && mesh->fileUp.value_or('z') != 'z')
+    if (mesh && mesh->isCollada == ofCollada && mesh->fileUp.value_or('z') != 'z' &&
+        !(ofCollada && rules_.colladaUp))
       names.push_back(file.filename().string());
   return names;
 }
@@ -201,8 +202,8 @@ MeshStore::FoundMesh MeshStore::add(const std::string& name) {
   std::shared_ptr<const MeshFile>& mesh = meshes_[place.file];
   try {
     MeshFile read = readMeshFile(place.file);
-    if (const char up = read.fileUp.value_or('z'); rules_.colladaUp && up != 'z')
-      read = readMeshFile(place.file, {.up = up});
+    if (rules_.colladaUp && read.isCollada && read.fileUp != 'z')
+      read = readMeshFile(place.file, {.up = read.fileUp});
     for (const std::string& other : read.otherFiles)
       if (std::find(files_.begin(), files_.end(), other) == files_.end()) files_.push_back(other);
     mesh = std::make_shared<const MeshFile>(std::move(read));

@@ -30,9 +30,9 @@ class MeshStore {
   /// Finds and reads the mesh that the URDF calls `name`. Reads each file only once. Adds the file
   /// to the list `files` of the constructor.
   FoundMesh add(const std::string& name);
-  /// Returns the names of the Collada files whose up-axis is not z, if the rules say that up-axes
-  /// are not applied; otherwise returns an empty list.
-  std::vector<std::string> ignoredUpAxes() const;
+  /// Returns the names of files whose up-axis is not z, and is not applied. @param ofCollada of
+  /// Collada files, whose up-axes are applied if the rules say so, or of others
+  std::vector<std::string> ignoredUpAxes(bool ofCollada) const;
   /// Returns the packages that were not found by their names, but whose meshes were found in a
   /// folder of another name above the URDF. Each package is mapped to that folder.
   const std::map<std::string, std::filesystem::path>& guessedPackages() const { return guessed_; }

@@ -237,11 +237,13 @@ std::optional<RobotModel> readUrdf(const std::filesystem::path& file, const Urdf
     }
     if (const std::string slashes = meshes.noteOnSlashes(); !slashes.empty())
       notes.push_back({file.string() + ": " + slashes});
-    if (const auto ignored = meshes.ignoredUpAxes(); !ignored.empty())
-      notes.push_back({file.string() + ": the up-axis of " + joinedFirst(ignored) +
-                           " is not z; it is not applied (ROS's rule), and collada_up: file in "
-                           "robot.yaml applies it",
-                       NoteWeight::coverage});
+    for (const bool ofCollada : {true, false})
+      if (const auto ignored = meshes.ignoredUpAxes(ofCollada); !ignored.empty())
+        notes.push_back(
+            {file.string() + ": " +
+                 noteOnUp(joinedFirst(ignored),
+                          ofCollada ? "collada_up: file in robot.yaml" : "a rotation in <origin>"),
+             NoteWeight::coverage});
     std::vector<std::string> errors;
     if (xml.sound()) {
       if (const auto urdf = parseByUrdfdom(*root, errors))

@@ -98,5 +98,42 @@ TEST_F(MeshFiles, LinesAreNotedOnceForAllFiles) {
                                                          ", " + (folder_ / "b.obj").string()));
 }
 
+/// A format's up-axis that is not z is not applied; a note says so, unless `up` decides.
+TEST_F(MeshFiles, UpAxesOfTheWorld) {
+  writeGltf("m", 0);
+  const auto notesOf = [&](const std::string& keys) {
+    return textsOf(read("format: corridor-problem-1\nrobot: robot.yaml\nworld: {rock: {" + keys +
+                        ", at: [50, 0, 0]}}\n" + poses)
+                       .source.notes);
+  };
+  const std::string note =
+      "the up-axis of the file is not z; it is not applied (ROS's rule), and up: y applies it: " +
+      (folder_ / "m.gltf").string();
+  EXPECT_THAT(notesOf("mesh: m.gltf"), testing::Contains(note));
+  EXPECT_THAT(notesOf("convex: m.gltf"), testing::Contains(note));
+  write("b.x3d", "<X3D><Scene><Shape><Box size='1 1 1'/></Shape></Scene></X3D>");
+  EXPECT_THAT(notesOf("mesh: b.x3d, convex: true, deviation: 9"),
+              testing::Contains(testing::HasSubstr("up: y applies it: ")));
+  for (const std::string up : {"y", "z"})
+    EXPECT_THAT(notesOf("mesh: m.gltf, up: " + up),
+                testing::Not(testing::Contains(testing::HasSubstr("up-axis"))));
+}
+
+TEST_F(MeshFiles, UpAxesOfURDFs) {
+  writeGltf("m", 0);
+  write("r.urdf",
+        "<robot name=\"r\"><link name=\"base\"/><link name=\"l\"><collision><geometry><mesh "
+        "filename=\"m.gltf\"/></geometry></collision></link><joint name=\"j\" type=\"prismatic\">"
+        "<parent link=\"base\"/><child link=\"l\"/><axis xyz=\"1 0 0\"/><limit lower=\"-1\" "
+        "upper=\"1\" velocity=\"1\" effort=\"1\"/></joint></robot>");
+  const Problem p = read(
+      "format: corridor-problem-1\nrobot: r.urdf\nworld: {rock: {box: [1, 1, 1], at: [50, 0, 0]}}"
+      "\nstart: {j: 0}\ngoal: {j: 1}\n");
+  EXPECT_THAT(textsOf(p.source.notes),
+              testing::Contains((folder_ / "r.urdf").string() +
+                                ": the up-axis of m.gltf is not z; it is not applied (ROS's rule), "
+                                "and a rotation in <origin> applies it"));
+}
+
 }  // namespace
 }  // namespace corridor::test

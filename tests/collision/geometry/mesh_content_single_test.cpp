@@ -1,0 +1,248 @@
+// What mesh files state twice, elsewhere, or in other words than assimp reads.
+#include "tests/collision/geometry/mesh_content_fixture.h"
+
+namespace corridor::test::mesh_content {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+const MeshFileOptions metres{1, {}};
+
+// --- AMF
+
+std::string volume(const std::string& first = "0") {
+  return "\n<volume><triangle><v1>" + first + "</v1><v2>1</v2><v3>2</v3></triangle></volume>";
+}
+
+/// Returns an AMF file of the triangle (0, 0, 0), (`x`, 0, 0), (0, 2, 0).
+std::string amf(const std::string& x, const std::string& volumes, const std::string& mesh = "") {
+  const auto vertex = [](const std::string& a, const std::string& b) {
+    return "<vertex><coordinates><x>" + a + "</x><y>" + b + "</y><z>0</z></coordinates></vertex>";
+  };
+  return "<?xml version=\"1.0\"?>\n<amf unit=\"meter\"><object id=\"1\"><mesh><vertices>" +
+         vertex("0", "0") + vertex(x, "0") + vertex("0", "2") + "</vertices>" + volumes +
+         "</mesh>" + mesh + "</object></amf>";
+}
+
+TEST_F(MeshContent, AmfVolumesBeyondTheFirst) {
+  EXPECT_EQ(read("a.amf", amf("1", volume()), metres).mesh.triangles.size(), 1u);
+  EXPECT_EQ(complaint("a.amf", amf("1", volume() + volume()), metres),
+            "a.amf:4: a second <volume> is in one <mesh>, and assimp drops one" + instead);
+  EXPECT_EQ(complaint("a.amf", amf("1", volume(), "\n<mesh>" + volume() + "</mesh>"), metres),
+            "a.amf:4: a second <mesh> is in one <object>, and assimp drops one" + instead);
+}
+
+TEST_F(MeshContent, AmfNumbers) {
+  for (const std::string number : {"0.5", " 5e-1\n", "+.5"})
+    EXPECT_EQ(read("a.amf", amf(number, volume()), metres).mesh.vertices.at(1), Vec3(0.5, 0, 0))
+        << number;
+  for (const std::string number : {"0,5", "", "half", "1 2", "0x1"})
+    EXPECT_EQ(complaint("a.amf", amf(number, volume()), metres),
+              "a.amf:2: <x> is not a number; write decimal numbers such as -1.25e-3")
+        << number;
+  EXPECT_EQ(complaint("a.amf", amf("1", volume("zero")), metres),
+            "a.amf:3: <v1> is not a number; write decimal numbers such as -1.25e-3");
+}
+
+// --- Collada
+
+/// Returns a Collada file. @param asset the content of the document's <asset>. @param places texts
+/// for inner places: a geometry, its library, the node, the scene.
+std::string collada(const std::string& asset, const std::vector<std::string>& places = {},
+                    const std::string& libraries = "") {
+  const auto at = [&](std::size_t i) { return i < places.size() ? places[i] : ""; };
+  return R"(<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"><asset>)" +
+         asset + "</asset>" + libraries + "<library_geometries>" + at(1) + R"(<geometry id="g">)" +
+         at(0) +
+         R"(<mesh><source id="p"><float_array id="pa" count="9">0 0 0 1 0 0 0 2 0</float_array>
+<technique_common><accessor source="#pa" count="3" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
+<param name="Z" type="float"/></accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles>
+</mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="s">)" +
+         at(3) + R"(<node id="n">)" + at(2) +
+         R"(<instance_geometry url="#g"/></node></visual_scene></library_visual_scenes>
+<scene><instance_visual_scene url="#s"/></scene></COLLADA>)";
+}
+
+TEST_F(MeshContent, ColladaAssetsWithin) {
+  const auto fault = [&](const std::string& outer, const std::string& inner, std::size_t place) {
+    std::vector<std::string> places(4);
+    places[place] = "<asset>" + inner + "</asset>";
+    const std::string text = complaint("a.dae", collada(outer, places));
+    const auto colon = text.find(": ");
+    return colon == text.npos ? text : text.substr(colon + 2);
+  };
+  const auto text = [](const std::string& name) {
+    return "an <asset> within the document has another <" + name +
+           "> than the document, which assimp does not apply" + instead;
+  };
+  const std::string mm = R"(<unit name="mm" meter="0.001"/>)", z = "<up_axis>Z_UP</up_axis>";
+  for (std::size_t place = 0; place < 4; ++place) {
+    EXPECT_EQ(fault("", mm, place), text("unit"));
+    EXPECT_EQ(fault(mm, "<unit/>", place), text("unit")) << "1 m by the specification";
+    EXPECT_EQ(fault("", z, place), text("up_axis"));
+    EXPECT_EQ(fault(mm + z, "<unit meter=\"1e-3\"></unit><up_axis> Z_UP </up_axis>", place),
+              "no complaint");
+    EXPECT_EQ(fault(mm + z, "<created>2020</created>", place), "no complaint");
+  }
+}
+
+TEST_F(MeshContent, ColladaGeometryThatIsNotInstanced) {
+  const std::string unused = "geometries that are in no node of the scene are not read";
+  EXPECT_THAT(notesOf("a.dae", collada("")), IsEmpty());
+  EXPECT_THAT(notesOf("a.dae", collada("", {"", "<geometry id=\"h\"><mesh/></geometry>"})),
+              ElementsAre(unused));
+  EXPECT_THAT(
+      notesOf("a.dae", collada("", {},
+                               "<library_nodes><node id=\"m\"><instance_geometry url=\"#g\"/>"
+                               "</node></library_nodes>")),
+      ElementsAre(unused));
+  EXPECT_THAT(
+      notesOf("a.dae", collada("", {"", "", "<instance_node url=\"#m\"/>"},
+                               "<library_nodes><node id=\"m\"><instance_geometry url=\"#g\"/>"
+                               "</node></library_nodes>")),
+      IsEmpty());
+}
+
+// --- X3D
+
+std::string x3d(const std::string& scene) {
+  return "<X3D profile='Interchange' version='3.3'><Scene>\n" + scene + "</Scene></X3D>";
+}
+std::string shape(const std::string& name) {
+  return "<Shape DEF='" + name +
+         "'><IndexedFaceSet coordIndex='0 1 2 -1'><Coordinate point='0 0 0 1 0 0 0 2 0'/>"
+         "</IndexedFaceSet></Shape>";
+}
+
+TEST_F(MeshContent, X3dPartsThatAreNotLoadedOrNamedTwice) {
+  EXPECT_EQ(complaint("a.x3d", x3d(shape("a") + shape("b"))), "no complaint");
+  EXPECT_EQ(complaint("a.x3d", x3d(shape("a") + "\n" + shape("a"))),
+            "a.x3d:3: two nodes have the name DEF=\"a\", of which assimp uses one; give each a "
+            "name of its own");
+  write("o.x3d", x3d(shape("a")));
+  EXPECT_EQ(complaint("a.x3d", x3d(shape("a") + "<Inline url='o.x3d' load='false'/>")),
+            "a.x3d:2: <Inline load=\"false\"> is not read; remove it, or load=\"false\"");
+  EXPECT_THAT(complaint("a.x3d", x3d(shape("a") + "</Scene>\n<Scene>" + shape("b"))),
+              HasSubstr("a.x3d:3: a second <Scene> is in one <X3D>, and assimp drops one"));
+}
+
+// --- glTF
+
+TEST_F(MeshContent, GltfNamesWithBytesInHexadecimal) {
+  std::string numbers;
+  for (const float x : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 2.f, 0.f}) numbers += bytesOf(x);
+  const auto gltf = [](const std::string& uri) {
+    return R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+"nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+"buffers": [{"uri": ")" +
+           uri + R"(", "byteLength": 36}], "bufferViews": [{"buffer": 0, "byteLength": 36}],
+"accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}]})";
+  };
+  write("a b.bin", numbers);
+  const MeshFile file = read("a.gltf", gltf("a%20b.b%69n"));
+  EXPECT_EQ(file.mesh.vertices.at(2), Vec3(0, 2, 0));
+  EXPECT_THAT(file.otherFiles, ElementsAre((folder_ / "a b.bin").string()));
+  write("a%2b.bin", numbers);
+  EXPECT_THAT(read("a.gltf", gltf("a%2b.bin")).otherFiles,
+              ElementsAre((folder_ / "a%2b.bin").string()));
+  EXPECT_THAT(complaint("a.gltf", gltf("%zz.bin")), HasSubstr("cannot be read by assimp"));
+}
+
+// --- Up-axes
+
+TEST_F(MeshContent, UpAxesOfFormats) {
+  EXPECT_EQ(read("a.x3d", x3d(shape("a"))).fileUp, 'y');
+  EXPECT_EQ(read("a.x3d", x3d(shape("a"))).upRule,
+            "coordinates as stored, since no up-axis was requested; the file's own, y, is not "
+            "applied");
+  EXPECT_EQ(read("a.dae", collada("")).fileUp, 'y');
+  EXPECT_EQ(read("a.off", "OFF 3 1 0\n0 0 0\n1 0 0\n0 2 0\n3 0 1 2\n").fileUp, std::nullopt);
+  EXPECT_EQ(read("a.amf", amf("1", volume()), metres).fileUp, std::nullopt);
+  for (const int axis : {0, 1, 2})
+    EXPECT_EQ(read("a.fbx", R"(; FBX 7.3.0 project file
+FBXHeaderExtension: {
+ FBXVersion: 7300
+}
+GlobalSettings: {
+ Version: 1000
+ Properties70: {
+  P: "UpAxis", "int", "Integer", "",)" +
+                                std::to_string(axis) + R"(
+ }
+}
+Definitions: {
+ Version: 100
+}
+Objects: {
+ Geometry: 1, "Geometry::a", "Mesh" {
+  Vertices: *9 {
+   a: 0,0,0,1,0,0,0,2,0
+  }
+  PolygonVertexIndex: *3 {
+   a: 0,1,-3
+  }
+ }
+ Model: 3, "Model::a", "Mesh" {
+  Version: 232
+ }
+}
+Connections: {
+ C: "OO",3,0
+ C: "OO",1,3
+}
+)")
+                  .fileUp,
+              "xyz"[axis]);
+}
+
+// --- Corridor's own readers
+
+std::string ply(const std::string& element, const std::string& property, const std::string& list) {
+  return "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+         "property float z\nelement face 1\nproperty list uchar int vertex_indices\n" +
+         list + (element.empty() ? "" : "element " + element + " 1\nproperty " + property + "\n") +
+         "end_header\n0 0 0\n1 0 0\n0 2 0\n3 0 1 2\n" + (list.empty() ? "" : "1 7\n") +
+         (element.empty() ? "" : "1 7\n");
+}
+
+TEST_F(MeshContent, PlyElementsThatMayHoldTriangles) {
+  const std::string list = "list uchar int numbers";
+  for (const auto& [element, property] : {std::pair<std::string, std::string>{"polygon", list},
+                                          {"Triangles", list},
+                                          {"faces", list},
+                                          {"tristrips", list},
+                                          {"patch", list},
+                                          {"edge", "list uchar int vertex_index"}})
+    EXPECT_EQ(complaint("a.ply", ply(element, property, "")),
+              "a.ply: element \"" + element +
+                  "\" is not read, and may hold triangles; save the mesh with polygons only");
+  for (const auto& [element, property] : {std::pair<std::string, std::string>{"edge", list},
+                                          {"material", list},
+                                          {"camera", list},
+                                          {"pose", "int a\nproperty int b"}})
+    EXPECT_EQ(complaint("a.ply", ply(element, property, "")), "no complaint") << element;
+  EXPECT_THAT(complaint("a.ply", ply("quads", "int a\nproperty int b", "")),
+              HasSubstr("may hold triangles"));
+}
+
+TEST_F(MeshContent, PlyListsOfFaces) {
+  EXPECT_THAT(notesOf("a.ply", ply("", "", "property list uchar int holes\n")),
+              ElementsAre("the list \"holes\" of faces is not read"));
+  for (const std::string name : {"texcoord", "flags", "red"})
+    EXPECT_THAT(notesOf("a.ply", ply("", "", "property list uchar int " + name + "\n")), IsEmpty());
+}
+
+TEST_F(MeshContent, OffFacesOfTwoCorners) {
+  const std::string points = "0 0 0\n1 0 0\n0 2 0\n3 0 1 2\n";
+  EXPECT_THAT(notesOf("a.off", "OFF 3 1 0\n" + points), IsEmpty());
+  EXPECT_THAT(notesOf("a.off", "OFF 3 2 0\n" + points + "2 0 1\n"), ElementsAre(linesNote));
+  EXPECT_THAT(notesOf("a.off", "OFF 3 2 0\n" + points + "1 0\n"), ElementsAre(linesNote));
+}
+
+}  // namespace
+}  // namespace corridor::test::mesh_content
