@@ -8,7 +8,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-const MeshFileOptions metres{1, {}};
+const MeshFileOptions inMetres{1, {}};
 
 // --- AMF
 
@@ -17,7 +17,7 @@ std::string volume(const std::string& first = "0") {
 }
 
 /// Returns an AMF file of the triangle (0, 0, 0), (`x`, 0, 0), (0, 2, 0).
-std::string amf(const std::string& x, const std::string& volumes, const std::string& mesh = "") {
+std::string amfOf(const std::string& x, const std::string& volumes, const std::string& mesh = "") {
   const auto vertex = [](const std::string& a, const std::string& b) {
     return "<vertex><coordinates><x>" + a + "</x><y>" + b + "</y><z>0</z></coordinates></vertex>";
   };
@@ -27,22 +27,22 @@ std::string amf(const std::string& x, const std::string& volumes, const std::str
 }
 
 TEST_F(MeshContent, AmfVolumesBeyondTheFirst) {
-  EXPECT_EQ(read("a.amf", amf("1", volume()), metres).mesh.triangles.size(), 1u);
-  EXPECT_EQ(complaint("a.amf", amf("1", volume() + volume()), metres),
+  EXPECT_EQ(read("a.amf", amfOf("1", volume()), inMetres).mesh.triangles.size(), 1u);
+  EXPECT_EQ(complaint("a.amf", amfOf("1", volume() + volume()), inMetres),
             "a.amf:4: a second <volume> is in one <mesh>, and assimp drops one" + instead);
-  EXPECT_EQ(complaint("a.amf", amf("1", volume(), "\n<mesh>" + volume() + "</mesh>"), metres),
+  EXPECT_EQ(complaint("a.amf", amfOf("1", volume(), "\n<mesh>" + volume() + "</mesh>"), inMetres),
             "a.amf:4: a second <mesh> is in one <object>, and assimp drops one" + instead);
 }
 
 TEST_F(MeshContent, AmfNumbers) {
   for (const std::string number : {"0.5", " 5e-1\n", "+.5"})
-    EXPECT_EQ(read("a.amf", amf(number, volume()), metres).mesh.vertices.at(1), Vec3(0.5, 0, 0))
+    EXPECT_EQ(read("a.amf", amfOf(number, volume()), inMetres).mesh.vertices.at(1), Vec3(0.5, 0, 0))
         << number;
   for (const std::string number : {"0,5", "", "half", "1 2", "0x1"})
-    EXPECT_EQ(complaint("a.amf", amf(number, volume()), metres),
+    EXPECT_EQ(complaint("a.amf", amfOf(number, volume()), inMetres),
               "a.amf:2: <x> is not a number; write decimal numbers such as -1.25e-3")
         << number;
-  EXPECT_EQ(complaint("a.amf", amf("1", volume("zero")), metres),
+  EXPECT_EQ(complaint("a.amf", amfOf("1", volume("zero")), inMetres),
             "a.amf:3: <v1> is not a number; write decimal numbers such as -1.25e-3");
 }
 
@@ -50,8 +50,8 @@ TEST_F(MeshContent, AmfNumbers) {
 
 /// Returns a Collada file. @param asset the content of the document's <asset>. @param places texts
 /// for inner places: a geometry, its library, the node, the scene.
-std::string collada(const std::string& asset, const std::vector<std::string>& places = {},
-                    const std::string& libraries = "") {
+std::string colladaWith(const std::string& asset, const std::vector<std::string>& places = {},
+                        const std::string& libraries = "") {
   const auto at = [&](std::size_t i) { return i < places.size() ? places[i] : ""; };
   return R"(<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"><asset>)" +
          asset + "</asset>" + libraries + "<library_geometries>" + at(1) + R"(<geometry id="g">)" +
@@ -72,7 +72,7 @@ TEST_F(MeshContent, ColladaAssetsWithin) {
   const auto fault = [&](const std::string& outer, const std::string& inner, std::size_t place) {
     std::vector<std::string> places(4);
     places[place] = "<asset>" + inner + "</asset>";
-    const std::string text = complaint("a.dae", collada(outer, places));
+    const std::string text = complaint("a.dae", colladaWith(outer, places));
     const auto colon = text.find(": ");
     return colon == text.npos ? text : text.substr(colon + 2);
   };
@@ -93,24 +93,24 @@ TEST_F(MeshContent, ColladaAssetsWithin) {
 
 TEST_F(MeshContent, ColladaGeometryThatIsNotInstanced) {
   const std::string unused = "geometries that are in no node of the scene are not read";
-  EXPECT_THAT(notesOf("a.dae", collada("")), IsEmpty());
-  EXPECT_THAT(notesOf("a.dae", collada("", {"", "<geometry id=\"h\"><mesh/></geometry>"})),
+  EXPECT_THAT(notesOf("a.dae", colladaWith("")), IsEmpty());
+  EXPECT_THAT(notesOf("a.dae", colladaWith("", {"", "<geometry id=\"h\"><mesh/></geometry>"})),
               ElementsAre(unused));
   EXPECT_THAT(
-      notesOf("a.dae", collada("", {},
-                               "<library_nodes><node id=\"m\"><instance_geometry url=\"#g\"/>"
-                               "</node></library_nodes>")),
+      notesOf("a.dae", colladaWith("", {},
+                                   "<library_nodes><node id=\"m\"><instance_geometry url=\"#g\"/>"
+                                   "</node></library_nodes>")),
       ElementsAre(unused));
   EXPECT_THAT(
-      notesOf("a.dae", collada("", {"", "", "<instance_node url=\"#m\"/>"},
-                               "<library_nodes><node id=\"m\"><instance_geometry url=\"#g\"/>"
-                               "</node></library_nodes>")),
+      notesOf("a.dae", colladaWith("", {"", "", "<instance_node url=\"#m\"/>"},
+                                   "<library_nodes><node id=\"m\"><instance_geometry url=\"#g\"/>"
+                                   "</node></library_nodes>")),
       IsEmpty());
 }
 
 // --- X3D
 
-std::string x3d(const std::string& scene) {
+std::string x3dOf(const std::string& scene) {
   return "<X3D profile='Interchange' version='3.3'><Scene>\n" + scene + "</Scene></X3D>";
 }
 std::string shape(const std::string& name) {
@@ -120,14 +120,14 @@ std::string shape(const std::string& name) {
 }
 
 TEST_F(MeshContent, X3dPartsThatAreNotLoadedOrNamedTwice) {
-  EXPECT_EQ(complaint("a.x3d", x3d(shape("a") + shape("b"))), "no complaint");
-  EXPECT_EQ(complaint("a.x3d", x3d(shape("a") + "\n" + shape("a"))),
+  EXPECT_EQ(complaint("a.x3d", x3dOf(shape("a") + shape("b"))), "no complaint");
+  EXPECT_EQ(complaint("a.x3d", x3dOf(shape("a") + "\n" + shape("a"))),
             "a.x3d:3: two nodes have the name DEF=\"a\", of which assimp uses one; give each a "
             "name of its own");
-  write("o.x3d", x3d(shape("a")));
-  EXPECT_EQ(complaint("a.x3d", x3d(shape("a") + "<Inline url='o.x3d' load='false'/>")),
+  write("o.x3d", x3dOf(shape("a")));
+  EXPECT_EQ(complaint("a.x3d", x3dOf(shape("a") + "<Inline url='o.x3d' load='false'/>")),
             "a.x3d:2: <Inline load=\"false\"> is not read; remove it, or load=\"false\"");
-  EXPECT_THAT(complaint("a.x3d", x3d(shape("a") + "</Scene>\n<Scene>" + shape("b"))),
+  EXPECT_THAT(complaint("a.x3d", x3dOf(shape("a") + "</Scene>\n<Scene>" + shape("b"))),
               HasSubstr("a.x3d:3: a second <Scene> is in one <X3D>, and assimp drops one"));
 }
 
@@ -156,13 +156,13 @@ TEST_F(MeshContent, GltfNamesWithBytesInHexadecimal) {
 // --- Up-axes
 
 TEST_F(MeshContent, UpAxesOfFormats) {
-  EXPECT_EQ(read("a.x3d", x3d(shape("a"))).fileUp, 'y');
-  EXPECT_EQ(read("a.x3d", x3d(shape("a"))).upRule,
+  EXPECT_EQ(read("a.x3d", x3dOf(shape("a"))).fileUp, 'y');
+  EXPECT_EQ(read("a.x3d", x3dOf(shape("a"))).upRule,
             "coordinates as stored, since no up-axis was requested; the file's own, y, is not "
             "applied");
-  EXPECT_EQ(read("a.dae", collada("")).fileUp, 'y');
+  EXPECT_EQ(read("a.dae", colladaWith("")).fileUp, 'y');
   EXPECT_EQ(read("a.off", "OFF 3 1 0\n0 0 0\n1 0 0\n0 2 0\n3 0 1 2\n").fileUp, std::nullopt);
-  EXPECT_EQ(read("a.amf", amf("1", volume()), metres).fileUp, std::nullopt);
+  EXPECT_EQ(read("a.amf", amfOf("1", volume()), inMetres).fileUp, std::nullopt);
   for (const int axis : {0, 1, 2})
     EXPECT_EQ(read("a.fbx", R"(; FBX 7.3.0 project file
 FBXHeaderExtension: {
