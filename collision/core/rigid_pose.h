@@ -25,11 +25,18 @@ Eigen::Matrix<Real, 3, 3> rotationMatrix(const Eigen::Quaternion<Real>& q) {
   const Real ww = q.w() * q.w(), xx = q.x() * q.x(), yy = q.y() * q.y(), zz = q.z() * q.z();
   const Real xy = q.x() * q.y(), xz = q.x() * q.z(), yz = q.y() * q.z();
   const Real wx = q.w() * q.x(), wy = q.w() * q.y(), wz = q.w() * q.z();
+  const Real n = ww + xx + yy + zz;
   Eigen::Matrix<Real, 3, 3> m;
-  m << ww + xx - yy - zz, 2 * (xy - wz), 2 * (xz + wy),  //
-      2 * (xy + wz), ww - xx + yy - zz, 2 * (yz - wx),   //
-      2 * (xz - wy), 2 * (yz + wx), ww - xx - yy + zz;
-  return m / (ww + xx + yy + zz);
+  m(0, 0) = (ww + xx - yy - zz) / n;
+  m(0, 1) = 2 * (xy - wz) / n;
+  m(0, 2) = 2 * (xz + wy) / n;
+  m(1, 0) = 2 * (xy + wz) / n;
+  m(1, 1) = (ww - xx + yy - zz) / n;
+  m(1, 2) = 2 * (yz - wx) / n;
+  m(2, 0) = 2 * (xz - wy) / n;
+  m(2, 1) = 2 * (yz + wx) / n;
+  m(2, 2) = (ww - xx - yy + zz) / n;
+  return m;
 }
 
 }  // namespace corridor
