@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "collision/hierarchy/tree_params.h"
-#include "collision/volumes/pair_tests.h"
+#include "collision/volumes/volume_list.h"
 
 namespace corridor {
 
@@ -15,7 +15,7 @@ namespace corridor {
 /// `obb4` stands for 4-wide OBB trees (obb4_tree.h): sixteen pairs per test, the fastest kind.
 /// Every other kind stands for binary trees (volume_tree.h) of one volume with one of its overlap
 /// tests. These kinds have the names and the order of the list CORRIDOR_EACH_OVERLAP
-/// (pair_tests.h), which begins with obbBinary, obbGjk.
+/// (volume_list.h), which begins with obbBinary, obbGjk.
 enum class TreeKind {
   obb4,
 #define CORRIDOR_KIND(kind, Volume, Overlap, volumeName, overlapName) kind,

@@ -24,7 +24,7 @@ namespace corridor {
 /// need not outlive it. The depth is not bounded: triangles of the sizes 2^-i around a point give a
 /// very deep tree. A traversal therefore needs a stack of its own, and must not be recursive.
 ///
-/// Instantiated for all volumes of the list CORRIDOR_EACH_VOLUME (pair_tests.h).
+/// Instantiated for all volumes of the list CORRIDOR_EACH_VOLUME (volume_list.h).
 template <BoundingVolume Volume>
 class VolumeTree {
  public:

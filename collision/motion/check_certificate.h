@@ -1,8 +1,10 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
-#include "collision/motion/certify_motion.h"
+#include "collision/core/query_context.h"
+#include "collision/motion/motion_query.h"
 
 namespace corridor {
 

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "collision/motion/certify_motion.h"
+#include "collision/core/query_context.h"
+#include "collision/motion/motion_query.h"
 
 namespace corridor {
 

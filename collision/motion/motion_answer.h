@@ -1,6 +1,8 @@
 #pragma once
 
-#include "collision/motion/certify_motion.h"
+#include "collision/hierarchy/body.h"
+#include "collision/motion/motion_query.h"
+#include "collision/motion/relative_motion.h"
 
 namespace corridor {
 

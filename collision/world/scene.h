@@ -10,10 +10,13 @@
 
 #include "collision/core/query_context.h"
 #include "collision/hierarchy/body.h"
+#include "collision/hierarchy/box_tree.h"
 #include "collision/motion/edge_method.h"
 #include "collision/queries/distance.h"
 
 namespace corridor {
+
+class BroadPhase;
 
 /// Bodies on frames that move, and the pairs of bodies that are tested. Frame 0 is the world.
 ///

@@ -10,7 +10,7 @@
 
 #include "collision/core/rigid_pose.h"
 #include "collision/core/transform.h"
-#include "collision/motion/certify_motion.h"
+#include "collision/motion/motion_query.h"
 #include "planner/checker/left_out.h"
 #include "planner/problem/problem.h"
 #include "planner/robot/configuration_space.h"

@@ -8,6 +8,7 @@
 
 #include "collision/motion/check_certificate.h"
 #include "collision/queries/containment.h"
+#include "collision/volumes/kdop.h"
 #include "collision/world/body_queries.h"
 #include "collision/world/rigid_scene.h"
 #include "tests/collision/motion/bodies.h"
