@@ -16,7 +16,7 @@ namespace {
 using Meaning = JointNames::Meaning;
 using TableRow = TrajectoryTable::Row;
 
-constexpr double kTurn = 2 * std::numbers::pi;
+constexpr double kWholeTurn = 2 * std::numbers::pi;
 
 /// A value of a joint and its derivatives by time.
 struct JointState {
@@ -159,7 +159,7 @@ class UnplannedCheck {
       const JointState rule = required.at(rows_.rows[r]),
                        given = stateIn(table_.rows[r], joint, rule);
       if (r == 0 && jointOf(joint.meaning).type == JointType::continuous)
-        turns = kTurn * std::round((given.position - rule.position) / kTurn);
+        turns = kWholeTurn * std::round((given.position - rule.position) / kWholeTurn);
       const double off = std::abs(given.position - (rule.position + turns)),
                    speed = std::abs(given.velocity - rule.velocity),
                    growth = std::abs(given.acceleration - rule.acceleration), step = longestStep(r),
@@ -287,7 +287,7 @@ void checkStart(const TrajectoryTable& table, const JointNames& names, const Mod
       double off = value - first.positions[index];
       for (const Coordinate& c : model.space.coordinates())
         if (c.first == meaning->index && c.kind == Coordinate::Kind::circle)
-          off = std::remainder(off, kTurn);
+          off = std::remainder(off, kWholeTurn);
       if (std::abs(off) > limitSlack)
         fault(quotedWord(name) + " is " + shortest(value) + ", but the first point has " +
               shortest(first.positions[index]) +
@@ -298,7 +298,7 @@ void checkStart(const TrajectoryTable& table, const JointNames& names, const Mod
       const double required = RequiredState(model, *meaning).at(first).position;
       double off = value - required;
       const JointModel& joint = model.robots[meaning->robot].description.joints[meaning->index];
-      if (joint.type == JointType::continuous) off = std::remainder(off, kTurn);
+      if (joint.type == JointType::continuous) off = std::remainder(off, kWholeTurn);
       if (std::abs(off) <= equalUpToRounding(value)) continue;
       if (meaning->kind == Meaning::Kind::held)
         fault(quotedWord(name) + " is held at " + shortest(required) + " in the problem, but is " +

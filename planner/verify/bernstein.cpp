@@ -6,9 +6,6 @@
 namespace corridor::verify {
 namespace {
 
-/// A computed sum of errors times this factor is an upper bound of the real sum.
-constexpr Real kUp = 1 + 0x1p-50L;
-
 /// A rounded result, and the absolute value of its rounding.
 struct Rounded {
   Real value, rounding;

@@ -12,13 +12,13 @@
 namespace corridor::verify {
 namespace {
 
-using Rational = boost::multiprecision::cpp_rational;
+using Fraction = boost::multiprecision::cpp_rational;
 using RealQuaternion = Eigen::Matrix<Real, 4, 1>;
 
 /// Conversions by way of long double keep denormals in every mode of the vector unit. (Comparisons
 /// of doubles don't, even if they are written in long double: compilers narrow them.)
-Rational exact(Real value) {
-  return Rational(value);
+Fraction exact(Real value) {
+  return Fraction(value);
 }
 
 bool numbersJoin(double a, double b, double errorA, double errorB) {

@@ -9,7 +9,6 @@ namespace {
 
 constexpr Real kPi = std::numbers::pi_v<Real>;
 constexpr Real kAmbiguous = 1e-9L;  // radians; as in ConfigurationSpace::ambiguous()
-constexpr Real kUp = 1 + 0x1p-50L;  // exceeds the relative rounding of any sum here
 
 RealMat rotationOf(const Eigen::Matrix<Real, 4, 1>& q) {
   const Real x = q[0], y = q[1], z = q[2], w = q[3], k = 2 / q.squaredNorm();

@@ -8,6 +8,10 @@ namespace corridor::verify {
 
 /// The verifier's own arithmetic. Its proofs count roundings of u = 2^-64.
 using Real = long double;
+
+/// Exceeds the relative rounding of any sum of the verifier: a computed sum of errors times this
+/// factor is an upper bound of the real sum.
+inline constexpr Real kUp = 1 + 0x1p-50L;
 static_assert(std::numeric_limits<Real>::digits >= 64,
               "the verifier needs a long double of 64 bits");
 using RealVec = Eigen::Matrix<Real, 3, 1>;
