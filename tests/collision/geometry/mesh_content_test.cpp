@@ -142,43 +142,19 @@ TEST_F(Gltf, OtherFilesAreListed) {
 // --- FBX, 3MF
 
 TEST_F(MeshContent, FbxSurfacesThatAreNoPolygons) {
-  const auto fbx = [](const std::string& ofSecond) {
-    return R"(; FBX 7.3.0 project file
-FBXHeaderExtension: {
- FBXVersion: 7300
-}
-Definitions: {
- Version: 100
-}
-Objects: {
- Geometry: 1, "Geometry::a", "Mesh" {
-  Vertices: *9 {
-   a: 0,0,0,1,0,0,0,2,0
-  }
-  PolygonVertexIndex: *3 {
-   a: 0,1,-3
-  }
- }
- Geometry: 2, "Geometry::b", "NurbsSurface" {
+  const auto withSecond = [](const std::string& geometry) {
+    return fbx("", R"( Geometry: 2, "Geometry::b", "NurbsSurface" {
   Version: 100
- }
- Model: 3, "Model::a", "Mesh" {
-  Version: 232
  }
  Model: 4, "Model::b", "Mesh" {
   Version: 232
  }
-}
-Connections: {
- C: "OO",3,0
- C: "OO",4,0
- C: "OO",1,3
- C: "OO",)" +
-           ofSecond + ",4\n}\n";
+)",
+               " C: \"OO\",4,0\n C: \"OO\"," + geometry + ",4\n");
   };
-  EXPECT_THAT(notesOf("a.fbx", fbx("2")),
+  EXPECT_THAT(notesOf("a.fbx", withSecond("2")),
               ElementsAre("parts that are no polygons, such as NURBS surfaces, are not read"));
-  EXPECT_THAT(notesOf("a.fbx", fbx("1")), IsEmpty());
+  EXPECT_THAT(notesOf("a.fbx", withSecond("1")), IsEmpty());
 }
 
 /// assimp reads the first model only, and drops objects that it takes from others by `p:path`.

@@ -26,6 +26,18 @@ class MeshFiles : public ProblemTest {
     return "format: corridor-problem-1\nrobot: robot.yaml\nworld: {rock: {mesh: " + mesh +
            ", at: [50, 0, 0]}}\n" + poses;
   }
+  /// Writes a URDF with this mesh. Returns a problem with this robot.
+  std::string problemOfUrdf(const std::string& mesh) const {
+    write("r.urdf",
+          "<robot name=\"r\"><link name=\"base\"/><link name=\"l\"><collision><geometry><mesh "
+          "filename=\"" +
+              mesh +
+              "\"/></geometry></collision></link><joint name=\"j\" "
+              "type=\"prismatic\"><parent link=\"base\"/><child link=\"l\"/><axis xyz=\"1 0 0\"/>"
+              "<limit lower=\"-1\" upper=\"1\" velocity=\"1\" effort=\"1\"/></joint></robot>");
+    return "format: corridor-problem-1\nrobot: r.urdf\nworld: {rock: {box: [1, 1, 1], at: [50, 0, "
+           "0]}}\nstart: {j: 0}\ngoal: {j: 1}\n";
+  }
   Problem readCfg(const std::string& mesh) const {
     write("problem.cfg",
           "[problem]\nname=p\nrobot=" + mesh + "\nworld=" + mesh +
@@ -54,14 +66,7 @@ TEST_F(MeshFiles, TheDigestCoversBuffersOfTheWorld) {
 
 TEST_F(MeshFiles, TheDigestCoversBuffersOfURDFs) {
   writeGltf("m", 0);
-  write("r.urdf",
-        "<robot name=\"r\"><link name=\"base\"/><link name=\"l\"><collision><geometry><mesh "
-        "filename=\"m.gltf\"/></geometry></collision></link><joint name=\"j\" type=\"prismatic\">"
-        "<parent link=\"base\"/><child link=\"l\"/><axis xyz=\"1 0 0\"/><limit lower=\"-1\" "
-        "upper=\"1\" velocity=\"1\" effort=\"1\"/></joint></robot>");
-  write("problem.yaml",
-        "format: corridor-problem-1\nrobot: r.urdf\nworld: {rock: {box: [1, 1, 1], at: [50, 0, 0]}}"
-        "\nstart: {j: 0}\ngoal: {j: 1}\n");
+  write("problem.yaml", problemOfUrdf("m.gltf"));
   expectCovered("m");
 }
 
@@ -121,14 +126,7 @@ TEST_F(MeshFiles, UpAxesOfTheWorld) {
 
 TEST_F(MeshFiles, UpAxesOfURDFs) {
   writeGltf("m", 0);
-  write("r.urdf",
-        "<robot name=\"r\"><link name=\"base\"/><link name=\"l\"><collision><geometry><mesh "
-        "filename=\"m.gltf\"/></geometry></collision></link><joint name=\"j\" type=\"prismatic\">"
-        "<parent link=\"base\"/><child link=\"l\"/><axis xyz=\"1 0 0\"/><limit lower=\"-1\" "
-        "upper=\"1\" velocity=\"1\" effort=\"1\"/></joint></robot>");
-  const Problem p = read(
-      "format: corridor-problem-1\nrobot: r.urdf\nworld: {rock: {box: [1, 1, 1], at: [50, 0, 0]}}"
-      "\nstart: {j: 0}\ngoal: {j: 1}\n");
+  const Problem p = read(problemOfUrdf("m.gltf"));
   EXPECT_THAT(textsOf(p.source.notes),
               testing::Contains((folder_ / "r.urdf").string() +
                                 ": the up-axis of m.gltf is not z; it is not applied (ROS's rule), "

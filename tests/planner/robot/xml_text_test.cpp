@@ -39,10 +39,10 @@ TEST_F(XmlText, TextWithoutItsBracketIsAFault) {
 }
 
 TEST_F(XmlText, OtherTextIsASeriousNoteOnEachKindOfElement) {
-  EXPECT_THAT(notesOn(link("a", "\n todo =\n 3 " + collision(ball)) + "-->" + link("b", "x") +
+  EXPECT_THAT(notesOn(link("a", "\n height =\n 3 " + collision(ball)) + "-->" + link("b", "x") +
                       joint("j", "fixed", "a", "b", "/>")),
               ElementsAre("r.urdf:5: robot \"r\": the text \"-->\" in <robot> is not read",
-                          "r.urdf:3: link \"a\": the text \"todo = 3\" in <link> is not read",
+                          "r.urdf:3: link \"a\": the text \"height = 3\" in <link> is not read",
                           "r.urdf:6: joint \"j\": the text \"/>\" in <joint> is not read"));
   const RobotModel model = modelOf("x" + link("a"));
   ASSERT_EQ(model.notes.size(), 1u);
