@@ -96,19 +96,24 @@ std::vector<Row> readRows(const std::filesystem::path& file, const Configuration
   for (int number = 1; std::getline(lines, line); ++number) {
     if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // byte-order mark
     // numpy.savetxt writes its header as a comment.
-    if (const std::size_t mark = line.find('#'); isFirst && mark != std::string::npos) {
+    if (const std::size_t mark = line.find('#');
+        rows.empty() && faults.size() == 0 && mark != std::string::npos) {
       const std::string comment = line.substr(mark + 1);
       std::vector<std::string> words = wordsOfLine(comment), sorted = names;
       // In a file of edges, both states are in the order of the names.
       const bool namesAState = words == names || words == inOrder;
       std::sort(words.begin(), words.end());
       std::sort(sorted.begin(), sorted.end());
-      if (mark == 0 && allowHeader && words == sorted)
+      if (mark == 0 && allowHeader && words == sorted) {
+        if (!isFirst)
+          throw InputError(
+              Fault{file.string(), number, "the file has two headers; keep one of them"});
         line.erase(0, 1);
-      else if (!namesAState && likeHeader == 0 && resemblesHeader(comment, inOrder))
+      } else if (isFirst && !namesAState && likeHeader == 0 && resemblesHeader(comment, inOrder)) {
         likeHeader = number;
-      else if (!namesAState && notRead == 0 && wordsOfLine(line).empty() && hasLetters(comment))
+      } else if (!namesAState && notRead == 0 && wordsOfLine(line).empty() && hasLetters(comment)) {
         notRead = number;
+      }
     }
     const std::vector<std::string> words = wordsOfLine(line);
     if (words.empty()) continue;

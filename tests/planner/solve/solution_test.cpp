@@ -191,6 +191,16 @@ TEST_F(SolutionFile, CommentsThatNameTheColumnsAreRefused) {
                                                "columns are shoulder, elbow, wrist, in this order, "
                                                "in m and rad"));
   EXPECT_EQ(readSolution(write("a.path", "# in degrees\n1 2 3\n"), space).notes.size(), 1u);
+  // Between the header and the first row, too.
+  const std::string header = "wrist elbow shoulder\n";
+  notes.clear();
+  readStateRows(write("s.txt", header + "# in degrees\n1 2 3\n# an end\n"), space, notes);
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_THAT(notes[0].text, testing::EndsWith("s.txt: line 2 is a comment, which is not read; the "
+                                               "columns are wrist, elbow, shoulder, in this order, "
+                                               "in m and rad"));
+  EXPECT_EQ(complaint("a.path", header + "# elbow wrist shoulder\n1 2 3\n", space),
+            "a.path:2: the file has two headers; keep one of them");
 }
 
 TEST_F(SolutionFile, OmplAppPaths) {
