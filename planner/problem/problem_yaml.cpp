@@ -193,8 +193,9 @@ void noteSmaller(const Padding& scene, const Padding& own, Problem& problem) {
   };
   for (const auto& [body, metres] : own.bodies) add(bodies[body].name, metres, sceneOf(body));
   for (const auto& [pair, metres] : own.pairs)
-    add(bodies[pair.first].name + " ~ " + bodies[pair.second].name, metres,
-        sceneOf(pair.first) + sceneOf(pair.second));
+    if (bodies[pair.first].robot != bodies[pair.second].robot)  // the scene pads no other pairs
+      add(bodies[pair.first].name + " ~ " + bodies[pair.second].name, metres,
+          sceneOf(pair.first) + sceneOf(pair.second));
   if (!names.empty())
     problem.source.notes.push_back(
         {"padding of the problem is used instead of the scene's larger link_padding (m): " +

@@ -257,8 +257,10 @@ TEST_F(MoveitStates, FramesAndPaddingsThatAreNotUsed) {
                        "(m): upper (0.1, not 0.2)"));
   EXPECT_THAT(textsOf(read(plain + "padding: {pairs: [[upper, crate, 0]]}\n").source.notes),
               contains("link_padding (m): upper ~ crate (0, not 0.2)"));
-  EXPECT_THAT(textsOf(read(plain + "padding: {bodies: {upper: 0.3}}\n").source.notes),
-              testing::Not(contains("link_padding (m)")));
+  for (const char* const padding : {"{bodies: {upper: 0.3}}", "{pairs: [[upper, finger, 0]]}"})
+    EXPECT_THAT(textsOf(read(plain + "padding: " + padding + "\n").source.notes),
+                testing::Not(contains("link_padding (m)")))
+        << padding;
 }
 
 /// "world" is the frame of the world, unless a link that is not the root has this name.
