@@ -224,10 +224,9 @@ class XmlCheck {
   }
 
   void checkUnit(const XmlTag& tag) {
-    const std::string_view category = tag.value("category"), factor = tag.value("conversionFactor");
-    double value = 0;
-    std::from_chars(factor.data(), factor.data() + factor.size(), value);
-    if ((category == "length" || category == "angle") && value != 1)
+    const std::string_view category = tag.value("category");
+    if ((category == "length" || category == "angle") &&
+        numberIn(tag.value("conversionFactor")) != 1)
       fault(tag.line, "the file's unit of " + std::string(category) +
                           " is not applied; store metres and radians, without <unit>");
   }

@@ -112,9 +112,11 @@ TEST_F(MeshContent, X3dUnits) {
                              factor + "'/></head>");
   };
   for (const std::string category : {"length", "angle"}) {
-    EXPECT_EQ(complaint("a.x3d", unit(category, "0.001")),
-              "a.x3d:2: the file's unit of " + category +
-                  " is not applied; store metres and radians, without <unit>");
+    for (const std::string factor : {"0.001", "1,5", "1 000"})
+      EXPECT_EQ(complaint("a.x3d", unit(category, factor)),
+                "a.x3d:2: the file's unit of " + category +
+                    " is not applied; store metres and radians, without <unit>")
+          << factor;
     EXPECT_EQ(complaint("a.x3d", unit(category, "1.0")), "no complaint");
   }
   EXPECT_EQ(complaint("a.x3d", unit("mass", "0.001")), "no complaint");
