@@ -95,7 +95,9 @@ void MoveitRequest::checkFollowers(const std::map<std::string, double>& values, 
         at = q[static_cast<Eigen::Index>(
             problem.model.space.coordinates()[planned.coordinate].first)];
     const double own = joint.mimic->multiplier * at + joint.mimic->offset;
-    const bool turns = joint.type == JointType::continuous || leader.type == JointType::continuous;
+    // Angles that differ by whole turns are the same pose; lengths that differ by 2π are not.
+    const bool turns = joint.type == JointType::continuous ||
+                       (joint.type == JointType::revolute && leader.type == JointType::continuous);
     const double off = turns ? std::remainder(value - own, 2 * std::numbers::pi) : value - own;
     if (std::abs(off) > limitSlack)
       source_.fault(line, path + ": " + name + " follows " + leader.name + " (mimic), and is at " +

@@ -133,6 +133,18 @@ TEST_F(MoveitMatrix, GoalsOfMimicJointsKeepTheirRule) {
             "and is at -0.03 there, not at -0.02");
 }
 
+/// A slide that is off by 2π m is elsewhere, even if the joint that it follows turns.
+TEST_F(MoveitMatrix, GoalsOfSlidesDoNotTurn) {
+  std::string follows = urdf, text = request;
+  const std::string rule = "joint='slide' multiplier='-1'", lift = "lift, position: 0.75}\n";
+  follows.replace(follows.find(rule), rule.size(), "joint='pan' multiplier='0' offset='-0.01'");
+  write("arm.urdf", follows);
+  text.insert(text.find(lift) + lift.size(),
+              "      - {joint_name: follow, position: 6.273185307179586}\n");
+  write("request.yaml", text);
+  EXPECT_THAT(complaintOf(head), HasSubstr("follow follows pan (mimic), and is at -0.01 there"));
+}
+
 /// The key `lift_deg` is one of problem files, not of messages.
 TEST_F(MoveitMatrix, MessagesGetNoAdviceOnDegrees) {
   std::string text = request;
