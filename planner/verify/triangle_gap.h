@@ -8,12 +8,12 @@ namespace corridor::verify {
 
 /// The verifier's own arithmetic. Its proofs count roundings of u = 2^-64.
 using Real = long double;
-
-/// Exceeds the relative rounding of any sum of the verifier: a computed sum of errors times this
-/// factor is an upper bound of the real sum.
-inline constexpr Real kUp = 1 + 0x1p-50L;
 static_assert(std::numeric_limits<Real>::digits >= 64,
               "the verifier needs a long double of 64 bits");
+
+/// An upper bound of a real value, if a value that was computed from numbers that are not negative,
+/// by sums and products with up to 2^13 roundings one after another, is multiplied by this factor.
+inline constexpr Real kUp = 1 + 0x1p-50L;
 using RealVec = Eigen::Matrix<Real, 3, 1>;
 using RealMat = Eigen::Matrix<Real, 3, 3>;
 
