@@ -48,7 +48,11 @@ constexpr XmlRules kAmf{"amf",
 constexpr std::string_view kBlanks = " \t\r\n";
 
 bool contains(std::string_view list, std::string_view name) {
-  return list.find(" " + std::string(name) + " ") != list.npos;
+  for (auto at = list.find(name); at != list.npos; at = list.find(name, at + 1)) {
+    const auto end = at + name.size();
+    if (at > 0 && list[at - 1] == ' ' && end < list.size() && list[end] == ' ') return true;
+  }
+  return false;
 }
 
 std::string_view trimmed(std::string_view text) {
