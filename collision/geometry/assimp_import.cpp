@@ -5,8 +5,6 @@
 #include <charconv>
 #include <exception>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -25,6 +23,7 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
+#include "collision/core/read_file.h"
 #include "collision/core/spelling.h"
 #include "collision/geometry/assimp_content.h"
 #include "collision/geometry/mesh_limits.h"
@@ -223,11 +222,6 @@ void removeOtherFormats(Assimp::Importer& importer) {
   }
 }
 
-std::string bytesOf(const std::string& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 /// Adds a fault if something other than its nodes moves the vertices of a mesh of the scene.
 void checkDeformation(const aiScene& scene, const std::string& file, ContentReport& report) {
   for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
@@ -253,7 +247,7 @@ char upOf(ContentKind kind, const aiScene& scene) {
 /// Reads a file, unless a fault of its content is found first.
 void read(const std::string& file, AssimpRules rules, AssimpImport& result, ContentReport& report) {
   const ContentKind kind = contentKindOf(lowered(std::filesystem::path(file).extension().string()));
-  if (kind != ContentKind::Other) checkContent(kind, file, bytesOf(file), report);
+  if (kind != ContentKind::Other) checkContent(kind, file, readFile(file, "a mesh file"), report);
   if (!report.faults.empty()) return;
   Assimp::DefaultLogger::create("", Assimp::Logger::NORMAL, 0);
   Assimp::DefaultLogger::get()->attachStream(std::make_unique<DropLog>(file, report).release(),
@@ -273,7 +267,7 @@ void read(const std::string& file, AssimpRules rules, AssimpImport& result, Cont
   importer.ReadFile(file, steps);
   if (kind == ContentKind::X3d)
     for (const std::string& other : result.otherFiles)
-      checkContent(kind, other, bytesOf(other), report);
+      checkContent(kind, other, readFile(other, "a mesh file"), report);
   const aiScene* const scene = importer.GetScene();
   if (!scene || !scene->mRootNode) {
     result.error = oneLine(importer.GetErrorString());

@@ -18,16 +18,6 @@ const MapKeys kPoses{{"header", "joint_names", "transforms", "twist", "wrench"},
 const MapKeys kTransform{{"translation", "rotation"}, {}};
 const MapKeys kHeaderKeys{{"seq", "stamp", "frame_id"}, {}};
 
-/// Returns a pose as it is written in problems: "{at: [0, 0, 1], quat_xyzw: [0, 0, 0, 1]}".
-std::string written(const RigidPose& pose) {
-  const auto list = [](const auto& numbers) {
-    std::string text;
-    for (const double number : numbers) text += (text.empty() ? "[" : ", ") + shortest(number);
-    return text + "]";
-  };
-  return "{at: " + list(pose.p) + ", quat_xyzw: " + list(pose.q.coeffs()) + "}";
-}
-
 /// Returns the state of a planar or floating joint, or of a rigid robot, in a configuration.
 RigidPose poseIn(const Configuration& q, const PlannedJoint& planned,
                  const ConfigurationSpace& space) {
@@ -42,7 +32,7 @@ struct OwnPose {
   RigidPose pose;
   std::string isAt;  ///< "the base is at "
   std::string fix;
-  bool isChosen = false;
+  bool isChosen = false, isPlanned = false;
 };
 
 /// Returns the model's pose for the name of a joint in a message, or nullopt if there is none.
@@ -50,7 +40,7 @@ std::optional<OwnPose> ownPoseOf(const std::string& name, const Model& model,
                                  const Configuration& q, const std::string& configuration) {
   const auto planned = [&](const RigidPose& pose) {
     return OwnPose{pose, "the " + configuration + " is at ", "give it by start in the problem",
-                   true};
+                   true, true};
   };
   const auto hasJoint = [&](const ModelRobot& robot) {
     return findJoint(robot.description, name).has_value();
@@ -75,6 +65,15 @@ std::optional<OwnPose> ownPoseOf(const std::string& name, const Model& model,
 }
 
 }  // namespace
+
+std::string written(const RigidPose& pose) {
+  const auto list = [](const auto& numbers) {
+    std::string text;
+    for (const double number : numbers) text += (text.empty() ? "[" : ", ") + shortest(number);
+    return text + "]";
+  };
+  return "{at: " + list(pose.p) + ", quat_xyzw: " + list(pose.q.coeffs()) + "}";
+}
 
 std::string frameOf(const YamlMap& message) {
   const YamlValue* const header = message.find("header");
@@ -132,13 +131,17 @@ std::vector<MessagePose> readMessagePoses(const YamlMap& state) {
   return poses;
 }
 
-bool isSamePose(const RigidPose& a, const RigidPose& b) {
-  if (!((a.p - b.p).cwiseAbs().maxCoeff() <= equalUpToRounding(b.p.cwiseAbs().maxCoeff())))
-    return false;
+bool isSamePose(const RigidPose& a, const RigidPose& b, double slack) {
+  const double largest = b.p.cwiseAbs().maxCoeff();
+  const auto isSame = [&](double x, double y, double size) {
+    return std::abs(x - y) <= std::max(slack, 2 * equalUpToRounding(size));
+  };
+  for (int i = 0; i < 3; ++i)
+    if (!isSame(a.p[i], b.p[i], largest)) return false;
   const Eigen::Quaterniond p = a.q.normalized(), q = b.q.normalized();
   const double sign = p.dot(q) < 0 ? -1 : 1;
   for (int i = 0; i < 4; ++i)
-    if (!(std::abs(p.coeffs()[i] - sign * q.coeffs()[i]) <= equalUpToRounding(1))) return false;
+    if (!isSame(p.coeffs()[i], sign * q.coeffs()[i], 1)) return false;
   return true;
 }
 
@@ -147,11 +150,12 @@ std::optional<PoseConflict> conflictOf(const MessagePose& given, const Model& mo
   const auto own = ownPoseOf(given.joint, model, q, configuration);
   if (!own)
     return PoseConflict{given.path + ": no pose in this problem belongs to this name",
-                        "remove it from the message", false};
+                        "remove it from the message"};
   if (isSamePose(given.pose, own->pose)) return std::nullopt;
   return PoseConflict{given.path + ": " + own->isAt + written(own->pose) + ", not at " +
                           written(given.pose) + " as here",
-                      own->fix, own->isChosen};
+                      own->fix, own->isChosen,
+                      own->isPlanned && isSamePose(given.pose, own->pose, limitSlack)};
 }
 
 }  // namespace corridor

@@ -25,6 +25,9 @@ struct MessagePose {
 /// of the joints.
 std::vector<MessagePose> readMessagePoses(const YamlMap& state);
 
+/// Returns a pose as it is written in problems: "{at: [0, 0, 1], quat_xyzw: [0, 0, 0, 1]}".
+std::string written(const RigidPose& pose);
+
 /// Returns the frame that a message's `header` names, "" if there is none.
 std::string frameOf(const YamlMap& message);
 
@@ -32,10 +35,11 @@ std::string frameOf(const YamlMap& message);
 std::optional<RigidPose> readTransform(const YamlValue& value, const std::string& path,
                                        YamlSource& source);
 
-/// Returns whether two poses are the same up to rounding: the positions per axis up to
-/// `equalUpToRounding` of the largest coordinate, and the numbers of the normalised quaternions up
-/// to `equalUpToRounding(1)`.
-bool isSamePose(const RigidPose& a, const RigidPose& b);
+/// Returns whether two poses are the same: the positions per axis, and the numbers of the
+/// normalised quaternions (up to the sign of one quaternion), each up to `slack` or up to rounding.
+/// Rounding is 2·`equalUpToRounding` of the largest coordinate, and of 1 for quaternions: the two
+/// poses may be products of other poses, whose rounding is a few units in the last place more.
+bool isSamePose(const RigidPose& a, const RigidPose& b, double slack = 0);
 
 /// The difference between a pose in a message and the one in the model.
 struct PoseConflict {
@@ -43,6 +47,8 @@ struct PoseConflict {
   std::string fix;  ///< "give it by base in the problem"
   /// Whether the user gave the model's pose: a base, a hold in the robot's file, or the start.
   bool isChosen = false;
+  /// Whether the pose is planned for, and the difference is at most `limitSlack` (`isSamePose`).
+  bool isNear = false;
 };
 
 /// Compares a pose in a message with the model's: the pose in the configuration `q` for a joint

@@ -8,6 +8,7 @@
 #include "collision/core/read_file.h"
 #include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
+#include "planner/model/joint_rule.h"
 #include "planner/problem/joint_yaml.h"
 #include "planner/problem/urdf_robot.h"
 #include "planner/problem/yaml_ledger.h"
@@ -87,14 +88,7 @@ void MoveitRequest::checkFollowers(const std::map<std::string, double>& values, 
       continue;
     }
     const JointModel& leader = robot.description.joints[joint.mimic->joint];
-    double at = 0;
-    if (const auto held = robot.held.find(joint.mimic->joint); held != robot.held.end())
-      at = held->second;
-    for (const PlannedJoint& planned : robot.plannedJoints)
-      if (planned.name == leader.name)
-        at = q[static_cast<Eigen::Index>(
-            problem.model.space.coordinates()[planned.coordinate].first)];
-    const double own = joint.mimic->multiplier * at + joint.mimic->offset;
+    const double own = ruleOf(problem.model, 0, *j).at(q);
     // Angles that differ by whole turns are the same pose; lengths that differ by 2π are not.
     const bool turns = joint.type == JointType::continuous ||
                        (joint.type == JointType::revolute && leader.type == JointType::continuous);

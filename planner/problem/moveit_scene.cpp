@@ -10,6 +10,8 @@
 #include "collision/core/read_file.h"
 #include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
+#include "planner/problem/moveit_frames.h"
+#include "planner/problem/moveit_matrix.h"
 #include "planner/problem/moveit_shapes.h"
 #include "planner/problem/urdf_robot.h"
 #include "planner/problem/yaml_ledger.h"
@@ -28,80 +30,6 @@ const MapKeys kObject{
     {"header", "pose", "id", "type", "primitives", "primitive_poses", "meshes", "mesh_poses",
      "planes", "plane_poses", "subframe_names", "subframe_poses", "operation"},
     {}};
-const MapKeys kMatrix{
-    {"entry_names", "entry_values", "default_entry_names", "default_entry_values"}, {}};
-const MapKeys kTransforms{{"header", "child_frame_id", "transform"}, {}};
-const MapKeys kHeader{{"seq", "stamp", "frame_id"}, {}};
-
-/// Returns the pose in the world of the frame that an object's header names.
-/// @param root the name of the robot's root link.
-/// @param base the pose of this link in the world.
-/// @param worldIsLink whether another link than the root is named "world".
-Placement readFrame(const YamlMap& object, const std::string& root, const RigidPose& base,
-                    bool worldIsLink) {
-  const YamlValue* const header = object.find("header");
-  if (!header) return {};
-  const YamlMap map(*header, object.pathOf("header"), &kHeader, object.source());
-  map.ignore({"seq", "stamp"});
-  const std::string frame = map.textOrNone("frame_id");
-  if (frame == root) return {base, {rotationMatrix(base.q), base.p}};
-  if (frame == "world" && worldIsLink)
-    map.fault(
-        "frame_id",
-        "a link of the robot that is not its root is named \"world\", and objects in its frame "
-        "are not supported; give the object in the frame of the root, " +
-            quotedWord(root));
-  if (!frame.empty() && frame != "world")
-    map.fault("frame_id", "the frame of the robot's root, " + quotedWord(root) +
-                              ", or \"world\" is needed, not " + quotedWord(frame));
-  return {};
-}
-
-/// Compares the poses of the robot's root link and of the world, relative to each other, with the
-/// problem's base. A difference is a fault; a note, if the problem gives a base. Poses of other
-/// frames have no effect, because objects in them are faults.
-void checkTransforms(const YamlMap& scene, const std::string& root, const RigidPose& base) {
-  const std::string path = "fixed_frame_transforms";
-  std::vector<std::string> others;
-  const auto withoutSlash = [](std::string frame) {
-    return frame.erase(0, std::min(frame.size(), frame.find_first_not_of('/')));
-  };
-  for (const YamlValue* const item : itemsOf(scene, path)) {
-    const YamlMap map(*item, path, &kTransforms, scene.source());
-    const std::string child = withoutSlash(map.textOrNone("child_frame_id"));
-    const std::string parent = withoutSlash(frameOf(map));
-    const bool isKnownParent = parent == root || parent == "world" || parent.empty();
-    if ((child != root && child != "world") || (child == "world" && !isKnownParent)) {
-      map.ignore({"transform"});
-      if (child != parent) others.push_back(child);
-      continue;
-    }
-    const YamlValue* const transform = map.find("transform");
-    const auto given = transform
-                           ? readTransform(*transform, map.pathOf("transform"), scene.source())
-                           : std::nullopt;
-    if (!given) continue;
-    RigidPose own;  // by the problem; the pose of a frame in itself is the identity
-    if (child == root && parent != root) own = base;
-    if (child == "world" && parent == root)
-      own = {-(rotationMatrix(base.q).transpose() * base.p), base.q.conjugate()};
-    if (isSamePose(*given, own)) continue;
-    const std::string text = "the pose of " + quotedWord(child) +
-                             " is not that by the base of the "
-                             "robot in the problem";
-    if (isSamePose(base, {}))
-      map.fault("transform", text + "; give it by base in the problem");
-    else
-      map.source().notes.push_back(
-          {map.source().file + ": " + map.pathOf("transform") + ": " + text + ", which is used",
-           NoteWeight::coverage});
-  }
-  if (!others.empty())
-    scene.source().notes.push_back({scene.source().file + ": " + path +
-                                    ": without effect, because objects in these frames are "
-                                    "refused: the poses of " +
-                                    joinedFirst(others)});
-}
 
 /// Returns the paddings of links, by their names (metres). Adds a fault for each link that the
 /// scene scales.
@@ -157,11 +85,13 @@ void MoveitScene::addWorld(const std::string& root, const RigidPose& base, Model
   const YamlMap scene = message();
   scene.require("world", "the collision objects of a planning scene of MoveIt");
   padding_ = readLinks(scene);
-  checkTransforms(scene, root, base);
+  const SceneFrames frames{root, base, worldIsLink_};
+  frames.checkTransforms(scene);
   const YamlValue* const value = scene.find("world");
   if (!value) return;
   const YamlMap world(*value, "world", &kWorld, source_);
-  if (const YamlValue* const octomap = world.find("octomap")) {
+  if (const YamlValue* const octomap = world.find("octomap");
+      octomap && octomap->kind != YamlValue::Kind::Null) {
     const YamlMap posed(*octomap, "world.octomap", &kPosedOctomap, source_);
     const YamlValue* const map = posed.find("octomap");
     Placement at;
@@ -169,7 +99,7 @@ void MoveitScene::addWorld(const std::string& root, const RigidPose& base, Model
         isEmpty(YamlMap(*map, posed.pathOf("octomap"), nullptr, source_), "data")) {
       posed.ignore({"header", "origin"});  // ROS 1 writes zeros, which are no rotation
     } else {
-      at = readFrame(posed, root, base, worldIsLink_);
+      at = frames.placementOf(posed);
       if (const YamlValue* const origin = posed.find("origin"))
         at = at * readPose(*origin, posed.pathOf("origin"), source_).value_or(Placement());
     }
@@ -196,10 +126,12 @@ void MoveitScene::addWorld(const std::string& root, const RigidPose& base, Model
     }
     const YamlMap object(*item, "object " + quotedWord(*id), &kObject, source_);
     object.ignore({"type", "subframe_names", "subframe_poses"});
-    Placement outer = readFrame(object, root, base, worldIsLink_);
+    Placement outer = frames.placementOf(object);
     if (!ids.insert(*id).second) object.fault("id", "another object has this name");
+    // The field is a byte, which ROS 2 writes as text: "\0", "\x02".
     if (const auto operation = object.text("operation");
-        operation && lowered(*operation) != "add" && *operation != "0" && *operation != "2")
+        operation && lowered(*operation) != "add" && *operation != "0" && *operation != "2" &&
+        *operation != std::string(1, '\0') && *operation != "\x02")
       object.fault("operation", "only ADD (0) is supported, not " + quotedWord(*operation));
     for (const char* const key : {"planes", "plane_poses"})
       if (!isEmpty(object, key)) object.fault(key, "planes are not supported; use a flat box");
@@ -280,6 +212,10 @@ void MoveitScene::noteNames(const Model& model, std::vector<Note>& notes) {
                      std::to_string(unknown.size()) + "): " + joinedFirst(unknown, 3)});
 }
 
+void MoveitScene::applyAllowed(Model& model) {
+  applyAllowedMatrix(message(), model);
+}
+
 Padding MoveitScene::paddingOf(const Model& model) const {
   Padding padding;
   for (std::size_t i = 0; i < model.bodies.size(); ++i)
@@ -287,97 +223,6 @@ Padding MoveitScene::paddingOf(const Model& model) const {
         model.bodies[i].robot && found != padding_.end())
       padding.bodies[i] = found->second;
   return padding;
-}
-
-void MoveitScene::applyAllowed(Model& model) {
-  const YamlValue* const value = message().find("allowed_collision_matrix");
-  if (!value || value->kind != YamlValue::Kind::Map) return;
-  const YamlMap map(*value, "allowed_collision_matrix", &kMatrix, source_);
-  if (isEmpty(map, "entry_names")) return;
-  const auto names = readWords(*map.find("entry_names"), "such as [hand, table]",
-                               "allowed_collision_matrix.entry_names", source_);
-  const auto rows = itemsOf(map, "entry_values");
-  if (!names) return;
-  if (std::set<std::string> known; !std::ranges::all_of(
-          *names, [&](const std::string& name) { return known.insert(name).second; }))
-    return map.fault("entry_names", "a name is listed twice, so its rows may disagree");
-  if (rows.size() != names->size())
-    return map.fault("entry_values", std::to_string(names->size()) + " rows are needed, not " +
-                                         std::to_string(rows.size()));
-  std::vector<std::vector<bool>> allowed;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    // A row is a list, or a message with the list `enabled`.
-    const YamlValue* row = rows[i];
-    if (row->kind == YamlValue::Kind::Map)
-      if (const YamlValue* const enabled =
-              YamlMap(*row, "allowed_collision_matrix.entry_values", nullptr, source_)
-                  .find("enabled"))
-        row = enabled;
-    const std::string path = "allowed_collision_matrix.entry_values[" + std::to_string(i) + "]";
-    const auto words = readWords(*row, "such as [true, false]", path, source_);
-    if (!words) return;
-    if (words->size() != names->size())
-      return source_.fault(row->line, path + ": " + std::to_string(names->size()) +
-                                          " values are needed, not " +
-                                          std::to_string(words->size()));
-    std::vector<bool>& values = allowed.emplace_back();
-    for (const std::string& word : *words) {
-      values.push_back(lowered(word) == "true" || word == "1");
-      if (!values.back() && lowered(word) != "false" && word != "0")
-        return source_.fault(row->line,
-                             path + ": true or false is needed, not " + quotedWord(word));
-    }
-    for (std::size_t k = 0; k < i; ++k)
-      if (values[k] != allowed[k][i])
-        return source_.fault(
-            row->line, path + ": the matrix is not symmetric: " + quotedWord((*names)[i]) +
-                           " and " + quotedWord((*names)[k]) + " are allowed in one order only");
-  }
-  replacePairs(*names, allowed, model);
-}
-
-void MoveitScene::replacePairs(const std::vector<std::string>& names,
-                               const std::vector<std::vector<bool>>& allowed, Model& model) {
-  std::map<std::string, std::size_t> bodies;
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) bodies[model.bodies[b].name] = b;
-  const Required any = Required::beyondProofs();  // the matrix has no say about proofs
-  for (std::size_t a = 0; a < model.bodies.size(); ++a)
-    for (std::size_t b = a + 1; b < model.bodies.size() && model.bodies[b].robot; ++b)
-      if (model.filter.whyNotTested(a, b, any).starts_with("SRDF")) model.filter.include(a, b);
-  // The SRDF's reason may have hidden that robot.yaml allows the pair, too.
-  for (const AllowedPair& pair : model.robots.front().description.allowed) {
-    const auto a = bodies.find(pair.a), b = bodies.find(pair.b);
-    if (pair.reason == kAllowedByRobot && a != bodies.end() && b != bodies.end() &&
-        model.filter.whyNotTested(a->second, b->second, any).empty())
-      model.filter.skip(a->second, b->second, pair.reason);
-  }
-  std::vector<std::string> tested, adjacent;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    for (std::size_t k = 0; k < i; ++k) {
-      const auto a = bodies.find(names[i]), b = bodies.find(names[k]);
-      if (a == bodies.end() || b == bodies.end()) continue;
-      const std::string_view why = model.filter.whyNotTested(a->second, b->second, any);
-      const std::string pair = names[k] + " ~ " + names[i];
-      if (allowed[i][k]) {
-        if (why.empty()) model.filter.skip(a->second, b->second, "allowed_collision_matrix");
-      } else if (why == kAllowedByRobot) {
-        tested.push_back(pair);
-        model.filter.include(a->second, b->second);
-      } else if (why == "adjacent") {
-        adjacent.push_back(pair);
-      }
-    }
-  const std::string matrix = source_.file + ": allowed_collision_matrix: ";
-  if (!tested.empty())
-    source_.notes.push_back(
-        {matrix + "tested, although robot.yaml allows them to touch: " + joinedFirst(tested),
-         NoteWeight::motion});
-  if (!adjacent.empty())
-    source_.notes.push_back({matrix +
-                                 "not tested, although the matrix has false, because the "
-                                 "links are adjacent: " +
-                                 joinedFirst(adjacent),
-                             NoteWeight::coverage});
 }
 
 }  // namespace corridor

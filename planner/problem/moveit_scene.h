@@ -35,11 +35,7 @@ class MoveitScene {
   /// robot's root link are placed relative to the robot's base.
   /// @param root the name of the robot's root link.
   void addWorld(const std::string& root, const RigidPose& base, ModelBuilder& builder);
-  /// If the scene has an allowed collision matrix with names, excludes the pairs of bodies that the
-  /// matrix allows to touch. As in MoveIt, the matrix then replaces the SRDF's pairs. Pairs that
-  /// robot.yaml allows stay excluded, unless the matrix has false for them; a note names those. The
-  /// default entries of the matrix are not read, so pairs that only a default entry allows are
-  /// tested.
+  /// Applies the allowed collision matrix (`applyAllowedMatrix`).
   void applyAllowed(Model& model);
   /// Returns the paddings of links (metres). As in MoveIt, they apply to pairs of a link and an
   /// obstacle.
@@ -51,9 +47,6 @@ class MoveitScene {
   std::vector<Note> takeNotes(const Problem& problem);
 
  private:
-  /// @param allowed the matrix: for each name, its row of values.
-  void replacePairs(const std::vector<std::string>& names,
-                    const std::vector<std::vector<bool>>& allowed, Model& model);
   void noteNames(const Model& model, std::vector<Note>& notes);
   YamlMap message() { return {document_, "", nullptr, source_}; }
 

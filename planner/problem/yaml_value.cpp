@@ -83,6 +83,8 @@ class TreeBuilder : public YAML::EventHandler {
     return std::move(root_);
   }
 
+  bool isEmpty() const { return root_.kind == YamlValue::Kind::Null; }
+
   /// Returns a remark for a fault on the line (counted from 0) where quotes of an earlier line are
   /// closed; "" for other lines.
   std::string remarkOnQuotes(int line) const {
@@ -287,7 +289,7 @@ YamlValue parseYaml(const std::string& file, const std::string& text, const Yaml
     std::istringstream stream(isWide ? text : std::string(utf8) + "\n");
     YAML::Parser parser(stream);
     parser.HandleNextDocument(first);
-    if (parser.HandleNextDocument(second))
+    if (parser.HandleNextDocument(second) && !second.isEmpty())
       throw InputError(Fault{file, 0, "has more than one YAML document (---); keep one"});
     return first.take();
   } catch (const YAML::Exception& error) {

@@ -1,13 +1,12 @@
 #include "planner/solve/state_rows.h"
 
 #include <algorithm>
-#include <sstream>
+#include <functional>
 #include <utility>
 
 #include "collision/core/read_file.h"
 #include "collision/core/spelling.h"
-#include "planner/problem/table_text.h"
-#include "planner/problem/text_words.h"
+#include "planner/problem/table_lines.h"
 #include "planner/problem/yaml_reader.h"
 
 namespace corridor {
@@ -87,59 +86,24 @@ std::vector<Row> readRows(const std::filesystem::path& file, const Configuration
   const std::vector<std::string> names = space.numberNames();
   std::vector<std::size_t> columns;          // the number that each column holds; empty: no header
   std::vector<std::string> inOrder = names;  // the names of the numbers of a row without header
-  if (!allowHeader) inOrder.insert(inOrder.end(), names.begin(), names.end());
-  bool isFirst = true;
-  int likeHeader = 0;  // the line of a comment that may be meant as the header; 0: none
-  int notRead = 0;     // the line of the first other comment before the first row; 0: none
-  std::istringstream lines(readTextStream(file, "a file of " + what + "s, one per line,"));
-  std::string line;
-  for (int number = 1; std::getline(lines, line); ++number) {
-    if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // byte-order mark
-    // numpy.savetxt writes its header as a comment.
-    if (const std::size_t mark = line.find('#');
-        rows.empty() && faults.size() == 0 && mark != std::string::npos) {
-      const std::string comment = line.substr(mark + 1);
-      std::vector<std::string> words = wordsOfLine(comment), sorted = names;
-      // In a file of edges, both states are in the order of the names.
-      const bool namesAState = words == names || words == inOrder;
-      std::sort(words.begin(), words.end());
-      std::sort(sorted.begin(), sorted.end());
-      if (mark == 0 && allowHeader && words == sorted) {
-        if (!isFirst)
-          throw InputError(
-              Fault{file.string(), number, "the file has two headers; keep one of them"});
-        line.erase(0, 1);
-      } else if (isFirst && !namesAState && likeHeader == 0 && resemblesHeader(comment, inOrder)) {
-        likeHeader = number;
-      } else if (!namesAState && notRead == 0 && wordsOfLine(line).empty() && hasLetters(comment)) {
-        notRead = number;
-      }
-    }
-    const std::vector<std::string> words = wordsOfLine(line);
-    if (words.empty()) continue;
-    if (const std::string wrong = wrongFields(line, isFirst, names); !wrong.empty())
-      throw InputError(Fault{file.string(), number, wrong});
-    // A name may look like a number (a joint "1"). So the first line is a header only if one of its
-    // words is not a number, and one of its words is a name.
-    double number0 = 0;
-    const bool isHeader =
-        allowHeader &&
-        std::any_of(words.begin(), words.end(),
-                    [&](const std::string& word) {
-                      return !parseNumber(word, Range::Any, number0).empty();
-                    }) &&
-        std::find_first_of(words.begin(), words.end(), names.begin(), names.end()) != words.end();
-    if (std::exchange(isFirst, false) && isHeader) {
-      columns = readHeader(words, names, file.string(), number, faults);
+  std::function<bool(const std::string&)> isName;
+  if (allowHeader)
+    isName = [&](const std::string& word) {
+      return std::find(names.begin(), names.end(), word) != names.end();
+    };
+  else
+    inOrder.insert(inOrder.end(), names.begin(), names.end());
+  TableLines lines(file.string(), readTextStream(file, "a file of " + what + "s, one per line,"),
+                   inOrder, isName);
+  while (lines.next()) {
+    if (lines.isHeader()) {
+      columns = readHeader(lines.words(), names, file.string(), lines.number(), faults);
       faults.throwIfAny();
-      inOrder = words;
       continue;
     }
-    if (likeHeader != 0 && columns.empty())
-      throw InputError(Fault{file.string(), likeHeader, resemblesHeaderText(inOrder)});
     std::vector<double> values;
     std::string complaint;
-    for (const std::string& word : words) {
+    for (const std::string& word : lines.words()) {
       double value = 0;
       const std::string wrong = parseNumber(word, Range::Any, value);
       if (complaint.empty()) complaint = wrong;
@@ -151,14 +115,13 @@ std::vector<Row> readRows(const std::filesystem::path& file, const Configuration
     }
     if (complaint.empty()) complaint = wrongWith(values).value_or("");
     if (complaint.empty())
-      rows.push_back({number, values});
+      rows.push_back({lines.number(), values});
     else
-      faults.add(file.string(), number, complaint);
+      faults.add(file.string(), lines.number(), complaint);
   }
   if (rows.empty() && faults.size() == 0) faults.add(file.string(), 0, "no " + what + "s");
   faults.throwIfAny();
-  if (notRead != 0)
-    notes.push_back({file.string() + ": " + notReadText(notRead, inOrder), NoteWeight::coverage});
+  if (auto note = lines.note()) notes.push_back(std::move(*note));
   return rows;
 }
 

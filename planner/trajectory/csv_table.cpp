@@ -1,11 +1,9 @@
 #include <algorithm>
 #include <array>
-#include <sstream>
 #include <utility>
 
 #include "collision/core/spelling.h"
-#include "planner/problem/table_text.h"
-#include "planner/problem/text_words.h"
+#include "planner/problem/table_lines.h"
 #include "planner/problem/yaml_reader.h"
 #include "planner/trajectory/row_faults.h"
 #include "planner/trajectory/trajectory_table.h"
@@ -66,76 +64,25 @@ bool isKnown(const std::string& name, const JointNames& names) {
          !names.ambiguous(column.joint).empty();
 }
 
-bool isNumber(const std::string& word) {
-  double value = 0;
-  return parseNumber(word, Range::Any, value).empty();
-}
-
-/// Returns whether a line of words is a header: it has a known name, or no number at all. Any other
-/// line is a row of numbers, some of which may be misspelt. (A joint may have a number as its
-/// name.)
-bool isHeader(const std::vector<std::string>& words, const JointNames& names) {
-  if (std::all_of(words.begin(), words.end(), isNumber)) return false;
-  return std::none_of(words.begin(), words.end(), isNumber) ||
-         std::any_of(words.begin(), words.end(),
-                     [&](const std::string& word) { return isKnown(word, names); });
-}
-
 class CsvReader {
  public:
   CsvReader(const std::string& file, const JointNames& names)
       : names_(names), file_(file), faults_(file), rowFaults_(file) {}
 
   TrajectoryTable read(const std::string& text) {
-    std::istringstream lines(text);
-    std::string line;
-    bool isFirst = true;
-    int likeHeader = 0;  // the line of a comment that may be meant as the header; 0: none
-    int notRead = 0;     // the line of the first other comment before the first row; 0: none
-    for (int number = 1; std::getline(lines, line); ++number) {
-      if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // byte-order mark
-      if (const std::size_t mark = line.find('#');
-          table_.rows.empty() && mark != std::string::npos) {
-        const std::string comment = line.substr(mark + 1);
-        const std::vector<std::string> words = wordsOfLine(comment);
-        // numpy.savetxt writes its header as a comment.
-        if (mark == 0 && !words.empty() &&
-            std::all_of(words.begin(), words.end(),
-                        [&](const std::string& word) { return isKnown(word, names_); })) {
-          if (!isFirst)
-            throw InputError(Fault{file_, number, "the file has two headers; keep one of them"});
-          line.erase(0, 1);
-        } else if (isFirst && likeHeader == 0 && resemblesHeader(comment, names_.numbers())) {
-          likeHeader = number;
-        } else if (notRead == 0 && wordsOfLine(line).empty() && hasLetters(comment)) {
-          notRead = number;
-        }
+    TableLines lines(file_, text, names_.numbers(),
+                     [this](const std::string& word) { return isKnown(word, names_); });
+    while (lines.next()) {
+      if (lines.isHeader()) {
+        readHeader(lines.words(), lines.number());
+        continue;
       }
-      const std::vector<std::string> words = wordsOfLine(line);
-      if (words.empty()) continue;
-      if (const std::string wrong = wrongFields(line, isFirst, names_.numbers()); !wrong.empty())
-        throw InputError(Fault{file_, number, wrong});
-      if (std::exchange(isFirst, false)) {
-        if (line.find(';') < line.find('#'))
-          throw InputError(Fault{file_, number,
-                                 "\";\" separates the numbers; separate them by commas or blanks, "
-                                 "and write decimal points, not commas"});
-        if (isHeader(words, names_)) {
-          readHeader(words, number);
-          continue;
-        }
-        if (likeHeader != 0)
-          throw InputError(Fault{file_, likeHeader, resemblesHeaderText(names_.numbers())});
+      if (columns_.empty())
         for (const std::string& name : names_.numbers()) add({Quantity::position, name});
-      }
-      rowFaults_.row([&](FaultList& faults) { readRow(words, number, faults); });
+      rowFaults_.row([&](FaultList& faults) { readRow(lines.words(), lines.number(), faults); });
     }
     rowFaults_.addTo(faults_);
-    if (notRead != 0)
-      table_.notes.push_back(
-          {file_ + ": " +
-               notReadText(notRead, table_.namesLine == 0 ? names_.numbers() : headerNames_),
-           NoteWeight::coverage});
+    if (auto note = lines.note()) table_.notes.push_back(std::move(*note));
     if (table_.rows.empty() && faults_.size() == 0) faults_.add(file_, 0, "has no row of numbers");
     faults_.throwIfAny();
     return std::move(table_);
@@ -159,7 +106,6 @@ class CsvReader {
 
   void readHeader(const std::vector<std::string>& words, int line) {
     table_.namesLine = line;
-    headerNames_ = words;
     std::string time;
     std::vector<std::string> ignored;
     for (const std::string& word : words) {
@@ -220,7 +166,6 @@ class CsvReader {
   RowFaults rowFaults_;
   TrajectoryTable table_;
   std::vector<Column> columns_;
-  std::vector<std::string> headerNames_;  // the words of the header
 };
 
 }  // namespace

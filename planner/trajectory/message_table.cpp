@@ -247,20 +247,10 @@ class PointReader {
   TrajectoryTable table_;
 };
 
-/// Returns the text. If its last line is `---`, which `rostopic echo` writes after each message,
-/// this line is left out.
-std::string withoutLastMark(const std::string& text) {
-  const std::size_t end = text.find_last_not_of(" \t\r\n");
-  if (end == std::string::npos || end < 3 || text.compare(end - 2, 3, "---") != 0 ||
-      text[end - 3] != '\n')
-    return text;
-  return text.substr(0, end - 2);
-}
-
 }  // namespace
 
 TrajectoryTable readMessageTable(const std::string& file, const std::string& text) {
-  const YamlValue document = parseYaml(file, withoutLastMark(text));
+  const YamlValue document = parseYaml(file, text);
   FaultList faults(file);
   YamlSource source{file, faults, {}};
   Messages messages;

@@ -7,6 +7,7 @@
 
 #include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
+#include "planner/model/joint_rule.h"
 #include "planner/problem/urdf_robot.h"
 #include "planner/robot/joint_types.h"
 
@@ -23,47 +24,16 @@ struct JointState {
   double position = 0, velocity = 0, acceleration = 0;
 };
 
-/// Returns the index of the planned coordinate that a joint has, or nullopt if it is not planned.
-std::optional<std::size_t> coordinateOf(const ModelRobot& robot, std::size_t joint) {
-  for (std::size_t k = 0; k < robot.planned.size(); ++k)
-    if (robot.planned[k] == joint) return robot.plannedJoints[k].coordinate;
-  return std::nullopt;
+/// Returns the state that a row requires of a joint by its rule.
+JointState requiredState(const JointRule& rule, const TrajectoryRow& row) {
+  JointState state{rule.at(row.positions), 0, 0};
+  if (rule.leader < 0) return state;
+  // The sums with 0 turn -0 into 0, for messages.
+  if (row.velocities.size() > 0) state.velocity = rule.multiplier * row.velocities[rule.leader] + 0;
+  if (row.accelerations.size() > 0)
+    state.acceleration = rule.multiplier * row.accelerations[rule.leader] + 0;
+  return state;
 }
-
-/// The state of a joint that is not planned for, as the model requires it: constant, or a linear
-/// function of a planned joint.
-class RequiredState {
- public:
-  RequiredState(const Model& model, const Meaning& meaning) {
-    const ModelRobot& robot = model.robots[meaning.robot];
-    const JointModel& joint = robot.description.joints[meaning.index];
-    if (meaning.kind == Meaning::Kind::held) constant_ = robot.held.at(meaning.index);
-    if (meaning.kind != Meaning::Kind::mimic) return;
-    const Mimic& mimic = *joint.mimic;
-    if (const auto held = robot.held.find(mimic.joint); held != robot.held.end()) {
-      constant_ = mimic.multiplier * held->second + mimic.offset;
-    } else if (const auto c = coordinateOf(robot, mimic.joint)) {
-      leader_ = static_cast<Eigen::Index>(model.space.coordinates()[*c].first);
-      multiplier_ = mimic.multiplier;
-      constant_ = mimic.offset;
-    }
-  }
-
-  JointState at(const TrajectoryRow& row) const {
-    JointState state{constant_, 0, 0};
-    if (leader_ < 0) return state;
-    // The sums with 0 turn -0 into 0, for messages.
-    state.position = multiplier_ * row.positions[leader_] + constant_;
-    if (row.velocities.size() > 0) state.velocity = multiplier_ * row.velocities[leader_] + 0;
-    if (row.accelerations.size() > 0)
-      state.acceleration = multiplier_ * row.accelerations[leader_] + 0;
-    return state;
-  }
-
- private:
-  Eigen::Index leader_ = -1;  // index into a Configuration; -1: the state is constant
-  double multiplier_ = 0, constant_ = 0;
-};
 
 /// The columns of one joint; absent quantities have no column.
 struct JointColumns {
@@ -151,12 +121,12 @@ class UnplannedCheck {
 
   /// Adds a fault for the first row in which a held or mimic joint leaves its required state.
   void requireRule(const JointColumns& joint) {
-    const RequiredState required(model_, joint.meaning);
+    const JointRule required = ruleOf(model_, joint.meaning.robot, joint.meaning.index);
     // The file may give a continuous joint as an angle that is full turns away. The number of turns
     // is that of the first row, so that a turn between two rows is a difference.
     double turns = 0;
     for (std::size_t r = 0; r < table_.rows.size(); ++r) {
-      const JointState rule = required.at(rows_.rows[r]),
+      const JointState rule = requiredState(required, rows_.rows[r]),
                        given = stateIn(table_.rows[r], joint, rule);
       if (r == 0 && jointOf(joint.meaning).type == JointType::continuous)
         turns = kWholeTurn * std::round((given.position - rule.position) / kWholeTurn);
@@ -295,7 +265,7 @@ void checkStart(const TrajectoryTable& table, const JointNames& names, const Mod
       else if (std::abs(off) > equalUpToRounding(value))
         near.push_back(name);
     } else if (meaning->kind != Meaning::Kind::other) {
-      const double required = RequiredState(model, *meaning).at(first).position;
+      const double required = ruleOf(model, meaning->robot, meaning->index).at(first.positions);
       double off = value - required;
       const JointModel& joint = model.robots[meaning->robot].description.joints[meaning->index];
       if (joint.type == JointType::continuous) off = std::remainder(off, kWholeTurn);
@@ -312,8 +282,12 @@ void checkStart(const TrajectoryTable& table, const JointNames& names, const Mod
     }
   }
   for (const MessagePose& pose : start.poses)
-    if (const auto conflict = conflictOf(pose, model, first.positions, "first point"))
-      faults.add(rows.file, pose.line, conflict->text + "; " + conflict->fix);
+    if (const auto conflict = conflictOf(pose, model, first.positions, "first point")) {
+      if (conflict->isNear)
+        near.push_back(pose.joint);
+      else
+        faults.add(rows.file, pose.line, conflict->text + "; " + conflict->fix);
+    }
   if (!near.empty())
     notes.push_back({rows.file + ": " + start.path + ": " + joinedFirst(near) +
                          " of the start and of the first point differ by up to " +

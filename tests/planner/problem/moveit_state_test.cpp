@@ -124,9 +124,12 @@ TEST_F(MoveitStates, PosesOfTheBaseAreCompared) {
 
   frame(same);
   EXPECT_THAT(notes(moved), testing::IsEmpty());
-  EXPECT_EQ(complaintOf(plain),
-            "scene.yaml:2: fixed_frame_transforms.transform: the pose of \"base\" is not that by "
-            "the base of the robot in the problem; give it by base in the problem");
+  EXPECT_EQ(
+      complaintOf(plain),
+      "scene.yaml:2: fixed_frame_transforms.transform: the pose of \"base\" is {at: [0, 0, 1], "
+      "quat_xyzw: [0, 0, 0.7071067811865475, 0.7071067811865476]} here, and {at: [0, 0, 0], "
+      "quat_xyzw: [0, 0, 0, 1]} by the base of the robot in the problem; give it by base in "
+      "the problem");
   frame(identity);
   EXPECT_THAT(notes(plain), testing::IsEmpty());
   EXPECT_THAT(notes(moved), testing::ElementsAre(testing::HasSubstr("which is used")));

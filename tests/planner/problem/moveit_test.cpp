@@ -106,6 +106,8 @@ TEST_F(Moveit, Octomap) {
     write("scene.yaml", sceneWith("OcTree", content));
     EXPECT_TRUE(read(head).model.bodies.back().robot) << content;
   }
+  write("scene.yaml", "world: {octomap: null}\n---\n");
+  EXPECT_TRUE(read(head).model.bodies.back().robot);
 }
 
 TEST_F(Moveit, FaultsOfTheScene) {
@@ -136,8 +138,9 @@ TEST_F(Moveit, FaultsOfTheScene) {
   EXPECT_EQ(complaint(object("planes: [{coef: [0, 0, 1, 0]}], primitives: [{type: sphere, "
                              "dimensions: [1]}]")),
             a + ".planes: planes are not supported; use a flat box");
-  EXPECT_EQ(complaint(object("operation: 0")),
-            a + ".primitives: the object has neither primitives nor meshes");
+  for (const char* const operation : {"0", "ADD", "\"\\0\"", "2", "\"\\x02\""})
+    EXPECT_EQ(complaint(object("operation: " + std::string(operation))),
+              a + ".primitives: the object has neither primitives nor meshes");
   EXPECT_EQ(complaint(object("meshes: [{vertices: [[0, 0, 0]], triangles: [{vertex_indices: [0, 0, "
                              "1]}]}]")),
             a + ".meshes[0].triangles[0].vertex_indices: the mesh has no vertex 1");
@@ -198,6 +201,9 @@ TEST_F(Moveit, FaultsOfTheScene) {
                         "\"position\"?)"));
   EXPECT_EQ(complaint(object("operation: 1, primitives: [{type: sphere, dimensions: [1]}]")),
             a + ".operation: only ADD (0) is supported, not \"1\"");
+  EXPECT_EQ(
+      complaint(object("operation: \"\\x01\", primitives: [{type: sphere, dimensions: [1]}]")),
+      a + ".operation: only ADD (0) is supported, not \"?\"");
   EXPECT_EQ(complaint("world:\n  collision_objects:\n    - {id: a, primitives: [{type: sphere, "
                       "dimensions: [1]}]}\n    - {id: a, primitives: [{type: sphere, dimensions: "
                       "[1]}]}\n"),

@@ -119,6 +119,7 @@ TEST_F(YamlFaults, Syntax) {
                 "inside [ ] or { }");
   expectFault("planner: {name: @RRT}\n",
               "8: is not YAML: a text that begins with @ must be in quotes");
+  EXPECT_EQ(with("---\n"), "no complaint");
   EXPECT_EQ(with("---\na: 1\n"), "problem.yaml: has more than one YAML document (---); keep one");
 }
 

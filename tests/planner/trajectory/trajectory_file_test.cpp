@@ -35,29 +35,20 @@ TEST_F(TrajectoryFile, AHeaderNamesColumnsInAnyOrder) {
   EXPECT_EQ(read.rows[1].time, 0.75);
 }
 
-/// A comment that may be meant as the header is refused, unless the file has a header.
-TEST_F(TrajectoryFile, CommentsThatNameTheColumnsAreRefused) {
-  for (const char* const comment : {"# lift [rad], pan [rad]", "# pan_deg, lift", "# Pan, Lift",
-                                    "## lift pan", "# order: lift pan", "# lift;pan"})
-    EXPECT_EQ(complaint("# a title\n" + std::string(comment) + "\n0.5 1\n0.25 1\n"),
-              "t.csv:2: the comment seems to be a header, but is not one; write the names only, as "
-              "in \"pan,lift\" (rad, m), or move the comment behind the first row")
-        << comment;
-  EXPECT_EQ(complaint("0.5 1 # lift pan!\n0.25 1\n").substr(0, 9), "t.csv:1: ");
-  EXPECT_EQ(complaint("0.5 1\n0.25 1 # lift pan!\n"), "");
+/// What comments may mean is tested with TableLines.
+TEST_F(TrajectoryFile, CommentsThatMayMeanOtherColumns) {
+  EXPECT_EQ(complaint("# a title\n# pan_deg, lift\n0.5 1\n0.25 1\n"),
+            "t.csv:2: the comment seems to be a header, but is not one; write the names only, as "
+            "in \"pan,lift\" (rad, m), or delete the comment");
   const TrajectoryRows read = rows("# pan [rad], lift [rad]\nlift,pan\n0.5 1\n0.25 1\n");
   EXPECT_EQ(read.rows[0].positions, numbers({1, 0.5}));
-  EXPECT_THAT(
-      texts(rows("# in degrees\n# by foo\n0.5 1 # x\n0.25 1\n")),
-      ElementsAre("t.csv: line 1 is a comment, which is not read; the columns are pan, lift, "
-                  "in this order, in m and rad"));
-  EXPECT_THAT(
-      texts(rows("lift,pan\n# in mm\n0.5,1\n0.25,1\n")),
-      ElementsAre("t.csv: line 2 is a comment, which is not read; the columns are lift, pan, "
-                  "in this order, in m and rad"));
+  EXPECT_THAT(texts(read),
+              ElementsAre("t.csv: the comment on line 1 is not read (\" pan [rad], lift [rad]\"); "
+                          "the columns are lift, pan, in this order, in m and rad"));
   EXPECT_THAT(texts(rows("0.5 1\n# in degrees\n0.25 1\n")), ElementsAre());
-  EXPECT_EQ(complaint("# lift pan\n# pan lift\n1 2\n"),
-            "t.csv:2: the file has two headers; keep one of them");
+  EXPECT_EQ(complaint("# lift pan\ntime pan lift\n1 2 3\n"),
+            "t.csv:2: names other columns than line 1, or in another order; delete one of the two "
+            "lines");
   EXPECT_EQ(complaint("pan,lift\n1,,2\n3,4\n"), "t.csv:2: the field before comma 2 is empty");
 }
 

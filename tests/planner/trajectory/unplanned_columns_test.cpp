@@ -227,6 +227,30 @@ TEST_F(StartOfTrajectory, ObjectsAndPosesAreRefused) {
         << text;
 }
 
+/// As for single joints, a difference of at most 1e-5 between the start and the first point is
+/// noted.
+TEST_F(StartOfTrajectory, PosesThatArePlannedFor) {
+  write("cube.yaml",
+        "format: corridor-robot-1\nname: cube\nrigid: SE2\nshapes: [{box: [0.2, 0.2, 0.2]}]\n");
+  const Problem rigid = readProblem(
+      write("rigid.yaml",
+            "format: corridor-problem-1\nrobot: cube.yaml\nworld: {rock: {box: [1, 1, 1]}}\n"
+            "bounds: {at: [[-5, -5], [5, 5]]}\nstart: {at: [1, 2]}\ngoal: {at: [1, 3]}\n"));
+  const auto at = [](const std::string& x) {
+    return "trajectory_start: {multi_dof_joint_state: {joint_names: [base], transforms: "
+           "[{translation: [" +
+           x +
+           ", 2, 0], rotation: [0, 0, 0, 1]}]}}\ntrajectory:\n- joint_trajectory:\n    "
+           "joint_names: "
+           "[x, y, yaw]\n    points:\n    - {positions: [1, 2, 0]}\n    - {positions: [1, 3, 0]}\n";
+  };
+  EXPECT_THAT(textsOf(readTrajectory("t.csv", at("1"), rigid.model).notes), IsEmpty());
+  EXPECT_THAT(textsOf(readTrajectory("t.csv", at("1.000009"), rigid.model).notes),
+              ElementsAre("t.csv: trajectory_start: base of the start and of the first point "
+                          "differ by up to 1e-05; the motion between them is not verified"));
+  EXPECT_THAT(complaint(at("1.00002"), rigid), HasSubstr("\"base\": the first point is at {at: "));
+}
+
 /// Fields of the messages around a trajectory that move nothing are ignored, and all others are
 /// noted by their names.
 TEST_F(StartOfTrajectory, OtherFieldsAreNotedByName) {

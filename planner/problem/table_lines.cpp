@@ -1,0 +1,251 @@
+#include "planner/problem/table_lines.h"
+
+#include <algorithm>
+#include <cctype>
+#include <string_view>
+#include <utility>
+
+#include "collision/core/error.h"
+#include "collision/core/spelling.h"
+#include "planner/problem/text_words.h"
+#include "planner/problem/yaml_reader.h"
+
+namespace corridor {
+namespace {
+
+using Words = std::vector<std::string>;
+
+bool isNumber(const std::string& word) {
+  double value = 0;
+  return parseNumber(word, Range::Any, value).empty();
+}
+
+bool hasLetters(const std::string& text) {
+  return std::any_of(text.begin(), text.end(),
+                     [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; });
+}
+
+/// Returns the number of the first comma of a line with nothing but blanks before it, or 0.
+int commaAfterNothing(const std::string& line) {
+  int commas = 0;
+  bool isEmpty = true;
+  for (const char c : line) {
+    if (c == '#') break;
+    if (c == ',') {
+      ++commas;
+      if (isEmpty) return commas;
+      isEmpty = true;
+    } else if (c != ' ' && c != '\t' && c != '\r') {
+      isEmpty = false;
+    }
+  }
+  return 0;
+}
+
+/// Returns whether the words are the columns, or a part of them that the columns repeat: the names
+/// of one state above a file of edges.
+bool repeats(const Words& columns, const Words& words) {
+  if (words.empty() || columns.size() % words.size() != 0) return false;
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    if (columns[i] != words[i % words.size()]) return false;
+  return true;
+}
+
+/// Returns the name of another unit than rad and m that a comment clearly gives to the numbers:
+/// `[deg]`, `(mm)`, `in degrees`, `units: cm`. Otherwise returns "". (A title may say that a joint
+/// turns by 90 degrees.)
+std::string otherUnit(const std::string& comment) {
+  static const Words units{"deg",    "degs",        "degree",      "degrees",
+                           "\u00b0", "mm",          "millimeters", "millimetres",
+                           "cm",     "centimeters", "centimetres"};
+  const std::string text = lowered(comment);
+  const auto isPart = [](char c) {
+    return std::isalpha(static_cast<unsigned char>(c)) != 0 ||
+           static_cast<unsigned char>(c) >= 0x80;
+  };
+  bool isOnUnits = false;  // a word before this one begins with "unit"
+  std::string last;
+  for (std::size_t at = 0; at < text.size();) {
+    if (!isPart(text[at])) {
+      ++at;
+      continue;
+    }
+    const std::size_t from = at;
+    while (at < text.size() && isPart(text[at])) ++at;
+    std::string word = text.substr(from, at - from);
+    isOnUnits |= word.starts_with("unit");
+    const bool isClear =
+        isOnUnits || last == "in" || (from > 0 && (text[from - 1] == '[' || text[from - 1] == '('));
+    if (isClear && std::find(units.begin(), units.end(), word) != units.end()) return word;
+    last = std::move(word);
+  }
+  return "";
+}
+
+/// Returns whether a text mentions names as a header would (see resemblesHeader). All words are in
+/// lower case.
+bool mentionsAsHeader(const std::string& text, const std::vector<std::string>& names) {
+  const auto isLetter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
+  const auto isPart = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; };
+  // The places in `text` that a name covers.
+  std::vector<bool> covered(text.size(), false);
+  std::size_t mentioned = 0;
+  for (const std::string& name : names) {
+    bool found = false;
+    for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + 1)) {
+      const std::size_t end = at + name.size();
+      if ((at > 0 && isPart(text[at - 1])) || (end < text.size() && isPart(text[end]))) continue;
+      found = true;
+      std::fill(covered.begin() + std::ptrdiff_t(at), covered.begin() + std::ptrdiff_t(end), true);
+    }
+    mentioned += found;
+  }
+  std::size_t words = 0, named = 0;
+  for (std::size_t i = 0; i < text.size();) {
+    bool hasLetter = false, hasName = false;
+    for (; i < text.size() && (covered[i] || isPart(text[i]) || text[i] == '_'); ++i)
+      hasLetter |= isLetter(text[i]), hasName |= covered[i];
+    words += hasLetter || hasName;
+    named += hasName;
+    if (i < text.size() && !covered[i]) ++i;
+  }
+  return (2 * mentioned >= names.size() && named > 0 && 2 * named >= words) ||
+         (mentioned >= 3 && mentioned == names.size());
+}
+
+/// Returns the word in lower case, without the marks by which programs write an index: q[2], q_2.
+std::string withoutMarks(const std::string& word) {
+  std::string text = lowered(word);
+  std::erase_if(text, [](char c) {
+    return std::string_view("[]{}()_-./").find(c) != std::string_view::npos;
+  });
+  return text;
+}
+
+}  // namespace
+
+bool resemblesHeader(const std::string& comment, const std::vector<std::string>& names) {
+  std::vector<std::string> lower, bare, last;
+  for (const std::string& name : names) {
+    lower.push_back(lowered(name));
+    bare.push_back(withoutMarks(name));
+    last.push_back(lower.back().substr(lower.back().rfind('/') + 1));
+  }
+  const std::string text = lowered(comment);
+  return mentionsAsHeader(text, lower) || mentionsAsHeader(text, last) ||
+         mentionsAsHeader(withoutMarks(comment), bare);
+}
+
+TableLines::TableLines(std::string file, const std::string& text, std::vector<std::string> columns,
+                       std::function<bool(const std::string&)> isName)
+    : file_(std::move(file)),
+      lines_(text),
+      columns_(std::move(columns)),
+      isName_(std::move(isName)) {}
+
+bool TableLines::next() {
+  isHeader_ = false;
+  while (std::getline(lines_, line_)) {
+    ++number_;
+    if (number_ == 1 && line_.starts_with("\xEF\xBB\xBF")) line_.erase(0, 3);  // byte-order mark
+    const std::size_t mark = line_.find('#');
+    const bool isCommentedHeader = mark != std::string::npos && readComment(mark);
+    if (isCommentedHeader) line_.erase(0, 1);
+    words_ = wordsOfLine(line_);
+    if (words_.empty()) continue;
+    if (const int comma = commaAfterNothing(line_); comma > 0)
+      fail(number_, "the field before comma " + std::to_string(comma) + " is empty" +
+                        (comma == 1 && !hasRows_ && headerLine_ == 0
+                             ? " (pandas writes its index so; use index=False)"
+                             : ""));
+    if (hasRows_) return true;
+    if (line_.find(';') < line_.find('#'))
+      fail(number_,
+           "\";\" separates the numbers; separate them by commas or blanks, and write decimal "
+           "points, "
+           "not commas");
+    // A header above the first row; one that is a comment may have been repeated as a line.
+    if (isCommentedHeader || ((headerLine_ == 0 || headerIsComment_) && isHeaderLine(words_))) {
+      if (headerLine_ == 0) {
+        headerLine_ = number_;
+        headerIsComment_ = isCommentedHeader;
+        columns_ = words_;
+        return isHeader_ = true;
+      }
+      if (words_ != columns_)
+        fail(number_, "names other columns than line " + std::to_string(headerLine_) +
+                          ", or in another order; delete one of the two lines");
+      headerIsComment_ = isCommentedHeader;
+      continue;
+    }
+    if (headerLine_ == 0) {
+      Words sorted = words_, names = columns_;
+      std::sort(sorted.begin(), sorted.end());
+      std::sort(names.begin(), names.end());
+      if (isName_ && sorted == names)
+        fail(number_,
+             "the names of all columns are numbers, so this may be a header or a row; for a row, "
+             "write decimal points: 1.0");
+      if (likeHeader_ != 0) {
+        std::string header;
+        for (const std::string& name : columns_) header += (header.empty() ? "" : ",") + name;
+        fail(likeHeader_,
+             "the comment seems to be a header, but is not one; write the names only, as in \"" +
+                 header + "\" (rad, m), or delete the comment");
+      }
+    }
+    hasRows_ = true;
+    return true;
+  }
+  return false;
+}
+
+bool TableLines::isHeaderLine(const Words& words) const {
+  if (!isName_ || std::all_of(words.begin(), words.end(), isNumber)) return false;
+  return std::none_of(words.begin(), words.end(), isNumber) ||
+         std::any_of(words.begin(), words.end(), isName_);
+}
+
+bool TableLines::readComment(std::size_t mark) {
+  const std::string comment = line_.substr(mark + 1);
+  const Words words = wordsOfLine(comment);
+  if (repeats(columns_, words) && (headerLine_ != 0 || mark > 0 || !isName_)) return false;
+  if (mark == 0 && isName_ && words.size() >= columns_.size() &&
+      std::all_of(words.begin(), words.end(), isName_)) {
+    if (hasRows_)
+      fail(number_,
+           "names other columns than the rows above it have, or in another order; delete "
+           "the line, or make two files");
+    return true;
+  }
+  if (hasRows_) return false;
+  if (const std::string unit = otherUnit(comment); !unit.empty())
+    fail(number_,
+         "the comment says " + quotedWord(unit) +
+             ", but the numbers are read in rad and m; convert them, or delete the comment "
+             "if it is wrong");
+  if (headerLine_ == 0 && likeHeader_ == 0 && resemblesHeader(comment, columns_)) {
+    likeHeader_ = number_;
+  } else if (notRead_ != 0 || !hasLetters(comment)) {
+    return false;
+  }
+  if (notRead_ == 0) {
+    notRead_ = number_;
+    comment_ = comment;
+  }
+  return false;
+}
+
+std::optional<Note> TableLines::note() const {
+  if (notRead_ == 0) return std::nullopt;
+  return Note{file_ + ": the comment on line " + std::to_string(notRead_) + " is not read (" +
+                  quotedWord(comment_) + "); the columns are " + joinedFirst(columns_) +
+                  ", in this order, in m and rad",
+              NoteWeight::coverage};
+}
+
+void TableLines::fail(int line, const std::string& text) const {
+  throw InputError(Fault{file_, line, text});
+}
+
+}  // namespace corridor
