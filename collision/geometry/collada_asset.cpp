@@ -20,7 +20,7 @@ void blank(std::string& text, std::string_view open, std::string_view close) {
 }
 
 bool isSpace(char c) {
-  return c == '\n' || isBlank(c);
+  return isLineEnd(c) || isBlank(c);
 }
 
 int lineOf(std::string_view text, std::size_t at) {

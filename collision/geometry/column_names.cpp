@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "collision/core/spelling.h"
+#include "collision/geometry/mesh_text.h"
 
 namespace corridor {
 namespace {
@@ -17,8 +18,68 @@ bool isLetter(char c) {
   return (c >= 'a' && c <= 'z') || static_cast<unsigned char>(c) >= 0x80;
 }
 
-/// Returns the metres of a unit's name, or 0.
-double metresIn(std::string_view word) {
+bool isAxis(std::string_view word) {
+  return word == "x" || word == "y" || word == "z";
+}
+
+bool isInWord(char c) {
+  return isLetter(c) || (c >= '0' && c <= '9') || c == '.';
+}
+
+/// A word of a line, in lower case.
+struct Word {
+  std::string text;
+  std::string marks;  ///< between the word before and this word
+
+  bool isInBrackets() const { return marks.ends_with('[') || marks.ends_with('('); }
+  bool isOnUnits() const {
+    return text.starts_with("unit") && !text.starts_with("unite") && !text.starts_with("unity");
+  }
+};
+
+std::vector<Word> wordsOf(const std::string& text) {
+  std::vector<Word> words;
+  for (std::size_t at = 0; at < text.size();) {
+    const auto begin = std::find_if(text.begin() + std::ptrdiff_t(at), text.end(), isInWord);
+    const auto end = std::find_if_not(begin, text.end(), isInWord);
+    if (begin == end) break;
+    Word word{{begin, end}, text.substr(at, std::size_t(begin - text.begin()) - at)};
+    at = std::size_t(end - text.begin());
+    // A full stop ends a sentence.
+    while (word.text.size() > 1 && word.text.back() == '.') word.text.pop_back();
+    words.push_back(std::move(word));
+  }
+  return words;
+}
+
+/// Reads a word as a factor, which is above 0.
+std::optional<double> factorOf(std::string_view word) {
+  double value = 0;
+  if (parseCoordinate(word, value) || !(value > 0)) return std::nullopt;
+  return value;
+}
+
+/// Returns the metres that `words[i]` names, or 0. @param isOnUnits a word before begins with
+/// "unit".
+double metresAt(const std::vector<Word>& words, std::size_t i, bool isOnUnits) {
+  const auto& [text, marks] = words[i];
+  // "in" is a unit in brackets and at the end: "units: in".
+  const bool isInches =
+      text == "in" && (words[i].isInBrackets() || (isOnUnits && i + 1 == words.size()));
+  if (const double metres = isInches ? 0.0254 : metresOfUnit(text); metres > 0) {
+    if (i + 3 < words.size() && words[i + 1].text == "per" && words[i + 2].isOnUnits())
+      return metres * factorOf(words[i + 3].text).value_or(1);
+    if (!isOnUnits || i == 0 || marks.find_first_not_of(" \t") != marks.npos) return metres;
+    return metres * factorOf(words[i - 1].text).value_or(1);
+  }
+  if (!isOnUnits) return 0;
+  const std::size_t digits = std::min(text.find_first_not_of("0123456789."), text.size());
+  return metresOfUnit(text.substr(digits)) * factorOf(text.substr(0, digits)).value_or(0);
+}
+
+}  // namespace
+
+double metresOfUnit(std::string_view name) {
   static constexpr std::array<std::pair<std::string_view, double>, 23> units{{
       {"m", 1},           {"meter", 1},         {"metre", 1},
       {"mm", 1e-3},       {"millimeter", 1e-3}, {"millimetre", 1e-3},
@@ -29,55 +90,39 @@ double metresIn(std::string_view word) {
       {"inches", 0.0254}, {"ft", 0.3048},       {"foot", 0.3048},
       {"feet", 0.3048},   {"yard", 0.9144},
   }};
-  if (word.size() > 4 && word.back() == 's' && word != "inches") word.remove_suffix(1);
-  for (const auto& [name, metres] : units)
-    if (word == name) return metres;
+  if (name.size() > 4 && name.back() == 's' && name != "inches") name.remove_suffix(1);
+  for (const auto& [known, metres] : units)
+    if (name == known) return metres;
   return 0;
 }
 
-bool isAxis(std::string_view word) {
-  return word == "x" || word == "y" || word == "z";
-}
-
-}  // namespace
-
 ColumnNames columnNamesIn(std::string_view line) {
-  const std::string text = lowered(line);
   ColumnNames result;
-  std::vector<std::string> words;  // other than units
-  bool isOnUnits = false;
-  for (std::size_t at = 0; at < text.size();) {
-    const auto isOfWord = [&](char c) { return isLetter(c) || (c >= '0' && c <= '9') || c == '.'; };
-    if (text[at] == ':' && std::none_of(words.begin(), words.end(), isAxis)) words.clear();
-    if (!isOfWord(text[at])) {
-      ++at;
-      continue;
-    }
-    const std::size_t from = at;
-    while (at < text.size() && isOfWord(text[at])) ++at;
-    std::string word = text.substr(from, at - from);
-    result.hasWords |= std::any_of(word.begin(), word.end(), isLetter);
-    isOnUnits |= word.starts_with("unit");
-    // "in" is a unit in brackets only.
-    const bool isInches =
-        word == "in" && from > 0 && (text[from - 1] == '[' || text[from - 1] == '(');
-    if (const double metres = isInches ? 0.0254 : metresIn(word); metres > 0) {
+  const std::vector<Word> words = wordsOf(lowered(line));
+  std::vector<std::string> names;  // words other than units
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const auto& [text, marks] = words[i];
+    if (marks.find(':') != marks.npos && std::none_of(names.begin(), names.end(), isAxis))
+      names.clear();
+    result.hasWords |= std::any_of(text.begin(), text.end(), isLetter);
+    result.isOnUnits |= words[i].isOnUnits();
+    if (const double metres = metresAt(words, i, result.isOnUnits); metres > 0) {
       if (result.metresPerUnit.value_or(1) == 1) result.metresPerUnit = metres;
       continue;
     }
-    std::string sorted = word;
+    std::string sorted = text;
     std::sort(sorted.begin(), sorted.end());
     if (sorted == "xyz")
-      for (const char axis : word) words.emplace_back(1, axis);
+      for (const char axis : text) names.emplace_back(1, axis);
     else
-      words.push_back(std::move(word));
+      names.push_back(text);
   }
-  const std::set<std::string_view> known(words.begin(), words.end());
+  const std::set<std::string_view> known(names.begin(), names.end());
   if (known.contains("x") && known.contains("y") && known.contains("z"))
-    result.order = words[0] == "x" && words[1] == "y" && words[2] == "z"
+    result.order = names[0] == "x" && names[1] == "y" && names[2] == "z"
                        ? ColumnNames::Order::xyz
                        : ColumnNames::Order::other;
-  else if (!isOnUnits)
+  else if (!result.isOnUnits)
     result.metresPerUnit.reset();
   return result;
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "collision/geometry/stated_unit.h"
 #include "collision/geometry/triangle_mesh.h"
 
 namespace corridor {
@@ -12,7 +13,7 @@ namespace corridor {
 /// How to interpret the coordinates of a mesh file.
 struct MeshFileOptions {
   /// Metres per unit of the file. Unset: the file's own unit if the format has one, else 1.
-  /// Required for 3MF and AMF, because assimp does not report their unit.
+  /// Required for 3MF and AMF, whose own unit is compared with it.
   std::optional<double> metresPerUnit = {};
   /// The file's up-axis ('x', 'y' or 'z'), which is rotated to z. 'y' maps (x, y, z) to (x, -z, y),
   /// and 'x' maps (x, y, z) to (-y, -z, x), as Collada's axes do. Unset: coordinates are not
@@ -36,10 +37,13 @@ struct MeshFile {
   std::vector<std::string> notes;  ///< on content that is not read, without the file's name
   /// The other files that were read with it, such as the buffers of a glTF file.
   std::vector<std::string> otherFiles;
+  /// The units that comments state (OBJ, STL, PLY, OFF). They are not applied; `notes` names one
+  /// that is not the unit in use.
+  std::vector<StatedUnit> statedUnits = {};
 };
 
 /// Reads a mesh file. The extension decides which reader is used. Corridor's own readers read OBJ,
-/// STL, PLY and OFF in double. assimp reads Collada, glTF, FBX, 3DS, X3D, 3MF and AMF, in a process
+/// STL, PLY and OFF in double. assimp reads Collada, glTF, FBX, X3D, 3MF and AMF, in a process
 /// of its own with limits of time and memory. This function applies scale and rotation once.
 /// Queries use the rounded coordinates that result.
 /// @throws InputError that names the file and the line, face or byte: unreadable, no faces, not

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "collision/geometry/mesh_text.h"
+#include "collision/geometry/stated_unit.h"
 #include "collision/geometry/triangle_mesh.h"
 
 /// Corridor's own mesh readers, one per format. Each reader takes the bytes of a file, and returns
@@ -16,6 +17,7 @@ struct ReadMesh {
   TriangleMesh mesh;
   std::string format;                   ///< name of the format for messages, e.g. "STL (binary)"
   std::vector<std::string> notes = {};  ///< on content that is not read
+  std::vector<StatedUnit> statedUnits = {};  ///< in comments, headers and names; not applied
 };
 
 ReadMesh readObj(std::string_view text, MeshFaults& faults);

@@ -1,5 +1,6 @@
 #include "collision/geometry/mesh_text.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
@@ -67,7 +68,7 @@ std::string_view TextCursor::wordInLine() {
   const char* const end = start + rest_.size();
   while (start != end && isBlank(*start)) ++start;
   const char* stop = start;
-  while (stop != end && (*stop > ' ' || (!isBlank(*stop) && *stop != '\n'))) ++stop;
+  while (stop != end && (*stop > ' ' || (!isBlank(*stop) && !isLineEnd(*stop)))) ++stop;
   rest_ = {stop, static_cast<std::size_t>(end - stop)};
   return {start, static_cast<std::size_t>(stop - start)};
 }
@@ -78,13 +79,41 @@ std::string_view TextCursor::word() {
   return word;
 }
 
+const char* TextCursor::lineEnd() {
+  const char* const start = rest_.data();
+  const char* const end = start + rest_.size();
+  const auto seek = [&](const char*& found, char c) {
+    if (found && found >= start) return;
+    const void* const at = rest_.empty() ? nullptr : std::memchr(start, c, rest_.size());
+    found = at ? static_cast<const char*>(at) : end;
+  };
+  seek(lf_, '\n');
+  seek(cr_, '\r');
+  return std::min(lf_, cr_);
+}
+
+std::string_view TextCursor::takeRestOfLine() {
+  const auto size = static_cast<std::size_t>(lineEnd() - rest_.data());
+  const std::string_view rest = rest_.substr(0, size);
+  rest_.remove_prefix(size);
+  return rest;
+}
+
+std::string_view TextCursor::takeLineFrom(std::string_view word) {
+  const std::string_view rest = takeRestOfLine();
+  return {word.data(), static_cast<std::size_t>(rest.data() + rest.size() - word.data())};
+}
+
 bool TextCursor::nextLine() {
-  const void* const found = std::memchr(rest_.data(), '\n', rest_.size());
-  if (!found) {
-    rest_.remove_prefix(rest_.size());
+  const auto stop = static_cast<std::size_t>(lineEnd() - rest_.data());
+  if (stop == rest_.size()) {
+    rest_.remove_prefix(stop);
     return false;
   }
-  rest_.remove_prefix(static_cast<std::size_t>(static_cast<const char*>(found) - rest_.data()) + 1);
+  const bool isPair = rest_.substr(stop).starts_with("\r\n");
+  if (ends_ == LineEnds::unknown)
+    ends_ = rest_[stop] == '\n' || isPair ? LineEnds::lfOrCrLf : LineEnds::cr;
+  rest_.remove_prefix(stop + (isPair && ends_ != LineEnds::cr ? 2 : 1));
   if (line_ < std::numeric_limits<int>::max()) ++line_;
   return true;
 }

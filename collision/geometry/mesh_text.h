@@ -61,11 +61,16 @@ bool parseInteger(std::string_view word, std::int64_t& value);
 
 /// Returns whether `c` is a blank within a line (not a line end).
 inline bool isBlank(char c) {
-  return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
+  return c == ' ' || c == '\t' || c == '\v' || c == '\f';
+}
+inline bool isLineEnd(char c) {
+  return c == '\n' || c == '\r';
 }
 
 /// Walks through a text word by word, and counts its lines, from 1 unless the constructor gets
-/// another number.
+/// another number. All text readers use this class, so they agree on where lines end: at LF, at
+/// CR LF, and at a CR alone. (If the first line ends with a CR alone, so do all others: an LF after
+/// a later CR is an empty line, or the first byte of binary data.)
 class TextCursor {
  public:
   explicit TextCursor(std::string_view text, int line = 1) : rest_(text), line_(line) {}
@@ -75,6 +80,10 @@ class TextCursor {
   /// Returns the next word of this or a later line; empty at the end of the text. After the call,
   /// `line()` is the line of that word.
   std::string_view word();
+  /// Returns the rest of this line without its end, and moves to this end.
+  std::string_view takeRestOfLine();
+  /// Returns this line from `word` on, the last word that was read; moves to the line's end.
+  std::string_view takeLineFrom(std::string_view word);
   /// Goes to the start of the next line. @returns false at the end of the text.
   bool nextLine();
 
@@ -82,8 +91,16 @@ class TextCursor {
   std::size_t bytesLeft() const { return rest_.size(); }
 
  private:
+  enum class LineEnds { unknown, lfOrCrLf, cr };
+  /// Returns the end of this line: of its first LF or CR, or of the text.
+  const char* lineEnd();
+
   std::string_view rest_;
   int line_;
+  LineEnds ends_ = LineEnds::unknown;
+  // The next LF and CR that were found. They are sought again when the cursor is behind them, so
+  // that a text without one of them is searched once.
+  const char *lf_ = nullptr, *cr_ = nullptr;
 };
 
 /// Reads a vertex of three coordinates from the words that `next` returns; an empty word means that

@@ -51,7 +51,7 @@ class ObjReader {
       if (late.number > count()) outOfRange(late.line, late.number);
     }
     faults_.throwIfAny();
-    return {std::move(mesh_), "OBJ", std::move(notes_)};
+    return {std::move(mesh_), "OBJ", std::move(notes_), std::move(statedUnits_)};
   }
 
  private:
@@ -73,7 +73,10 @@ class ObjReader {
     }
     continued_ = !word.empty() && word.back() == '\\';
     if (continued_) word.remove_suffix(1);
-    return word.substr(0, word.starts_with('#') ? 0 : word.npos);
+    if (!word.starts_with('#')) return word;
+    continued_ = false;
+    addStatedUnit(cursor_.takeLineFrom(word), cursor_.line(), statedUnits_);
+    return {};
   }
 
   void skipWords() {  // of the logical line, which may go on for several lines
@@ -82,7 +85,17 @@ class ObjReader {
   }
 
   void readVertex() {  // also keeps a faulty vertex, so that later vertices keep their numbers
-    mesh_.vertices.push_back(parseVertex([&] { return nextWord(); }, cursor_, faults_));
+    int words = 0;
+    const auto next = [&] { return ++words, nextWord(); };
+    mesh_.vertices.push_back(parseVertex(next, cursor_, faults_));
+    // A weight or a colour may follow.
+    double number = 0;
+    if (words < 3) return;
+    for (std::string_view word = nextWord(); !word.empty(); word = nextWord())
+      if (parseCoordinate(word, number, true))
+        faults_.add(cursor_.line(), inQuotes(word) +
+                                        " comes after the coordinates of a vertex; only numbers "
+                                        "(a weight or a colour) may follow");
   }
 
   void readFace() {
@@ -141,6 +154,7 @@ class ObjReader {
   TriangleMesh mesh_;
   std::vector<LateCorner> lateCorners_;
   std::vector<std::string> notes_;
+  std::vector<StatedUnit> statedUnits_;
 };
 
 }  // namespace
@@ -159,6 +173,10 @@ void checkObjForAssimp(std::string_view text, MeshFaults& faults) {
     std::string_view line = text.substr(0, text.find('\n'));
     text.remove_prefix(std::min(line.size() + 1, text.size()));
     if (line.ends_with('\r')) line.remove_suffix(1);
+    if (line.find('\r') != line.npos)
+      faults.add(number,
+                 "has a carriage return that ends no line, where assimp may drop what follows; end "
+                 "all lines with LF or CR LF");
     const std::string_view keyword = TextCursor(line).wordInLine();
     const bool isFirst = !std::exchange(continued, line.ends_with('\\'));
     if (!isFirst || keyword.empty()) continue;

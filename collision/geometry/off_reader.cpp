@@ -37,6 +37,7 @@ class OffReader {
     faults_.throwIfAny();
     ReadMesh read{std::move(mesh_), "OFF"};
     if (hasLines_) read.notes = {kNoteOnLines};
+    read.statedUnits = std::move(statedUnits_);
     return read;
   }
 
@@ -44,15 +45,27 @@ class OffReader {
   /// Returns the next word of this or a later line, skipping comments.
   std::string_view nextWord() {
     std::string_view word = cursor_.word();
-    while (word.starts_with('#')) word = cursor_.nextLine() ? cursor_.word() : std::string_view();
+    while (isComment(word)) word = cursor_.nextLine() ? cursor_.word() : std::string_view();
     return word;
   }
   /// Returns the next word of this line; empty at the end of the line or at a comment.
   std::string_view wordInLine() {
     const std::string_view word = cursor_.wordInLine();
-    return word.substr(0, word.starts_with('#') ? 0 : word.npos);
+    return word.substr(0, isComment(word) ? 0 : word.npos);
   }
-  void endLine() { cursor_.nextLine(); }
+  /// Goes to the next line. Numbers in the rest of this line are colours and normals.
+  void endLine() {
+    const std::string_view rest = cursor_.takeRestOfLine();
+    if (const std::size_t mark = rest.find('#'); mark != rest.npos) noteUnit(rest.substr(mark));
+    cursor_.nextLine();
+  }
+  /// Returns whether the word begins a comment, which may state a unit.
+  bool isComment(std::string_view word) {
+    if (!word.starts_with('#')) return false;
+    noteUnit(cursor_.takeLineFrom(word));
+    return true;
+  }
+  void noteUnit(std::string_view comment) { addStatedUnit(comment, cursor_.line(), statedUnits_); }
 
   void readKeyword() {
     std::string_view word = nextWord();
@@ -139,6 +152,7 @@ class OffReader {
   MeshFaults& faults_;
   TriangleMesh mesh_;
   bool hasLines_ = false;
+  std::vector<StatedUnit> statedUnits_;
 };
 
 }  // namespace

@@ -1,8 +1,11 @@
+#include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,15 +34,18 @@ struct Header {
   int lines = 0;
   std::array<std::size_t, 3> xyz{};  ///< indices of the fields x, y and z
   bool hasViewpoint = false;
+  std::vector<StatedUnit> statedUnits;  ///< in comments
 };
 
-/// Returns whether a viewpoint, tx ty tz qw qx qy qz, is the identity.
+/// Returns whether a viewpoint, tx ty tz qw qx qy qz, is the identity. The quaternions 1 and -1
+/// both stand for no rotation.
 bool isIdentity(const std::vector<std::string>& viewpoint) {
   for (std::size_t i = 0; i < viewpoint.size(); ++i) {
     double value = 0;
-    if (parseCoordinate(viewpoint[i], value) || value != (i == 3 ? 1 : 0)) return false;
+    if (parseCoordinate(viewpoint[i], value)) return false;
+    if ((i == 3 ? std::abs(value) : value) != (i == 3 ? 1 : 0)) return false;
   }
-  return true;
+  return viewpoint.size() == 7;
 }
 
 /// Reads the header. Each line is a keyword followed by words; DATA is the last line.
@@ -52,9 +58,14 @@ class PcdHeaderReader {
     std::optional<std::uint64_t> width, height, points;
     do {
       const std::string_view keyword = cursor_.wordInLine();
-      if (keyword.empty() || keyword.front() == '#') continue;
+      if (keyword.empty()) continue;
+      if (keyword.front() == '#') {
+        addStatedUnit(cursor_.takeLineFrom(keyword), cursor_.line(), header_.statedUnits);
+        continue;
+      }
+      if (!seen_.insert(keyword == "COLUMNS" ? "FIELDS" : keyword).second)
+        fail("the header has a second line " + inQuotes(keyword) + "; delete one of them");
       if (keyword == "FIELDS" || keyword == "COLUMNS") {
-        header_.fields.clear();
         for (const std::string& name : words()) header_.fields.push_back({.name = name});
       } else if (keyword == "SIZE") {
         forEachField(keyword, [&](Field& f, const std::string& w) { f.size = size(w); });
@@ -134,20 +145,16 @@ class PcdHeaderReader {
       header_.pointBytes += field.bytes();
     }
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      std::size_t found = header_.fields.size();
-      for (std::size_t i = 0; i < header_.fields.size(); ++i)
-        if (header_.fields[i].name == std::string(1, "xyz"[axis])) found = i;
-      if (found == header_.fields.size() || header_.fields[found].count != 1)
-        faults_.fail(0,
-                     "FIELDS needs one field \"" + std::string(1, "xyz"[axis]) + "\" of COUNT 1");
-      header_.xyz[axis] = found;
+      const std::string name(1, "xyz"[axis]);
+      const auto isNamed = [&](const Field& field) { return field.name == name; };
+      const auto first = std::find_if(header_.fields.begin(), header_.fields.end(), isNamed);
+      if (std::count_if(first, header_.fields.end(), isNamed) != 1 || first->count != 1)
+        faults_.fail(0, "FIELDS needs one field \"" + name + "\" of COUNT 1");
+      header_.xyz[axis] = static_cast<std::size_t>(first - header_.fields.begin());
     }
-    header_.size = bytes_.size() - cursor_.bytesLeft();
-    if (const std::size_t end = bytes_.find('\n', header_.size); end != bytes_.npos)
-      header_.size = end + 1;
-    else
-      header_.size = bytes_.size();
     header_.lines = cursor_.line();
+    cursor_.nextLine();
+    header_.size = bytes_.size() - cursor_.bytesLeft();
   }
 
   [[noreturn]] void fail(const std::string& text) { faults_.fail(cursor_.line(), text); }
@@ -155,6 +162,7 @@ class PcdHeaderReader {
   TextCursor cursor_;
   std::string_view bytes_;
   MeshFaults& faults_;
+  std::set<std::string_view> seen_;  // keywords
   Header header_;
 };
 
@@ -312,7 +320,7 @@ PointCloud readPcd(std::string_view bytes, MeshFaults& faults) {
   const Header header = PcdHeaderReader(bytes, faults).read();
   const std::string_view body = bytes.substr(header.size);
   const auto cloud = [&](std::vector<Vec3> points, const char* format) {
-    return PointCloud{std::move(points), format, 0, header.hasViewpoint};
+    return PointCloud{std::move(points), format, 0, header.hasViewpoint, 0, header.statedUnits};
   };
   if (header.data == "ascii") return cloud(readAscii(body, header, faults), "PCD (ASCII)");
   if (header.data == "binary") return cloud(readBinary(body, header, faults), "PCD (binary)");

@@ -59,7 +59,9 @@ class HeaderReader {
         header_.lines = cursor_.line() - 1;
         check();
         return std::move(header_);
-      } else if (!keyword.empty() && keyword != "comment" && keyword != "obj_info") {
+      } else if (keyword == "comment" || keyword == "obj_info") {
+        addStatedUnit(cursor_.takeRestOfLine(), cursor_.line(), header_.statedUnits);
+      } else if (!keyword.empty()) {
         fail("unknown keyword " + inQuotes(keyword) + "; expected element, property or end_header");
       }
     }

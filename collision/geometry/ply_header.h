@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "collision/geometry/mesh_text.h"
+#include "collision/geometry/stated_unit.h"
 
 namespace corridor {
 
@@ -35,8 +36,9 @@ enum class PlyEncoding { Ascii, LittleEndian, BigEndian };
 struct PlyHeader {
   PlyEncoding encoding = PlyEncoding::Ascii;
   std::vector<PlyElement> elements;
-  std::size_t size = 0;  ///< bytes before the first element
-  int lines = 0;         ///< lines of the header
+  std::size_t size = 0;                 ///< bytes before the first element
+  int lines = 0;                        ///< lines of the header
+  std::vector<StatedUnit> statedUnits;  ///< in comments
 };
 
 /// Reads the header of a PLY file. Throws if vertices do not have the scalar properties x, y and z.

@@ -290,13 +290,14 @@ ReadMesh readPly(std::string_view bytes, MeshFaults& faults) {
   const PlyHeader header = readPlyHeader(bytes, true, faults);
   ReadMesh read = readPlyElements(bytes, header, true, faults);
   read.notes = notesOnLists(header);
+  read.statedUnits = header.statedUnits;
   return read;
 }
 
 PointCloud readPlyPoints(std::string_view bytes, MeshFaults& faults) {
   const PlyHeader header = readPlyHeader(bytes, false, faults);
   ReadMesh read = readPlyElements(bytes, header, false, faults);
-  return {std::move(read.mesh.vertices), std::move(read.format)};
+  return {std::move(read.mesh.vertices), std::move(read.format), 0, false, 0, header.statedUnits};
 }
 
 }  // namespace corridor

@@ -7,6 +7,7 @@
 
 #include "collision/core/transform.h"
 #include "collision/geometry/mesh_file.h"
+#include "collision/geometry/stated_unit.h"
 
 namespace corridor {
 
@@ -24,12 +25,15 @@ struct PointCloud {
   /// The line of the first comment before the points of a text file that may say what the columns
   /// mean (it has letters) and does not name x, y, z in this order; 0: none. It is not read.
   int comment = 0;
+  /// The units that comments of a PLY or PCD file state. They are not applied.
+  std::vector<StatedUnit> statedUnits = {};
 };
 
 /// Reads the points of a file: the vertices of PLY; PCD (ASCII, binary and compressed); or a text
 /// file (.xyz, .txt, .asc, .pts, .csv) with three numbers or more in each line, of which the first
-/// three are x, y and z. Refused: a comment before the points that names x, y and z in another
-/// order or place, or another unit than that of `options` (1 m without one). If the content begins
+/// three are x, y and z. Refused in text files: a header, or a comment before the points, that
+/// names x, y and z in another order or place; and another unit than that of `options` (1 m without
+/// one), in a header, in a comment or after a point. If the content begins
 /// like PLY or PCD, it is read in this format, whatever the extension. Normals, colours and faces
 /// are not read. As in PCL, the viewpoint of a PCD file is not applied.
 /// @throws InputError that names the file and the line or byte: unreadable, no points, truncated,

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -11,7 +12,8 @@ namespace corridor {
 namespace {
 
 constexpr std::size_t headerSize = 84;  // 80 bytes of any content, then the number of triangles
-constexpr std::size_t facetSize = 50;   // normal and three vertices (4 × 3 floats), 2 unused bytes
+constexpr std::size_t kHeaderText = 80;
+constexpr std::size_t facetSize = 50;  // normal and three vertices (4 × 3 floats), 2 unused bytes
 
 std::uint32_t littleEndian32(const char* bytes) {
   std::uint32_t value = 0;
@@ -42,7 +44,9 @@ ReadMesh readBinary(std::string_view bytes, MeshFaults& faults) {
   }
   faults.throwIfAny();
   mesh.vertices = welder.takePoints();
-  return {std::move(mesh), "STL (binary)"};
+  ReadMesh read{std::move(mesh), "STL (binary)"};
+  addStatedUnit(bytes.substr(0, kHeaderText), 0, read.statedUnits);
+  return read;
 }
 
 /// Returns whether `a` is the keyword, ignoring case. Setting bit 5 turns capitals into lower-case
@@ -61,16 +65,35 @@ class AsciiStl {
   ReadMesh read() {
     for (std::string_view word = cursor_.word(); !word.empty(); word = cursor_.word()) {
       if (!sameWord(word, "solid")) unexpected(word, "solid");
-      cursor_.nextLine();  // skips the solid's name
+      skipName();
       readSolid();
-      cursor_.nextLine();
+      skipName();
     }
     faults_.throwIfAny();
     mesh_.vertices = welder_.takePoints();
-    return {std::move(mesh_), "STL (ASCII)"};
+    return {std::move(mesh_), "STL (ASCII)", {}, std::move(statedUnits_)};
   }
 
  private:
+  /// Skips the rest of the line of "solid" or "endsolid", which is a name of any words. Fails if it
+  /// has a facet, which no name has: "outer loop vertex" and a number.
+  void skipName() {
+    TextCursor name = cursor_;
+    std::array<std::string_view, 4> last;
+    for (std::string_view w = name.wordInLine(); !w.empty(); w = name.wordInLine()) {
+      std::rotate(last.begin(), last.begin() + 1, last.end());
+      last.back() = w;
+      double number = 0;
+      if (sameWord(last[0], "outer") && sameWord(last[1], "loop") && sameWord(last[2], "vertex") &&
+          !parseCoordinate(w, number))
+        faults_.fail(cursor_.line(),
+                     "a facet is on the line of solid or endsolid, whose rest is a name; begin a "
+                     "new line before the facet");
+    }
+    addStatedUnit(cursor_.takeRestOfLine(), cursor_.line(), statedUnits_);
+    cursor_.nextLine();
+  }
+
   void readSolid() {
     while (true) {
       const std::string_view word = cursor_.word();
@@ -137,6 +160,7 @@ class AsciiStl {
   VertexWelder welder_;
   MeshFaults& faults_;
   TriangleMesh mesh_;
+  std::vector<StatedUnit> statedUnits_;
 };
 
 }  // namespace

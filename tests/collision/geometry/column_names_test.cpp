@@ -21,9 +21,10 @@ const std::string otherOrder =
     "a.xyz:1: names x, y and z in another order or place than the first three columns, which are "
     "read as x, y, z; put these columns first, or remove the line if it is wrong";
 
-std::string otherUnit(const std::string& said, const std::string& used) {
+/// @param named how to state the unit, if problems have a name for it.
+std::string otherUnit(const std::string& said, const std::string& used, const std::string& named) {
   return "a.xyz:1: says that a unit is " + said + " m, but coordinates are read with a unit of " +
-         used + " m; state the unit, or remove the line if it is wrong";
+         used + " m; state the unit" + named + ", or remove the line if it is wrong";
 }
 
 TEST_F(NamesOfColumns, InTheOrderThatIsRead) {
@@ -47,14 +48,14 @@ TEST_F(NamesOfColumns, InAnotherOrder) {
 TEST_F(NamesOfColumns, InAnotherUnit) {
   for (const std::string line : {"# x[mm] y[mm] z[mm]", "// X_mm, Y_mm, Z_mm", "# units mm",
                                  "# Unit: Millimeters", "x y z mm", "# x y z (millimetres)"}) {
-    EXPECT_EQ(complaint(line), otherUnit("0.001", "1")) << line;
+    EXPECT_EQ(complaint(line), otherUnit("0.001", "1", " (unit: mm)")) << line;
     EXPECT_EQ(complaint(line, {0.001, {}}), "no complaint") << line;
-    EXPECT_EQ(complaint(line, {0.01, {}}), otherUnit("0.001", "0.01")) << line;
+    EXPECT_EQ(complaint(line, {0.01, {}}), otherUnit("0.001", "0.01", " (unit: mm)")) << line;
   }
-  EXPECT_EQ(complaint("# x [in] y [in] z [in]"), otherUnit("0.0254", "1"));
-  EXPECT_EQ(complaint("# x[m] y[m] z[mm]"), otherUnit("0.001", "1"));
-  EXPECT_EQ(complaint("# x[m] y[m] z[m]", {0.001, {}}), otherUnit("1", "0.001"));
-  EXPECT_EQ(complaint("# x [\u00b5m] y [\u00b5m] z [\u00b5m]"), otherUnit("1e-06", "1"));
+  EXPECT_EQ(complaint("# x [in] y [in] z [in]"), otherUnit("0.0254", "1", " (unit: in)"));
+  EXPECT_EQ(complaint("# x[m] y[m] z[mm]"), otherUnit("0.001", "1", " (unit: mm)"));
+  EXPECT_EQ(complaint("# x[m] y[m] z[m]", {0.001, {}}), otherUnit("1", "0.001", " (unit: m)"));
+  EXPECT_EQ(complaint("# x [\u00b5m] y [\u00b5m] z [\u00b5m]"), otherUnit("1e-06", "1", ""));
 }
 
 /// The first comment of other words is reported by its line. Comments among the points are not.
@@ -68,13 +69,22 @@ TEST_F(NamesOfColumns, OtherComments) {
 TEST_F(NamesOfColumns, Headers) {
   const auto header = [](const std::string& first) {
     return "a.xyz:1: is a header that begins with \"" + first +
-           "\", not with x y z; put x, y and z into the first three columns, in metres, and remove "
-           "the header";
+           "\", not with x y z; put the columns x, y and z first, and name them in this way";
   };
   EXPECT_EQ(complaint("id,x,y,z"), header("id"));
   EXPECT_EQ(complaint("y x z"), header("y"));
-  EXPECT_EQ(complaint("\"x\",\"y\",\"z\""), header("\"x\""));
-  EXPECT_EQ(complaint("x[mm];y[mm];z[mm]"), header("x[mm]"));
+  EXPECT_EQ(complaint("\"id\",\"x\",\"y\",\"z\""), header("\"id\""));
+  EXPECT_EQ(complaint("x2,y,z"), header("x2"));
+  EXPECT_EQ(complaint("x-y,z,w"), header("x-y"));
+  EXPECT_EQ(complaint("x_raw,y,z"), header("x_raw"));
+  EXPECT_EQ(complaint("\"x\",\"y\",\"z\",\"label\""), "no complaint");
+  for (const std::string line : {"x[mm];y[mm];z[mm]", "x[mm],y[mm],z[mm]", "x [mm], y [mm], z [mm]",
+                                 "\"x (mm)\",\"y (mm)\",\"z (mm)\"", "X_mm Y_mm Z_mm"}) {
+    EXPECT_EQ(complaint(line), otherUnit("0.001", "1", " (unit: mm)")) << line;
+    EXPECT_EQ(complaint(line, {0.001, {}}), "no complaint") << line;
+  }
+  // Here "#" names the first column, which is an index.
+  EXPECT_EQ(complaint("#,x,y,z"), otherOrder);
   EXPECT_EQ(complaint("1,2,x"),
             "a.xyz:1: coordinate \"x\" is not a number; write decimal numbers such as -1.25e-3");
 }

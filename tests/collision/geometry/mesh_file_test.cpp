@@ -264,6 +264,21 @@ TEST_F(MeshFileComplaint, AsciiStl) {
             "a.stl:7: a facet has exactly 3 vertices, found a fourth");
   EXPECT_EQ(complaint("a.stl", replaced("endfacet", "endfact")),
             "a.stl:8: expected endfacet, found \"endfact\"");
+  EXPECT_EQ(complaint("a.obj", "v 0 0 1 mm\nv 1 0 0 1 # a\nv 0 1 0 1 0 0\nf 1 2 3\n"),
+            "a.obj:1: \"mm\" comes after the coordinates of a vertex; only numbers (a weight or a "
+            "colour) may follow");
+  const std::string facet =
+      " facet normal 0 0 1 outer LOOP vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet\n";
+  const std::string named =
+      ": a facet is on the line of solid or endsolid, whose rest is a name; "
+      "begin a new line before the facet";
+  EXPECT_EQ(complaint("a.stl", "solid a" + facet + facet + "endsolid a\n"), "a.stl:1" + named);
+  EXPECT_EQ(complaint("a.stl", "solid" + facet + facet + "endsolid a\n"), "a.stl:1" + named);
+  EXPECT_EQ(complaint("a.stl", "solid a\n" + facet + "endsolid a solid b" + facet),
+            "a.stl:3" + named);
+  EXPECT_EQ(complaint("a.stl", "solid the facet of an outer loop vertex endfacet\n" + facet +
+                                   "endsolid facet normal 0 0 1\n"),
+            "no complaint");
   EXPECT_EQ(complaint("a.stl", whole + "junk"), "a.stl:31: expected solid, found \"junk\"");
 }
 

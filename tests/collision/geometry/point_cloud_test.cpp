@@ -191,6 +191,59 @@ TEST_F(PointCloudTest, DecimalCommas) {
             "c.xyz:1: coordinate \"1,5\" is not a number; write decimal numbers such as -1.25e-3");
 }
 
+/// An empty field among the coordinates would shift the later ones.
+TEST_F(PointCloudTest, EmptyFields) {
+  const auto empty = [](const std::string& where) {
+    return "a.csv:" + where.substr(0, 1) + ": the field before " + where.substr(2) + " is empty";
+  };
+  EXPECT_EQ(complaint("a.csv", "x,y,z,i\n0.6,,0,5\n"), empty("2 comma 2"));
+  EXPECT_EQ(complaint("a.csv", "0.6, ,0,5\n"), empty("1 comma 2"));
+  EXPECT_EQ(complaint("a.csv", "1;2; ;5\n"), empty("1 semicolon 3"));
+  EXPECT_EQ(complaint("a.csv", "1,2,3\n,1,2,3\n"), empty("2 comma 1"));
+  EXPECT_EQ(complaint("a.csv", "1,2,3\n1,2,,\n"), empty("2 comma 3"));
+  EXPECT_EQ(complaint("a.csv", "1 2,,3\n"), empty("1 comma 2"));
+  const std::string index = " (pandas writes its index so; use index=False)";
+  EXPECT_EQ(complaint("a.csv", ",x,y,z\n0,1,2,3\n"), empty("1 comma 1") + index);
+  EXPECT_EQ(complaint("a.csv", "1,2,\n"), "a.csv:1: a point has 3 coordinates, found 2");
+  EXPECT_EQ(read("a.csv", "1,2,3,,5\n-0.5,0,4e-3,\n,,,\n7;8;9;;;\n").points, kThree)
+      << "later columns are not read";
+}
+
+/// Two tabs in a row may be an empty field, or only fill up the columns.
+TEST_F(PointCloudTest, Tabs) {
+  EXPECT_EQ(read("a.xyz", "1\t\t2\t3\n-0.5\t0\t4e-3\n7\t8\t\t9\n").points, kThree);
+  EXPECT_EQ(complaint("a.xyz", "1\t2\t3\t4\n5\t\t6\t7\n"),
+            "a.xyz:2: has 3 columns, but line 1 has 4, and two tabs in a row may be an empty "
+            "field; fill it, or write one tab between numbers");
+  EXPECT_EQ(complaint("a.xyz", "5\t\t6\t7\n1\t2\t3\t4\n"),
+            "a.xyz:2: has 4 columns, but line 1 has 3, and two tabs in a row may be an empty "
+            "field; fill it, or write one tab between numbers");
+}
+
+/// Colours and labels may follow the coordinates, but no other unit.
+TEST_F(PointCloudTest, WordsAfterThePoints) {
+  for (const std::string rest : {"", " 255 0 0", " tree", " label in", " m", " # m", " # a tree"})
+    EXPECT_EQ(complaint("a.xyz", "1 1 1" + rest + "\n"), "no complaint") << rest;
+  const auto other = [&](const std::string& rest, const std::string& word,
+                         const std::string& state) {
+    EXPECT_EQ(complaint("a.xyz", "1 1 1 " + rest + "\n"),
+              "a.xyz:1: \"" + word +
+                  "\" follows the coordinates, which are read with a unit of 1 m; state the unit" +
+                  state + ", or remove the word if it is no unit");
+  };
+  other("mm", "mm", " (unit: mm)");
+  other("255 0 0 [CM]", "[CM]", " (unit: cm)");
+  other("in", "in", " (unit: in)");
+  other("feet", "feet", "");
+  other("# mm", "# mm", " (unit: mm)");
+  EXPECT_EQ(complaint("a.xyz", "1 1 1 mm\n", {0.001, {}}), "no complaint");
+  const std::string says =
+      "says that a unit is 0.001 m, but coordinates are read with a unit of 1 m; state the unit "
+      "(unit: mm), or remove the line if it is wrong";
+  EXPECT_EQ(complaint("a.xyz", "1 1 1 # unit: mm\n"), "a.xyz:1: " + says);
+  EXPECT_EQ(complaint("a.xyz", "1 1 1\n# x y z in cm\n# unit: mm\n"), "a.xyz:3: " + says);
+}
+
 TEST_F(PointCloudTest, UnitUpAndPointsThatAreNotFinite) {
   const PointCloud cloud = read("a.xyz", "1 2 3\nnan nan nan\n1 inf 2\n", {0.5, 'y'});
   EXPECT_EQ(cloud.points, Points({{0.5, -1.5, 1}}));
@@ -210,6 +263,10 @@ TEST_F(PointCloudTest, Faults) {
             "\".obj\"");
   EXPECT_EQ(complaint("d.pcd", "VERSION 0.7\nFIELDS x y\nDATA ascii\n1 2\n"),
             "d.pcd: FIELDS needs one field \"z\" of COUNT 1");
+  EXPECT_EQ(complaint("d.pcd", "FIELDS x x y z\nDATA ascii\n1 2 3 4\n"),
+            "d.pcd: FIELDS needs one field \"x\" of COUNT 1");
+  EXPECT_EQ(complaint("d.pcd", "FIELDS x y z\nCOLUMNS y x z\nDATA ascii\n1 2 3\n"),
+            "d.pcd:2: the header has a second line \"COLUMNS\"; delete one of them");
   EXPECT_EQ(complaint("e.pcd", "FIELDS x y z\nSIZE 4 4\n"),
             "e.pcd:2: SIZE has 2 values for 3 FIELDS");
   EXPECT_EQ(complaint("f.pcd", "FIELDS x y z\nTYPE F F Q\n"),
