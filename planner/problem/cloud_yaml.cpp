@@ -26,6 +26,8 @@ bool readPoints(const YamlMap& inner, const MeshFileOptions& options, const Tran
              " is a comment, which is not read; the first three columns are x, y, z" +
              (options.metresPerUnit ? "" : " in metres"),
          NoteWeight::coverage});
+  if (const auto note = noteOnUnits(cloud.statedUnits, options.metresPerUnit.value_or(1)))
+    shape.notes.push_back({shape.file.string() + ": " + *note, NoteWeight::coverage});
   if (cloud.hasViewpoint)
     shape.notes.push_back({shape.file.string() +
                                ": its viewpoint (the sensor's pose) is not applied; at and a "

@@ -87,8 +87,11 @@ TEST_F(Clouds, NotesOnWhatIsNotAnObstacle) {
   write("a.pcd", "FIELDS x y z\nVIEWPOINT 1 0 0 1 0 0 0\nPOINTS 1\nDATA ascii\n1 2 3\n");
   EXPECT_THAT(notesOf("{points: {file: a.pcd, radius: 0.1}}"),
               Contains(HasSubstr("its viewpoint (the sensor's pose) is not applied")));
-  write("a.pcd", "FIELDS x y z\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 1\nDATA ascii\n1 2 3\n");
-  EXPECT_THAT(notesOf("{points: {file: a.pcd, radius: 0.1}}"), Not(Contains(HasSubstr("a.pcd"))));
+  for (const std::string real : {"1", "-1"}) {
+    write("a.pcd",
+          "FIELDS x y z\nVIEWPOINT 0 0 0 " + real + " 0 0 0\nPOINTS 1\nDATA ascii\n1 2 3\n");
+    EXPECT_THAT(notesOf("{points: {file: a.pcd, radius: 0.1}}"), Not(Contains(HasSubstr("a.pcd"))));
+  }
 }
 
 TEST_F(Clouds, NotesOnComments) {
@@ -101,6 +104,20 @@ TEST_F(Clouds, NotesOnComments) {
       ": line 1 is a comment, which is not read; the first three columns are x, y, z";
   EXPECT_THAT(notesOf(""), testing::Contains(note + " in metres"));
   EXPECT_THAT(notesOf(", unit: mm"), testing::Contains(note));
+}
+
+/// The unit that a comment states is not applied. Text clouds are refused then; in PLY and PCD,
+/// whose writers copy comments, it is noted.
+TEST_F(Clouds, NotesOnUnits) {
+  write("a.pcd", "# unit: cm\nFIELDS x y z\nPOINTS 1\nDATA ascii\n1 2 3\n");
+  const auto notesOf = [&](const std::string& unit) {
+    return textsOf(read(problem("{points: {file: a.pcd, radius: 0.1}" + unit + "}")).source.notes);
+  };
+  const std::string note = (folder_ / "a.pcd").string() +
+                           ": line 1 says \"unit: cm\", but coordinates are read with a unit of ";
+  EXPECT_THAT(notesOf(""), testing::Contains(note + "1 m"));
+  EXPECT_THAT(notesOf(", unit: mm"), testing::Contains(note + "0.001 m"));
+  EXPECT_THAT(notesOf(", unit: cm"), Not(testing::Contains(testing::HasSubstr("a.pcd"))));
 }
 
 TEST_F(Clouds, OfARobot) {
