@@ -11,10 +11,15 @@ namespace {
 
 const MapKeys kTransforms{{"header", "child_frame_id", "transform"}, {}};
 
+/// Returns the name of a frame without the "/" that ROS 1 allows before it.
+std::string withoutSlash(std::string frame) {
+  return frame.erase(0, std::min(frame.size(), frame.find_first_not_of('/')));
+}
+
 }  // namespace
 
 Placement SceneFrames::placementOf(const YamlMap& message) const {
-  const std::string frame = frameOf(message);
+  const std::string frame = withoutSlash(frameOf(message));
   if (frame == root) return {base, {rotationMatrix(base.q), base.p}};
   if (frame.empty() || (frame == "world" && !worldIsLink)) return {};
   const YamlMap header(*message.find("header"), message.pathOf("header"), nullptr,
@@ -32,9 +37,6 @@ Placement SceneFrames::placementOf(const YamlMap& message) const {
 void SceneFrames::checkTransforms(const YamlMap& scene) const {
   const std::string path = "fixed_frame_transforms";
   std::vector<std::string> others;
-  const auto withoutSlash = [](std::string frame) {
-    return frame.erase(0, std::min(frame.size(), frame.find_first_not_of('/')));
-  };
   for (const YamlValue* const item : itemsOf(scene, path)) {
     const YamlMap map(*item, path, &kTransforms, scene.source());
     const std::string child = withoutSlash(map.textOrNone("child_frame_id"));
@@ -56,7 +58,7 @@ void SceneFrames::checkTransforms(const YamlMap& scene) const {
       own = {-(rotationMatrix(base.q).transpose() * base.p), base.q.conjugate()};
     if (isSamePose(*given, own)) continue;
     const std::string text = "the pose of " + quotedWord(child) + " is " + written(*given) +
-                             " here" + ", and " + written(own) +
+                             " here, and " + written(own) +
                              " by the base of the robot in the problem";
     if (isSamePose(base, {}))
       map.fault("transform", text + "; give it by base in the problem");
@@ -67,8 +69,8 @@ void SceneFrames::checkTransforms(const YamlMap& scene) const {
   }
   if (!others.empty())
     scene.source().notes.push_back({scene.source().file + ": " + path +
-                                    ": without effect, because objects in these frames are "
-                                    "refused: the poses of " +
+                                    ": the poses of these frames have no effect, because "
+                                    "objects may only be in the world's frame and in the root's: " +
                                     joinedFirst(others)});
 }
 

@@ -49,9 +49,10 @@ std::map<std::string, double> readLinks(const YamlMap& scene) {
     const auto metres = map.number("padding", Range::NotNegative);
     if (!link)
       map.require("link_name", "the link that is padded");
-    else if (metres && *metres > 0)
-      padding[*link] = *metres;
+    else if (metres && !padding.emplace(*link, *metres).second)
+      map.fault("link_name", "link_padding names " + quotedWord(*link) + " twice");
   }
+  std::erase_if(padding, [](const auto& link) { return link.second == 0; });
   return padding;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <initializer_list>
 #include <string_view>
 #include <utility>
 
@@ -51,33 +52,66 @@ bool repeats(const Words& columns, const Words& words) {
   return true;
 }
 
-/// Returns the name of another unit than rad and m that a comment clearly gives to the numbers:
-/// `[deg]`, `(mm)`, `in degrees`, `units: cm`. Otherwise returns "". (A title may say that a joint
-/// turns by 90 degrees.)
-std::string otherUnit(const std::string& comment) {
-  static const Words units{"deg",    "degs",        "degree",      "degrees",
-                           "\u00b0", "mm",          "millimeters", "millimetres",
-                           "cm",     "centimeters", "centimetres"};
+/// A word of a comment, in lower case, and the mark before it: ' ' if there is none.
+struct CommentWord {
+  std::string text;
+  char mark = ' ';
+};
+
+std::vector<CommentWord> wordsOfComment(const std::string& comment) {
   const std::string text = lowered(comment);
-  const auto isPart = [](char c) {
+  const auto isPart = [](char c) {  // "\u00b0" has bytes from 0x80
     return std::isalpha(static_cast<unsigned char>(c)) != 0 ||
            static_cast<unsigned char>(c) >= 0x80;
   };
-  bool isOnUnits = false;  // a word before this one begins with "unit"
-  std::string last;
-  for (std::size_t at = 0; at < text.size();) {
+  std::vector<CommentWord> words;
+  CommentWord word;
+  for (std::size_t at = 0; at < text.size(); ++at) {
     if (!isPart(text[at])) {
-      ++at;
+      if (text[at] != ' ' && text[at] != '\t') word.mark = text[at];
       continue;
     }
-    const std::size_t from = at;
-    while (at < text.size() && isPart(text[at])) ++at;
-    std::string word = text.substr(from, at - from);
+    word.text += text[at];
+    if (at + 1 < text.size() && isPart(text[at + 1])) continue;
+    words.push_back(std::exchange(word, {}));
+  }
+  return words;
+}
+
+bool isIn(const std::string& word, std::initializer_list<std::string_view> words) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+/// Returns the name of another unit than rad, m and s that a comment clearly gives to the numbers:
+/// `[deg]`, `(mm)`, `in degrees`, `angles: deg`, `units: rad and cm`, `deg, m`. Otherwise returns
+/// "". (A title may say that a joint turns by 90 degrees.)
+std::string otherUnit(const std::string& comment) {
+  const auto isOther = [](const std::string& word) {
+    return isIn(word, {"deg",  "degs",         "degree",      "degrees",     "\u00b0",
+                       "mrad", "milliradians", "mm",          "millimeters", "millimetres",
+                       "cm",   "centimeters",  "centimetres", "inch",        "inches",
+                       "ft",   "feet",         "ms",          "msec",        "milliseconds",
+                       "us",   "microseconds", "ns",          "nanoseconds"});
+  };
+  const auto isOwn = [](const std::string& word) {
+    return isIn(word, {"rad", "radian", "radians", "m", "meter", "meters", "metre", "metres", "s",
+                       "sec", "second", "seconds"});
+  };
+  const std::vector<CommentWord> words = wordsOfComment(comment);
+  const bool hasOnlyUnits = std::all_of(words.begin(), words.end(), [&](const CommentWord& word) {
+    return isOther(word.text) || isOwn(word.text);
+  });
+  bool isOnUnits = hasOnlyUnits;  // or a word before this one begins with "unit"
+  bool follows = false;           // "in rad and": a unit may follow
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const auto& [word, mark] = words[i];
+    const std::string before = i > 0 ? words[i - 1].text : "";
     isOnUnits |= word.starts_with("unit");
-    const bool isClear =
-        isOnUnits || last == "in" || (from > 0 && (text[from - 1] == '[' || text[from - 1] == '('));
-    if (isClear && std::find(units.begin(), units.end(), word) != units.end()) return word;
-    last = std::move(word);
+    const bool isAfterIn = before == "in" && mark == ' ' && !(i > 1 && words[i - 2].text == "not");
+    const bool isClear = isOnUnits || isAfterIn || follows ||
+                         std::string_view("[(:=").find(mark) != std::string::npos;
+    if (isClear && isOther(word)) return word;
+    follows = (isClear && isOwn(word)) || (follows && (word == "and" || word == "or"));
   }
   return "";
 }
@@ -218,29 +252,29 @@ bool TableLines::readComment(std::size_t mark) {
            "the line, or make two files");
     return true;
   }
-  if (hasRows_) return false;
+  if (hasRows_ && line_.find_first_not_of(" \t") < mark) return false;
   if (const std::string unit = otherUnit(comment); !unit.empty())
     fail(number_,
          "the comment says " + quotedWord(unit) +
-             ", but the numbers are read in rad and m; convert them, or delete the comment "
-             "if it is wrong");
-  if (headerLine_ == 0 && likeHeader_ == 0 && resemblesHeader(comment, columns_)) {
-    likeHeader_ = number_;
-  } else if (notRead_ != 0 || !hasLetters(comment)) {
+             ", but the numbers are read in rad, m and s; convert them, or delete the comment if "
+             "it is wrong");
+  const bool isLikeHeader = resemblesHeader(comment, columns_);
+  if (hasRows_) {
+    if (isLikeHeader)
+      fail(number_, "the comment seems to be a header, but the rows above it have the columns " +
+                        joinedFirst(columns_) + "; delete the comment, or make two files");
     return false;
   }
-  if (notRead_ == 0) {
-    notRead_ = number_;
-    comment_ = comment;
-  }
+  if (headerLine_ == 0 && likeHeader_ == 0 && isLikeHeader) likeHeader_ = number_;
+  if (isLikeHeader || hasLetters(comment))
+    notRead_.push_back(quotedWord(comment) + " (line " + std::to_string(number_) + ")");
   return false;
 }
 
 std::optional<Note> TableLines::note() const {
-  if (notRead_ == 0) return std::nullopt;
-  return Note{file_ + ": the comment on line " + std::to_string(notRead_) + " is not read (" +
-                  quotedWord(comment_) + "); the columns are " + joinedFirst(columns_) +
-                  ", in this order, in m and rad",
+  if (notRead_.empty()) return std::nullopt;
+  return Note{file_ + ": comments are not read: " + joinedFirst(notRead_, 3) +
+                  "; the columns are " + joinedFirst(columns_) + ", in this order, in m and rad",
               NoteWeight::coverage};
 }
 

@@ -27,7 +27,8 @@ bool resemblesHeader(const std::string& comment, const std::vector<std::string>&
 /// - ";" as a separator;
 /// - a first line of numbers that are all the names: a header or a row;
 /// - a comment that resembles a header, if the table has none; a second header with other words;
-/// - a comment before the first row that clearly gives another unit: `[deg]`, `in degrees`.
+/// - a comment that clearly gives another unit: `[deg]`, `in degrees`.
+/// Comments behind the numbers of a row, except the first row, are not read.
 class TableLines {
  public:
   /// @param columns the names of the columns of a table without a header.
@@ -41,7 +42,7 @@ class TableLines {
   const std::vector<std::string>& words() const { return words_; }
   bool isHeader() const { return isHeader_; }  ///< of the line; false for all lines but the first
 
-  /// Returns a note on the first comment before the first row that has letters and is not the
+  /// Returns a note on the comments before or on the first row that have letters and are not the
   /// header, because such comments are not read.
   std::optional<Note> note() const;
 
@@ -62,9 +63,8 @@ class TableLines {
   int headerLine_ = 0;  // 0: none
   bool headerIsComment_ = false;
   bool hasRows_ = false;
-  int likeHeader_ = 0;   // the line of a comment that resembles a header; 0: none
-  int notRead_ = 0;      // the line of the first comment with letters; 0: none
-  std::string comment_;  // its text
+  int likeHeader_ = 0;                // the line of a comment that resembles a header; 0: none
+  std::vector<std::string> notRead_;  // comments with letters, and their lines
 };
 
 }  // namespace corridor

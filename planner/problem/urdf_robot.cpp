@@ -353,6 +353,12 @@ std::optional<RobotSetup> readUrdfRobot(const YamlMap& map, const std::string& n
     map.fault("urdf", whyNoneMoves(setup.robot));
   else if (active.empty())
     noteThatNoneMoves(*urdf, setup.robot);
+  if (!group.empty() && !(map.find("group") ? map.find("group")->text == group : hasDefault))
+    setup.robot.description.notes.push_back(
+        {"the request's group " + quotedWord(group) + " is not used: " +
+             (isChosen ? "robot.yaml chooses the joints that are planned for"
+                       : "the robot has no SRDF, so all joints that can move are planned for"),
+         NoteWeight::motion});
   for (const std::size_t j : active)
     if (setup.robot.held.contains(j) || setup.robot.heldPoses.contains(j))
       map.fault("hold", setup.robot.description.joints[j].name +

@@ -83,8 +83,6 @@ class TreeBuilder : public YAML::EventHandler {
     return std::move(root_);
   }
 
-  bool isEmpty() const { return root_.kind == YamlValue::Kind::Null; }
-
   /// Returns a remark for a fault on the line (counted from 0) where quotes of an earlier line are
   /// closed; "" for other lines.
   std::string remarkOnQuotes(int line) const {
@@ -245,6 +243,15 @@ int linesOf(const std::string& text) {
   return static_cast<int>(std::count(text.begin(), text.begin() + size, '\n')) + 1;
 }
 
+/// Returns the text without the lines `---` at its end, which begin documents that are empty.
+std::string_view withoutLastMarks(std::string_view text) {
+  for (;;) {
+    const std::string_view rest = text.substr(0, text.find_last_not_of(" \t\r\n") + 1);
+    if (!rest.ends_with("\n---")) return text;
+    text = rest.substr(0, rest.size() - 3);
+  }
+}
+
 /// Returns a clearer message for the faults that people make most, or else yaml-cpp's message.
 std::string explained(const YAML::Exception& error, const std::string& line) {
   using namespace YAML::ErrorMsg;
@@ -281,15 +288,16 @@ std::string explained(const YAML::Exception& error, const std::string& line) {
 
 YamlValue parseYaml(const std::string& file, const std::string& text, const YamlLimits& limits) {
   const bool isWide = hasWideCharacters(text);  // then positions of yaml-cpp are not those of bytes
-  const std::string_view utf8 =
-      isWide ? "" : std::string_view(text).substr(text.starts_with("\xef\xbb\xbf") ? 3 : 0);
+  const std::string_view utf8 = isWide ? ""
+                                       : withoutLastMarks(std::string_view(text).substr(
+                                             text.starts_with("\xef\xbb\xbf") ? 3 : 0));
   TreeBuilder first(file, utf8, limits), second(file, utf8, limits);
   try {
     // With the line break, yaml-cpp also passes on the last value if its quote is not closed.
     std::istringstream stream(isWide ? text : std::string(utf8) + "\n");
     YAML::Parser parser(stream);
     parser.HandleNextDocument(first);
-    if (parser.HandleNextDocument(second) && !second.isEmpty())
+    if (parser.HandleNextDocument(second))
       throw InputError(Fault{file, 0, "has more than one YAML document (---); keep one"});
     return first.take();
   } catch (const YAML::Exception& error) {

@@ -45,7 +45,7 @@ struct YamlLimits {
   std::size_t depth = 64;          ///< the largest depth of nested lists and maps
 };
 
-/// Parses one YAML document. An empty one may follow it: `rostopic echo` ends each message by `---`.
+/// Parses one YAML document. Empty ones may follow it: `rostopic echo` ends each message by `---`.
 /// @param file for messages.
 /// @throws InputError for a syntax error, more than one document, an alias, a tag (except those
 /// that only repeat the value's form, such as !!str, !!float, !!seq and !!map, and Python's

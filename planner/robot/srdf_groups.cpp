@@ -288,6 +288,9 @@ class GroupReader {
     const std::string of = owner + ": " + owned("joint", joint.name);
     file_.require(element, "value", of);
     const auto numbers = file_.numbers(element, "value", parts.size(), of);
+    file_.checkLeaf(element, {"name", "value"}, of, model_.notes);
+    if (numbers && state.values.contains(joint.name + parts[0]))
+      file_.fault(element.GetLineNum(), of + " is given twice");
     for (std::size_t i = 0; numbers && i < parts.size(); ++i)
       state.values[joint.name + parts[i]] = (*numbers)[i];
   }

@@ -98,8 +98,18 @@ TEST_F(MoveitMatrix, EmptyTextsAreNoValues) {
       << "in the world, not in the frame of the robot";
   write("arm.yaml",
         "format: corridor-robot-1\nurdf: arm.urdf\nsrdf: arm.srdf\njoints: [pan, lift]\n");
+  const auto notesOnGroup = [&] {
+    std::vector<std::string> notes = textsOf(read(head).source.notes);
+    std::erase_if(notes,
+                  [](const std::string& note) { return !note.starts_with("the request's"); });
+    return notes;
+  };
+  EXPECT_THAT(notesOnGroup(), testing::ElementsAre(
+                                  "the request's group \"arm\" is not used: robot.yaml chooses the "
+                                  "joints that are planned for"));
   std::string text = request;
   write("request.yaml", text.replace(text.find("group_name: arm"), 15, "group_name: ''"));
+  EXPECT_THAT(notesOnGroup(), testing::IsEmpty());
   EXPECT_EQ(read(head).model.space.size(), 2);
 }
 

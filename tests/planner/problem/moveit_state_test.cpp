@@ -247,8 +247,9 @@ TEST_F(MoveitStates, FramesAndPaddingsThatAreNotUsed) {
         "fixed_frame_transforms:\n- {header: {frame_id: base}, child_frame_id: odom, transform: "
         "{translation: [-5, 0, 0]}}\n- {header: {frame_id: odom}, child_frame_id: world}\n");
   const std::vector<std::string> notes = textsOf(read(plain).source.notes);
-  EXPECT_THAT(notes, contains("fixed_frame_transforms: without effect, because objects in these "
-                              "frames are refused: the poses of odom, world"));
+  EXPECT_THAT(notes,
+              contains("fixed_frame_transforms: the poses of these frames have no effect, because "
+                       "objects may only be in the world's frame and in the root's: odom, world"));
   EXPECT_THAT(notes, contains("robot_state: not used, because the joints are fixed in the URDF: "
                               "wrist"));
   write("scene.yaml",

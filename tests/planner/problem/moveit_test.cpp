@@ -190,6 +190,11 @@ TEST_F(Moveit, FaultsOfTheScene) {
                       "{}\n"),
             "scene.yaml:1: missing key \"link_name\" in link_padding: the link that is padded\n"
             "scene.yaml:1: link_padding.padding: must be 0 or more, not -1");
+  for (const char* const second : {"0", "0.01"})
+    EXPECT_EQ(
+        complaint("link_padding: [{link_name: hand, padding: 0.5}, {link_name: hand, padding: " +
+                  std::string(second) + "}]\nworld: {}\n"),
+        "scene.yaml:1: link_padding.link_name: link_padding names \"hand\" twice");
   EXPECT_THAT(complaint("wrld: {}\n"),
               HasSubstr("scene.yaml:1: unknown key \"wrld\" (did you mean \"world\"?)"));
   EXPECT_EQ(complaint("name: empty\n"),
@@ -333,7 +338,7 @@ TEST_F(Moveit, HeldJointsFollowTheProblemsStart) {
 
 TEST_F(Moveit, LinkPadding) {
   write("scene.yaml", scene +
-                          "link_padding: [{link_name: upper, padding: 0.02}, {link_name: lower, "
+                          "link_padding: [{link_name: upper, padding: 0.02}, {link_name: hand, "
                           "padding: 0}, {link_name: lower, padding: 0.03}, {link_name: uper, "
                           "padding: 0.1}]\n");
   const auto paddingOf = [](const Problem& p, const std::string& a, const std::string& b) {

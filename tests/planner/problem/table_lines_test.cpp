@@ -35,8 +35,8 @@ std::string read(const std::string& text, const Names& columns = {"pan", "lift"}
 }
 
 std::string notRead(int line, const std::string& comment, const std::string& columns) {
-  return "; t: the comment on line " + std::to_string(line) + " is not read (\"" + comment +
-         "\"); the columns are " + columns + ", in this order, in m and rad";
+  return "; t: comments are not read: \"" + comment + "\" (line " + std::to_string(line) +
+         "); the columns are " + columns + ", in this order, in m and rad";
 }
 
 TEST(TableLines, CommentsThatResembleAHeader) {
@@ -120,7 +120,14 @@ TEST(TableLines, CommentsThatSeemToBeHeaders) {
   EXPECT_EQ(
       read("# pan [rad], lift [m]\nlift pan\n1 2\n"),
       "header line 2: lift pan; line 3: 1 2" + notRead(1, " pan [rad], lift [m]", "lift, pan"));
-  EXPECT_EQ(read("1 2\n# lift, pan!\n"), "line 1: 1 2");
+  EXPECT_EQ(read("1 2\n# lift, pan!\n"),
+            "t:2: the comment seems to be a header, but the rows above it have the columns pan, "
+            "lift; delete the comment, or make two files");
+  EXPECT_THAT(read("1 2\n\t # lift, pan!\n"), testing::StartsWith("t:2: the comment seems"));
+  EXPECT_EQ(read("1 2\n3 4 # lift, pan!\n"), "line 1: 1 2; line 2: 3 4");
+  EXPECT_EQ(read("pan lift\n1 2\n# Pan lift\n"),
+            "t:3: the comment seems to be a header, but the rows above it have the columns pan, "
+            "lift; delete the comment, or make two files");
   // The names of one state, above a file of edges.
   EXPECT_EQ(read("# a b\n1 2 3 4\n", {"a", "b", "a", "b"}, false), "line 2: 1 2 3 4");
   EXPECT_THAT(read("# b a\n1 2 3 4\n", {"a", "b", "a", "b"}, false), testing::HasSubstr("seems"));
@@ -129,19 +136,31 @@ TEST(TableLines, CommentsThatSeemToBeHeaders) {
 TEST(TableLines, CommentsOnUnits) {
   const auto fault = [](const std::string& word) {
     return "t:1: the comment says \"" + word +
-           "\", but the numbers are read in rad and m; convert them, or delete the comment if it "
-           "is wrong";
+           "\", but the numbers are read in rad, m and s; convert them, or delete the comment if "
+           "it is wrong";
   };
   EXPECT_EQ(read("# in degrees\n1 2\n"), fault("degrees"));
   EXPECT_EQ(read("# Units: rad, MM\n1 2\n"), fault("mm"));
   EXPECT_EQ(read("lift pan # [deg]\n1 2\n"), fault("deg"));
   EXPECT_EQ(read("# (cm)\n1 2\n", {"pan", "lift"}, false), fault("cm"));
-  EXPECT_EQ(read("1 2\n# in degrees\n3 4\n"), "line 1: 1 2; line 3: 3 4");
+  EXPECT_THAT(read("1 2\n# in degrees\n3 4\n"), testing::StartsWith("t:2: the comment says"));
+  for (const char* const comment :
+       {"angles: deg", "angles = deg", "deg, m", "in rad and mm", "in rad, mm", "unit: inch",
+        "time in ms", "angles in mrad", "units are radians and millimeters", "pan [rad] lift (cm)",
+        "\u00b0"})
+    EXPECT_THAT(read("# " + std::string(comment) + "\n1 2\n"), testing::HasSubstr("comment says"))
+        << comment;
+  for (const char* const comment : {"radians (not in degrees)", "turns by 90 deg", "speed: 90 deg",
+                                    "in m and rad", "rad, m", "a mm of play", "in turn"})
+    EXPECT_THAT(read("# " + std::string(comment) + "\n1 2\n"), testing::StartsWith("line 2: 1 2;"))
+        << comment;
+  EXPECT_EQ(read("1 2\n3 4 # in degrees: 5 6\n"), "line 1: 1 2; line 2: 3 4");
 }
 
 TEST(TableLines, OtherCommentsAreNoted) {
   EXPECT_EQ(read("# 12.5\n# turns by 90 degrees\n# by foo\n1 2\n"),
-            "line 4: 1 2" + notRead(2, " turns by 90 degrees", "pan, lift"));
+            "line 4: 1 2; t: comments are not read: \" turns by 90 degrees\" (line 2), \" by "
+            "foo\" (line 3); the columns are pan, lift, in this order, in m and rad");
   EXPECT_EQ(read("lift pan # a title\n1 2\n"),
             "header line 1: lift pan; line 2: 1 2" + notRead(1, " a title", "lift, pan"));
   EXPECT_EQ(read("1 2 # low\n"), "line 1: 1 2" + notRead(1, " low", "pan, lift"));

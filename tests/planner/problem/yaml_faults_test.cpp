@@ -24,7 +24,7 @@ TEST_F(YamlFaults, QuotesThatAreNotClosed) {
     EXPECT_EQ(with(text), unclosed) << text;
   EXPECT_EQ(with("planner: \"of\n  two lines\"\nname: \"x\n"),
             "problem.yaml:10: is not YAML: a quote on this line is not closed");
-  for (const char* mark : {"---\n", "...\n"})
+  for (const char* mark : {"---\na: 1\n", "...\n"})
     EXPECT_EQ(with("planner: \"RRT\n" + std::string(mark)),
               "problem.yaml:9: is not YAML: a quote above is not closed");
 }
@@ -119,7 +119,9 @@ TEST_F(YamlFaults, Syntax) {
                 "inside [ ] or { }");
   expectFault("planner: {name: @RRT}\n",
               "8: is not YAML: a text that begins with @ must be in quotes");
-  EXPECT_EQ(with("---\n"), "no complaint");
+  EXPECT_EQ(with("---\n---\n"), "no complaint");
+  EXPECT_EQ(with("---\n---\na: 1\n"),
+            "problem.yaml: has more than one YAML document (---); keep one");
   EXPECT_EQ(with("---\na: 1\n"), "problem.yaml: has more than one YAML document (---); keep one");
 }
 

@@ -240,6 +240,19 @@ TEST_F(SrdfFile, LongerNamesOfGroupsAreSuggested) {
                                 "\"left_arm\"?)"));
 }
 
+TEST_F(SrdfFile, ValuesOfStatesAreGivenOnce) {
+  EXPECT_EQ(notesOf(R"(<group name="e"><joint name="left1"/></group>
+<group_state name="s" group="e"><joint name="left1" value="1"/><joint name="left1" value="1"/></group_state>
+<group_state name="t" group="e"><joint name="left1" value="1" unit="deg"/></group_state>
+<group_state name="u" group="e"><joint name="left1" valu="1"/></group_state>)"),
+            R"(r.srdf:3: state "s": joint "left1" is given twice
+r.srdf:4: state "t": joint "left1": joint: unit is not known, and is ignored
+r.srdf:5: state "u": joint "left1": <joint> has no value
+r.srdf:5: state "u": joint "left1": joint: valu is not known (did you mean "value"?)
+)");
+  EXPECT_NE(model_.states.at("s").unusable, "");
+}
+
 TEST_F(SrdfFile, StatesThatCannotBeMade) {
   EXPECT_EQ(
       notesOf(R"(<group name="e"><joint name="left1"/></group>

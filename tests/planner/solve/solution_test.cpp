@@ -186,8 +186,9 @@ TEST_F(SolutionFile, CommentsThatMayMeanOtherColumns) {
   readStateRows(write("s.txt", "wrist elbow shoulder\n# a title\n1 2 3 # low\n"), space, notes);
   ASSERT_EQ(notes.size(), 1u);
   EXPECT_THAT(notes[0].text,
-              testing::EndsWith("s.txt: the comment on line 2 is not read (\" a title\"); the "
-                                "columns are wrist, elbow, shoulder, in this order, in m and rad"));
+              testing::EndsWith(
+                  "s.txt: comments are not read: \" a title\" (line 2), \" low\" (line 3); the "
+                  "columns are wrist, elbow, shoulder, in this order, in m and rad"));
   EXPECT_EQ(readSolution(write("a.path", "# a title\n1 2 3\n"), space).notes.size(), 1u);
 }
 
