@@ -12,12 +12,9 @@ namespace {
 
 constexpr std::string_view kBlanks = " \t\v\f";
 
-/// Removes the first word from the line and returns it. Blanks and the characters of `marks`
-/// separate words.
-std::string_view nextWord(std::string_view& line, std::string_view marks) {
-  const auto separates = [&](char c) {
-    return kBlanks.find(c) != kBlanks.npos || marks.find(c) != marks.npos;
-  };
+/// Removes the first word from the line and returns it. Blanks and `mark` separate words.
+std::string_view nextWord(std::string_view& line, char mark) {
+  const auto separates = [&](char c) { return c == mark || isBlank(c); };
   const auto begin = std::find_if_not(line.begin(), line.end(), separates);
   const auto end = std::find_if(begin, line.end(), separates);
   const std::string_view word(begin, end);
@@ -34,16 +31,15 @@ struct Row {
   int emptyField = 0;
 };
 
-Row rowOf(std::string_view line, std::string_view marks) {
+Row rowOf(std::string_view line, char mark) {
   Row row;
   int all = 0;  // commas
   for (std::size_t i = 0; i < 3; ++i) {
     const std::string_view before = line;
-    row.words[i] = nextWord(line, marks);
+    row.words[i] = nextWord(line, mark);
     const std::string_view between =
         before.substr(0, before.size() - line.size() - row.words[i].size());
-    const auto isMark = [&](char c) { return marks.find(c) != marks.npos; };
-    const auto count = static_cast<int>(std::count_if(between.begin(), between.end(), isMark));
+    const auto count = static_cast<int>(std::count(between.begin(), between.end(), mark));
     if (row.emptyField == 0 && count > (i == 0 ? 0 : 1)) row.emptyField = all + (i == 0 ? 1 : 2);
     all += count;
     if (row.words[i].empty()) break;
@@ -52,18 +48,18 @@ Row rowOf(std::string_view line, std::string_view marks) {
   return row;
 }
 
-/// Returns the characters that, besides blanks, separate the numbers of a line. In a line with
+/// Returns the character that, besides blanks, separates the numbers of a line. In a line with
 /// semicolons, commas do not separate numbers, because they are decimal marks there. The reader
 /// refuses numbers with decimal commas.
-std::string_view marksOf(std::string_view line) {
-  return line.find(';') != line.npos ? ";" : ",";
+char markOf(std::string_view line) {
+  return line.find(';') != line.npos ? ';' : ',';
 }
 
 /// Returns whether the commas of a line may be decimal marks, as in "1,5 2,5 3,5". This is assumed
 /// if at least one comma has no blank on either side, and at least two numbers are separated by
 /// blanks alone.
 bool mixesCommasAndBlanks(std::string_view line) {
-  const auto isBlank = [](char c) { return kBlanks.find(c) != kBlanks.npos; };
+  if (line.find(',') == line.npos) return false;
   bool alone = false, tight = false;
   for (std::size_t i = 1; i + 1 < line.size(); ++i) {
     if (line[i] == ',') tight = tight || (!isBlank(line[i - 1]) && !isBlank(line[i + 1]));
@@ -88,7 +84,7 @@ double metresOfWord(std::string_view word) {
 
 /// Returns whether the first three columns of a header are x, y, z in upper or lower case. They may
 /// be in quotes and have units: "x","y","z" or x[mm],y [mm],z_mm.
-bool beginsWithNames(std::string_view header, std::string_view marks) {
+bool beginsWithNames(std::string_view header, char mark) {
   std::string plain = lowered(header);
   std::erase(plain, '"');
   for (std::size_t at = 0; (at = plain.find_first_of("[(_", at)) != plain.npos;) {
@@ -100,7 +96,7 @@ bool beginsWithNames(std::string_view header, std::string_view marks) {
     else
       ++at;
   }
-  const Row row = rowOf(plain, marks);
+  const Row row = rowOf(plain, mark);
   return row.emptyField == 0 && row.words == std::array<std::string_view, 3>{"x", "y", "z"};
 }
 
@@ -128,20 +124,20 @@ class XyzReader {
   void fault(std::string text) { faults_.add(cursor_.line(), std::move(text)); }
 
   void readLine(std::string_view line) {
-    const std::string_view marks = marksOf(line);
-    const Row row = rowOf(line, marks);
+    const char mark = markOf(line);
+    const Row row = rowOf(line, mark);
     const auto& [first, second, third] = row.words;
     if (first.empty()) return;
     if (first.front() == '#' || first.starts_with("//")) return readComment(line);
-    if (row.emptyField > 0) return faultEmptyField(row, marks);
+    if (row.emptyField > 0) return faultEmptyField(row, mark);
     if (cloud_.points.empty() && promised_ < 0 && second.empty() && parseInteger(first, promised_))
       return;
     if (cloud_.points.empty() && !third.empty() &&
         std::none_of(row.words.begin(), row.words.end(), isNumber))
-      return readHeader(line, marks, first);
+      return readHeader(line, mark, first);
     if (third.empty())
       return fault("a point has 3 coordinates, found " + std::to_string(second.empty() ? 1 : 2));
-    if (marks == "," && mixesCommasAndBlanks(line))
+    if (mark == ',' && mixesCommasAndBlanks(line))
       return fault(
           "has commas and blanks between numbers; use one of them, and write decimals with a "
           "point");
@@ -152,7 +148,7 @@ class XyzReader {
         fault(*why);
         break;
       }
-    checkColumns(line, 3 + readRest(row.rest, marks));
+    checkColumns(line, 3 + readRest(row.rest, mark));
     limitPoints(cloud_.points.size(), cursor_.line(), faults_);
   }
 
@@ -163,15 +159,15 @@ class XyzReader {
     // In "#,x,y,z" the mark of comments is the name of the first column, an index.
     const std::string_view text =
         line.substr(std::min(line.find_first_not_of(" \t#/"), line.size()));
-    if (rowOf(text, marksOf(text)).emptyField > 0 && names.order == ColumnNames::Order::xyz)
+    if (rowOf(text, markOf(text)).emptyField > 0 && names.order == ColumnNames::Order::xyz)
       names.order = ColumnNames::Order::other;
     checkNames(names);
     if (names.hasWords && names.order == ColumnNames::Order::none && cloud_.comment == 0)
       cloud_.comment = cursor_.line();
   }
 
-  void readHeader(std::string_view line, std::string_view marks, std::string_view first) {
-    if (beginsWithNames(line, marks)) return checkNames(columnNamesIn(line));
+  void readHeader(std::string_view line, char mark, std::string_view first) {
+    if (beginsWithNames(line, mark)) return checkNames(columnNamesIn(line));
     fault("is a header that begins with " + inQuotes(first) +
           ", not with x y z; put the columns x, y and z first, and name them in this way");
   }
@@ -194,18 +190,18 @@ class XyzReader {
     if (names.isOnUnits) checkNames(names);
   }
 
-  void faultEmptyField(const Row& row, std::string_view marks) {
+  void faultEmptyField(const Row& row, char mark) {
     const bool isIndex = row.emptyField == 1 && cloud_.points.empty();
-    fault("the field before " + std::string(marks == ";" ? "semicolon " : "comma ") +
+    fault("the field before " + std::string(mark == ';' ? "semicolon " : "comma ") +
           std::to_string(row.emptyField) + " is empty" +
           (isIndex ? " (pandas writes its index so; use index=False)" : ""));
   }
 
   /// Checks what follows the coordinates of a point: colours, labels or a comment; no other unit.
   /// @returns the number of words.
-  int readRest(std::string_view rest, std::string_view marks) {
+  int readRest(std::string_view rest, char mark) {
     for (int i = 0;; ++i) {
-      const std::string_view before = rest, word = nextWord(rest, marks);
+      const std::string_view before = rest, word = nextWord(rest, mark);
       if (word.empty()) return i;
       if (word.starts_with('#') || word.starts_with("//")) {
         const std::string_view comment = before.substr(std::size_t(word.data() - before.data()));
