@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <set>
 #include <string>
 #include <string_view>
@@ -27,7 +28,7 @@ class ContentReport {
 
   std::vector<Fault> faults;
   std::vector<std::string> notes;
-  double amfUnit = 0;  ///< metres; 0: no AMF file, or it states no unit
+  double fileUnit = 0;  ///< metres; 0: neither an AMF nor a 3MF file
 
  private:
   std::set<std::string> known_;
@@ -40,9 +41,20 @@ class ContentReport {
 void checkContent(ContentKind kind, const std::string& file, std::string_view bytes,
                   ContentReport& report);
 
+/// Returns whether an axis (three numbers) or a quaternion (four) has the length 1, apart from its
+/// digits. assimp does not normalise rotations: another length would distort the mesh.
+bool hasLengthOne(const double* numbers, int size);
+
+/// Returns an X3D file in which each Inline node has one URL without quotes, which is all that
+/// assimp reads. X3D has a list of URLs in quotes: the first that names a file in the folder is
+/// taken, else the first.
+std::string withPlainUrls(std::string_view x3d, const std::filesystem::path& folder);
+
 /// The parts of `checkContent`.
 void checkGltf(const std::string& file, std::string_view json, ContentReport& report);
 void checkXml(ContentKind kind, const std::string& file, std::string_view text,
               ContentReport& report);
+/// Unpacks the model of an archive, which assimp reads from the file too, and checks it.
+void checkThreeMf(const std::string& file, ContentReport& report);
 
 }  // namespace corridor

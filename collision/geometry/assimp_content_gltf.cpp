@@ -74,6 +74,7 @@ class GltfCheck {
     for (const Json& name : member(root_, "extensionsUsed"))
       if (name.is_string()) checkExtension(name);
     checkValues();
+    checkTransforms();
     checkScene();
   }
 
@@ -121,6 +122,24 @@ class GltfCheck {
       fault("positions are not stored as floats, which is not supported; save them as floats");
     if (position && member(*position, "type") != "VEC3")
       fault("positions are not of type VEC3; save three coordinates for each");
+  }
+
+  /// Checks the transforms of the nodes. assimp does not normalise rotations.
+  void checkTransforms() {
+    for (const Json& node : member(root_, "nodes")) {
+      bool hasParts = false;
+      for (const char* const part : {"translation", "rotation", "scale"})
+        hasParts |= !member(node, part).is_null();
+      if (hasParts && !member(node, "matrix").is_null())
+        fault("a node has a matrix and another transform, of which assimp reads one; keep one");
+      std::vector<double> turn;
+      for (const Json& number : member(node, "rotation"))
+        turn.push_back(number.is_number() ? number.get<double>() : 0);
+      if (!turn.empty() && (turn.size() != 4 || !hasLengthOne(turn.data(), 4)))
+        fault(
+            "the rotation of a node is not of length 1, and assimp would distort the mesh; write a "
+            "quaternion with length 1");
+    }
   }
 
   /// Notes nodes with meshes that are not in the scene that is read: the default one, else the

@@ -18,6 +18,7 @@
 #include <assimp/DefaultLogger.hpp>
 #include <assimp/Importer.hpp>
 #include <assimp/LogStream.hpp>
+#include <assimp/MemoryIOWrapper.h>
 #include <assimp/config.h>
 #include <assimp/importerdesc.h>
 #include <assimp/postprocess.h>
@@ -26,6 +27,7 @@
 #include "collision/core/read_file.h"
 #include "collision/core/spelling.h"
 #include "collision/geometry/assimp_content.h"
+#include "collision/geometry/assimp_content_scene.h"
 #include "collision/geometry/mesh_limits.h"
 
 /// Replaces assimp's handler of failed assertions, which would end the program. Debian's assimp is
@@ -149,6 +151,7 @@ class OrdinaryFiles : public Assimp::DefaultIOSystem {
     if (file != file_ && !isObj_ &&
         std::find(opened_.begin(), opened_.end(), file) == opened_.end())
       opened_.emplace_back(file);
+    if (lowered(std::filesystem::path(file).extension().string()) == ".x3d") return openX3d(file);
     return Assimp::DefaultIOSystem::Open(file.c_str(), mode);
   }
 
@@ -165,6 +168,16 @@ class OrdinaryFiles : public Assimp::DefaultIOSystem {
       name.replace(at, 3, 1, static_cast<char>(byte));
     }
     return name;
+  }
+
+  static Assimp::IOStream* openX3d(const std::string& file) {
+    const std::string text =
+        withPlainUrls(readFile(file, "a mesh file"), std::filesystem::path(file).parent_path());
+    auto bytes = std::make_unique<std::uint8_t[]>(text.size());
+    std::copy(text.begin(), text.end(), bytes.get());
+    constexpr bool isOwner = true;
+    return std::make_unique<Assimp::MemoryIOStream>(bytes.release(), text.size(), isOwner)
+        .release();
   }
 
   const std::string& file_;
@@ -194,44 +207,28 @@ class DropLog : public Assimp::LogStream {
   ContentReport& report_;
 };
 
-/// Returns whether an importer reads one of the formats of `kAssimpFormats` or `kOwnFormats`.
-bool readsAllowedFormat(const aiImporterDesc& description) {
+/// Returns whether an importer reads files of an extension such as ".dae".
+bool readsExtension(const aiImporterDesc& description, const std::string& extension) {
   std::string_view rest = description.mFileExtensions;  // "dae zae"
   while (!rest.empty()) {
-    const std::string extension = "." + std::string(rest.substr(0, rest.find(' ')));
-    const auto same = [&](std::string_view format) { return format == extension; };
-    if (std::any_of(kAssimpFormats.begin(), kAssimpFormats.end(), same) ||
-        std::any_of(kOwnFormats.begin(), kOwnFormats.end(), same))
-      return true;
-    rest.remove_prefix(std::min(rest.size(), extension.size()));
+    const std::string_view one = rest.substr(0, rest.find(' '));
+    if (one == std::string_view(extension).substr(1)) return true;
+    rest.remove_prefix(std::min(rest.size(), one.size() + 1));
   }
   return false;
 }
 
-/// Removes every importer for which `readsAllowedFormat` is false. Otherwise assimp would offer a
-/// file of unknown extension to every importer.
-void removeOtherFormats(Assimp::Importer& importer) {
+/// Removes every importer that does not read files of the extension. Otherwise assimp would offer a
+/// file with unexpected content to every importer.
+void removeOtherFormats(Assimp::Importer& importer, const std::string& extension) {
   std::vector<Assimp::BaseImporter*> others;
   for (std::size_t i = 0; i < importer.GetImporterCount(); ++i)
     if (const aiImporterDesc* const description = importer.GetImporterInfo(i);
-        !description || !readsAllowedFormat(*description))
+        !description || !readsExtension(*description, extension))
       others.push_back(importer.GetImporter(i));
   for (Assimp::BaseImporter* const other : others) {
     importer.UnregisterLoader(other);
     const std::unique_ptr<Assimp::BaseImporter> end(other);
-  }
-}
-
-/// Adds a fault if something other than its nodes moves the vertices of a mesh of the scene.
-void checkDeformation(const aiScene& scene, const std::string& file, ContentReport& report) {
-  for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
-    const aiMesh& mesh = *scene.mMeshes[i];
-    bool moves = mesh.mNumBones > 0;
-    for (unsigned k = 0; k < mesh.mNumAnimMeshes; ++k) moves |= mesh.mAnimMeshes[k]->mWeight != 0;
-    if (moves)
-      report.fault(file, 0,
-                   "bones or blend shapes move the vertices, which is not supported; save the mesh "
-                   "in its pose, without them");
   }
 }
 
@@ -246,14 +243,15 @@ char upOf(ContentKind kind, const aiScene& scene) {
 
 /// Reads a file, unless a fault of its content is found first.
 void read(const std::string& file, AssimpRules rules, AssimpImport& result, ContentReport& report) {
-  const ContentKind kind = contentKindOf(lowered(std::filesystem::path(file).extension().string()));
+  const std::string extension = lowered(std::filesystem::path(file).extension().string());
+  const ContentKind kind = contentKindOf(extension);
   if (kind != ContentKind::Other) checkContent(kind, file, readFile(file, "a mesh file"), report);
   if (!report.faults.empty()) return;
   Assimp::DefaultLogger::create("", Assimp::Logger::NORMAL, 0);
   Assimp::DefaultLogger::get()->attachStream(std::make_unique<DropLog>(file, report).release(),
                                              Assimp::Logger::Warn | Assimp::Logger::Err);
   Assimp::Importer importer;
-  removeOtherFormats(importer);
+  removeOtherFormats(importer, extension);
   importer.SetIOHandler(  // the importer owns it
       std::make_unique<OrdinaryFiles>(file, result.otherFiles).release());
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
@@ -279,14 +277,14 @@ void read(const std::string& file, AssimpRules rules, AssimpImport& result, Cont
   result.format = description ? description->mName : "unknown";
   if (const auto end = result.format.find(" Importer"); end != std::string::npos)
     result.format.resize(end);
-  checkDeformation(*scene, file, report);
+  checkScene(*scene, file, extension == ".fbx" ? SceneKind::Fbx : SceneKind::Other, report);
   result.isCollada = result.format.starts_with("Collada");
   if (result.isCollada) checkColladaRoot(*scene, rules);
   result.up = upOf(kind, *scene);
   bool hasLines = false;
   if (rules == AssimpRules::Stored) {
     const std::unique_ptr<aiScene> own(importer.GetOrphanedScene());
-    result.fileUnit = takeFileUnit(*own, result.format) + report.amfUnit;  // one of them is 0
+    result.fileUnit = takeFileUnit(*own, result.format) + report.fileUnit;  // one of them is 0
     addNode(*own, *own->mRootNode, Eigen::Affine3d::Identity(), result.mesh, hasLines);
   } else {
     addNode(*scene, *scene->mRootNode, Eigen::Affine3d::Identity(), result.mesh, hasLines);

@@ -21,10 +21,14 @@ enum class AssimpRules {
   OmplApp,
 };
 
-/// The formats that assimp reads for Corridor (README.md gives the reason for each). assimp has
-/// dozens more, most of them unmaintained formats of old games, which robots do not use.
-constexpr std::array<std::string_view, 8> kAssimpFormats{".dae", ".gltf", ".glb", ".fbx",
-                                                         ".3ds", ".x3d",  ".3mf", ".amf"};
+/// The formats that assimp reads for Corridor (README.md gives the reason for each). It is tested
+/// for each of them that vertices arrive as they are stored. assimp has dozens more formats, most
+/// of them unmaintained formats of old games, which robots do not use.
+constexpr std::array<std::string_view, 7> kAssimpFormats{".dae", ".gltf", ".glb", ".fbx",
+                                                         ".x3d", ".3mf",  ".amf"};
+/// A format that is read under `AssimpRules::OmplApp` only. assimp lays its meshes on their side
+/// (a stored (x, y, z) arrives as (x, z, -y)) and applies a scale of the file.
+constexpr std::string_view kOmplAppFormat = ".3ds";
 /// The formats of Corridor's own readers. Under `AssimpRules::OmplApp` assimp reads these formats,
 /// too.
 constexpr std::array<std::string_view, 4> kOwnFormats{".obj", ".stl", ".ply", ".off"};

@@ -45,6 +45,7 @@ StoredMesh readOwn(const std::filesystem::path& file, Reader reader, MeshFaults&
   stored.file.mesh = std::move(read.mesh);
   stored.file.format = std::move(read.format);
   stored.file.notes = std::move(read.notes);
+  stored.file.statedUnits = std::move(read.statedUnits);
   return stored;
 }
 
@@ -77,16 +78,9 @@ bool contains(const std::array<std::string_view, n>& formats, const std::string&
 
 /// Returns the text of the fault for a file with an unsupported extension.
 std::string notRead(const std::string& extension) {
-  std::string formats;
-  for (const std::string_view format : kOwnFormats) formats += std::string(format) + ", ";
-  for (const std::string_view format : kAssimpFormats)
-    formats += (format == kAssimpFormats.back()    ? " or "
-                : format == kAssimpFormats.front() ? ""
-                                                   : ", ") +
-               std::string(format);
   return (extension.empty() ? std::string("a name without an extension")
                             : "the extension " + inQuotes(extension)) +
-         " is not supported; save the mesh as " + formats;
+         " is not supported; save the mesh as OBJ, STL, PLY, OFF or glTF";
 }
 
 /// The maximum size of a file for assimp, 1 GiB: for a larger file assimp would need more than its
@@ -111,7 +105,7 @@ StoredMesh readForeign(const std::filesystem::path& file, const std::string& ext
                        bool unitGiven, MeshFaults& faults) {
   if (!contains(kAssimpFormats, extension)) faults.fail(0, notRead(extension));
   if (!unitGiven && (extension == ".3mf" || extension == ".amf")) {
-    faults.fail(0, "the format has a unit, which assimp does not report; state the unit");
+    faults.fail(0, "the format has a unit, which is not applied; state the unit");
   }
   const std::optional<char> up = requireForAssimp(file, extension, faults);
   AssimpImport import = readWithAssimp(file.string(), AssimpRules::Stored);
@@ -192,10 +186,13 @@ MeshFile readMeshFile(const std::filesystem::path& file, const MeshFileOptions& 
     }
   }
   result.unitRule = unitRule(options, stored.fileUnit);
-  if (extension == ".amf" && stored.fileUnit > 0 && *options.metresPerUnit != stored.fileUnit)
+  if ((extension == ".amf" || extension == ".3mf") && stored.fileUnit > 0 &&
+      *options.metresPerUnit != stored.fileUnit)
     result.notes.push_back("the file's own unit, " + shortest(stored.fileUnit) +
                            " m, is not the stated one, " + shortest(*options.metresPerUnit) +
                            " m, which is used");
+  if (auto note = noteOnUnits(result.statedUnits, frame.scale()))
+    result.notes.push_back(std::move(*note));
   result.upRule = upRule(options, result);
   return result;
 }
@@ -209,7 +206,8 @@ OmplAppMesh readOmplAppMesh(const std::filesystem::path& file) {
   MeshFaults faults(file.string());
   if (const std::string why = whyNotOrdinaryFile(file); !why.empty()) faults.fail(0, why);
   const std::string extension = lowerExtension(file);
-  if (!contains(kAssimpFormats, extension) && !contains(kOwnFormats, extension))
+  if (!contains(kAssimpFormats, extension) && !contains(kOwnFormats, extension) &&
+      extension != kOmplAppFormat)
     faults.fail(0, notRead(extension));
   requireForAssimp(file, extension, faults);
   AssimpImport import = readWithAssimp(file.string(), AssimpRules::OmplApp);

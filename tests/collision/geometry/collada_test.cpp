@@ -136,7 +136,7 @@ TEST_F(Collada, Complaints) {
             "a.dae: vertex 0 (counted from 0) is not finite (this format is read in float, which "
             "ends at 3.4e38)");
   EXPECT_EQ(complaint("a.3mf", "hello"),
-            "a.3mf: the format has a unit, which assimp does not report; state the unit");
+            "a.3mf: the format has a unit, which is not applied; state the unit");
   std::string noMesh = collada("");
   const auto at = noMesh.find("<polylist");
   noMesh.erase(at, noMesh.find("<lines") - at);

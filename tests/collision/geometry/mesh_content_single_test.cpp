@@ -43,7 +43,7 @@ TEST_F(MeshContent, AmfNumbers) {
               "a.amf:2: <x> is not a number; write decimal numbers such as -1.25e-3")
         << number;
   EXPECT_EQ(complaint("a.amf", amfOf("1", volume("zero")), inMetres),
-            "a.amf:3: <v1> is not a number; write decimal numbers such as -1.25e-3");
+            "a.amf:3: <v1> is not a whole number of at least 0");
 }
 
 // --- Collada

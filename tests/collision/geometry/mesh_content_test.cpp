@@ -109,6 +109,22 @@ TEST_F(Gltf, PositionsThatAreNoPoints) {
   }
 }
 
+TEST_F(Gltf, TransformsThatAssimpWouldDistort) {
+  const std::string length =
+      "the rotation of a node is not of length 1, and assimp would distort the mesh; write a "
+      "quaternion with length 1";
+  for (const std::string turn : {"0, 0, 1, 1", "0, 0, 0, 0", "0, 0, 0.7072, 0.7072", "0, 0, 1"})
+    EXPECT_EQ(fault(gltf("", R"({"mesh": 0, "rotation": [)" + turn + "]}")), length) << turn;
+  const auto turned = gltf("", R"({"mesh": 0, "rotation": [0, 0, 0.707107, 0.707107]})");
+  EXPECT_LT((read("a.gltf", turned).mesh.vertices.at(1) - Vec3(0, 1, 0)).norm(), 1e-6);
+  const std::string matrix = R"("matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 5, 0, 0, )";
+  EXPECT_EQ(complaint("a.gltf", gltf("", R"({"mesh": 0, )" + matrix + "1]}")), "no complaint");
+  EXPECT_EQ(fault(gltf("", R"({"mesh": 0, )" + matrix + "2]}")),
+            "the last row of a node's matrix is not 0 0 0 1; save the mesh with such transforms");
+  EXPECT_EQ(fault(gltf("", R"({"mesh": 0, "scale": [1, 1, 1], )" + matrix + "1]}")),
+            "a node has a matrix and another transform, of which assimp reads one; keep one");
+}
+
 TEST_F(Gltf, VerticesThatMakeNoTriangle) {
   std::string text = gltf();
   text.replace(text.find("\"count\": 3"), 10, "\"count\": 2");
@@ -139,7 +155,7 @@ TEST_F(Gltf, OtherFilesAreListed) {
               ElementsAre((folder_ / "a.bin").string()));
 }
 
-// --- FBX, 3MF
+// --- FBX
 
 TEST_F(MeshContent, FbxSurfacesThatAreNoPolygons) {
   const auto withSecond = [](const std::string& geometry) {
@@ -152,60 +168,13 @@ TEST_F(MeshContent, FbxSurfacesThatAreNoPolygons) {
 )",
                " C: \"OO\",4,0\n C: \"OO\"," + geometry + ",4\n");
   };
-  EXPECT_THAT(notesOf("a.fbx", withSecond("2")),
-              ElementsAre("parts that are no polygons, such as NURBS surfaces, are not read"));
-  EXPECT_THAT(notesOf("a.fbx", withSecond("1")), IsEmpty());
-}
-
-/// assimp reads the first model only, and drops objects that it takes from others by `p:path`.
-TEST_F(MeshContent, ThreeMfOfSeveralModels) {
-  const auto entry = [](const std::string& name) {
-    std::string bytes = "PK\x01\x02" + std::string(42, '\0') + name;
-    bytes[28] = static_cast<char>(name.size());
-    return bytes;
-  };
-  const std::string one = entry("[Content_Types].xml") + entry("3D/3dmodel.model");
-  EXPECT_EQ(complaint("a.3mf", one + entry("3D/Objects/o.MODEL"), {1, {}}),
-            "a.3mf: the archive has 2 models, of which assimp reads one" + instead);
-  EXPECT_THAT(complaint("a.3mf", one, {1, {}}), StartsWith("a.3mf: cannot be read by assimp"));
-}
-
-/// Returns a ZIP archive of files, which are not packed. @param files pairs of name and content
-std::string archive(const std::vector<std::pair<std::string, std::string>>& files) {
-  const auto half = [](std::size_t n) { return bytesOf(static_cast<std::uint16_t>(n)); };
-  const auto word = [](std::size_t n) { return bytesOf(static_cast<std::uint32_t>(n)); };
-  std::string bytes, directory;
-  for (const auto& [name, content] : files) {
-    std::uint32_t crc = ~0u;
-    for (const char c : content) {
-      crc ^= static_cast<unsigned char>(c);
-      for (int i = 0; i < 8; ++i) crc = crc >> 1 ^ (crc & 1 ? 0xEDB88320u : 0u);
-    }
-    const std::string entry = half(20) + word(0) + word(0) + word(~crc) + word(content.size()) +
-                              word(content.size()) + half(name.size()) + half(0);
-    directory += "PK\x01\x02" + half(20) + entry + half(0) + half(0) + half(0) + word(0) +
-                 word(bytes.size()) + name;
-    bytes += "PK\x03\x04" + entry + name + content;
-  }
-  return bytes + directory + "PK\x05\x06" + word(0) + half(files.size()) + half(files.size()) +
-         word(directory.size()) + word(bytes.size()) + half(0);
-}
-
-TEST_F(MeshContent, ThreeMfIsNotSearched) {
-  const std::string relations =
-      R"(<?xml version="1.0"?><Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships">
-<Relationship Target="/3D/3dmodel.model" Id="r" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>)";
-  const std::string model =
-      R"(<?xml version="1.0"?><model unit="meter" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02">
-<resources><object id="1" type="model"><mesh><vertices><vertex x="0" y="0" z="0"/><vertex x="1" y="0" z="0"/>
-<vertex x="0" y="2" z="0"/></vertices><triangles><triangle v1="0" v2="1" v3="2"/></triangles></mesh></object></resources>
-<build><item objectid="1"/></build></model>)";
-  const MeshFile file =
-      read("a.3mf", archive({{"_rels/.rels", relations}, {"3D/3dmodel.model", model}}), {1, {}});
-  EXPECT_EQ(file.mesh.triangles.size(), 1u);
-  EXPECT_THAT(file.notes,
-              ElementsAre("the model in the archive is not searched for beam lattices, slices and "
-                          "other extensions, which would not be read"));
+  const std::string always =
+      "an FBX file is not searched for geometry that no model uses and properties of unusual "
+      "types, which are not read";
+  EXPECT_THAT(
+      notesOf("a.fbx", withSecond("2")),
+      ElementsAre("parts that are no polygons, such as NURBS surfaces, are not read", always));
+  EXPECT_THAT(notesOf("a.fbx", withSecond("1")), ElementsAre(always));
 }
 
 // --- Corridor's own readers

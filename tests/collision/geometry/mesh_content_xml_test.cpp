@@ -250,7 +250,11 @@ TEST_F(MeshContent, UnitOfAmf) {
   EXPECT_THAT(notes(1, "unit=\"millimeter\""),
               ElementsAre("the file's own unit, 0.001 m, is not the stated one, 1 m, which is "
                           "used"));
-  EXPECT_THAT(notes(1, ""), IsEmpty());
+  // Without a unit, it is the millimetre; assimp ignores the case of letters.
+  for (const std::string unit : {"", "unit=\"Millimeter\"", "unit=\"millimeters\""}) {
+    EXPECT_THAT(notes(1, unit), SizeIs(1)) << unit;
+    EXPECT_THAT(notes(0.001, unit), IsEmpty()) << unit;
+  }
 }
 
 }  // namespace

@@ -1,0 +1,200 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "collision/geometry/assimp_content_xml.h"
+
+namespace corridor {
+namespace {
+
+/// Collada's elements <technique> and <extra> may hold anything, so a list of all others is not
+/// possible. assimp's skins and morphs are not applied; it reads holes <ph> as no face.
+constexpr XmlRules kCollada{"COLLADA",
+                            "",
+                            " instance_controller convex_mesh brep skew ph ",
+                            "geometry",
+                            " asset vertices accessor technique_common ",
+                            ""};
+
+constexpr std::string_view kPrimitives = " triangles polylist polygons tristrips trifans ";
+
+/// The numbers that a node's transforms have. assimp reads as many, and drops further ones.
+std::size_t sizeOfTransform(std::string_view name) {
+  return name == "rotate"                         ? 4
+         : name == "translate" || name == "scale" ? 3
+         : name == "lookat"                       ? 9
+         : name == "matrix"                       ? 16
+                                                  : 0;
+}
+
+class ColladaCheck : public XmlCheck {
+ public:
+  using XmlCheck::XmlCheck;
+
+ private:
+  /// How positions are read from an array. assimp looks for the names X, Y and Z, reads the first
+  /// value for each that it does not find, and takes 1 for a missing stride.
+  struct Accessor {
+    std::string_view array;
+    long count = 0, offset = 0, stride = 1;
+    std::string names;  // of the parameters, with a blank behind each
+    long parameters = 0;
+    int line = 0;
+  };
+
+  void enter(const XmlTag& tag) override {
+    const bool isInLibrary = around(0) == "library_nodes";
+    if (isListed(" geometry visual_scene ", tag.name) || (tag.name == "node" && isInLibrary))
+      targets_.insert(tag.value("id"));
+    if (const std::string_view url = tag.value("url");
+        tag.name.starts_with("instance_") && url.starts_with('#'))
+      urls_.insert(url.substr(1));
+    if (tag.name == "mesh") {
+      accessors_.clear();
+      arrays_.clear();
+      positions_.clear();
+      hasFaces_ = false;
+    }
+    if (tag.name == "source" && around(0) == "mesh") {
+      source_ = tag.value("id");
+      if (!accessors_.try_emplace(source_).second)
+        fault(tag.line, "two elements <source> of one <mesh> have the id \"" +
+                            std::string(source_) + "\"; give each an id of its own");
+    }
+    if (tag.name.ends_with("_array") && around(0) == "source")
+      arrays_[tag.value("id")] = tag.name == "float_array" ? wholeNumberIn(tag.value("count")) : 0;
+    if (tag.name == "accessor" && around(0) == "technique_common" && around(1) == "source")
+      accessors_[source_] = accessorOf(tag);
+    if (tag.name == "param" && around(0) == "accessor") {
+      Accessor& accessor = accessors_[source_];
+      ++accessor.parameters;
+      if (!tag.value("name").empty()) accessor.names += std::string(tag.value("name")) + ' ';
+    }
+    if (tag.name == "input" && tag.value("semantic") == "POSITION") {
+      if (around(0) != "vertices")
+        fault(tag.line,
+              "an <input> of semantic POSITION is not in <vertices>" + std::string(kInstead));
+      positions_.push_back(tag.value("source"));
+    }
+    hasFaces_ |= isListed(kPrimitives, tag.name) && around(0) == "mesh";
+  }
+
+  static Accessor accessorOf(const XmlTag& tag) {
+    Accessor accessor;
+    accessor.array = tag.value("source");
+    accessor.count = wholeNumberIn(tag.value("count"));
+    accessor.offset = wholeNumberIn(tag.find("offset").value_or("0"));
+    accessor.stride = wholeNumberIn(tag.find("stride").value_or("1"));
+    accessor.line = tag.line;
+    return accessor;
+  }
+
+  void leave(const XmlTag& tag) override {
+    if (tag.name == "mesh" && hasFaces_) checkPositions(tag);
+    if (tag.name == "float_array" && around(1) == "source" && around(2) == "mesh" &&
+        tag.content.find(',') != tag.content.npos)
+      fault(tag.line, "<float_array> has commas" + std::string(kDecimals));
+    if (tag.name == "p" && isListed(kPrimitives, around(1))) checkIndices(tag);
+    if (const std::size_t size = sizeOfTransform(tag.name); size > 0 && around(1) == "node")
+      checkTransform(tag, size);
+    if (isListed(" unit up_axis ", tag.name) && around(1) == "asset") checkAsset(tag);
+  }
+
+  /// Checks the positions of a mesh that has faces.
+  void checkPositions(const XmlTag& mesh) {
+    if (positions_.size() != 1)
+      return fault(mesh.line,
+                   "the <vertices> of a <mesh> need one <input> of semantic POSITION, "
+                   "and have " +
+                       std::to_string(positions_.size()));
+    const auto found = accessors_.find(positions_[0].substr(positions_[0].starts_with('#')));
+    if (found == accessors_.end())
+      return fault(mesh.line, "the source \"" + std::string(positions_[0]) +
+                                  "\" of positions is not in the <mesh>" + kInstead);
+    const Accessor& a = found->second;
+    const int line = a.line > 0 ? a.line : mesh.line;
+    if (a.names != "X Y Z ")
+      return fault(line,
+                   "the <accessor> of positions needs <param>s of the names X, Y and Z in this "
+                   "order, because assimp reads no others");
+    if (a.stride < a.parameters)
+      return fault(line, "the <accessor> of positions needs a stride of at least " +
+                             std::to_string(a.parameters) + ", its number of <param>s");
+    const auto array = arrays_.find(a.array.substr(a.array.starts_with('#')));
+    const long size = array == arrays_.end() ? 0 : array->second;
+    // The divisions keep large counts from overflowing.
+    if (a.count < 0 || a.offset < 0 || size < 0 ||
+        (a.count > 0 && (a.offset > size || size - a.offset < a.parameters ||
+                         (size - a.offset - a.parameters) / a.stride < a.count - 1)))
+      fault(line,
+            "the <accessor> of positions reads beyond the end of its <float_array>; correct its "
+            "count, stride or offset");
+  }
+
+  /// Checks indices: assimp takes negative ones for 0, stops at comments, and reads none where the
+  /// count is 0.
+  void checkIndices(const XmlTag& tag) {
+    if (tag.content.find_first_not_of("0123456789 \t\r\n") != tag.content.npos)
+      fault(tag.line, "<p> may have whole numbers only");
+    const XmlTag& primitives = open_[open_.size() - 2];
+    if (!withoutBlanks(tag.content).empty() && wholeNumberIn(primitives.value("count")) <= 0)
+      fault(primitives.line, "<" + std::string(primitives.name) +
+                                 "> needs the number of its primitives as its count");
+  }
+
+  void checkTransform(const XmlTag& tag, std::size_t size) {
+    const std::vector<double> numbers = numbersIn(tag.content);
+    if (numbers.size() != size ||
+        std::any_of(numbers.begin(), numbers.end(), [](double x) { return std::isnan(x); }))
+      return fault(tag.line, "<" + std::string(tag.name) + "> needs " + std::to_string(size) +
+                                 " decimal numbers");
+    if (tag.name == "rotate" && numbers[3] != 0 && !hasLengthOne(numbers.data(), 3))
+      fault(tag.line,
+            "the axis of <rotate> is not of length 1, and assimp would distort the mesh; write the "
+            "axis with length 1");
+  }
+
+  /// Checks that an <asset> within the document says what the document's own says: assimp reads
+  /// that one only.
+  void checkAsset(const XmlTag& tag) {
+    const std::size_t depth = open_.size();
+    if (depth < 3) return;
+    double unit = unit_;
+    std::string_view up = up_;
+    if (tag.name == "up_axis") up = withoutBlanks(tag.content);
+    if (const std::string_view meter = tag.value("meter"); tag.name == "unit")
+      unit = meter.empty() ? 1 : numberIn(meter);
+    hasInnerAsset_ |= depth > 3;
+    if (hasInnerAsset_ && (unit != unit_ || up != up_))
+      fault(tag.line, "an <asset> within the document has another <" + std::string(tag.name) +
+                          "> than the document, which assimp does not apply" + kInstead);
+    unit_ = unit;
+    up_ = up;
+  }
+
+  void end() override {
+    if (std::any_of(targets_.begin(), targets_.end(),
+                    [&](std::string_view id) { return !urls_.contains(id); }))
+      report_.note("geometries that are in no node of the scene are not read");
+  }
+
+  // The document's unit and up-axis, and the ids of what may be instanced.
+  double unit_ = 1;
+  std::string_view up_ = "Y_UP";
+  bool hasInnerAsset_ = false;
+  std::set<std::string_view> targets_, urls_;
+  // Of the last <mesh>: its sources by their ids, the sizes of its arrays, and its positions.
+  std::map<std::string_view, Accessor> accessors_;
+  std::map<std::string_view, long> arrays_;
+  std::string_view source_;
+  std::vector<std::string_view> positions_;
+  bool hasFaces_ = false;
+};
+
+}  // namespace
+
+void checkCollada(const std::string& file, std::string_view text, ContentReport& report) {
+  ColladaCheck(kCollada, file, text, report).run();
+}
+
+}  // namespace corridor

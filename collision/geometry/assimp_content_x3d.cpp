@@ -1,0 +1,158 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "collision/geometry/assimp_content_xml.h"
+
+namespace corridor {
+namespace {
+
+/// Left out: nodes that assimp skips (<LOD>, <CADPart> …), prototypes, curved shapes (<Sphere> …),
+/// which assimp replaces by polyhedra within them, and rare ones (<Extrusion> …), in which it is
+/// not tested. assimp itself refuses <PhysicalMaterial> and <UnlitMaterial>.
+constexpr XmlRules kX3d{
+    "X3D",
+    " X3D head meta component unit Scene Group StaticGroup Transform Inline Shape "
+    "Box ElevationGrid IndexedFaceSet IndexedTriangleSet IndexedTriangleFanSet TriangleSet "
+    "IndexedLineSet LineSet PointSet Coordinate Color ColorRGBA Normal TextureCoordinate "
+    "TextureCoordinateGenerator FogCoordinate "
+    "Appearance Material TwoSidedMaterial FillProperties LineProperties ImageTexture PixelTexture "
+    "MovieTexture MultiTexture TextureTransform TextureProperties "
+    "MetadataBoolean MetadataDouble MetadataFloat MetadataInteger MetadataSet MetadataString "
+    "DirectionalLight PointLight SpotLight Background TextureBackground Fog NavigationInfo "
+    "Viewpoint OrthoViewpoint WorldInfo Sound AudioClip ",
+    "",
+    "",
+    " Scene ",
+    ""};
+
+/// The attributes whose numbers are or move geometry, and how many numbers they have (0: any
+/// number).
+struct Numbers {
+  std::string_view element, attribute;
+  std::size_t size;
+};
+constexpr std::array<Numbers, 15> kNumbers{{{"Transform", "translation", 3},
+                                            {"Transform", "center", 3},
+                                            {"Transform", "scale", 3},
+                                            {"Transform", "rotation", 4},
+                                            {"Transform", "scaleOrientation", 4},
+                                            {"Coordinate", "point", 0},
+                                            {"IndexedFaceSet", "coordIndex", 0},
+                                            {"IndexedTriangleSet", "index", 0},
+                                            {"IndexedTriangleFanSet", "index", 0},
+                                            {"Box", "size", 3},
+                                            {"ElevationGrid", "height", 0},
+                                            {"ElevationGrid", "xDimension", 1},
+                                            {"ElevationGrid", "zDimension", 1},
+                                            {"ElevationGrid", "xSpacing", 1},
+                                            {"ElevationGrid", "zSpacing", 1}}};
+
+/// Returns the numbers of a list in which a comma may follow each number, before a blank.
+std::vector<double> listedNumbers(std::string_view text) {
+  constexpr std::string_view blanks = " \t\r\n";
+  const auto isBlank = [&](char c) { return blanks.find(c) != blanks.npos; };
+  std::string list(text);
+  for (std::size_t i = 1; i < list.size(); ++i)
+    if (list[i] == ',' && !isBlank(list[i - 1]) && (i + 1 == list.size() || isBlank(list[i + 1])))
+      list[i] = ' ';
+  return numbersIn(list);
+}
+
+/// Returns the texts in quotes of a list.
+std::vector<std::string> quotedTexts(std::string list) {
+  constexpr std::string_view kQuote = "&quot;";
+  for (auto at = list.find(kQuote); at != list.npos; at = list.find(kQuote, at))
+    list.replace(at, kQuote.size(), "\"");
+  std::vector<std::string> texts;
+  for (auto at = list.find('"'); at != list.npos;) {
+    const auto end = list.find('"', at + 1);
+    if (end == list.npos) break;
+    texts.push_back(list.substr(at + 1, end - at - 1));
+    at = list.find('"', end + 1);
+  }
+  return texts;
+}
+
+class X3dCheck : public XmlCheck {
+ public:
+  using XmlCheck::XmlCheck;
+
+ private:
+  /// assimp reads such a file, if another file names it, as an empty one.
+  void malformed() override { fault(0, "no complete XML file whose root is <X3D>"); }
+
+  void enter(const XmlTag& tag) override {
+    if (tag.name == "unit") checkUnit(tag);
+    if (tag.name == "Inline" && tag.value("load") == "false")
+      fault(tag.line, "<Inline load=\"false\"> is not read; remove it, or load=\"false\"");
+    for (const Numbers& numbers : kNumbers)
+      if (tag.name == numbers.element) checkNumbers(tag, numbers);
+    const std::string_view name = tag.value("DEF");
+    if (!name.empty() && !ids_.insert(std::string(name)).second)
+      fault(tag.line, "two nodes have the name DEF=\"" + std::string(name) +
+                          "\", of which assimp uses one; give each a name of its own");
+  }
+
+  /// Checks the groups: after one that is empty, or that uses another, assimp attaches what follows
+  /// to a wrong parent.
+  void leave(const XmlTag& tag) override {
+    if (isListed(" Group StaticGroup Transform ", tag.name) &&
+        (tag.isEmpty || !tag.value("USE").empty()))
+      fault(tag.line, "assimp misplaces what comes after a <" + std::string(tag.name) +
+                          "> that is empty or has USE" + kInstead);
+  }
+
+  void checkUnit(const XmlTag& tag) {
+    const std::string_view category = tag.value("category");
+    if ((category == "length" || category == "angle") &&
+        numberIn(tag.value("conversionFactor")) != 1)
+      fault(tag.line, "the file's unit of " + std::string(category) +
+                          " is not applied; store metres and radians, without <unit>");
+  }
+
+  /// Checks an attribute's numbers. assimp looks for blanks only: it reads "0,1" as 0.
+  void checkNumbers(const XmlTag& tag, const Numbers& rule) {
+    const auto text = tag.find(rule.attribute);
+    if (!text) return;
+    const std::string name(rule.attribute);
+    const std::vector<double> numbers = listedNumbers(*text);
+    if (std::any_of(numbers.begin(), numbers.end(), [](double x) { return std::isnan(x); }))
+      return fault(tag.line, name + " has a word that is no number; put a blank after each comma");
+    if (rule.size > 0 && numbers.size() != rule.size)
+      return fault(tag.line, name + " has " + std::to_string(numbers.size()) + " numbers; write " +
+                                 std::to_string(rule.size));
+    if (rule.size == 4 && numbers[3] != 0 && !hasLengthOne(numbers.data(), 3))
+      fault(tag.line, "the axis of " + name +
+                          " is not of length 1, and assimp would distort the mesh; write the axis "
+                          "with length 1");
+  }
+};
+
+}  // namespace
+
+std::string withPlainUrls(std::string_view x3d, const std::filesystem::path& folder) {
+  std::string result;
+  std::size_t done = 0;
+  for (auto at = x3d.find("<Inline"); at != x3d.npos; at = x3d.find("<Inline", at + 1)) {
+    const auto url = xmlTagAt(x3d, at).find("url");
+    const std::vector<std::string> urls = quotedTexts(std::string(url.value_or("")));
+    if (urls.empty()) continue;
+    std::error_code error;
+    const auto found = std::find_if(urls.begin(), urls.end(), [&](const std::string& name) {
+      return std::filesystem::is_regular_file(folder / name, error);
+    });
+    const auto from = static_cast<std::size_t>(url->data() - x3d.data());
+    result += x3d.substr(done, from - done);
+    for (const char c : found == urls.end() ? urls[0] : *found)  // assimp splits names at blanks
+      result += c == ' ' ? std::string("%20") : std::string(1, c);
+    done = from + url->size();
+  }
+  return result.append(x3d.substr(done));
+}
+
+void checkX3d(const std::string& file, std::string_view text, ContentReport& report) {
+  X3dCheck(kX3d, file, text, report).run();
+}
+
+}  // namespace corridor

@@ -1,0 +1,266 @@
+// Numbers of Collada, X3D, FBX and 3DS files that assimp would read as other numbers, and
+// inlined X3D.
+#include <gmock/gmock.h>
+
+#include "tests/collision/geometry/mesh_content_fixture.h"
+
+namespace corridor::test::mesh_content {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+// --- Collada
+
+const std::string xyz = R"(<param name="X" type="float"/><param name="Y" type="float"/>)"
+                        R"(<param name="Z" type="float"/>)";
+const std::string threeFaces =
+    R"(<triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles>)";
+
+struct ColladaParts {
+  std::string accessor = R"(count="3" stride="3")";
+  std::string params = xyz;
+  std::string inputs = R"(<input semantic="POSITION" source="#p"/>)";
+  std::string faces = threeFaces;
+  std::string node;
+  std::string array = R"(count="9">0 0 0 1 0 0 0 2 0)";
+};
+
+/// Returns a Collada file: the accessor is in line 2, the inputs and faces in line 3, the node
+/// in 4.
+std::string colladaOf(const ColladaParts& parts) {
+  return R"(<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"><asset/>
+<library_geometries><geometry id="g"><mesh><source id="p"><float_array id="pa" )" +
+         parts.array + R"(</float_array><technique_common><accessor source="#pa" )" +
+         parts.accessor + ">" + parts.params + R"(</accessor></technique_common></source>
+<vertices id="v">)" +
+         parts.inputs + "</vertices>" + parts.faces + R"(</mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="s"><node id="n">)" +
+         parts.node + R"(<instance_geometry url="#g"/></node></visual_scene></library_visual_scenes>
+<scene><instance_visual_scene url="#s"/></scene></COLLADA>)";
+}
+
+TEST_F(MeshContent, ColladaAccessors) {
+  const auto fault = [&](const std::string& attributes, const std::string& params = xyz) {
+    ColladaParts parts;
+    parts.accessor = attributes;
+    parts.params = params;
+    return complaint("a.dae", colladaOf(parts));
+  };
+  const std::string three = R"(count="3" stride="3")";
+  EXPECT_EQ(fault(three), "no complaint");
+  const auto named = [](const std::string& names) {
+    std::string params;
+    for (const char name : names)
+      params += "<param " +
+                (name == ' ' ? std::string() : "name=\"" + std::string(1, name) + "\" ") +
+                "type=\"float\"/>";
+    return params;
+  };
+  for (const std::string names : {"", "xyz", "XY", "ZYX", "XYZZ", "   ", "STP"})
+    EXPECT_EQ(fault(three, named(names)),
+              "a.dae:2: the <accessor> of positions needs <param>s of the names X, Y and Z in this "
+              "order, because assimp reads no others")
+        << names;
+  for (const std::string stride : {"", "stride=\"2\"", "stride=\"\"", "stride=\"3x\""})
+    EXPECT_EQ(fault("count=\"3\" " + stride),
+              "a.dae:2: the <accessor> of positions needs a stride of at least 3, its number of "
+              "<param>s")
+        << stride;
+  for (const std::string attributes :
+       {R"(count="4" stride="3")", R"(count="3" stride="4")", R"(count="3" stride="3" offset="1")",
+        R"(count="3" stride="3" offset="10")", R"(count="-1" stride="3")",
+        R"(count="3" stride="3" offset="-1")",
+        R"(count="9223372036854775807" stride="9223372036854775807")"})
+    EXPECT_EQ(fault(attributes),
+              "a.dae:2: the <accessor> of positions reads beyond the end of its <float_array>; "
+              "correct its count, stride or offset")
+        << attributes;
+  ColladaParts wide;
+  wide.array = R"(count="13">9 0 0 0 7 1 0 0 7 0 2 0 7)";
+  wide.accessor = R"(count="3" stride="4" offset="0")";
+  wide.params = named(" XYZ");
+  EXPECT_EQ(read("a.dae", colladaOf(wide)).mesh.vertices.at(2), Vec3(0, 2, 0));
+}
+
+TEST_F(MeshContent, ColladaPositions) {
+  const auto inputs = [&](const std::string& text) {
+    ColladaParts parts;
+    parts.inputs = text;
+    return complaint("a.dae", colladaOf(parts));
+  };
+  const std::string one = R"(<input semantic="POSITION" source="#p"/>)";
+  const std::string count =
+      "a.dae:2: the <vertices> of a <mesh> need one <input> of semantic POSITION, and have ";
+  EXPECT_EQ(inputs(one + one), count + "2");
+  EXPECT_EQ(inputs(R"(<input semantic="position" source="#p"/>)"), count + "0");
+  EXPECT_EQ(inputs(R"(<input semantic="POSITION" source="#q"/>)"),
+            "a.dae:2: the source \"#q\" of positions is not in the <mesh>" + instead);
+  const auto fault = [&](const std::string& faces) {
+    ColladaParts parts;
+    parts.faces = faces;
+    return complaint("a.dae", colladaOf(parts));
+  };
+  const auto fans = [](const std::string& n, const std::string& p) {
+    return "<trifans count=\"" + n + R"("><input semantic="VERTEX" source="#v" offset="0"/><p>)" +
+           p + "</p></trifans>";
+  };
+  EXPECT_EQ(fault(fans("1", "0 1 2")), "no complaint");
+  for (const std::string p : {"0 1 2 <!-- c --> 0", "0 1 -2", "0 1 2.5", "0 1 2 x"})
+    EXPECT_EQ(fault(fans("1", p)), "a.dae:3: <p> may have whole numbers only") << p;
+  for (const std::string n : {"0", "", "-1", "one"})
+    EXPECT_EQ(fault(threeFaces + fans(n, "0 1 2")),
+              "a.dae:3: <trifans> needs the number of its primitives as its count")
+        << n;
+  EXPECT_THAT(fault(threeFaces + one + threeFaces),
+              StartsWith("a.dae:3: an <input> of semantic POSITION is not in <vertices>"));
+  ColladaParts commas;
+  commas.array = R"(count="9">0,0,0,1,0,0,0,2,0)";
+  EXPECT_EQ(complaint("a.dae", colladaOf(commas)),
+            "a.dae:2: <float_array> has commas; write decimal numbers such as -1.25e-3");
+}
+
+TEST_F(MeshContent, ColladaTransforms) {
+  const auto at = [&](const std::string& node) {
+    ColladaParts parts;
+    parts.node = node;
+    return colladaOf(parts);
+  };
+  const std::string length =
+      "a.dae:4: the axis of <rotate> is not of length 1, and assimp would distort the mesh; write "
+      "the axis with length 1";
+  for (const std::string axis : {"0 0 10 90", "0 0 0 90", "0 0 1.0001 5", "0.577 0.577 0.577 120"})
+    EXPECT_EQ(complaint("a.dae", at("<rotate>" + axis + "</rotate>")), length) << axis;
+  const auto corner = [&](const std::string& rotation) {
+    return read("a.dae", at("<rotate>" + rotation + "</rotate>")).mesh.vertices.at(2);
+  };
+  EXPECT_EQ(corner("0 0 10 0"), Vec3(0, 2, 0)) << "an angle of 0 is the identity";
+  EXPECT_LT((corner("0.57735 0.57735 0.57735 120") - Vec3(0, 0, 2)).norm(), 1e-5);
+  for (const auto& [name, size] : std::vector<std::pair<std::string, std::string>>{
+           {"rotate", "4"}, {"translate", "3"}, {"scale", "3"}, {"matrix", "16"}, {"lookat", "9"}})
+    for (const std::string numbers : {"1", "1 2 x", "1,2,3", "1 2 3 4 5 6 7 8 9 1 2 3 4 5 6 7 8"})
+      EXPECT_EQ(complaint("a.dae", at("<" + name + ">" + numbers + "</" + name + ">")),
+                "a.dae:4: <" + name + "> needs " + size + " decimal numbers");
+}
+
+// --- X3D
+
+std::string x3dWith(const std::string& attributes,
+                    const std::string& points = "0 0 0, 1 0 0, 0 2 0") {
+  return "<X3D profile='Interchange' version='3.3'><Scene>\n<Transform " + attributes +
+         "><Shape><IndexedFaceSet coordIndex='0 1 2 -1'><Coordinate point='" + points +
+         "'/></IndexedFaceSet></Shape></Transform></Scene></X3D>";
+}
+
+TEST_F(MeshContent, X3dRotations) {
+  for (const std::string name : {"rotation", "scaleOrientation"}) {
+    for (const std::string axis : {"0 0 10 0.05", "0 0 0 1", "0 0 1.0001 1", "0.577 0.577 0.577 2"})
+      EXPECT_EQ(complaint("a.x3d", x3dWith(name + "='" + axis + "'")),
+                "a.x3d:2: the axis of " + name +
+                    " is not of length 1, and assimp would distort the mesh; write the axis with "
+                    "length 1")
+          << axis;
+    EXPECT_EQ(read("a.x3d", x3dWith(name + "='0 0 10 0'")).mesh.vertices.at(2), Vec3(0, 2, 0));
+    EXPECT_EQ(complaint("a.x3d", x3dWith(name + "='0 0 1'")),
+              "a.x3d:2: " + name + " has 3 numbers; write 4");
+  }
+}
+
+/// assimp looks for blanks only: of "0,1" it would read 0.
+TEST_F(MeshContent, X3dNumbers) {
+  for (const std::string points : {"0 0 0, 1 0 0, 0 2 0,", "0, 0, 0, 1, 0, 0,\n0, 2, 0 "})
+    EXPECT_EQ(read("a.x3d", x3dWith("", points)).mesh.vertices.at(2), Vec3(0, 2, 0));
+  const std::string blank = " has a word that is no number; put a blank after each comma";
+  for (const std::string points :
+       {"0 0 0,1 0 0,0 2 0,0 0 3", "0 0 0 , 1 0 0 , 0 2 0 , ", "0 0 0 1 0 0 0 2x 0"})
+    EXPECT_EQ(complaint("a.x3d", x3dWith("", points)), "a.x3d:2: point" + blank) << points;
+  for (const std::string name : {"translation", "center", "scale"})
+    EXPECT_EQ(complaint("a.x3d", x3dWith(name + "='1,2 3,4 5,6'")), "a.x3d:2: " + name + blank);
+}
+
+TEST_F(MeshContent, X3dInlinesInQuotes) {
+  write("o.x3d", x3dWith("translation='5 0 0'"));
+  write("a b.x3d", x3dWith("translation='5 0 0'"));
+  const auto outer = [](const std::string& url) {
+    std::string text = x3dWith("");
+    return text.insert(text.find("<Transform"), "<Inline url=" + url + "/>");
+  };
+  for (const std::string url :
+       {R"('"o.x3d"')", R"("&quot;o.x3d&quot;")", R"('"missing.x3d" "o.x3d"')",
+        R"('"o.x3d" "http://example.org/o.x3d"')", R"('"o.x3d", "missing.x3d"')",
+        R"('"a b.x3d"')"}) {
+    const MeshFile file = read("a.x3d", outer(url));
+    EXPECT_EQ(file.mesh.triangles.size(), 2u) << url;
+    EXPECT_EQ(file.otherFiles.size(), 1u) << url;
+  }
+  write("o.x3d", x3dWith("rotation='0 0 2 1'"));
+  EXPECT_THAT(complaint("a.x3d", outer(R"('"o.x3d"')")), StartsWith("o.x3d:2: the axis"));
+  EXPECT_THAT(complaint("a.x3d", outer(R"('"missing.x3d"')")), HasSubstr("Failed to open file"));
+}
+
+// --- FBX
+
+/// assimp multiplies the transforms of parents and children, which is the type 1.
+TEST_F(MeshContent, FbxScalesThatAreNotInherited) {
+  const auto fault = [&](const std::string& type, const std::string& scale) {
+    return complaint("a.fbx", fbx("",
+                                  R"( Model: 4, "Model::b", "Null" {
+  Version: 232
+  Properties70: {
+   P: "Lcl Scaling", "Lcl Scaling", "", "A",)" +
+                                      scale + R"(
+  }
+ }
+ Model: 5, "Model::c", "Mesh" {
+  Version: 232
+  Properties70: {
+   P: "Lcl Translation", "Lcl Translation", "", "A",1,2,3
+)" + (type.empty() ? "" : "   P: \"InheritType\", \"enum\", \"\", \"\"," + type + "\n") +
+                                      R"(  }
+ }
+)",
+                                  " C: \"OO\",4,0\n C: \"OO\",5,4\n C: \"OO\",1,5\n"));
+  };
+  const auto text = [](const std::string& type) {
+    return "a.fbx: the node \"c\" inherits the scale of its parents otherwise than assimp reads it "
+           "(InheritType " +
+           type + "); apply the scales in the modeller";
+  };
+  const std::string alike = "2,2,2", different = "1,1,2";
+  EXPECT_EQ(fault("2", alike), text("2"));
+  EXPECT_EQ(fault("2", "1,1,1"), "no complaint");
+  EXPECT_EQ(fault("0", different), text("0"));
+  EXPECT_EQ(fault("", different), text("0")) << "the default";
+  EXPECT_EQ(fault("0", alike), "no complaint");
+  EXPECT_EQ(fault("1", different), "no complaint");
+}
+
+// --- 3DS
+
+/// assimp lays the meshes of 3DS files on their side: OMPL.app's rules read them so, ROS's do not.
+TEST_F(MeshContent, ThreeDsOnlyByTheRulesOfOmplApp) {
+  const auto half = [](std::size_t n) { return bytesOf(static_cast<std::uint16_t>(n)); };
+  const auto chunk = [&](std::size_t id, const std::string& content) {
+    return half(id) + bytesOf(static_cast<std::uint32_t>(content.size() + 6)) + content;
+  };
+  std::string points = half(3);
+  for (const float x : {0.f, 0.f, 5.f, 1.f, 0.f, 5.f, 0.f, 2.f, 5.f}) points += bytesOf(x);
+  const std::string faces = half(1) + half(0) + half(1) + half(2) + half(7);
+  const std::string mesh = chunk(0x4110, points) + chunk(0x4120, faces);
+  const std::string bytes =
+      chunk(0x4D4D, chunk(0x3D3D, chunk(0x4000, std::string("a\0", 2) + chunk(0x4100, mesh))));
+  EXPECT_EQ(
+      complaint("a.3ds", bytes),
+      "a.3ds: the extension \".3ds\" is not supported; save the mesh as OBJ, STL, PLY, OFF or "
+      "glTF");
+  const OmplAppMesh read = readOmplAppMesh(folder_ / "a.3ds");
+  EXPECT_THAT(read.mesh.vertices,
+              testing::UnorderedElementsAre(Vec3(0, 5, 0), Vec3(1, 5, 0), Vec3(0, 5, -2)));
+  // Each importer reads files of its extensions only, whatever their content.
+  write("a.dae", bytes);
+  EXPECT_THROW(readOmplAppMesh(folder_ / "a.dae"), InputError);
+}
+
+}  // namespace
+}  // namespace corridor::test::mesh_content

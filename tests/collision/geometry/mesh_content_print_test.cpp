@@ -1,0 +1,198 @@
+// What files for 3D printing (AMF, 3MF) hold beyond the triangles that are read.
+#include <gmock/gmock.h>
+
+#include "tests/collision/geometry/mesh_content_fixture.h"
+
+namespace corridor::test::mesh_content {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+const MeshFileOptions inMetre{1, {}};
+
+// --- AMF
+
+/// Returns an AMF file of one triangle. @param z its last coordinate @param corner its last corner
+std::string amfWith(const std::string& z, const std::string& corner) {
+  const auto vertex = [](const std::string& x, const std::string& y, const std::string& rest) {
+    return "<vertex><coordinates><x>" + x + "</x><y>" + y + "</y>" + rest +
+           "</coordinates></vertex>";
+  };
+  return "<amf unit=\"meter\"><object id=\"0\"><mesh><vertices>" + vertex("0", "0", "<z>0</z>") +
+         vertex("1", "0", "<z>0</z>") + "\n" + vertex("0", "2", z) +
+         "</vertices><volume>\n<triangle><v1>0</v1><v2>1</v2>" + corner +
+         "</triangle></volume></mesh></object></amf>";
+}
+
+TEST_F(MeshContent, AmfPartsThatAreMissingOrTwice) {
+  const std::string z = "<z>3</z>", v3 = "<v3>2</v3>";
+  const auto fault = [&](const std::string& a, const std::string& b) {
+    return complaint("a.amf", amfWith(a, b), inMetre);
+  };
+  EXPECT_EQ(read("a.amf", amfWith(z, v3), inMetre).mesh.vertices.at(2), Vec3(0, 2, 3));
+  EXPECT_EQ(fault("", v3), "a.amf:2: <coordinates> has no <z>; add it");
+  EXPECT_EQ(fault(z, ""), "a.amf:3: <triangle> has no <v3>; add it");
+  EXPECT_EQ(fault(z + "<x>7</x>", v3),
+            "a.amf:2: a second <x> is in one <coordinates>, and assimp drops one" + instead);
+  EXPECT_EQ(fault(z, v3 + "<v3>1</v3>"),
+            "a.amf:3: a second <v3> is in one <triangle>, and assimp drops one" + instead);
+  EXPECT_EQ(fault(z + "</coordinates></vertex><vertex><coordinates><x>1</x><y>1</y>" + z +
+                      "</coordinates><coordinates><x>9</x><y>9</y>" + z,
+                  v3),
+            "a.amf:2: a second <coordinates> is in one <vertex>, and assimp drops one" + instead);
+  for (const std::string corner : {"1.5", "-1", "a", "1<!-- -->2"})
+    EXPECT_EQ(fault(z, "<v3>" + corner + "</v3>"),
+              "a.amf:3: <v3> is not a whole number of at least 0")
+        << corner;
+  EXPECT_EQ(fault(z, v3 + "<vertex/>"), "a.amf:3: " + notRight("vertex"));
+}
+
+// --- 3MF
+
+/// Returns a ZIP archive of files, which are not packed. @param files pairs of name and content
+std::string archive(const std::vector<std::pair<std::string, std::string>>& files) {
+  const auto half = [](std::size_t n) { return bytesOf(static_cast<std::uint16_t>(n)); };
+  const auto word = [](std::size_t n) { return bytesOf(static_cast<std::uint32_t>(n)); };
+  std::string bytes, directory;
+  for (const auto& [name, content] : files) {
+    std::uint32_t crc = ~0u;
+    for (const char c : content) {
+      crc ^= static_cast<unsigned char>(c);
+      for (int i = 0; i < 8; ++i) crc = crc >> 1 ^ (crc & 1 ? 0xEDB88320u : 0u);
+    }
+    const std::string entry = half(20) + word(0) + word(0) + word(~crc) + word(content.size()) +
+                              word(content.size()) + half(name.size()) + half(0);
+    directory += "PK\x01\x02" + half(20) + entry + half(0) + half(0) + half(0) + word(0) +
+                 word(bytes.size()) + name;
+    bytes += "PK\x03\x04" + entry + name + content;
+  }
+  return bytes + directory + "PK\x05\x06" + word(0) + half(files.size()) + half(files.size()) +
+         word(directory.size()) + word(bytes.size()) + half(0);
+}
+
+const std::string relations =
+    R"(<?xml version="1.0"?><Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships">
+<Relationship Target="/3D/3dmodel.model" Id="r" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>)";
+
+/// Returns a 3MF file of one triangle. The places: the attributes of its model, the resources after
+/// the triangle, and the build, which are lines 4 and 5.
+std::string threeMf(const std::string& attributes, const std::string& resources = "",
+                    const std::string& build = R"(<item objectid="1"/>)") {
+  return archive(
+      {{"_rels/.rels", relations},
+       {"3D/3dmodel.model",
+        R"(<?xml version="1.0"?><model xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02" )" +
+            attributes + R"(>
+<resources><object id="1" type="model"><mesh><vertices><vertex x="0" y="0" z="0"/><vertex x="1" y="0" z="0"/>
+<vertex x="0" y="2" z="0"/></vertices><triangles><triangle v1="0" v2="1" v3="2"/></triangles></mesh></object>
+)" + resources +
+            "</resources>\n<build>" + build + "</build></model>"}});
+}
+const std::string model = "a.3mf (3D/3dmodel.model)";
+
+TEST_F(MeshContent, ThreeMfArchives) {
+  const MeshFile file = read("a.3mf", threeMf("unit=\"meter\""), inMetre);
+  EXPECT_EQ(file.mesh.triangles.size(), 1u);
+  EXPECT_THAT(file.notes, IsEmpty());
+  const auto fault = [&](const std::vector<std::pair<std::string, std::string>>& files) {
+    return complaint("a.3mf", archive(files), inMetre);
+  };
+  EXPECT_EQ(fault({{"_rels/.rels", relations},
+                   {"3D/3dmodel.model", "<model/>"},
+                   {"3D/Objects/o.MODEL", "<model/>"}}),
+            "a.3mf: the archive has 2 models, of which assimp reads one" + instead);
+  const std::string noModel =
+      "a.3mf: the archive's _rels/.rels must name its model, 3D/3dmodel.model" + instead;
+  EXPECT_EQ(fault({{"_rels/.rels", relations}, {"3D/other", "<model/>"}}), noModel);
+  EXPECT_EQ(fault({{"3D/3dmodel.model", "<model/>"}}), noModel);
+  EXPECT_EQ(fault({{"_rels/.rels", relations}, {"3D/other.model", "<model/>"}}), noModel)
+      << "a model that is not the one that assimp reads";
+  EXPECT_EQ(fault({{"_rels/.rels", relations}, {"3D/3dmodel.model", "<amf/>"}}),
+            model + ": its model is no complete XML file whose root is <model>");
+  EXPECT_EQ(complaint("a.3mf", "hello", inMetre), "a.3mf: the file is no ZIP archive" + instead);
+  std::string damaged = threeMf("");
+  damaged.replace(damaged.find("<vertices>"), 1, "[");
+  EXPECT_EQ(complaint("a.3mf", damaged, inMetre),
+            "a.3mf: a file in it is damaged or encrypted" + instead);
+}
+
+TEST_F(MeshContent, ThreeMfUnits) {
+  const auto notes = [&](const std::string& unit, double given) {
+    return read("a.3mf", threeMf(unit), {given, {}}).notes;
+  };
+  for (const auto& [unit, metre] :
+       std::vector<std::pair<std::string, double>>{{"", 0.001},
+                                                   {"unit=\"millimeter\"", 0.001},
+                                                   {"unit=\"micron\"", 1e-6},
+                                                   {"unit=\"centimeter\"", 0.01},
+                                                   {"unit=\"inch\"", 0.0254},
+                                                   {"unit=\"foot\"", 0.3048},
+                                                   {"unit=\"meter\"", 1}}) {
+    EXPECT_THAT(notes(unit, metre), IsEmpty()) << unit;
+    EXPECT_THAT(notes(unit, 2), ElementsAre(HasSubstr("which is used"))) << unit;
+  }
+  EXPECT_EQ(complaint("a.3mf", threeMf("unit=\"Inch\""), inMetre),
+            model +
+                ":1: the unit \"Inch\" is not one of 3MF; write micron, millimeter, centimeter, "
+                "inch, foot or meter");
+}
+
+TEST_F(MeshContent, ThreeMfReferences) {
+  const auto fault = [&](const std::string& build, const std::string& resources = "") {
+    return complaint("a.3mf", threeMf("unit=\"meter\"", resources, build), inMetre);
+  };
+  const std::string missing = " names an object that is not in the model; correct its objectid";
+  EXPECT_EQ(fault("<item objectid=\"1\"/><item objectid=\"7\"/>"), model + ":5: <item>" + missing);
+  EXPECT_EQ(fault("<item/>"), model + ":5: <item>" + missing);
+  const std::string of7 =
+      "<object id=\"2\"><components><component objectid=\"7\"/></components></object>";
+  EXPECT_EQ(fault("<item objectid=\"2\"/>", of7), model + ":4: <component>" + missing);
+  EXPECT_EQ(fault("<item objectid=\"1\" transform=\"1 0 0 0 1 0 0 0 1 5 6\"/>"),
+            model + ":5: the transform of <item> needs 12 decimal numbers");
+  EXPECT_EQ(fault("<item objectid=\"1\" p:path=\"/3D/o.model\"/>"),
+            model + ":5: <item> is in another model, which assimp does not read" + instead);
+  EXPECT_EQ(fault("<item objectid=\"1\"/>", "<object id=\"1\"/>"),
+            model +
+                ":4: the id \"1\" of <object> is used twice or is no whole number; give each "
+                "resource a number of its own");
+  EXPECT_EQ(fault("<item objectid=\"1\" transform=\"1 0 0 0 1 0 0 0 1 5 6 7\"/>"), "no complaint");
+  const std::string unused = "<object id=\"2\"><mesh><vertices/><triangles/></mesh></object>";
+  EXPECT_THAT(read("a.3mf", threeMf("unit=\"meter\"", unused), inMetre).notes,
+              ElementsAre("objects that are in no item of the build are not read"));
+}
+
+TEST_F(MeshContent, ThreeMfElements) {
+  const auto fault = [&](const std::string& resources, const std::string& attributes = "") {
+    return complaint("a.3mf", threeMf("unit=\"meter\" " + attributes, resources), inMetre);
+  };
+  for (const std::string name : {"b:beamlattice", "s:slicestack", "beamlattice", "object/"})
+    EXPECT_THAT(fault("<object id=\"2\"><" + name + (name.back() == '/' ? "" : "/") + "></object>"),
+                HasSubstr("may be or move geometry"))
+        << name;
+  EXPECT_EQ(fault("<m:colorgroup id=\"3\"><m:color color=\"#FF0000FF\"/></m:colorgroup>"
+                  "<basematerials id=\"4\"><base name=\"a\" displaycolor=\"#FF0000FF\"/>"
+                  "</basematerials>"),
+            "no complaint");
+  EXPECT_EQ(fault("", "requiredextensions=\"b\" xmlns:b=\"http://b/beamlattice/2017/02\""),
+            model + ":1: the required extension \"b\" is not supported" + instead);
+  EXPECT_EQ(fault("",
+                  "requiredextensions=\"m p\" xmlns:m=\"http://m/material/2015/02\" "
+                  "xmlns:p=\"http://p/production/2015/06\""),
+            "no complaint");
+  const auto object = [](const std::string& vertex, const std::string& corner) {
+    return "<object id=\"2\"><mesh><vertices><vertex " + vertex +
+           "/></vertices><triangles><triangle v1=\"0\" v2=\"0\" v3=\"" + corner +
+           "\"/></triangles></mesh></object>";
+  };
+  EXPECT_EQ(fault(object("x=\"0\" y=\"0\"", "0")),
+            model + ":4: <vertex> has no number z; write decimal numbers such as -1.25e-3");
+  EXPECT_EQ(fault(object("x=\"0\" y=\"0\" z=\"0,5\"", "0")),
+            model + ":4: <vertex> has no number z; write decimal numbers such as -1.25e-3");
+  EXPECT_EQ(fault(object("x=\"0\" y=\"0\" z=\"0\"", "0.5")),
+            model + ":4: <triangle> has no whole number v3 of at least 0");
+}
+
+}  // namespace
+}  // namespace corridor::test::mesh_content
