@@ -2,6 +2,8 @@
 #include <cmath>
 #include <map>
 
+#include <Eigen/Core>
+
 #include "collision/geometry/assimp_content_xml.h"
 
 namespace corridor {
@@ -152,6 +154,19 @@ class ColladaCheck : public XmlCheck {
       fault(tag.line,
             "the axis of <rotate> is not of length 1, and assimp would distort the mesh; write the "
             "axis with length 1");
+    if (tag.name == "lookat" && !isUpright(numbers))
+      fault(tag.line,
+            "the upward direction of <lookat> is not perpendicular to its line of sight, and "
+            "assimp would distort the mesh; write a <matrix>");
+  }
+
+  /// Returns whether the last three of nine numbers, a view's upward direction, are perpendicular
+  /// to its line of sight. If not, assimp would shear the mesh.
+  static bool isUpright(const std::vector<double>& numbers) {
+    const Eigen::Map<const Eigen::Vector3d> eye(numbers.data()), seen(numbers.data() + 3),
+        up(numbers.data() + 6);
+    constexpr double kSlack = 1e-5;  // as in `hasLengthOne`
+    return std::abs((seen - eye).normalized().dot(up.normalized())) <= kSlack;
   }
 
   /// Checks that an <asset> within the document says what the document's own says: assimp reads

@@ -137,6 +137,10 @@ TEST_F(MeshContent, ColladaTransforms) {
   };
   EXPECT_EQ(corner("0 0 10 0"), Vec3(0, 2, 0)) << "an angle of 0 is the identity";
   EXPECT_LT((corner("0.57735 0.57735 0.57735 120") - Vec3(0, 0, 2)).norm(), 1e-5);
+  EXPECT_EQ(complaint("a.dae", at("<lookat>5 6 7 5 6 0 0 1 0</lookat>")), "no complaint");
+  EXPECT_EQ(complaint("a.dae", at("<lookat>5 6 7 5 6 0 0 1 1</lookat>")),
+            "a.dae:4: the upward direction of <lookat> is not perpendicular to its line of sight, "
+            "and assimp would distort the mesh; write a <matrix>");
   for (const auto& [name, size] : std::vector<std::pair<std::string, std::string>>{
            {"rotate", "4"}, {"translate", "3"}, {"scale", "3"}, {"matrix", "16"}, {"lookat", "9"}})
     for (const std::string numbers : {"1", "1 2 x", "1,2,3", "1 2 3 4 5 6 7 8 9 1 2 3 4 5 6 7 8"})
