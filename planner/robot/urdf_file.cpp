@@ -51,11 +51,20 @@ std::optional<Primitive> primitiveOf(const urdf::Geometry& geometry) {
   return std::nullopt;
 }
 
+/// Makes the note on units anew, for a mesh that was read in metres and is then scaled.
+void noteScaledUnits(MeshFile& file, const Vec3& scale) {
+  if (const auto before = noteOnUnits(file.statedUnits, 1)) std::erase(file.notes, *before);
+  for (const double factor : scale)
+    if (auto note = noteOnUnits(file.statedUnits, std::abs(factor)))
+      return file.notes.push_back(std::move(*note));
+}
+
 MeshFile placedMesh(MeshFile result, const Vec3& scale, const Transform& X) {
   if (scale != Vec3::Ones()) {
     for (Vec3& vertex : result.mesh.vertices) vertex = vertex.cwiseProduct(scale);
     result.unitRule += "; times the URDF's scale " + shortest(scale.x()) + " " +
                        shortest(scale.y()) + " " + shortest(scale.z());
+    noteScaledUnits(result, scale);
   }
   if (!(X == Transform{}))
     for (Vec3& vertex : result.mesh.vertices) vertex = X * vertex;

@@ -17,6 +17,22 @@ TEST_F(UrdfUnits, MeshesInMillimetresAreNoted) {
                   .notes.empty());
 }
 
+/// A unit in a comment of a mesh is compared with the scale of the URDF.
+TEST_F(UrdfUnits, UnitsThatMeshesState) {
+  write("cm.obj", "# unit: cm\nv 0 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n");
+  const auto notesAt = [&](const std::string& scale) {
+    return modelOf(link("a", collision("<mesh filename=\"cm.obj\"" + scale + "/>")))
+        .links.at(0)
+        .shapes.at(0)
+        .mesh->notes;
+  };
+  const std::string note = "line 1 says \"unit: cm\", but coordinates are read with a unit of ";
+  EXPECT_THAT(notesAt(""), testing::ElementsAre(note + "1 m"));
+  EXPECT_THAT(notesAt(" scale=\"0.001 0.001 0.001\""), testing::ElementsAre(note + "0.001 m"));
+  EXPECT_THAT(notesAt(" scale=\"0.01 0.01 0.02\""), testing::ElementsAre(note + "0.02 m"));
+  EXPECT_THAT(notesAt(" scale=\"0.01 -0.01 0.01\""), testing::IsEmpty());
+}
+
 TEST_F(UrdfUnits, OriginsInMillimetresAreNoted) {
   const auto notesAt = [&](const std::string& xyz) {
     return textsOf(modelOf(link("a") + link("b") +
