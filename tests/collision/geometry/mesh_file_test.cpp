@@ -183,6 +183,9 @@ TEST_F(MeshFileComplaint, ObjVertices) {
   EXPECT_EQ(complaint("a.obj", "v 0 1,5 0" + face), "a.obj:1: coordinate \"1,5\"" + right);
   EXPECT_EQ(complaint("a.obj", "v 0 0x1 +-2" + face), "a.obj:1: coordinate \"0x1\"" + right);
   EXPECT_EQ(complaint("a.obj", "v 0 0 +-2" + face), "a.obj:1: coordinate \"+-2\"" + right);
+  EXPECT_EQ(complaint("a.obj", "v 0 0 1 mm\nv 1 0 0 1 # a\nv 0 1 0 1 0 0\nf 1 2 3\n"),
+            "a.obj:1: \"mm\" comes after the coordinates of a vertex; only numbers (a weight or a "
+            "colour) may follow");
 }
 
 TEST_F(MeshFileComplaint, ObjFaces) {
@@ -264,9 +267,6 @@ TEST_F(MeshFileComplaint, AsciiStl) {
             "a.stl:7: a facet has exactly 3 vertices, found a fourth");
   EXPECT_EQ(complaint("a.stl", replaced("endfacet", "endfact")),
             "a.stl:8: expected endfacet, found \"endfact\"");
-  EXPECT_EQ(complaint("a.obj", "v 0 0 1 mm\nv 1 0 0 1 # a\nv 0 1 0 1 0 0\nf 1 2 3\n"),
-            "a.obj:1: \"mm\" comes after the coordinates of a vertex; only numbers (a weight or a "
-            "colour) may follow");
   const std::string facet =
       " facet normal 0 0 1 outer LOOP vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet\n";
   const std::string named =
