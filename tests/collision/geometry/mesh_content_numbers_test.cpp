@@ -205,6 +205,18 @@ TEST_F(MeshContent, X3dInlinesInQuotes) {
 
 // --- FBX
 
+TEST_F(MeshContent, FbxVerticesAreRead) {
+  for (const std::string axis : {"0", "1", "2"}) {
+    const std::string settings =
+        "GlobalSettings: {\n Version: 1000\n Properties70: {\n  P: \"UpAxis\", \"int\", "
+        "\"Integer\", \"\"," +
+        axis + "\n }\n}\n";
+    EXPECT_THAT(read("a.fbx", fbx(settings), {1, {}}).mesh.vertices,
+                ElementsAre(Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 2, 0)))
+        << axis;
+  }
+}
+
 /// assimp multiplies the transforms of parents and children, which is the type 1.
 TEST_F(MeshContent, FbxScalesThatAreNotInherited) {
   const auto fault = [&](const std::string& type, const std::string& scale) {
