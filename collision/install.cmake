@@ -6,12 +6,13 @@ set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/corridor)
 set(helper_dir ${CMAKE_INSTALL_LIBDIR}/corridor)
 
 set_target_properties(corridor_collision PROPERTIES EXPORT_NAME collision)
+set_target_properties(corridor_course PROPERTIES EXPORT_NAME course)
 target_include_directories(corridor_collision INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/corridor>)
 # A program that uses the library finds corridor_assimp (collision/geometry/assimp_process.h) by its run path.
 target_link_options(corridor_collision INTERFACE
   $<INSTALL_INTERFACE:LINKER:-rpath,$<INSTALL_PREFIX>/${helper_dir}>)
 
-install(TARGETS corridor_collision EXPORT corridor ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS corridor_collision corridor_course EXPORT corridor ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(TARGETS corridor_assimp RUNTIME DESTINATION ${helper_dir})
 install(EXPORT corridor NAMESPACE corridor:: FILE corridorTargets.cmake DESTINATION ${package_dir})
 
@@ -40,7 +41,7 @@ corridor_install_headers(collision/collision.h
   collision/convex/convex_contact.h collision/convex/convex_distance.h
   collision/core/parallel.h collision/core/simd_target.h
   collision/geometry/mesh_components.h collision/geometry/mesh_health.h
-  collision/hierarchy/octree.h
+  collision/course/octree_interference.h
   collision/motion/check_certificate.h collision/motion/edge_method.h
   collision/queries/self_intersections.h)
 

@@ -13,6 +13,7 @@ install(FILES ${CMAKE_CURRENT_LIST_DIR}/find_ompl.cmake DESTINATION ${package_di
 set_target_properties(corridor PROPERTIES INSTALL_RPATH
   "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}/corridor")
 install(TARGETS corridor RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(TARGETS corridor_benchmark corridor_query RUNTIME DESTINATION ${helper_dir})
 
 # Not installed: headers that need libraries which users of corridor::planner need not have.
 file(GLOB planner_headers CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}

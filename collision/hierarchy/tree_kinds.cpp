@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "collision/core/spelling.h"
+#include "collision/volumes/pair_tests.h"
 
 namespace corridor {
 namespace {

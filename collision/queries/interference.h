@@ -8,7 +8,6 @@
 #include "collision/core/query_context.h"
 #include "collision/hierarchy/node_pair4.h"
 #include "collision/hierarchy/obb_tree.h"
-#include "collision/hierarchy/octree.h"
 #include "collision/hierarchy/volume_tree.h"
 #include "collision/queries/triangle_pair.h"
 
@@ -43,12 +42,5 @@ std::optional<PrimitivePair> interferenceBelow(std::span<const NodePair4> start,
                                                const Posed<VolumeTree<Volume>>& b,
                                                QueryContext& context, LastPair* last = nullptr,
                                                std::uint64_t workEnd = kNoWorkLimit);
-
-/// The same test for two octrees (trees over space), and for an octree and a tree of AABBs (a tree
-/// over triangles).
-std::optional<PrimitivePair> interference(const Posed<Octree>& a, const Posed<Octree>& b,
-                                          QueryContext& context);
-std::optional<PrimitivePair> interference(const Posed<Octree>& a, const Posed<VolumeTree<Aabb>>& b,
-                                          QueryContext& context);
 
 }  // namespace corridor

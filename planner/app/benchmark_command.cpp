@@ -21,6 +21,7 @@
 #include "planner/app/commands.h"
 #include "planner/app/interrupt.h"
 #include "planner/app/options.h"
+#include "planner/app/other_program.h"
 #include "planner/app/output.h"
 #include "planner/app/rank_job.h"
 #include "planner/benchmark/campaign_database.h"
@@ -33,6 +34,7 @@
 #include "planner/benchmark/write_reports.h"
 #include "planner/problem/keys.h"
 #include "planner/problem/nothing_tested.h"
+#include "planner/problem/set_range.h"
 #include "planner/solve/planner_factory.h"
 
 namespace corridor::app {
@@ -233,8 +235,7 @@ int benchmarkCommand(const BenchmarkArguments& a) {
 void addBenchmark(CLI::App& program, int& status) {
   const auto arguments = std::make_shared<BenchmarkArguments>();  // the callback keeps it
   BenchmarkArguments& a = *arguments;
-  CLI::App* command = program.add_subcommand(
-      "benchmark", "Compare checkers and planners: run time, and how many paths are refuted");
+  CLI::App* command = program.add_subcommand("benchmark", kBenchmarkHelp);
   command
       ->add_option("CAMPAIGN|PROBLEM", a.files,
                    "a campaign file, or problems as for solve; with --merge: folders of results")

@@ -18,11 +18,10 @@ enum Exit { kDone = 0, kNegativeResult = 1, kBadInput = 2, kInternal = 3 };
 void addSolve(CLI::App& program, int& status);
 void addVerify(CLI::App& program, int& status);
 void addView(CLI::App& program, int& status);
-void addBenchmark(CLI::App& program, int& status);
+void addBenchmark(CLI::App& program, int& status);  ///< of the program corridor_benchmark
 void addCheck(CLI::App& program, int& status);
 void addInspect(CLI::App& program, int& status);
 void addPose(CLI::App& program, int& status);
-void addQuery(CLI::App& program, int& status);
 void addNew(CLI::App& program, int& status);
 
 }  // namespace corridor::app

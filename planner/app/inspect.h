@@ -23,10 +23,7 @@ struct InspectArguments {
 
 int inspectProblem(const InspectArguments& arguments);
 int inspectRobot(const InspectArguments& arguments);  ///< a URDF or a robot.yaml
-int inspectCost(const InspectArguments& arguments);   ///< two meshes (--against)
 
-/// Reads a mesh file with the unit and the up-axis that the arguments name.
-MeshFile readMeshAs(const std::string& file, const InspectArguments& arguments);
 nlohmann::ordered_json meshJson(const MeshFile& file);
 nlohmann::ordered_json shapeJson(const PlacedShape& shape);
 /// Returns a shape in words: "36 triangles, piano.obj"; "box".

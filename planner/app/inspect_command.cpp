@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -19,24 +20,15 @@
 #include "planner/app/commands.h"
 #include "planner/app/inspect.h"
 #include "planner/app/options.h"
+#include "planner/app/other_program.h"
 #include "planner/app/output.h"
+#include "planner/app/read_mesh.h"
 #include "planner/problem/yaml_reader.h"
 #include "planner/problem/yaml_value.h"
 
 namespace corridor::app {
 
 using nlohmann::ordered_json;
-
-MeshFile readMeshAs(const std::string& file, const InspectArguments& a) {
-  MeshFileOptions options;
-  if (a.unit)
-    options.metresPerUnit = *a.unit == "m"    ? 1
-                            : *a.unit == "cm" ? 0.01
-                            : *a.unit == "mm" ? 0.001
-                                              : 0.0254;
-  if (a.up) options.up = a.up->front();
-  return readMeshFile(file, options);
-}
 
 ordered_json meshJson(const MeshFile& file) {
   const MeshHealth health = inspectMesh(file.mesh);
@@ -84,7 +76,7 @@ std::vector<PrimitivePair> selfIntersectionsOf(const MeshFile& file) {
 }
 
 int inspectMeshFile(const InspectArguments& a) {
-  const MeshFile file = readMeshAs(a.file, a);
+  const MeshFile file = readMeshAs(a.file, a.unit, a.up);
   if (a.json) {
     ordered_json j = {{"format", "corridor-inspect-mesh-2"}, {"file", a.file}};
     j["unit"] = a.unit ? ordered_json(*a.unit) : ordered_json();
@@ -203,7 +195,14 @@ int inspectFile(const InspectArguments& a, bool inFolder) {
   requireKind("--self-intersections", a.selfIntersections, "mesh");
   if (a.against && a.selfIntersections)
     throw InputError(Fault{"--self-intersections", 0, "can't be used with --against"});
-  if (a.against) return inspectCost(a);
+  if (a.against) {
+    std::vector<std::string> arguments{"inspect", a.file, "--against", *a.against};
+    for (const auto& [name, value] :
+         {std::pair{"--poses", a.poses}, std::pair{"--unit", a.unit}, std::pair{"--up", a.up}})
+      if (value) arguments.insert(arguments.end(), {name, *value});
+    if (a.json) arguments.emplace_back("--json");
+    return becomeProgram("corridor_query", arguments);
+  }
   return robot ? inspectRobot(a) : problem ? inspectProblem(a) : inspectMeshFile(a);
 }
 

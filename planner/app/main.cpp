@@ -1,74 +1,18 @@
-// The start of the program: standard streams, help, errors and exit statuses. The commands are in
-// NAME_command.cpp.
-#include <csignal>
-#include <exception>
-#include <iostream>
-#include <new>
-#include <string>
+// The program `corridor`. The commands are in NAME_command.cpp; two of them are programs of their
+// own, so that nobody builds what they did not call (other_program.h).
+#include <string_view>
 
-#include <CLI/CLI.hpp>
-
-#include "collision/core/error.h"
-#include "collision/core/floating_point.h"
 #include "planner/app/commands.h"
-#include "planner/app/options.h"
-#include "planner/app/output.h"
-#include "planner/app/rank_job.h"
-#include "planner/app/standard_streams.h"
-#include "planner/app/usage.h"
+#include "planner/app/other_program.h"
+#include "planner/app/run_program.h"
 
 using namespace corridor::app;
 
 int main(int argc, char** argv) {
-  openStandardStreams();
-  // By default SIGXFSZ ends the program when a file reaches the size limit (ulimit -f). If the
-  // signal is ignored, writing fails instead, and is reported like a full disk.
-  std::signal(SIGXFSZ, SIG_IGN);
-  // If the parent process ignores SIGCHLD, this process inherits that, and the exit statuses of its
-  // own children would be lost.
-  std::signal(SIGCHLD, SIG_DFL);
-  if (const auto arithmetic = corridor::floatingPoint();
-      arithmetic != corridor::FloatingPoint::standard) {
-    std::cerr << "corridor: nothing can be proved with these floating-point settings: "
-              << corridor::described(arithmetic)
-              << "; remove the library or wrapper that sets them when the program is loaded\n";
-    return kInternal;
-  }
-  CLI::App program("Corridor plans collision-free motions and proves each one.", "corridor");
-  program.set_version_flag("--version", CORRIDOR_VERSION);
-  program.require_subcommand(1);
-  program.footer(
-      std::string("corridor COMMAND --help lists a command's options.\n"
-                  "In a checkout, ./corridor also has the commands python, test and fuzz.\n") +
-      kExitStatus);
-  int status = kDone;
-  for (const auto add : {addSolve, addVerify, addView, addBenchmark, addCheck, addInspect, addPose,
-                         addQuery, addNew})
-    add(program, status);
-  refuseEmptyValues(program);
-  try {
-    try {
-      program.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-      if (error.get_exit_code() != 0) {
-        letRank0Report();
-        std::cerr << usageFault(program, error, argc > 1 ? argv[1] : "") << '\n';
-        return kBadInput;
-      }
-      program.exit(error);  // --help, --version
-    }
-    requireResultsWritten();
-  } catch (const corridor::InputError& error) {
-    letRank0Report();
-    printFaults(error);
-    return kBadInput;
-  } catch (const std::bad_alloc&) {
-    std::cerr << "corridor: out of memory: too many bodies, pairs of bodies or triangles, or too "
-                 "large a parameter\n";
-    return kInternal;
-  } catch (const std::exception& error) {
-    std::cerr << "corridor: internal error: " << error.what() << '\n';
-    return kInternal;
-  }
-  return status;
+  const std::string_view command = argc > 1 ? argv[1] : "";
+  if (command == "benchmark") return becomeProgram("corridor_benchmark", {argv + 1, argv + argc});
+  if (command == "query") return becomeProgram("corridor_query", {argv + 1, argv + argc});
+  return runProgram(argc, argv,
+                    {addSolve, addVerify, addView, listBenchmark, addCheck, addInspect, addPose,
+                     listQuery, addNew});
 }

@@ -14,7 +14,7 @@
 #include "collision/core/error.h"
 #include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
-#include "planner/benchmark/ranks.h"
+#include "planner/jobs/ranks.h"
 #include "planner/problem/nothing_tested.h"
 #include "planner/solve/finish_path.h"
 

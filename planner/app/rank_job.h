@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "planner/benchmark/rank_executor.h"
+#include "planner/jobs/rank_executor.h"
 
 /// Commands under `mpirun`.
 namespace corridor::app {

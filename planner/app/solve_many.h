@@ -5,7 +5,7 @@
 
 #include "planner/app/problem_list.h"
 #include "planner/app/solve_arguments.h"
-#include "planner/benchmark/executor.h"
+#include "planner/jobs/executor.h"
 
 namespace corridor::app {
 

@@ -7,8 +7,8 @@
 
 #include "collision/core/shortest.h"
 #include "planner/benchmark/checking_tally.h"
-#include "planner/benchmark/child_process.h"
 #include "planner/benchmark/run_record.h"
+#include "planner/jobs/child_process.h"
 #include "planner/problem/yaml_reader.h"
 #include "planner/solve/solve_steps.h"
 #include "planner/solve/verify_solution.h"

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "collision/core/counters.h"
-#include "planner/benchmark/child_process.h"
 #include "planner/benchmark/trajectory_run.h"
 #include "planner/benchmark/variant.h"
+#include "planner/jobs/child_process.h"
 #include "planner/solve/finish_path.h"
 
 namespace corridor {

@@ -13,9 +13,9 @@
 #include "planner/benchmark/campaign_database.h"
 #include "planner/benchmark/campaign_record.h"
 #include "planner/benchmark/campaign_spec.h"
-#include "planner/benchmark/csv_text.h"
 #include "planner/benchmark/database_file.h"
 #include "planner/benchmark/ompl_log.h"
+#include "planner/solve/csv_text.h"
 
 namespace corridor {
 namespace {

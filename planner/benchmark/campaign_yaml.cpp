@@ -1,7 +1,6 @@
 #include "planner/benchmark/campaign_yaml.h"
 
 #include <algorithm>
-#include <charconv>
 #include <map>
 #include <set>
 
@@ -11,13 +10,14 @@
 #include "planner/problem/checker_yaml.h"
 #include "planner/problem/format_key.h"
 #include "planner/problem/keys.h"
+#include "planner/problem/set_range.h"
 #include "planner/solve/planner_factory.h"
 
 namespace corridor {
 namespace {
 
 constexpr const char* kFormat = "corridor-campaign-1";
-constexpr std::size_t kMostOfARange = 1000, kMostVariants = 1000;
+constexpr std::size_t kMostVariants = 1000;
 constexpr WholeRange kRuns{1, 1'000'000, "1 to 1,000,000"};
 constexpr WholeRange kSeeds{1, 0xffffffff, "1 to 2^32 - 1"};  // OMPL's seeds have 32 bits
 
@@ -54,15 +54,6 @@ std::size_t countExpanded(const YamlValue& checker) {
       count = std::min(count * std::min(entry.value.items.size(), kMostVariants + 1),
                        kMostVariants + 1);
   return count;
-}
-
-/// Reads a whole number of one to nine digits, and nothing else; nullopt for any other text.
-std::optional<std::size_t> problemNumber(const std::string& digits) {
-  std::size_t number = 0;
-  const char* const end = digits.data() + digits.size();
-  if (digits.empty() || digits.size() > 9) return std::nullopt;
-  const auto [stop, error] = std::from_chars(digits.data(), end, number);
-  return error == std::errc{} && stop == end ? std::optional(number) : std::nullopt;
 }
 
 /// Returns whether a text can be a name in tables, plots and logs: one line, not empty.
@@ -350,22 +341,6 @@ const std::map<std::string, MapKeys>& campaignKeys() {
     return all;
   }();
   return keys;
-}
-
-std::vector<std::string> problemsOf(const std::string& text) {
-  const auto hash = text.rfind('#'), dash = text.find('-', hash);
-  if (hash == text.npos || dash == text.npos) return {text};
-  const std::string file = text.substr(0, hash);
-  const auto first = problemNumber(text.substr(hash + 1, dash - hash - 1)),
-             last = problemNumber(text.substr(dash + 1));
-  if (!first || !last) return {text};
-  if (*last < *first || *last - *first >= kMostOfARange)
-    throw InputError(Fault{file, 0,
-                           quotedWord(text.substr(hash)) + " is not a range of 1 to " +
-                               std::to_string(kMostOfARange) + " problems, such as #1-10"});
-  std::vector<std::string> problems;
-  for (std::size_t i = *first; i <= *last; ++i) problems.push_back(file + "#" + std::to_string(i));
-  return problems;
 }
 
 }  // namespace corridor

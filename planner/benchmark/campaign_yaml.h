@@ -23,9 +23,4 @@ Campaign readCampaign(const std::filesystem::path& file);
 /// Returns the legal keys of every map of a campaign file, by the map's path (like problemKeys).
 const std::map<std::string, MapKeys>& campaignKeys();
 
-/// Expands a range of problems: "set.json#3-5" gives three names. Any other text, such as
-/// "set.json#3", is returned unchanged, as the only name.
-/// @throws InputError for a range that ends before it begins, or has more than 1,000 problems.
-std::vector<std::string> problemsOf(const std::string& text);
-
 }  // namespace corridor

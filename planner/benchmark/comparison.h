@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "collision/course/cost_model.h"
 #include "planner/benchmark/campaign.h"
-#include "planner/benchmark/cost_model.h"
 #include "planner/benchmark/statistics.h"
 
 namespace corridor {

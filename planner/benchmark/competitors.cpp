@@ -5,8 +5,8 @@
 
 #include <ompl/base/StateValidityChecker.h>
 
-#include "planner/benchmark/module_file.h"
 #include "planner/checker/problem_state_space.h"
+#include "planner/jobs/module_file.h"
 
 namespace corridor {
 namespace {

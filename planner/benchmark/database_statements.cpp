@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "planner/benchmark/csv_text.h"
+#include "planner/solve/csv_text.h"
 
 namespace corridor {
 namespace {

@@ -13,8 +13,8 @@
 #include <unistd.h>
 
 #include "collision/core/shortest.h"
-#include "planner/benchmark/csv_text.h"
 #include "planner/problem/yaml_reader.h"
+#include "planner/solve/csv_text.h"
 
 namespace corridor {
 namespace {

@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "planner/benchmark/campaign.h"
-#include "planner/benchmark/executor.h"
+#include "planner/jobs/executor.h"
 
 namespace corridor {
 

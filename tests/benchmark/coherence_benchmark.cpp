@@ -23,8 +23,8 @@
 #include "collision/convex/convex_contact.h"
 #include "collision/convex/convex_distance.h"
 #include "collision/convex/dobkin_kirkpatrick.h"
-#include "collision/convex/separating_axes.h"
-#include "collision/convex/vclip.h"
+#include "collision/course/separating_axes.h"
+#include "collision/course/vclip.h"
 #include "tests/benchmark/arguments.h"
 
 namespace corridor {

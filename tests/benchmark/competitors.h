@@ -18,9 +18,9 @@
 #include <fcl/narrowphase/distance.h>
 #endif
 
+#include "collision/course/query_timing.h"
 #include "collision/queries/distance_obb4.h"
 #include "collision/queries/interference_obb4.h"
-#include "planner/benchmark/query_timing.h"
 #include "tests/support/workload.h"
 
 /// The competitors in query_benchmark: our trees, and FCL. FCL is called in its fastest way:

@@ -27,12 +27,12 @@
 #include <utility>
 #include <vector>
 
+#include "collision/course/query_timing.h"
 #include "collision/hierarchy/obb4_tree.h"
 #include "collision/hierarchy/volume_tree.h"
 #include "collision/queries/interference.h"
 #include "collision/queries/interference_obb4.h"
 #include "collision/volumes/pair_tests.h"
-#include "planner/benchmark/query_timing.h"
 #include "tests/benchmark/arguments.h"
 #include "tests/benchmark/plot.h"
 #include "tests/benchmark/shapes.h"

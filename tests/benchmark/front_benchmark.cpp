@@ -13,7 +13,7 @@
 
 #include <Eigen/Geometry>
 
-#include "collision/queries/front.h"
+#include "collision/course/front.h"
 #include "collision/queries/interference.h"
 #include "collision/queries/interference_obb4.h"
 #include "collision/volumes/pair_tests.h"

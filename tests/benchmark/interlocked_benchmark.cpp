@@ -28,12 +28,12 @@
 #include <type_traits>
 #include <vector>
 
+#include "collision/course/cost_model.h"
+#include "collision/course/query_timing.h"
+#include "collision/course/test_costs.h"
 #include "collision/hierarchy/with_trees.h"
 #include "collision/queries/interference.h"
 #include "collision/queries/interference_obb4.h"
-#include "planner/benchmark/cost_model.h"
-#include "planner/benchmark/query_timing.h"
-#include "planner/benchmark/test_costs.h"
 #include "tests/benchmark/arguments.h"
 #include "tests/benchmark/shapes.h"
 

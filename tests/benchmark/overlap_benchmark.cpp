@@ -17,7 +17,7 @@
 /// *Posing* is the first step of all our tests: computing the pose of one box relative to the
 /// other. Competitors are FCL's overlap test of OBBs, which guarantees nothing about rounding, and
 /// the kernel of our 4-wide OBB tree. The kernel's C_v, the traversal included, is fitted by least
-/// squares over whole queries (planner/benchmark/cost_model.h).
+/// squares over whole queries (collision/course/cost_model.h).
 ///
 /// CSV follows the table: each test's mixed cost (geometric mean over the workloads), and its ratio
 /// to that of separating axes. A second CSV has the number of arithmetic operations of a test by
@@ -40,13 +40,13 @@
 #endif
 
 #include "collision/core/simd_target.h"
+#include "collision/course/cost_model.h"
+#include "collision/course/query_timing.h"
 #include "collision/hierarchy/obb_tree.h"
 #include "collision/hierarchy/traverse.h"
 #include "collision/queries/interference_obb4.h"
 #include "collision/queries/touching_pairs.h"
 #include "collision/volumes/overlap_obb_obb_variants.h"
-#include "planner/benchmark/cost_model.h"
-#include "planner/benchmark/query_timing.h"
 #include "tests/benchmark/arguments.h"
 #include "tests/benchmark/counted.h"
 #include "tests/support/support.h"

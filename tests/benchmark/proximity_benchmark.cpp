@@ -20,10 +20,10 @@
 #include <iostream>
 
 #include "collision/core/quantiles.h"
+#include "collision/course/query_timing.h"
 #include "collision/queries/interference.h"
 #include "collision/queries/interference_obb4.h"
 #include "collision/volumes/pair_tests.h"
-#include "planner/benchmark/query_timing.h"
 #include "tests/benchmark/arguments.h"
 #include "tests/benchmark/plot.h"
 #include "tests/benchmark/shapes.h"

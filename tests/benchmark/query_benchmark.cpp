@@ -5,7 +5,7 @@
 /// Runs every workload of DIR/collision whose name contains a TEXT (DIR defaults to
 /// $CORRIDOR_DATA). All competitors build their trees once. Then there are N rounds. In each round
 /// every competitor in turn answers all poses in one pass. So no pose is repeated immediately,
-/// except by queries that are too short for the clock (planner/benchmark/query_timing.h). Other
+/// except by queries that are too short for the clock (collision/course/query_timing.h). Other
 /// programs on the machine disturb all competitors alike. The time of a pose is its least time over
 /// the rounds, because other programs can only add time. The time of a workload is the median over
 /// its poses. competitors.h describes how each competitor is called.
@@ -29,8 +29,8 @@
 
 #include "collision/core/quantiles.h"
 #include "collision/core/simd_target.h"
+#include "collision/course/query_timing.h"
 #include "collision/queries/interference.h"
-#include "planner/benchmark/query_timing.h"
 #include "tests/benchmark/arguments.h"
 #include "tests/benchmark/competitors.h"
 #include "tests/benchmark/shapes.h"

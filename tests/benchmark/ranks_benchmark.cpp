@@ -9,7 +9,7 @@
 #include <ctime>
 #include <iostream>
 
-#include "planner/benchmark/rank_executor.h"
+#include "planner/jobs/rank_executor.h"
 
 namespace {
 

@@ -14,7 +14,7 @@
 #include <ompl/base/StateValidityChecker.h>
 
 #include "planner/benchmark/benchmark_run.h"
-#include "planner/benchmark/child_process.h"
+#include "planner/jobs/child_process.h"
 #include "planner/solve/planner_factory.h"
 
 /// Measures the time that a run would take if verdicts cost nothing. The run is made twice, in two

@@ -19,9 +19,9 @@
 
 #include "collision/core/quantiles.h"
 #include "collision/core/simd_target.h"
+#include "collision/course/query_timing.h"
 #include "collision/queries/distance_obb4.h"
 #include "collision/queries/interference_obb4.h"
-#include "planner/benchmark/query_timing.h"
 #include "tests/benchmark/arguments.h"
 #include "tests/benchmark/plot.h"
 #include "tests/benchmark/shapes.h"

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "collision/hierarchy/octree.h"
+#include "collision/course/octree_interference.h"
 #include "collision/queries/distance.h"
 #include "collision/queries/interference.h"
 #include "collision/volumes/pair_tests.h"

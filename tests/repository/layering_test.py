@@ -11,10 +11,10 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 # From low to high.
 LAYERS = [
     "collision/core", "collision/predicates", "collision/geometry", "collision/convex", "collision/volumes",
-    "collision/hierarchy", "collision/queries", "collision/motion", "collision/world",
+    "collision/hierarchy", "collision/queries", "collision/motion", "collision/world", "collision/course",
     "collision/collision.h",  # only for programs of users: Corridor's own files include the headers that they need
     "planner/robot", "planner/model", "planner/problem", "planner/checker", "planner/verify", "planner/trajectory",
-    "planner/solve", "planner/view", "planner/benchmark", "planner/app", "planner/python",
+    "planner/solve", "planner/view", "planner/jobs", "planner/benchmark", "planner/app", "planner/query", "planner/python",
 ]
 
 # The verifier shares only plain data and the test of the floating-point mode with the checker. So the headers that it

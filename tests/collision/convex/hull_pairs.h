@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "collision/convex/separating_plane.h"
+#include "collision/course/separating_plane.h"
 #include "tests/support/rational_program.h"
 
 namespace corridor::test {

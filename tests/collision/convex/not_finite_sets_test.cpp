@@ -3,15 +3,15 @@
 
 #include "collision/convex/convex_contact.h"
 #include "collision/convex/convex_distance.h"
-#include "collision/convex/exact_contact.h"
 #include "collision/convex/penetration.h"
-#include "collision/convex/plane_separation.h"
-#include "collision/convex/polytope_intersection.h"
-#include "collision/convex/separating_axes.h"
-#include "collision/convex/separating_plane.h"
-#include "collision/convex/signed_distance.h"
 #include "collision/convex/simple_polygon.h"
-#include "collision/convex/vclip.h"
+#include "collision/course/exact_contact.h"
+#include "collision/course/plane_separation.h"
+#include "collision/course/polytope_intersection.h"
+#include "collision/course/separating_axes.h"
+#include "collision/course/separating_plane.h"
+#include "collision/course/signed_distance.h"
+#include "collision/course/vclip.h"
 #include "tests/support/not_finite.h"
 
 namespace corridor::test {

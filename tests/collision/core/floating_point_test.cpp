@@ -5,9 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include "collision/course/octree_interference.h"
 #include "collision/hierarchy/body.h"
 #include "collision/hierarchy/obb4_tree.h"
-#include "collision/hierarchy/octree.h"
 #include "tests/support/floating_point.h"
 #include "tests/support/meshes.h"
 

@@ -2,7 +2,7 @@
 // must not allocate more memory than the size of the file justifies.
 #include <gmock/gmock.h>
 
-#include "planner/benchmark/child_process.h"
+#include "planner/jobs/child_process.h"
 #include "tests/collision/geometry/mesh_fixture.h"
 
 namespace corridor::test {

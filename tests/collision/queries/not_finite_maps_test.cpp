@@ -1,10 +1,10 @@
 // Queries of trees never claim that two trees are apart if a number of a map is not finite.
 #include <gtest/gtest.h>
 
+#include "collision/course/front.h"
 #include "collision/predicates/triangle_contact.h"
 #include "collision/queries/contacts.h"
 #include "collision/queries/distance_obb4.h"
-#include "collision/queries/front.h"
 #include "collision/queries/interference.h"
 #include "collision/queries/interference_obb4.h"
 #include "tests/collision/hierarchy/volumes.h"

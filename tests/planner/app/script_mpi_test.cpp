@@ -27,7 +27,7 @@ class ScriptUnderMpi : public corridor::test::ProgramTest {
   }
   std::string first() const {
     return "under mpirun nothing is installed or built: call " + folder_.string() +
-           "/corridor --version first, without mpirun\n";
+           "/corridor benchmark --help first, without mpirun\n";
   }
 };
 
@@ -52,8 +52,10 @@ TEST_F(ScriptUnderMpi, NeitherInstallsNorBuilds) {
   for (const char* source :
        {"CMakeLists.txt", "CMakePresets.json", "planner/a.cpp", "planner/README.md"})
     write(source, "");
-  write("build/release/corridor", "#!/bin/sh\necho \"$@\"\n");
-  fs::permissions(folder_ / "build/release/corridor", fs::perms::owner_all);
+  for (const char* program : {"build/release/corridor", "build/release/corridor_benchmark"}) {
+    write(program, "#!/bin/sh\necho \"$@\"\n");
+    fs::permissions(folder_ / program, fs::perms::owner_all);
+  }
   const auto build = [&] {
     const std::string find =
         "{collision,planner,CMakeLists.txt,CMakePresets.json} -type f -not -name '*.md'";
@@ -61,7 +63,7 @@ TEST_F(ScriptUnderMpi, NeitherInstallsNorBuilds) {
                            " | sort | cksum\" >'" + (folder_ / "built").string() + "'")
                               .c_str()),
               0);
-    fs::rename(folder_ / "built", folder_ / "build/release/.built-corridor");
+    fs::rename(folder_ / "built", folder_ / "build/release/.built-corridor_benchmark");
   };
   build();
   const Result ready = script("benchmark x.yaml -o y");

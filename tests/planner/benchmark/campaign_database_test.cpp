@@ -18,11 +18,11 @@
 
 #include "collision/core/error.h"
 #include "planner/benchmark/build_commit.h"
-#include "planner/benchmark/child_process.h"
 #include "planner/benchmark/rows.h"
 #include "planner/benchmark/run_campaign.h"
 #include "planner/benchmark/run_record.h"
 #include "planner/benchmark/write_reports.h"
+#include "planner/jobs/child_process.h"
 #include "tests/planner/checker/hall.h"
 #include "tests/support/support.h"
 

@@ -1,6 +1,6 @@
 // Fuzz target: files of `corridor query`: poses (12 numbers per line) and motions (24 numbers per
 // line).
-#include "planner/app/query_poses.h"
+#include "planner/query/query_poses.h"
 #include "tests/stress/fuzz/fuzz.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

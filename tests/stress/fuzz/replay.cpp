@@ -1,8 +1,8 @@
-// The main program of a fuzz target that is built without libFuzzer. Runs the target on the given
-// files, on all files in the given folders, and then on N mutations of these files. Usage:
-// `fuzz_TARGET [--mutations N] [--longest SECONDS] FILE|FOLDER…`. An input that takes longer than
-// SECONDS (default 10) is a finding. The same seed (CORRIDOR_SEED) makes the same mutations. Each
-// input is written to TMPDIR/input before it runs: if the program crashes, that file is the
+// The main program of the fuzz targets without libFuzzer. Runs a target on the given files, on all
+// files in the given folders, and then on N mutations of these files. Usage:
+// `fuzz_replay TARGET [--mutations N] [--longest SECONDS] FILE|FOLDER…`. An input that takes longer
+// than SECONDS (default 10) is a finding. The same seed (CORRIDOR_SEED) makes the same mutations.
+// Each input is written to TMPDIR/input before it runs: if the program crashes, that file is the
 // reproducer.
 #include <algorithm>
 #include <chrono>
@@ -14,7 +14,21 @@
 #include "tests/stress/fuzz/fuzz.h"
 #include "tests/support/support.h"
 
+#define CORRIDOR_TARGET(name) extern "C" int fuzz_##name(const std::uint8_t*, std::size_t);
+#include "fuzz_targets.inc"  // CORRIDOR_TARGET(read_mesh) …, one for each target
+#undef CORRIDOR_TARGET
+
 namespace {
+
+using Target = int (*)(const std::uint8_t*, std::size_t);
+/// Returns a target by its name; null if there is none.
+Target targetNamed(std::string_view wanted) {
+#define CORRIDOR_TARGET(name) \
+  if (wanted == #name) return fuzz_##name;
+#include "fuzz_targets.inc"
+#undef CORRIDOR_TARGET
+  return nullptr;
+}
 
 using Random = std::mt19937_64;
 using Clock = std::chrono::steady_clock;
@@ -64,11 +78,11 @@ std::string mutated(std::string bytes, const std::vector<std::string>& inputs, R
   return bytes;
 }
 
-void run(const std::string& input, std::chrono::seconds longest,
+void run(Target target, const std::string& input, std::chrono::seconds longest,
          const std::filesystem::path& kept) {
   std::ofstream(kept, std::ios::binary | std::ios::trunc) << input;
   const auto start = Clock::now();
-  LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(input.data()), input.size());
+  target(reinterpret_cast<const std::uint8_t*>(input.data()), input.size());
   if (Clock::now() - start > longest)
     corridor::fuzz::fail("more than " + std::to_string(longest.count()) + " s for one input");
 }
@@ -79,7 +93,8 @@ int main(int count, char** arguments) {
   std::size_t mutations = 0;
   std::chrono::seconds longest{10 * corridor::test::kSlowdown};
   std::vector<std::string> inputs;
-  for (int i = 1; i < count; ++i) {
+  const Target target = count > 1 ? targetNamed(arguments[1]) : nullptr;
+  for (int i = 2; i < count; ++i) {
     const std::filesystem::path path = arguments[i];
     if (path == "--mutations" && i + 1 < count) {
       mutations = std::stoul(arguments[++i]);
@@ -93,9 +108,9 @@ int main(int count, char** arguments) {
       inputs.push_back(bytesOf(path));
     }
   }
-  if (inputs.empty()) {
-    std::cerr << "usage: fuzz_TARGET [--mutations N] [--longest SECONDS] FILE|FOLDER…: at least "
-                 "one input file is needed\n";
+  if (!target || inputs.empty()) {
+    std::cerr << "usage: fuzz_replay TARGET [--mutations N] [--longest SECONDS] FILE|FOLDER…: a "
+                 "target (read_*.cpp, compare_*.cpp) and at least one input file are needed\n";
     return 2;
   }
   const auto kept = std::filesystem::temp_directory_path() / "input";
@@ -104,10 +119,10 @@ int main(int count, char** arguments) {
   std::cout << inputs.size() << " inputs, then " << mutations
             << " mutations, CORRIDOR_SEED=" << seed << "; the input that runs is in "
             << kept.string() << std::endl;
-  for (const std::string& input : inputs) run(input, longest, kept);
+  for (const std::string& input : inputs) run(target, input, longest, kept);
   Random random(seed);
   for (std::size_t i = 0; i < mutations; ++i)
-    run(mutated(inputs[below(random, inputs.size())], inputs, random), longest, kept);
+    run(target, mutated(inputs[below(random, inputs.size())], inputs, random), longest, kept);
   std::error_code ignored;
   std::filesystem::remove(kept, ignored);
 }

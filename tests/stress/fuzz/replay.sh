@@ -13,7 +13,7 @@ export TMPDIR
 trap 'rm -rf "$TMPDIR"' EXIT
 
 "$here/seeds.sh" "$target" "$folder/seeds"
-"$program" "$@" "$folder/seeds" || {
+"$program" "$target" "$@" "$folder/seeds" || {
   status=$?
   mv "$TMPDIR/input" "$folder/finding"
   echo "the input is in $folder/finding" >&2

@@ -1,0 +1,184 @@
+#include "planner/jobs/child_process.h"
+
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <fcntl.h>
+#include <iostream>
+#include <new>
+#include <poll.h>
+#include <sstream>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <system_error>
+#include <unistd.h>
+#include <utility>
+
+#include "collision/core/memory_limit.h"
+#include "planner/solve/user_signals.h"
+
+namespace corridor {
+namespace {
+
+using Seconds = std::chrono::duration<double>;
+
+/// Milliseconds between the parent's tests of `interrupted`.
+constexpr int kSignalPollMs = 200;
+// The first byte of each line that the child sends.
+constexpr char kMessage = 'm', kFailure = 'f';
+
+std::system_error systemError(const char* what) {
+  return {errno, std::generic_category(), what};
+}
+
+void writeAll(int pipe, const std::string& text) {
+  for (std::size_t done = 0; done < text.size();) {
+    const ssize_t n = ::write(pipe, text.data() + done, text.size() - done);
+    if (n < 0 && errno != EINTR) ::_exit(1);  // the parent is gone
+    if (n > 0) done += static_cast<std::size_t>(n);
+  }
+}
+
+[[noreturn]] void child(int pipe, const ChildProcess::Work& work, std::size_t bytes, pid_t parent) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) ::_exit(1);  // the parent ended before prctl took effect
+  // A signal from the terminal reaches the whole process group. The child ignores it, so that the
+  // parent alone decides what happens.
+  for (const int signal : kUserSignals) ::signal(signal, SIG_IGN);
+  if (bytes > 0) limitMemory(bytes);
+  std::string failure;
+  try {
+    work([&](const std::string& text) { writeAll(pipe, kMessage + text + '\n'); });
+  } catch (const std::bad_alloc&) {
+    failure = "out of memory";
+  } catch (const std::exception& error) {
+    failure = error.what();
+    for (char& c : failure)
+      if (c == '\n') c = ' ';
+    if (failure.empty()) failure = "an exception without a text";
+  }
+  if (!failure.empty()) writeAll(pipe, kFailure + failure + '\n');
+  ::_exit(0);
+}
+
+std::string endOf(int status) {
+  if (WIFSIGNALED(status))
+    return "killed by signal " + std::to_string(WTERMSIG(status)) + " (" +
+           ::strsignal(WTERMSIG(status)) + ")";
+  return "ended early, with exit status " + std::to_string(WEXITSTATUS(status));
+}
+
+}  // namespace
+
+ChildProcess::ChildProcess(const Work& work, const ChildLimits& limits)
+    : patience_(limits.patience), since_(std::chrono::steady_clock::now()) {
+  int pipe[2];
+  // O_CLOEXEC: programs that the child starts must not keep the pipe open.
+  if (::pipe2(pipe, O_CLOEXEC | O_NONBLOCK) != 0) throw systemError("pipe");
+  std::cout.flush();
+  std::fflush(nullptr);  // otherwise the child would write buffered output a second time
+  const pid_t parent = ::getpid();
+  id_ = ::fork();
+  if (id_ < 0) {
+    const auto error = systemError("fork");
+    ::close(pipe[0]);
+    ::close(pipe[1]);
+    throw error;
+  }
+  if (id_ == 0) {
+    ::close(pipe[0]);
+    ::fcntl(pipe[1], F_SETFL, 0);  // writing blocks until the parent has read
+    child(pipe[1], work, limits.bytes, parent);
+  }
+  ::close(pipe[1]);
+  pipe_ = pipe[0];
+}
+
+ChildProcess::ChildProcess(ChildProcess&& other) noexcept
+    : patience_(std::move(other.patience_)),
+      since_(other.since_),
+      pipe_(std::exchange(other.pipe_, -1)),
+      id_(std::exchange(other.id_, -1)),
+      text_(std::move(other.text_)),
+      end_(std::move(other.end_)) {}
+
+ChildProcess::~ChildProcess() {
+  if (!over()) finish(true);
+}
+
+void ChildProcess::stop(const std::string& reason) {
+  if (over()) return;
+  end_.failure = reason;
+  finish(true);
+}
+
+/// Takes one line from the text that was read, and returns true; returns false if there is no
+/// complete line. After the last message, the child is killed. After a line that reports a failure,
+/// this function waits for the end of the child.
+bool ChildProcess::takeLine() {
+  const auto at = text_.find('\n');
+  if (at == std::string::npos) return false;
+  const std::string line = text_.substr(1, at - 1);
+  const bool failed = text_[0] == kFailure;
+  text_.erase(0, at + 1);
+  since_ = std::chrono::steady_clock::now();
+  if (failed)
+    end_.failure = line;
+  else
+    end_.messages.push_back(line);
+  if (failed || end_.messages.size() == patience_.size()) finish(!failed);
+  return true;
+}
+
+bool ChildProcess::poll() {
+  while (!over()) {
+    if (takeLine()) continue;
+    char part[65536];
+    const ssize_t n = ::read(pipe_, part, sizeof part);
+    if (n > 0) {
+      text_.append(part, static_cast<std::size_t>(n));
+    } else if (n == 0) {
+      finish(false);
+    } else if (errno != EINTR) {
+      const double patience = patience_[end_.messages.size()];
+      if (Seconds(std::chrono::steady_clock::now() - since_).count() <= patience) break;
+      std::ostringstream text;
+      text << "stopped after " << patience << " s";
+      stop(text.str());
+    }
+  }
+  return over();
+}
+
+void ChildProcess::finish(bool kill) {
+  ::close(pipe_);
+  if (kill) ::kill(id_, SIGKILL);
+  int status = 0;
+  while (::waitpid(id_, &status, 0) < 0 && errno == EINTR) {
+  }
+  pipe_ = id_ = -1;
+  if (end_.failure.empty() && end_.messages.size() < patience_.size()) end_.failure = endOf(status);
+}
+
+void ChildProcess::waitForAny(const std::vector<ChildProcess*>& children, int milliseconds) {
+  std::vector<pollfd> waiting;
+  for (const ChildProcess* child : children) waiting.push_back({child->pipe_, POLLIN, 0});
+  ::poll(waiting.data(), waiting.size(), milliseconds);
+}
+
+ChildEnd inChild(const ChildProcess::Work& work, const ChildLimits& limits,
+                 const std::atomic<bool>* interrupted) {
+  ChildProcess child(work, limits);
+  while (!child.poll()) {
+    if (interrupted && interrupted->load())
+      child.stop("interrupted");
+    else
+      ChildProcess::waitForAny({&child}, kSignalPollMs);
+  }
+  return child.end();
+}
+
+}  // namespace corridor
