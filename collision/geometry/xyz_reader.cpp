@@ -152,17 +152,18 @@ class XyzReader {
     limitPoints(cloud_.points.size(), cursor_.line(), faults_);
   }
 
-  /// Comments before the first point may name the columns. Later ones may only state a unit.
+  /// Reads a line that is a comment, which may name the columns. Files that were put together may
+  /// have such lines among the points.
   void readComment(std::string_view line) {
     ColumnNames names = columnNamesIn(line);
-    if (!cloud_.points.empty()) return checkUnit(names);
     // In "#,x,y,z" the mark of comments is the name of the first column, an index.
     const std::string_view text =
         line.substr(std::min(line.find_first_not_of(" \t#/"), line.size()));
     if (rowOf(text, markOf(text)).emptyField > 0 && names.order == ColumnNames::Order::xyz)
       names.order = ColumnNames::Order::other;
     checkNames(names);
-    if (names.hasWords && names.order == ColumnNames::Order::none && cloud_.comment == 0)
+    if (names.hasWords && names.order == ColumnNames::Order::none && cloud_.comment == 0 &&
+        cloud_.points.empty())
       cloud_.comment = cursor_.line();
   }
 
@@ -184,7 +185,7 @@ class XyzReader {
             " m; state the unit" + howToState(*names.metresPerUnit) +
             ", or remove the line if it is wrong");
   }
-  /// Adds a fault for a comment beside or after the points that states another unit.
+  /// Adds a fault for a comment beside a point that states another unit.
   void checkUnit(ColumnNames names) {
     names.order = ColumnNames::Order::none;
     if (names.isOnUnits) checkNames(names);

@@ -63,7 +63,17 @@ TEST_F(NamesOfColumns, OtherComments) {
   EXPECT_EQ(read("# made by hand").comment, 1);
   EXPECT_EQ(read("# x y z\n\n// sensor at 5 mm\n# more").comment, 3);
   EXPECT_EQ(read("# x and z").comment, 1);
-  EXPECT_EQ(read("1 2 3\n# made by hand\n# y x z").comment, 0);
+  EXPECT_EQ(read("1 2 3\n# made by hand\n# x y z").comment, 0);
+}
+
+/// A file of several scans may have a header for each.
+TEST_F(NamesOfColumns, AmongThePoints) {
+  EXPECT_EQ(complaint("1 2 3\n//Z Y X\n6 5 4"), "a.xyz:2" + otherOrder.substr(7));
+  EXPECT_EQ(complaint("//X[m] Y[m] Z[m]\n1 2 3\n//X[mm] Y[mm] Z[mm]\n4 5 6"),
+            "a.xyz:3" + otherUnit("0.001", "1", " (unit: mm)").substr(7));
+  EXPECT_EQ(complaint("//X Y Z\n1 2 3\n//X Y Z\n# 4 5 6\n# scan 2, gap of 5 mm"), "no complaint");
+  EXPECT_EQ(complaint("1 2 3 # z y x\n4 5 6 // x y z in mm"), "no complaint")
+      << "comments beside a point are about this point";
 }
 
 TEST_F(NamesOfColumns, Headers) {

@@ -241,7 +241,7 @@ TEST_F(PointCloudTest, WordsAfterThePoints) {
       "says that a unit is 0.001 m, but coordinates are read with a unit of 1 m; state the unit "
       "(unit: mm), or remove the line if it is wrong";
   EXPECT_EQ(complaint("a.xyz", "1 1 1 # unit: mm\n"), "a.xyz:1: " + says);
-  EXPECT_EQ(complaint("a.xyz", "1 1 1\n# x y z in cm\n# unit: mm\n"), "a.xyz:3: " + says);
+  EXPECT_EQ(complaint("a.xyz", "1 1 1 # x y z in cm\n# unit: mm\n"), "a.xyz:2: " + says);
 }
 
 TEST_F(PointCloudTest, UnitUpAndPointsThatAreNotFinite) {
