@@ -53,7 +53,7 @@ class OffReader {
     const std::string_view word = cursor_.wordInLine();
     return word.substr(0, isComment(word) ? 0 : word.npos);
   }
-  /// Goes to the next line. Numbers in the rest of this line are colours and normals.
+  /// Goes to the next line. The rest of this line is skipped: a face's colour, or a comment.
   void endLine() {
     const std::string_view rest = cursor_.takeRestOfLine();
     if (const std::size_t mark = rest.find('#'); mark != rest.npos) noteUnit(rest.substr(mark));
@@ -101,8 +101,19 @@ class OffReader {
   void readVertex(std::int64_t i, std::int64_t all) {
     std::string_view first = nextWord();
     requireMore("vertices", i, all, first);
-    const auto next = [&] { return first.empty() ? wordInLine() : std::exchange(first, {}); };
+    int words = 0;
+    const auto next = [&] {
+      return ++words, first.empty() ? wordInLine() : std::exchange(first, {});
+    };
     mesh_.vertices.push_back(parseVertex(next, cursor_, faults_));
+    // Colours, normals and texture coordinates may follow. A fault in the coordinates is enough.
+    double number = 0;
+    if (words == 3)
+      for (std::string_view word = wordInLine(); !word.empty(); word = wordInLine())
+        if (parseCoordinate(word, number, true))
+          faults_.add(cursor_.line(), inQuotes(word) +
+                                          " comes after the coordinates of a vertex; only numbers "
+                                          "(a colour or a normal) may follow");
     endLine();
   }
 

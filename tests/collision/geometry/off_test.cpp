@@ -68,6 +68,20 @@ TEST_F(Off, Faults) {
             "not read");
 }
 
+TEST_F(Off, WordsAfterTheVertices) {
+  const auto with = [](const std::string& rest) {
+    return "OFF\n3 1 0\n0 0 0 " + rest + "\n1 0 0\n0 1 0\n3 0 1 2\n";
+  };
+  for (const std::string rest : {"", "255 0 0", "0.5 1e-3 -1 nan", "# mm", "1 1 1 #mm"})
+    EXPECT_EQ(complaint("a.off", with(rest)), "no complaint") << rest;
+  for (const std::string rest : {"mm", "255 0 0 mm", "mm # a comment"})
+    EXPECT_EQ(
+        complaint("a.off", with(rest)),
+        "a.off:3: \"mm\" comes after the coordinates of a vertex; only numbers (a colour or a "
+        "normal) may follow")
+        << rest;
+}
+
 /// By OMPL.app's rules, assimp reads OFF files. If an assertion of assimp fails, the file is
 /// reported as faulty.
 TEST_F(Off, AssimpsAssertionsAreFaults) {
