@@ -22,6 +22,12 @@ bool isAxis(std::string_view word) {
   return word == "x" || word == "y" || word == "z";
 }
 
+/// Returns whether the word is "xyz", or another order of these letters.
+bool isXyz(std::string word) {
+  std::sort(word.begin(), word.end());
+  return word == "xyz";
+}
+
 bool isInWord(char c) {
   return isLetter(c) || (c >= '0' && c <= '9') || c == '.';
 }
@@ -59,6 +65,27 @@ std::optional<double> factorOf(std::string_view word) {
   return value;
 }
 
+/// Returns whether the number that is `words[k]`, or with which it begins, may be a factor: it
+/// follows "=", or a word on units without a comma, semicolon, number or unit between them. (Other
+/// numbers are lengths: "Unit 7, 12 m above ground".)
+bool isFactor(const std::vector<Word>& words, std::size_t k) {
+  if (words[k].marks.find('=') != std::string::npos) return true;
+  for (; k > 0 && words[k].marks.find_first_of(",;") == std::string::npos; --k) {
+    const Word& before = words[k - 1];
+    if (before.isOnUnits()) return true;
+    if (factorOf(before.text) || metresOfUnit(before.text) > 0) return false;
+  }
+  return false;
+}
+
+/// Returns whether the unit `words[i]`, or its factor, comes right after a word on units: "units:
+/// m", "unit = 1 m", "units are m".
+bool isRightAfterUnit(const std::vector<Word>& words, std::size_t i) {
+  if (i > 0 && factorOf(words[i - 1].text)) --i;
+  if (i > 0 && (words[i - 1].text == "is" || words[i - 1].text == "are")) --i;
+  return i > 0 && words[i - 1].isOnUnits();
+}
+
 /// Returns the metres that `words[i]` names, or 0. @param isOnUnits a word before begins with
 /// "unit".
 double metresAt(const std::vector<Word>& words, std::size_t i, bool isOnUnits) {
@@ -70,11 +97,12 @@ double metresAt(const std::vector<Word>& words, std::size_t i, bool isOnUnits) {
     if (i + 3 < words.size() && words[i + 1].text == "per" && words[i + 2].isOnUnits())
       return metres * factorOf(words[i + 3].text).value_or(1);
     if (!isOnUnits || i == 0 || marks.find_first_not_of(" \t") != marks.npos) return metres;
-    return metres * factorOf(words[i - 1].text).value_or(1);
+    return metres * (isFactor(words, i - 1) ? factorOf(words[i - 1].text).value_or(1) : 1);
   }
   if (!isOnUnits) return 0;
   const std::size_t digits = std::min(text.find_first_not_of("0123456789."), text.size());
-  return metresOfUnit(text.substr(digits)) * factorOf(text.substr(0, digits)).value_or(0);
+  const double factor = factorOf(text.substr(0, digits)).value_or(0);
+  return metresOfUnit(text.substr(digits)) * (factor > 0 && !isFactor(words, i) ? 1 : factor);
 }
 
 }  // namespace
@@ -100,19 +128,27 @@ ColumnNames columnNamesIn(std::string_view line) {
   ColumnNames result;
   const std::vector<Word> words = wordsOf(lowered(line));
   std::vector<std::string> names;  // words other than units
+  std::size_t axes = 0;            // the number of words up to the last one that names axes
+  for (std::size_t i = 0; i < words.size(); ++i)
+    if (isAxis(words[i].text) || isXyz(words[i].text)) axes = i + 1;
+  // A list of units right after "units" states those of the columns, and later units are of
+  // something else: "units: m; accuracy 5 mm". If an axis follows, they may be the axis's unit.
+  bool isStated = false, isClosed = false;
   for (std::size_t i = 0; i < words.size(); ++i) {
     const auto& [text, marks] = words[i];
     if (marks.find(':') != marks.npos && std::none_of(names.begin(), names.end(), isAxis))
       names.clear();
     result.hasWords |= std::any_of(text.begin(), text.end(), isLetter);
     result.isOnUnits |= words[i].isOnUnits();
-    if (const double metres = metresAt(words, i, result.isOnUnits); metres > 0) {
-      if (result.metresPerUnit.value_or(1) == 1) result.metresPerUnit = metres;
+    if (words[i].isOnUnits()) isStated = isClosed = false;
+    const double metres = metresAt(words, i, result.isOnUnits);
+    isClosed |= isStated && (metres == 0 || !isLetter(text.front()));
+    if (metres > 0) {
+      isStated |= i >= axes && isRightAfterUnit(words, i);
+      if (!isClosed && result.metresPerUnit.value_or(1) == 1) result.metresPerUnit = metres;
       continue;
     }
-    std::string sorted = text;
-    std::sort(sorted.begin(), sorted.end());
-    if (sorted == "xyz")
+    if (isXyz(text))
       for (const char axis : text) names.emplace_back(1, axis);
     else
       names.push_back(text);

@@ -17,7 +17,9 @@ struct ColumnNames {
   bool isOnUnits = false;  ///< it has a word that begins with "unit"
   /// The first unit other than metres that it names; without one, 1 if it names metres. Set only if
   /// the line is about x, y and z, or about units. In a line about units, a number before the
-  /// unit's name is a factor: `1 unit = 10 mm`, and so is the number in `metres per unit: 0.01`.
+  /// unit's name is a factor if it follows "=" or the word on units: `1 unit = 10 mm`; so is the
+  /// number in `metres per unit: 0.01`. Units behind those that follow "units" are of
+  /// something else, as in `units: m; accuracy 5 mm`, unless an axis follows too.
   std::optional<double> metresPerUnit = {};
 };
 

@@ -23,7 +23,8 @@ TEST(StatedUnits, ClearOnes) {
   for (const std::string text :
        {"unit: cm", "# File units = centimeters", "UNITS=cm", "# Units: Centimetres.",
         "1 unit = 1 cm", "unit: 0.01 m", "unit is 10 mm", "units 0.01m", "centimeters per unit",
-        "metres per unit: 0.01", "meters_per_unit 0.01", "[cm] is the unit"})
+        "metres per unit: 0.01", "meters_per_unit 0.01", "[cm] is the unit", "unit size 10 mm",
+        "unit length: 10mm", "unit, scale = 10 mm"})
     EXPECT_NEAR(unitIn(text), 0.01, 1e-17) << text;
   EXPECT_EQ(unitIn("units: in"), 0.0254);
   EXPECT_EQ(unitIn("units in mm"), 0.001);
@@ -31,6 +32,19 @@ TEST(StatedUnits, ClearOnes) {
   for (const std::string text : {"5 cm", "made in mm", "Unity export, 10 cm", "United Cm",
                                  "unit normals", "units", "units: V", ""})
     EXPECT_EQ(unitIn(text), 0) << text;
+}
+
+/// Lengths in a comment on units are no units.
+TEST(StatedUnits, BesideLengths) {
+  for (const std::string text :
+       {"# Units: m; accuracy 5 mm", "# units: metres, resolution 0.005 m", "units = m, 5mm apart",
+        "# Unit 7, 12 m above ground", "unit 7: 12m above ground", "units are m, sigma in mm",
+        "unit: 1 m, tolerance = 2 mm"})
+    EXPECT_EQ(unitIn(text), 1) << text;
+  for (const std::string text :
+       {"units: m, m, mm", "units: m for x, mm for z", "horizontal units: m, vertical units: mm",
+        "units: x m, y m, z mm", "units of points in mm", "units: m; z in mm"})
+    EXPECT_EQ(unitIn(text), 0.001) << text;
 }
 
 TEST(StatedUnits, Notes) {
