@@ -153,7 +153,7 @@ class ColladaCheck : public XmlCheck {
     if (tag.name == "rotate" && numbers[3] != 0 && !hasLengthOne(numbers.data(), 3))
       fault(tag.line,
             "the axis of <rotate> is not of length 1, and assimp would distort the mesh; write the "
-            "axis with length 1");
+            "axis with length 1, with six digits or more");
     if (tag.name == "lookat" && !isUpright(numbers))
       fault(tag.line,
             "the upward direction of <lookat> is not perpendicular to its line of sight, and "
@@ -165,7 +165,9 @@ class ColladaCheck : public XmlCheck {
   static bool isUpright(const std::vector<double>& numbers) {
     const Eigen::Map<const Eigen::Vector3d> eye(numbers.data()), seen(numbers.data() + 3),
         up(numbers.data() + 6);
-    constexpr double kSlack = 1e-5;  // as in `hasLengthOne`
+    // Coordinates of six digits turn `up` of length 1 by sqrt(3) * 5e-7 at most, and a line of
+    // sight of length 1 by twice as much: the cosine is below 3e-6. The slack is three times that.
+    constexpr double kSlack = 1e-5;
     return std::abs((seen - eye).normalized().dot(up.normalized())) <= kSlack;
   }
 

@@ -138,7 +138,7 @@ class GltfCheck {
       if (!turn.empty() && (turn.size() != 4 || !hasLengthOne(turn.data(), 4)))
         fault(
             "the rotation of a node is not of length 1, and assimp would distort the mesh; write a "
-            "quaternion with length 1");
+            "quaternion with length 1, with six digits or more");
     }
   }
 

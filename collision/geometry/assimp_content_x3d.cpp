@@ -125,7 +125,7 @@ class X3dCheck : public XmlCheck {
     if (rule.size == 4 && numbers[3] != 0 && !hasLengthOne(numbers.data(), 3))
       fault(tag.line, "the axis of " + name +
                           " is not of length 1, and assimp would distort the mesh; write the axis "
-                          "with length 1");
+                          "with length 1, with six digits or more");
   }
 };
 

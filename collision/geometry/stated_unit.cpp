@@ -31,6 +31,7 @@ void addStatedUnit(std::string_view text, int line, std::vector<StatedUnit>& uni
 }
 
 bool isSameUnit(double metres, double otherMetres) {
+  // A unit of ten digits is off by 5e-10 of its size at most; the rounding of products is far less.
   return std::abs(metres - otherMetres) <= 1e-9 * std::max(metres, otherMetres);
 }
 

@@ -19,7 +19,8 @@ struct StatedUnit {
 /// ten different units.
 void addStatedUnit(std::string_view text, int line, std::vector<StatedUnit>& units);
 
-/// Returns whether the units are equal, up to the rounding of a product of factors.
+/// Returns whether the units are equal, up to the rounding of ten digits and of a product of
+/// factors.
 bool isSameUnit(double metres, double otherMetres);
 
 /// Returns the text of a note on the first of the stated units that is not the unit that is used;

@@ -112,7 +112,7 @@ TEST_F(Gltf, PositionsThatAreNoPoints) {
 TEST_F(Gltf, TransformsThatAssimpWouldDistort) {
   const std::string length =
       "the rotation of a node is not of length 1, and assimp would distort the mesh; write a "
-      "quaternion with length 1";
+      "quaternion with length 1, with six digits or more";
   for (const std::string turn : {"0, 0, 1, 1", "0, 0, 0, 0", "0, 0, 0.7072, 0.7072", "0, 0, 1"})
     EXPECT_EQ(fault(gltf("", R"({"mesh": 0, "rotation": [)" + turn + "]}")), length) << turn;
   const auto turned = gltf("", R"({"mesh": 0, "rotation": [0, 0, 0.707107, 0.707107]})");
