@@ -37,11 +37,12 @@ function(corridor_install_headers)
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${header})
   endwhile()
 endfunction()
-corridor_install_headers(collision/collision.h
+file(GLOB course_headers CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_LIST_DIR}/course/*.h)
+list(FILTER course_headers EXCLUDE REGEX "-inl\\.h$")
+corridor_install_headers(collision/collision.h ${course_headers}
   collision/convex/convex_contact.h collision/convex/convex_distance.h
   collision/core/parallel.h collision/core/simd_target.h
   collision/geometry/mesh_components.h collision/geometry/mesh_health.h
-  collision/course/octree_interference.h
   collision/motion/check_certificate.h collision/motion/edge_method.h
   collision/queries/self_intersections.h)
 

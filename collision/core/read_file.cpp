@@ -171,21 +171,27 @@ std::string readFile(const std::filesystem::path& file, const std::string& what,
   return bytes;
 }
 
+std::string withLineFeeds(std::string text) {
+  for (std::size_t at = text.find('\r'); at != text.npos; at = text.find('\r', at + 1))
+    if (at + 1 == text.size() || text[at + 1] != '\n') text[at] = '\n';
+  return text;
+}
+
 std::string readTextFile(const std::filesystem::path& file, const std::string& what) {
   std::string text = readFile(file, what, kMostDocumentBytes);
   requireText(text, 0, file.string());
-  return notBlank(std::move(text), file.string(), what);
+  return withLineFeeds(notBlank(std::move(text), file.string(), what));
 }
 
 std::string readTextStream(const std::filesystem::path& file, const std::string& what) {
   const std::string name = file.string();
-  if (file == "-" || file == "/dev/stdin") return readPipe(STDIN_FILENO, name, what);
+  if (file == "-" || file == "/dev/stdin") return withLineFeeds(readPipe(STDIN_FILENO, name, what));
   std::error_code none;
   if (std::filesystem::is_fifo(file, none))
-    return readPipe(OpenFile(file, 0).descriptor(), name, what);
+    return withLineFeeds(readPipe(OpenFile(file, 0).descriptor(), name, what));
   std::string text = readFile(file, what);
   requireText(text, 0, name);
-  return notBlank(std::move(text), name, what);
+  return withLineFeeds(notBlank(std::move(text), name, what));
 }
 
 }  // namespace corridor

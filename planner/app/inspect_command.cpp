@@ -196,11 +196,12 @@ int inspectFile(const InspectArguments& a, bool inFolder) {
   if (a.against && a.selfIntersections)
     throw InputError(Fault{"--self-intersections", 0, "can't be used with --against"});
   if (a.against) {
-    std::vector<std::string> arguments{"inspect", a.file, "--against", *a.against};
+    std::vector<std::string> arguments{"inspect", "--against=" + *a.against};
     for (const auto& [name, value] :
          {std::pair{"--poses", a.poses}, std::pair{"--unit", a.unit}, std::pair{"--up", a.up}})
-      if (value) arguments.insert(arguments.end(), {name, *value});
+      if (value) arguments.push_back(std::string(name) + "=" + *value);
     if (a.json) arguments.emplace_back("--json");
+    arguments.insert(arguments.end(), {"--", a.file});
     return becomeProgram("corridor_query", arguments);
   }
   return robot ? inspectRobot(a) : problem ? inspectProblem(a) : inspectMeshFile(a);

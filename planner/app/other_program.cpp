@@ -17,8 +17,9 @@ int becomeProgram(const std::string& name, const std::vector<std::string>& argum
   std::error_code error;
   const auto folder = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
   std::string why = "it is not found";
-  for (const std::filesystem::path& file : {folder / name, folder / CORRIDOR_HELPERS / name,
-                                            std::filesystem::path(CORRIDOR_BUILD) / name}) {
+  // An empty folder (no /proc) would name a file of the current folder.
+  for (const std::filesystem::path& file : {folder / name, folder / CORRIDOR_HELPERS / name}) {
+    if (folder.empty()) break;
     std::string program = file.string();
     std::vector<char*> words{program.data()};
     for (const std::string& argument : arguments)

@@ -11,8 +11,8 @@ class App;
 namespace corridor::app {
 
 /// Runs another program of Corridor in place of this one: the first that is found in the folder of
-/// this program, in the folder where helper programs are installed, or in the folder of the build.
-/// Returns only if there is no such program: prints a message, and returns the exit status.
+/// this program, or in the folder where helper programs are installed beside it. Returns only if
+/// there is no such program: prints a message, and returns the exit status.
 int becomeProgram(const std::string& name, const std::vector<std::string>& arguments);
 
 /// Adds a command to the help and to messages on unknown commands.

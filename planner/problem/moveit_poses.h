@@ -37,8 +37,9 @@ std::optional<RigidPose> readTransform(const YamlValue& value, const std::string
 
 /// Returns whether two poses are the same: the positions per axis, and the numbers of the
 /// normalised quaternions (up to the sign of one quaternion), each up to `slack` or up to rounding.
-/// Rounding is 2·`equalUpToRounding` of the largest coordinate, and of 1 for quaternions: the two
-/// poses may be products of other poses, whose rounding is a few units in the last place more.
+/// Rounding is 2·`equalUpToRounding` (2^-49) of the largest coordinate, and of 1 for quaternions.
+/// Either pose may be a product: each number is then a sum of up to four products of numbers up to
+/// 1, off by at most 2^-50, and normalising adds at most 2^-51.
 bool isSamePose(const RigidPose& a, const RigidPose& b, double slack = 0);
 
 /// The difference between a pose in a message and the one in the model.

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "collision/core/error.h"
+#include "collision/core/read_file.h"
 #include "collision/core/spelling.h"
 #include "planner/problem/text_words.h"
 #include "planner/problem/yaml_reader.h"
@@ -106,7 +107,11 @@ std::string otherUnit(const std::string& comment) {
   for (std::size_t i = 0; i < words.size(); ++i) {
     const auto& [word, mark] = words[i];
     const std::string before = i > 0 ? words[i - 1].text : "";
-    isOnUnits |= word.starts_with("unit");
+    // "units: rad, mm; …": a number before a unit, or a ";", ends the list.
+    if (word == "unit" || word == "units")
+      isOnUnits = true;
+    else if (mark == ';' || std::isdigit(static_cast<unsigned char>(mark)) != 0)
+      isOnUnits = false;
     const bool isAfterIn = before == "in" && mark == ' ' && !(i > 1 && words[i - 2].text == "not");
     const bool isClear = isOnUnits || isAfterIn || follows ||
                          std::string_view("[(:=").find(mark) != std::string::npos;
@@ -173,7 +178,7 @@ bool resemblesHeader(const std::string& comment, const std::vector<std::string>&
 TableLines::TableLines(std::string file, const std::string& text, std::vector<std::string> columns,
                        std::function<bool(const std::string&)> isName)
     : file_(std::move(file)),
-      lines_(text),
+      lines_(withLineFeeds(text)),
       columns_(std::move(columns)),
       isName_(std::move(isName)) {}
 
@@ -243,7 +248,8 @@ bool TableLines::isHeaderLine(const Words& words) const {
 bool TableLines::readComment(std::size_t mark) {
   const std::string comment = line_.substr(mark + 1);
   const Words words = wordsOfLine(comment);
-  if (repeats(columns_, words) && (headerLine_ != 0 || mark > 0 || !isName_)) return false;
+  if (repeats(columns_, words) && (hasRows_ || headerLine_ != 0 || mark > 0 || !isName_))
+    return false;
   if (mark == 0 && isName_ && words.size() >= columns_.size() &&
       std::all_of(words.begin(), words.end(), isName_)) {
     if (hasRows_)

@@ -28,7 +28,7 @@ bool resemblesHeader(const std::string& comment, const std::vector<std::string>&
 /// - a first line of numbers that are all the names: a header or a row;
 /// - a comment that resembles a header, if the table has none; a second header with other words;
 /// - a comment that clearly gives another unit: `[deg]`, `in degrees`.
-/// Comments behind the numbers of a row, except the first row, are not read.
+/// Comments behind the numbers of the second and later rows are not read.
 class TableLines {
  public:
   /// @param columns the names of the columns of a table without a header.

@@ -13,6 +13,7 @@
 #include <yaml-cpp/parser.h>
 
 #include "collision/core/error.h"
+#include "collision/core/read_file.h"
 
 namespace corridor {
 namespace {
@@ -286,7 +287,8 @@ std::string explained(const YAML::Exception& error, const std::string& line) {
 
 }  // namespace
 
-YamlValue parseYaml(const std::string& file, const std::string& text, const YamlLimits& limits) {
+YamlValue parseYaml(const std::string& file, const std::string& given, const YamlLimits& limits) {
+  const std::string text = withLineFeeds(given);  // yaml-cpp ends comments at LF only
   const bool isWide = hasWideCharacters(text);  // then positions of yaml-cpp are not those of bytes
   const std::string_view utf8 = isWide ? ""
                                        : withoutLastMarks(std::string_view(text).substr(

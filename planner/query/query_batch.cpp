@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "collision/core/quantiles.h"
-#include "collision/course/query_timing.h"
 #include "collision/course/octree_interference.h"
+#include "collision/course/query_timing.h"
 #include "collision/hierarchy/with_trees.h"
 #include "collision/motion/rigid_motion.h"
 #include "collision/queries/contacts.h"

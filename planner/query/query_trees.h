@@ -8,7 +8,7 @@
 /// octree, which has interference queries only.
 namespace corridor::app {
 
-/// The name of the octree (hierarchy/octree.h) as a volume. `volumeKinds()` does not contain it.
+/// The name of the octree (course/octree.h) as a volume. `volumeKinds()` does not contain it.
 inline constexpr const char* kOctree = "octree";
 
 /// Returns the words of --volume, --fit, --overlap and --build, with defaults instead of empty

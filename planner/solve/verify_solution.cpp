@@ -9,6 +9,7 @@
 #include "planner/problem/digest.h"
 #include "planner/problem/yaml_reader.h"
 #include "planner/robot/angles.h"
+#include "planner/solve/outside_bounds.h"
 #include "planner/verify/edge_curve.h"
 
 namespace corridor {

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "planner/verify/edge_curve.h"
+#include "collision/core/circle.h"
 
 namespace corridor {
 namespace {
@@ -174,7 +174,8 @@ Curve curveOfPath(const ConfigurationSpace& space, const std::vector<Configurati
         return value;
       };
       from[i] = unwrapped(from[i]);
-      const Real way = verify::circleDifference(states[k][i], to[i]);
+      // Far less than half a turn off, so that the number of turns is right.
+      const Real way = circleTurn(states[k][i], to[i]).angle;
       turns[i] +=
           static_cast<double>(std::round((way - (Real(to[i]) - Real(states[k][i]))) / kTurn));
       to[i] = unwrapped(to[i]);

@@ -2,22 +2,34 @@
 
 #include <algorithm>
 #include <limits>
-#include <span>
+#include <numeric>
+#include <vector>
 
-#include "planner/verify/bernstein.h"
+#include "planner/trajectory/bernstein.h"
 
 namespace corridor::view {
 namespace {
-
-using verify::Bernstein;
 
 // Intervals of all pieces together; each piece has at least one.
 constexpr std::size_t kPlotSteps = 800;
 constexpr std::size_t kMostPieceSteps = 40;  // intervals of one piece
 
-Bernstein polynomialOf(const CurvePiece& piece, const Coordinate& coordinate) {
-  const Eigen::VectorXd c = piece.coefficients.row(static_cast<Eigen::Index>(coordinate.first));
-  return Bernstein(std::span(c.data(), static_cast<std::size_t>(c.size())));
+using Coefficients = std::vector<double>;
+
+/// Returns the value of a polynomial in Bernstein form at t in [0, 1].
+double valueAt(const Coefficients& c, double t) {
+  Coefficients weights(c.size());
+  bernstein::basis(static_cast<int>(c.size()) - 1, t, weights.data());
+  return std::inner_product(c.begin(), c.end(), weights.begin(), 0.0);
+}
+
+/// Returns the derivative by time of a polynomial that takes `duration`.
+Coefficients derivativeOf(const Coefficients& c, double duration) {
+  if (c.size() == 1) return {0};
+  Coefficients result;
+  for (std::size_t i = 0; i + 1 < c.size(); ++i)
+    result.push_back(static_cast<double>(c.size() - 1) * (c[i + 1] - c[i]) / duration);
+  return result;
 }
 
 }  // namespace
@@ -32,7 +44,7 @@ CurvePlots curvePlots(const ConfigurationSpace& space, const Curve& curve) {
   for (std::size_t p = 0; p < curve.pieces.size(); ++p) {
     const CurvePiece& piece = curve.pieces[p];
     const double begin = curve.knots[p], end = curve.knots[p + 1];
-    const long double duration = static_cast<long double>(end) - begin;
+    const double duration = end - begin;
     const std::size_t steps = piece.degree() == 1 ? 1 : most;
     const auto parameter = [&](std::size_t i) {
       return static_cast<double>(i) / static_cast<double>(steps);
@@ -40,13 +52,15 @@ CurvePlots curvePlots(const ConfigurationSpace& space, const Curve& curve) {
     for (std::size_t i = 0; i <= steps; ++i)
       plots.times.push_back(i == steps ? end : begin + parameter(i) * (end - begin));
     for (CurvePlots::Number& number : plots.numbers) {
-      const Bernstein position = polynomialOf(piece, space.coordinates()[number.coordinate]);
-      const Bernstein velocity = derivativeOf(position, duration);
-      const Bernstein acceleration = derivativeOf(velocity, duration);
+      const Eigen::VectorXd row = piece.coefficients.row(
+          static_cast<Eigen::Index>(space.coordinates()[number.coordinate].first));
+      const Coefficients position(row.begin(), row.end());
+      const Coefficients velocity = derivativeOf(position, duration);
+      const Coefficients acceleration = derivativeOf(velocity, duration);
       for (std::size_t i = 0; i <= steps; ++i) {
-        number.position.push_back(static_cast<double>(position.at(parameter(i))));
-        number.velocity.push_back(static_cast<double>(velocity.at(parameter(i))));
-        number.acceleration.push_back(static_cast<double>(acceleration.at(parameter(i))));
+        number.position.push_back(valueAt(position, parameter(i)));
+        number.velocity.push_back(valueAt(velocity, parameter(i)));
+        number.acceleration.push_back(valueAt(acceleration, parameter(i)));
       }
     }
   }

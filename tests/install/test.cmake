@@ -105,6 +105,10 @@ if(NOT status EQUAL 2 OR NOT err MATCHES "none.urdf")
   message(FATAL_ERROR "the OMPL program without a URDF: ${status}\n${err}")
 endif()
 run("${prefix}/bin/corridor" inspect "${WORK}/cube.dae")
+# Two commands are programs of their own.
+file(WRITE "${WORK}/pose.txt" "1 0 0 0 1 0 0 0 1 0 0 0\n")
+run("${prefix}/bin/corridor" query "${WORK}/cube.obj" "${WORK}/cube.obj" --poses "${WORK}/pose.txt")
+run("${prefix}/bin/corridor" benchmark --help)
 
 # Build and run own_programs/: a rigid body in an OMPL program, and a program that checks trajectories made elsewhere.
 # One trajectory stays beside the post, another goes through the post.

@@ -30,6 +30,11 @@ VERIFIER = {
 }
 
 
+# Those who make paths, curves and pages must not use the arithmetic of the verifier: a mistake in it would be made and
+# judged alike. `solve` calls the verifier, and `view` shows its results.
+RESULTS = {"planner/verify/verify_path.h"}
+
+
 def includesOf(path):
     for number, line in enumerate(path.read_text().splitlines(), 1):
         if found := re.match(r'\s*#\s*include\s+"([^"]+)"', line):
@@ -53,6 +58,8 @@ def faultsOf(path):
             yield f"{name}:{number}: {included} is in a higher layer"
         elif own == "planner/verify" and folder != own and included not in VERIFIER:
             yield f"{name}:{number}: the verifier must not include {included}"
+        elif folder == "planner/verify" and own not in (folder, "planner/solve") and included not in RESULTS:
+            yield f"{name}:{number}: only solve includes the verifier's {included}"
 
 
 def main():

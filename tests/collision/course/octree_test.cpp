@@ -1,10 +1,9 @@
-#include "collision/course/octree_interference.h"
-
 #include <random>
 #include <set>
 
 #include <gtest/gtest.h>
 
+#include "collision/course/octree_interference.h"
 #include "collision/hierarchy/volume_tree.h"
 #include "collision/queries/interference.h"
 #include "tests/support/brute_force.h"

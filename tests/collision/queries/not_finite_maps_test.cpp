@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "collision/course/front.h"
+#include "collision/course/octree_interference.h"
 #include "collision/predicates/triangle_contact.h"
 #include "collision/queries/contacts.h"
 #include "collision/queries/distance_obb4.h"

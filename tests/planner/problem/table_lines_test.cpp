@@ -97,6 +97,10 @@ TEST(TableLines, Headers) {
   EXPECT_EQ(read("lift pan\n# lift pan\n1 2\n"), "header line 1: lift pan; line 3: 1 2");
   EXPECT_EQ(read("lift pan\n1 2\n# lift pan\n3 4\n"),
             "header line 1: lift pan; line 2: 1 2; line 4: 3 4");
+  EXPECT_EQ(read("1 2\n# pan lift\n3 4\n"), "line 1: 1 2; line 3: 3 4");
+  // Lines may end with CR alone.
+  EXPECT_EQ(read("lift pan\r1 2\r\n3 4 # low\r5 6"),
+            "header line 1: lift pan; line 2: 1 2; line 3: 3 4; line 4: 5 6");
   // Another one.
   const std::string other =
       ": names other columns than line 1, or in another order; delete one of the two lines";
@@ -150,8 +154,10 @@ TEST(TableLines, CommentsOnUnits) {
         "\u00b0"})
     EXPECT_THAT(read("# " + std::string(comment) + "\n1 2\n"), testing::HasSubstr("comment says"))
         << comment;
-  for (const char* const comment : {"radians (not in degrees)", "turns by 90 deg", "speed: 90 deg",
-                                    "in m and rad", "rad, m", "a mm of play", "in turn"})
+  for (const char* const comment :
+       {"radians (not in degrees)", "turns by 90 deg", "speed: 90 deg", "in m and rad", "rad, m",
+        "a mm of play", "in turn", "exported from Unity every 20 ms", "units: rad, period 10 ms",
+        "units: rad; mm of error"})
     EXPECT_THAT(read("# " + std::string(comment) + "\n1 2\n"), testing::StartsWith("line 2: 1 2;"))
         << comment;
   EXPECT_EQ(read("1 2\n3 4 # in degrees: 5 6\n"), "line 1: 1 2; line 2: 3 4");

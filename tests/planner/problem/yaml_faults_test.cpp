@@ -120,6 +120,8 @@ TEST_F(YamlFaults, Syntax) {
   expectFault("planner: {name: @RRT}\n",
               "8: is not YAML: a text that begins with @ must be in quotes");
   EXPECT_EQ(with("---\n---\n"), "no complaint");
+  EXPECT_EQ(with("# first\rmargin: x\r\n"),
+            "problem.yaml:9: margin: a number is needed, not \"x\"");
   EXPECT_EQ(with("---\n---\na: 1\n"),
             "problem.yaml: has more than one YAML document (---); keep one");
   EXPECT_EQ(with("---\na: 1\n"), "problem.yaml: has more than one YAML document (---); keep one");

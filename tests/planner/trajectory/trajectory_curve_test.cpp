@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "planner/solve/outside_bounds.h"
 #include "planner/solve/verify_solution.h"
 #include "planner/solve/whole_file.h"
 #include "planner/trajectory/trajectory_text.h"

@@ -1,6 +1,7 @@
 // Fuzz target: trajectory files (rows and messages), for an arm with held and mimic joints, and for
 // a floating body. The rows that are read must give a curve or a fault. If they are written as text
 // and read again, they must be the same.
+#include "planner/solve/outside_bounds.h"
 #include "planner/trajectory/trajectory_curve.h"
 #include "planner/trajectory/trajectory_text.h"
 #include "tests/stress/fuzz/fuzz.h"
