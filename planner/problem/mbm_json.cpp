@@ -275,6 +275,8 @@ class MbmReader {
         fault("joint_names: " + text + " " + why);
       else if (isPoseJoint(setup.robot.description.joints[*j].type))
         fault("joint_names: " + text + " is planar or floating; only single joints are supported");
+      else if (std::find(active.begin(), active.end(), *j) != active.end())
+        fault("joint_names: " + text + " is named twice");
       else
         active.push_back(*j);
     }

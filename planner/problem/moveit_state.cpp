@@ -79,7 +79,7 @@ void holdAt(const MoveitState& state, const std::string& origin, const YamlSourc
             RobotSetup& setup) {
   ModelRobot& robot = setup.robot;
   std::vector<Note>& notes = robot.description.notes;
-  std::vector<std::string> unknown, fixed, kept, replaced, off;
+  std::vector<std::string> unknown, fixed, kept, replaced, off, alone;
   for (const auto& [name, value] : state.values) {
     const auto j = findJoint(robot.description, name);
     if (!j) unknown.push_back(name);
@@ -101,11 +101,15 @@ void holdAt(const MoveitState& state, const std::string& origin, const YamlSourc
     else
       source.fault(state.line, path + ": " + outsideLimits(value, joint.lower, joint.upper));
   }
-  for (const auto& [name, value] : state.values)
-    if (const auto j = findJoint(robot.description, name);
-        j && robot.description.joints[*j].mimic &&
-        offRule(state, *robot.description.joints[*j].mimic, value, robot).value_or(0) > limitSlack)
+  for (const auto& [name, value] : state.values) {
+    const auto j = findJoint(robot.description, name);
+    if (!j || !robot.description.joints[*j].mimic) continue;
+    const auto by = offRule(state, *robot.description.joints[*j].mimic, value, robot);
+    if (!by)
+      alone.push_back(name);
+    else if (*by > limitSlack)
       off.push_back(name);
+  }
   const auto note = [&](const std::string& text, const std::vector<std::string>& names,
                         const std::string& end) {
     if (!names.empty())
@@ -118,6 +122,8 @@ void holdAt(const MoveitState& state, const std::string& origin, const YamlSourc
   note("used instead of the scene's robot_state: ", replaced, "");
   note("not used, because they differ from the rule of a mimic joint: ", off,
        "; the proof is for the rule");
+  note("not used, because the joints that these mimic joints follow have no value here: ", alone,
+       "");
 }
 
 std::optional<Configuration> plannedValues(const MoveitState& state, const YamlSource& source,

@@ -111,7 +111,7 @@ std::string otherUnit(const std::string& comment) {
     if (word == "unit" || word == "units")
       isOnUnits = true;
     else if (mark == ';' || std::isdigit(static_cast<unsigned char>(mark)) != 0)
-      isOnUnits = false;
+      isOnUnits = follows = false;
     const bool isAfterIn = before == "in" && mark == ' ' && !(i > 1 && words[i - 2].text == "not");
     const bool isClear = isOnUnits || isAfterIn || follows ||
                          std::string_view("[(:=").find(mark) != std::string::npos;
@@ -190,13 +190,13 @@ bool TableLines::next() {
     const std::size_t mark = line_.find('#');
     const bool isCommentedHeader = mark != std::string::npos && readComment(mark);
     if (isCommentedHeader) line_.erase(0, 1);
-    words_ = wordsOfLine(line_);
-    if (words_.empty()) continue;
     if (const int comma = commaAfterNothing(line_); comma > 0)
       fail(number_, "the field before comma " + std::to_string(comma) + " is empty" +
                         (comma == 1 && !hasRows_ && headerLine_ == 0
                              ? " (pandas writes its index so; use index=False)"
                              : ""));
+    words_ = wordsOfLine(line_);
+    if (words_.empty()) continue;
     if (hasRows_) return true;
     if (line_.find(';') < line_.find('#'))
       fail(number_,

@@ -245,7 +245,7 @@ void checkStart(const TrajectoryTable& table, const JointNames& names, const Mod
   const auto fault = [&](const std::string& text) {
     faults.add(rows.file, start.line, start.path + ": " + text);
   };
-  std::vector<std::string> unknown, near;
+  std::vector<std::string> unknown, near, fixed;
   for (const auto& [name, value] : start.values) {
     const auto meaning = names.find(name);
     if (const std::string several = names.ambiguous(name); !several.empty()) {
@@ -279,6 +279,8 @@ void checkStart(const TrajectoryTable& table, const JointNames& names, const Mod
         fault(quotedWord(name) + " is " + shortest(value) + ", and " + shortest(required) +
               " by the rule of this mimic joint: the proof would be for the rule; leave the value "
               "out if the joint follows the rule");
+    } else if (value != 0) {
+      fixed.push_back(name);
     }
   }
   for (const MessagePose& pose : start.poses)
@@ -293,6 +295,11 @@ void checkStart(const TrajectoryTable& table, const JointNames& names, const Mod
                          " of the start and of the first point differ by up to " +
                          shortest(limitSlack) + "; the motion between them is not verified",
                      NoteWeight::coverage});
+  if (!fixed.empty())
+    notes.push_back(
+        {rows.file + ": " + start.path +
+             ": not used, because the joints are fixed or need a pose: " + joinedFirst(fixed),
+         NoteWeight::coverage});
   if (!unknown.empty())
     notes.push_back({rows.file + ": " + start.path + ": the robot has no joint " +
                          joinedFirst(unknown) + "; the values are not used",

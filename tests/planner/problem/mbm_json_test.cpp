@@ -51,6 +51,8 @@ TEST_F(MbmJson, Faults) {
   EXPECT_EQ(complaintOfSet(set(two, "\"lift\", \"pen\", \"wrist\""), "#2"),
             "sets/box.json: joint_names: there is no joint \"pen\" (did you mean \"pan\"?) (known: "
             "pan, lift, slide)\nsets/box.json: joint_names: wrist is fixed");
+  EXPECT_EQ(complaintOfSet(set(two, "\"pan\", \"lift\", \"pan\""), "#2"),
+            "sets/box.json: joint_names: pan is named twice");
   EXPECT_EQ(complaintOfSet(set(two, "\"lift\""), "#2"),
             "sets/box.json: start: a list of 1 numbers is needed");
   EXPECT_EQ(

@@ -71,6 +71,26 @@ TEST_F(MoveitStates, TheStateOfTheScene) {
               testing::Not(testing::Contains(HasSubstr("not used"))));
 }
 
+TEST_F(MoveitStates, MimicJointsWithoutTheirLeader) {
+  std::string text = urdf;
+  const std::string end = "</robot>";
+  text.replace(
+      text.find(end), end.size(),
+      "<link name='tail'/>" +
+          joint("wag", "revolute", "base", "tail",
+                "<limit lower='-9' upper='9' effort='1' velocity='1'/><mimic joint='lift'/>") +
+          end);
+  write("arm.urdf", text);
+  write("scene.yaml", "world: {}\nrobot_state: {joint_state: {name: [wag], position: [0.5]}}\n");
+  EXPECT_THAT(textsOf(read("format: corridor-problem-1\nrobot: arm.yaml\nmoveit: {scene: "
+                           "scene.yaml}\nstart: {pan: 0, lift: 0, slide: 0.02}\ngoal: {pan: 1, "
+                           "lift: 0, slide: 0.02}\n")
+                          .source.notes),
+              testing::Contains(testing::EndsWith(
+                  "robot_state: not used, because the joints that these mimic joints follow have "
+                  "no value here: wag")));
+}
+
 /// A message's pose of the robot's base must be that of the problem. A base that the user gave is
 /// used, and a note names the difference.
 TEST_F(MoveitStates, PosesOfTheBaseAreCompared) {

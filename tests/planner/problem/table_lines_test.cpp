@@ -68,6 +68,7 @@ TEST(TableLines, EmptyFieldsAndSemicolons) {
   EXPECT_EQ(read("1,2\n,1,2\n"), "t:2: the field before comma 1 is empty");
   EXPECT_EQ(read(",pan,lift\n0,1,2\n"),
             "t:1: the field before comma 1 is empty (pandas writes its index so; use index=False)");
+  EXPECT_EQ(read("1,2\n,,\n"), "t:2: the field before comma 1 is empty");
   EXPECT_EQ(read("1,2, \t,3\n"), "t:1: the field before comma 3 is empty");
   EXPECT_EQ(
       read("1;2\n"),

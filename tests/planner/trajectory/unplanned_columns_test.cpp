@@ -208,6 +208,14 @@ TEST_F(StartOfTrajectory, HeldJointsAreAtTheirHeldValues) {
                           "not used"));
 }
 
+TEST_F(StartOfTrajectory, FixedJointsAreNoted) {
+  EXPECT_THAT(notes(message(joints("wrist", "0"))), IsEmpty());
+  EXPECT_THAT(
+      notes(message(joints("wrist", "1"))),
+      ElementsAre("t.csv: trajectory_start: not used, because the joints are fixed or need a "
+                  "pose: wrist"));
+}
+
 TEST_F(StartOfTrajectory, ObjectsAndPosesAreRefused) {
   EXPECT_EQ(complaint(message("attached_collision_objects: [{link_name: finger}]")),
             "t.csv:1: trajectory_start.attached_collision_objects: is not supported; add the "
