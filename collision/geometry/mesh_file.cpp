@@ -210,8 +210,16 @@ OmplAppMesh readOmplAppMesh(const std::filesystem::path& file) {
       extension != kOmplAppFormat)
     faults.fail(0, notRead(extension));
   requireForAssimp(file, extension, faults);
+  const Reader own = ownReader(extension);
+  const std::size_t triangles =
+      own ? readOwn(file, own, faults).file.mesh.triangles.size() : std::size_t{0};
   AssimpImport import = readWithAssimp(file.string(), AssimpRules::OmplApp);
   requireSound(import.mesh, faults, floatHint);
+  if (own && import.mesh.triangles.size() != triangles)
+    faults.fail(0, "assimp, which OMPL.app uses, reads " +
+                       std::to_string(import.mesh.triangles.size()) + " triangles of the file's " +
+                       std::to_string(triangles) +
+                       "; save it again as triangles, without comments among them");
   OmplAppMesh result;
   result.importedVertices = static_cast<int>(import.mesh.vertices.size());
   for (const Vec3& vertex : import.mesh.vertices) result.vertexAverage += vertex;

@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include "collision/geometry/assimp_process.h"
 #include "tests/collision/geometry/mesh_fixture.h"
 
 namespace corridor::test {
@@ -82,12 +83,11 @@ TEST_F(Off, WordsAfterTheVertices) {
         << rest;
 }
 
-/// By OMPL.app's rules, assimp reads OFF files. If an assertion of assimp fails, the file is
-/// reported as faulty.
+/// If an assertion of assimp fails, the file is reported as faulty.
 TEST_F(Off, AssimpsAssertionsAreFaults) {
   const auto file = write("a.off", "OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
   try {
-    readOmplAppMesh(file);
+    readWithAssimp(file.string(), AssimpRules::OmplApp);
     FAIL() << "no complaint";
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr(": cannot be read by assimp: assimp's assertion fails: "));
