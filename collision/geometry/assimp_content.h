@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -29,6 +30,8 @@ class ContentReport {
   std::vector<Fault> faults;
   std::vector<std::string> notes;
   double fileUnit = 0;  ///< metres; 0: neither an AMF nor a 3MF file
+  /// The number of triangles in the file; nullopt if it is not counted.
+  std::optional<double> triangles;
 
  private:
   std::set<std::string> known_;

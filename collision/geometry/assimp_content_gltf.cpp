@@ -1,9 +1,12 @@
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <map>
 #include <optional>
 
 #include <nlohmann/json.hpp>
 
+#include "collision/core/spelling.h"
 #include "collision/geometry/assimp_content.h"
 
 namespace corridor {
@@ -74,7 +77,9 @@ class GltfCheck {
     for (const Json& name : member(root_, "extensionsUsed"))
       if (name.is_string()) checkExtension(name);
     checkValues();
-    checkTransforms();
+    checkNodes();
+    checkMeshes();
+    checkData();
     checkScene();
   }
 
@@ -124,9 +129,107 @@ class GltfCheck {
       fault("positions are not of type VEC3; save three coordinates for each");
   }
 
-  /// Checks the transforms of the nodes. assimp does not normalise rotations.
-  void checkTransforms() {
+  /// Checks an object's keys: assimp skips those whose letters have another case.
+  void checkKeys(const Json& object, std::initializer_list<std::string_view> known) {
+    if (!object.is_object()) return;
+    for (const auto& entry : object.items())
+      for (const std::string_view name : known)
+        if (entry.key() != name && lowered(entry.key()) == lowered(name))
+          fault("the key \"" + entry.key() + "\" is not read; write \"" + std::string(name) + '"');
+  }
+
+  static bool isInteger(const Json& value) {
+    return value.is_number_unsigned() && value.get<std::uint64_t>() <= kMostInteger;
+  }
+  void faultInteger(const std::string& key, const Json& value) {
+    fault('"' + key + "\" is " + value.dump() +
+          "; a whole number of at least 0 is needed, without a point");
+  }
+
+  /// Checks that each of the keys, where an object has it, has a whole number. assimp replaces
+  /// other values, such as 48.0, by a default, or skips what they belong to.
+  void requireIntegers(const Json& object, std::initializer_list<const char*> keys) {
+    for (const char* const key : keys)
+      if (const Json* const value = at(object, key); value && !isInteger(*value))
+        faultInteger(key, *value);
+  }
+
+  /// Checks that a value is an index in the root's array `list`. In version 1 of glTF, `list` is an
+  /// object, and the value a key. assimp refuses an index that is too large.
+  void requireReference(const Json* value, const std::string& key, const char* list) {
+    if (value && !(member(root_, list).is_object() ? value->is_string() : isInteger(*value)))
+      faultInteger(key, *value);
+  }
+  void requireReferences(const Json& object, const char* key, const char* list) {
+    const Json* const values = at(object, key);
+    if (!values) return;
+    if (!values->is_array()) return fault('"' + std::string(key) + "\" is not an array");
+    for (const Json& value : *values) requireReference(&value, key, list);
+  }
+
+  void requireNumbers(const Json& node, const char* key, std::size_t size) {
+    const Json* const numbers = at(node, key);
+    if (numbers && !(numbers->is_array() && numbers->size() == size &&
+                     std::all_of(numbers->begin(), numbers->end(),
+                                 [](const Json& number) { return number.is_number(); })))
+      fault("the " + std::string(key) + " of a node needs " + std::to_string(size) + " numbers");
+  }
+
+  /// Checks primitives.
+  void checkMeshes() {
+    for (const Json& mesh : member(root_, "meshes")) {
+      checkKeys(mesh, {"primitives", "weights"});
+      for (const Json& primitive : member(mesh, "primitives")) {
+        checkKeys(primitive, {"attributes", "indices", "mode", "targets"});
+        checkKeys(member(primitive, "attributes"), {"POSITION"});
+        requireIntegers(primitive, {"mode"});
+        if (const Json& mode = member(primitive, "mode");
+            mode.is_number_unsigned() && mode.get<std::uint64_t>() > 6)
+          fault("the mode of a primitive is " + mode.dump() + "; 0 to 6 is needed");
+        requireReference(at(primitive, "indices"), "indices", "accessors");
+        requireReference(at(member(primitive, "attributes"), "POSITION"), "POSITION", "accessors");
+      }
+    }
+  }
+
+  /// Checks accessors and views of buffers.
+  void checkData() {
+    for (const Json& accessor : member(root_, "accessors")) {
+      checkKeys(accessor, {"bufferView", "byteOffset", "componentType", "count", "type", "sparse"});
+      requireIntegers(accessor, {"byteOffset", "componentType", "count"});
+      requireReference(at(accessor, "bufferView"), "bufferView", "bufferViews");
+      const Json* const sparse = at(accessor, "sparse");
+      if (!sparse) continue;
+      if (!sparse->is_object()) fault("\"sparse\" is not an object");
+      requireIntegers(*sparse, {"count"});
+      for (const char* const part : {"indices", "values"}) {
+        requireIntegers(member(*sparse, part), {"byteOffset", "componentType"});
+        requireReference(at(member(*sparse, part), "bufferView"), "bufferView", "bufferViews");
+      }
+    }
+    for (const Json& view : member(root_, "bufferViews")) {
+      checkKeys(view, {"buffer", "byteOffset", "byteLength", "byteStride"});
+      requireIntegers(view, {"byteOffset", "byteLength", "byteStride"});
+      requireReference(at(view, "buffer"), "buffer", "buffers");
+    }
+  }
+
+  /// Checks nodes and scenes. assimp does not normalise rotations.
+  void checkNodes() {
+    requireReference(at(root_, "scene"), "scene", "scenes");
+    for (const Json& scene : member(root_, "scenes")) {
+      checkKeys(scene, {"nodes"});
+      requireReferences(scene, "nodes", "nodes");
+    }
     for (const Json& node : member(root_, "nodes")) {
+      checkKeys(node, {"mesh", "children", "matrix", "translation", "rotation", "scale", "skin",
+                       "weights"});
+      requireReference(at(node, "mesh"), "mesh", "meshes");
+      requireReferences(node, "children", "nodes");
+      requireNumbers(node, "matrix", 16);
+      requireNumbers(node, "translation", 3);
+      requireNumbers(node, "rotation", 4);
+      requireNumbers(node, "scale", 3);
       bool hasParts = false;
       for (const char* const part : {"translation", "rotation", "scale"})
         hasParts |= !member(node, part).is_null();
@@ -134,21 +237,58 @@ class GltfCheck {
         fault("a node has a matrix and another transform, of which assimp reads one; keep one");
       std::vector<double> turn;
       for (const Json& number : member(node, "rotation"))
-        turn.push_back(number.is_number() ? number.get<double>() : 0);
-      if (!turn.empty() && (turn.size() != 4 || !hasLengthOne(turn.data(), 4)))
+        if (number.is_number()) turn.push_back(number.get<double>());
+      if (turn.size() == 4 && !hasLengthOne(turn.data(), 4))
         fault(
             "the rotation of a node is not of length 1, and assimp would distort the mesh; write a "
             "quaternion with length 1, with six digits or more");
     }
   }
 
-  /// Notes nodes with meshes that are not in the scene that is read: the default one, else the
-  /// first.
+  /// Returns the number of triangles of a primitive by its accessors.
+  double trianglesOf(const Json& primitive) const {
+    const Json& accessors = member(root_, "accessors");
+    const Json* const indices = at(primitive, "indices");
+    const Json* const accessor =
+        at(accessors, indices ? *indices : member(member(primitive, "attributes"), "POSITION"));
+    const Json& count = accessor ? member(*accessor, "count") : accessors;
+    const Json& mode = member(primitive, "mode");
+    if (!count.is_number_unsigned() || !(mode.is_null() || mode.is_number_unsigned())) return 0;
+    const auto corners = count.get<std::uint64_t>();
+    const auto kind = mode.is_null() ? kTriangles : mode.get<std::uint64_t>();
+    return kind == kTriangles                 ? static_cast<double>(corners / 3)
+           : kind > kTriangles && corners > 2 ? static_cast<double>(corners - 2)
+                                              : 0;
+  }
+
+  /// Returns the number of triangles of a node and its children. @param known the numbers of nodes
+  /// that are counted; a node that is being counted has 0.
+  double trianglesOf(const Json& node, std::map<const Json*, double>& known) const {
+    const auto [entry, isNew] = known.try_emplace(&node, 0);
+    if (!isNew) return entry->second;
+    double sum = 0;
+    std::vector<Json> keys{member(node, "mesh")};
+    for (const Json& key : member(node, "meshes")) keys.push_back(key);  // in version 1 of glTF
+    for (const Json& key : keys)
+      if (const Json* const mesh = at(member(root_, "meshes"), key))
+        for (const Json& primitive : member(*mesh, "primitives")) sum += trianglesOf(primitive);
+    for (const Json& key : member(node, "children"))
+      if (const Json* const child = at(member(root_, "nodes"), key))
+        sum += trianglesOf(*child, known);
+    return entry->second = sum;
+  }
+
+  /// Counts the triangles of the scene that is read: the default one, else the first. Notes nodes
+  /// with meshes that are not in it.
   void checkScene() {
     const Json& nodes = member(root_, "nodes");
     const Json& scene = member(root_, "scene");
     const Json* const read = at(member(root_, "scenes"), scene.is_null() ? Json(0u) : scene);
     if (!read) return;
+    std::map<const Json*, double> known;
+    report_.triangles = 0;
+    for (const Json& key : member(*read, "nodes"))
+      if (const Json* const node = at(nodes, key)) *report_.triangles += trianglesOf(*node, known);
     std::set<const Json*> reached;
     std::vector<const Json*> open{read};
     while (!open.empty()) {
@@ -165,6 +305,8 @@ class GltfCheck {
   }
 
   static constexpr int kFloat = 5126;
+  static constexpr std::uint64_t kTriangles = 4;  // the mode; strips and fans are 5 and 6
+  static constexpr std::uint64_t kMostInteger = INT32_MAX;
 
   const std::string& file_;
   const Json& root_;

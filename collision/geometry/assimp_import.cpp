@@ -290,6 +290,13 @@ void read(const std::string& file, AssimpRules rules, AssimpImport& result, Cont
     addNode(*scene, *scene->mRootNode, Eigen::Affine3d::Identity(), result.mesh, hasLines);
   }
   if (hasLines) report.note(kNoteOnLines);
+  const auto triangles = static_cast<double>(result.mesh.triangles.size());
+  if (const double inFile = report.triangles.value_or(triangles); inFile != triangles)
+    report.fault(file, 0,
+                 "assimp reads " + std::to_string(result.mesh.triangles.size()) +
+                     " triangles of the file's " +
+                     std::to_string(static_cast<std::uint64_t>(std::min(inFile, 1e18))) +
+                     "; correct its indices and counts, or save the mesh as OBJ, STL, PLY or OFF");
 }
 
 }  // namespace

@@ -113,7 +113,7 @@ TEST_F(Gltf, TransformsThatAssimpWouldDistort) {
   const std::string length =
       "the rotation of a node is not of length 1, and assimp would distort the mesh; write a "
       "quaternion with length 1, with six digits or more";
-  for (const std::string turn : {"0, 0, 1, 1", "0, 0, 0, 0", "0, 0, 0.7072, 0.7072", "0, 0, 1"})
+  for (const std::string turn : {"0, 0, 1, 1", "0, 0, 0, 0", "0, 0, 0.7072, 0.7072"})
     EXPECT_EQ(fault(gltf("", R"({"mesh": 0, "rotation": [)" + turn + "]}")), length) << turn;
   const auto turned = gltf("", R"({"mesh": 0, "rotation": [0, 0, 0.707107, 0.707107]})");
   EXPECT_LT((read("a.gltf", turned).mesh.vertices.at(1) - Vec3(0, 1, 0)).norm(), 1e-6);
@@ -131,6 +131,81 @@ TEST_F(Gltf, VerticesThatMakeNoTriangle) {
   EXPECT_EQ(fault(text), "assimp leaves out geometry: TRIANGLES mode. Some vertices were dropped.");
   const std::string alsoLines = R"(}, {"attributes": {"POSITION": 0}, "mode": 1)";
   EXPECT_THAT(notesOf("a.gltf", gltf("", R"({"mesh": 0})", alsoLines)), ElementsAre(linesNote));
+}
+
+/// Returns the text with the first `from` in it replaced.
+std::string with(std::string text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  EXPECT_NE(at, text.npos) << from;
+  return at == text.npos ? text : text.replace(at, from.size(), to);
+}
+
+TEST_F(Gltf, TrianglesAreCounted) {
+  const auto strip = [&](const std::string& indices, const std::string& mode) {
+    write("i.bin", indices);
+    const std::string size = std::to_string(indices.size());
+    std::string text = gltf("", R"({"mesh": 0, "children": [1, 1]}, {"mesh": 0})",
+                            R"(, "indices": 1, "mode": )" + mode);
+    text = with(text, "\"byteLength\": 36}]",
+                "\"byteLength\": 36}, {\"uri\": \"i.bin\", \"byteLength\": " + size + "}]");
+    text =
+        with(text, "\"buffer\": 0, \"byteLength\": 36}",
+             "\"buffer\": 0, \"byteLength\": 36}, {\"buffer\": 1, \"byteLength\": " + size + "}");
+    return with(text, "\"VEC3\"}",
+                R"("VEC3"}, {"bufferView": 1, "componentType": 5121, "count": )" + size +
+                    R"(, "type": "SCALAR"})");
+  };
+  const std::string four("\0\1\2\0", 4), beyond("\0\1\2\7", 4);
+  for (const std::string mode : {"5", "6"}) {
+    EXPECT_EQ(read("a.gltf", strip(four, mode)).mesh.triangles.size(), 6u) << mode;
+    EXPECT_EQ(fault(strip(beyond, mode)),
+              "assimp reads 3 triangles of the file's 6; correct its indices and counts, or save "
+              "the mesh as OBJ, STL, PLY or OFF")
+        << mode;
+  }
+  EXPECT_EQ(read("a.gltf", strip(four.substr(0, 3), "4")).mesh.triangles.size(), 3u);
+  EXPECT_EQ(fault(gltf("", R"({"mesh": 0})", R"(}, {"attributes": {"POSITION": 0}, "mode": 7)")),
+            "the mode of a primitive is 7; 0 to 6 is needed");
+}
+
+/// assimp reads other values as 0, or skips what they belong to.
+TEST_F(Gltf, WholeNumbersAndIndices) {
+  const std::string second = R"({"mesh": 0}, {"mesh": 0, "children": []})";
+  const auto changed = [&](const std::string& from, const std::string& to) {
+    return fault(with(gltf("", second, R"(, "mode": 4)"), from, to));
+  };
+  const std::string whole = "; a whole number of at least 0 is needed, without a point";
+  EXPECT_EQ(changed("\"count\": 3", "\"count\": 3.0"), "\"count\" is 3.0" + whole);
+  EXPECT_EQ(changed("\"mode\": 4", "\"mode\": \"5\""), "\"mode\" is \"5\"" + whole);
+  EXPECT_EQ(changed("\"buffer\": 0,", "\"buffer\": 0, \"byteOffset\": -0.0,"),
+            "\"byteOffset\" is -0.0" + whole);
+  EXPECT_EQ(changed("\"byteLength\": 36}],\n\"acc", "\"byteLength\": null}],\n\"acc"),
+            "\"byteLength\" is null" + whole);
+  EXPECT_EQ(changed("\"byteLength\": 36}],\n\"acc", "\"byteLength\": 4294967332}],\n\"acc"),
+            "\"byteLength\" is 4294967332" + whole);
+  for (const std::string index : {"0.0", "\"0\"", "-1", "null", "[0]"}) {
+    EXPECT_EQ(changed("{\"mesh\": 0}", "{\"mesh\": " + index + "}"),
+              "\"mesh\" is " + index + whole);
+    EXPECT_EQ(changed("\"scene\": 0", "\"scene\": " + index), "\"scene\" is " + index + whole);
+    EXPECT_EQ(changed("\"nodes\": [0]", "\"nodes\": [0, " + index + "]"),
+              "\"nodes\" is " + index + whole);
+    EXPECT_EQ(changed("\"children\": []", "\"children\": [" + index + "]"),
+              "\"children\" is " + index + whole);
+  }
+  EXPECT_EQ(changed("\"children\": []", "\"children\": 1"), "\"children\" is not an array");
+  EXPECT_EQ(changed("{\"mesh\": 0}", "{\"Mesh\": 0}"),
+            "the key \"Mesh\" is not read; write \"mesh\"");
+}
+
+TEST_F(Gltf, NumbersOfTransforms) {
+  const auto of = [&](const std::string& key, const std::string& value) {
+    return fault(gltf("", "{\"mesh\": 0, \"" + key + "\": " + value + "}"));
+  };
+  for (const auto& [key, size] : std::vector<std::pair<std::string, std::string>>{
+           {"translation", "3"}, {"rotation", "4"}, {"scale", "3"}, {"matrix", "16"}})
+    for (const std::string value : {"2", "[]", "[1, 1]", "\"5 5 5\"", "null", "{\"x\": 5}",
+                                    "[\"1\", 0, 0]", "[\"1\", 0, 0, 0]", "[0, 0, 0, 0, 1]"})
+      EXPECT_EQ(of(key, value), "the " + key + " of a node needs " + size + " numbers") << value;
 }
 
 TEST_F(Gltf, MeshesOutsideTheSceneAreNoted) {
