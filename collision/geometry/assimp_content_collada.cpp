@@ -1,9 +1,11 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
 #include <Eigen/Core>
 
+#include "collision/core/spelling.h"
 #include "collision/geometry/assimp_content_xml.h"
 
 namespace corridor {
@@ -15,10 +17,40 @@ constexpr XmlRules kCollada{"COLLADA",
                             "",
                             " instance_controller convex_mesh brep skew ph ",
                             "geometry",
-                            " asset vertices accessor technique_common ",
+                            " asset vertices accessor technique_common unit up_axis vcount ",
                             ""};
 
 constexpr std::string_view kPrimitives = " triangles polylist polygons tristrips trifans ";
+
+/// The elements that may be in the elements that hold geometry, or move it: assimp drops others,
+/// such as miswritten ones.
+struct Children {
+  std::string_view parents, children;
+};
+constexpr std::array<Children, 11> kChildren{
+    {{" node ",
+      " asset lookat matrix rotate scale skew translate instance_camera instance_controller "
+      "instance_geometry instance_light instance_node node extra "},
+     {" mesh ",
+      " source vertices lines linestrips polygons polylist triangles trifans tristrips extra "},
+     {" triangles polylist polygons tristrips trifans ", " input vcount p ph extra "},
+     {" geometry ", " asset mesh convex_mesh spline brep extra "},
+     {" vertices ", " input extra "},
+     {" accessor ", " param "},
+     {" visual_scene ", " asset node evaluate_scene extra "},
+     {" library_geometries ", " asset geometry extra "},
+     {" library_nodes ", " asset node extra "},
+     {" library_visual_scenes ", " asset visual_scene extra "},
+     {" scene ",
+      " instance_visual_scene instance_physics_scene instance_kinematics_scene extra "}}};
+
+/// Returns whether an element may be in another. In <asset> and the root, all may be whose names
+/// are not miswritten ones of those that are read.
+bool isKnownIn(std::string_view parent, std::string_view name) {
+  for (const Children& rule : kChildren)
+    if (isListed(rule.parents, parent)) return isListed(rule.children, name);
+  return !(parent == "asset" || parent == "COLLADA") || name == lowered(name);
+}
 
 /// The numbers that a node's transforms have. assimp reads as many, and drops further ones.
 std::size_t sizeOfTransform(std::string_view name) {
@@ -45,6 +77,15 @@ class ColladaCheck : public XmlCheck {
   };
 
   void enter(const XmlTag& tag) override {
+    if (std::none_of(open_.begin(), open_.end(), [](const XmlTag& around) {
+          return isListed(" extra technique ", around.name);
+        })) {
+      checkCase(tag, {"id", "url", "meter", "source", "offset", "stride", "count", "semantic"});
+      if (!isKnownIn(around(0), tag.name))
+        fault(tag.line, "<" + std::string(tag.name) + "> is not known in <" +
+                            std::string(around(0)) +
+                            ">, and assimp drops it; correct its name, or remove it");
+    }
     const bool isInLibrary = around(0) == "library_nodes";
     if (isListed(" geometry visual_scene ", tag.name) || (tag.name == "node" && isInLibrary))
       targets_.insert(tag.value("id"));
@@ -54,6 +95,7 @@ class ColladaCheck : public XmlCheck {
     if (tag.name == "mesh") {
       accessors_.clear();
       arrays_.clear();
+      numbers_.clear();
       positions_.clear();
       hasFaces_ = false;
     }
@@ -96,7 +138,9 @@ class ColladaCheck : public XmlCheck {
     if (tag.name == "float_array" && around(1) == "source" && around(2) == "mesh" &&
         tag.content.find(',') != tag.content.npos)
       fault(tag.line, "<float_array> has commas" + std::string(kDecimals));
+    if (tag.name == "float_array" && around(1) == "source") numbers_[tag.value("id")] = tag;
     if (tag.name == "p" && isListed(kPrimitives, around(1))) checkIndices(tag);
+    if (tag.name == "vcount" && around(1) == "polylist") checkCorners(tag);
     if (const std::size_t size = sizeOfTransform(tag.name); size > 0 && around(1) == "node")
       checkTransform(tag, size);
     if (isListed(" unit up_axis ", tag.name) && around(1) == "asset") checkAsset(tag);
@@ -131,6 +175,28 @@ class ColladaCheck : public XmlCheck {
       fault(line,
             "the <accessor> of positions reads beyond the end of its <float_array>; correct its "
             "count, stride or offset");
+    if (array != arrays_.end()) checkDecimals(numbers_[array->first]);
+  }
+
+  /// Checks the numbers of an array: of "0.3d1", assimp reads 0.3 and 1.
+  void checkDecimals(const XmlTag& array) {
+    std::string_view rest = array.content;
+    for (std::string_view word = takeWord(rest); !word.empty(); word = takeWord(rest))
+      if (word.find(',') == word.npos && std::isnan(numberIn(word)))
+        return fault(array.line, "<float_array> has \"" + std::string(word.substr(0, 32)) +
+                                     "\", which is no decimal number" + kDecimals);
+  }
+
+  /// Checks the numbers of corners of polygons: assimp reads as many polygons as `count` says.
+  void checkCorners(const XmlTag& tag) {
+    std::string_view rest = tag.content;
+    long count = 0;
+    for (std::string_view word = takeWord(rest); !word.empty(); word = takeWord(rest), ++count)
+      if (wholeNumberIn(word) < 0) return fault(tag.line, "<vcount> may have whole numbers only");
+    if (const XmlTag& polygons = open_[open_.size() - 2];
+        count != wholeNumberIn(polygons.value("count")))
+      fault(tag.line, "<vcount> has " + std::to_string(count) + " numbers, and the count is \"" +
+                          std::string(polygons.value("count")) + "\"; correct one of them");
   }
 
   /// Checks indices: assimp takes negative ones for 0, stops at comments, and reads none where the
@@ -203,6 +269,7 @@ class ColladaCheck : public XmlCheck {
   // Of the last <mesh>: its sources by their ids, the sizes of its arrays, and its positions.
   std::map<std::string_view, Accessor> accessors_;
   std::map<std::string_view, long> arrays_;
+  std::map<std::string_view, XmlTag> numbers_;  // the arrays themselves
   std::string_view source_;
   std::vector<std::string_view> positions_;
   bool hasFaces_ = false;

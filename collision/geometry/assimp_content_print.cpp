@@ -70,6 +70,7 @@ class AmfCheck : public XmlCheck {
 
  private:
   void enter(const XmlTag& tag) override {
+    checkCase(tag, {"unit", "id"});
     if (open_.empty()) report_.fileUnit = amfUnit(tag.value("unit"));
   }
 
@@ -113,6 +114,7 @@ class ThreeMfCheck : public XmlCheck {
   }
 
   void checkModel(const XmlTag& tag) {
+    checkCase(tag, {"unit", "requiredextensions"});
     const std::string_view unit = tag.find("unit").value_or("millimeter");
     report_.fileUnit = threeMfUnit(unit);
     if (report_.fileUnit == 0)
@@ -145,6 +147,7 @@ class ThreeMfCheck : public XmlCheck {
     references_.push_back({wholeNumberIn(tag.value("objectid")), name, tag.line});
     if (tag.attributes.find(":path") != tag.attributes.npos)
       fault(tag.line, "<" + name + "> is in another model, which assimp does not read" + kInstead);
+    checkCase(tag, {"objectid", "transform"});
     const auto transform = tag.find("transform");
     if (!transform) return;
     const std::vector<double> numbers = numbersIn(*transform);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 #include "collision/geometry/assimp_content_xml.h"
 
@@ -48,6 +49,9 @@ constexpr std::array<Numbers, 15> kNumbers{{{"Transform", "translation", 3},
                                             {"ElevationGrid", "xSpacing", 1},
                                             {"ElevationGrid", "zSpacing", 1}}};
 
+/// Attributes that assimp reads as whole numbers, up to the first other character.
+constexpr std::string_view kWhole = " coordIndex index xDimension zDimension ";
+
 /// Returns the numbers of a list in which a comma may follow each number, before a blank.
 std::vector<double> listedNumbers(std::string_view text) {
   constexpr std::string_view blanks = " \t\r\n";
@@ -83,11 +87,14 @@ class X3dCheck : public XmlCheck {
   void malformed() override { fault(0, "no complete XML file whose root is <X3D>"); }
 
   void enter(const XmlTag& tag) override {
+    checkCase(tag, {"DEF", "USE", "url", "load", "category", "conversionFactor"});
     if (tag.name == "unit") checkUnit(tag);
     if (tag.name == "Inline" && tag.value("load") == "false")
       fault(tag.line, "<Inline load=\"false\"> is not read; remove it, or load=\"false\"");
     for (const Numbers& numbers : kNumbers)
       if (tag.name == numbers.element) checkNumbers(tag, numbers);
+    if (tag.name == "Coordinate" && around(0) == "TriangleSet") checkTriangles(tag, "point", 9);
+    if (tag.name == "IndexedTriangleSet") checkTriangles(tag, "index", 3);
     const std::string_view name = tag.value("DEF");
     if (!name.empty() && !ids_.insert(std::string(name)).second)
       fault(tag.line, "two nodes have the name DEF=\"" + std::string(name) +
@@ -111,12 +118,28 @@ class X3dCheck : public XmlCheck {
                           " is not applied; store metres and radians, without <unit>");
   }
 
+  /// Checks that the numbers of an attribute make whole triangles: assimp drops the others. The
+  /// points of a <Coordinate> that is used again are those of its DEF.
+  void checkTriangles(const XmlTag& tag, std::string_view attribute, std::size_t size) {
+    const auto points = points_.find(tag.value("USE"));
+    const std::size_t count =
+        points == points_.end() ? listedNumbers(tag.value(attribute)).size() : points->second;
+    if (count % size != 0)
+      fault(tag.line, "the numbers of " + std::string(attribute) +
+                          " make no whole triangles, and assimp drops the last ones; write " +
+                          std::to_string(size) + " numbers for each");
+  }
+
   /// Checks an attribute's numbers. assimp looks for blanks only: it reads "0,1" as 0.
   void checkNumbers(const XmlTag& tag, const Numbers& rule) {
+    checkCase(tag, {rule.attribute});
     const auto text = tag.find(rule.attribute);
     if (!text) return;
     const std::string name(rule.attribute);
     const std::vector<double> numbers = listedNumbers(*text);
+    if (rule.element == "Coordinate") points_.emplace(tag.value("DEF"), numbers.size());
+    if (isListed(kWhole, name) && text->find_first_not_of("0123456789-, \t\r\n") != text->npos)
+      return fault(tag.line, name + " may have whole numbers only");
     if (std::any_of(numbers.begin(), numbers.end(), [](double x) { return std::isnan(x); }))
       return fault(tag.line, name + " has a word that is no number; put a blank after each comma");
     if (rule.size > 0 && numbers.size() != rule.size)
@@ -127,6 +150,8 @@ class X3dCheck : public XmlCheck {
                           " is not of length 1, and assimp would distort the mesh; write the axis "
                           "with length 1, with six digits or more");
   }
+
+  std::map<std::string_view, std::size_t> points_;  // the numbers of <Coordinate>s by their DEF
 };
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "collision/core/spelling.h"
+
 namespace corridor {
 namespace {
 
@@ -44,6 +46,13 @@ std::string_view withoutBlanks(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kBlanks) + 1 - first);
 }
 
+std::string_view takeWord(std::string_view& text) {
+  text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
+  const std::string_view word = text.substr(0, text.find_first_of(kBlanks));
+  text.remove_prefix(word.size());
+  return word;
+}
+
 double numberIn(std::string_view text) {
   text = withoutBlanks(text);
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
@@ -55,11 +64,8 @@ double numberIn(std::string_view text) {
 
 std::vector<double> numbersIn(std::string_view text) {
   std::vector<double> numbers;
-  for (auto at = text.find_first_not_of(kBlanks); at != text.npos;) {
-    const auto end = std::min(text.find_first_of(kBlanks, at), text.size());
-    numbers.push_back(numberIn(text.substr(at, end - at)));
-    at = text.find_first_not_of(kBlanks, end);
-  }
+  for (std::string_view word = takeWord(text); !word.empty(); word = takeWord(text))
+    numbers.push_back(numberIn(word));
   return numbers;
 }
 
@@ -70,18 +76,38 @@ long wholeNumberIn(std::string_view text) {
   return error == std::errc() && stop == text.data() + text.size() && value >= 0 ? value : -1;
 }
 
+namespace {
+
+struct Attribute {
+  std::string_view name, value;
+};
+
+/// Returns the next attribute of a text, and removes it; nullopt if there is none.
+std::optional<Attribute> takeAttribute(std::string_view& rest) {
+  const auto equals = rest.find('=');
+  const auto quote = rest.find_first_of("\"'", equals);
+  if (equals == rest.npos || quote == rest.npos) return std::nullopt;
+  const auto end = std::min(rest.find(rest[quote], quote + 1), rest.size());
+  const Attribute attribute{withoutBlanks(rest.substr(0, equals)),
+                            rest.substr(quote + 1, end - quote - 1)};
+  rest.remove_prefix(std::min(end + 1, rest.size()));
+  return attribute;
+}
+
+}  // namespace
+
 std::optional<std::string_view> XmlTag::find(std::string_view attribute) const {
-  for (std::string_view rest = attributes;;) {
-    const auto equals = rest.find('=');
-    const auto quote = rest.find_first_of("\"'", equals);
-    if (equals == rest.npos || quote == rest.npos) return std::nullopt;
-    const auto end = std::min(rest.find(rest[quote], quote + 1), rest.size());
-    const auto first = rest.find_first_not_of(kBlanks);
-    const auto last = rest.find_last_not_of(kBlanks, equals - 1);
-    if (first < equals && rest.substr(first, last + 1 - first) == attribute)
-      return rest.substr(quote + 1, end - quote - 1);
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-  }
+  for (std::string_view rest = attributes; const auto next = takeAttribute(rest);)
+    if (next->name == attribute) return next->value;
+  return std::nullopt;
+}
+
+std::optional<std::string_view> XmlTag::findInOtherCase(std::string_view attribute) const {
+  for (std::string_view rest = attributes; const auto next = takeAttribute(rest);)
+    if (next->name.size() == attribute.size() && next->name != attribute &&
+        lowered(next->name) == lowered(attribute))
+      return next->name;
+  return std::nullopt;
 }
 
 bool XmlCheck::isAccepted(std::string_view name) const {
@@ -139,6 +165,13 @@ void XmlCheck::start(XmlTag tag) {
 void XmlCheck::finish() {
   if (open_.size() <= refused_) leave(open_.back());
   open_.pop_back();
+}
+
+void XmlCheck::checkCase(const XmlTag& tag, std::initializer_list<std::string_view> names) {
+  for (const std::string_view name : names)
+    if (const auto other = tag.findInOtherCase(name))
+      fault(tag.line, "the attribute \"" + std::string(*other) + "\" of <" + std::string(tag.name) +
+                          "> is not read; write \"" + std::string(name) + '"');
 }
 
 void XmlCheck::require(const XmlTag& tag, std::initializer_list<std::string_view> children) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <initializer_list>
 #include <optional>
 #include <set>
 #include <string>
@@ -32,6 +33,9 @@ struct XmlTag {
 
   /// Returns the value of an attribute; nullopt without it.
   std::optional<std::string_view> find(std::string_view attribute) const;
+  /// Returns the name of an attribute that differs from the given one in the case of its letters
+  /// only; nullopt if there is none.
+  std::optional<std::string_view> findInOtherCase(std::string_view attribute) const;
   /// Returns the value of an attribute; "" without it.
   std::string_view value(std::string_view attribute) const { return find(attribute).value_or(""); }
 };
@@ -42,6 +46,8 @@ XmlTag xmlTagAt(std::string_view text, std::size_t at);
 bool isListed(std::string_view list, std::string_view name);
 /// Returns the text without the blanks and line ends around it.
 std::string_view withoutBlanks(std::string_view text);
+/// Returns the next word between the blanks of a text, and removes it; "" at the end.
+std::string_view takeWord(std::string_view& text);
 /// Returns the finite number that is all of a text except blanks; NaN if there is none.
 double numberIn(std::string_view text);
 /// Returns the numbers between the blanks of a text; NaN for each word that is none.
@@ -81,6 +87,9 @@ class XmlCheck {
   std::string_view around(std::size_t steps) const {
     return steps < open_.size() ? open_[open_.size() - 1 - steps].name : std::string_view();
   }
+  /// Adds a fault for each attribute whose name differs from one of the names in case only: it is
+  /// not read.
+  void checkCase(const XmlTag& tag, std::initializer_list<std::string_view> names);
   /// Adds a fault for each of the elements that is not in the element.
   void require(const XmlTag& tag, std::initializer_list<std::string_view> children);
 

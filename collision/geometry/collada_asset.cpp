@@ -60,6 +60,9 @@ char checkColladaAsset(std::string_view text, MeshFaults& faults) {
     if (meter && (parseCoordinate(trimmed(*meter), metres) || !(metres > 0)))
       faults.add(lineOf(asset, at), "<unit meter=" + inQuotes(*meter) +
                                         ">: the unit must be a number of metres above 0");
+    else if (meter && !meter->empty() && isSpace(meter->front()))
+      faults.add(lineOf(asset, at), "<unit meter=" + inQuotes(*meter) +
+                                        ">: assimp reads no number after a blank; remove it");
   }
   char up = 'y';
   if (const auto at = asset.find("<up_axis"); at != asset.npos) {

@@ -86,12 +86,19 @@ TEST_F(Collada, InvalidUnitsAndUpAxes) {
         complaint("a.dae", collada("\n<unit name=\"x\" meter=\"" + std::string(unit) + "\"/>")),
         "a.dae:4: <unit meter=\"" + std::string(unit) +
             "\">: the unit must be a number of metres above 0");
+  for (const std::string blank : {" ", "\n"})
+    EXPECT_THAT(complaint("a.dae", collada("<unit meter=\"" + blank + "0.5\"/>")),
+                testing::EndsWith(">: assimp reads no number after a blank; remove it"));
+  EXPECT_THAT(complaint("a.dae", collada("<unit meter=\"1\"/><unit meter=\"0.5\"/>")),
+              testing::HasSubstr("a second <unit> is in one <asset>"));
+  EXPECT_THAT(complaint("a.dae", collada("<unit Meter=\"0.5\"/>")),
+              testing::EndsWith("the attribute \"Meter\" of <unit> is not read; write \"meter\""));
   EXPECT_EQ(complaint("a.dae", collada("<up_axis> W_UP </up_axis>")),
             "a.dae:3: <up_axis> is \"W_UP\"; X_UP, Y_UP or Z_UP is needed");
   EXPECT_EQ(complaint("a.dae", collada("<up_axis\n>W_UP</up_axis>")),
             "a.dae:3: <up_axis> is \"W_UP\"; X_UP, Y_UP or Z_UP is needed");
   for (const char* const sound :
-       {"<unit meter = ' 0.01 ' name=\"meter\"/><up_axis>\nZ_UP\n</up_axis>",
+       {"<unit meter = '0.01 ' name=\"meter\"/><up_axis>\nZ_UP\n</up_axis>",
         "<unit name=\"meter\"/>",
         "<!-- <unit meter=\"0\"/> <up_axis>W</up_axis> --><unit meter=\"1e0\"/>",
         "<comments><![CDATA[<unit meter=\"0\"/>]]></comments><up_axis >Z_UP</up_axis>"})
@@ -129,7 +136,7 @@ TEST_F(Collada, OmplAppAveragesAllVerticesThoseOfLinesToo) {
 TEST_F(Collada, Complaints) {
   EXPECT_EQ(complaint("a.dae", "hello"),
             "a.dae: cannot be read by assimp: Unable to read file, malformed XML");
-  EXPECT_EQ(complaint("a.dae", collada("", "nan")),
+  EXPECT_EQ(complaint("a.dae", collada("", "1e39")),
             "a.dae: vertex 0 (counted from 0) is not finite (this format is read in float, which "
             "ends at 3.4e38)");
   EXPECT_EQ(complaint("a.dae", collada("", "1e39")),

@@ -158,6 +158,8 @@ TEST_F(MeshContent, ThreeMfReferences) {
                 ":4: the id \"1\" of <object> is used twice or is no whole number; give each "
                 "resource a number of its own");
   EXPECT_EQ(fault("<item objectid=\"1\" transform=\"1 0 0 0 1 0 0 0 1 5 6 7\"/>"), "no complaint");
+  EXPECT_EQ(fault("<item objectid=\"1\" Transform=\"1 0 0 0 1 0 0 0 1 5 6 7\"/>"),
+            model + ":5: the attribute \"Transform\" of <item> is not read; write \"transform\"");
   const std::string unused = "<object id=\"2\"><mesh><vertices/><triangles/></mesh></object>";
   EXPECT_THAT(read("a.3mf", threeMf("unit=\"meter\"", unused), inMetre).notes,
               ElementsAre("objects that are in no item of the build are not read"));
