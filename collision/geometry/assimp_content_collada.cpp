@@ -87,6 +87,12 @@ class ColladaCheck : public XmlCheck {
                             ">, and assimp drops it; correct its name, or remove it");
     }
     const bool isInLibrary = around(0) == "library_nodes";
+    if (isListed(" visual_scene node ", tag.name) && !tag.value("id").empty() &&
+        !ids_.insert(tag.value("id")).second)
+      fault(tag.line, "two elements have the id \"" + std::string(tag.value("id")) +
+                          "\"; give each an id of its own");
+    if (tag.name == "node") nodes_.push_back(tag);
+    if (tag.name == "instance_node") instanced_.insert(tag.value("url"));
     if (isListed(" geometry visual_scene ", tag.name) || (tag.name == "node" && isInLibrary))
       targets_.insert(tag.value("id"));
     if (const std::string_view url = tag.value("url");
@@ -256,6 +262,13 @@ class ColladaCheck : public XmlCheck {
   }
 
   void end() override {
+    // assimp looks for the name before the id.
+    for (const XmlTag& node : nodes_)
+      if (const std::string url = "#" + std::string(node.value("name"));
+          node.value("name") != node.value("id") && instanced_.contains(url))
+        fault(node.line,
+              "the name of this <node> is the id that an <instance_node> asks for; give "
+              "the node another name");
     if (std::any_of(targets_.begin(), targets_.end(),
                     [&](std::string_view id) { return !urls_.contains(id); }))
       report_.note("geometries that are in no node of the scene are not read");
@@ -265,7 +278,8 @@ class ColladaCheck : public XmlCheck {
   double unit_ = 1;
   std::string_view up_ = "Y_UP";
   bool hasInnerAsset_ = false;
-  std::set<std::string_view> targets_, urls_;
+  std::set<std::string_view> targets_, urls_, ids_, instanced_;
+  std::vector<XmlTag> nodes_;
   // Of the last <mesh>: its sources by their ids, the sizes of its arrays, and its positions.
   std::map<std::string_view, Accessor> accessors_;
   std::map<std::string_view, long> arrays_;

@@ -69,6 +69,19 @@ TEST_F(MeshContent, ColladaReferences) {
             "id of its own");
 }
 
+/// assimp takes the last of two nodes with one id, and a node's name before another one's id.
+TEST_F(MeshContent, ColladaIdsAndNamesOfNodes) {
+  EXPECT_EQ(complaint("a.dae", collada("<node id=\"a\"/><node id=\"a\"/>")),
+            "a.dae:8: two elements have the id \"a\"; give each an id of its own");
+  const std::string instance = "<instance_node url=\"#a\"/>";
+  EXPECT_EQ(complaint("a.dae", collada("<node id=\"a\" name=\"a\"/><node>" + instance + "</node>")),
+            "no complaint");
+  EXPECT_EQ(complaint("a.dae", collada("<node id=\"b\" name=\"a\"/><node id=\"a\"/><node>" +
+                                       instance + "</node>")),
+            "a.dae:8: the name of this <node> is the id that an <instance_node> asks for; give the "
+            "node another name");
+}
+
 TEST_F(MeshContent, LinesAreNoted) {
   EXPECT_THAT(notesOf("a.dae", collada()), IsEmpty());
   EXPECT_THAT(notesOf("a.dae", collada("",
