@@ -16,7 +16,7 @@ namespace {
 constexpr XmlRules kCollada{"COLLADA",
                             "",
                             " instance_controller convex_mesh brep skew ph ",
-                            "geometry",
+                            " geometry visual_scene ",
                             " asset vertices accessor technique_common unit up_axis vcount ",
                             ""};
 
@@ -87,11 +87,10 @@ class ColladaCheck : public XmlCheck {
                             ">, and assimp drops it; correct its name, or remove it");
     }
     const bool isInLibrary = around(0) == "library_nodes";
-    if (isListed(" visual_scene node ", tag.name) && !tag.value("id").empty() &&
-        !ids_.insert(tag.value("id")).second)
-      fault(tag.line, "two elements have the id \"" + std::string(tag.value("id")) +
-                          "\"; give each an id of its own");
-    if (tag.name == "node") nodes_.push_back(tag);
+    if (tag.name == "node") {
+      if (tag.find("id")) requireOwnId(tag);
+      nodes_.push_back(tag);
+    }
     if (tag.name == "instance_node") instanced_.insert(tag.value("url"));
     if (isListed(" geometry visual_scene ", tag.name) || (tag.name == "node" && isInLibrary))
       targets_.insert(tag.value("id"));
@@ -278,9 +277,9 @@ class ColladaCheck : public XmlCheck {
   double unit_ = 1;
   std::string_view up_ = "Y_UP";
   bool hasInnerAsset_ = false;
-  std::set<std::string_view> targets_, urls_, ids_, instanced_;
+  std::set<std::string_view> targets_, urls_, instanced_;
   std::vector<XmlTag> nodes_;
-  // Of the last <mesh>: its sources by their ids, the sizes of its arrays, and its positions.
+  // The last <mesh>: its sources by their ids, the sizes of its arrays, and its positions.
   std::map<std::string_view, Accessor> accessors_;
   std::map<std::string_view, long> arrays_;
   std::map<std::string_view, XmlTag> numbers_;  // the arrays themselves

@@ -289,17 +289,8 @@ class GltfCheck {
     report_.triangles = 0;
     for (const Json& key : member(*read, "nodes"))
       if (const Json* const node = at(nodes, key)) *report_.triangles += trianglesOf(*node, known);
-    std::set<const Json*> reached;
-    std::vector<const Json*> open{read};
-    while (!open.empty()) {
-      const Json& parent = *open.back();
-      open.pop_back();
-      for (const Json& key : member(parent, &parent == read ? "nodes" : "children"))
-        if (const Json* const node = at(nodes, key); node && reached.insert(node).second)
-          open.push_back(node);
-    }
     for (const Json& node : nodes)
-      if (!reached.contains(&node) &&
+      if (!known.contains(&node) &&
           !(member(node, "mesh").is_null() && member(node, "meshes").is_null()))
         report_.note("meshes outside the file's default scene are not read");
   }

@@ -16,7 +16,7 @@ constexpr XmlRules kAmf{
     "v3 metadata material color r g b a composite texture texmap map utex1 "
     "utex2 utex3 vtex1 vtex2 vtex3 u1 u2 u3 ",
     "",
-    "object",
+    " object ",
     " mesh vertices volume coordinates x y z v1 v2 v3 ",
     " object/amf mesh/object vertices/mesh vertex/vertices coordinates/vertex x/coordinates "
     "y/coordinates z/coordinates volume/mesh triangle/volume v1/triangle v2/triangle v3/triangle "};

@@ -154,9 +154,7 @@ void XmlCheck::start(XmlTag tag) {
                             ">, and assimp drops one" + kInstead);
       single += ' ' + name + ' ';
     }
-    if (name == rules_.numbered && !ids_.insert(std::string(tag.value("id"))).second)
-      fault(tag.line, "two elements <" + name + "> have the id \"" + std::string(tag.value("id")) +
-                          "\", so assimp drops one; give each an id of its own");
+    if (isListed(rules_.numbered, name)) requireOwnId(tag);
     enter(tag);
   }
   open_.push_back(std::move(tag));
@@ -172,6 +170,13 @@ void XmlCheck::checkCase(const XmlTag& tag, std::initializer_list<std::string_vi
     if (const auto other = tag.findInOtherCase(name))
       fault(tag.line, "the attribute \"" + std::string(*other) + "\" of <" + std::string(tag.name) +
                           "> is not read; write \"" + std::string(name) + '"');
+}
+
+void XmlCheck::requireOwnId(const XmlTag& tag) {
+  const std::string name(tag.name), id(tag.value("id"));
+  if (!ids_.insert(name + ' ' + id).second)
+    fault(tag.line, "two elements <" + name + "> have the id \"" + id +
+                        "\", so assimp drops one; give each an id of its own");
 }
 
 void XmlCheck::require(const XmlTag& tag, std::initializer_list<std::string_view> children) {

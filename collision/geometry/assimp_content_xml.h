@@ -18,7 +18,7 @@ struct XmlRules {
   std::string_view root;
   std::string_view accepted;  ///< the elements that are read, or cannot matter; empty: all others
   std::string_view refused;
-  std::string_view numbered;  ///< the element whose `id` must be unique: assimp drops repeated ones
+  std::string_view numbered;  ///< elements with an `id` of their own (`requireOwnId`)
   std::string_view single;    ///< elements that may be in another once: assimp drops all but one
   std::string_view places;  ///< pairs child/parent: the only parents in which assimp reads a child
 };
@@ -90,6 +90,8 @@ class XmlCheck {
   /// Adds a fault for each attribute whose name differs from one of the names in case only: it is
   /// not read.
   void checkCase(const XmlTag& tag, std::initializer_list<std::string_view> names);
+  /// Adds a fault if an earlier element of the same name has the same `id`: assimp drops one.
+  void requireOwnId(const XmlTag& tag);
   /// Adds a fault for each of the elements that is not in the element.
   void require(const XmlTag& tag, std::initializer_list<std::string_view> children);
 
@@ -98,7 +100,7 @@ class XmlCheck {
   std::string_view text_;
   ContentReport& report_;
   std::vector<XmlTag> open_;   // the elements around the current place
-  std::set<std::string> ids_;  // of the elements `numbered`
+  std::set<std::string> ids_;  // of `requireOwnId`, or of a format's own check
 
  private:
   void start(XmlTag tag);

@@ -123,4 +123,18 @@ Vec3 parseVertex(const Next& next, const TextCursor& cursor, MeshFaults& faults)
   return vertex;
 }
 
+/// Adds a fault for the first of the words that `next` returns after the coordinates of a vertex
+/// that is no number. @param what the numbers that may follow: "a weight or a colour".
+template <class Next>
+void requireNumbers(const Next& next, const char* what, const TextCursor& cursor,
+                    MeshFaults& faults) {
+  double number = 0;
+  for (std::string_view word = next(); !word.empty(); word = next())
+    if (parseCoordinate(word, number, true))
+      return faults.add(cursor.line(), inQuotes(word) +
+                                           " comes after the coordinates of a vertex; only numbers "
+                                           "(" +
+                                           what + ") may follow");
+}
+
 }  // namespace corridor

@@ -88,14 +88,8 @@ class ObjReader {
     int words = 0;
     const auto next = [&] { return ++words, nextWord(); };
     mesh_.vertices.push_back(parseVertex(next, cursor_, faults_));
-    // A weight or a colour may follow.
-    double number = 0;
-    if (words < 3) return;
-    for (std::string_view word = nextWord(); !word.empty(); word = nextWord())
-      if (parseCoordinate(word, number, true))
-        faults_.add(cursor_.line(), inQuotes(word) +
-                                        " comes after the coordinates of a vertex; only numbers "
-                                        "(a weight or a colour) may follow");
+    if (words == 3)
+      requireNumbers([&] { return nextWord(); }, "a weight or a colour", cursor_, faults_);
   }
 
   void readFace() {

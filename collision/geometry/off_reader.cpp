@@ -106,14 +106,8 @@ class OffReader {
       return ++words, first.empty() ? wordInLine() : std::exchange(first, {});
     };
     mesh_.vertices.push_back(parseVertex(next, cursor_, faults_));
-    // Colours, normals and texture coordinates may follow. A fault in the coordinates is enough.
-    double number = 0;
-    if (words == 3)
-      for (std::string_view word = wordInLine(); !word.empty(); word = wordInLine())
-        if (parseCoordinate(word, number, true))
-          faults_.add(cursor_.line(), inQuotes(word) +
-                                          " comes after the coordinates of a vertex; only numbers "
-                                          "(a colour or a normal) may follow");
+    if (words == 3)  // a fault in the coordinates is enough
+      requireNumbers([&] { return wordInLine(); }, "a colour or a normal", cursor_, faults_);
     endLine();
   }
 

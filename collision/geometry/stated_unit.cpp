@@ -1,7 +1,9 @@
 #include "collision/geometry/stated_unit.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
@@ -9,6 +11,12 @@
 #include "collision/geometry/mesh_text.h"
 
 namespace corridor {
+namespace {
+
+constexpr std::array<std::pair<std::string_view, double>, 4> kUnits{
+    {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}}};
+
+}  // namespace
 
 void addStatedUnit(std::string_view text, int line, std::vector<StatedUnit>& units) {
   constexpr std::string_view unit = "unit";
@@ -45,10 +53,15 @@ std::optional<std::string> noteOnUnits(const std::vector<StatedUnit>& stated,
   return std::nullopt;
 }
 
+double metresPerUnitNamed(std::string_view name) {
+  for (const auto& [known, metres] : kUnits)
+    if (name == known) return metres;
+  return 0;
+}
+
 std::string howToState(double metresPerUnit) {
-  for (const auto& [name, metres] : {std::pair("m", 1.0), std::pair("cm", 0.01),
-                                     std::pair("mm", 0.001), std::pair("in", 0.0254)})
-    if (isSameUnit(metres, metresPerUnit)) return std::string(" (unit: ") + name + ')';
+  for (const auto& [name, metres] : kUnits)
+    if (isSameUnit(metres, metresPerUnit)) return " (unit: " + std::string(name) + ')';
   return "";
 }
 

@@ -27,6 +27,9 @@ bool isSameUnit(double metres, double otherMetres);
 /// nullopt if there is none.
 std::optional<std::string> noteOnUnits(const std::vector<StatedUnit>& stated, double metresPerUnit);
 
+/// Returns the metres of a unit by its name in problems: m, cm, mm or in; 0 for another name.
+double metresPerUnitNamed(std::string_view name);
+
 /// Returns how to state a unit in a problem, such as " (unit: mm)"; empty for a unit without a name
 /// in problems.
 std::string howToState(double metresPerUnit);

@@ -1,5 +1,5 @@
 // The program `corridor`. The commands are in NAME_command.cpp; two of them are programs of their
-// own, so that nobody builds what they did not call (other_program.h).
+// own, so that a first `corridor solve` does not build them (other_program.h).
 #include <string_view>
 
 #include "planner/app/commands.h"

@@ -4,7 +4,6 @@
 #include <sstream>
 #include <string_view>
 
-#include "collision/core/read_file.h"
 #include "collision/core/spelling.h"
 
 namespace corridor {
@@ -20,7 +19,7 @@ std::string trimmed(std::string_view text) {
 
 IniFile::IniFile(std::string file, const std::string& text, FaultList& faults)
     : file_(std::move(file)), faults_(&faults) {
-  std::istringstream stream(withLineFeeds(text));
+  std::istringstream stream(text);
   std::string section, raw;
   for (int line = 1; std::getline(stream, raw); ++line) {
     const std::string content = trimmed(std::string_view(raw).substr(0, raw.find('#')));

@@ -6,6 +6,7 @@
 #include "collision/core/read_file.h"
 #include "collision/core/spelling.h"
 #include "collision/geometry/mesh_health.h"
+#include "collision/geometry/stated_unit.h"
 #include "planner/problem/cloud_yaml.h"
 #include "planner/problem/hull_yaml.h"
 #include "planner/problem/keys.h"
@@ -24,10 +25,7 @@ const MapKeys* primitiveKeys(const char* primitive) {
 MeshFileOptions readMeshOptions(const YamlMap& map) {
   MeshFileOptions options;
   if (const auto unit = map.choice("unit", problemChoices().at("world.*.unit")))
-    options.metresPerUnit = *unit == "m"    ? 1
-                            : *unit == "cm" ? 0.01
-                            : *unit == "mm" ? 0.001
-                                            : 0.0254;
+    options.metresPerUnit = metresPerUnitNamed(*unit);
   if (const auto up = map.choice("up", problemChoices().at("world.*.up"))) options.up = up->front();
   return options;
 }

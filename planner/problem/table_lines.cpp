@@ -9,6 +9,7 @@
 #include "collision/core/error.h"
 #include "collision/core/read_file.h"
 #include "collision/core/spelling.h"
+#include "collision/geometry/column_names.h"
 #include "planner/problem/text_words.h"
 #include "planner/problem/yaml_reader.h"
 
@@ -88,21 +89,20 @@ bool isIn(const std::string& word, std::initializer_list<std::string_view> words
 /// "". (A title may say that a joint turns by 90 degrees.)
 std::string otherUnit(const std::string& comment) {
   const auto isOther = [](const std::string& word) {
-    return isIn(word, {"deg",  "degs",         "degree",      "degrees",     "\u00b0",
-                       "mrad", "milliradians", "mm",          "millimeters", "millimetres",
-                       "cm",   "centimeters",  "centimetres", "inch",        "inches",
-                       "ft",   "feet",         "ms",          "msec",        "milliseconds",
-                       "us",   "microseconds", "ns",          "nanoseconds"});
+    const double metres = metresOfUnit(word);
+    return (metres > 0 && metres != 1) ||
+           isIn(word, {"deg", "degs", "degree", "degrees", "\u00b0", "mrad", "milliradians", "ms",
+                       "msec", "milliseconds", "us", "microseconds", "ns", "nanoseconds"});
   };
   const auto isOwn = [](const std::string& word) {
-    return isIn(word, {"rad", "radian", "radians", "m", "meter", "meters", "metre", "metres", "s",
-                       "sec", "second", "seconds"});
+    return metresOfUnit(word) == 1 ||
+           isIn(word, {"rad", "radian", "radians", "s", "sec", "second", "seconds"});
   };
   const std::vector<CommentWord> words = wordsOfComment(comment);
   const bool hasOnlyUnits = std::all_of(words.begin(), words.end(), [&](const CommentWord& word) {
     return isOther(word.text) || isOwn(word.text);
   });
-  bool isOnUnits = hasOnlyUnits;  // or a word before this one begins with "unit"
+  bool isOnUnits = hasOnlyUnits;  // or behind "units:"
   bool follows = false;           // "in rad and": a unit may follow
   for (std::size_t i = 0; i < words.size(); ++i) {
     const auto& [word, mark] = words[i];

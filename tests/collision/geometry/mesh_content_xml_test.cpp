@@ -71,8 +71,10 @@ TEST_F(MeshContent, ColladaReferences) {
 
 /// assimp takes the last of two nodes with one id, and a node's name before another one's id.
 TEST_F(MeshContent, ColladaIdsAndNamesOfNodes) {
-  EXPECT_EQ(complaint("a.dae", collada("<node id=\"a\"/><node id=\"a\"/>")),
-            "a.dae:8: two elements have the id \"a\"; give each an id of its own");
+  EXPECT_EQ(
+      complaint("a.dae", collada("<node id=\"a\"/><node id=\"a\"/>")),
+      "a.dae:8: two elements <node> have the id \"a\", so assimp drops one; give each an id of "
+      "its own");
   const std::string instance = "<instance_node url=\"#a\"/>";
   EXPECT_EQ(complaint("a.dae", collada("<node id=\"a\" name=\"a\"/><node>" + instance + "</node>")),
             "no complaint");
