@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -32,6 +34,14 @@ class ContentReport {
   double fileUnit = 0;  ///< metres; 0: neither an AMF nor a 3MF file
   /// The number of triangles in the file; nullopt if it is not counted.
   std::optional<double> triangles;
+
+  /// A name that nodes of X3D have (DEF) or refer to (USE).
+  struct NodeName {
+    std::string definedIn;     ///< the last file that has a node of the name; "": none
+    bool isInSeveral = false;  ///< nodes of several files have the name
+    bool isUsed = false;
+  };
+  std::map<std::string, NodeName, std::less<>> nodeNames;
 
  private:
   std::set<std::string> known_;

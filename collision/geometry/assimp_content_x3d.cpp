@@ -95,10 +95,34 @@ class X3dCheck : public XmlCheck {
       if (tag.name == numbers.element) checkNumbers(tag, numbers);
     if (tag.name == "Coordinate" && around(0) == "TriangleSet") checkTriangles(tag, "point", 9);
     if (tag.name == "IndexedTriangleSet") checkTriangles(tag, "index", 3);
-    const std::string_view name = tag.value("DEF");
-    if (!name.empty() && !ids_.insert(std::string(name)).second)
-      fault(tag.line, "two nodes have the name DEF=\"" + std::string(name) +
-                          "\", of which assimp uses one; give each a name of its own");
+    checkNames(tag);
+  }
+
+  /// Checks DEF and USE. To assimp all files of an import are one name space, in which a later node
+  /// hides an earlier one of the same name. By the specification each file has its own.
+  void checkNames(const XmlTag& tag) {
+    const std::string def(tag.value("DEF")), use(tag.value("USE"));
+    if (!def.empty()) {
+      if (!ids_.insert(def).second)
+        fault(tag.line, "two nodes have the name DEF=\"" + def +
+                            "\", of which assimp uses one; give each a name of its own");
+      ContentReport::NodeName& name = report_.nodeNames[def];
+      if (!name.definedIn.empty() && name.definedIn != file_) name.isInSeveral = true;
+      name.definedIn = file_;
+      if (name.isInSeveral && name.isUsed) faultOfSeveral(tag.line, def);
+    }
+    if (!use.empty()) {
+      if (!ids_.contains(use))
+        fault(tag.line, "USE=\"" + use + "\" names no earlier node of this file");
+      ContentReport::NodeName& name = report_.nodeNames[use];
+      name.isUsed = true;
+      if (name.isInSeveral) faultOfSeveral(tag.line, use);
+    }
+  }
+
+  void faultOfSeveral(int line, const std::string& name) {
+    fault(line, "nodes of two files have the name DEF=\"" + name +
+                    "\", and assimp does not keep them apart; give one another name");
   }
 
   /// Checks the groups: after one that is empty, or that uses another, assimp attaches what follows

@@ -211,21 +211,23 @@ OmplAppMesh readOmplAppMesh(const std::filesystem::path& file) {
     faults.fail(0, notRead(extension));
   requireForAssimp(file, extension, faults);
   const Reader own = ownReader(extension);
-  const std::size_t triangles =
-      own ? readOwn(file, own, faults).file.mesh.triangles.size() : std::size_t{0};
+  MeshFile read;
+  if (own) read = readOwn(file, own, faults).file;
   AssimpImport import = readWithAssimp(file.string(), AssimpRules::OmplApp);
   requireSound(import.mesh, faults, floatHint);
-  if (own && import.mesh.triangles.size() != triangles)
+  if (own && import.mesh.triangles.size() != read.mesh.triangles.size())
     faults.fail(0, "assimp, which OMPL.app uses, reads " +
                        std::to_string(import.mesh.triangles.size()) + " triangles of the file's " +
-                       std::to_string(triangles) +
+                       std::to_string(read.mesh.triangles.size()) +
                        "; save it again as triangles, without comments among them");
   OmplAppMesh result;
   result.importedVertices = static_cast<int>(import.mesh.vertices.size());
   for (const Vec3& vertex : import.mesh.vertices) result.vertexAverage += vertex;
   result.vertexAverage /= result.importedVertices;
-  result.mesh = welded(import.mesh);
+  // assimp can drop facets of the formats with a reader of our own, and find as many others.
+  result.mesh = own ? std::move(read.mesh) : welded(import.mesh);
   result.notes = std::move(import.notes);
+  for (std::string& note : read.notes) result.notes.push_back(std::move(note));
   result.otherFiles = std::move(import.otherFiles);
   return result;
 }

@@ -54,7 +54,8 @@ MeshFile readMeshFile(const std::filesystem::path& file, const MeshFileOptions& 
 std::string noteOnUp(const std::string& files, const std::string& whatAppliesIt);
 
 /// A mesh as OMPL.app places it: read with OMPL.app's import steps. The transforms of nodes are
-/// applied. For Collada, the unit and the rotation to y-up are applied, too.
+/// applied. For Collada, the unit and the rotation to y-up are applied, too. OBJ, STL, PLY and OFF
+/// have no frame: their triangles come from Corridor's own readers.
 struct OmplAppMesh {
   TriangleMesh mesh;
   /// The mean of all imported vertices. Each vertex counts as often as assimp keeps it.

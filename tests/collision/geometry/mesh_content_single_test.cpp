@@ -131,6 +131,29 @@ TEST_F(MeshContent, X3dPartsThatAreNotLoadedOrNamedTwice) {
               HasSubstr("a.x3d:3: a second <Scene> is in one <X3D>, and assimp drops one"));
 }
 
+/// assimp has one name space for all files of an import: a node of a later file hides an earlier
+/// one of the same name.
+TEST_F(MeshContent, X3dNamesOfSeveralFiles) {
+  const std::string inlined = "<Inline url='o.x3d'/>", use = "<Shape USE='a'/>";
+  const auto moved = [](const std::string& x3d) {
+    return "<Transform translation='5 0 0'>" + x3d + "</Transform>";
+  };
+  const std::string several =
+      "nodes of two files have the name DEF=\"a\", and assimp does not keep them apart; give one "
+      "another name";
+  write("o.x3d", x3dOf(shape("a")));
+  EXPECT_EQ(complaint("a.x3d", x3dOf(shape("a") + "\n" + inlined)), "no complaint");
+  EXPECT_EQ(complaint("a.x3d", x3dOf(shape("a") + "\n" + inlined + moved(use))),
+            "o.x3d:2: " + several);
+  EXPECT_EQ(complaint("a.x3d", x3dOf(shape("b") + inlined + moved("<Shape USE='b'/>"))),
+            "no complaint");
+  EXPECT_EQ(complaint("a.x3d", x3dOf(inlined + "\n" + moved(use))),
+            "a.x3d:3: USE=\"a\" names no earlier node of this file");
+  write("o.x3d", x3dOf(shape("a") + "\n" + moved(use)));
+  EXPECT_EQ(complaint("a.x3d", x3dOf(shape("a") + inlined)), "o.x3d:3: " + several);
+  EXPECT_EQ(complaint("a.x3d", x3dOf(shape("b") + inlined)), "no complaint");
+}
+
 // --- glTF
 
 TEST_F(MeshContent, GltfNamesWithBytesInHexadecimal) {

@@ -67,6 +67,10 @@ TEST_F(OmplAppMeshContent, WhatAssimpDropsIsRefused) {
   };
   EXPECT_EQ(refusal("a.ply", ply("element face 4\n", faces)), "no complaint");
   EXPECT_THAT(refusal("a.ply", ply("element face 3\n", faces)), StartsWith("a.ply:"));
+  // assimp reads one facet from the first line, and another from what is not in the file.
+  const std::string oneLine = "3 0 2 1 3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+  const OmplAppMesh read = readOmplAppMesh(write("b.ply", ply("element face 4\n", oneLine)));
+  EXPECT_EQ(read.mesh.triangles, readMeshFile(folder_ / "b.ply").mesh.triangles);
   EXPECT_THAT(refusal("a.ply", ply("element tristrips 1\n", "6 0 1 2 3 0 1\n")),
               StartsWith("a.ply:"));
   EXPECT_THAT(refusal("a.ply", ply("element face 2\nproperty list uchar int vertex_indices\n"
