@@ -80,7 +80,7 @@
 ///
 /// 6. Do they touch along a motion, and when for the first time? `free` is never wrong: it is
 ///    proved for every t in [0, 1], rounding included. `contact`: at the rounded pose at
-///    `contactTime` the bodies touch, or are within the margin. `undecided`: neither is proved, and
+///    `time` the bodies touch, or are within the margin. `undecided`: neither is proved, and
 ///    `reason` says why. The usual reason is a clearance below twice the tolerance (PROMISES.md,
 ///    promise 2). This question costs 10 to 20 times as much as the first one.
 ///

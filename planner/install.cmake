@@ -18,6 +18,7 @@ install(TARGETS corridor_benchmark corridor_query RUNTIME DESTINATION ${helper_d
 # Not installed: headers that need libraries which users of corridor::planner need not have.
 file(GLOB planner_headers CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
      ${CMAKE_CURRENT_LIST_DIR}/robot/*.h ${CMAKE_CURRENT_LIST_DIR}/model/*.h ${CMAKE_CURRENT_LIST_DIR}/problem/*.h
+     ${CMAKE_CURRENT_LIST_DIR}/import/*.h
      ${CMAKE_CURRENT_LIST_DIR}/checker/*.h ${CMAKE_CURRENT_LIST_DIR}/trajectory/*.h ${CMAKE_CURRENT_LIST_DIR}/solve/*.h
      ${CMAKE_CURRENT_LIST_DIR}/verify/verify_path.h ${CMAKE_CURRENT_LIST_DIR}/verify/polynomial_range.h
      ${CMAKE_CURRENT_LIST_DIR}/verify/bernstein.h ${CMAKE_CURRENT_LIST_DIR}/verify/triangle_gap.h)

@@ -106,6 +106,10 @@ Real ballReach(const PosedSet& set, const Vector<Real>& n) {
   return gjk::length(local(set, n)) * Real(set.set().ball);
 }
 
+/// How a search takes the spheres of two sets: they are added to its result, or they are parts of
+/// the cores that it searches.
+enum class Spheres { aroundCores, inCores };
+
 class Pair {
  public:
   Pair(const PosedSet& a, const PosedSet& b)
@@ -153,9 +157,9 @@ class Pair {
   }
 
   /// Returns the result for sets that touch: a common point, up to rounding.
-  /// @param ballsInCores true if the spheres were parts of the cores in the search.
+  /// @param spheres where they were in the search.
   template <class Real>
-  ConvexDistance contact(const gjk::Search<Real>& search, bool ballsInCores) const {
+  ConvexDistance contact(const gjk::Search<Real>& search, Spheres spheres) const {
     ConvexDistance result;
     if (search.simplex.count == 0) {
       result.p_WA = result.p_WB =
@@ -163,17 +167,17 @@ class Pair {
       return result;
     }
     const Points<Real> points = closest(search.simplex);
-    const double share = ballsInCores || radii_ == 0 ? 0.5 : a_.set().ball / radii_;
+    const double share = spheres == Spheres::inCores || radii_ == 0 ? 0.5 : a_.set().ball / radii_;
     result.p_WA = result.p_WB = rounded(points.a + points.w * Real(share), search.unit);
     return result;
   }
 
-  /// Returns the result for sets that are apart. @param ballsInCores as for `contact`.
+  /// Returns the result for sets that are apart. @param spheres as for `contact`.
   template <class Real>
-  ConvexDistance apart(const gjk::Search<Real>& search, bool ballsInCores) const {
+  ConvexDistance apart(const gjk::Search<Real>& search, Spheres spheres) const {
     Points<Real> p = closest(search.simplex);
     Real lower = search.gap * Real(1 / search.unit);
-    if (!ballsInCores && radii_ > 0) {
+    if (spheres == Spheres::aroundCores && radii_ > 0) {
       const Vector<Real> n = p.w * (Real(1) / gjk::length(p.w));
       const Real unitsPerMetre(1 / search.unit);
       if (a_.set().ball > 0) {
@@ -248,14 +252,14 @@ ConvexDistance convexDistance(const PosedSet& a, const PosedSet& b, double relat
     exact = touch.exact;
     if (touch) {
       if (met && balls && pair.met(quick)) {
-        ConvexDistance contact = pair.contact(quick, false);
+        ConvexDistance contact = pair.contact(quick, Spheres::aroundCores);
         contact.exact = exact;
         return contact;
       }
       gjk::Search<DoubleDouble> finer(a, b, pair.size(), !balls);
       const double near = pair.touchDistance() - (balls ? 0 : pair.radii());
       count(finer.run(quick.simplex, agreed(HUGE_VAL, near, 0x1p-50 * pair.size()), never));
-      ConvexDistance contact = pair.contact(finer, !balls);
+      ConvexDistance contact = pair.contact(finer, balls ? Spheres::aroundCores : Spheres::inCores);
       contact.exact = true;
       return contact;
     }
@@ -263,19 +267,19 @@ ConvexDistance convexDistance(const PosedSet& a, const PosedSet& b, double relat
 
   ConvexDistance result;
   if (!met) {
-    result = pair.apart(quick, false);
+    result = pair.apart(quick, Spheres::aroundCores);
     result.lower = gap;
     result.exact = exact;
     if (accurateEnough(result, pair.error())) return result;
   }
   gjk::Search<DoubleDouble> finer(a, b, pair.size());
   count(finer.run(quick.simplex, agreed(pair.radii(), -1, 0), never));
-  result = pair.apart(finer, false);
+  result = pair.apart(finer, Spheres::aroundCores);
   result.exact = true;
   if (accurateEnough(result, 0) || pair.radii() == 0) return result;
   gjk::Search<DoubleDouble> withBalls(a, b, pair.size(), true);
   count(withBalls.run(finer.simplex, agreed(0, -1, 0), never));
-  ConvexDistance other = pair.apart(withBalls, true);
+  ConvexDistance other = pair.apart(withBalls, Spheres::inCores);
   other.exact = true;
   return other.distance - other.lower < result.distance - result.lower ? other : result;
 }
@@ -288,12 +292,12 @@ ConvexDistance separatedDistance(const PosedSet& a, const PosedSet& b, const Con
   const auto never = [](const Vec3&, double, std::uint32_t, std::uint32_t) { return false; };
   gjk::Search<DoubleDouble> search(a, b, pair.size());
   search.run(gjk::startOf<DoubleDouble>(&from), done, never);
-  ConvexDistance result = pair.apart(search, false);
+  ConvexDistance result = pair.apart(search, Spheres::aroundCores);
   // If the maps are not rigid, the spheres must be parts of the cores (as in `convexDistance`).
   if (pair.radii() > 0 && !(a.keepsBall() && b.keepsBall())) {
     gjk::Search<DoubleDouble> withBalls(a, b, pair.size(), true);
     withBalls.run(search.simplex, done, never);
-    const ConvexDistance other = pair.apart(withBalls, true);
+    const ConvexDistance other = pair.apart(withBalls, Spheres::inCores);
     if (!(other.distance - other.lower >= result.distance - result.lower)) result = other;
   }
   result.lower = result.lower > 0 ? result.lower : 0;  // NaN if no gap was found
@@ -322,7 +326,8 @@ ConvexRange convexDistanceRange(const PosedSet& a, const PosedSet& b, double bey
   ConvexRange range{0, found.upper + pair.error()};
   if (lower > pair.band()) range.lower = lower;
   if (search.simplex.count > 0 && found.upper > pair.touchDistance())
-    range.upper = std::min(range.upper, pair.apart(search, false).distance + pair.error());
+    range.upper =
+        std::min(range.upper, pair.apart(search, Spheres::aroundCores).distance + pair.error());
   if (!(range.upper >= 0)) range.upper = HUGE_VAL;  // NaN after overflow: no upper bound
   return range;
 }

@@ -9,8 +9,8 @@ namespace corridor {
 
 /// The numbers of tests of a query, and the time that it took.
 struct QueryCost {
-  double boxTests = 0, triangleTests = 0;  ///< N_v, N_p
-  double ns = 0;                           ///< T, above 0
+  double boxTests = 0, primitiveTests = 0;  ///< N_v, N_p
+  double ns = 0;                            ///< T, above 0
 };
 
 /// Nanoseconds of one test within a query, including its share of the tree traversal.
@@ -21,7 +21,7 @@ struct CostModel {
   /// fitted sum may predict times well. A report shows a dash for an unknown cost.
   bool boxKnown = false, triangleKnown = false;
   double predicted(const QueryCost& c) const {
-    return c.boxTests * box + c.triangleTests * triangle;
+    return c.boxTests * box + c.primitiveTests * triangle;
   }
 };
 
@@ -54,9 +54,9 @@ inline CostModel fittedCosts(const std::vector<QueryCost>& queries, double call 
   for (const QueryCost& c : queries) {
     const double share = (c.ns - call) / c.ns;
     vv += c.boxTests * c.boxTests / c.ns;
-    vp += c.boxTests * c.triangleTests / c.ns;
-    pp += c.triangleTests * c.triangleTests / c.ns;
-    v += c.boxTests * share, p += c.triangleTests * share;
+    vp += c.boxTests * c.primitiveTests / c.ns;
+    pp += c.primitiveTests * c.primitiveTests / c.ns;
+    v += c.boxTests * share, p += c.primitiveTests * share;
   }
   const double det = vv * pp - vp * vp;
   if (det > 1e-12 * vv * pp) {  // well above the rounding of the sums

@@ -36,7 +36,8 @@ class FrontQuery {
         X_AB_(b.X_W),
         front_(front),
         counters_(context.counters),
-        stack_(context.scratch.of<NodePairs>()),
+        useOfStack_(context.scratch.use<NodePairs>()),
+        stack_(*useOfStack_),
         volumes_(pairTestOf<Volume>(Posed<Tree>(a), b)),
         triangles_({}, a.reach(), b.X_W, b.shape.reach()) {}
 
@@ -129,6 +130,7 @@ class FrontQuery {
   const Transform& X_AB_;
   Front& front_;
   Counters& counters_;
+  Scratch::Use<NodePairs> useOfStack_;
   NodePairs& stack_;
   PairTest<Volume> volumes_;
   TriangleDistances triangles_;

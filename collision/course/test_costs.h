@@ -86,7 +86,7 @@ RecordedTests recordedTests(const VolumeTree<Volume>& a, const VolumeTree<Volume
     const auto test = pairTestOf<Volume, Overlap>(posedA, posedB);
     TouchingPairs query(posedA, posedB, test, context.counters, first);
     internal::RecordingQuery recording(query, i, most, tests);
-    traverse(a, b, NodePair{0, 0}, context.scratch.of<NodePairs>(), recording);
+    traverse(a, b, NodePair{0, 0}, *context.scratch.use<NodePairs>(), recording);
   }
   return tests;
 }

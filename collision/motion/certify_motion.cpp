@@ -12,7 +12,7 @@
 
 #include "collision/convex/convex_distance.h"
 #include "collision/motion/broad_phase.h"
-#include "collision/motion/interval_test.h"
+#include "collision/motion/decide_interval.h"
 #include "collision/motion/motion_answer.h"
 #include "collision/motion/split_rules.h"
 
@@ -44,8 +44,9 @@ class Certifier {
       : source_(source),
         query_(query),
         motions_(source, bodyCountOf(query), query.context),
-        list_(query.context.scratch.of<MotionScratch>().list),
-        open_(query.context.scratch.of<MotionScratch>().open) {
+        use_(query.context.scratch.use<MotionScratch>()),
+        list_(use_->list),
+        open_(use_->open) {
     list_.begin(nearPairs());
     open_.clear();
   }
@@ -62,7 +63,7 @@ class Certifier {
  private:
   /// Returns the pairs that may come too close during the motion, in ascending order.
   std::span<const std::uint32_t> nearPairs() {
-    std::vector<std::uint32_t>& near = query_.context.scratch.of<MotionScratch>().near;
+    std::vector<std::uint32_t>& near = use_->near;
     if (query_.broadPhase && !query_.certificate) {
       motions_.select(0.5, 0.5);
       query_.broadPhase->find(motions_, query_.largestRequiredDistance(), near);
@@ -98,8 +99,8 @@ class Certifier {
           return contact(0, false);
         if (level > 0 || !far) {
           const std::size_t later = list_.groups.size();
-          const IntervalAnswer answer = testInterval(query_, w, motions_, list_);
-          if (answer.found.kind != Descent::Kind::done) return stopped(w, answer);
+          const IntervalAnswer answer = decideInterval(query_, w, motions_, list_);
+          if (answer.found.kind != Descent::Kind::done) return answerWhereUnproved(w, answer);
           if (list_.groups.size() == later) continue;
           w.begin = later, w.end = list_.groups.size();
         }
@@ -128,12 +129,13 @@ class Certifier {
       open_.pop_back();
       list_.cut(w.mark);
       const std::size_t later = list_.groups.size();
-      const IntervalAnswer answer = testInterval(query_, w, motions_, list_);
+      const IntervalAnswer answer = decideInterval(query_, w, motions_, list_);
       const bool touches = answer.found.kind == Descent::Kind::contact;
-      if (!touches && answer.found.kind != Descent::Kind::done) return stopped(w, answer);
+      if (!touches && answer.found.kind != Descent::Kind::done)
+        return answerWhereUnproved(w, answer);
       const double t = w.middle();
       if (touches) {
-        know(answer, t);
+        keepContact(answer, t);
         if (!query_.options.earliest || t - w.t0 <= query_.options.timeTolerance)
           return contact(w.t0, false);
         open_.clear();  // only the time before the contact matters now
@@ -196,8 +198,8 @@ class Certifier {
 
   bool outOfWork() const { return query_.context.counters.work() >= query_.workEnd; }
 
-  /// Remembers the contact that the test of an interval found at its middle.
-  void know(const IntervalAnswer& answer, double t) {
+  /// Keeps in `known_` the contact that the test of an interval found at its middle.
+  void keepContact(const IntervalAnswer& answer, double t) {
     const MotionPair& pair = query_.pairs[answer.bodies];
     known_ = {t, {pair.bodyA, pair.bodyB, answer.found.s, answer.found.t}};
   }
@@ -207,7 +209,7 @@ class Certifier {
     MotionResult result;
     result.verdict = MotionVerdict::contact;
     result.certifiedUntil = certifiedUntil;
-    result.contactTime = known_->time;
+    result.time = known_->time;
     result.pair = known_->pair;
     result.grazing = grazing;
     return result;
@@ -216,10 +218,10 @@ class Certifier {
   /// Returns the answer for an interval that could not be proved free; looks for a contact after
   /// the interval if none is known. If a contact is known at the end of the interval, or soon after
   /// its beginning, the answer is this contact, proved free until the interval's beginning.
-  MotionResult stopped(const Interval& w, const IntervalAnswer& answer) {
+  MotionResult answerWhereUnproved(const Interval& w, const IntervalAnswer& answer) {
     const auto& [found, bodies] = answer;
     if (found.kind == Descent::Kind::contact) {
-      know(answer, w.middle());
+      keepContact(answer, w.middle());
       return contact(0, false);
     }
     const bool clearance = found.kind == Descent::Kind::undecided;
@@ -232,7 +234,7 @@ class Certifier {
     result.verdict = MotionVerdict::undecided;
     result.reason = UndecidedReason::workLimit;
     result.certifiedUntil = w.t0;
-    result.contactTime = w.middle();
+    result.time = w.middle();
     if (clearance) {
       const MotionPair& pair = query_.pairs[bodies];
       motions_.select(w.middle(), w.half());
@@ -247,6 +249,7 @@ class Certifier {
   MotionSource& source_;
   const MotionQuery& query_;
   IntervalMotions motions_;
+  Scratch::Use<MotionScratch> use_;
   WorkList& list_;
   std::vector<Interval>& open_;
   std::optional<KnownContact> known_;  // the earliest contact found so far
@@ -265,14 +268,14 @@ Vec3 contactPoint(MotionSource& motion, std::span<const MotionPair> pairs,
     return body.isMesh() ? Triangle{mesh.corner(i, 0), mesh.corner(i, 1), mesh.corner(i, 2)}
                          : Triangle();
   };
-  const Triangle a = cornersOf(*pair->a, contact.triangleA),
-                 b = cornersOf(*pair->b, contact.triangleB);
+  const Triangle a = cornersOf(*pair->a, contact.primitiveA),
+                 b = cornersOf(*pair->b, contact.primitiveB);
   const auto setOf = [](const Body& body, std::size_t i, const Triangle& corners) {
     return body.isMesh() ? ConvexSet(corners) : ConvexSet(body.parts()[i]);
   };
-  const Transform X_AB = motion.relativeMotion(pair->motion, result.contactTime, 0).X_AB;
-  const ConvexDistance found = convexDistance({setOf(*pair->a, contact.triangleA, a), {}},
-                                              {setOf(*pair->b, contact.triangleB, b), X_AB});
+  const Transform X_AB = motion.relativeMotion(pair->motion, result.time, 0).X_AB;
+  const ConvexDistance found = convexDistance({setOf(*pair->a, contact.primitiveA, a), {}},
+                                              {setOf(*pair->b, contact.primitiveB, b), X_AB});
   counters.addTest(found.exact);
   return found.p_WA;
 }

@@ -153,7 +153,8 @@ Descent descend(std::span<const NodePair4> start, const VolumeTree<Volume>& a,
                 const DescentOptions& options, std::vector<NodePair4>& later,
                 QueryContext& context) {
   MovingVolumes<Volume, Overlap> query(a, b, relative, options, later, context.counters);
-  auto& stack = context.scratch.of<NodePairs>();
+  const auto use = context.scratch.use<NodePairs>();
+  NodePairs& stack = *use;
   fillStack(start, stack);
   traverseFrom(a, b, stack, query);
   if (query.result().kind == Descent::Kind::contact) {

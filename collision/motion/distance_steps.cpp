@@ -100,7 +100,7 @@ MotionResult DistanceSteps::contact(std::uint32_t pair, double t0, double t1,
   MotionResult result;
   result.verdict = MotionVerdict::contact;
   result.certifiedUntil = t0;
-  result.contactTime = t1;
+  result.time = t1;
   result.pair = Contact{pairs_[pair].bodyA, pairs_[pair].bodyB, seen.s, seen.t};
   return result;
 }
@@ -110,7 +110,7 @@ MotionResult DistanceSteps::workLimit(double t0) const {
   result.verdict = MotionVerdict::undecided;
   result.reason = UndecidedReason::workLimit;
   result.certifiedUntil = t0;
-  result.contactTime = t0;
+  result.time = t0;
   return result;
 }
 
@@ -135,7 +135,7 @@ MotionResult DistanceSteps::answerWhereStuck(std::uint32_t pair, double t0, doub
   result.reason = reasonOf(motion_.relativeMotion(pairs_[pair].motion, time, 0), *pairs_[pair].b,
                            seen.gap, options_.tolerance);
   result.certifiedUntil = t0;
-  result.contactTime = time;
+  result.time = time;
   result.pair = Contact{pairs_[pair].bodyA, pairs_[pair].bodyB, seen.s, seen.t};
   result.gap = seen.gap;
   return result;

@@ -9,7 +9,13 @@
 namespace corridor {
 
 const std::vector<std::string>& edgeMethodNames() {
-  static const std::vector<std::string> names{"certified", "adaptive", "advancement"};
+  static const std::vector<std::string> names{"certified", "adaptive", "advancement", "discrete"};
+  return names;
+}
+
+std::vector<std::string> provingMethodNames() {
+  std::vector<std::string> names = edgeMethodNames();
+  names.pop_back();
   return names;
 }
 
@@ -33,6 +39,7 @@ MotionResult certifyMotionUncounted(EdgeMethod method, MotionSource& motion,
                                     QueryContext& context) {
   switch (method) {
     case EdgeMethod::directional:
+    case EdgeMethod::discrete:
       break;
     case EdgeMethod::adaptive:
       return certifyAdaptively(motion, pairs, options, context);

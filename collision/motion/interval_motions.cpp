@@ -7,7 +7,10 @@
 namespace corridor {
 
 IntervalMotions::IntervalMotions(MotionSource& source, std::size_t bodies, QueryContext& context)
-    : source_(source), spheres_(context.scratch.of<SweptSpheres>()), counters_(context.counters) {
+    : source_(source),
+      use_(context.scratch.use<SweptSpheres>()),
+      spheres_(*use_),
+      counters_(context.counters) {
   spheres_.makeRoom(bodies);
 }
 

@@ -48,6 +48,7 @@ class IntervalMotions {
   }
 
   MotionSource& source_;
+  Scratch::Use<SweptSpheres> use_;
   SweptSpheres& spheres_;
   Counters& counters_;
   double t_ = -1, h_ = 0;                  // the selected interval

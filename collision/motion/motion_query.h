@@ -20,7 +20,7 @@ struct RelativeMotion;
 /// be decided. For a body of convex parts, the number is that of a part.
 struct Contact {
   std::size_t bodyA = 0, bodyB = 0;
-  std::uint32_t triangleA = 0, triangleB = 0;
+  std::uint32_t primitiveA = 0, primitiveB = 0;
 };
 
 enum class MotionVerdict { free, contact, undecided };
@@ -39,7 +39,7 @@ enum class UndecidedReason {
 };
 
 /// The answer of a motion query (collision/PROMISES.md, promise 2). `free` is never wrong.
-/// `contact` is decided at the rounded pose at `contactTime`, for meshes exactly. `undecided` has a
+/// `contact` is decided at the rounded pose at `time`, for meshes exactly. `undecided` has a
 /// reason.
 struct MotionResult {
   MotionVerdict verdict = MotionVerdict::free;
@@ -49,13 +49,13 @@ struct MotionResult {
   double certifiedUntil = 1;
   /// `contact`: the time of the contact. `undecided`: a time in the interval that could not be
   /// decided (its middle, if the method is the default). −1 if there is no such time.
-  double contactTime = -1;
-  /// True only for `contact`. Then, on all of [certifiedUntil, contactTime], the clearance is below
+  double time = -1;
+  /// True only for `contact`. Then, on all of [certifiedUntil, time], the clearance is below
   /// the sum of twice the tolerance, the rounding and the tube. Always false without `earliest`.
   bool grazing = false;
   /// The pair in contact; `undecided`: the pair that could not be decided, if it is known.
   std::optional<Contact> pair;
-  /// `undecided` with a `pair`: the distance of this pair at `contactTime`, beyond the margin,
+  /// `undecided` with a `pair`: the distance of this pair at `time`, beyond the margin,
   /// metres; 0 if it was not measured.
   double gap = 0;
 };
@@ -93,7 +93,7 @@ struct MotionOptions {
   /// with less clearance is never `free`.
   double clearanceSlack = 0;
   bool earliest = false;  ///< find `certifiedUntil` too, not just the verdict
-  /// With `earliest`: the largest width of the bracket [certifiedUntil, contactTime], as a fraction
+  /// With `earliest`: the largest width of the bracket [certifiedUntil, time], as a fraction
   /// of the motion. Choose it so that, during this fraction of the motion, the bodies approach each
   /// other by more than a few tolerances. Otherwise the beginning of the bracket is too close to
   /// the contact to be proved free. A contact that would not graze with a larger `timeTolerance` is
@@ -187,7 +187,7 @@ struct MotionCertificate {
   /// further intervals. Its order is unspecified.
   std::vector<FreeInterval> free;
   /// `contact`: a point of body a where the two bodies touch (with a margin: where they are
-  /// closest), in a's frame at `contactTime`, metres. The point is off by the rounding of its
+  /// closest), in a's frame at `time`, metres. The point is off by the rounding of its
   /// coordinates.
   std::optional<Vec3> point_A;
 };

@@ -21,7 +21,7 @@ std::vector<TriangleContact> contacts(const Posed<VolumeTree<Volume>>& a,
     return false;
   };
   TouchingPairs query(a, b, test, context.counters, add);
-  traverse(a.shape, b.shape, NodePair{0, 0}, context.scratch.of<NodePairs>(), query);
+  traverse(a.shape, b.shape, NodePair{0, 0}, *context.scratch.use<NodePairs>(), query);
   return all;
 }
 

@@ -72,7 +72,8 @@ std::optional<int> crossings(const MeshWithComponents& solid, std::uint32_t k,
                      roundedUp(box.center.norm()), {});
   const MappedPoint end{X_WS, end_S};
   int count = 0;
-  auto& stack = context.scratch.of<RayStack>().nodes;
+  const auto use = context.scratch.use<RayStack>();
+  auto& stack = use->nodes;
   stack.assign(1, 0);
   while (!stack.empty()) {
     const std::uint32_t i = stack.back();
@@ -87,7 +88,7 @@ std::optional<int> crossings(const MeshWithComponents& solid, std::uint32_t k,
     }
     for (std::uint32_t t = node.first; t < node.first + node.count; ++t) {
       if (solid.components.of[tree.meshTriangle(t)] != k) continue;
-      ++context.counters.triangleTests;
+      ++context.counters.primitiveTests;
       const Crossing found = crossing(q, end, tree.triangles()[t], X_WS);
       if (found == Crossing::degenerate) return std::nullopt;
       count += found == Crossing::one;

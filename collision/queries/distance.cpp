@@ -74,7 +74,7 @@ class Nearest {
   bool leaves(const Node& na, const Node& nb) {
     for (std::uint32_t s = na.first; s < na.first + na.count; ++s)
       for (std::uint32_t t = nb.first; t < nb.first + nb.count; ++t) {
-        ++counters_.triangleTests;
+        ++counters_.primitiveTests;
         if (nearest_.testPair(s, Items::item(a_, s), t, Items::item(b_, t), counters_)) return true;
       }
     return false;
@@ -116,7 +116,7 @@ class Closer {
   bool leaves(const Node& na, const Node& nb) {
     for (std::uint32_t s = na.first; s < na.first + na.count && !found; ++s)
       for (std::uint32_t t = nb.first; t < nb.first + nb.count && !found; ++t) {
-        ++counters_.triangleTests;
+        ++counters_.primitiveTests;
         found = closer_(Items::item(a_, s), Items::item(b_, t), counters_);
       }
     return found;
@@ -139,7 +139,7 @@ template <class Items, class Volume>
 Distance nearest(const Posed<VolumeTree<Volume>>& a, const Posed<VolumeTree<Volume>>& b,
                  const DistanceOptions& options, QueryContext& context) {
   const auto search = [&](Nearest<Volume, Items>& query) {
-    traverse(a.shape, b.shape, BoundedPair{0, 0, 0}, context.scratch.of<BoundedPairs>(), query);
+    traverse(a.shape, b.shape, BoundedPair{0, 0, 0}, *context.scratch.use<BoundedPairs>(), query);
   };
   Nearest<Volume, Items> query(a, b, options, context);
   search(query);
@@ -157,7 +157,7 @@ template <class Items, class Volume>
 bool closer(const Posed<VolumeTree<Volume>>& a, const Posed<VolumeTree<Volume>>& b, double d,
             QueryContext& context) {
   Closer<Volume, Items> query(a, b, d, context);
-  traverse(a.shape, b.shape, NodePair{0, 0}, context.scratch.of<NodePairs>(), query);
+  traverse(a.shape, b.shape, NodePair{0, 0}, *context.scratch.use<NodePairs>(), query);
   return query.found;
 }
 

@@ -37,7 +37,8 @@ class Nearest : public BoxesWithin<true> {
       : BoxesWithin(a, b, pose, options.upTo, context.counters),
         options_(options),
         leaves_(a_, b_, pose, counters_),
-        candidates_(context.scratch.of<Candidates>().pairs),
+        useOfCandidates_(context.scratch.use<Candidates>()),
+        candidates_(useOfCandidates_->pairs),
         nearest_(a.X_W, a_.reach(), b.X_W, b_.reach(), options, context) {
     candidates_.clear();
   }
@@ -124,6 +125,7 @@ class Nearest : public BoxesWithin<true> {
   const DistanceOptions& options_;
   Obb4Leaves leaves_;
   /// Pairs of triangles, numbered in leaf order, with lower bounds of their distances in a's unit.
+  Scratch::Use<Candidates> useOfCandidates_;
   std::vector<BoundedPair>& candidates_;
   NearestTriangles nearest_;
   float least_ = HUGE_VALF;  // least upper bound so far, in a's unit
@@ -137,9 +139,9 @@ Distance obb4Distance(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b, const 
   if (last && last->isIn(treeA.triangleCount(), treeB.triangleCount())) {
     const TriangleDistances bounds(a.X_W, treeA.reach(), b.X_W, treeB.reach());
     query.start(last->a, last->b, bounds(treeA.triangle(last->a), treeB.triangle(last->b)).upper);
-    ++context.counters.triangleTests;
+    ++context.counters.primitiveTests;
   }
-  walkObb4(treeA, treeB, pose.floats.scale, kWholeTrees, context.scratch.of<Obb4Stack>(),
+  walkObb4(treeA, treeB, pose.floats.scale, kWholeTrees, *context.scratch.use<Obb4Stack>(),
            context.counters, query);
   if (const auto closest = query.closest(); closest && last)
     last->recordFound(closest->a, closest->b);
@@ -184,7 +186,7 @@ std::optional<PrimitivePair> obb4CloserThan(const Posed<Obb4Tree>& a, const Pose
                                             const Obb4TreePose& pose, double d,
                                             QueryContext& context) {
   Closer query(a, b, pose, d, context.counters);
-  walkObb4(a.shape, b.shape, pose.floats.scale, kWholeTrees, context.scratch.of<Obb4Stack>(),
+  walkObb4(a.shape, b.shape, pose.floats.scale, kWholeTrees, *context.scratch.use<Obb4Stack>(),
            context.counters, query);
   return query.found();
 }

@@ -46,7 +46,7 @@ class NearestWithParts : public BoxesWithin<true> {
 
  private:
   bool testPair(std::uint32_t s, std::uint32_t t) {
-    ++counters_.triangleTests;
+    ++counters_.primitiveTests;
     const Obb4LeafSet setA(a_, s), setB(b_, t);
     if (nearest_.testPair(s, setA.set(), t, setB.set(), counters_)) return true;
     reduceLimit(nearest_.upper(), options_);
@@ -61,7 +61,7 @@ Distance distanceOfParts(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b,
                          const Obb4TreePose& pose, const DistanceOptions& options,
                          QueryContext& context) {
   const auto search = [&](NearestWithParts& query) {
-    walkObb4(a.shape, b.shape, pose.floats.scale, kWholeTrees, context.scratch.of<Obb4Stack>(),
+    walkObb4(a.shape, b.shape, pose.floats.scale, kWholeTrees, *context.scratch.use<Obb4Stack>(),
              context.counters, query);
   };
   NearestWithParts query(a, b, pose, options, context);
@@ -86,7 +86,7 @@ class CloserWithParts : public BoxesWithin<false> {
               const float*) {
     found_ =
         forEachLeafPrimitivePair(na, nb, pairs, [&](unsigned, std::uint32_t s, std::uint32_t t) {
-          ++counters_.triangleTests;
+          ++counters_.primitiveTests;
           const Obb4LeafSet setA(a_, s), setB(b_, t);
           return closer_(setA.set(), setB.set(), counters_);
         });
@@ -103,7 +103,7 @@ class CloserWithParts : public BoxesWithin<false> {
 bool partsCloserThan(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b, const Obb4TreePose& pose,
                      double d, QueryContext& context) {
   CloserWithParts query(a, b, pose, d, context.counters);
-  walkObb4(a.shape, b.shape, pose.floats.scale, kWholeTrees, context.scratch.of<Obb4Stack>(),
+  walkObb4(a.shape, b.shape, pose.floats.scale, kWholeTrees, *context.scratch.use<Obb4Stack>(),
            context.counters, query);
   return query.found();
 }

@@ -35,7 +35,8 @@ std::optional<PrimitivePair> firstContact(std::span<const NodePair4> start, cons
     last->recordTest(found.has_value());
   }
   if (!found) {
-    auto& stack = context.scratch.of<NodePairs>();
+    const auto use = context.scratch.use<NodePairs>();
+    NodePairs& stack = *use;
     fillStack(start, stack);
     traverseFrom(a.shape, b.shape, stack, query);
     if (found && last) last->recordFound(found->a, found->b);

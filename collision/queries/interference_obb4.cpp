@@ -88,7 +88,7 @@ std::optional<PrimitivePair> firstTouching(std::span<const NodePair4> start,
     return true;
   };
   Touching query(a, b, pose, context.counters, found, workEnd);
-  walkObb4(a.shape, b.shape, pose.floats.scale, start, context.scratch.of<Obb4Stack>(),
+  walkObb4(a.shape, b.shape, pose.floats.scale, start, *context.scratch.use<Obb4Stack>(),
            context.counters, query);
   return hit;
 }
@@ -101,7 +101,7 @@ std::vector<PrimitivePair> allTouching(const Posed<Obb4Tree>& a, const Posed<Obb
     return false;
   };
   Touching query(a, b, pose, context.counters, found, kNoWorkLimit);
-  walkObb4(a.shape, b.shape, pose.floats.scale, kWholeTrees, context.scratch.of<Obb4Stack>(),
+  walkObb4(a.shape, b.shape, pose.floats.scale, kWholeTrees, *context.scratch.use<Obb4Stack>(),
            context.counters, query);
   return all;
 }

@@ -28,7 +28,8 @@ class NearestPairs {
   NearestPairs(const DistanceOptions& options, QueryContext& context)
       : options_(options),
         relative_(options.relative + kTieShare),
-        candidates_(context.scratch.of<Candidates>().pairs),
+        useOfCandidates_(context.scratch.use<Candidates>()),
+        candidates_(useOfCandidates_->pairs),
         // If the distance is `upTo`, the options allow a slightly larger answer. A pair with this
         // larger distance must still pass `canImprove`, which applies `allowedFor` again.
         upper_((allowedFor(allowedFor(options.upTo))) * (1 + 0x1p-48)) {
@@ -102,6 +103,7 @@ class NearestPairs {
 
   const DistanceOptions& options_;
   double relative_;
+  Scratch::Use<Candidates> useOfCandidates_;
   std::vector<BoundedPair>& candidates_;
   double upper_;
   bool contact_ = false;

@@ -146,7 +146,7 @@ class Obb4Leaves {
                           &b = leavesB_->get(pairs.b(), pairs.lanesB());
     for (unsigned first = 0; first < pairs.count(); first += 16) {
       const unsigned count = std::min(pairs.count() - first, 16U);
-      counters_.triangleTests += count;
+      counters_.primitiveTests += count;
       const unsigned open =
           touchingTriangles(a, b, pairs.from(first), pose_.leafError, pad()) & ((1U << count) - 1);
       if (open && near(a, b, first, open)) return true;

@@ -128,7 +128,7 @@ std::vector<PrimitivePair> selfIntersections(const TriangleMesh& mesh, QueryCont
   const std::vector<TriangleQuality> qualities = triangleQualities(mesh);
   const VolumeTree<Aabb> tree(mesh);
   SelfPairs query(tree, qualities, context.counters);
-  traverse(tree, tree, NodePair{0, 0}, context.scratch.of<NodePairs>(), query);
+  traverse(tree, tree, NodePair{0, 0}, *context.scratch.use<NodePairs>(), query);
   std::vector<PrimitivePair> found = std::move(query).found();
   std::sort(found.begin(), found.end(), [](const PrimitivePair& x, const PrimitivePair& y) {
     return x.a != y.a ? x.a < y.a : x.b < y.b;

@@ -36,7 +36,7 @@ Deepest deepestPair(const Posed<Body>& a, const Posed<Body>& b, QueryContext& co
     return false;
   };
   TouchingPairs query(posedA, posedB, test, context.counters, found);
-  traverse(treeA, treeB, NodePair{0, 0}, context.scratch.of<NodePairs>(), query);
+  traverse(treeA, treeB, NodePair{0, 0}, *context.scratch.use<NodePairs>(), query);
   return deepest;
 }
 

@@ -192,7 +192,8 @@ void Scene::forNearPairs(std::span<const Transform> X_WF, const double& within,
   for (const std::size_t frame : posedFrames_)
     if (frame >= X_WF.size() || !X_WF[frame].isFinite())
       throw std::invalid_argument("every frame must have a finite pose");
-  auto& spheres = context.scratch.of<SweptSpheres>();
+  const auto use = context.scratch.use<SweptSpheres>();
+  SweptSpheres& spheres = *use;
   spheres.makeRoom(bodies_.size());
   spheres.forget();
   const auto worldSphere = [&](std::size_t body) -> const SweptSphere& {
@@ -318,7 +319,8 @@ MotionResult Scene::certifyPairs(MotionSource& motion, const MotionOptions& opti
   if (!solidMeshes_ || provesNothingFree(result)) return result;
   IntervalMotions motions(motion, broadPhase_->bodies(), context);
   motions.select(0, 0);
-  std::vector<std::uint32_t>& near = context.scratch.of<NearPairs>().pairs;
+  const auto use = context.scratch.use<NearPairs>();
+  std::vector<std::uint32_t>& near = use->pairs;
   broadPhase_->find(motions, 0, near);
   return withContainment(result, near, motion, context, certificate);
 }
@@ -346,7 +348,7 @@ MotionResult Scene::withContainment(MotionResult result, std::span<const std::ui
     result.certifiedUntil = 0;
     if (hit) {
       result.verdict = MotionVerdict::contact;
-      result.contactTime = 0;
+      result.time = 0;
       result.pair = Contact{pair.bodyA, pair.bodyB, hit->a, hit->b};
     } else {
       result.verdict = MotionVerdict::undecided;
@@ -379,7 +381,8 @@ std::vector<MotionResult> Scene::certifyEachPair(MotionSource& motion, const Mot
   std::vector<MotionResult> results;
   results.resize(pairs_.size());
   MotionResult counted;  // counts as one query, which is undecided if any pair is
-  std::vector<std::uint32_t>& near = context.scratch.of<NearPairs>().pairs;
+  const auto use = context.scratch.use<NearPairs>();
+  std::vector<std::uint32_t>& near = use->pairs;
   const bool isCurve = standardFloatingPoint() && !motion.ambiguous();
   if (isCurve) {  // pairs that `find` leaves out are free
     IntervalMotions motions(motion, broadPhase_->bodies(), context);

@@ -32,9 +32,9 @@
 #include "planner/benchmark/run_campaign.h"
 #include "planner/benchmark/run_record.h"
 #include "planner/benchmark/write_reports.h"
+#include "planner/import/set_range.h"
 #include "planner/problem/keys.h"
 #include "planner/problem/nothing_tested.h"
-#include "planner/problem/set_range.h"
 #include "planner/solve/planner_factory.h"
 
 namespace corridor::app {

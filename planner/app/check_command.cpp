@@ -17,7 +17,7 @@
 #include "planner/checker/left_out.h"
 #include "planner/checker/problem_goal.h"
 #include "planner/checker/still_pairs.h"
-#include "planner/problem/bounds.h"
+#include "planner/problem/bounds_of_ends.h"
 #include "planner/problem/state_yaml.h"
 #include "planner/solve/csv_text.h"
 #include "planner/solve/solve.h"
@@ -201,13 +201,13 @@ CheckedEdge checkEdge(const Checker& checker, EdgeRow row, std::vector<Note>& no
   // A contact at the beginning of the edge is reported as a contact of its first state.
   MotionResult result = checker.certifyState(row.from);
   if (result.verdict == MotionVerdict::contact)
-    result.contactTime = result.certifiedUntil = 0;
+    result.time = result.certifiedUntil = 0;
   else
-    result = checker.certifyEdge(row.from, row.to, true);
+    result = checker.certifyEdge(row.from, row.to, {.earliest = true});
   edge.verdict = nameOf(result.verdict);
   edge.reason = reasonName(result.reason);
   edge.t0 = result.certifiedUntil;
-  if (result.contactTime >= 0) edge.t1 = result.contactTime;
+  if (result.time >= 0) edge.t1 = result.time;
   if (result.pair) {
     // The two bodies are named in the order of the model's bodies, as for states.
     const auto [a, b] =

@@ -244,12 +244,12 @@ class ProblemReport {
                                                 {"b", b},
                                                 {"share", pair.share},
                                                 {"box_tests", pair.boxTests},
-                                                {"triangle_tests", pair.triangleTests}});
+                                                {"triangle_tests", pair.primitiveTests}});
       if (i < kShown)
         out_.line("time goes to",
                   a + "~" + b + ": " + std::to_string(std::lround(100 * pair.share)) + " %, " +
                       grouped(pair.boxTests / costs.edges) + " box and " +
-                      grouped(pair.triangleTests / costs.edges) + " triangle tests per edge");
+                      grouped(pair.primitiveTests / costs.edges) + " triangle tests per edge");
     }
   }
 

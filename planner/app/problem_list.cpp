@@ -9,8 +9,8 @@
 
 #include "collision/core/error.h"
 #include "collision/core/fault_list.h"
-#include "planner/problem/mbm_json.h"
-#include "planner/problem/set_range.h"
+#include "planner/import/mbm_json.h"
+#include "planner/import/set_range.h"
 
 namespace corridor::app {
 namespace {

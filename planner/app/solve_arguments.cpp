@@ -42,12 +42,12 @@ std::map<std::string, std::string> applyArguments(const SolveArguments& a, Probl
   if (a.time) problem.settings.planner.time = *a.time;
   if (a.stop) problem.settings.planner.stopAtFirst = *a.stop == "first";
   if (a.seed) problem.settings.seed = *a.seed;
-  if (a.edges) problem.settings.checker.edges = choiceNamed<EdgeCheck>(*a.edges).value();
+  if (a.edges) problem.settings.checker.edges = choiceNamed<EdgeMethod>(*a.edges).value();
   if (const auto wrong = invalidNameIn(problem.settings.checker))
     throw InputError(
         Fault{"--edges", 0, "the problem's checker." + wrong->key + ": " + wrong->text});
   if (a.resolution) {
-    if (problem.settings.checker.edges != EdgeCheck::discrete)
+    if (problem.settings.checker.edges != EdgeMethod::discrete)
       throw InputError(
           Fault{"--resolution", 0,
                 "needs --edges discrete, and edges are " + wordOf(problem.settings.checker.edges)});

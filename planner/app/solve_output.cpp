@@ -126,7 +126,7 @@ void print(const Solved& result, const std::string& problem, const SolveArgument
   out.line("edges checked", grouped(r.counters.edges));
   out.line("undecided", grouped(r.counters.undecided));
   out.line("box tests N_v", grouped(r.counters.boxTests));
-  out.line("triangle tests N_p", grouped(r.counters.triangleTests));
+  out.line("triangle tests N_p", grouped(r.counters.primitiveTests));
   if (!solved) return;
   out.line("path length", lengthText(p.model.space, r.length.metres, r.length.radians));
   out.line("path states", grouped(r.path.size()));
@@ -166,7 +166,7 @@ ordered_json jsonOf(const Solved& result, const std::string& problem) {
                     {"edges_checked", r.counters.edges},
                     {"undecided", r.counters.undecided},
                     {"box_tests", r.counters.boxTests},
-                    {"triangle_tests", r.counters.triangleTests},
+                    {"triangle_tests", r.counters.primitiveTests},
                     {"checker", r.checker},
                     {"certified", r.certified},
                     {"left_out", leftOutJson(p.model, r.leftOut)},

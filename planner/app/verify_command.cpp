@@ -96,8 +96,8 @@ std::string text(const PathFinding& f, const VerifyReport& report, const Problem
   std::string line = std::string(nameOf(f.verdict)) + ": " +
                      (f.inEveryState ? "in every state" : whenText(f, report)) + ": " + f.reason;
   if (!f.a.empty()) {
-    line +=
-        ": " + sideText(f.a, f.triangleA, problem) + " and " + sideText(f.b, f.triangleB, problem);
+    line += ": " + sideText(f.a, f.primitiveA, problem) + " and " +
+            sideText(f.b, f.primitiveB, problem);
     if (f.gap > 0 && f.gap < f.required) {
       const auto [gap, required] = orderedTexts(f.gap, f.required);
       line += ", " + gap + " m apart, and more than " + required + " m is needed";
@@ -124,9 +124,9 @@ ordered_json jsonOf(const PathFinding& f, const VerifyReport& report) {
           {"free_until_s", seconds(f.freeUntil)},
           {"state", numbersJson(f.configuration)},
           {"a", f.a},
-          {"triangle_a", f.triangleA},
+          {"triangle_a", f.primitiveA},
           {"b", f.b},
-          {"triangle_b", f.triangleB},
+          {"triangle_b", f.primitiveB},
           {"point", numbersJson(f.point)},
           {"gap_m", f.gap},
           {"required_m", f.required}};

@@ -10,7 +10,7 @@
 #include "planner/benchmark/run_record.h"
 #include "planner/jobs/child_process.h"
 #include "planner/problem/yaml_reader.h"
-#include "planner/solve/solve_steps.h"
+#include "planner/solve/solve_run.h"
 #include "planner/solve/verify_solution.h"
 
 namespace corridor {
@@ -29,7 +29,7 @@ constexpr double kPatience = 60;
 /// replace the planner's path before this code could read it.
 class WholeSolve final : public ob::Planner {
  public:
-  WholeSolve(Solve& solve, const CheckingTally& checking, BenchmarkRun& run)
+  WholeSolve(SolveRun& solve, const CheckingTally& checking, BenchmarkRun& run)
       : Planner(solve.spaceInformation(), solve.planner()->getName()),
         solve_(solve),
         checking_(checking),
@@ -62,7 +62,7 @@ class WholeSolve final : public ob::Planner {
   bool begun() const { return begun_; }
 
  private:
-  Solve& solve_;
+  SolveRun& solve_;
   const CheckingTally& checking_;
   BenchmarkRun& run_;
   bool begun_ = false;
@@ -73,7 +73,7 @@ class WholeSolve final : public ob::Planner {
 /// tests, and change the planner's random numbers.
 class PlainSetup final : public og::SimpleSetup {
  public:
-  PlainSetup(const Solve& solve, const Problem& problem, std::string digest)
+  PlainSetup(const SolveRun& solve, const Problem& problem, std::string digest)
       : SimpleSetup(solve.spaceInformation()),
         problem_(problem),
         digest_(std::move(digest)),
@@ -139,7 +139,7 @@ OmplRecord omplRecordOf(const ompl::tools::Benchmark::CompleteExperiment& experi
 void checkRun(const Problem& planned, const std::map<std::string, std::string>& valueOrigins) {
   SolveOptions options;
   options.valueOrigins = valueOrigins;
-  Solve solve(planned, options);
+  SolveRun solve(planned, options);
   solve.setUp();
   solve.setUpEnds();
 }
@@ -156,7 +156,7 @@ BenchmarkRun runUnderOmpl(const Problem& planned, const std::string& digest,
     tallyChecks(si, checking);
   };
   options.adaptedTestsAreProofs = !competitor;
-  Solve solve(planned, options);
+  SolveRun solve(planned, options);
   solve.setUp();
   solve.setUpEnds();
   solve.clock().pause();
@@ -207,7 +207,7 @@ void runTrajectories(const Problem& problem, const RunTrajectories& trajectories
   Problem limited = problem;
   const Checker checker(limited);
   for (std::size_t k = 0; k + 1 < path.size(); ++k)
-    checker.certifyEdge(path[k], path[k + 1], false);  // builds the trees
+    checker.certifyEdge(path[k], path[k + 1]);  // builds the trees
   for (const JointLimits& limits : trajectories.limits) {
     limited.task.limits = limits;
     const double optimum = optimumAlong(limited, path);

@@ -74,7 +74,7 @@ ordered_json jsonOf(const CheckerSettings& checker) {
 }
 CheckerSettings checkerIn(const ordered_json& json) {
   CheckerSettings checker;
-  checker.edges = choiceIn<EdgeCheck>(json.at("edges"));
+  checker.edges = choiceIn<EdgeMethod>(json.at("edges"));
   checker.resolution = json.at("resolution");
   const ordered_json& trees = json.at("trees");
   checker.trees = {trees.at(0), trees.at(1), trees.at(2), trees.at(3)};

@@ -7,10 +7,10 @@
 #include "collision/core/read_file.h"
 #include "collision/core/spelling.h"
 #include "planner/benchmark/competitors.h"
+#include "planner/import/set_range.h"
 #include "planner/problem/checker_yaml.h"
 #include "planner/problem/format_key.h"
 #include "planner/problem/keys.h"
-#include "planner/problem/set_range.h"
 #include "planner/solve/planner_factory.h"
 
 namespace corridor {
@@ -272,7 +272,7 @@ class CampaignReader {
                             "; there are: " + joined(competitorNames()));
       return false;
     }
-    if (checker.edges != EdgeCheck::discrete) {
+    if (checker.edges != EdgeMethod::discrete) {
       map.fault("peer", name + " tests states only; set edges: discrete");
       return false;
     }

@@ -67,8 +67,8 @@ std::size_t referenceVariant(const std::vector<CampaignCell>& cells) {
 
 std::optional<QueryCost> checkingCost(const BenchmarkRun& run) {
   const QueryCost cost{static_cast<double>(run.counters.boxTests),
-                       static_cast<double>(run.counters.triangleTests), 1e9 * run.checkingTime};
-  if (!(cost.ns > 0) || cost.boxTests + cost.triangleTests == 0) return std::nullopt;
+                       static_cast<double>(run.counters.primitiveTests), 1e9 * run.checkingTime};
+  if (!(cost.ns > 0) || cost.boxTests + cost.primitiveTests == 0) return std::nullopt;
   return cost;
 }
 

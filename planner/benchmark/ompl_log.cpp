@@ -138,7 +138,7 @@ std::map<std::string, std::string> omplParameters(const Campaign& campaign,
   variant.apply(checker);
   std::map<std::string, std::string> parameters;
   parameters["edges TEXT"] = variant.competitor ? variant.competitor->name : wordOf(checker.edges);
-  if (checker.edges == EdgeCheck::discrete)
+  if (checker.edges == EdgeMethod::discrete)
     parameters["resolution REAL"] = shortest(checker.resolution);
   else if (checker.tolerance)
     parameters["tolerance REAL"] = shortest(*checker.tolerance);

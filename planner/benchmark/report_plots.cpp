@@ -141,7 +141,7 @@ struct CostGrid {
       points.back().text = campaign.problemNames[p.cell.problem] + ", " + p.cell.planner.label +
                            ", seed " + std::to_string(p.run.seed) + "\n" + name + "\nN_v " +
                            digits(static_cast<double>(p.run.counters.boxTests)) + ", N_p " +
-                           digits(static_cast<double>(p.run.counters.triangleTests));
+                           digits(static_cast<double>(p.run.counters.primitiveTests));
     });
     endSeries();
   }

@@ -83,7 +83,7 @@ std::vector<std::string> cellRow(const Campaign& campaign, const CampaignCell& c
     states.push_back(static_cast<double>(run.states));
     edges.push_back(static_cast<double>(run.edges));
     boxes.push_back(static_cast<double>(run.counters.boxTests));
-    triangles.push_back(static_cast<double>(run.counters.triangleTests));
+    triangles.push_back(static_cast<double>(run.counters.primitiveTests));
     // Metres, or radians if the path has no length in metres.
     const bool metres = run.rawLength.metres > 0;
     raw.push_back(metres ? run.rawLength.metres : run.rawLength.radians);

@@ -95,7 +95,7 @@ Row runRow(const Campaign& campaign, const CampaignCell& cell, const BenchmarkRu
   const bool counts = !campaign.variants[cell.variant].competitor;
   count("edges_undecided", counts ? RowValue{run.counters.undecided} : RowValue{});
   count("box_tests", counts ? RowValue{run.counters.boxTests} : RowValue{});
-  count("triangle_tests", counts ? RowValue{run.counters.triangleTests} : RowValue{});
+  count("triangle_tests", counts ? RowValue{run.counters.primitiveTests} : RowValue{});
   ofPath("proven_clearance_m", lengthOrNothing(run.provenClearance));
   ofPath("least_distance_m", lengthOrNothing(run.leastDistance));
   ofPath("raw_states", std::uint64_t{run.rawStates});
@@ -159,7 +159,7 @@ Row pathSummaryRow(const Campaign& campaign, const CampaignCell& cell) {
   median("box_tests",
          [&](const Run& r) { return counts ? static_cast<double>(r.counters.boxTests) : none; });
   median("triangle_tests", [&](const Run& r) {
-    return counts ? static_cast<double>(r.counters.triangleTests) : none;
+    return counts ? static_cast<double>(r.counters.primitiveTests) : none;
   });
   std::vector<double> distances;
   for (const Run& run : cell.runs)

@@ -4,8 +4,22 @@
 
 namespace corridor {
 
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Counters, boxTests, triangleTests, exactTests, poses, splits,
-                                   edges, states, undecided)
+static void to_json(nlohmann::json& j, const Counters& c) {
+  j = {{"boxTests", c.boxTests},     {"triangleTests", c.primitiveTests},
+       {"exactTests", c.exactTests}, {"poses", c.poses},
+       {"splits", c.splits},         {"edges", c.edges},
+       {"states", c.states},         {"undecided", c.undecided}};
+}
+static void from_json(const nlohmann::json& j, Counters& c) {
+  j.at("boxTests").get_to(c.boxTests);
+  j.at("triangleTests").get_to(c.primitiveTests);
+  j.at("exactTests").get_to(c.exactTests);
+  j.at("poses").get_to(c.poses);
+  j.at("splits").get_to(c.splits);
+  j.at("edges").get_to(c.edges);
+  j.at("states").get_to(c.states);
+  j.at("undecided").get_to(c.undecided);
+}
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PathLength, metres, radians)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(OmplRecord, planner, setup, host, cpu, settings, properties,
                                    progressNames, progress)

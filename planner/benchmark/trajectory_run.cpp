@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "collision/core/shortest.h"
-#include "planner/solve/solve_steps.h"
+#include "planner/solve/solve_run.h"
 #include "planner/solve/verify_solution.h"
 #include "planner/trajectory/curve_pieces.h"
 #include "planner/trajectory/natural_spline.h"

@@ -54,6 +54,7 @@ void requireValid(const CheckerOptions& options, const ConfigurationSpace& space
       options.tube.size() == 0 || (options.tube.size() == static_cast<Eigen::Index>(space.size()) &&
                                    (options.tube.array() >= 0).all()),
       "tube must have a half width of 0 or more for each number of a configuration");
+  require(proves(options.method), "method must prove edges");
   require(options.method == EdgeMethod::directional || hasDefaultOverlap(options.trees.trees),
           "trees must have the default overlap test of their volume if method is adaptive or "
           "advancement, which measure distances");
@@ -106,7 +107,7 @@ CheckerOptions checkerOptions(const Task& task, const CheckerSettings& settings)
           task.padding,
           task.tube,
           settings.tolerance,
-          methodOf(settings.edges),
+          proves(settings.edges) ? settings.edges : EdgeMethod::directional,
           treesNamed(settings.trees)};
 }
 
@@ -211,22 +212,9 @@ MotionResult Checker::certifyState(const Configuration& q) const {
 }
 
 MotionResult Checker::certifyEdge(const Configuration& from, const Configuration& to,
-                                  bool earliest) const {
-  MotionOptions options = options_;
-  options.earliest = earliest;
-  return certify(from, to, options, method_);
-}
-
-MotionResult Checker::certifyEdge(const Configuration& from, const Configuration& to, bool earliest,
-                                  MotionCertificate& certificate) const {
-  certificate = {};
-  if (!standardFloatingPoint()) return refused();
-  if (!isCovered(from) || !isCovered(to)) return refused(UndecidedReason::beyondProofs);
-  MotionOptions options = options_;
-  options.earliest = earliest;
-  Workspace& workspace = workspaceOfThread();
-  workspace.motion.set(from, to);
-  return scene_.certify(workspace.motion, options, workspace.context, certificate);
+                                  const EdgeQuery& query) const {
+  const bool isPlain = !query.margins && !query.certificate;
+  return certify(from, to, query, isPlain ? method_ : EdgeMethod::directional);
 }
 
 std::optional<CertificateFault> Checker::faultOf(const MotionCertificate& certificate,
@@ -240,21 +228,19 @@ std::optional<CertificateFault> Checker::faultOf(const MotionCertificate& certif
                           workspace.context);
 }
 
-MotionResult Checker::certifyEdge(const Configuration& from, const Configuration& to,
-                                  const PairMargins& more, bool earliest) const {
-  MotionOptions options = options_;
-  options.earliest = earliest;
-  options.pairMargins = &more;
-  return certify(from, to, options, EdgeMethod::directional);
-}
-
 MotionResult Checker::certify(const Configuration& from, const Configuration& to,
-                              const MotionOptions& options, EdgeMethod method) const {
+                              const EdgeQuery& query, EdgeMethod method) const {
+  if (query.certificate) *query.certificate = {};
   if (!standardFloatingPoint()) return refused();
   if (!isCovered(from) || !isCovered(to)) return refused(UndecidedReason::beyondProofs);
+  MotionOptions options = options_;
+  options.earliest = query.earliest;
+  if (query.margins) options.pairMargins = query.margins;
   Workspace& workspace = workspaceOfThread();
   workspace.motion.set(from, to);
-  return scene_.certify(workspace.motion, options, workspace.context, method);
+  return query.certificate
+             ? scene_.certify(workspace.motion, options, workspace.context, *query.certificate)
+             : scene_.certify(workspace.motion, options, workspace.context, method);
 }
 
 MotionResult Checker::certifyCurve(const CurvePiece& piece, bool earliest) const {
@@ -326,7 +312,7 @@ bool Checker::isProvedFree(const Configuration& q) const {
 
 bool Checker::isProvedFree(const Configuration& from, const Configuration& to) const {
   return inBounds(from) && inBounds(to) &&
-         certify(from, to, options_, EdgeMethod::directional).verdict == MotionVerdict::free;
+         certify(from, to, {}, EdgeMethod::directional).verdict == MotionVerdict::free;
 }
 
 }  // namespace corridor

@@ -47,6 +47,19 @@ CheckerOptions checkerOptions(const Task& task, const CheckerSettings& settings)
 /// Returns what the proofs of a checker with these options have to cover.
 Required requiredBy(const CheckerOptions& options, const ConfigurationSpace& space);
 
+/// What an edge is tested for. The pointers must be valid during the query.
+struct EdgeQuery {
+  bool earliest = false;  ///< whether to search for the first contact, as in `MotionOptions`
+  /// One margin for each pair of `Scene::pairs()`, metres, beyond the margin of the options. They
+  /// replace the padding. Null: the padding.
+  const PairMargins* margins = nullptr;
+  /// Where to store what was proved; null: nowhere. The pairs of the certificate are those of
+  /// `Scene::pairs()`. A certificate is about surfaces, so it is empty if the verdict follows from
+  /// containment in a solid mesh. The query then takes longer, because every pair is proved,
+  /// without a broad phase.
+  MotionCertificate* certificate = nullptr;
+};
+
 /// Checks states and edges of a model. The OMPL classes in this folder forward to it, except
 /// `DiscreteMotionValidator`, which samples edges itself.
 ///
@@ -59,6 +72,7 @@ class Checker {
   /// - A body without a robot is on a frame that moves (`makeScene`).
   /// - The margin, a padding or the tolerance is not finite, the margin or a padding is negative,
   ///   or the tolerance is not above 0.
+  /// - The method does not prove edges (`discrete`).
   /// - The tube is not empty and has another length than a configuration, or a half width is
   ///   negative or NaN.
   /// - The method measures distances (`adaptive`, `advancement`), and the trees have another
@@ -112,16 +126,11 @@ class Checker {
   /// Decides whether a state is free, as an edge of zero length, always by
   /// `EdgeMethod::directional`.
   MotionResult certifyState(const Configuration& q) const;
-  /// Decides whether an edge is free, by the method of the options.
-  /// @param earliest whether to search for the first contact, as in `MotionOptions`.
-  MotionResult certifyEdge(const Configuration& from, const Configuration& to, bool earliest) const;
-  /// Decides whether an edge is free, and stores in `certificate` what was proved. The method is
-  /// always `EdgeMethod::directional`. The pairs of the certificate are those of
-  /// `Scene::pairs()`. A certificate is about surfaces, so it is empty if the verdict follows from
-  /// containment in a solid mesh. Takes longer than the query without a certificate, because every
-  /// pair is proved, without a broad phase.
-  MotionResult certifyEdge(const Configuration& from, const Configuration& to, bool earliest,
-                           MotionCertificate& certificate) const;
+  /// Decides whether an edge is free. The method is that of the options; with `margins` or a
+  /// `certificate` it is `EdgeMethod::directional`.
+  /// @throws std::invalid_argument for margins that are negative or not finite.
+  MotionResult certifyEdge(const Configuration& from, const Configuration& to,
+                           const EdgeQuery& query = {}) const;
   /// Checks a certificate of an edge, by a method that is independent of the method that made the
   /// certificate (collision/motion/check_certificate.h). Returns the first fault of the
   /// certificate, or nullopt if it has none.
@@ -131,16 +140,10 @@ class Checker {
   std::optional<CertificateFault> faultOf(const MotionCertificate& certificate,
                                           const Configuration& from, const Configuration& to,
                                           double until) const;
-  /// Decides whether every tested pair keeps its margin on an edge: the margin of the options, plus
-  /// the pair's entry in `more`, which replaces the pair's padding. The method is always
-  /// `EdgeMethod::directional`.
-  /// @param more one margin for each pair of `Scene::pairs()`, metres.
-  /// @throws std::invalid_argument for numbers that are not finite or are negative.
-  MotionResult certifyEdge(const Configuration& from, const Configuration& to,
-                           const PairMargins& more, bool earliest = false) const;
   /// Decides whether a piece of a curve is free, for the tube widened by the piece's `error`. Times
   /// in the result are values of the piece's parameter τ. The method is always
   /// `EdgeMethod::directional`.
+  /// @param earliest whether to search for the first contact, as in `EdgeQuery`.
   /// @throws std::invalid_argument if the piece has another number of rows than a configuration has
   /// numbers, a degree that is not from 1 to 9, or an `error` that is negative, not finite, or of
   /// another size.
@@ -188,8 +191,8 @@ class Checker {
   Workspace& workspaceOfThread() const;
   /// Returns whether the pairs that are tested are enough for a query at q (`provedBox`).
   bool isCovered(const Configuration& q) const;
-  MotionResult certify(const Configuration& from, const Configuration& to,
-                       const MotionOptions& options, EdgeMethod method) const;
+  MotionResult certify(const Configuration& from, const Configuration& to, const EdgeQuery& query,
+                       EdgeMethod method) const;
 
   const Model& model_;
   Required required_;

@@ -98,7 +98,7 @@ EdgeCosts sampleEdgeCosts(const Checker& checker, std::size_t edges, double seco
       EdgeCosts::OfPair& of = pairs[{a, b}];
       of.a = a, of.b = b, of.share += alone, all += alone;
       of.boxTests += context.counters.boxTests - before.boxTests;
-      of.triangleTests += context.counters.triangleTests - before.triangleTests;
+      of.primitiveTests += context.counters.primitiveTests - before.primitiveTests;
     }
   }
   costs.free = free.size();

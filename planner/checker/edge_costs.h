@@ -17,7 +17,7 @@ struct EdgeCosts {
     std::size_t a = 0, b = 0;  ///< bodies of the model
     double share = 0;  ///< time of the pair, as a fraction of the summed times of all pairs, each
                        ///< certified alone
-    std::uint64_t boxTests = 0, triangleTests = 0;  ///< over all edges
+    std::uint64_t boxTests = 0, primitiveTests = 0;  ///< over all edges
   };
   std::vector<OfPair> pairs;  ///< all tested pairs, the most expensive first
 };

@@ -54,14 +54,13 @@ bool CountingMotionValidator::checkMotion(const ob::State* s1, const ob::State* 
 }
 
 bool CertifiedMotionValidator::isFree(const Configuration& from, const Configuration& to) const {
-  return checker_.inBounds(to) &&
-         checker_.certifyEdge(from, to, false).verdict == MotionVerdict::free;
+  return checker_.inBounds(to) && checker_.certifyEdge(from, to).verdict == MotionVerdict::free;
 }
 
 std::optional<CountingMotionValidator::FreePart> CertifiedMotionValidator::lastFree(
     const Configuration& from, const Configuration& to) const {
   if (!checker_.inBounds(to)) return FreePart{};
-  const MotionResult result = checker_.certifyEdge(from, to, true);
+  const MotionResult result = checker_.certifyEdge(from, to, {.earliest = true});
   if (result.verdict == MotionVerdict::free) return std::nullopt;
   // The edge is proved free on [0, certifiedUntil]. The loop tries to prove the state at the end of
   // this interval, and the shorter edge to this state. The tube covers the rounding of the state,

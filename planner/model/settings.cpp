@@ -6,13 +6,8 @@
 namespace corridor {
 
 template <>
-const std::vector<std::string>& wordsFor<EdgeCheck>() {
-  static const std::vector<std::string> words = [] {
-    std::vector<std::string> all = edgeMethodNames();
-    all.push_back("discrete");
-    return all;
-  }();
-  return words;
+const std::vector<std::string>& wordsFor<EdgeMethod>() {
+  return edgeMethodNames();
 }
 
 template <>
@@ -44,13 +39,9 @@ std::string ClosedRange::text() const {
   return "a number from " + shortest(lower) + " to " + shortest(upper);
 }
 
-EdgeMethod methodOf(EdgeCheck check) {
-  return edgeMethodNamed(wordOf(check)).value_or(EdgeMethod::directional);
-}
-
 std::optional<InvalidName> invalidNameIn(const CheckerSettings& checker) {
   if (auto wrong = invalidNameIn(checker.trees)) return wrong;
-  const bool measures = methodOf(checker.edges) != EdgeMethod::directional;
+  const bool measures = proves(checker.edges) && checker.edges != EdgeMethod::directional;
   const std::string byDefault = withDefaults({checker.trees.volume, "", ""}).overlap;
   const std::string& overlap = checker.trees.overlap;
   if (!measures || overlap.empty() || overlap == byDefault) return std::nullopt;
@@ -65,7 +56,7 @@ std::optional<std::string> whyNoClearance(double margin, const Settings& setting
   if (settings.simplify != Simplifier::corridor)
     return "needs Corridor's simplifier; leave out simplify: false or ompl (--no-simplify, "
            "--simplify)";
-  if (settings.checker.edges == EdgeCheck::discrete)
+  if (!proves(settings.checker.edges))
     return "needs edges that are proved; discrete edges are only sampled";
   if (settings.objective == Objective::maxMinClearance)
     return "can't be used with the objective max_min_clearance";

@@ -12,9 +12,6 @@
 
 namespace corridor {
 
-/// How edges are checked: by a method that proves them, or by samples, as a baseline. The
-/// enumerators before `discrete` stand for the enumerators of `EdgeMethod`, in the same order.
-enum class EdgeCheck { certified, adaptive, advancement, discrete };
 /// OMPL's samplers of valid states, which are the classes …ValidStateSampler.
 enum class ValidSampler { uniform, gaussian, obstacleBased, bridgeTest, maxClearance };
 /// The objectives that planners can optimise.
@@ -31,11 +28,11 @@ enum class Smoothing { none, corners, time, length, acceleration };
 
 /// Returns the words that users write for the enumerators of a choice, in the order of the
 /// enumeration.
-/// @tparam Choice EdgeCheck, ValidSampler, Objective, Simplifier or Smoothing.
+/// @tparam Choice EdgeMethod, ValidSampler, Objective, Simplifier or Smoothing.
 template <class Choice>
 const std::vector<std::string>& wordsFor();
 template <>
-const std::vector<std::string>& wordsFor<EdgeCheck>();
+const std::vector<std::string>& wordsFor<EdgeMethod>();
 template <>
 const std::vector<std::string>& wordsFor<ValidSampler>();
 template <>
@@ -60,9 +57,6 @@ std::optional<Choice> choiceNamed(std::string_view word) {
   return std::nullopt;
 }
 
-/// Returns the method that proves edges; for `discrete`, `EdgeMethod::directional`.
-EdgeMethod methodOf(EdgeCheck check);
-
 /// The smallest legal resolution of sampled edges. A smaller resolution has no use, and OMPL counts
 /// the steps of an edge in 32 bits.
 inline constexpr double kFinestResolution = 1e-9;
@@ -81,13 +75,13 @@ struct PlannerSettings {
   /// The number of edges after which the search starts again, with other random numbers. Each
   /// search may test twice as many edges as the one before. 0: it never starts again. The search of
   /// a planner that uses all its time never starts again, whatever this number is. Unset: see
-  /// `Solve::defaultRestart`.
+  /// `SolveRun::defaultRestart`.
   std::optional<std::uint64_t> restart;
   std::map<std::string, std::string> params;  ///< values as text, by OMPL's names of the parameters
 };
 
 struct CheckerSettings {
-  EdgeCheck edges = EdgeCheck::certified;
+  EdgeMethod edges = EdgeMethod::directional;
   double resolution = 0.01;         ///< for `discrete`; see isResolution
   std::optional<double> tolerance;  ///< metres; unset: see checker/default_tolerance.h
   /// The trees that queries walk, by the words that users write.

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "collision/core/shortest.h"
-#include "planner/problem/bounds.h"
+#include "planner/problem/bounds_of_ends.h"
 #include "planner/problem/joint_yaml.h"
 #include "planner/problem/keys.h"
 #include "planner/problem/urdf_robot.h"

@@ -6,8 +6,8 @@ namespace corridor {
 
 void readCheckerKeys(const YamlMap& map, CheckerSettings& checker) {
   const auto& words = problemChoices();
-  if (const auto edges = map.choice("edges", wordsFor<EdgeCheck>()))
-    checker.edges = *choiceNamed<EdgeCheck>(*edges);
+  if (const auto edges = map.choice("edges", wordsFor<EdgeMethod>()))
+    checker.edges = *choiceNamed<EdgeMethod>(*edges);
   checker.resolution = map.number("resolution", Range::Resolution).value_or(checker.resolution);
   if (const auto tolerance = map.number("tolerance", Range::Positive))
     checker.tolerance = tolerance;

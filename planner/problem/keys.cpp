@@ -177,7 +177,7 @@ const std::map<std::string, std::vector<std::string>>& problemChoices() {
       {"planner.stop", {"first", "time"}},
       {"sampler", wordsFor<ValidSampler>()},
       {"trajectory.smooth", wordsFor<Smoothing>()},
-      {"checker.edges", wordsFor<EdgeCheck>()},
+      {"checker.edges", wordsFor<EdgeMethod>()},
       {"checker.volume", volumeNames()},
       {"checker.fit", ofAnyVolume(&VolumeKind::fits)},
       {"checker.overlap", ofAnyVolume(&VolumeKind::overlaps)},

@@ -5,8 +5,8 @@
 #include "collision/core/fault_list.h"
 #include "collision/core/read_file.h"
 #include "collision/core/spelling.h"
-#include "planner/problem/mbm_json.h"
-#include "planner/problem/omplapp_cfg.h"
+#include "planner/import/mbm_json.h"
+#include "planner/import/omplapp_cfg.h"
 #include "planner/problem/problem_yaml.h"
 
 namespace corridor {

@@ -7,7 +7,7 @@
 
 #include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
-#include "planner/problem/bounds.h"
+#include "planner/problem/bounds_of_ends.h"
 #include "planner/problem/hold_yaml.h"
 #include "planner/problem/joint_yaml.h"
 #include "planner/problem/keys.h"

@@ -117,8 +117,7 @@ py::tuple firstContact(const Body& a, const Body& b, const Array& from, const Ar
     QueryContext context;
     result = scene.certifyEdge(start, end, options, context);
   }
-  return py::make_tuple(static_cast<int>(result.verdict), result.certifiedUntil,
-                        result.contactTime);
+  return py::make_tuple(static_cast<int>(result.verdict), result.certifiedUntil, result.time);
 }
 
 BodyPointer bodyFrom(const py::tuple& shape) {

@@ -112,14 +112,14 @@ py::dict certificate(const NativeProblem& problem, const Array& q0, const Array&
   MotionResult result;
   {
     const py::gil_scoped_release unlocked;
-    result = checker.certifyEdge(from, to, earliest, proof);
+    result = checker.certifyEdge(from, to, {.earliest = earliest, .certificate = &proof});
   }
   py::dict d = certificatePairs(problem);
   d["verdict"] =
       static_cast<int>(codeOf(checker.inBounds(from) && checker.inBounds(to), result.verdict));
   d["reason"] = nameOf(result.reason);
   d["free_until"] = result.certifiedUntil;
-  d["time"] = result.contactTime >= 0 ? py::cast(result.contactTime) : py::none();
+  d["time"] = result.time >= 0 ? py::cast(result.time) : py::none();
   addIntervals(proof, d);
   d["contact"] = py::none();
   if (result.pair)

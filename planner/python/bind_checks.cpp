@@ -30,7 +30,7 @@ struct Rows {
         pairs(r.pairs.mutable_data()) {}
   void set(std::size_t i, const Checker& checker, bool inBounds, const MotionResult& r) {
     verdict[i] = codeOf(inBounds, r.verdict);
-    time[i] = r.contactTime >= 0 ? r.contactTime : std::numeric_limits<double>::quiet_NaN();
+    time[i] = r.time >= 0 ? r.time : std::numeric_limits<double>::quiet_NaN();
     gap[i] = r.gap;
     pairs[2 * i] = r.pair ? static_cast<std::int64_t>(checker.bodyOf(r.pair->bodyA)) : -1;
     pairs[2 * i + 1] = r.pair ? static_cast<std::int64_t>(checker.bodyOf(r.pair->bodyB)) : -1;
@@ -79,7 +79,7 @@ py::tuple certify(const NativeProblem& problem, const Array& from, const Array& 
   forEachUnlocked(count, threads, [&](std::size_t i) {
     const Configuration &p = a[a.size() == 1 ? 0 : i], &q = b[b.size() == 1 ? 0 : i];
     out.set(i, checker, checker.inBounds(p) && checker.inBounds(q),
-            checker.certifyEdge(p, q, earliest));
+            checker.certifyEdge(p, q, {.earliest = earliest}));
   });
   return tupleOf(results);
 }

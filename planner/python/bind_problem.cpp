@@ -137,7 +137,7 @@ void apply(const std::string& key, const py::handle value, Problem& problem) {
   } else if (key == "simplify") {
     problem.settings.simplify = choiceFrom<Simplifier>(value, "simplify");
   } else if (key == "edges") {
-    problem.settings.checker.edges = choiceFrom<EdgeCheck>(value, "edges");
+    problem.settings.checker.edges = choiceFrom<EdgeMethod>(value, "edges");
   } else if (key == "rate") {
     problem.settings.trajectory.rate = numberWithin(value, "rate", TrajectorySettings::kRates);
   } else if (key == "deviation") {

@@ -43,14 +43,14 @@ constexpr int kPasses = 5;
 /// uses the costs that were measured and fitted at the other half.
 struct CostRow {
   std::string volume;
-  double boxTests = 0, triangleTests = 0;  ///< N_v, N_p
-  double callNs = 0;                       ///< time of a query that is decided by its first test
-  TestCosts tests;                         ///< C_v, C_p, measured test by test
-  std::optional<double> traversalNs;       ///< for each volume test; empty: part of C_v
-  double measuredNs = 0, predictedNs = 0;  ///< T
-  double low = 0, middle = 0, high = 0;    ///< predicted/measured: quantiles 0.05, 0.5, 0.95
-  double buildMs = 0;                      ///< both trees
-  std::size_t bytes = 0;                   ///< both trees
+  double boxTests = 0, primitiveTests = 0;  ///< N_v, N_p
+  double callNs = 0;                        ///< time of a query that is decided by its first test
+  TestCosts tests;                          ///< C_v, C_p, measured test by test
+  std::optional<double> traversalNs;        ///< for each volume test; empty: part of C_v
+  double measuredNs = 0, predictedNs = 0;   ///< T
+  double low = 0, middle = 0, high = 0;     ///< predicted/measured: quantiles 0.05, 0.5, 0.95
+  double buildMs = 0;                       ///< both trees
+  std::size_t bytes = 0;                    ///< both trees
 };
 
 /// Computes the line of one volume.
@@ -76,9 +76,9 @@ CostRow costRow(const VolumeKind& volume, const BatchResult& result, std::size_t
   for (std::size_t i = 0; i < kept.size(); ++i) {
     const Answer& answer = result.answers[kept[i]];
     const QueryCost cost{static_cast<double>(answer.boxTests),
-                         static_cast<double>(answer.triangleTests), answer.ns};
+                         static_cast<double>(answer.primitiveTests), answer.ns};
     row.boxTests += cost.boxTests / static_cast<double>(kept.size());
-    row.triangleTests += cost.triangleTests / static_cast<double>(kept.size());
+    row.primitiveTests += cost.primitiveTests / static_cast<double>(kept.size());
     (i % 2 ? unseen : seen).push_back(cost);
   }
   std::vector<double> calls;
@@ -150,7 +150,7 @@ void printTable(const std::vector<CostRow>& rows) {
   };
   for (const CostRow& r : rows)
     line(r.volume,
-         {rounded(r.boxTests), rounded(r.triangleTests), rounded(r.callNs), cost(r.tests.box),
+         {rounded(r.boxTests), rounded(r.primitiveTests), rounded(r.callNs), cost(r.tests.box),
           cost(r.tests.triangle), cost(r.traversalNs), whole(r.predictedNs), whole(r.measuredNs),
           twoDecimals(r.predictedNs / r.measuredNs),
           twoDecimals(r.low) + " .. " + twoDecimals(r.high), grouped(r.bytes), rounded(r.buildMs)});
@@ -162,7 +162,7 @@ ordered_json rowJson(const CostRow& r) {
   };
   return {{"volume", r.volume},
           {"bv_tests", r.boxTests},
-          {"triangle_tests", r.triangleTests},
+          {"triangle_tests", r.primitiveTests},
           {"call_ns", r.callNs},
           {"bv_test_ns", cost(r.tests.box)},
           {"triangle_test_ns", cost(r.tests.triangle)},
@@ -199,7 +199,7 @@ int inspectCost(const CostArguments& a) {
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const Answer& answer = answers[i];
     hits += answer.hit;
-    if (answer.boxTests > 1 || answer.triangleTests > 0) kept.push_back(i);
+    if (answer.boxTests > 1 || answer.primitiveTests > 0) kept.push_back(i);
   }
   if (kept.size() < 2)
     throw InputError(

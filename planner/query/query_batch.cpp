@@ -45,7 +45,7 @@ std::vector<Answer> timed(std::size_t count, int passes, const Ask& ask) {
         context.counters = {};
         once();
         answer.boxTests = context.counters.boxTests;
-        answer.triangleTests = context.counters.triangleTests;
+        answer.primitiveTests = context.counters.primitiveTests;
       };
       ns[i * repeat + pass] = nanosecondsOf(first, once);
     }

@@ -49,7 +49,7 @@ struct Batch {
 /// The answer and the cost of one pose or motion.
 struct Answer {
   bool hit = false;
-  std::uint64_t boxTests = 0, triangleTests = 0;
+  std::uint64_t boxTests = 0, primitiveTests = 0;
   double ns = 0;  ///< the median of the passes
 };
 /// One pair of triangles that touch at a pose, and the segment p, q that they share.

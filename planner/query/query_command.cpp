@@ -120,11 +120,11 @@ void checkRepeats(const QueryArguments& a, std::size_t count, const char* what) 
 
 /// @throws InputError for an unknown name.
 EdgeMethod methodNamed(const std::string& name) {
-  if (const auto method = edgeMethodNamed(name)) return *method;
+  if (const auto method = edgeMethodNamed(name); method && proves(*method)) return *method;
   throw InputError(Fault{"--edges", 0,
                          "unknown method " + quotedWord(name) +
-                             didYouMean(name, edgeMethodNames()) +
-                             "; there are: " + joined(edgeMethodNames())});
+                             didYouMean(name, provingMethodNames()) +
+                             "; there are: " + joined(provingMethodNames())});
 }
 
 int queryMotions(const QueryArguments& a) {
@@ -330,9 +330,9 @@ void addQuery(CLI::App& program, int& status) {
                    "contact of each motion")
       ->group("Motions of B");
   command
-      ->add_option(
-          "--edges", a.edges,
-          "the method that proves motions; the first is the default: " + joined(edgeMethodNames()))
+      ->add_option("--edges", a.edges,
+                   "the method that proves motions; the first is the default: " +
+                       joined(provingMethodNames()))
       ->group("Motions of B");
   command
       ->add_option(

@@ -35,7 +35,7 @@ std::string columnsOf(const NamedQuery& query, const BatchResult& result, std::s
   const Answer& answer = result.answers[pose];
   std::string hit = answer.hit ? "1" : "0";
   if (query.kind == QueryKind::tolerance) return hit;
-  return hit + ',' + std::to_string(answer.boxTests) + ',' + std::to_string(answer.triangleTests);
+  return hit + ',' + std::to_string(answer.boxTests) + ',' + std::to_string(answer.primitiveTests);
 }
 
 }  // namespace
@@ -73,12 +73,12 @@ void printFrames(const NamedQuery& query, const std::vector<FrameResult>& frames
 
 void printSummary(const BatchResult& result, const std::vector<std::string>& words) {
   std::vector<double> ns;
-  double boxTests = 0, triangleTests = 0, sum = 0;
+  double boxTests = 0, primitiveTests = 0, sum = 0;
   for (const Answer& answer : result.answers) {
     ns.push_back(answer.ns);
     sum += answer.ns;
     boxTests += static_cast<double>(answer.boxTests);
-    triangleTests += static_cast<double>(answer.triangleTests);
+    primitiveTests += static_cast<double>(answer.primitiveTests);
   }
   const auto count = static_cast<double>(ns.size());
   for (const std::string& word : words) std::cerr << word << '\n';
@@ -92,7 +92,7 @@ void printSummary(const BatchResult& result, const std::vector<std::string>& wor
   printLine("mean_ns", "%.1f", sum / count);
   printLine("p95_ns", "%.1f", quantileOf(ns, 0.95));
   printLine("bv_tests", "%.6g", boxTests / count);
-  printLine("triangle_tests", "%.6g", triangleTests / count);
+  printLine("triangle_tests", "%.6g", primitiveTests / count);
   printLine("build_ms_a", "%.4f", result.buildMsA);
   printLine("build_ms_b", "%.4f", result.buildMsB);
   printLine("bytes_a", "%.0f", static_cast<double>(result.bytesA));
@@ -108,11 +108,11 @@ void printMotions(const BatchResult& result) {
     const MotionAnswer& motion = result.motions[i];
     const MotionResult& r = motion.result;
     std::snprintf(line, sizeof line, "%zu,%s,%.17g,%.17g,%.17g,%d,%d,%llu,%llu,%llu\n", i,
-                  nameOf(r.verdict), r.certifiedUntil, r.contactTime, r.gap,
-                  r.pair ? static_cast<int>(r.pair->triangleA) : -1,
-                  r.pair ? static_cast<int>(r.pair->triangleB) : -1,
+                  nameOf(r.verdict), r.certifiedUntil, r.time, r.gap,
+                  r.pair ? static_cast<int>(r.pair->primitiveA) : -1,
+                  r.pair ? static_cast<int>(r.pair->primitiveB) : -1,
                   static_cast<unsigned long long>(result.answers[i].boxTests),
-                  static_cast<unsigned long long>(result.answers[i].triangleTests),
+                  static_cast<unsigned long long>(result.answers[i].primitiveTests),
                   static_cast<unsigned long long>(motion.splits));
     text += line;
   }

@@ -171,12 +171,12 @@ ClearanceTargets::Worst ClearanceTargets::worstOn(const Configuration& from,
 
 std::optional<ClearanceTargets::Worst> ClearanceTargets::missedOn(const Configuration& from,
                                                                   const Configuration& to) const {
-  const MotionResult result = checker_.certifyEdge(from, to, targets_);
+  const MotionResult result = checker_.certifyEdge(from, to, {.margins = &targets_});
   if (result.verdict == MotionVerdict::free) return std::nullopt;
-  if (result.contactTime < 0) return worstOn(from, to, targets_);
-  Worst worst = worstOn(from, to, targets_, result.contactTime);
+  if (result.time < 0) return worstOn(from, to, targets_);
+  Worst worst = worstOn(from, to, targets_, result.time);
   if (worst.share >= 1) {
-    worst.t = result.contactTime;
+    worst.t = result.time;
     worst.share = kJustMissed;
   }
   return worst;

@@ -34,7 +34,7 @@ class ClearanceTargets {
 
   /// Returns whether every pair is proved to keep its target on the whole edge.
   bool areKept(const Configuration& from, const Configuration& to) const {
-    return checker_.certifyEdge(from, to, targets_).verdict == MotionVerdict::free;
+    return checker_.certifyEdge(from, to, {.margins = &targets_}).verdict == MotionVerdict::free;
   }
   /// The pair with the smallest share on an edge, and the time at which it has this share.
   struct Worst {

@@ -49,8 +49,8 @@ class PathMover {
     return edge + 1 < edges_.size() ? edges_[edge + 1].from : last_;
   }
   Edge measured(const Configuration& from, const Configuration& to);
-  /// Remembers that all targets are kept on an edge.
-  void remember(const Configuration& from, const Configuration& to) {
+  /// Adds an edge that keeps all targets to both memories.
+  void addKept(const Configuration& from, const Configuration& to) {
     free_.addFree(from, to);
     onTarget_.addFree(from, to);
   }
@@ -72,7 +72,7 @@ class PathMover {
 PathMover::Edge PathMover::measured(const Configuration& from, const Configuration& to) {
   std::optional<ClearanceTargets::Worst> missed;
   if (!onTarget_.knowsFree(from, to)) missed = targets_.missedOn(from, to);
-  if (!missed) remember(from, to);
+  if (!missed) addKept(from, to);
   return {from, space_.distance(from, to), !missed, missed.value_or(ClearanceTargets::Worst())};
 }
 

@@ -30,8 +30,8 @@ double provedClearance(const Checker& checker, const Path& path, double most, do
   for (int n = 0; n < kMostTries && tried > least; ++n) {
     const PairMargins margins(std::vector(checker.scene().motionPairs().size(), tried));
     while (edge < path.size() &&
-           checker.certifyEdge(path[edge > 0 ? edge - 1 : 0], path[edge], margins).verdict ==
-               MotionVerdict::free)
+           checker.certifyEdge(path[edge > 0 ? edge - 1 : 0], path[edge], {.margins = &margins})
+                   .verdict == MotionVerdict::free)
       ++edge;
     if (edge >= path.size()) return tried;
     tried = roundedDownTo2Digits(kNextTry * tried);
@@ -45,8 +45,10 @@ double keptShare(const Checker& checker, const ClearanceTargets& targets, const 
   if (onTarget.isFree(from, to)) return 1;
   // The edge is proved from both of its ends. The two proved parts overlap only if the whole edge
   // is proved.
-  const double begin = checker.certifyEdge(from, to, targets.all(), true).certifiedUntil,
-               end = checker.certifyEdge(to, from, targets.all(), true).certifiedUntil;
+  const double begin = checker.certifyEdge(from, to, {.earliest = true, .margins = &targets.all()})
+                           .certifiedUntil,
+               end = checker.certifyEdge(to, from, {.earliest = true, .margins = &targets.all()})
+                         .certifiedUntil;
   return std::min(1.0, begin + end);
 }
 

@@ -51,8 +51,8 @@ std::string described(const Checker& checker, std::size_t shape, std::uint32_t t
 }
 
 std::string described(const Checker& checker, const Contact& pair) {
-  const std::string a = described(checker, pair.bodyA, pair.triangleA),
-                    b = described(checker, pair.bodyB, pair.triangleB);
+  const std::string a = described(checker, pair.bodyA, pair.primitiveA),
+                    b = described(checker, pair.bodyB, pair.primitiveB);
   // The order of the bodies in the problem: links come before obstacles.
   return checker.bodyOf(pair.bodyA) < checker.bodyOf(pair.bodyB) ? a + " and " + b
                                                                  : b + " and " + a;

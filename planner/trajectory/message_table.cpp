@@ -3,7 +3,7 @@
 #include <cassert>
 #include <cstdint>
 
-#include "planner/problem/moveit_state.h"
+#include "planner/import/moveit_state.h"
 #include "planner/problem/yaml_ledger.h"
 #include "planner/problem/yaml_reader.h"
 #include "planner/problem/yaml_value.h"

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "collision/core/fault_list.h"
+#include "planner/import/moveit_poses.h"
 #include "planner/model/model.h"
-#include "planner/problem/moveit_poses.h"
 #include "planner/robot/note.h"
 
 /// The steps between the text of a trajectory file and its `TrajectoryRows`.

@@ -429,8 +429,8 @@ PathFinding PairProver::finding(const TimeInterval& interval, std::size_t pair,
   finding.configuration = curve.configuration(interval.middle);
   finding.a = problem_.bodies[p.a].name;
   finding.b = problem_.bodies[p.b].name;
-  finding.triangleA = treeOf(p.a).leaf(answer.closest.a).number;
-  finding.triangleB = treeOf(p.b).leaf(answer.closest.b).number;
+  finding.primitiveA = treeOf(p.a).leaf(answer.closest.a).number;
+  finding.primitiveB = treeOf(p.b).leaf(answer.closest.b).number;
   const KinematicChain fromRoot = chainOf(*problem_.tree, 0, problem_.bodies[p.a].frame);
   const Placement X_WA = curve.at(fromRoot, interval.middle).at;
   finding.point = (X_WA.rotation * answer.point + X_WA.position).cast<double>();

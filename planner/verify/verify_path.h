@@ -135,7 +135,7 @@ struct PathFinding {
   /// names are empty if the fault does not concern two bodies.
   std::string a, b;
   /// Indices of the triangles in the meshes, or of the convex parts in the bodies.
-  std::uint32_t triangleA = 0, triangleB = 0;
+  std::uint32_t primitiveA = 0, primitiveB = 0;
   /// A point of contact, a point of one body inside the other, or the closest point of `b`; metres,
   /// in the world frame.
   Vec3 point = Vec3::Zero();

@@ -44,7 +44,7 @@ int main(int argc, char** argv) try {
   const double s =
       secondsOf(count, freeStates, [&](std::size_t i) { return checker.certifyState(states[i]); });
   const double e = secondsOf(count - 1, freeEdges, [&](std::size_t i) {
-    return checker.certifyEdge(states[i], states[i + 1], false);
+    return checker.certifyEdge(states[i], states[i + 1]);
   });
   std::printf("%.9g %zu %.9g %zu\n", s, freeStates, e, freeEdges);
 } catch (const std::exception& error) {

@@ -111,11 +111,11 @@ Costs costsOf(const Checker& checker, const Edges& edges) {
   costs.megabytes = 1e-6 * static_cast<double>(walls.tree().bytes());
   costs.tree = millisecondsSince(before);
   for (const auto& [from, to] : edges)
-    costs.free += checker.certifyEdge(from, to, false).verdict == MotionVerdict::free;
+    costs.free += checker.certifyEdge(from, to).verdict == MotionVerdict::free;
   costs.state =
       medianMicroseconds(edges.size(), [&](std::size_t i) { checker.certifyState(edges[i].from); });
   costs.edge = medianMicroseconds(
-      edges.size(), [&](std::size_t i) { checker.certifyEdge(edges[i].from, edges[i].to, false); });
+      edges.size(), [&](std::size_t i) { checker.certifyEdge(edges[i].from, edges[i].to); });
   return costs;
 }
 

@@ -33,7 +33,7 @@ enum class Query { interference, distance, tolerance };
 struct Answer {
   bool hit = false;
   double distance = 0;
-  std::uint64_t boxTests = 0, triangleTests = 0;
+  std::uint64_t boxTests = 0, primitiveTests = 0;
 };
 
 /// The results of one competitor on one workload.
@@ -138,7 +138,7 @@ class Ours {
         throw std::runtime_error("this tree has no tolerance query");
     }
     answer.boxTests = context_.counters.boxTests;
-    answer.triangleTests = context_.counters.triangleTests;
+    answer.primitiveTests = context_.counters.primitiveTests;
     return answer;
   }
 

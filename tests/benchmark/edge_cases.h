@@ -159,7 +159,7 @@ inline EdgeSet sceneEdges(const std::string& file, int count, std::uint64_t seed
     if (!checker->inBounds(e.to) || checker->interference(e.from)) continue;
     // The checker's verdict is used only to choose about as many free edges as others. It is not
     // the true verdict.
-    const bool maybeFree = checker->certifyEdge(e.from, e.to, false).verdict == MotionVerdict::free;
+    const bool maybeFree = checker->certifyEdge(e.from, e.to).verdict == MotionVerdict::free;
     if ((maybeFree ? free : touching) >= count / 2) continue;
     const PathVerdict truth = verifyPath(plain, {e.from, e.to}).verdict;
     if (truth == PathVerdict::undecided) {

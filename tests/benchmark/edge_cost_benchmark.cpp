@@ -50,7 +50,7 @@ double seconds(const std::function<void()>& work) {
 void run(const std::string& file, int count) {
   const Problem problem = readProblem(file);
   const Checker checker(problem);
-  const auto certify = [&](const Edge& e) { return checker.certifyEdge(e.from, e.to, false); };
+  const auto certify = [&](const Edge& e) { return checker.certifyEdge(e.from, e.to); };
 #ifdef CORRIDOR_WITH_FCL
   bench::FclScene fclScene(checker);
 #endif
@@ -80,7 +80,7 @@ void run(const std::string& file, int count) {
                 << (edges == &free ? "free" : "contact") << ',' << edges->size() << ',' << undecided
                 << ',' << certified << ','
                 << static_cast<double>(after.boxTests - before.boxTests) / 3 / n << ','
-                << static_cast<double>(after.triangleTests - before.triangleTests) / 3 / n << ','
+                << static_cast<double>(after.primitiveTests - before.primitiveTests) / 3 / n << ','
                 << static_cast<double>(after.poses - before.poses) / 3 / n;
       for (const int samples : {10, 100}) {
         const auto discrete = [&](const auto& touches) {

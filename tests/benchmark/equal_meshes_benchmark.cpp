@@ -120,14 +120,14 @@ Figures measure(const TriangleMesh& mesh, bool shared, const Options& o) {
   std::vector<RandomEdges::Edge> edges;
   for (int i = 0; i < o.edges; ++i) edges.push_back(random.next(o.length));
   for (const auto& [from, to] : edges) {
-    const MotionVerdict verdict = checker.certifyEdge(from, to, false).verdict;
+    const MotionVerdict verdict = checker.certifyEdge(from, to).verdict;
     figures.free += verdict == MotionVerdict::free;
     figures.undecided += verdict == MotionVerdict::undecided;
   }
   figures.state =
       medianMicroseconds(edges.size(), [&](std::size_t i) { checker.certifyState(edges[i].from); });
   figures.edge = medianMicroseconds(
-      edges.size(), [&](std::size_t i) { checker.certifyEdge(edges[i].from, edges[i].to, false); });
+      edges.size(), [&](std::size_t i) { checker.certifyEdge(edges[i].from, edges[i].to); });
   return figures;
 }
 

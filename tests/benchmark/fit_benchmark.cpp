@@ -115,7 +115,7 @@ void measure(const std::string& label, const TriangleMesh& model, const Triangle
     for (int i = 0; i < 2; ++i) least = std::min(least, nanosecondsOf(query, query));
     ns += least;
     boxes += static_cast<double>(context.counters.boxTests);
-    triangles += static_cast<double>(context.counters.triangleTests);
+    triangles += static_cast<double>(context.counters.primitiveTests);
   }
   const auto n = static_cast<double>(poses.size());
   std::cout << label << ',' << boxes / n << ',' << triangles / n << ',' << ns / n / 1e3 << ','

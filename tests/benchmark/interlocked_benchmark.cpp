@@ -106,14 +106,14 @@ void measure(const char* name, const TriangleMesh& meshA, const TriangleMesh& me
     for (int i = 0; i < 2; ++i) ns = std::min(ns, nanosecondsOf(query, query));
     contacts += hit;
     costs.push_back({static_cast<double>(context.counters.boxTests),
-                     static_cast<double>(context.counters.triangleTests), ns});
+                     static_cast<double>(context.counters.primitiveTests), ns});
     sum.boxTests += costs.back().boxTests;
-    sum.triangleTests += costs.back().triangleTests;
+    sum.primitiveTests += costs.back().primitiveTests;
     sum.ns += ns;
   }
   const auto n = static_cast<double>(poses.size());
   std::printf("%s,%zu,%d,%.1f,%.1f,%.3f,", name, poses.size(), contacts, sum.boxTests / n,
-              sum.triangleTests / n, sum.ns / n / 1e3);
+              sum.primitiveTests / n, sum.ns / n / 1e3);
   if constexpr (std::is_same_v<Tree, Obb4Tree>) {
     std::printf(",,,,,");
   } else {

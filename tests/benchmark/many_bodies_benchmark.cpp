@@ -94,7 +94,7 @@ void measure(std::size_t count, const Options& o, Curves& curves) {
   };
   int free = 0;
   for (const auto& [from, to] : edges) {
-    const MotionVerdict verdict = checker.certifyEdge(from, to, false).verdict;
+    const MotionVerdict verdict = checker.certifyEdge(from, to).verdict;
     free += verdict == MotionVerdict::free;
     if (verdict != byPair(from, to)) throw std::runtime_error("the broad phase changed a verdict");
   }
@@ -103,7 +103,7 @@ void measure(std::size_t count, const Options& o, Curves& curves) {
   curves.states.push_back(
       {n, medianMicroseconds(items, [&](std::size_t i) { checker.certifyState(edges[i].from); })});
   curves.edges.push_back({n, medianMicroseconds(items, [&](std::size_t i) {
-                            checker.certifyEdge(edges[i].from, edges[i].to, false);
+                            checker.certifyEdge(edges[i].from, edges[i].to);
                           })});
   curves.statesByPair.push_back(
       {n, medianMicroseconds(items, [&](std::size_t i) { byPair(edges[i].from, edges[i].from); })});

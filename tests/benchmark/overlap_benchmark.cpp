@@ -115,7 +115,7 @@ struct Recorded {
       const Recorder recorder{test, i, apart, meet};
       const auto first = [](std::uint32_t, std::uint32_t) { return true; };
       TouchingPairs query(posedA, posedB, recorder, context.counters, first);
-      traverse(a, b, NodePair{0, 0}, context.scratch.of<NodePairs>(), query);
+      traverse(a, b, NodePair{0, 0}, *context.scratch.use<NodePairs>(), query);
     }
     for (Sample* sample : {&apart, &meet}) std::ranges::sort(sample->kept, {}, &BoxPair::met);
     bounds_[0] = a.bounds();
@@ -207,7 +207,7 @@ class Wide {
       context_.counters = {};
       ask();
       costs_[i].boxTests = static_cast<double>(context_.counters.boxTests);
-      costs_[i].triangleTests = static_cast<double>(context_.counters.triangleTests);
+      costs_[i].primitiveTests = static_cast<double>(context_.counters.primitiveTests);
       costs_[i].ns = std::min(costs_[i].ns, nanosecondsOf(ask, ask));
     }
   }

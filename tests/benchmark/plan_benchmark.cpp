@@ -40,14 +40,14 @@ void compareWithReplay(const Campaign& campaign, const CampaignResult& result) {
     campaign.variants[cell.variant].apply(checker);
     return checker;
   };
-  const auto is = [&](const CampaignCell& cell, EdgeCheck edges, bool replay) {
+  const auto is = [&](const CampaignCell& cell, EdgeMethod edges, bool replay) {
     const Variant& variant = campaign.variants[cell.variant];
     return specOf(cell).edges == edges &&
            (variant.competitor && variant.competitor->name == "replay") == replay;
   };
   for (const CampaignCell& real : result.cells)
     for (const CampaignCell& replay : result.cells) {
-      if (!is(real, EdgeCheck::certified, false) || !is(replay, EdgeCheck::certified, true) ||
+      if (!is(real, EdgeMethod::directional, false) || !is(replay, EdgeMethod::directional, true) ||
           real.problem != replay.problem || real.planner.label != replay.planner.label ||
           specOf(real).tolerance != specOf(replay).tolerance)
         continue;

@@ -34,7 +34,7 @@ namespace {
 using namespace bench;
 
 struct Cost {
-  double boxTests = 0, triangleTests = 0, us = 0;
+  double boxTests = 0, primitiveTests = 0, us = 0;
 };
 
 /// Measures the queries at all poses of b; the pose of a is the identity. b is a scaled copy of a.
@@ -65,13 +65,13 @@ std::vector<Cost> ask(const TriangleMesh& sphere, const std::vector<double>& sca
       };
       double least = nanosecondsOf(counted, counted);
       cost.boxTests += static_cast<double>(context.counters.boxTests);
-      cost.triangleTests += static_cast<double>(context.counters.triangleTests);
+      cost.primitiveTests += static_cast<double>(context.counters.primitiveTests);
       for (int i = 0; i < 2 && least < 1e8; ++i)  // no repeat above 0.1 s
         least = std::min(least, nanosecondsOf(query, query));
       ns.push_back(least);
     }
     cost.boxTests /= static_cast<double>(poses.size());
-    cost.triangleTests /= static_cast<double>(poses.size());
+    cost.primitiveTests /= static_cast<double>(poses.size());
     cost.us = medianOf(ns) / 1e3;
     costs.push_back(cost);
   }
@@ -117,10 +117,10 @@ void sweep(const Options& o, std::mt19937_64& random) {
       for (std::size_t i = 0; i < gaps.size(); ++i) {
         const Cost& c = costs[i];
         std::cout << n << "," << gaps[i] << "," << name << "," << c.boxTests << ","
-                  << c.triangleTests << "," << c.us << std::endl;
+                  << c.primitiveTests << "," << c.us << std::endl;
         counts.push_back({1 / gaps[i], c.boxTests});
         times.push_back({1 / gaps[i], c.us});
-        if (c.triangleTests < 0.01 * c.boxTests) unsaturated.push_back(counts.back());
+        if (c.primitiveTests < 0.01 * c.boxTests) unsaturated.push_back(counts.back());
       }
       slopes += n + "," + name + "," + text(logSlope(counts)) + "," + text(logSlope(unsaturated)) +
                 "," + std::to_string(unsaturated.size()) + "\n";

@@ -220,7 +220,7 @@ void run(const std::string& name, const Options& o, Rows& rows) {
     const Answer& answer = field[0]->record.answers[i];
     hits += answer.hit;
     boxes += static_cast<double>(answer.boxTests) / static_cast<double>(w.poses.size());
-    triangles += static_cast<double>(answer.triangleTests) / static_cast<double>(w.poses.size());
+    triangles += static_cast<double>(answer.primitiveTests) / static_cast<double>(w.poses.size());
   }
   if (kept[0] > 0) {
     std::vector<std::string> row = {name, std::to_string(w.poses.size() - std::size_t(count)),

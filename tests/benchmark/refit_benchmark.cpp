@@ -61,7 +61,7 @@ double milliseconds(const std::function<void()>& work) {
 }
 
 struct Cost {
-  double boxTests = 0, triangleTests = 0, us = 0;
+  double boxTests = 0, primitiveTests = 0, us = 0;
 };
 template <class Tree>
 Cost ask(const Tree& a, const Tree& b, const std::vector<Transform>& poses) {
@@ -73,7 +73,7 @@ Cost ask(const Tree& a, const Tree& b, const std::vector<Transform>& poses) {
     context.counters = {};
     interference(Posed(a), Posed(b, X), context);
     cost.boxTests += static_cast<double>(context.counters.boxTests) / count;
-    cost.triangleTests += static_cast<double>(context.counters.triangleTests) / count;
+    cost.primitiveTests += static_cast<double>(context.counters.primitiveTests) / count;
     const auto query = [&] { interference(Posed(a), Posed(b, X), context); };
     double least = std::numeric_limits<double>::infinity();
     for (int i = 0; i < 3; ++i) least = std::min(least, nanosecondsOf(query, query));
@@ -109,8 +109,8 @@ std::vector<PlotPoint> sequence(const std::string& deformation, const std::strin
     const double refit = milliseconds([&] { refitted.refit(f.mesh); });
     const Cost kept = ask(refitted, b, f.poses);
     std::cout << deformation << "," << i << "," << name << "," << rebuild << "," << refit << ","
-              << anew.boxTests << "," << kept.boxTests << "," << anew.triangleTests << ","
-              << kept.triangleTests << "," << anew.us << "," << kept.us << std::endl;
+              << anew.boxTests << "," << kept.boxTests << "," << anew.primitiveTests << ","
+              << kept.primitiveTests << "," << anew.us << "," << kept.us << std::endl;
     ratios.push_back({static_cast<double>(i), kept.boxTests / anew.boxTests});
     sums.rebuild += rebuild, sums.refit += refit, sums.frames += 1;
     sums.boxes += kept.boxTests / anew.boxTests, sums.us += kept.us / anew.us;

@@ -93,9 +93,9 @@ class SimulatedRuns {
     run.states = large(2e3);
     run.edges = large(400);
     run.counters.boxTests = large(3e4);
-    run.counters.triangleTests = large(5e3);
+    run.counters.primitiveTests = large(5e3);
     run.checkingTime = (60e-9 * static_cast<double>(run.counters.boxTests) +
-                        150e-9 * static_cast<double>(run.counters.triangleTests)) *
+                        150e-9 * static_cast<double>(run.counters.primitiveTests)) *
                        noise(random);
     run.time = run.processorTime = run.checkingTime * (1.2 + 2 * share(random));
     run.leastDistance = 0.02 * spread(random);

@@ -70,8 +70,7 @@ double bulgeRatio(const Checker& checker, const Path& path, std::uint64_t seed) 
       double chord = HUGE_VAL, curve = HUGE_VAL;
       for (int round = 0; round < 3; ++round) {
         curve = std::min(curve, secondsOf([&] { checker.certifyCurve(piece); }));
-        chord =
-            std::min(chord, secondsOf([&] { checker.certifyEdge(path[k], path[k + 1], false); }));
+        chord = std::min(chord, secondsOf([&] { checker.certifyEdge(path[k], path[k + 1]); }));
       }
       chords += chord, curves += curve;
     }

@@ -47,7 +47,7 @@ double median(const test::Workload& w, QueryContext& context, const Query& query
 void printTests(const test::Workload& w, const Counters& counters) {
   const auto n = static_cast<double>(w.poses.size());
   std::printf("%.1f,%.1f\n", static_cast<double>(counters.boxTests) / n,
-              static_cast<double>(counters.triangleTests) / n);
+              static_cast<double>(counters.primitiveTests) / n);
 }
 
 template <class Volume>

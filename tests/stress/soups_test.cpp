@@ -210,7 +210,7 @@ TEST_F(SoupQueries, AgainstBruteForce) {
   }
   std::cout << cases << " pairs of meshes, " << touching << " touching, " << pairs
             << " contacts; N_v " << context_.counters.boxTests << ", N_p "
-            << context_.counters.triangleTests << "; " << otherBits_ << " of " << distances_
+            << context_.counters.primitiveTests << "; " << otherBits_ << " of " << distances_
             << " distances differ in their last bits when rotated\n";
   EXPECT_LE(otherBits_, distances_ / 100 + 9);
   EXPECT_GT(touching, cases / 4);

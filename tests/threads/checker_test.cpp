@@ -61,8 +61,8 @@ std::vector<Edge> someEdges(const Problem& problem, std::size_t count) {
 /// Adds a checker's answers for one edge and for the states at its ends.
 void ask(const Checker& checker, const Edge& edge, Answers& answers) {
   answers.add(checker.certifyState(edge.from));
-  answers.add(checker.certifyEdge(edge.from, edge.to, false));
-  answers.add(checker.certifyEdge(edge.from, edge.to, true));
+  answers.add(checker.certifyEdge(edge.from, edge.to));
+  answers.add(checker.certifyEdge(edge.from, edge.to, {.earliest = true}));
   answers.addVerdict(checker.isProvedFree(edge.from, edge.to));
   answers.addVerdict(checker.interference(edge.to).has_value());
   answers.add(checker.clearance(edge.from));
@@ -104,14 +104,14 @@ TEST_P(Threads, CheckerInAnotherOrder) {
   std::vector<MotionVerdict> states, motions;
   for (const Edge& edge : edges) {
     states.push_back(alone.certifyState(edge.to).verdict);
-    motions.push_back(alone.certifyEdge(edge.from, edge.to, false).verdict);
+    motions.push_back(alone.certifyEdge(edge.from, edge.to).verdict);
   }
   for (const MotionVerdict verdict : {MotionVerdict::free, MotionVerdict::contact})
     EXPECT_GT(std::count(motions.begin(), motions.end(), verdict), 3);
   inThreads([&](int k) {
     for (std::size_t i = 0; i < edges.size(); ++i) {
       const std::size_t e = (i * 7 + static_cast<std::size_t>(k) * 31) % edges.size();
-      ASSERT_EQ(shared.certifyEdge(edges[e].from, edges[e].to, false).verdict, motions[e]) << e;
+      ASSERT_EQ(shared.certifyEdge(edges[e].from, edges[e].to).verdict, motions[e]) << e;
       ASSERT_EQ(shared.certifyState(edges[e].to).verdict, states[e]) << e;
     }
   });
@@ -148,7 +148,7 @@ TEST_P(Threads, SceneAndEdgeMotions) {
 TEST_P(Threads, Validators) {
   for (const char* const method : {"certified", "adaptive", "discrete"}) {
     Problem problem = ownProblem(GetParam());
-    problem.settings.checker.edges = choiceNamed<EdgeCheck>(method).value();
+    problem.settings.checker.edges = edgeMethodNamed(method).value();
     const std::vector<Edge> edges = someEdges(problem, 16);
     const Checker checker(problem);
     const auto space = std::make_shared<ProblemStateSpace>(problem.model.space);

@@ -52,18 +52,18 @@ class Answers {
     addVerdict(result.verdict);
     add(static_cast<int>(result.reason));
     add(result.certifiedUntil);
-    add(result.contactTime);
+    add(result.time);
     add(result.grazing);
     if (result.pair) add(*result.pair);
     add(result.gap);
   }
   void add(const Contact& pair) {
     for (const std::size_t body : {pair.bodyA, pair.bodyB}) add(body);
-    for (const std::uint32_t triangle : {pair.triangleA, pair.triangleB}) add(triangle);
+    for (const std::uint32_t triangle : {pair.primitiveA, pair.primitiveB}) add(triangle);
   }
   void add(const Counters& counters) {
     for (const std::uint64_t count :
-         {counters.boxTests, counters.triangleTests, counters.exactTests, counters.poses,
+         {counters.boxTests, counters.primitiveTests, counters.exactTests, counters.poses,
           counters.splits, counters.edges, counters.states, counters.undecided})
       add(count);
   }

@@ -165,9 +165,8 @@ std::size_t expectTheSameOfOneThread(const Problem& problem, const Recorder& rec
     for (const AskedState& state : log->states)
       wrong += checker.isProvedFree(state.q) != state.valid;
     for (const AskedMotion& motion : log->motions) {
-      const bool valid =
-          checker.inBounds(motion.to) &&
-          checker.certifyEdge(motion.from, motion.to, false).verdict == MotionVerdict::free;
+      const bool valid = checker.inBounds(motion.to) &&
+                         checker.certifyEdge(motion.from, motion.to).verdict == MotionVerdict::free;
       wrong += valid != motion.valid;
     }
     asked += log->motions.size();

@@ -17,25 +17,35 @@ struct Second {
 
 TEST(Scratch, OneObjectOfEachType) {
   Scratch scratch;
-  First& first = scratch.of<First>();
+  First& first = *scratch.use<First>();
   first.numbers = {1, 2, 3};
-  EXPECT_TRUE(scratch.of<Second>().numbers.empty());
-  scratch.of<std::vector<double>>().push_back(4);
-  EXPECT_EQ(&scratch.of<First>(), &first) << "an object keeps its address";
+  EXPECT_TRUE(scratch.use<Second>()->numbers.empty());
+  scratch.use<std::vector<double>>()->push_back(4);
+  EXPECT_EQ(&*scratch.use<First>(), &first) << "an object keeps its address";
   EXPECT_EQ(first.numbers.size(), 3U);
 }
 
 TEST(Scratch, ACopyHasMemoryOfItsOwn) {
   Scratch scratch;
-  scratch.of<First>().numbers = {1};
+  scratch.use<First>()->numbers = {1};
   Scratch copy(scratch);
-  EXPECT_TRUE(copy.of<First>().numbers.empty());
+  EXPECT_TRUE(copy.use<First>()->numbers.empty());
   copy = scratch;
-  EXPECT_NE(&copy.of<First>(), &scratch.of<First>());
-  const First* const kept = &scratch.of<First>();
+  EXPECT_NE(&*copy.use<First>(), &*scratch.use<First>());
+  const First* const kept = &*scratch.use<First>();
   Scratch moved(std::move(scratch));
-  EXPECT_EQ(&moved.of<First>(), kept);
+  EXPECT_EQ(&*moved.use<First>(), kept);
 }
+
+#ifndef NDEBUG
+TEST(ScratchDeathTest, OneUserAtATime) {
+  Scratch scratch;
+  { const auto use = scratch.use<First>(); }
+  const auto use = scratch.use<First>();
+  const auto other = scratch.use<Second>();
+  EXPECT_DEATH({ const auto again = scratch.use<First>(); }, "two users of one scratch object");
+}
+#endif
 
 }  // namespace
 }  // namespace corridor

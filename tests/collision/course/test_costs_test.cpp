@@ -42,7 +42,7 @@ TEST(TestCosts, RecordsTheTestsOfQueries) {
     contacts += interference(Posed(a), Posed(b, poses[i]), context).has_value();
     const auto here = [&](const RecordedTest& t) { return t.pose == i; };
     EXPECT_EQ(std::ranges::count_if(tests.boxes, here), context.counters.boxTests) << i;
-    EXPECT_EQ(std::ranges::count_if(tests.leaves, here), context.counters.triangleTests) << i;
+    EXPECT_EQ(std::ranges::count_if(tests.leaves, here), context.counters.primitiveTests) << i;
   }
   EXPECT_GT(contacts, 2);
   EXPECT_LT(contacts, 12);

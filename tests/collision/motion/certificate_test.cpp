@@ -328,7 +328,7 @@ TEST_P(Certificate, RandomMotions) {
     const MotionResult bare = certifyMotion(edge, {&pair, 1}, c.options, c.context);
     ASSERT_EQ(bare.verdict, result.verdict) << n;
     EXPECT_EQ(bare.certifiedUntil, result.certifiedUntil);
-    EXPECT_EQ(bare.contactTime, result.contactTime);
+    EXPECT_EQ(bare.time, result.time);
     const auto fault = c.check();
     EXPECT_FALSE(fault) << n << ": kind " << int(fault->kind) << " at " << fault->t;
     for (const FreeInterval& i : c.certificate.free)
@@ -350,7 +350,7 @@ TEST_P(Certificate, RandomMotions) {
     const Vec3 p = *c.certificate.point_A;
     add(dot, p, p, p);
     const Body point = bodyOf(dot);
-    const Transform X = c.motion.at(result.contactTime);
+    const Transform X = c.motion.at(result.time);
     for (const auto& [body, pose] : {std::pair(&fixed, Transform()), std::pair(&moving, X)})
       EXPECT_LT(distance(Posed(body->binaryTree(), pose), Posed(point.binaryTree()), {}, c.context)
                     .distance,

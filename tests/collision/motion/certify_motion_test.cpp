@@ -144,10 +144,10 @@ TEST(CertifyMotion, RandomEdges) {
     } else if (r.verdict == MotionVerdict::contact) {
       ASSERT_NE(back.verdict, MotionVerdict::free);
       ASSERT_TRUE(interference(Posed(fixed.binaryTree()),
-                               Posed(moving.binaryTree(), motion.at(first.contactTime)), context))
+                               Posed(moving.binaryTree(), motion.at(first.time)), context))
           << n;
       ASSERT_TRUE(interference(Posed(fixed.binaryTree()),
-                               Posed(moving.binaryTree(), motion.at(r.contactTime)), context))
+                               Posed(moving.binaryTree(), motion.at(r.time)), context))
           << n;
       options.margin = 0.1;
       ASSERT_NE(certify(moving, fixed, motion, options, context).verdict, MotionVerdict::free) << n;
@@ -310,8 +310,8 @@ TEST(CertifyMotion, ContactsThatBeginWithAnInterval) {
               << k << "/64 by " << edgeMethodNames()[static_cast<std::size_t>(method)];
           if (!earliest) continue;
           EXPECT_LE(r.certifiedUntil, k / 64.0);
-          EXPECT_GE(r.contactTime, k / 64.0 - 1e-12);
-          EXPECT_TRUE(r.grazing || r.contactTime - r.certifiedUntil <= options.timeTolerance) << k;
+          EXPECT_GE(r.time, k / 64.0 - 1e-12);
+          EXPECT_TRUE(r.grazing || r.time - r.certifiedUntil <= options.timeTolerance) << k;
         }
 }
 

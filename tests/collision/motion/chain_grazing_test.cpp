@@ -153,7 +153,7 @@ TEST(CertifyMotion, RandomChainsAgainstSamples) {
                           context);
     };
     if (r.verdict == MotionVerdict::contact) {
-      ASSERT_TRUE(touches(r.contactTime)) << n;
+      ASSERT_TRUE(touches(r.time)) << n;
     }
     if (r.verdict != MotionVerdict::free) continue;
     for (int i = 0; i <= 200; ++i) ASSERT_FALSE(touches(i / 200.0)) << n << " at " << i;

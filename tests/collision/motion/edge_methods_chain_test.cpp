@@ -54,7 +54,7 @@ TEST_P(EdgeMethodsOfChains, RandomChainsAgainstSamples) {
       return interference(Posed(a.binaryTree()), Posed(b.binaryTree(), X_AB), context).has_value();
     };
     if (r.verdict == MotionVerdict::contact) {
-      ASSERT_TRUE(touches(r.contactTime)) << n;
+      ASSERT_TRUE(touches(r.time)) << n;
     }
     for (int i = 0; i <= 100 && r.certifiedUntil > 0; ++i)
       ASSERT_FALSE(touches(r.certifiedUntil * i / 100)) << n << " at " << i;

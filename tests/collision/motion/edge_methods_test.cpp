@@ -119,8 +119,8 @@ TEST_P(EdgeMethods, FirstContactOfATranslation) {
     EXPECT_GE(r.certifiedUntil, first - clearanceSlack / 10 - options_.timeTolerance);
     if (clearanceSlack < 5e-3) {
       ASSERT_EQ(r.verdict, MotionVerdict::contact) << clearanceSlack;
-      EXPECT_GE(r.contactTime, first - 1e-15);
-      EXPECT_LE(r.contactTime - r.certifiedUntil, options_.timeTolerance);
+      EXPECT_GE(r.time, first - 1e-15);
+      EXPECT_LE(r.time - r.certifiedUntil, options_.timeTolerance);
       EXPECT_TRUE(r.pair);
     }
   }
@@ -163,10 +163,10 @@ TEST_P(EdgeMethods, ThinPlateIsNotJumped) {
         ask(cube, plate, RigidMotion::spatial(at(Vec3(0, 0, -7)), at(Vec3(0, 0, 6)), {}));
     ASSERT_EQ(r.verdict, MotionVerdict::contact);
     const double first = (7 - 1e-3) / 13;
-    EXPECT_GE(r.contactTime, first - 1e-15);
+    EXPECT_GE(r.time, first - 1e-15);
     EXPECT_LE(r.certifiedUntil, first);
     if (earliest) {
-      EXPECT_LE(r.contactTime - r.certifiedUntil, options_.timeTolerance);
+      EXPECT_LE(r.time - r.certifiedUntil, options_.timeTolerance);
     }
   }
 }
@@ -336,9 +336,9 @@ TEST_P(EdgeMethods, SlowContactGrazes) {
       ask(cube, wall,
           RigidMotion::spatial(at(Vec3(0, 0.5 - 5e-8, 0)), at(Vec3(0, 0.5 + 1.5e-7, 0)), {}));
   ASSERT_EQ(r.verdict, MotionVerdict::contact);
-  EXPECT_GE(r.contactTime, 0.25 - 1e-6);
+  EXPECT_GE(r.time, 0.25 - 1e-6);
   EXPECT_LE(r.certifiedUntil, 0.25 + 1e-6);
-  EXPECT_TRUE(r.grazing || r.contactTime - r.certifiedUntil <= options_.timeTolerance);
+  EXPECT_TRUE(r.grazing || r.time - r.certifiedUntil <= options_.timeTolerance);
 }
 
 /// `free` and `contact` must never be false. The verdict must be `free` if the clearance is above
@@ -380,7 +380,7 @@ TEST_P(EdgeMethods, GrazingByConstruction) {
       }
     }
     if (options_.earliest && r.verdict == MotionVerdict::contact) {
-      ASSERT_TRUE(r.grazing || r.contactTime - r.certifiedUntil <= options_.timeTolerance) << n;
+      ASSERT_TRUE(r.grazing || r.time - r.certifiedUntil <= options_.timeTolerance) << n;
     }
   }
   std::cout << free << " of " << apart << " free, " << contact << " of " << together
@@ -419,12 +419,11 @@ TEST_P(EdgeMethods, RandomEdges) {
     for (int i = 0; i <= 100 && until > 0; ++i)
       ASSERT_FALSE(touch(moving, fixed, motion.at(until * i / 100))) << n << " at " << i;
     if (r.verdict == MotionVerdict::contact) {
-      ASSERT_TRUE(touch(moving, fixed, motion.at(r.contactTime))) << n;
+      ASSERT_TRUE(touch(moving, fixed, motion.at(r.time))) << n;
     }
     if (first.verdict == MotionVerdict::contact) {
-      ASSERT_TRUE(touch(moving, fixed, motion.at(first.contactTime))) << n;
-      ASSERT_TRUE(first.grazing ||
-                  first.contactTime - first.certifiedUntil <= options_.timeTolerance);
+      ASSERT_TRUE(touch(moving, fixed, motion.at(first.time))) << n;
+      ASSERT_TRUE(first.grazing || first.time - first.certifiedUntil <= options_.timeTolerance);
     }
   }
   std::cout << verdicts[0] << " free, " << verdicts[1] << " contact, " << verdicts[2]
@@ -458,8 +457,8 @@ TEST_P(EdgeMethods, BallAroundARod) {
   ASSERT_EQ(r.verdict, MotionVerdict::contact);
   const double first = 1.7 / 4;  // the centre moves from 2 to 0.3
   EXPECT_LE(r.certifiedUntil, first);
-  EXPECT_GE(r.contactTime, first - 1e-12);
-  EXPECT_LE(r.contactTime - r.certifiedUntil, options_.timeTolerance);
+  EXPECT_GE(r.time, first - 1e-12);
+  EXPECT_LE(r.time - r.certifiedUntil, options_.timeTolerance);
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ TEST(CertifyMotion, GrazingByConstruction) {
       notFree += r.verdict != MotionVerdict::free && amount > 2e-7;
     }
     if (options.earliest && r.verdict == MotionVerdict::contact) {
-      ASSERT_TRUE(r.grazing || r.contactTime - r.certifiedUntil <= options.timeTolerance) << n;
+      ASSERT_TRUE(r.grazing || r.time - r.certifiedUntil <= options.timeTolerance) << n;
     }
     if (r.verdict == MotionVerdict::undecided) {
       EXPECT_EQ(r.reason, UndecidedReason::clearance) << n;

@@ -24,7 +24,7 @@ using test::RationalMotion;
 using test::RationalScene;
 using test::ReferenceMotion;
 
-/// A query and its tolerances. The interval [certifiedUntil, contactTime] of a first contact must
+/// A query and its tolerances. The interval [certifiedUntil, time] of a first contact must
 /// be at most `timeTolerance` wide if the body moves by more than the tolerance in that time.
 /// Otherwise the answer may be `undecided`.
 struct Question {
@@ -66,7 +66,7 @@ class Sturm : public testing::TestWithParam<Proof> {
     options.workLimit = 100'000;
     const MotionResult r =
         test::certify(bodyOf(b), bodyOf(a), motion, options, context_, GetParam());
-    const Transform X = motion.at(r.contactTime);
+    const Transform X = motion.at(r.time);
     const auto distance = [&](double t) {
       const Transform pose = motion.at(t);
       return test::rationalContact(fixed, {}, moving, pose)
@@ -85,18 +85,18 @@ class Sturm : public testing::TestWithParam<Proof> {
         ASSERT_TRUE(test::rationalContact(fixed, {}, moving, X));
         const ReferenceMotion real(from, to);
         for (const Vec3& p : moving)
-          ASSERT_LE((real.point(r.contactTime, p) - (X.m * p + X.t).cast<long double>()).norm(),
+          ASSERT_LE((real.point(r.time, p) - (X.m * p + X.t).cast<long double>()).norm(),
                     poseError(moving, from, to) + 0x1p-50 * p.norm() + 0x1p-50 * X.t.norm());
         // Therefore, at the reported time, the exact motion is at most the rounding of the pose
         // away from a contact. The exact motion has a contact at or before the reported time, too,
         // unless the reported contact exists only because of that rounding.
-        counts_.onlyRounded += !known.contact || r.contactTime < path.time(known.low) - kTimeError;
+        counts_.onlyRounded += !known.contact || r.time < path.time(known.low) - kTimeError;
         if (!earliest) break;
         if (!r.grazing) {
-          ASSERT_LE(r.contactTime - r.certifiedUntil, question.timeTolerance);
+          ASSERT_LE(r.time - r.certifiedUntil, question.timeTolerance);
         }
         for (int i = 0; i <= 4 && r.grazing; ++i)
-          ASSERT_LE(distance(r.certifiedUntil + i / 4.0 * (r.contactTime - r.certifiedUntil)),
+          ASSERT_LE(distance(r.certifiedUntil + i / 4.0 * (r.time - r.certifiedUntil)),
                     2 * question.tolerance);
         break;
       }
@@ -105,7 +105,7 @@ class Sturm : public testing::TestWithParam<Proof> {
           ++counts_.workLimit;
         } else {
           ASSERT_EQ(r.reason, UndecidedReason::clearance);
-          ASSERT_LE(distance(r.contactTime), 2 * question.tolerance);
+          ASSERT_LE(distance(r.time), 2 * question.tolerance);
           counts_.undecided++;
         }
     }

@@ -173,7 +173,7 @@ TEST_P(Obb4PartsDistance, EqualsThatOfBinaryTrees) {
     ++queries;
     QueryContext count;
     distance(Posed(a, X_WA), Posed(b, X_WB), {}, count);
-    tests += count.counters.triangleTests;
+    tests += count.counters.primitiveTests;
   }
   ASSERT_GT(queries, 20);
   EXPECT_LT(tests / static_cast<std::uint64_t>(queries), 3000);  // of 1.2 million pairs
@@ -238,9 +238,9 @@ TEST(DistanceOfParts, TestsFewTriangles) {
     closerThan(Posed(a), Posed(b, X_WB), 0.01, context);
     queries += 2;
   }
-  std::cout << context.counters.triangleTests / queries << " of " << mesh.triangles.size()
+  std::cout << context.counters.primitiveTests / queries << " of " << mesh.triangles.size()
             << " triangles tested per query\n";
-  EXPECT_LT(context.counters.triangleTests / queries, mesh.triangles.size() / 10);
+  EXPECT_LT(context.counters.primitiveTests / queries, mesh.triangles.size() / 10);
 }
 
 }  // namespace

@@ -108,7 +108,7 @@ TYPED_TEST(VolumeDistance, SharedWorkloads) {
     }
   }
   for (const int count : checked) EXPECT_GT(count, 40 / test::kSlowdown);
-  std::cout << "N_v " << context.counters.boxTests << ", N_p " << context.counters.triangleTests
+  std::cout << "N_v " << context.counters.boxTests << ", N_p " << context.counters.primitiveTests
             << "\n";
 }
 

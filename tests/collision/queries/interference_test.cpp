@@ -41,8 +41,8 @@ TEST_P(Fits, SharedWorkloads) {
   }
   EXPECT_GT(poses, 5'000);
   std::cout << "1 in " << test::kSlowdown << " of " << poses << " poses, N_v "
-            << context.counters.boxTests << ", N_p " << context.counters.triangleTests << ", exact "
-            << context.counters.exactTests << "\n";
+            << context.counters.boxTests << ", N_p " << context.counters.primitiveTests
+            << ", exact " << context.counters.exactTests << "\n";
 }
 
 /// Maps are not quite rigid, and the relative pose is rounded. The verdicts are compared with brute

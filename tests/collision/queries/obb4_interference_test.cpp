@@ -151,7 +151,7 @@ TEST(Obb4InterferenceOf, TargetsCountAlike) {
       const bool fused = !(target & (HWY_SSSE3 | HWY_SSE4));
       const Counters& same = first.try_emplace(fused, context.counters).first->second;
       EXPECT_EQ(context.counters.boxTests, same.boxTests) << hwy::TargetName(target);
-      EXPECT_EQ(context.counters.triangleTests, same.triangleTests) << hwy::TargetName(target);
+      EXPECT_EQ(context.counters.primitiveTests, same.primitiveTests) << hwy::TargetName(target);
     }
   }
   hwy::SetSupportedTargetsForTest(0);

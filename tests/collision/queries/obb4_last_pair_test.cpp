@@ -159,8 +159,8 @@ TEST(Obb4LastPair, CostsLittleForUnrelatedQueries) {
     (void)interference(Posed(a.tree), Posed(b.tree, X), used, &last);
     (void)interference(Posed(a.tree), Posed(b.tree, X), fresh);
     // A stored pair that does not decide the query costs one additional test of two triangles.
-    more += used.counters.triangleTests - fresh.counters.triangleTests;
-    all += fresh.counters.triangleTests;
+    more += used.counters.primitiveTests - fresh.counters.primitiveTests;
+    all += fresh.counters.primitiveTests;
   }
   EXPECT_LE(1000 * more, all);
 }

@@ -50,7 +50,7 @@ TYPED_TEST(VolumeInterference, SharedWorkloads) {
     }
   }
   for (const std::size_t count : poseCount) EXPECT_GT(count, 100 / test::kSlowdown);
-  std::cout << "N_v " << context.counters.boxTests << ", N_p " << context.counters.triangleTests
+  std::cout << "N_v " << context.counters.boxTests << ", N_p " << context.counters.primitiveTests
             << "\n";
 }
 

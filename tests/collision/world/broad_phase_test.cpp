@@ -50,7 +50,7 @@ RigidScene crowd(std::mt19937_64& random, int count, bool solids) {
 
 bool sameAnswer(const MotionResult& a, const MotionResult& b) {
   return a.verdict == b.verdict && a.reason == b.reason && a.certifiedUntil == b.certifiedUntil &&
-         a.contactTime == b.contactTime && a.grazing == b.grazing && a.gap == b.gap &&
+         a.time == b.time && a.grazing == b.grazing && a.gap == b.gap &&
          a.pair.has_value() == b.pair.has_value() &&
          (!a.pair || (a.pair->bodyA == b.pair->bodyA && a.pair->bodyB == b.pair->bodyB));
 }
@@ -157,7 +157,7 @@ TEST(BroadPhase, FindsTheSolidThatABodyLeaves) {
   const MotionResult result =
       scene.certifyEdge(at(Vec3(0, 0, 0)), at(Vec3(5, 0, 0)), options, context);
   EXPECT_EQ(result.verdict, MotionVerdict::contact);
-  EXPECT_EQ(result.contactTime, 0);
+  EXPECT_EQ(result.time, 0);
   EXPECT_EQ(result.certifiedUntil, 0);
 }
 

@@ -93,8 +93,8 @@ TEST(Manual, FirstContactAlongAMotion) {
   const MotionResult r = scene.certifyEdge(from, into, options, context);
   EXPECT_EQ(r.verdict, MotionVerdict::contact);
   EXPECT_LE(r.certifiedUntil, 0.5);
-  EXPECT_GE(r.contactTime, 0.5);
-  EXPECT_LE(r.contactTime - r.certifiedUntil, options.timeTolerance);
+  EXPECT_GE(r.time, 0.5);
+  EXPECT_LE(r.time - r.certifiedUntil, options.timeTolerance);
   EXPECT_EQ(context.counters.edges, 2U);
 }
 

@@ -95,7 +95,7 @@ TEST(EveryTreeKind, StatesAndClearances) {
   // Queries have used trees of each kind, and the counts of tests differ from kind to kind.
   for (const auto& [trees, counted] : counters) {
     EXPECT_GT(counted.boxTests, 0u) << treeName(trees);
-    EXPECT_GT(counted.triangleTests, 0u) << treeName(trees);
+    EXPECT_GT(counted.primitiveTests, 0u) << treeName(trees);
   }
   EXPECT_GT(counters[TreeKind::sphere].boxTests, counters[TreeKind::obbBinary].boxTests);
   EXPECT_NE(counters[TreeKind::kdop14].boxTests, counters[TreeKind::kdop26].boxTests);
@@ -135,9 +135,9 @@ TEST(EveryTreeKind, Edges) {
         return clearance <= options.margin * (1 + 1e-9);
       };
       if (r.verdict == MotionVerdict::contact) {
-        ASSERT_TRUE(touches(r.contactTime));
+        ASSERT_TRUE(touches(r.time));
         if (options.earliest) {
-          ASSERT_TRUE(r.grazing || r.contactTime - r.certifiedUntil <= options.timeTolerance);
+          ASSERT_TRUE(r.grazing || r.time - r.certifiedUntil <= options.timeTolerance);
         }
       }
       if (trees != TreeKind::obb4 && n % 5) continue;  // others: in every fifth case

@@ -23,7 +23,7 @@ int main(int count, char** arguments) try {
   for (std::size_t k = 0; k < curve.pieces.size(); ++k) {
     const MotionResult result = checker.certifyCurve(curve.pieces[k], true);
     if (result.verdict == MotionVerdict::free) continue;
-    const double share = std::max(0.0, result.contactTime);
+    const double share = std::max(0.0, result.time);
     std::cout << (result.verdict == MotionVerdict::contact ? "contact" : "undecided") << " at "
               << curve.knots[k] + share * (curve.knots[k + 1] - curve.knots[k]) << "\n";
     return 1;

@@ -127,7 +127,7 @@ TEST(Campaign, ARunEqualsASolve) {
       EXPECT_EQ(run.counters.states, report.counters.states);
       EXPECT_EQ(run.counters.edges, report.counters.edges);
       EXPECT_EQ(run.counters.boxTests, report.counters.boxTests);
-      EXPECT_EQ(run.counters.triangleTests, report.counters.triangleTests);
+      EXPECT_EQ(run.counters.primitiveTests, report.counters.primitiveTests);
       EXPECT_NEAR(run.time,
                   run.setUpTime + run.plannerTime + run.simplificationTime + run.certificationTime,
                   1e-9);

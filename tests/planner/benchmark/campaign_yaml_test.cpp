@@ -93,7 +93,7 @@ TEST_F(CampaignYaml, EveryKey) {
   EXPECT_EQ(checker.tolerance, 1e-6);
   checker = {};
   c.variants[4].apply(checker);
-  EXPECT_EQ(checker.edges, EdgeCheck::discrete);
+  EXPECT_EQ(checker.edges, EdgeMethod::discrete);
   EXPECT_EQ(checker.resolution, 0.01);
   EXPECT_EQ(checker.trees.fit, "vertices");
   EXPECT_EQ(c.runs, 7u);

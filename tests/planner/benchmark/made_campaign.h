@@ -44,10 +44,10 @@ class MadeCampaign : public testing::Test {
     run.verdict = refuted ? "refuted" : "proved";
     run.leastDistance = refuted ? 0 : 0.01 * static_cast<double>(seed);
     run.counters.boxTests = 1000 * seed;
-    run.counters.triangleTests = 10 * seed * seed;
+    run.counters.primitiveTests = 10 * seed * seed;
     // 100 ns per box test, 1000 ns per pair of triangles.
     run.checkingTime = 1e-9 * (100.0 * static_cast<double>(run.counters.boxTests) +
-                               1000.0 * static_cast<double>(run.counters.triangleTests));
+                               1000.0 * static_cast<double>(run.counters.primitiveTests));
     run.rawLength.metres = 4;
     run.length.metres = 3;
     return run;

@@ -85,7 +85,7 @@ TEST_F(ManyRuns, PointsStandForTheRunsNearThem) {
     for (std::uint64_t i = 1; i <= 1500; ++i, ++runs) {
       BenchmarkRun one = run(cell, i);
       one.counters.boxTests = static_cast<std::uint64_t>(1e4 * spread(random)) + 1;
-      one.counters.triangleTests = static_cast<std::uint64_t>(1e3 * spread(random));
+      one.counters.primitiveTests = static_cast<std::uint64_t>(1e3 * spread(random));
       one.checkingTime *= noise(random);
       cell.runs.push_back(one);
     }

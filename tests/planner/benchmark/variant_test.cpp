@@ -30,12 +30,12 @@ CheckerSettings settingsOf(const Variant& variant) {
 TEST(Variant, SetsTheKnobOfItsKind) {
   CheckerSettings checker;
   readVariant("discrete:0.005").apply(checker);
-  EXPECT_EQ(checker.edges, EdgeCheck::discrete);
+  EXPECT_EQ(checker.edges, EdgeMethod::discrete);
   EXPECT_EQ(checker.resolution, 0.005);
   EXPECT_FALSE(checker.tolerance);
   checker = {};
   readVariant("certified:1e-6").apply(checker);
-  EXPECT_EQ(checker.edges, EdgeCheck::certified);
+  EXPECT_EQ(checker.edges, EdgeMethod::directional);
   EXPECT_EQ(checker.resolution, CheckerSettings{}.resolution);
   EXPECT_EQ(checker.tolerance, 1e-6);
 }
@@ -63,7 +63,7 @@ TEST(Variant, EveryEdgeMethodIsAVariant) {
 TEST(Variant, CompetitorsSampleEdges) {
   const std::vector<BenchmarkCompetitor> competitors{{"other", {}}};
   const Variant variant = readVariant("other:0.1", competitors);
-  EXPECT_EQ(settingsOf(variant).edges, EdgeCheck::discrete);
+  EXPECT_EQ(settingsOf(variant).edges, EdgeMethod::discrete);
   EXPECT_EQ(settingsOf(variant).resolution, 0.1);
   ASSERT_TRUE(variant.competitor);
   EXPECT_EQ(variant.competitor->name, "other");

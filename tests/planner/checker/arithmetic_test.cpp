@@ -25,7 +25,7 @@ TEST(CheckerArithmetic, OtherFloatingPointModesAreRefusedInEveryThread) {
     const auto query = [&] {
       const test::WithFloatingPoint set(setting);
       state = checker.certifyState(start);
-      edge = checker.certifyEdge(start, start, true);
+      edge = checker.certifyEdge(start, start, {.earliest = true});
       try {
         checker.interference(start);
       } catch (const std::runtime_error&) {

@@ -91,7 +91,7 @@ TEST(NotFiniteStates, AreNeverFree) {
     for (const EdgeMethod method :
          {EdgeMethod::directional, EdgeMethod::adaptive, EdgeMethod::advancement}) {
       const Checker checker(c.model, {.method = method});
-      ASSERT_EQ(checker.certifyEdge(c.from, c.to, false).verdict, MotionVerdict::free) << c.name;
+      ASSERT_EQ(checker.certifyEdge(c.from, c.to).verdict, MotionVerdict::free) << c.name;
       const std::size_t pairs = checker.pairsNotFree(c.from).size();
       ASSERT_EQ(pairs, 0u);
       const PairMargins more(std::vector<double>(checker.scene().pairs().size(), 0.001));
@@ -100,11 +100,14 @@ TEST(NotFiniteStates, AreNeverFree) {
         expectAmbiguous(checker.certifyState(q), what);
         for (const auto& [from, to] : {std::pair(q, c.to), std::pair(c.from, q), std::pair(q, q)})
           for (const bool earliest : {false, true}) {
-            expectAmbiguous(checker.certifyEdge(from, to, earliest), what);
+            expectAmbiguous(checker.certifyEdge(from, to, {.earliest = earliest}), what);
             MotionCertificate certificate;
-            expectAmbiguous(checker.certifyEdge(from, to, earliest, certificate), what);
+            expectAmbiguous(
+                checker.certifyEdge(from, to, {.earliest = earliest, .certificate = &certificate}),
+                what);
             EXPECT_TRUE(certificate.free.empty()) << what;
-            expectAmbiguous(checker.certifyEdge(from, to, more, earliest), what);
+            expectAmbiguous(checker.certifyEdge(from, to, {.earliest = earliest, .margins = &more}),
+                            what);
             EXPECT_FALSE(checker.isProvedFree(from, to)) << what;
           }
         EXPECT_FALSE(checker.inBounds(q)) << what;
@@ -114,7 +117,7 @@ TEST(NotFiniteStates, AreNeverFree) {
         EXPECT_THROW(checker.clearance(q), std::invalid_argument) << what;
         EXPECT_THROW(checker.pairsWithin(q, more), std::invalid_argument) << what;
         MotionCertificate certificate;
-        ASSERT_EQ(checker.certifyEdge(c.from, c.to, false, certificate).verdict,
+        ASSERT_EQ(checker.certifyEdge(c.from, c.to, {.certificate = &certificate}).verdict,
                   MotionVerdict::free);
         EXPECT_TRUE(checker.faultOf(certificate, c.from, q, 1)) << what;
         EXPECT_TRUE(checker.faultOf(certificate, q, c.to, 1)) << what;
@@ -183,7 +186,7 @@ TEST(NotFiniteStates, OptionsOfCheckersAreRefused) {
     return numbers;
   };
   const CheckerOptions good{.margin = 0.01, .padding = {{{0, 0.01}}, {}}, .tolerance = 1e-6};
-  ASSERT_EQ(Checker(c.model, good).certifyEdge(c.from, c.to, false).verdict, MotionVerdict::free);
+  ASSERT_EQ(Checker(c.model, good).certifyEdge(c.from, c.to).verdict, MotionVerdict::free);
   forEachNotFinite(good, numbersOf, [&](const CheckerOptions& bad, const std::string& what) {
     EXPECT_THROW(Checker(c.model, bad), std::invalid_argument) << what;
   });
@@ -193,7 +196,7 @@ TEST(NotFiniteStates, OptionsOfCheckersAreRefused) {
   forEachNotFinite(tube, [&](const Configuration& bad, const std::string& what) {
     if ((bad.array() >= 0).all()) {
       if (bad.segment<3>(4).allFinite()) {
-        EXPECT_NE(Checker(c.model, {.tube = bad}).certifyEdge(c.from, c.to, false).verdict,
+        EXPECT_NE(Checker(c.model, {.tube = bad}).certifyEdge(c.from, c.to).verdict,
                   MotionVerdict::free)
             << what;
       }
@@ -219,7 +222,7 @@ TEST(NotFiniteStates, NumbersOfModelsAreNeverFree) {
   };
   forEachNotFinite(c.model, numbersOf, [&](const Model& bad, const std::string& what) {
     EXPECT_FALSE(test::claims([&] {
-      return Checker(bad, {.tolerance = 1e-6}).certifyEdge(c.from, c.to, false).verdict ==
+      return Checker(bad, {.tolerance = 1e-6}).certifyEdge(c.from, c.to).verdict ==
              MotionVerdict::free;
     })) << what;
   });

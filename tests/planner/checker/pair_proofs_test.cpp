@@ -211,12 +211,15 @@ TEST(PairProofs, NothingIsFreeBeyondTheProvedValues) {
     for (const bool covered : {true, false}) {
       const Configuration here = at(0), there = at(sign * (covered ? inside : outside));
       expectCovered(checker.certifyState(there), covered, "state");
-      expectCovered(checker.certifyEdge(here, there, false), covered, "edge");
-      expectCovered(checker.certifyEdge(there, here, true), covered, "edge, backwards");
-      expectCovered(checker.certifyEdge(here, there, PairMargins(std::vector<double>{})), covered,
+      expectCovered(checker.certifyEdge(here, there), covered, "edge");
+      expectCovered(checker.certifyEdge(there, here, {.earliest = true}), covered,
+                    "edge, backwards");
+      const PairMargins none(std::vector<double>{});
+      expectCovered(checker.certifyEdge(here, there, {.margins = &none}), covered,
                     "edge with margins");
       MotionCertificate certificate;
-      expectCovered(checker.certifyEdge(here, there, false, certificate), covered, "certificate");
+      expectCovered(checker.certifyEdge(here, there, {.certificate = &certificate}), covered,
+                    "certificate");
       EXPECT_EQ(checker.faultOf({}, here, there, 1).has_value(), !covered);
       CurvePiece piece{Eigen::MatrixXd(1, 2), at(0)};
       piece.coefficients << 0, there[0];

@@ -39,7 +39,7 @@ struct Tally {
 
 void checkEdge(const Problem& problem, const Checker& checker, const Configuration& from,
                const Configuration& to, Tally& tally) {
-  const MotionResult result = checker.certifyEdge(from, to, false);
+  const MotionResult result = checker.certifyEdge(from, to);
   ++tally.edges;
   if (result.verdict == MotionVerdict::free) {
     ++tally.free;

@@ -88,9 +88,9 @@ TEST_F(RestPairs, AreTestedForAllStates) {
   const Checker checker(problem);
   const Configuration from = startOf(problem), to = goalsOf(problem)[0];
   EXPECT_EQ(checker.certifyState(to).verdict, MotionVerdict::contact);
-  const MotionResult edge = checker.certifyEdge(from, to, true);
+  const MotionResult edge = checker.certifyEdge(from, to, {.earliest = true});
   EXPECT_EQ(edge.verdict, MotionVerdict::contact);
-  EXPECT_LE(edge.contactTime, 1.0 / 1024);
+  EXPECT_LE(edge.time, 1.0 / 1024);
   EXPECT_EQ(edge.certifiedUntil, 0);
   const std::vector<Checker::PairNotFree> pairs = checker.pairsNotFree(to);
   ASSERT_EQ(pairs.size(), 1u);

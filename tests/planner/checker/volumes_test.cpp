@@ -63,7 +63,8 @@ TEST(CheckerVolumes, AgreeOnStatesAndEdges) {
         verdicts.push_back(static_cast<int>(checker.certifyState(from[n]).verdict));
         verdicts.push_back(checker.interference(from[n]).has_value());
         verdicts.push_back(checker.clearance(from[n]) > 0);
-        verdicts.push_back(static_cast<int>(checker.certifyEdge(from[n], to[n], n % 2).verdict));
+        verdicts.push_back(static_cast<int>(
+            checker.certifyEdge(from[n], to[n], {.earliest = n % 2 == 1}).verdict));
         verdicts.push_back(checker.isProvedFree(from[n], to[n]));
       }
       if (usual.empty()) usual = verdicts;
@@ -80,7 +81,7 @@ TEST(CheckerVolumes, AgreeOnStatesAndEdges) {
 TEST(CheckerVolumes, WrongWordsThrow) {
   const auto message = [](const TreeNames& words, const std::string& edges) -> std::string {
     Problem problem = with(test::hallProblem(Rigid::SE2), words);
-    problem.settings.checker.edges = choiceNamed<EdgeCheck>(edges).value();
+    problem.settings.checker.edges = edgeMethodNamed(edges).value();
     try {
       const Checker checker(problem);
     } catch (const std::invalid_argument& error) {

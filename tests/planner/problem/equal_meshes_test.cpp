@@ -150,8 +150,8 @@ TEST_F(EqualMeshes, ChangeNoVerdict) {
     for (Eigen::Index k = 3; k < 7; ++k) from[k] = normal(random);
     to = from;
     for (Eigen::Index k = 0; k < 7; ++k) to[k] += 0.2 * normal(random);
-    const MotionVerdict verdict = one.certifyEdge(from, to, false).verdict;
-    ASSERT_EQ(verdict, other.certifyEdge(from, to, false).verdict) << n;
+    const MotionVerdict verdict = one.certifyEdge(from, to).verdict;
+    ASSERT_EQ(verdict, other.certifyEdge(from, to).verdict) << n;
     EXPECT_EQ(one.interference(to).has_value(), other.interference(to).has_value()) << n;
     EXPECT_NEAR(one.clearance(from), other.clearance(from), 1e-9) << n;
     free += verdict == MotionVerdict::free;

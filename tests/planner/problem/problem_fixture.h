@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "planner/problem/bounds.h"
+#include "planner/problem/bounds_of_ends.h"
 #include "planner/problem/problem.h"
 #include "tests/support/support.h"
 

@@ -97,7 +97,7 @@ TEST_F(ProblemYaml, EveryKeyIsRead) {
   EXPECT_EQ(p.settings.sampler, ValidSampler::gaussian);
   EXPECT_EQ(p.settings.simplify, Simplifier::none);
   EXPECT_EQ(p.settings.planner.restart, 500U);
-  EXPECT_EQ(p.settings.checker.edges, EdgeCheck::discrete);
+  EXPECT_EQ(p.settings.checker.edges, EdgeMethod::discrete);
   EXPECT_EQ(p.settings.checker.resolution, 0.02);
   EXPECT_EQ(p.settings.checker.tolerance, 1e-5);
   EXPECT_EQ(p.settings.checker.trees.volume, "obb-binary");
@@ -118,7 +118,7 @@ TEST_F(ProblemYaml, Defaults) {
   EXPECT_EQ(p.settings.planner.time, 20);
   EXPECT_FALSE(p.settings.planner.stopAtFirst);
   EXPECT_EQ(p.settings.sampler, ValidSampler::uniform);
-  EXPECT_EQ(p.settings.checker.edges, EdgeCheck::certified);
+  EXPECT_EQ(p.settings.checker.edges, EdgeMethod::directional);
   EXPECT_EQ(p.settings.checker.trees.volume, "obb");
   EXPECT_EQ(treesNamed(p.settings.checker.trees).trees, TreeKind::obb4);
   EXPECT_EQ(p.task.margin, 0);

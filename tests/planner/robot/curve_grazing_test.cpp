@@ -284,7 +284,7 @@ TEST(CurveMotion, RandomPiecesAgainstSamples) {
       }
     }
     if (r.verdict == MotionVerdict::contact) {
-      ASSERT_TRUE(touches(r.contactTime)) << n;
+      ASSERT_TRUE(touches(r.time)) << n;
     }
     if (r.verdict != MotionVerdict::free) continue;
     for (int i = 0; i <= 100; ++i) ASSERT_FALSE(touches(i / 100.0L)) << n << " at " << i;

@@ -103,9 +103,9 @@ TEST(SceneMotion, EdgesOfRandomTrees) {
       free += answer.verdict == MotionVerdict::free;
       contact += answer.verdict == MotionVerdict::contact;
       if (answer.verdict == MotionVerdict::contact && options.earliest) {
-        // The interval [certifiedUntil, contactTime] of each answer contains the first contact.
-        EXPECT_LE(answer.certifiedUntil, byPairs.contactTime) << n;
-        EXPECT_LE(byPairs.certifiedUntil, answer.contactTime) << n;
+        // The interval [certifiedUntil, time] of each answer contains the first contact.
+        EXPECT_LE(answer.certifiedUntil, byPairs.time) << n;
+        EXPECT_LE(byPairs.certifiedUntil, answer.time) << n;
       }
       if (answer.verdict != MotionVerdict::free || motion.ambiguous()) continue;
       for (const double t : {0.0, 0.17, 0.5, 0.83, 1.0}) {

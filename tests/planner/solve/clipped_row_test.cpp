@@ -56,7 +56,7 @@ class ClippedRow {
     const Curve curve = curveOf(moved(by), problem_.model.space, RowInterpolation::cubic);
     for (std::size_t k = row_ - 1; k <= row_; ++k) {
       const MotionResult r = checker_.certifyCurve(curve.pieces[k]);
-      if (r.verdict == MotionVerdict::contact) return Touch{k, r.contactTime};
+      if (r.verdict == MotionVerdict::contact) return Touch{k, r.time};
     }
     return std::nullopt;
   }

@@ -51,7 +51,7 @@ TEST_F(WallOfPoints, CheckerAndVerifierAgreeWithTheClosedForm) {
   const PathProblem plain = plainProblem(problem.model, problem.task, {});
   for (const auto& [y, free] :
        {std::pair(0.0, true), {0.2099, true}, {0.2101, false}, {0.6, false}}) {
-    const MotionResult edge = checker.certifyEdge(at(-1, y, 0), at(1, y, 0), false);
+    const MotionResult edge = checker.certifyEdge(at(-1, y, 0), at(1, y, 0));
     EXPECT_EQ(edge.verdict, free ? MotionVerdict::free : MotionVerdict::contact) << y;
     const PathReport report = verifyPath(plain, {at(-1, y, 0), at(1, y, 0)});
     EXPECT_EQ(report.verdict, free ? PathVerdict::proved : PathVerdict::refuted) << y;
@@ -85,7 +85,7 @@ TEST_F(WallOfPoints, RandomEdges) {
   for (int n = 0; n < 200; ++n) {
     const double a = real(random), b = real(random), c = real(random), d = real(random);
     const Configuration from = at(-0.3, a, b), to = at(0.3, c, d);
-    const MotionResult edge = checker.certifyEdge(from, to, false);
+    const MotionResult edge = checker.certifyEdge(from, to);
     const PathVerdict verdict = verifyPath(plain, {from, to}).verdict;
     free += edge.verdict == MotionVerdict::free;
     contact += edge.verdict == MotionVerdict::contact;

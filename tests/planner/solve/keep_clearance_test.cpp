@@ -304,7 +304,7 @@ TEST(PreferredClearance, ItsDefaultIsForRobotsWithJoints) {
   for (const auto& change : std::initializer_list<void (*)(Problem&)>{
            [](Problem& p) { p.task.margin = 1e-3; },
            [](Problem& p) { p.settings.simplify = Simplifier::ompl; },
-           [](Problem& p) { p.settings.checker.edges = EdgeCheck::discrete; },
+           [](Problem& p) { p.settings.checker.edges = EdgeMethod::discrete; },
            [](Problem& p) { p.settings.objective = Objective::maxMinClearance; }}) {
     Problem other = arm;
     change(other);

@@ -108,7 +108,7 @@ TEST(ThinPlate, DiscreteGoesThroughAndCertifiedNeverDoes) {
   };
   for (std::uint64_t seed = 1; seed <= 100 / test::kSlowdown; ++seed)
     ASSERT_EQ(verdict(seed), PathVerdict::proved) << "certified, seed " << seed;
-  problem.settings.checker.edges = EdgeCheck::discrete;
+  problem.settings.checker.edges = EdgeMethod::discrete;
   int refuted = 0;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) refuted += verdict(seed) == PathVerdict::refuted;
   EXPECT_GT(refuted, 5) << "paths of the discrete checker that collide, of 10";

@@ -165,7 +165,7 @@ TEST_P(Spaces, MutatedPathsAreRefuted) {
 
 TEST_P(Spaces, DiscreteStepsThroughTheWallAndVerifyRefutesIt) {
   Problem problem = hallProblem(GetParam());
-  problem.settings.checker.edges = EdgeCheck::discrete;
+  problem.settings.checker.edges = EdgeMethod::discrete;
   problem.settings.checker.resolution = 0.2;
   problem.model.bodies[0].shapes[0] = shapeOf("box", test::boxMesh({0.1, 0.1, 0.1}));
   const SolveReport report = solveProblem(problem);
@@ -268,7 +268,7 @@ TEST(Solve, UnknownNamesListTheKnownOnes) {
 TEST_P(Spaces, EveryMethodThatProvesGivesACertifiedPath) {
   Problem problem = hallProblem(GetParam());
   for (const char* edges : {"adaptive", "advancement"}) {
-    problem.settings.checker.edges = choiceNamed<EdgeCheck>(edges).value();
+    problem.settings.checker.edges = edgeMethodNamed(edges).value();
     const SolveReport report = solveProblem(problem);
     ASSERT_EQ(report.outcome, SolveOutcome::solved) << edges << ": " << report.why;
     EXPECT_TRUE(report.certified);

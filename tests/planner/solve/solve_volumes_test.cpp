@@ -19,7 +19,7 @@ TEST_P(SolveOnVolumes, PathsAreFoundAndProved) {
   const SolveReport usual = solveProblem(problem);
   const auto solved = [&](const std::string& edges, const TreeNames& words,
                           const std::string& checkerText) {
-    problem.settings.checker.edges = choiceNamed<EdgeCheck>(edges).value();
+    problem.settings.checker.edges = edgeMethodNamed(edges).value();
     problem.settings.checker.resolution = 0.001;
     problem.settings.checker.trees.volume = words.volume;
     problem.settings.checker.trees.fit = words.fit;

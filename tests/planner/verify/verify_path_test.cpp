@@ -108,8 +108,8 @@ TEST(VerifyPath, ExactTouchingIsRefuted) {
     return verify::Corners{mesh.corner(i, 0), mesh.corner(i, 1), mesh.corner(i, 2)};
   };
   EXPECT_TRUE(verify::exactContact(test::poseIn(finding.configuration),
-                                   corners(world.body, finding.triangleB),
-                                   corners(world.obstacle, finding.triangleA)));
+                                   corners(world.body, finding.primitiveB),
+                                   corners(world.obstacle, finding.primitiveA)));
 }
 
 TEST(VerifyPath, TouchingAtTheGoalIsRefuted) {

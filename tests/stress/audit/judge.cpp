@@ -171,14 +171,13 @@ std::string faultOf(const Case& c, const MotionResult& r) {
   if (c.truth.violates && r.certifiedUntil > c.truth.t)
     fault << " certified until " << r.certifiedUntil << ", beyond the contact";
   if (r.verdict == MotionVerdict::contact) {
-    if (!(r.contactTime >= 0 && r.contactTime <= 1)) {
+    if (!(r.time >= 0 && r.time <= 1)) {
       fault << " contact at no time";
-    } else if (const double apart = c.graze.apartAt(c.rest, r.contactTime);
+    } else if (const double apart = c.graze.apartAt(c.rest, r.time);
                apart > o.margin + c.graze.rounding()) {
-      fault << " FALSE CONTACT at t = " << r.contactTime << ", where they are " << apart
-            << " m apart";
+      fault << " FALSE CONTACT at t = " << r.time << ", where they are " << apart << " m apart";
     }
-    if (o.earliest && !r.grazing && r.contactTime - r.certifiedUntil > o.timeTolerance)
+    if (o.earliest && !r.grazing && r.time - r.certifiedUntil > o.timeTolerance)
       fault << " bracket of the first contact too wide";
   }
   if (r.verdict != MotionVerdict::undecided || c.question.mode > Mode::flushToZero)

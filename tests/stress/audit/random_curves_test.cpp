@@ -245,7 +245,7 @@ void runCase(long number, std::uint64_t seed, Counts& counts) {
   ++counts.cases;
   if (r.verdict == MotionVerdict::contact) {
     ++counts.contact;
-    EXPECT_LE(distance.at(r.contactTime), options.margin + rounding) << name;
+    EXPECT_LE(distance.at(r.time), options.margin + rounding) << name;
   } else {
     const auto [t, nominal] = distance.least();
     Real least = nominal;

@@ -17,7 +17,7 @@ words() {
     read_campaign) set -- planner/{benchmark/campaign_yaml,problem/keys,problem/checker_yaml}.cpp ;;
     read_trajectory) set -- planner/trajectory/*_table.cpp ;;
     read_solution) set -- planner/solve/solution.cpp ;;
-    read_*) set -- planner/problem/*.cpp ;;
+    read_*) set -- planner/problem/*.cpp planner/import/*.cpp ;;
     *) return ;;
   esac
   grep -oh '"[A-Za-z_][A-Za-z_0-9-]*"' "$@" | sort -u

@@ -249,8 +249,8 @@ inline void requireAgreement(const Comparison& c, const MotionResult& checked,
   // The checker finds contacts at rounded poses, so a contact may be off by the rounding.
   if (checked.verdict == MotionVerdict::contact && verified.verdict == PathVerdict::proved &&
       verified.provenClearance > c.options.margin + c.rounding)
-    fail(c.who + "contact at t = " + number(checked.contactTime) +
-         ", but proved with a clearance of " + number(verified.provenClearance));
+    fail(c.who + "contact at t = " + number(checked.time) + ", but proved with a clearance of " +
+         number(verified.provenClearance));
 }
 
 /// Compares the checker with the verifier on the robot's edge, and on the edge's two states.

@@ -5,7 +5,7 @@
 
 #include "planner/problem/problem.h"
 #include "planner/robot/joint_types.h"
-#include "tests/planner/problem/moveit_fixture.h"
+#include "tests/planner/import/moveit_fixture.h"
 #include "tests/support/support.h"
 #include "tests/support/workload.h"
 

@@ -1,4 +1,4 @@
-#include "planner/problem/omplapp_planners.h"
+#include "planner/import/omplapp_planners.h"
 
 #include <algorithm>
 #include <map>

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/problem/moveit_poses.h"
+#include "planner/import/moveit_poses.h"
 #include "planner/problem/robot_file.h"
 #include "planner/problem/yaml_reader.h"
 

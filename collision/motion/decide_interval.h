@@ -57,8 +57,8 @@ struct IntervalAnswer {
 /// Tests the groups of the interval. Appends to the list the groups that cannot be separated and
 /// the groups that were not tested. Records in the certificate what is proved. Returns what ended
 /// the test.
-IntervalAnswer testInterval(const MotionQuery& query, const Interval& interval,
-                            IntervalMotions& motions, WorkList& list);
+IntervalAnswer decideInterval(const MotionQuery& query, const Interval& interval,
+                              IntervalMotions& motions, WorkList& list);
 
 /// Tests only the bounds of whole bodies, for the whole motion. Appends to the list the groups that
 /// the bounds do not separate. Returns the whole motion as an interval with these groups as its

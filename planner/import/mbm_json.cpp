@@ -1,4 +1,4 @@
-#include "planner/problem/mbm_json.h"
+#include "planner/import/mbm_json.h"
 
 #include <algorithm>
 #include <cmath>

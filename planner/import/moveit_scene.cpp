@@ -1,4 +1,4 @@
-#include "planner/problem/moveit_scene.h"
+#include "planner/import/moveit_scene.h"
 
 #include <algorithm>
 #include <array>
@@ -10,9 +10,9 @@
 #include "collision/core/read_file.h"
 #include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
-#include "planner/problem/moveit_frames.h"
-#include "planner/problem/moveit_matrix.h"
-#include "planner/problem/moveit_shapes.h"
+#include "planner/import/moveit_frames.h"
+#include "planner/import/moveit_matrix.h"
+#include "planner/import/moveit_shapes.h"
 #include "planner/problem/urdf_robot.h"
 #include "planner/problem/yaml_ledger.h"
 

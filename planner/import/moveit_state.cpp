@@ -1,4 +1,4 @@
-#include "planner/problem/moveit_state.h"
+#include "planner/import/moveit_state.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "planner/problem/set_range.h"
+#include "planner/import/set_range.h"
 
 #include <gmock/gmock.h>
 

@@ -1,10 +1,10 @@
-#include "planner/problem/moveit_frames.h"
+#include "planner/import/moveit_frames.h"
 
 #include <algorithm>
 #include <vector>
 
 #include "collision/core/spelling.h"
-#include "planner/problem/moveit_poses.h"
+#include "planner/import/moveit_poses.h"
 
 namespace corridor {
 namespace {

@@ -56,10 +56,10 @@ class SolveClock {
 /// The steps of `solveProblem`, for a caller that does other work between them: planner/benchmark
 /// lets OMPL's Benchmark call `plan`. Call setUp, setUpEnds and plan once each, in this order.
 /// Between these calls the clock may be paused, so that the caller's own work is not counted.
-class Solve {
+class SolveRun {
  public:
   /// Both arguments must outlive the object.
-  Solve(const Problem& problem, const SolveOptions& options);
+  SolveRun(const Problem& problem, const SolveOptions& options);
 
   /// Sets up space, checker, sampler, planner and objective, and seeds OMPL's random numbers.
   /// @throws InputError with all faults of names and parameters.
@@ -78,10 +78,10 @@ class Solve {
   const ompl::base::PlannerPtr& planner() const { return planner_; }
 
  private:
-  bool discrete() const { return problem_.settings.checker.edges == EdgeCheck::discrete; }
+  bool discrete() const { return problem_.settings.checker.edges == EdgeMethod::discrete; }
   /// Returns whether the edge tests that the planner uses prove as much as the final certification.
   bool testsAreProofs() const {
-    return problem_.settings.checker.edges == EdgeCheck::certified &&
+    return problem_.settings.checker.edges == EdgeMethod::directional &&
            (!options_.adaptChecking || options_.adaptedTestsAreProofs);
   }
   bool maximisesClearance() const {

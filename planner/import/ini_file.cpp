@@ -1,4 +1,4 @@
-#include "planner/problem/ini_file.h"
+#include "planner/import/ini_file.h"
 
 #include <algorithm>
 #include <sstream>

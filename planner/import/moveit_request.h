@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/problem/moveit_state.h"
+#include "planner/import/moveit_state.h"
 #include "planner/problem/problem.h"
 #include "planner/problem/robot_file.h"
 #include "planner/problem/yaml_reader.h"

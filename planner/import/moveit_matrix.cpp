@@ -1,4 +1,4 @@
-#include "planner/problem/moveit_matrix.h"
+#include "planner/import/moveit_matrix.h"
 
 #include <algorithm>
 #include <map>

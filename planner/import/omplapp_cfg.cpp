@@ -1,4 +1,4 @@
-#include "planner/problem/omplapp_cfg.h"
+#include "planner/import/omplapp_cfg.h"
 
 #include <algorithm>
 #include <cctype>
@@ -10,10 +10,10 @@
 #include "collision/core/read_file.h"
 #include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
+#include "planner/import/ini_file.h"
+#include "planner/import/omplapp_planners.h"
 #include "planner/problem/assembly.h"
-#include "planner/problem/bounds.h"
-#include "planner/problem/ini_file.h"
-#include "planner/problem/omplapp_planners.h"
+#include "planner/problem/bounds_of_ends.h"
 #include "planner/problem/placement.h"
 #include "planner/problem/shape_yaml.h"
 

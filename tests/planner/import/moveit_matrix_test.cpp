@@ -1,5 +1,5 @@
 // The allowed collision matrix of a scene, goals of mimic joints, and empty texts of messages.
-#include "tests/planner/problem/moveit_fixture.h"
+#include "tests/planner/import/moveit_fixture.h"
 #include "tests/support/support.h"
 
 namespace corridor::test {

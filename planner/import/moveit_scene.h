@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "planner/import/moveit_state.h"
 #include "planner/model/model_builder.h"
 #include "planner/model/task.h"
-#include "planner/problem/moveit_state.h"
 #include "planner/problem/problem.h"
 #include "planner/problem/yaml_reader.h"
 

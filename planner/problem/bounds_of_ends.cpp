@@ -1,4 +1,4 @@
-#include "planner/problem/bounds.h"
+#include "planner/problem/bounds_of_ends.h"
 
 #include <algorithm>
 

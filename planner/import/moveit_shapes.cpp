@@ -1,4 +1,4 @@
-#include "planner/problem/moveit_shapes.h"
+#include "planner/import/moveit_shapes.h"
 
 #include <array>
 #include <charconv>

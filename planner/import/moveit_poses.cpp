@@ -1,4 +1,4 @@
-#include "planner/problem/moveit_poses.h"
+#include "planner/import/moveit_poses.h"
 
 #include <algorithm>
 #include <cmath>

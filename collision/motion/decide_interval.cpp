@@ -1,4 +1,4 @@
-#include "collision/motion/interval_test.h"
+#include "collision/motion/decide_interval.h"
 
 #include <algorithm>
 #include <cmath>
@@ -57,8 +57,8 @@ Descent walkTrees(const MotionQuery& query, const WorkList::Group& group,
 
 }  // namespace
 
-IntervalAnswer testInterval(const MotionQuery& query, const Interval& interval,
-                            IntervalMotions& motions, WorkList& list) {
+IntervalAnswer decideInterval(const MotionQuery& query, const Interval& interval,
+                              IntervalMotions& motions, WorkList& list) {
   using Rules = SplitRules;
   const double h = interval.half();
   motions.select(interval.middle(), h);

@@ -3,7 +3,7 @@
 
 #include "planner/problem/problem.h"
 #include "planner/robot/joint_types.h"
-#include "tests/planner/problem/moveit_fixture.h"
+#include "tests/planner/import/moveit_fixture.h"
 
 namespace corridor::test {
 namespace {

@@ -1,4 +1,4 @@
-#include "planner/problem/moveit_request.h"
+#include "planner/import/moveit_request.h"
 
 #include <algorithm>
 #include <cmath>

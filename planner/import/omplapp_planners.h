@@ -1,6 +1,6 @@
 #pragma once
 
-#include "planner/problem/ini_file.h"
+#include "planner/import/ini_file.h"
 #include "planner/problem/problem.h"
 
 namespace corridor {
