@@ -31,6 +31,8 @@ SECTIONS = {
     "Convex polytopes in small steps": ["polytopes_steps", "polytopes_rounds"],
     "Boxes that move": ["moving_boxes"],
     "Fronts of meshes in small steps": ["fronts"],
+    "Bounding volumes under one traversal": ["volume_trees_bunny_torus", "volume_trees_link_box"],
+    "What a query costs": ["inspect_cost"],
     "Parallel close proximity": ["proximity_slopes", "proximity_smallest_gap", "proximity_placements"],
     "Scaling": ["scaling", "scaling_growth"],
     "Refitting": ["refit"],
