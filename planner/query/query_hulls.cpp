@@ -85,15 +85,6 @@ std::string numbers(const Vec3& v) {
   return numbers({v.x(), v.y(), v.z()});
 }
 
-/// @throws InputError if `name` is none of `names`. The message lists the names.
-void requireNameAmong(const std::vector<std::string>& names, const std::string& name,
-                      const char* option, const char* what) {
-  if (std::find(names.begin(), names.end(), name) != names.end()) return;
-  throw InputError(Fault{option, 0,
-                         std::string("unknown ") + what + " " + quotedWord(name) +
-                             didYouMean(name, names) + "; there are: " + joined(names)});
-}
-
 }  // namespace
 
 const std::vector<std::string>& hullMethods() {
@@ -105,8 +96,11 @@ const std::vector<std::string>& hullMethods() {
 void requireHullQuery(const std::string& method, const std::optional<std::string>& asked,
                       bool coherent) {
   const std::string query = asked.value_or("interference");
-  requireNameAmong(hullMethods(), method, "--hulls", "method");
-  requireNameAmong({"interference", "distance", "depth"}, query, "--query", "query with --hulls:");
+  const std::vector<std::string> queries = {"interference", "distance", "depth"};
+  if (std::ranges::count(queries, query) == 0)
+    throw InputError(Fault{"--query", 0,
+                           "unknown query with --hulls: " + quotedWord(query) +
+                               didYouMean(query, queries) + "; there are: " + joined(queries)});
   const bool keepsNothing = method == "lp" || method == "barba-langerman";
   if ((keepsNothing || method == "axes") && query != "interference")
     throw InputError(Fault{"--hulls", 0, method + " needs --query interference"});

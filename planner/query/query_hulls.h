@@ -18,10 +18,11 @@ namespace corridor::app {
 /// - `barba-langerman`: inner and outer hierarchies.
 const std::vector<std::string>& hullMethods();
 
-/// Checks the names that `queryHulls` takes.
-/// @param query interference, distance or depth; unset: interference.
-/// @throws InputError for an unknown query or method, for a query that the method does not have,
-/// and for `coherent` if the method, or the query `depth`, keeps nothing from pose to pose.
+/// Checks the query that `queryHulls` takes.
+/// @param method one of `hullMethods`. @param query interference, distance or depth; unset:
+/// interference.
+/// @throws InputError for another query, for a query that the method does not have, and for
+/// `coherent` if the method, or the query `depth`, keeps nothing from pose to pose.
 void requireHullQuery(const std::string& method, const std::optional<std::string>& query,
                       bool coherent);
 

@@ -94,6 +94,11 @@ TEST_F(QueryCommand, DepthOfMeshes) {
   EXPECT_EQ(fault("--direction 0,0,1"), "--direction: needs --query depth\n");
   EXPECT_EQ(fault("--query depth --volume aabb"),
             "--volume: can't be used with --query depth, which chooses its trees\n");
+  EXPECT_EQ(fault("--query depth --deform b.obj"),
+            "--deform: can't be used with --query depth; use interference, distance or "
+            "tolerance\n");
+  EXPECT_EQ(fault("--query depth --tolerance 1"),
+            "--tolerance: needs --query tolerance or --motions\n");
 }
 
 /// A box of many faces moves past another box in small steps. With --coherent the answers must be
@@ -172,6 +177,8 @@ TEST_F(QueryCommand, HullsOnBadInput) {
             "--direction: is for the depth of meshes, not with --hulls\n");
   EXPECT_EQ(fault("--hulls climbing --build median"),
             "--build: can't be used with --hulls, which needs no trees\n");
+  expectFault("query a.obj b.obj --motions motions.txt --hulls climbing",
+              "--hulls: can't be used with --motions; leave one of them out");
 }
 
 TEST_F(QueryCommand, InterferenceIsOneLineAPose) {
