@@ -9,7 +9,8 @@ namespace corridor::app {
 
 /// The arguments of `corridor benchmark`.
 struct BenchmarkArguments {
-  std::vector<std::string> files;  ///< a campaign, or problems; with `merge`, databases or folders
+  std::vector<std::string>
+      files;  ///< a campaign, or problems; with `merge`, folders, or files of runs
   /// The options --variants, --planners and --trajectories, which are illegal with a campaign. Each
   /// string is a comma-separated list. If `variants` or `planners` is empty, the defaults are used.
   std::vector<std::string> variants, planners;

@@ -24,12 +24,11 @@
 #include "planner/app/other_program.h"
 #include "planner/app/output.h"
 #include "planner/app/rank_job.h"
-#include "planner/benchmark/campaign_database.h"
 #include "planner/benchmark/campaign_spec.h"
 #include "planner/benchmark/campaign_yaml.h"
 #include "planner/benchmark/competitors.h"
-#include "planner/benchmark/database_file.h"
 #include "planner/benchmark/run_campaign.h"
+#include "planner/benchmark/run_file.h"
 #include "planner/benchmark/run_record.h"
 #include "planner/benchmark/write_reports.h"
 #include "planner/import/set_range.h"
@@ -178,14 +177,15 @@ int benchmarkCommand(const BenchmarkArguments& a) {
   checkCampaign(campaign);
   // From here on the command creates files. If a signal arrives, it must finish or remove them.
   const std::atomic<bool>& interrupted = job.listen();
-  const bool made = a.output && makeReportFolder(*a.output, campaign);
+  const bool made = a.output && makeReportFolder(*a.output);
   std::vector<CampaignCell> cells = cellsOf(campaign);
-  std::optional<CampaignDatabase> database;
-  const std::filesystem::path file = std::filesystem::path(a.output.value_or("")) / "campaign.db";
+  std::optional<RunFile> stored;
+  const std::filesystem::path file = std::filesystem::path(a.output.value_or("")) / "runs.jsonl";
   if (a.output)
-    database.emplace(file,
-                     a.resume ? CampaignDatabase::Mode::resume : CampaignDatabase::Mode::fresh,
-                     campaign, cells, job.executor() ? job.executor()->places() : a.jobs);
+    stored.emplace(file, a.resume ? RunFile::Mode::resume : RunFile::Mode::fresh, campaign, cells,
+                   job.executor() ? job.executor()->places() : a.jobs);
+  if (stored)
+    for (const std::string& note : stored->notes()) warn(note);
   if (campaign.shard)
     campaign.notes.push_back("this is shard " + text(*campaign.shard) +
                              " of the campaign's runs; benchmark --merge puts the shards together");
@@ -194,20 +194,20 @@ int benchmarkCommand(const BenchmarkArguments& a) {
   options.jobs = a.jobs;
   options.executor = job.executor();
   RunTrimmer trimmer;
-  if (database)
+  if (stored)
     options.done = [&](std::size_t cell, BenchmarkRun& run) {
-      database->add(cell, run);
+      stored->add(cell, run);
       trimmer.trim(run);
     };
   const bool show = ::isatty(STDERR_FILENO) != 0;
   if (show) options.progress = [&](const CampaignProgress& p) { showProgress(campaign, p); };
-  // Removes the database if it has no runs, and the folder if this command made it. With --resume,
+  // Removes the file of runs if it has none, and the folder if this command made it. With --resume,
   // nothing is removed.
   const auto removeEmpty = [&] {
     std::error_code ignored;
-    if (a.resume || !database || !database->sessions().empty()) return;
-    database.reset();
-    removeDatabase(file);
+    if (a.resume || !stored || !stored->sessions().empty()) return;
+    stored.reset();
+    std::filesystem::remove(file, ignored);
     if (made) std::filesystem::remove(*a.output, ignored);
   };
   CampaignResult result;
@@ -221,7 +221,7 @@ int benchmarkCommand(const BenchmarkArguments& a) {
   if (show) std::fputs("\r\033[K", stderr);
   std::exception_ptr fault;
   try {
-    giveResults(campaign, result, {a.output, database ? &*database : nullptr, a.json});
+    giveResults(campaign, result, {a.output, stored ? &*stored : nullptr, a.json});
   } catch (const InputError&) {
     fault = std::current_exception();
   }
@@ -298,8 +298,8 @@ void addBenchmark(CLI::App& program, int& status) {
   command
       ->add_option(
           "-o,--output", a.output,
-          "write to this folder: report.html with its plots, campaign.db (SQLite), runs.csv, "
-          "summary.csv and the logs of OMPL's Benchmark")
+          "write to this folder: the runs (runs.jsonl), report.html with its plots, runs.csv, "
+          "summary.csv, and campaign.db (SQLite, for Planner Arena)")
       ->group(results);
   command->add_flag("--resume", a.resume, "continue the campaign in the folder where it stopped")
       ->group(results);

@@ -1,16 +1,14 @@
 #include "planner/app/benchmark_merge.h"
 
 #include <filesystem>
-#include <optional>
+#include <memory>
 
 #include "planner/app/benchmark_results.h"
 #include "planner/app/commands.h"
 #include "planner/app/interrupt.h"
 #include "planner/app/output.h"
 #include "planner/app/rank_job.h"
-#include "planner/benchmark/campaign_database.h"
 #include "planner/benchmark/campaign_merge.h"
-#include "planner/benchmark/database_file.h"
 #include "planner/benchmark/write_reports.h"
 
 namespace corridor::app {
@@ -24,36 +22,30 @@ int mergeCampaigns(const BenchmarkArguments& a) {
   for (const std::string& note : campaign.notes) warn(note);
   // From here on the command creates files. If a signal arrives, it must finish or remove them.
   const std::atomic<bool>& interrupted = job.listen();
-  const std::filesystem::path folder = *a.output, file = folder / "campaign.db";
+  const std::filesystem::path folder = *a.output, file = folder / "runs.jsonl";
   std::error_code ignored;
-  const bool made = makeReportFolder(folder, campaign),
-             had = std::filesystem::exists(file, ignored);
+  const bool made = makeReportFolder(folder), had = std::filesystem::exists(file, ignored);
   const auto removeAll = [&] {
-    if (!had) removeDatabase(file);
+    if (!had) std::filesystem::remove(file, ignored);
     if (made) std::filesystem::remove(folder, ignored);
   };
   CampaignResult result;
   result.start = std::chrono::system_clock::now();
-  std::optional<CampaignDatabase> database;
+  result.cells = cellsOf(campaign);
+  std::unique_ptr<RunFile> stored;
   try {
-    if (had) {  // throws if the file has runs, or is no database of a campaign
-      std::vector<CampaignCell> cells = cellsOf(campaign);
-      CampaignDatabase(file, CampaignDatabase::Mode::fresh, campaign, cells);
-    }
-    mergeInto(merge, file);
-    result.cells = cellsOf(campaign);
-    database.emplace(file, CampaignDatabase::Mode::resume, campaign, result.cells);
+    if (had) RunFile(file, RunFile::Mode::fresh, campaign, result.cells);  // throws if it has runs
+    stored = mergeInto(merge, file, result.cells);
   } catch (...) {
-    database.reset();
     removeAll();
     throw;
   }
   if (interrupted) {
-    database.reset();
-    removeDatabase(file);
+    std::filesystem::remove(file, ignored);
     removeAll();
     return interruptedStatus();
   }
+  for (const std::string& note : stored->notes()) warn(note);
   std::uint64_t runs = 0;
   for (const CampaignCell& cell : result.cells) runs += cell.runs.size();
   const std::uint64_t all = result.cells.size() * campaign.runs;
@@ -62,7 +54,7 @@ int mergeCampaigns(const BenchmarkArguments& a) {
                              " are missing; benchmark CAMPAIGN --resume makes them");
     warn(campaign.notes.back());
   }
-  giveResults(campaign, result, {folder, &*database, a.json});
+  giveResults(campaign, result, {folder, stored.get(), a.json});
   return kDone;
 }
 

@@ -4,10 +4,9 @@
 
 namespace corridor::app {
 
-/// `corridor benchmark --merge`: merges databases of one campaign into one database, and writes
-/// this database and all reports into the folder `a.output`. A database that is already in this
-/// folder must have no runs. @returns the exit status. @throws InputError if a database can't be
-/// used, or a file can't be written.
+/// `corridor benchmark --merge`: puts the runs of one campaign in several files together, and
+/// writes them and all reports into the folder `a.output`, which must have no runs yet. @returns
+/// the exit status. @throws InputError if a file can't be used or written.
 int mergeCampaigns(const BenchmarkArguments& a);
 
 }  // namespace corridor::app

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "planner/benchmark/campaign.h"
-#include "planner/benchmark/campaign_database.h"
 #include "planner/benchmark/run_campaign.h"
+#include "planner/benchmark/run_file.h"
 
 /// The output of `corridor benchmark` except its tables: the progress line, notes, the list of
 /// failures, and the JSON.

@@ -32,16 +32,9 @@ bool anyRun(const std::vector<CampaignCell>& cells) {
 
 void giveResults(Campaign& campaign, const CampaignResult& result, const BenchmarkTarget& target) {
   const bool any = anyRun(result.cells);
-  const RunSource runs = target.database ? target.database->runs() : runsOf(result.cells);
-  // If a file can't be written (its folder may be gone), the table is still printed on stdout. The
-  // error is kept, and thrown after the table.
-  std::exception_ptr unwritten;
-  std::vector<CampaignSession> sessions;
-  try {
-    if (target.database) sessions = target.database->sessions();
-  } catch (const InputError&) {
-    unwritten = std::current_exception();
-  }
+  const RunSource runs = target.runs ? target.runs->runs() : runsOf(result.cells);
+  const std::vector<CampaignSession> sessions =
+      target.runs ? target.runs->sessions() : std::vector<CampaignSession>();
   for (const std::string& note : notesOf(campaign, result.cells, sessions)) {
     campaign.notes.push_back(note);
     warn(note);
@@ -51,6 +44,9 @@ void giveResults(Campaign& campaign, const CampaignResult& result, const Benchma
     warn(!any            ? "interrupted before the first run was done; nothing is written"
          : target.folder ? "interrupted: the results cover the finished runs; --resume continues"
                          : "interrupted: the results cover the finished runs");
+  // If a file can't be written (its folder may be gone), the table is still printed on stdout. The
+  // error is kept, and thrown after the table.
+  std::exception_ptr unwritten;
   try {
     if (target.folder && any) {
       writeReports(campaign, result, runs, *target.folder);

@@ -4,14 +4,14 @@
 #include <optional>
 
 #include "planner/benchmark/campaign.h"
-#include "planner/benchmark/campaign_database.h"
+#include "planner/benchmark/run_file.h"
 
 namespace corridor::app {
 
 /// Where the results of `corridor benchmark` go.
 struct BenchmarkTarget {
   std::optional<std::filesystem::path> folder;  ///< unset: only stdout
-  const CampaignDatabase* database = nullptr;   ///< in this folder; null without a folder
+  const RunFile* runs = nullptr;                ///< in this folder; null without a folder
   bool json = false;                            ///< print JSON on stdout, not the tables
 };
 

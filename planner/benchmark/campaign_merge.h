@@ -1,36 +1,36 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <vector>
 
-#include "planner/benchmark/campaign.h"
+#include "planner/benchmark/run_file.h"
 
 namespace corridor {
 
-/// Databases of one campaign that are to be merged, such as those of its shards, or those of two
-/// laboratories that ran different seeds.
+/// Files of runs of one campaign that are to be merged, such as those of its shards, or those of
+/// two laboratories that ran different seeds.
 struct CampaignMerge {
-  std::vector<std::filesystem::path> files;  ///< the databases
-  /// The campaign as the first file records it, but with the seeds of all files and without a
-  /// shard. It can't be run.
+  std::vector<std::filesystem::path> files;
+  /// The campaign of the first file, but with the seeds of all files and without a shard. It can't
+  /// be run.
   Campaign campaign;
 };
 
-/// Reads the campaign of the databases, and tests that all of them have the same campaign. @param
-/// sources files, or folders with a campaign.db.
+/// Reads the campaigns of the files, and tests that they are one campaign. @param sources files, or
+/// folders with a runs.jsonl.
 /// @throws InputError, with the name of a file, in these cases:
-/// - There is no such file, or it is in use.
-/// - It is no campaign database, is damaged, or was written by a version that did not record the
-/// campaign.
-/// - Its cells, or their settings, are not those of the first file.
+/// - There is no such file, it is in use, or it is no file of runs.
+/// - It does not have all cells of the first file, or has other settings for them.
 /// - Between the first and the last seed of all files, there are seeds that no file has.
 CampaignMerge readCampaigns(const std::vector<std::filesystem::path>& sources);
 
-/// Writes all runs to a new database. Rows are copied within SQLite, so the memory does not depend
-/// on their number. @param file the new database. It is created, whole or not at all, and replaces
-/// an existing file.
-/// @throws InputError if two files have a run of the same cell and seed, if a file has one of the
-/// faults that readCampaigns reports, or if `file` can't be written.
-void mergeInto(const CampaignMerge& merge, const std::filesystem::path& file);
+/// Writes the runs of all files to a new file, one file after the other. @param file the new file.
+/// It is created, whole or not at all, and replaces an existing file. @param cells the cells of
+/// `merge.campaign`; they receive the runs, without their texts. @pre `merge` outlives the result.
+/// @throws InputError if two files have a run of the same cell and seed, if a file is damaged, or
+/// if `file` can't be written.
+std::unique_ptr<RunFile> mergeInto(const CampaignMerge& merge, const std::filesystem::path& file,
+                                   std::vector<CampaignCell>& cells);
 
 }  // namespace corridor

@@ -2,11 +2,10 @@
 
 #include <charconv>
 #include <cmath>
-#include <limits>
+#include <stdexcept>
 
 #include <nlohmann/json.hpp>
 
-#include "collision/core/error.h"
 #include "collision/core/shortest.h"
 
 namespace corridor {
@@ -15,7 +14,7 @@ namespace {
 using nlohmann::ordered_json;
 
 [[noreturn]] void damagedRecord(const std::string& what) {
-  throw InputError(Fault{"", 0, "the campaign's record is damaged: " + what});
+  throw std::invalid_argument("the campaign's record has " + what);
 }
 
 /// Returns numbers as texts. They may be infinite, and JSON has no infinity.
@@ -152,7 +151,7 @@ CampaignTrajectories trajectoriesIn(const ordered_json& json, std::size_t proble
   for (const ordered_json& set : json.at("limits")) {
     CampaignLimits limits{set.at("name"), {}};
     for (const ordered_json& of : set.at("of")) limits.ofProblem.push_back(limitsIn(of));
-    if (limits.ofProblem.size() != problems) damagedRecord("limits");
+    if (limits.ofProblem.size() != problems) damagedRecord("limits of another number of problems");
     trajectories.limits.push_back(std::move(limits));
   }
   return trajectories;
@@ -160,7 +159,7 @@ CampaignTrajectories trajectoriesIn(const ordered_json& json, std::size_t proble
 
 }  // namespace
 
-std::string recordOf(const Campaign& campaign) {
+ordered_json recordOf(const Campaign& campaign) {
   ordered_json json{{"name", campaign.name},     {"seed", campaign.seed},
                     {"runs", campaign.runs},     {"memory_mb", campaign.limits.memory},
                     {"verify", campaign.verify}, {"notes", campaign.notes}};
@@ -176,11 +175,10 @@ std::string recordOf(const Campaign& campaign) {
   for (const CampaignPlanner& planner : campaign.planners)
     json["planners"].push_back(jsonOf(planner));
   if (!campaign.trajectories.makers.empty()) json["trajectories"] = jsonOf(campaign.trajectories);
-  return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+  return json;
 }
 
-Campaign campaignOfRecord(const std::string& record) {
-  const ordered_json json = ordered_json::parse(record);
+Campaign campaignOfRecord(const ordered_json& json) {
   Campaign campaign;
   campaign.name = json.at("name");
   campaign.seed = json.at("seed");

@@ -1,5 +1,8 @@
 #include "planner/benchmark/campaign_spec.h"
 
+#include <map>
+#include <tuple>
+
 #include <nlohmann/json.hpp>
 
 #include "collision/core/shortest.h"
@@ -19,6 +22,19 @@ std::string limitsText(const JointLimits& limits) {
   return text;
 }
 
+/// Returns the first setting that differs, such as "time 77.0, not 20.0".
+std::string differenceOf(const std::string& a, const std::string& b) {
+  const auto of = nlohmann::json::parse(a), other = nlohmann::json::parse(b);
+  const auto value = [](const nlohmann::json& spec, const std::string& key) {
+    return spec.contains(key) ? spec[key].dump() : "not set";
+  };
+  for (const auto* all : {&other, &of})
+    for (const auto& [key, unused] : all->items())
+      if (value(of, key) != value(other, key))
+        return key + " " + value(of, key) + ", not " + value(other, key);
+  return "its settings in another order";
+}
+
 }  // namespace
 
 std::string specOf(const Campaign& campaign, const CampaignCell& cell) {
@@ -28,19 +44,11 @@ std::string specOf(const Campaign& campaign, const CampaignCell& cell) {
     checker[entry.key] = entry.value.text;
   if (campaign.variants[cell.variant].competitor)
     checker["peer"] = campaign.variants[cell.variant].competitor->name;
-  // In earlier versions, `simplify: true` meant another simplifier. Runs of the two simplifiers
-  // must not be mixed, so this one is stored under its own name.
-  const bool isOwn = planned.settings.simplify == Simplifier::corridor;
-  const std::string simplify = isOwn ? "corridor" : wordOf(planned.settings.simplify);
-  nlohmann::ordered_json spec{{"problem", campaign.digests[cell.problem]},
-                              {"checker", checker},
-                              {"planner", planned.settings.planner.name},
-                              {"params", planned.settings.planner.params},
-                              {"time", planned.settings.planner.time},
-                              {"memory_mb", campaign.limits.memory},
-                              {"simplify", simplify},
-                              {"verify", campaign.verify}};
-  // Without trajectories, the text is the same as in versions that had no trajectories.
+  nlohmann::ordered_json spec{
+      {"problem", campaign.digests[cell.problem]},     {"checker", checker},
+      {"planner", planned.settings.planner.name},      {"params", planned.settings.planner.params},
+      {"time", planned.settings.planner.time},         {"memory_mb", campaign.limits.memory},
+      {"simplify", wordOf(planned.settings.simplify)}, {"verify", campaign.verify}};
   if (!campaign.trajectories.makers.empty()) {
     for (const TrajectoryMaker maker : campaign.trajectories.makers)
       spec["trajectories"].push_back(nameOf(maker));
@@ -51,20 +59,32 @@ std::string specOf(const Campaign& campaign, const CampaignCell& cell) {
   return spec.dump();
 }
 
-SpecDifference specDifference(const std::string& a, const std::string& b) {
-  const auto of = nlohmann::json::parse(a), other = nlohmann::json::parse(b);
-  const auto value = [](const nlohmann::json& spec, const std::string& key) {
-    return spec.contains(key) ? spec[key].dump() : "not set";
-  };
-  for (const auto* all : {&other, &of})
-    for (const auto& [key, unused] : all->items())
-      if (value(of, key) != value(other, key)) return {key, value(of, key), value(other, key)};
-  return {"order of settings", a, b};
-}
-
 std::string cellName(const Campaign& campaign, const CampaignCell& cell) {
   return campaign.problemNames[cell.problem] + ", " + campaign.variants[cell.variant].name + ", " +
          cell.planner.label;
+}
+
+std::vector<CellMatch> matchCells(const Campaign& of, const Campaign& campaign) {
+  const std::vector<CampaignCell> cells = cellsOf(campaign);
+  std::map<std::tuple<std::string, std::string, std::string>, std::size_t> indices;
+  const auto namesOf = [](const Campaign& c, const CampaignCell& cell) {
+    return std::tuple(c.problemNames[cell.problem], c.variants[cell.variant].name,
+                      cell.planner.label);
+  };
+  for (std::size_t i = 0; i < cells.size(); ++i) indices[namesOf(campaign, cells[i])] = i;
+  std::vector<CellMatch> matches;
+  for (const CampaignCell& cell : cellsOf(of)) {
+    CellMatch& match = matches.emplace_back();
+    if (const auto found = indices.find(namesOf(of, cell)); found != indices.end()) {
+      match.index = found->second;
+      const std::string was = specOf(of, cell), is = specOf(campaign, cells[*match.index]);
+      if (was != is)
+        match.fault = cellName(of, cell) + " was measured with " + differenceOf(was, is);
+    } else {
+      match.fault = "it has runs of " + cellName(of, cell);
+    }
+  }
+  return matches;
 }
 
 }  // namespace corridor

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "planner/benchmark/campaign.h"
 
-/// The settings that must be equal in two databases that belong to one campaign.
+/// The settings that must be equal in all sessions of one campaign.
 namespace corridor {
 
 /// Returns, as JSON, the settings of a cell that must be the same in all sessions: the problem's
@@ -12,13 +14,15 @@ namespace corridor {
 /// `simplify`, `verify`, and the makers and limits of trajectories, if there are any.
 std::string specOf(const Campaign& campaign, const CampaignCell& cell);
 
-/// The first setting that differs between two specs. Values are JSON, or "not set".
-struct SpecDifference {
-  std::string key, a, b;
+/// Where a cell of one campaign is in another campaign.
+struct CellMatch {
+  std::optional<std::size_t> index;  ///< unset: the other campaign does not have the cell
+  /// Why a run of this cell is no run of the other campaign: "hall, certified, RRT was measured
+  /// with time 77.0, not 20.0". Empty if the settings are the same.
+  std::string fault;
 };
-/// Returns the first difference of two specs. @pre the specs differ. @throws
-/// nlohmann::json::exception if one of them is no JSON.
-SpecDifference specDifference(const std::string& a, const std::string& b);
+/// Returns, for each cell of `of`, the cell of `campaign` with the same names.
+std::vector<CellMatch> matchCells(const Campaign& of, const Campaign& campaign);
 
 /// Returns "problem, variant, planner", for messages.
 std::string cellName(const Campaign& campaign, const CampaignCell& cell);

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "planner/benchmark/campaign_database.h"
+#include "planner/benchmark/run_file.h"
 
 namespace corridor {
 

@@ -7,7 +7,7 @@
 
 #include "collision/core/quantiles.h"
 #include "planner/benchmark/build_commit.h"
-#include "planner/benchmark/ompl_log.h"
+#include "planner/benchmark/ompl_database.h"
 #include "planner/benchmark/plot.h"
 #include "planner/benchmark/trajectory_rows.h"
 #include "planner/view/page_text.h"

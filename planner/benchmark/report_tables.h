@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "planner/benchmark/campaign_database.h"
 #include "planner/benchmark/comparison.h"
+#include "planner/benchmark/run_file.h"
 
 /// The tables of a campaign's report, as HTML.
 namespace corridor {

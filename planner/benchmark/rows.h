@@ -10,7 +10,7 @@
 #include "planner/benchmark/campaign.h"
 
 /// A campaign's results as rows of named values, with the same names in CSV files, JSON, the table
-/// and OMPL's log. planner/benchmark/README.md lists every column.
+/// and OMPL's database. planner/benchmark/README.md lists every column.
 namespace corridor {
 
 /// One of: nothing (for example for the length of a path if there is no path), a text, yes or no, a

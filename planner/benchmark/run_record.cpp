@@ -33,74 +33,36 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(TrajectoryRun, fault, duration, rows, velocit
                                    jerk, link, beyondBounds, verdict, finding, makeTime, verifyTime)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LimitedTrajectories, optimum, makers)
 
-namespace {
-
-using nlohmann::json;
-
-std::string lineOf(const json& of) {
-  return of.dump(-1, ' ', false, json::error_handler_t::replace);
-}
-
-/// Returns all of a run except OMPL's record.
-json figuresOf(const BenchmarkRun& run) {
-  json figures = run;
-  if (!run.trajectories.empty()) figures["trajectories"] = run.trajectories;
-  return figures;
-}
-
-BenchmarkRun runOf(const json& figures) {
-  auto run = figures.get<BenchmarkRun>();
-  if (const auto trajectories = figures.find("trajectories"); trajectories != figures.end())
-    trajectories->get_to(run.trajectories);
-  if (const auto ompl = figures.find("ompl"); ompl != figures.end())
-    run.ompl = std::make_shared<const OmplRecord>(ompl->get<OmplRecord>());
-  return run;
-}
-
-}  // namespace
-
 const std::shared_ptr<const OmplRecord>& noOmplRecord() {
   static const auto none = std::make_shared<const OmplRecord>();
   return none;
 }
 
-std::string text(const BenchmarkRun& run) {
-  json all = figuresOf(run);
+nlohmann::json jsonOf(const BenchmarkRun& run) {
+  nlohmann::json all = run;
+  if (!run.trajectories.empty()) all["trajectories"] = run.trajectories;
   all["ompl"] = *run.ompl;
-  return lineOf(all);
+  return all;
+}
+
+BenchmarkRun runIn(const nlohmann::json& all) {
+  auto run = all.get<BenchmarkRun>();
+  if (const auto trajectories = all.find("trajectories"); trajectories != all.end())
+    trajectories->get_to(run.trajectories);
+  run.ompl = std::make_shared<const OmplRecord>(all.at("ompl").get<OmplRecord>());
+  return run;
+}
+
+std::string lineOf(const nlohmann::json& json) {
+  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+std::string text(const BenchmarkRun& run) {
+  return lineOf(jsonOf(run));
 }
 
 BenchmarkRun readRun(const std::string& text) {
-  return runOf(json::parse(text));
-}
-
-RunRecord recordOf(const BenchmarkRun& run) {
-  json setup = *run.ompl;
-  const json ompl{{"properties", std::move(setup["properties"])},
-                  {"progress", std::move(setup["progress"])}};
-  setup.erase("properties");
-  setup.erase("progress");
-  return {lineOf(figuresOf(run)), lineOf(ompl), lineOf(setup)};
-}
-
-OmplRecord readSetup(const std::string& setup) {
-  json all = json::parse(setup);
-  all["properties"] = json::object();
-  all["progress"] = json::array();
-  return all.get<OmplRecord>();
-}
-
-BenchmarkRun readRecord(const std::string& figures, const std::string& ompl,
-                        const OmplRecord& setup) {
-  const json all = json::parse(figures);
-  BenchmarkRun run = runOf(all);
-  if (all.contains("ompl")) return run;
-  const json ofRun = json::parse(ompl);
-  OmplRecord record = setup;
-  ofRun.at("properties").get_to(record.properties);
-  ofRun.at("progress").get_to(record.progress);
-  run.ompl = std::make_shared<const OmplRecord>(std::move(record));
-  return run;
+  return runIn(nlohmann::json::parse(text));
 }
 
 namespace {

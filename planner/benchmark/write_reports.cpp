@@ -6,11 +6,10 @@
 #include <cstdlib>
 #include <cstring>
 #include <ostream>
-#include <set>
 #include <unistd.h>
 
 #include "collision/core/error.h"
-#include "planner/benchmark/ompl_log.h"
+#include "planner/benchmark/ompl_database.h"
 #include "planner/benchmark/rows.h"
 #include "planner/solve/whole_file.h"
 
@@ -31,32 +30,17 @@ std::string whyNoFiles(const fs::path& folder) {
   return "";
 }
 
-/// Returns the files of all logs, in order of problem, then variant, also for variants without
-/// runs.
-std::vector<fs::path> logFiles(const Campaign& campaign, const fs::path& folder) {
-  std::vector<fs::path> files;
-  std::set<std::string> taken;
-  for (const std::string& problem : campaign.problemNames)
-    for (const Variant& variant : campaign.variants) {
-      const std::string base = fileName(problem + "." + variant.name);
-      std::string name = base;
-      for (int i = 2; !taken.insert(name).second; ++i) name = base + "-" + std::to_string(i);
-      files.push_back(folder / (name + ".log"));
-    }
-  return files;
-}
-
 /// Returns what would prevent writing the reports into an existing folder.
-std::vector<Fault> inTheWay(const Campaign& campaign, const fs::path& folder) {
+std::vector<Fault> inTheWay(const fs::path& folder) {
   std::vector<Fault> faults;
   std::error_code none;
   if (const std::string why = whyNoFiles(folder); !why.empty()) return {{folder.string(), 0, why}};
-  std::vector<fs::path> files = logFiles(campaign, folder);
-  for (const char* name : {"runs.csv", "summary.csv", "report.html"})
-    files.push_back(folder / name);
-  for (const fs::path& file : files)
-    if (fs::is_directory(file, none))
+  for (const char* name : {"runs.jsonl", "campaign.db", "runs.csv", "summary.csv", "report.html"})
+    if (const fs::path file = folder / name; fs::is_directory(file, none))
       faults.push_back({file.string(), 0, "is a folder; a file is to be written here"});
+  const fs::path database = folder / "campaign.db";
+  if (const std::string why = whyNotReplaced(database); !why.empty())
+    faults.push_back({database.string(), 0, why});
   const fs::path plots = folder / "plots";
   if (fs::is_directory(plots, none)) {
     if (const std::string why = whyNoFiles(plots); !why.empty())
@@ -85,46 +69,33 @@ std::string fileName(std::string text) {
   return text.substr(0, kLongest);
 }
 
-bool makeReportFolder(const fs::path& folder, const Campaign& campaign) {
+bool makeReportFolder(const fs::path& folder) {
   std::error_code failure, ignored;
   if (fs::exists(folder, ignored) && !fs::is_directory(folder, ignored))
     throw InputError(Fault{folder.string(), 0, "is a file; a folder is needed"});
   const bool made = fs::create_directory(folder, failure);
   if (failure)
     throw InputError(Fault{folder.string(), 0, "can't be created: " + failure.message()});
-  if (std::vector<Fault> faults = inTheWay(campaign, folder); !faults.empty()) {
+  if (std::vector<Fault> faults = inTheWay(folder); !faults.empty()) {
     if (made) fs::remove(folder, ignored);
     throw InputError(std::move(faults));
   }
   return made;
 }
 
-std::vector<fs::path> writeReports(const Campaign& campaign, const CampaignResult& result,
-                                   const RunSource& runs, const fs::path& folder) {
-  std::vector<fs::path> files{folder / "runs.csv", folder / "summary.csv"};
-  writeWhole(files[0], [&](std::ostream& out) {
+void writeReports(const Campaign& campaign, const CampaignResult& result, const RunSource& runs,
+                  const fs::path& folder) {
+  writeWhole(folder / "runs.csv", [&](std::ostream& out) {
     CsvWriter csv(out);
     for (std::size_t c = 0; c < result.cells.size(); ++c)
       runs(c, [&](const BenchmarkRun& run) { csv.add(runRow(campaign, result.cells[c], run)); });
   });
-  writeWhole(files[1], csvOf(summaryRows(campaign, result.cells)));
-  const std::vector<fs::path> logs = logFiles(campaign, folder);
-  for (std::size_t p = 0; p < campaign.problems.size(); ++p)
-    for (std::size_t v = 0; v < campaign.variants.size(); ++v) {
-      const auto isRun = [&](const CampaignCell& cell) {
-        return cell.problem == p && cell.variant == v && !cell.runs.empty();
-      };
-      if (std::none_of(result.cells.begin(), result.cells.end(), isRun)) continue;
-      files.push_back(logs[p * campaign.variants.size() + v]);
-      writeWhole(files.back(),
-                 [&](std::ostream& out) { writeOmplLog(campaign, result, runs, p, v, out); });
-    }
-  return files;
+  writeWhole(folder / "summary.csv", csvOf(summaryRows(campaign, result.cells)));
+  writeOmplDatabase(campaign, result, runs, folder / "campaign.db");
 }
 
-std::vector<fs::path> writeReports(const Campaign& campaign, const CampaignResult& result,
-                                   const fs::path& folder) {
-  return writeReports(campaign, result, runsOf(result.cells), folder);
+void writeReports(const Campaign& campaign, const CampaignResult& result, const fs::path& folder) {
+  writeReports(campaign, result, runsOf(result.cells), folder);
 }
 
 }  // namespace corridor

@@ -1,15 +1,14 @@
 /// Measures what a campaign of many runs costs: `campaign_scale_benchmark --out FOLDER [--runs N]
 /// [--problems N] [--variants N] [--planners N] [--seed N] [--shards N]`.
 ///
-/// Writes a simulated campaign into the folder (simulated_campaign.h), fills its database
-/// `results/campaign.db`, and measures:
-/// * storing a run: each in a transaction of its own, as a campaign does, and many together;
-/// * resuming (reading the database into memory), writing the rows and logs, and writing the
+/// Writes a simulated campaign into the folder (simulated_campaign.h), fills its file of runs
+/// `results/runs.jsonl`, and measures:
+/// * storing a run, which waits for the disk;
+/// * resuming (reading the runs into memory), writing the rows and the database, and writing the
 ///   report: the time of each, and the largest memory that the process has used by then;
 /// * the program itself: `corridor benchmark FOLDER/campaign.yaml -o FOLDER/results --resume`,
-///   which has no run to make. With --shards, it only stores the runs, in turn in the databases
-///   `shard_1/campaign.db`, …, which `corridor benchmark --merge` can then merge.
-#include <algorithm>
+///   which has no run to make. With --shards, it only stores the runs, in turn in the files
+///   `shard_1/runs.jsonl`, …, which `corridor benchmark --merge` can then merge.
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -20,8 +19,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "planner/benchmark/campaign_database.h"
+#include "planner/benchmark/ompl_database.h"
 #include "planner/benchmark/report.h"
+#include "planner/benchmark/run_file.h"
 #include "planner/benchmark/write_reports.h"
 #include "tests/benchmark/arguments.h"
 #include "tests/benchmark/simulated_campaign.h"
@@ -30,7 +30,7 @@ namespace corridor::bench {
 namespace {
 
 namespace fs = std::filesystem;
-using Mode = CampaignDatabase::Mode;
+using Mode = RunFile::Mode;
 
 double secondsOf(const std::function<void()>& work) {
   const auto begin = std::chrono::steady_clock::now();
@@ -71,63 +71,46 @@ void inFork(const std::function<void()>& step) {
     throw std::runtime_error("a step failed");
 }
 
-/// Stores all runs. With K databases, each gets every K-th run, in the order in which a campaign
+/// Stores all runs. With K files, each gets every K-th run, in the order in which a campaign
 /// makes its runs.
 void store(const Campaign& campaign, SimulatedRuns& simulated, const std::vector<fs::path>& files) {
-  constexpr std::uint64_t kAlone = 1000, kTogether = 10'000;
   const std::uint64_t all = simulated.cells() * campaign.runs;
-  double aloneTime = 0, togetherTime = 0;
-  std::uint64_t alone = 0, together = 0;
+  double seconds = 0;
   for (std::size_t shard = 0; shard < files.size(); ++shard) {
     fs::create_directories(files[shard].parent_path());
     std::vector<CampaignCell> cells = cellsOf(campaign);
-    CampaignDatabase database(files[shard], Mode::fresh, campaign, cells);
-    std::vector<std::pair<std::size_t, BenchmarkRun>> runs;
-    const auto flush = [&](bool each) {
-      (each ? alone : together) += runs.size();
-      (each ? aloneTime : togetherTime) += secondsOf([&] {
-        const auto add = [&] {
-          for (const auto& [cell, run] : runs) database.add(cell, run);
-        };
-        each ? add() : database.addTogether(add);
-      });
-      runs.clear();
-    };
+    RunFile stored(files[shard], Mode::fresh, campaign, cells);
     // The order is that of a campaign: all cells with the first seed, then with the second, and so
     // on.
     for (std::uint64_t i = shard; i < all; i += files.size()) {
       const std::size_t cell = i % simulated.cells();
-      runs.emplace_back(cell, simulated.run(cell, campaign.seed + i / simulated.cells()));
-      if (runs.size() == kTogether || (alone == 0 && runs.size() == kAlone)) flush(alone == 0);
+      const BenchmarkRun run = simulated.run(cell, campaign.seed + i / simulated.cells());
+      seconds += secondsOf([&] { stored.add(cell, run); });
     }
-    flush(false);
   }
-  std::printf("store a run: %.0f us (%llu runs); many together: %.0f us (%llu runs)\n",
-              1e6 * aloneTime / static_cast<double>(std::max<std::uint64_t>(alone, 1)),
-              static_cast<unsigned long long>(alone),
-              1e6 * togetherTime / static_cast<double>(std::max<std::uint64_t>(together, 1)),
-              static_cast<unsigned long long>(together));
+  std::printf("store a run: %.0f us (%llu runs)\n", 1e6 * seconds / static_cast<double>(all),
+              static_cast<unsigned long long>(all));
   double bytes = 0;
   for (const fs::path& file : files) bytes += static_cast<double>(fs::file_size(file));
-  std::printf("database: %.0f MB\n", bytes / 1e6);
+  std::printf("files of runs: %.0f MB\n", bytes / 1e6);
 }
 
 void measureSteps(const Campaign& campaign, const fs::path& folder) {
   CampaignResult result;
   result.start = std::chrono::system_clock::now();
   result.cells = cellsOf(campaign);
-  std::unique_ptr<CampaignDatabase> database;
+  std::unique_ptr<RunFile> stored;
   const auto step = [&](const std::string& what, const std::function<void()>& work) {
     const double seconds = secondsOf(work);
     print(what, seconds, largestMemory(RUSAGE_SELF));
   };
   step("resume", [&] {
-    database = std::make_unique<CampaignDatabase>(folder / "campaign.db", Mode::resume, campaign,
-                                                  result.cells);
+    stored = std::make_unique<RunFile>(folder / "runs.jsonl", Mode::resume, campaign, result.cells);
   });
-  step("runs.csv, summary, logs",
-       [&] { writeReports(campaign, result, database->runs(), folder); });
-  step("report", [&] { writeReport(campaign, result.cells, folder, database->sessions()); });
+  step("rows and database", [&] { writeReports(campaign, result, stored->runs(), folder); });
+  step("database alone",
+       [&] { writeOmplDatabase(campaign, result, stored->runs(), folder / "campaign.db"); });
+  step("report", [&] { writeReport(campaign, result.cells, folder, stored->sessions()); });
   std::printf("report.html: %.1f MB\n",
               static_cast<double>(fs::file_size(folder / "report.html")) / 1e6);
 }
@@ -160,11 +143,11 @@ void run(const Arguments& arguments) {
   const Campaign campaign = readCampaign(file);
   std::printf("%zu problems, %zu variants, %zu planners, %llu runs each; seed %zu\n", size.problems,
               size.variants, size.planners, static_cast<unsigned long long>(campaign.runs), seed);
-  std::vector<fs::path> files{folder / "results" / "campaign.db"};
+  std::vector<fs::path> files{folder / "results" / "runs.jsonl"};
   if (arguments.has("--shards")) {
     files.clear();
     for (std::size_t k = 1; k <= shards; ++k)
-      files.push_back(folder / ("shard_" + std::to_string(k)) / "campaign.db");
+      files.push_back(folder / ("shard_" + std::to_string(k)) / "runs.jsonl");
   }
   inFork([&] {
     SimulatedRuns simulated(campaign, seed);

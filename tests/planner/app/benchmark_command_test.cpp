@@ -1,5 +1,6 @@
 // Tests of the program `corridor benchmark`: table, JSON, files, and bad input, after which it must
 // not run anything.
+#include <SQLiteCpp/SQLiteCpp.h>
 #include <algorithm>
 #include <filesystem>
 #include <sstream>
@@ -11,11 +12,9 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/planner/app/program_test.h"
-#include "tests/planner/benchmark/ompl_log_reader.h"
 
 namespace {
 
-using corridor::test::OmplLogReader;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::StartsWith;
@@ -56,9 +55,8 @@ TEST_F(BenchmarkCommand, FilesTableAndVerdicts) {
   ASSERT_EQ(table.size(), 5u) << result.out;
   EXPECT_THAT(table[0], testing::MatchesRegex(
                             "problem +variant +planner +runs +solved .* refuted .*time_s +.*"));
-  EXPECT_THAT(files("results"),
-              UnorderedElementsAre("campaign.db", "runs.csv", "summary.csv", "report.html", "plots",
-                                   "hall.certified.log", "hall.discrete-0.2.log"));
+  EXPECT_THAT(files("results"), UnorderedElementsAre("runs.jsonl", "campaign.db", "runs.csv",
+                                                     "summary.csv", "report.html", "plots"));
   const std::vector<std::string> rows = lines(read("results/runs.csv"));
   ASSERT_EQ(rows.size(), 1u + 2 * 2 * 3);
   EXPECT_THAT(rows[0], StartsWith("problem,variant,planner,seed,result,certified,verdict,time_s,"));
@@ -68,20 +66,16 @@ TEST_F(BenchmarkCommand, FilesTableAndVerdicts) {
   const std::vector<std::string> summary = lines(read("results/summary.csv"));
   ASSERT_EQ(summary.size(), 5u);
   EXPECT_THAT(summary[1], StartsWith("hall,certified,RRTConnect,3,0,3,3,3,0,0,"));
-  std::size_t refuted = 0;
-  for (const char* log : {"results/hall.certified.log", "results/hall.discrete-0.2.log"}) {
-    const auto read = OmplLogReader::read(this->read(log));
-    ASSERT_EQ(read.planners.size(), 2u);
-    for (const auto& planner : read.planners) {
-      ASSERT_EQ(planner.runs.size(), 3u);
-      for (const auto& one : planner.runs) refuted += one.at("refuted") == "1";
-    }
-  }
-  EXPECT_EQ(refuted, static_cast<std::size_t>(
-                         std::count_if(rows.begin(), rows.end(), [](const std::string& row) {
-                           return row.find(",refuted,") != std::string::npos;
-                         })));
-  EXPECT_GT(refuted, 0u);
+  SQLite::Database base((folder_ / "results/campaign.db").string());
+  EXPECT_EQ(base.execAndGet("SELECT group_concat(n) FROM (SELECT count(*) AS n FROM runs GROUP BY "
+                            "experimentid, plannerid)")
+                .getString(),
+            "3,3,3,3");
+  const int refuted = base.execAndGet("SELECT sum(refuted) FROM runs").getInt();
+  EXPECT_EQ(refuted, std::count_if(rows.begin(), rows.end(), [](const std::string& row) {
+              return row.find(",refuted,") != std::string::npos;
+            }));
+  EXPECT_GT(refuted, 0);
 }
 
 TEST_F(BenchmarkCommand, JsonAgreesWithItself) {
@@ -173,19 +167,19 @@ TEST_F(BenchmarkCommand, ReportsObstaclesToOutputFilesBeforeTheFirstRun) {
   const auto inTheWay = [&](const char* name) {
     return "results/" + std::string(name) + ": is a folder; a file is to be written here\n";
   };
-  for (const char* name : {"hall.certified.log", "runs.csv", "summary.csv", "report.html"})
+  for (const char* name : {"runs.jsonl", "campaign.db", "runs.csv", "summary.csv", "report.html"})
     std::filesystem::create_directories(folder_ / "results" / name);
   write("results/report.html/mine.txt", "mine");
   write("results/plots", "mine");
   const Result all = run("benchmark hall.yaml --runs 1 -o results");
   EXPECT_EQ(all.status, 2);
   EXPECT_EQ(all.out, "");
-  EXPECT_EQ(all.err, inTheWay("hall.certified.log") + inTheWay("runs.csv") +
+  EXPECT_EQ(all.err, inTheWay("runs.jsonl") + inTheWay("campaign.db") + inTheWay("runs.csv") +
                          inTheWay("summary.csv") + inTheWay("report.html") +
                          "results/plots: is a file; a folder is needed\n");
   EXPECT_EQ(read("results/report.html/mine.txt"), "mine");
   EXPECT_EQ(read("results/plots"), "mine");
-  EXPECT_THAT(files("results"), UnorderedElementsAre("hall.certified.log", "runs.csv",
+  EXPECT_THAT(files("results"), UnorderedElementsAre("runs.jsonl", "campaign.db", "runs.csv",
                                                      "summary.csv", "report.html", "plots"));
   std::filesystem::remove_all(folder_ / "results");
   std::filesystem::create_directories(folder_ / "results/plots/cost.svg");
@@ -210,8 +204,8 @@ TEST_F(BenchmarkCommand, KeepsOtherFilesOfAnExistingFolder) {
   EXPECT_EQ(read("results/notes.txt"), "mine");
   EXPECT_EQ(lines(read("results/runs.csv")).size(), 2u);
   EXPECT_THAT(files("results"),
-              UnorderedElementsAre("notes.txt", "campaign.db", "runs.csv", "summary.csv",
-                                   "report.html", "plots", "hall.discrete-0.05.log"));
+              UnorderedElementsAre("notes.txt", "runs.jsonl", "campaign.db", "runs.csv",
+                                   "summary.csv", "report.html", "plots"));
 }
 
 TEST_F(BenchmarkCommand, AnInterruptKeepsFinishedRuns) {
@@ -227,7 +221,8 @@ TEST_F(BenchmarkCommand, AnInterruptKeepsFinishedRuns) {
   const std::size_t rows = lines(read("results/runs.csv")).size();
   EXPECT_GT(rows, 1u);
   EXPECT_LT(rows, 100'000u);
-  EXPECT_EQ(OmplLogReader::read(read("results/hall.certified.log")).planners.size(), 1u);
+  SQLite::Database base((folder_ / "results/campaign.db").string());
+  EXPECT_EQ(base.execAndGet("SELECT count(*) FROM runs").getInt(), static_cast<int>(rows) - 1);
 }
 
 /// Results of long runs must reach stdout even if the files can't be written.
@@ -235,17 +230,17 @@ TEST_F(BenchmarkCommand, PrintsTheTableIfFilesCannotBeWritten) {
   // While the runs are under way, a folder is created that has the name of one of the output files.
   const Result result =
       run("benchmark hall.yaml --variants discrete:0.05 --runs 40 -o results",
-          "{ (for i in $(seq 1000); do [ -e results/campaign.db ] && break; sleep 0.01; done; "
+          "{ (for i in $(seq 1000); do [ -e results/runs.jsonl ] && break; sleep 0.01; done; "
           "mkdir results/runs.csv) & } && ");
   EXPECT_EQ(result.status, 2);
   EXPECT_THAT(result.err, StartsWith("results/runs.csv: can't be written"));
   EXPECT_EQ(lines(result.err).size(), 1u) << result.err;
   EXPECT_EQ(lines(result.out).size(), 2u) << result.out;
-  EXPECT_THAT(files("results"), UnorderedElementsAre("campaign.db", "runs.csv"));
+  EXPECT_THAT(files("results"), UnorderedElementsAre("runs.jsonl", "runs.csv"));
 }
 
-/// An interrupt before any run has finished must not leave empty files, logs without planners, or
-/// an empty table.
+/// An interrupt before any run has finished must not leave empty files or an empty
+/// table.
 TEST_F(BenchmarkCommand, AnInterruptDuringTheFirstRunLeavesNoFiles) {
   write("hall.yaml",
         "format: corridor-problem-1\nrobot: robot.yaml\nworld:\n  wall: {box: [0.01, 10, 1]}\n"

@@ -27,7 +27,7 @@ TEST_F(CampaignCommand, ResumesAfterBeingKilled) {
   const unsigned seed = std::random_device{}();
   SCOPED_TRACE("seed " + std::to_string(seed));
   std::mt19937 random(seed);
-  std::size_t last = 0, grown = 0;
+  int last = 0, grown = 0;
   for (int kill = 0; kill < 10; ++kill) {
     const pid_t id = ::fork();
     if (id == 0) {
@@ -42,20 +42,10 @@ TEST_F(CampaignCommand, ResumesAfterBeingKilled) {
         std::uniform_int_distribution(0, 700 * corridor::test::kSlowdown)(random)));
     ::kill(id, SIGKILL);
     ::waitpid(id, nullptr, 0);
-    if (!std::filesystem::exists(folder_ / "killed/campaign.db")) continue;
-    // The database must be consistent. (Opening it rolls back an unfinished transaction.)
-    SQLite::Database base((folder_ / "killed/campaign.db").string(), SQLite::OPEN_READWRITE);
-    EXPECT_EQ(base.execAndGet("PRAGMA integrity_check").getString(), "ok");
-    if (base.execAndGet("SELECT count(*) FROM sqlite_master").getInt() == 0) continue;
-    const auto count = [&](const char* of) {
-      return static_cast<std::size_t>(
-          base.execAndGet(std::string("SELECT count(*) FROM ") + of).getInt());
-    };
-    EXPECT_EQ(count("runs"), count("corridor_runs"));
-    EXPECT_EQ(count("(SELECT DISTINCT runid FROM corridor_runs)"), count("runs"));
-    EXPECT_GE(count("runs"), last);
-    grown += count("runs") > last;
-    last = count("runs");
+    const int runs = runsIn("killed");
+    EXPECT_GE(runs, last);
+    grown += runs > last;
+    last = runs;
   }
   const Result result = run("benchmark campaign.yaml -o killed --resume");
   ASSERT_EQ(result.status, 0) << result.err;
@@ -63,37 +53,46 @@ TEST_F(CampaignCommand, ResumesAfterBeingKilled) {
   EXPECT_EQ(repeatable("killed").size(), 1u + 2 * 3 * 12);
   // At least one session must have added runs before its process was killed; otherwise this test
   // shows nothing.
-  EXPECT_GT(grown, 0u);
-  SQLite::Database base((folder_ / "killed/campaign.db").string());
-  EXPECT_EQ(base.execAndGet("SELECT count(*) FROM runs").getInt(), 2 * 3 * 12);
-  EXPECT_EQ(base.execAndGet("SELECT count(*) FROM (SELECT DISTINCT experimentid, plannerid, seed "
-                            "FROM runs)")
-                .getInt(),
-            2 * 3 * 12);
-  EXPECT_GT(base.execAndGet("SELECT count(*) FROM corridor_sessions").getInt(), 1);
+  EXPECT_GT(grown, 0);
+  EXPECT_EQ(runsIn("killed"), 2 * 3 * 12);
+  for (const char* of : {"runs", "(SELECT DISTINCT experimentid, plannerid, seed FROM runs)"})
+    EXPECT_EQ(query("killed", std::string("SELECT count(*) FROM ") + of), "72");
+  // The report lists the sessions.
+  EXPECT_THAT(read("killed/report.html"), HasSubstr("2 at a time"));
 }
 
 /// A limit on the size of files acts like a full disk: the fault is reported, and earlier runs are
 /// kept.
 TEST_F(CampaignCommand, ReportsAFullDiskAndResumesLater) {
-  // 300 blocks of 512 bytes: enough for the empty tables, too little for all runs.
-  const Result stopped = run("benchmark campaign.yaml -o results", "ulimit -f 300 && ");
+  // 100 blocks of 512 bytes: too little for all runs.
+  const Result stopped = run("benchmark campaign.yaml -o results", "ulimit -f 100 && ");
   EXPECT_EQ(stopped.status, 2);
   EXPECT_EQ(stopped.out, "");
   EXPECT_EQ(stopped.err,
-            "results/campaign.db: can't be read or written: disk I/O error (no file may be larger "
-            "than 153600 bytes: ulimit -f); finished runs are kept; continue with --resume\n");
-  const auto runs = [&] {
-    SQLite::Database base((folder_ / "results/campaign.db").string(), SQLite::OPEN_READWRITE);
-    EXPECT_EQ(base.execAndGet("PRAGMA integrity_check").getString(), "ok");
-    return base.execAndGet("SELECT count(*) FROM corridor_runs").getInt();
-  };
-  const int kept = runs();
+            "results/runs.jsonl: can't be written: File too large (raise the limit on the size of "
+            "files: ulimit -f); finished runs are kept; continue with --resume\n");
+  const int kept = runsIn("results");
   EXPECT_GT(kept, 0);
   EXPECT_LT(kept, 2 * 3 * 12);
   const Result more = run("benchmark campaign.yaml -o results --resume");
   EXPECT_EQ(more.status, 0) << more.err;
-  EXPECT_EQ(runs(), 2 * 3 * 12);
+  EXPECT_EQ(more.err, "") << "no line was written in part";
+  EXPECT_EQ(runsIn("results"), 2 * 3 * 12);
+}
+
+/// The machine lost power while a line was written.
+TEST_F(CampaignCommand, ResumesAfterALineThatIsCut) {
+  ASSERT_EQ(run("benchmark campaign.yaml --runs 2 -o results").status, 0);
+  const auto rows = repeatable("results");
+  const std::string whole = read("results/runs.jsonl");
+  write("results/runs.jsonl", whole.substr(0, whole.size() - 100));
+  const Result more = run("benchmark campaign.yaml --runs 2 -o results --resume");
+  EXPECT_EQ(more.status, 0);
+  EXPECT_EQ(more.err,
+            "corridor: warning: results/runs.jsonl: the last line was not written whole; its run "
+            "is left out\n");
+  EXPECT_EQ(repeatable("results"), rows);
+  EXPECT_EQ(runsIn("results"), 12);
 }
 
 TEST_F(CampaignCommand, ReportListsTheSessions) {
@@ -165,7 +164,7 @@ TEST_F(CampaignCommand, OptionsOverrideTheFile) {
   EXPECT_EQ(result.out, nlohmann::ordered_json::parse(result.out).dump(2) + "\n");
 }
 
-/// With -o, the rows come from the database. They must equal the rows without -o, and the rows
+/// With -o, the rows come from the file of runs. They must equal the rows without -o, and the rows
 /// after --resume.
 TEST_F(CampaignCommand, StoredRowsAreTheSame) {
   const auto rows = [&](const std::string& options) {
@@ -202,9 +201,8 @@ TEST_F(CampaignCommand, BadInputIsOneLine) {
   expectFault("benchmark campaign.yaml --resume",
               "--resume: needs -o with the folder of the campaign");
   ASSERT_EQ(run("benchmark campaign.yaml --runs 1 -o results").status, 0);
-  const std::string before = read("results/campaign.db");
   expectFault("benchmark campaign.yaml --runs 1 -o results",
-              "results/campaign.db: contains 6 runs already; name another folder, or call "
+              "results/runs.jsonl: contains 6 runs already; name another folder, or call "
               "benchmark CAMPAIGN --resume, which continues them");
   write("campaign.yaml",
         "format: corridor-campaign-1\nproblems: [hall.yaml]\nplanners: [RRTConect]\n"
@@ -214,12 +212,39 @@ TEST_F(CampaignCommand, BadInputIsOneLine) {
   EXPECT_THAT(result.err, StartsWith("campaign.yaml:3: planners: unknown planner \"RRTConect\" "
                                      "(did you mean \"RRTConnect\"?)"));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "other"));
+  write("campaign.yaml", "format: corridor-campaign-1\nproblems: [hall.yaml]\ncheckers: {a: {}}\n");
+  write("results/runs.jsonl", read("results/runs.jsonl") + "{}\n");
+  expectFaultThatBegins("benchmark campaign.yaml -o results --resume",
+                        "results/runs.jsonl: is not of this campaign: it has runs of ");
+  write("results/runs.jsonl", "no runs\n");
+  expectFault("benchmark campaign.yaml -o results --resume",
+              "results/runs.jsonl: is not a file of runs (corridor-runs-1)");
+  std::filesystem::remove(folder_ / "results/runs.jsonl");
   write("results/campaign.db",
         "not a database, but long enough to be looked at as if it were one, "
         "which takes a hundred bytes at least");
-  write("campaign.yaml", "format: corridor-campaign-1\nproblems: [hall.yaml]\ncheckers: {a: {}}\n");
   expectFault("benchmark campaign.yaml -o results --resume",
               "results/campaign.db: is not a campaign database");
+}
+
+/// Versions 2 and 3 of the database hold the only record of their runs.
+TEST_F(CampaignCommand, DatabasesOfOlderVersionsAreNotReplaced) {
+  std::filesystem::create_directory(folder_ / "old");
+  SQLite::Database((folder_ / "old/campaign.db").string(),
+                   SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE)
+      .exec(
+          "CREATE TABLE corridor_runs (cellid INTEGER); PRAGMA application_id = 1668248178; "
+          "PRAGMA user_version = 3");
+  const std::string before = read("old/campaign.db"),
+                    fault =
+                        "old/campaign.db: is of an older version of Corridor; continue or merge it "
+                        "with commit b384c05c or earlier";
+  for (const char* use : {"campaign.yaml -o old", "campaign.yaml -o old --resume",
+                          "--merge old -o new", "--merge old/campaign.db -o new"})
+    expectFault(std::string("benchmark ") + use, fault);
+  EXPECT_EQ(read("old/campaign.db"), before);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "old/runs.jsonl"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "new"));
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <SQLiteCpp/SQLiteCpp.h>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -23,6 +24,21 @@ class CampaignTest : public ProgramTest {
           "planners: [RRTConnect, {name: RRT, label: short, params: {range: 0.3}}]\n"
           "checkers:\n  certified: {edges: certified}\n  sampled: {edges: discrete, resolution: "
           "[0.2, 0.01]}\nruns: 12\n");
+  }
+
+  /// Returns the number of stored runs in a folder; 0 while there are none. A line that is being
+  /// written doesn't count.
+  int runsIn(const std::string& folder) const {
+    const std::string text = contents(folder_ / folder / "runs.jsonl");
+    int runs = 0;
+    for (std::size_t at = 0, end; (end = text.find('\n', at)) != text.npos; at = end + 1)
+      runs += text.compare(at, 8, "{\"cell\":") == 0;
+    return runs;
+  }
+  /// Returns the first value of a query of a folder's database.
+  std::string query(const std::string& folder, const std::string& sql) const {
+    SQLite::Database base((folder_ / folder / "campaign.db").string());
+    return base.execAndGet(sql).getString();
   }
 
   /// Returns the rows of runs.csv without the columns of times, which don't repeat.

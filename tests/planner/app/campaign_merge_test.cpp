@@ -1,5 +1,5 @@
 // Tests of `corridor benchmark` on several machines without MPI: --shard and --merge. Merged shards
-// have the rows of the whole campaign. Databases that don't belong to one campaign are refused.
+// have the rows of the whole campaign. Files that don't belong to one campaign are refused.
 #include <SQLiteCpp/SQLiteCpp.h>
 
 #include <gmock/gmock.h>
@@ -14,10 +14,6 @@ using testing::HasSubstr;
 
 class CampaignMerge : public corridor::test::CampaignTest {
  protected:
-  std::string query(const std::string& file, const std::string& sql) const {
-    SQLite::Database base((folder_ / file).string());
-    return base.execAndGet(sql).getString();
-  }
   /// Runs the shards 1/count … count/count into the folders s1, s2, …
   void runShards(int count, const std::string& options = "") const {
     for (int k = 1; k <= count; ++k) {
@@ -50,15 +46,7 @@ TEST_F(CampaignMerge, ThreeShardsHaveTheRowsOfTheWhole) {
   EXPECT_THAT(read("s2/report.html"), HasSubstr("this is shard 2/3"));
   std::filesystem::remove(folder_ / "hall.yaml");  // --merge must not need these files
   std::filesystem::remove(folder_ / "campaign.yaml");
-  {  // a log beside the new database's name, which SQLite would apply to the new database
-    SQLite::Database other((folder_ / "other.db").string(),
-                           SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
-    other.exec("PRAGMA journal_mode = WAL");
-    other.exec("CREATE TABLE other (x)");
-    std::filesystem::create_directory(folder_ / "merged");
-    std::filesystem::copy_file(folder_ / "other.db-wal", folder_ / "merged/campaign.db-wal");
-  }
-  const Result merged = run("benchmark --merge s3 s1/campaign.db s2 -o merged");
+  const Result merged = run("benchmark --merge s3 s1/runs.jsonl s2 -o merged");
   EXPECT_EQ(merged.status, 0) << merged.err;
   EXPECT_EQ(merged.err, "");
   EXPECT_EQ(repeatable("merged"), repeatable("whole"));
@@ -72,24 +60,22 @@ TEST_F(CampaignMerge, ThreeShardsHaveTheRowsOfTheWhole) {
         "SELECT group_concat(name || runcount || seed || edges || ifnull(resolution, '') || setup) "
         "FROM (SELECT * FROM experiments ORDER BY name)",
         "SELECT group_concat(name || settings) FROM (SELECT * FROM plannerConfigs ORDER BY 2, 3)",
-        "SELECT group_concat(problem || variant || planner || spec) FROM (SELECT * FROM "
-        "corridor_cells ORDER BY 2, 3, 4)",
-        "SELECT count(*) || ',' || count(DISTINCT runid) FROM corridor_runs",
-        "SELECT group_concat(key || value) FROM corridor_campaign",
         "SELECT group_concat(name) FROM (SELECT name FROM pragma_table_info('runs') ORDER BY "
         "name)"}) {
-    EXPECT_EQ(query("merged/campaign.db", sql), query("whole/campaign.db", sql)) << sql;
-    EXPECT_GT(query("merged/campaign.db", sql).size(), 4u) << sql;
+    EXPECT_EQ(query("merged", sql), query("whole", sql)) << sql;
+    EXPECT_GT(query("merged", sql).size(), 4u) << sql;
   }
-  EXPECT_EQ(query("merged/campaign.db",
-                  "SELECT count(DISTINCT sessionid) || ',' || (SELECT count(*) FROM "
-                  "corridor_runs c JOIN runs r ON r.id = c.runid WHERE r.seed <> c.seed) FROM "
-                  "corridor_runs JOIN corridor_sessions s ON s.id = sessionid"),
-            "3,0");
+  // The sessions of the shards are there, and then that of the whole campaign.
+  const std::string text = read("merged/runs.jsonl"),
+                    shards = read("s3/runs.jsonl") + read("s1/runs.jsonl") + read("s2/runs.jsonl");
+  EXPECT_EQ(text.substr(0, shards.size()), shards);
+  EXPECT_THAT(text.substr(shards.size()), testing::StartsWith("{\"format\":"));
+  EXPECT_THAT(text.substr(shards.size()), HasSubstr("\"shard\":\"\""));
 }
 
-/// The two shards have runs of different problems, with the same ids. RRTstar reports its progress.
-TEST_F(CampaignMerge, RowsGetNewIdsTogether) {
+/// The two shards have runs of different problems, with the same numbers of setups. RRTstar reports
+/// its progress.
+TEST_F(CampaignMerge, SetupsBelongToTheirSessions) {
   write("other.yaml", read("hall.yaml") + "margin: 0.01\n");
   write("campaign.yaml",
         "format: corridor-campaign-1\nproblems: [hall.yaml, other.yaml]\nplanners: [RRTstar]\n"
@@ -98,15 +84,16 @@ TEST_F(CampaignMerge, RowsGetNewIdsTogether) {
   ASSERT_EQ(run("benchmark --merge s2 s1 -o merged").status, 0);
   const std::string rows =
       "SELECT group_concat(x, char(10)) FROM (SELECT e.name || r.seed || r.solved || r.edges || "
-      "c.problem || substr(json_extract(s.setup, '$.setup'), 1, 20) || count(g.time) || ' ' || "
-      "sum(g.time) AS x FROM corridor_cells c JOIN "
-      "corridor_runs k ON k.cellid = c.id JOIN runs r ON r.id = k.runid JOIN experiments e ON e.id "
-      "= r.experimentid JOIN corridor_setups s ON s.id = k.setupid JOIN progress g ON g.runid = "
-      "r.id GROUP BY r.id ORDER BY c.problem DESC)";
-  const std::string first = query("s2/campaign.db", rows), second = query("s1/campaign.db", rows);
-  EXPECT_THAT(first, testing::StartsWith("other"));
-  EXPECT_THAT(second, testing::StartsWith("hall"));
-  EXPECT_EQ(query("merged/campaign.db", rows), first + "\n" + second);
+      "substr(e.setup, 1, 20) || count(g.time) || ' ' || sum(g.time) AS x FROM runs r JOIN "
+      "experiments e ON e.id = r.experimentid JOIN progress g ON g.runid = r.id GROUP BY r.id "
+      "ORDER "
+      "BY e.name)";
+  const std::string first = query("s1", rows), second = query("s2", rows);
+  EXPECT_THAT(first, testing::StartsWith("hall"));
+  EXPECT_THAT(first, HasSubstr("Problem hall.yaml"));
+  EXPECT_THAT(second, testing::StartsWith("other"));
+  EXPECT_THAT(second, HasSubstr("Problem other.yaml"));
+  EXPECT_EQ(query("merged", rows), first + "\n" + second);
 }
 
 /// Two laboratories run the same campaign with different seeds.
@@ -116,17 +103,17 @@ TEST_F(CampaignMerge, OtherSeedsOfTheSameCampaign) {
   ASSERT_EQ(run("benchmark campaign.yaml --runs 3 --seed 3 -o b").status, 0);
   ASSERT_EQ(run("benchmark --merge b a -o merged").status, 0);
   EXPECT_EQ(repeatable("merged"), repeatable("whole"));
-  // A merged database can be continued, and merged again.
+  // Merged runs can be continued, and merged again.
   ASSERT_EQ(run("benchmark campaign.yaml --runs 6 -o merged --resume").status, 0);
   ASSERT_EQ(run("benchmark campaign.yaml --runs 1 --seed 7 -o c").status, 0);
   ASSERT_EQ(run("benchmark --merge c merged -o all").status, 0);
   EXPECT_EQ(repeatable("all").size(), 1u + 7 * 6);
   ASSERT_EQ(run("benchmark campaign.yaml --runs 1 --seed 4 -o d").status, 0);
   expectFault("benchmark --merge d a -o gap",
-              "d/campaign.db: can't be merged with the others: none of them is for the seeds from "
+              "d/runs.jsonl: can't be merged with the others: none of them is for the seeds from "
               "3 to 3, and a campaign has seeds without a gap");
   expectFault("benchmark --merge c a -o gap",
-              "c/campaign.db: can't be merged with the others: none of them is for the seeds from "
+              "c/runs.jsonl: can't be merged with the others: none of them is for the seeds from "
               "3 to 6, and a campaign has seeds without a gap");
 }
 
@@ -159,10 +146,10 @@ TEST_F(CampaignMerge, TrajectoriesAreRecorded) {
 TEST_F(CampaignMerge, AShardResumes) {
   ASSERT_EQ(run("benchmark campaign.yaml --runs 2 --shard 2/3 -o s").status, 0);
   expectFault("benchmark campaign.yaml --runs 4 --resume -o s",
-              "s/campaign.db: contains shard 2/3 of the runs; continue with --shard 2/3, or name "
+              "s/runs.jsonl: contains shard 2/3 of the runs; continue with --shard 2/3, or name "
               "another folder");
   expectFault("benchmark campaign.yaml --runs 4 --resume --shard 1/3 -o s",
-              "s/campaign.db: contains shard 2/3 of the runs; continue with --shard 2/3, or name "
+              "s/runs.jsonl: contains shard 2/3 of the runs; continue with --shard 2/3, or name "
               "another folder");
   const std::size_t before = repeatable("s").size();
   const Result more = run("benchmark campaign.yaml --runs 4 --resume --shard 2/3 -o s");
@@ -170,14 +157,14 @@ TEST_F(CampaignMerge, AShardResumes) {
   EXPECT_GT(repeatable("s").size(), before);
   ASSERT_EQ(run("benchmark campaign.yaml --runs 1 -o whole").status, 0);
   expectFault("benchmark campaign.yaml --runs 4 --resume --shard 2/3 -o whole",
-              "whole/campaign.db: contains runs of the whole campaign, not of shard 2/3 only; "
+              "whole/runs.jsonl: contains runs of the whole campaign, not of shard 2/3 only; "
               "leave out --shard, or name another folder");
   // The campaign now has one planner fewer, so the groups are dealt to other shards.
   write("campaign.yaml",
         "format: corridor-campaign-1\nproblems: [hall.yaml]\nplanners: [RRTConnect]\ncheckers:\n  "
         "certified: {edges: certified}\n  sampled: {edges: discrete, resolution: [0.2, 0.01]}\n");
   expectFaultThatBegins("benchmark campaign.yaml --runs 4 --resume --shard 2/3 -o s",
-                        "s/campaign.db: contains ");
+                        "s/runs.jsonl: is not of this campaign: it has runs of hall, ");
 }
 
 TEST_F(CampaignMerge, BadInputIsOneLine) {
@@ -194,54 +181,59 @@ TEST_F(CampaignMerge, BadInputIsOneLine) {
   runShards(2, "--runs 1");
   expectFault("benchmark --merge s1 s2", "--merge: needs -o with the folder of the results");
   expectFault("benchmark --merge s1 s3 -o m",
-              "s3: there is no such database; a folder of results, or its campaign.db, is needed");
+              "s3: there is no such file; a folder of results, or its runs.jsonl, is needed");
   expectFault("benchmark --merge s1 . -o m",
-              "./campaign.db: there is no such database; a folder of results, or its campaign.db, "
-              "is needed");
-  expectFault("benchmark --merge s1 hall.yaml -o m", "hall.yaml: is not a campaign database");
+              "./runs.jsonl: there is no such file; a folder of results, or its runs.jsonl, is "
+              "needed");
+  expectFault("benchmark --merge s1 hall.yaml -o m",
+              "hall.yaml: is not a file of runs (corridor-runs-1)");
   expectFault("benchmark --merge s1 s2 --runs 3 -o m",
               "--runs excludes --merge; see corridor benchmark --help");
   expectFault("benchmark --merge s1 s2 -o s1",
-              "s1/campaign.db: contains 3 runs already; name another folder, or call benchmark "
+              "s1/runs.jsonl: contains 3 runs already; name another folder, or call benchmark "
               "CAMPAIGN --resume, which continues them");
-  for (const char* same : {"s1 s2 s1", "s2 s1/campaign.db s1"})
+  for (const char* same : {"s1 s2 s1", "s2 s1/runs.jsonl s1"})
     expectFault(
         "benchmark --merge " + std::string(same) + " -o m",
-        "s1/campaign.db: has runs that another of these databases has, too: seed 1 of "
-        "hall, certified, RRTConnect; name each folder once, or repeat one with another --seed");
+        "s1/runs.jsonl: has a run that is there already: seed 1 of hall, certified, RRTConnect; "
+        "name each folder once, or repeat one with another --seed");
   ASSERT_EQ(run("benchmark campaign.yaml --runs 1 --seed 9 --time 77 -o other").status, 0);
   expectFault("benchmark --merge s1 other -o m",
-              "other/campaign.db: is not of the same campaign as s1/campaign.db: hall, certified, "
-              "RRTConnect has time 77.0, there 20.0");
+              "other/runs.jsonl: is not of the campaign of s1/runs.jsonl: hall, certified, "
+              "RRTConnect was measured with time 77.0, not 20.0");
   ASSERT_EQ(run("benchmark hall.yaml --variants certified --runs 1 -o other2").status, 0);
   expectFault("benchmark --merge s1 other2 -o m",
-              "other2/campaign.db: is not of the same campaign as s1/campaign.db: it does not have "
+              "other2/runs.jsonl: is not of the campaign of s1/runs.jsonl: it does not have "
               "hall, sampled 0.2, RRTConnect");
   expectFault("benchmark --merge other2 s1 -o m",
-              "s1/campaign.db: is not of the same campaign as other2/campaign.db: it has runs of "
-              "hall, sampled 0.01, RRTConnect, which are not in that one");
-  {
-    SQLite::Database base((folder_ / "s2/campaign.db").string(), SQLite::OPEN_READWRITE);
-    base.exec("UPDATE corridor_runs SET record = 'x'");
-  }
-  expectFaultThatBegins("benchmark --merge s1 s2 -o m", "s2/campaign.db: is damaged: ");
-  {
-    SQLite::Database base((folder_ / "s2/campaign.db").string(), SQLite::OPEN_READWRITE);
-    base.exec("DROP TABLE corridor_campaign");
-  }
-  expectFault("benchmark --merge s1 s2 -o m",
-              "s2/campaign.db: was written by an earlier version, without its campaign; call "
-              "`corridor benchmark` once with --resume for it");
+              "s1/runs.jsonl: is not of the campaign of other2/runs.jsonl: it has runs of hall, "
+              "sampled 0.2, RRTConnect; name another folder");
+  const std::string whole = read("s2/runs.jsonl");
+  write("s2/runs.jsonl", whole + "{}\n");
+  expectFaultThatBegins(
+      "benchmark --merge s1 s2 -o m",
+      "s2/runs.jsonl:" + std::to_string(lines(whole).size() + 1) + ": is damaged: ");
+  write("s2/runs.jsonl", "");
+  expectFault("benchmark --merge s1 s2 -o m", "s2/runs.jsonl: has no runs");
   EXPECT_FALSE(std::filesystem::exists(folder_ / "m"));  // nothing was written
+  write("s2/runs.jsonl", whole.substr(0, whole.size() - 9));
+  const Result cut = run("benchmark --merge s1 s2 -o m");
+  EXPECT_EQ(cut.status, 0);
+  EXPECT_EQ(
+      cut.err,
+      "corridor: warning: s2/runs.jsonl: the last line was not written whole; its run is left "
+      "out\ncorridor: warning: 1 run of 6 are missing; benchmark CAMPAIGN --resume makes "
+      "them\n");
 }
 
 TEST_F(CampaignMerge, AFullDiskLeavesNothing) {
   runShards(2, "--runs 8");
-  const Result full = run("benchmark --merge s1 s2 -o m", "ulimit -f 300 && ");
+  const Result full = run("benchmark --merge s1 s2 -o m", "ulimit -f 100 && ");
   EXPECT_EQ(full.status, 2);
-  EXPECT_THAT(full.err,
-              HasSubstr("m/campaign.db: can't be read or written: disk I/O error (no file "
-                        "may be larger than 153600 bytes: ulimit -f); nothing is merged"));
+  EXPECT_THAT(
+      full.err,
+      HasSubstr("m/runs.jsonl.part: can't be written: File too large (raise the limit on the "
+                "size of files: ulimit -f); nothing is merged"));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "m"));
 }
 

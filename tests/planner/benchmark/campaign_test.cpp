@@ -1,36 +1,26 @@
 // Tests of whole campaigns: a run has the same figures as `solve`, a seed gives the same run again,
-// a crash loses only one run, logs are readable by OMPL's rules, and the verifier refutes sampled
-// paths through the thin plate.
+// a crash loses only one run, and the verifier refutes sampled paths through the thin plate.
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
 #include <new>
-#include <sstream>
 #include <stdexcept>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <ompl/base/spaces/RealVectorStateSpace.h>
-#include <ompl/config.h>
-#include <ompl/geometric/SimpleSetup.h>
-#include <ompl/tools/benchmark/Benchmark.h>
 
 #include "collision/core/error.h"
-#include "planner/benchmark/ompl_log.h"
+#include "planner/benchmark/ompl_database.h"
 #include "planner/benchmark/rows.h"
 #include "planner/benchmark/run_campaign.h"
 #include "planner/checker/state_validity_checkers.h"
 #include "planner/solve/solve.h"
-#include "tests/planner/benchmark/ompl_log_reader.h"
-#include "tests/planner/checker/hall.h"
-#include "tests/support/support.h"
+#include "tests/planner/benchmark/hall_campaign.h"
 
 namespace corridor {
 namespace {
 
 using test::hallProblem;
-using test::OmplLog;
-using test::OmplLogReader;
 using test::Rigid;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -153,52 +143,6 @@ TEST(Campaign, TheSameSeedsGiveTheSameRows) {
   EXPECT_GT(countOf(first.cells[1], "refuted"), 0);
 }
 
-/// Returns the log as OMPL's own writer writes it, which needs all runs at once.
-std::string logByOmpl(const Campaign& campaign, const CampaignResult& result, std::size_t variant) {
-  struct Writer final : ompl::tools::Benchmark {
-    using Benchmark::Benchmark;
-    using Benchmark::exp_;
-  };
-  ompl::geometric::SimpleSetup none(std::make_shared<ompl::base::RealVectorStateSpace>(1));
-  Writer writer(none);
-  auto& experiment = writer.exp_;
-  const CampaignCell any{0, variant, {}, {}};
-  experiment.name = omplExperimentName(campaign, any);
-  experiment.maxTime = *campaign.time;
-  experiment.maxMem = campaign.limits.memory;
-  experiment.runCount = static_cast<unsigned>(campaign.runs);
-  experiment.startTime = result.start;
-  experiment.totalDuration = result.seconds;
-  experiment.seed = static_cast<std::uint_fast32_t>(campaign.seed);
-  for (const auto& [nameAndType, value] : omplParameters(campaign, any)) {
-    const auto blank = nameAndType.rfind(' ');
-    writer.addExperimentParameter(nameAndType.substr(0, blank), nameAndType.substr(blank + 1),
-                                  value);
-  }
-  for (const CampaignCell& cell : result.cells) {
-    if (cell.variant != variant) continue;
-    ompl::tools::Benchmark::PlannerExperiment planner;
-    for (const BenchmarkRun& run : cell.runs) {
-      planner.runs.push_back(omplProperties(campaign, cell, run));
-      if (!cell.runs[0].ompl->progressNames.empty())
-        planner.runsProgressData.push_back(run.ompl->progress);
-    }
-    const OmplRecord& record = *cell.runs[0].ompl;
-    planner.name = omplPlannerName(cell, record);
-    planner.common = record.settings;
-    planner.progressPropertyNames = record.progressNames;
-    experiment.planners.push_back(planner);
-    const auto [ofProblem, ofPlanner] = omplSetup(record.setup);
-    experiment.setupInfo += experiment.setupInfo.empty() ? ofProblem + ofPlanner : ofPlanner;
-    experiment.host = oneWord(record.host);
-    experiment.cpuInfo = record.cpu;
-  }
-  std::ostringstream text;
-  writer.saveResultsToStream(text);
-  const std::string all = text.str(), first = all.substr(0, all.find('\n'));
-  return "OMPL version " + versionOfOmpl() + all.substr(first.size());
-}
-
 TEST(Campaign, ACrashLosesOnlyItsRun) {
   const BenchmarkCompetitor exact{"exact", [](const auto& si, const Checker& checker) {
                                     return std::make_shared<ExactStateValidityChecker>(si, checker);
@@ -227,14 +171,18 @@ TEST(Campaign, ACrashLosesOnlyItsRun) {
   EXPECT_EQ(runs[3].edges, result.cells[1].runs[3].edges);
   EXPECT_EQ(runs[3].length.metres, result.cells[1].runs[3].length.metres);
 
-  const OmplLog log = OmplLogReader::read(omplLog(campaign, result, 0, 0));
-  ASSERT_EQ(log.planners.size(), 1u);
-  ASSERT_EQ(log.planners[0].runs.size(), 4u);
-  const auto& crashed = log.planners[0].runs[1];
-  EXPECT_EQ(crashed.at("solved"), "0");
-  EXPECT_EQ(log.statuses.at(std::stoul(crashed.at("status"))), "Crash");
-  EXPECT_EQ(crashed.at("time"), "");
-  EXPECT_EQ(log.parameters.at("edges TEXT"), "shaky");
+  const std::filesystem::path folder = test::newFolder(), file = folder / "campaign.db";
+  writeOmplDatabase(campaign, result, runsOf(result.cells), file);
+  EXPECT_THAT(
+      test::rowsOf(file,
+                   "SELECT seed, solved, description, r.time IS NULL FROM runs r JOIN enums "
+                   "ON value = status WHERE experimentid = 1"),
+      ElementsAre("1|1|Exact solution|0", "2|0|Crash|1", "3|0|Crash|1", "4|1|Exact solution|0"));
+  EXPECT_THAT(test::rowsOf(file, "SELECT edges FROM experiments"),
+              ElementsAre("shaky", "discrete"));
+  EXPECT_THAT(test::rowsOf(file, "SELECT count(DISTINCT plannerid) FROM runs"), ElementsAre("1"))
+      << "runs that crashed have the planner of the others";
+  std::filesystem::remove_all(folder);
 }
 
 /// After an exception in a planner, OMPL's Benchmark would continue as if the run had ended
@@ -256,62 +204,6 @@ TEST(Campaign, AnExceptionInAPlannerIsReported) {
   EXPECT_EQ(result.cells[0].runs.at(0).failure, "the sky is falling");
 }
 
-TEST(Campaign, OmplsLogHasOmplsColumnsAndOurs) {
-  Campaign campaign = campaignOf({"certified", "discrete:0.2"}, 2);
-  Problem& problem = campaign.problems[0];
-  problem.source.name = "a hall";
-  identifyProblems(campaign);
-  problem.model.bodies[0].shapes[0] = shapeOf("box", test::boxMesh({0.1, 0.1, 0.1}));
-  campaign.planners = named({"RRTConnect", "RRTstar"});  // RRTstar reports its progress
-  campaign.time = 2.0 * test::kSlowdown;
-  const CampaignResult result = runCampaign(campaign);
-  for (std::size_t v = 0; v < 2; ++v) {
-    const std::string text = omplLog(campaign, result, 0, v);
-    EXPECT_EQ(text, logByOmpl(campaign, result, v));
-    const OmplLog log = OmplLogReader::read(text);
-    EXPECT_EQ(log.version, std::to_string(OMPL_MAJOR_VERSION) + "." +
-                               std::to_string(OMPL_MINOR_VERSION) + "." +
-                               std::to_string(OMPL_PATCH_VERSION));
-    EXPECT_EQ(log.experiment, v == 0 ? "a_hall/certified" : "a_hall/discrete:0.2");
-    EXPECT_EQ(log.parameters.at("edges TEXT"), v == 0 ? "certified" : "discrete");
-    EXPECT_EQ(log.parameters.count("resolution REAL"), v);
-    EXPECT_EQ(log.seed, "1");
-    EXPECT_EQ(log.runs, 2u);
-    EXPECT_EQ(log.time, *campaign.time);
-    EXPECT_THAT(log.setup, HasSubstr("Problem hall.yaml\n"));
-    EXPECT_THAT(log.setup, HasSubstr("Planner RRTConnect specs:"));
-    EXPECT_THAT(log.setup, HasSubstr("Planner RRTstar specs:"));
-    EXPECT_NE(log.host, "");
-    ASSERT_EQ(log.planners.size(), 2u);
-    EXPECT_EQ(log.planners[0].name, "geometric_RRTConnect");
-    EXPECT_EQ(log.planners[0].settings.count("range"), 1u);
-    EXPECT_TRUE(log.planners[0].progressNames.empty());
-    EXPECT_EQ(log.planners[1].name, "geometric_RRTstar");
-    EXPECT_THAT(log.planners[1].progressNames, testing::Contains("time"));
-    for (std::size_t p = 0; p < 2; ++p) {
-      const CampaignCell& cell = result.cells[2 * p + v];
-      ASSERT_EQ(log.planners[p].runs.size(), 2u);
-      for (std::size_t i = 0; i < 2; ++i) {
-        const auto& row = log.planners[p].runs[i];
-        const BenchmarkRun& run = cell.runs[i];
-        ASSERT_TRUE(run.solved) << run.why << run.failure;
-        EXPECT_EQ(row.at("seed"), std::to_string(i + 1));
-        EXPECT_EQ(row.at("solved"), "1");
-        EXPECT_EQ(log.statuses.at(std::stoul(row.at("status"))), "Exact solution");
-        EXPECT_EQ(row.at("certified"), v == 0 ? "1" : "0");
-        EXPECT_EQ(row.at("proved"), run.verdict == "proved" ? "1" : "0");
-        EXPECT_EQ(row.at("refuted"), run.verdict == "refuted" ? "1" : "0");
-        EXPECT_EQ(row.at("box_tests"), std::to_string(run.counters.boxTests));
-        // OMPL's time excludes only the set-up, and is written with six digits.
-        EXPECT_GE(std::stod(row.at("time")), 0.999 * (run.time - run.setUpTime));
-        if (p == 1) {
-          EXPECT_GT(log.planners[1].progressSamples.at(i), 0u);
-        }
-      }
-    }
-  }
-}
-
 TEST(Campaign, AnInterruptKeepsFinishedRuns) {
   Campaign campaign = campaignOf({"certified", "discrete:0.02"}, 50);
   std::atomic<bool> interrupted = false;
@@ -329,7 +221,6 @@ TEST(Campaign, AnInterruptKeepsFinishedRuns) {
   EXPECT_THAT(seeds, ElementsAre(1, 1, 2, 2));  // variants take turns
   EXPECT_EQ(result.cells[0].runs.size(), 2u);
   EXPECT_EQ(result.cells[1].runs.size(), 1u);
-  EXPECT_EQ(OmplLogReader::read(omplLog(campaign, result, 0, 1)).planners.at(0).runs.size(), 1u);
 }
 
 TEST(Campaign, ReportsAllFaultsBeforeTheFirstRun) {
@@ -380,9 +271,11 @@ TEST(Campaign, PlannersHaveLabelsAndParameters) {
   EXPECT_EQ(range(1), "0.05");
   EXPECT_NE(range(2), "0.5");
   EXPECT_GT(result.cells[1].runs[0].edges, result.cells[0].runs[0].edges);
-  const OmplLog log = OmplLogReader::read(omplLog(campaign, result, 0, 0));
-  ASSERT_EQ(log.planners.size(), 3u);
-  EXPECT_EQ(log.planners[1].name, "short");
+  const std::filesystem::path folder = test::newFolder(), file = folder / "campaign.db";
+  writeOmplDatabase(campaign, result, runsOf(result.cells), file);
+  EXPECT_THAT(test::rowsOf(file, "SELECT name FROM plannerConfigs"),
+              ElementsAre("geometric_RRTConnect", "short", "default"));
+  std::filesystem::remove_all(folder);
   campaign.planners[2].label = "short";
   EXPECT_EQ(complaintOf(campaign), "--planners: \"short\" is named twice");
 }

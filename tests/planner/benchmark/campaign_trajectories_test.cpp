@@ -12,16 +12,16 @@
 #include <gtest/gtest.h>
 
 #include "collision/core/error.h"
-#include "planner/benchmark/campaign_database.h"
 #include "planner/benchmark/campaign_spec.h"
 #include "planner/benchmark/campaign_yaml.h"
-#include "planner/benchmark/ompl_log.h"
+#include "planner/benchmark/ompl_database.h"
 #include "planner/benchmark/report.h"
 #include "planner/benchmark/rows.h"
 #include "planner/benchmark/run_campaign.h"
+#include "planner/benchmark/run_file.h"
 #include "planner/benchmark/run_record.h"
 #include "planner/benchmark/trajectory_rows.h"
-#include "tests/support/support.h"
+#include "tests/planner/benchmark/hall_campaign.h"
 
 namespace corridor {
 namespace {
@@ -249,11 +249,15 @@ TEST_F(HallWithTrajectories, EveryMakerWithEverySetOfLimits) {
   const TrajectoryScore spline = scoreOf(c, result.cells, 0, 0, 2);
   EXPECT_EQ(spline.made, 3u);
   EXPECT_GT(spline.refuted, 0u);
-  // The log has the figures of the trajectories, too.
-  const std::string log = omplLog(c, result, 0, 0);
-  for (const char* property : {"own_spline_refuted BOOLEAN", "slow_blends_duration_s REAL",
-                               "own_stop_rows INTEGER", "slow_optimum_s REAL"})
-    EXPECT_THAT(log, HasSubstr(property));
+  // The database has the figures of the trajectories, too.
+  writeOmplDatabase(c, result, runsOf(result.cells), folder_ / "campaign.db");
+  const std::vector<std::string> columns =
+      test::rowsOf(folder_ / "campaign.db", "SELECT name, type FROM pragma_table_info('runs')");
+  for (const char* column : {"own_spline_refuted|BOOLEAN", "slow_blends_duration_s|REAL",
+                             "own_stop_rows|INTEGER", "slow_optimum_s|REAL"})
+    EXPECT_THAT(columns, testing::Contains(column));
+  EXPECT_THAT(test::rowsOf(folder_ / "campaign.db", "SELECT sum(own_spline_refuted) FROM runs"),
+              testing::ElementsAre(std::to_string(scoreOf(c, result.cells, 0, 0, 2).refuted)));
   // The report has these figures, too.
   writeReport(c, result.cells, folder_);
   const std::string page = test::contents(folder_ / "report.html");
@@ -270,23 +274,22 @@ TEST_F(HallWithTrajectories, ResumesWithTheSameFigures) {
   const CampaignResult whole = runCampaign(c);
   for (const int stop : {2, 3}) {
     std::vector<CampaignCell> cells = cellsOf(c);
-    const CampaignDatabase::Mode mode =
-        stop == 2 ? CampaignDatabase::Mode::fresh : CampaignDatabase::Mode::resume;
-    CampaignDatabase database(folder_ / "campaign.db", mode, c, cells);
+    const RunFile::Mode mode = stop == 2 ? RunFile::Mode::fresh : RunFile::Mode::resume;
+    RunFile file(folder_ / "runs.jsonl", mode, c, cells);
     EXPECT_EQ(cells[0].runs.size(), stop == 2 ? 0u : 2u);
     std::atomic<bool> interrupted = false;
     int done = 0;
     CampaignOptions options;
     options.interrupted = &interrupted;
     options.done = [&](std::size_t cell, const BenchmarkRun& run) {
-      database.add(cell, run);
+      file.add(cell, run);
       interrupted = ++done == 2;
     };
     const CampaignResult result = runCampaign(c, options, std::move(cells));
     EXPECT_EQ(result.cells[0].runs.size(), static_cast<std::size_t>(stop));
     if (stop == 3) {
       std::vector<CampaignCell> stored = cellsOf(c);
-      database.runs()(0, [&](const BenchmarkRun& run) { stored[0].runs.push_back(run); });
+      file.runs()(0, [&](const BenchmarkRun& run) { stored[0].runs.push_back(run); });
       EXPECT_EQ(repeatable(c, stored), repeatable(c, whole.cells));
       for (const TrajectoryRun& run : result.cells[0].runs[0].trajectories.at(0).makers)
         EXPECT_EQ(run.finding, "") << "runs of earlier sessions have no texts in memory";
@@ -295,20 +298,19 @@ TEST_F(HallWithTrajectories, ResumesWithTheSameFigures) {
   const auto complaint = [&](const Campaign& other) -> std::string {
     std::vector<CampaignCell> cells = cellsOf(other);
     try {
-      CampaignDatabase(folder_ / "campaign.db", CampaignDatabase::Mode::resume, other, cells);
+      RunFile(folder_ / "runs.jsonl", RunFile::Mode::resume, other, cells);
     } catch (const InputError& error) {
       return error.what();
     }
     return "";
   };
   EXPECT_EQ(complaint(c), "");
-  EXPECT_THAT(complaint(hall("")),
-              HasSubstr("was measured with other settings: limits over time was "));
+  EXPECT_THAT(complaint(hall("")), HasSubstr("was measured with limits over time "));
   EXPECT_THAT(complaint(hall("trajectories: [spline, blends]\n")),
-              HasSubstr("was measured with other settings: "));
+              HasSubstr("hall, a, RRTConnect was measured with "));
   EXPECT_THAT(complaint(hall("trajectories:\n  makers: [blends, spline]\n  limits:\n    own: {}\n"
                              "    slow: {cube: {position: {velocity: 0.4}}}\n")),
-              HasSubstr("limits over time was "));
+              HasSubstr("was measured with limits over time "));
 }
 
 /// Without the key, rows, settings and stored runs must be the same as in versions that had no
